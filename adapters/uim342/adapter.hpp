@@ -1,0 +1,90 @@
+// Adapter of the UIM342: one line, CAN frames (SimpleCAN3.0) or a byte stream (UIMessage), with up to 122 nodes on it.
+// In: setup, line state, commands, frames, time. Out: frames; feedback, samples, results, links, notices.
+// One instruction per node at a time (stops excepted), a bounded window of them over all nodes; commands before polls.
+// Never sends to an ID that the setup does not name, groups and the global ID excepted where every receiver is known.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "adapters/uim342/node.hpp"
+#include "adapters/uim342/schedule.hpp"
+#include "adapters/uim342/uimessage.hpp"
+#include "gateway/core/adapter.hpp"
+
+namespace axisgate::uim342 {
+
+/// Empty if `address` is a node ID 5..126, else what is wrong and what would be right.
+[[nodiscard]] std::string check_address(std::string_view address);
+
+class LineAdapter final : public Adapter, private Bus {
+public:
+    LineAdapter(const Catalogue& of_family, LineKind on);
+
+    void configure(const LineSetup& setup, Instant now, Out& out) override;
+    void on_line(bool up, Instant now, Out& out) override;
+    void on_command(const Command& command, Instant now, Out& out) override;
+    void on_frame(const Frame& frame, Instant now, Out& out) override;
+    void on_deadline(Instant now, Out& out) override;
+    [[nodiscard]] Instant deadline() const override;
+    [[nodiscard]] AdapterCounters counters() const override { return Bus::counters; }
+
+private:
+    // Bus
+    void transmit(const Message& m, Priority priority, Turn& t) override;
+    void part_ready(Node& node, Turn& t) override;
+    void part_done(Node& node, Part part, Turn& t) override;
+    [[nodiscard]] std::string user_of(std::uint8_t id, const Node& but) const override;
+
+    void take_manners(const LineSetup& setup);
+    void deliver(const Message& m, Turn& t);
+    void settle(Node& node, Turn& t);
+    void pump(Turn& t);
+    void finish_turn(Turn& t);
+    [[nodiscard]] Node* node_of(AxisId axis) const noexcept;
+    static void answer(const Command& command, Outcome outcome, Reason reason, std::string text, Turn& t);
+
+    // joint orders: joint.cpp
+    struct Joint {
+        enum class Kind : std::uint8_t { none, start, start_group, stop };
+        enum class Stage : std::uint8_t { gathering, running };
+        Kind kind = Kind::none;
+        Stage stage = Stage::gathering;
+        Command command;
+        std::uint8_t group = 0;
+        std::vector<Node*> open;  ///< still to be heard of in this stage
+        std::vector<Node*> members;
+        Part worst;  ///< first part that did not end well
+        bool bad = false;
+    };
+    void start_together(const Command& command, const StartTogether& what, Turn& t);
+    void start_group(const Command& command, const std::string& argument, Turn& t);
+    void global_stop(const Command& command, Turn& t);
+    void gather(const Command& command, Joint::Kind how, std::vector<Node*> members, Turn& t);
+    void begin_joint(Turn& t);
+    void end_joint(Outcome outcome, Reason reason, std::string text, std::int32_t code, Turn& t);
+    [[nodiscard]] std::string whom_to_start(std::uint8_t& id) const;
+
+    LineSetup setup_;
+    bool up_ = false;
+    CrcMode crc_ = CrcMode::twelve;
+    UiFramer framer_;
+    bool try_thirteen_ = false;  ///< auto: the next unproved frame goes out with the other range
+    std::size_t window_ = 16;
+    std::size_t probe_window_ = 4;
+    Duration pause_{};
+    Instant quiet_until_{};                     ///< LineManners::pause
+    std::vector<std::unique_ptr<Node>> nodes_;  ///< by slot; empty places are nullptr
+    std::array<Node*, 128> by_id_{};
+    std::vector<std::pair<AxisId, Node*>> by_axis_;  ///< sorted
+    DeadlineHeap heap_;
+    Ring commands_, polls_, probes_;
+    bool touched_ = false;
+    Joint joint_;
+};
+
+}  // namespace axisgate::uim342

@@ -1,0 +1,238 @@
+// Node, part stop: quick stop, halt and disable: sent at once, before everything that waits and beside the exchange in progress.
+// In: the three urgent commands, a joint stop, supervision. Out: ST, MO=0, or JV=0 and BG, urgent; their results.
+// Never lets a motion outlive a stop: what waits is ended as interrupted, and if a BG may still be on its way behind the stop
+// (the line lets urgent frames overtake), the stop is repeated behind it.
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+#include "adapters/uim342/native.hpp"
+#include "adapters/uim342/node.hpp"
+
+namespace axisgate::uim342 {
+namespace {
+bool sets_motion(const Message& m) {
+    const std::uint8_t f = m.function();
+    return f == cw::BG || (form_of(m) == Form::set && (f == cw::PA || f == cw::PR || f == cw::JV || f == cw::SP));
+}
+}  // namespace
+
+bool Node::stopping() const noexcept {
+    for (const Stop& s : stops_) {
+        if (s.active) return true;
+    }
+    return false;
+}
+
+void Node::submit_stop(const Command& command, Turn& t) {
+    Stop s;
+    s.kind = std::holds_alternative<Disable>(command.body) ? StopKind::off
+             : std::holds_alternative<Halt>(command.body)  ? StopKind::halt
+                                                           : StopKind::quick;
+    s.ticket = command.ticket;
+    s.until_done = command.until_done;
+    interrupt_motions(name_of(command.body), s.kind != StopKind::halt, t);
+    add_stop(s, t);
+}
+
+/// Ends every motion of this axis that waits or runs.
+void Node::interrupt_motions(std::string_view by, bool power_off, Turn& t) {
+    const std::string text = fmt::format("interrupted by {}", by);
+    if (searching()) search_over(false, Reason::interrupted, text, t);
+    if (job_.active && (is_motion(job_.command.body) || job_.kind == JobKind::together ||
+                        (power_off && std::holds_alternative<Enable>(job_.command.body)))) {
+        if (exchange_.active && exchange_.purpose == Purpose::job) {
+            exchange_.purpose = Purpose::orphan;
+            exchange_.left = 0;
+        }
+        job_over(Outcome::failed, Reason::interrupted, text, t);
+    }
+    bool marker = false;
+    for (auto it = queue_.begin(); it != queue_.end();) {
+        const CommandBody& body = it->command.body;
+        if (is_motion(body) || (power_off && std::holds_alternative<Enable>(body))) {
+            const Ticket ticket = it->command.ticket;
+            marker = marker || it->marker;
+            it = queue_.erase(it);
+            result(ticket, Outcome::failed, Reason::interrupted, text, t);
+        } else {
+            ++it;
+        }
+    }
+    end_waits(true, Reason::interrupted, text, t);
+    if (marker) bus_.part_done(*this, {false, Reason::interrupted, 0, text}, t);
+    prepared_ = false;
+}
+
+void Node::add_stop(Stop wanted, Turn& t) {
+    for (Stop& s : stops_) {
+        if (s.active) continue;
+        s = wanted;
+        s.active = true;
+        return begin_stop(s, t);
+    }
+    // All places are taken by stops that nobody has acknowledged: this one is sent too, but cannot be watched.
+    Message m = wanted.kind == StopKind::off ? msg_set(cw::MO, 0) : msg_act(cw::ST);
+    m.cw &= static_cast<std::uint8_t>(~ack_bit);
+    bus_.transmit(m, Priority::urgent, t);
+    const std::string text = fmt::format("sent, but not watched: {} stops wait for their acknowledgement already", urgent_limit);
+    result(wanted.ticket, Outcome::failed, Reason::busy, text, t);
+    if (wanted.part) bus_.part_done(*this, {false, Reason::busy, 0, text}, t);
+}
+
+void Node::begin_stop(Stop& s, Turn& t) {
+    const auto retries = static_cast<std::uint8_t>(bus_.manners.retries);
+    const bool motion_on_its_way = exchange_.active && sets_motion(exchange_.message);
+    const bool start_on_its_way = (exchange_.active && exchange_.message.function() == cw::BG) || t.now < broadcast_until_;
+    // A stop that gets between MF and its value may use the selection up: the pair is begun anew.
+    if (job_.active && job_.at < job_.count) {
+        const Step& step = job_.steps[job_.at];
+        const bool own = exchange_.active && exchange_.purpose == Purpose::job;
+        if ((step.select && own) || (step.mf != 0 && !own)) job_.again = true;
+    }
+    if (s.kind == StopKind::off) {
+        const Message& m = exchange_.message;
+        if (exchange_.active && m.function() == cw::MO && form_of(m) == Form::set && m.d[0] != 0) confirm_ = StopKind::off;
+        return send_stop(s, msg_set(cw::MO, 0), retries, t);
+    }
+    if (s.kind == StopKind::halt && phase_ == Phase::ready) {
+        // There is no instruction "stop on DC". A jog speed of 0 and BG decelerate with DC; ST would use SD. With AC and DC as
+        // times the ramp to speed 0 is not defined, and at rest there is nothing to decelerate: then ST.
+        const bool defined = time_ramps_ == false && t.now >= broadcast_until_;
+        if (defined && motion_on_its_way) {
+            // JV=0 could overtake a PA that BG would then start: after the exchange in progress, which is not repeated any more.
+            s.soft = s.waiting = true;
+            exchange_.left = 0;
+            return;
+        }
+        if (defined && fb_.moving && !stop_ramp_) {  // during an SD ramp BG is refused (0x3F)
+            s.soft = true;
+            s.step = 0;
+            return send_stop(s, msg_set(cw::JV, 0), 0, t);
+        }
+    }
+    s.soft = false;
+    if (start_on_its_way) confirm_ = StopKind::quick;
+    send_stop(s, msg_act(cw::ST), retries, t);
+}
+
+void Node::waiting_stops(Turn& t) {
+    for (Stop& s : stops_) {
+        if (!s.active || !s.waiting || (exchange_.active && sets_motion(exchange_.message))) continue;
+        s.waiting = false;
+        begin_stop(s, t);
+    }
+}
+
+void Node::send_stop(Stop& s, const Message& m, std::uint8_t retries, Turn& t) {
+    s.message = m;
+    s.tries = 1;
+    s.left = retries;
+    s.sent = t.now;
+    s.deadline = t.now + bus_.manners.reply_timeout;
+    bus_.transmit(m, Priority::urgent, t);
+}
+
+void Node::stop_answered(Stop& s, const Message& m, Turn& t) {
+    learn(s.message, m, 0, true, t);
+    if (s.kind == StopKind::off) {
+        if (m.dl > 0 && m.d[0] != 0) {
+            return stop_finished(s, Outcome::failed, Reason::drive_refused, "the drive acknowledged MO=0 with MO = 1: it is still on", 0,
+                                 t);
+        }
+        motion_ = {};
+        poll_now(t);
+        return stop_finished(s, Outcome::accepted, Reason::none, "", 0, t);
+    }
+    if (s.soft && s.step == 0) {
+        s.step = 1;
+        return send_stop(s, msg_act(cw::BG), 0, t);
+    }
+    if (s.soft) {
+        motion_ = {Motion::Kind::velocity, 0, true, t.now, never};
+        status_.paif = false;
+        if (!s.by_supervision) supervise(true, t);
+    } else {
+        if (s.kind == StopKind::quick) stop_ramp_ = !status_.stop;
+        if (!s.by_supervision) supervise(false, t);
+    }
+    derive(t);
+    emit(t);
+    poll_now(t);
+    stop_finished(s, Outcome::accepted, Reason::none, "", 0, t);
+}
+
+void Node::stop_refused(Stop& s, const Message& m, Turn& t) {
+    const auto report = error_report_of(m);
+    const std::uint8_t code = report ? report->code : std::uint8_t{0};
+    if (s.soft) return harden(s, fmt::format("{} was refused ({})", describe_request(s.message), describe_error(code)), t);
+    stop_finished(s, Outcome::refused, Reason::drive_refused,
+                  fmt::format("{}: the drive says {}", describe_request(s.message), describe_error(code)), code, t);
+}
+
+void Node::stop_silent(Stop& s, Turn& t) {
+    ++bus_.counters.timeouts;
+    if (s.left > 0) {
+        --s.left;
+        ++s.tries;
+        ++bus_.counters.retries;
+        s.deadline = t.now + bus_.manners.reply_timeout;
+        return bus_.transmit(s.message, Priority::urgent, t);
+    }
+    late_.add(mark_of(s.message));
+    if (s.soft) return harden(s, fmt::format("{} was not acknowledged", describe_request(s.message)), t);
+    stop_finished(
+        s, Outcome::failed, Reason::no_answer,
+        fmt::format("{} was sent {} times and not acknowledged: whether the axis stops is not known", describe_request(s.message), s.tries),
+        0, t);
+    poll_now(t);
+    count_silence(t);
+}
+
+/// The way by DC did not work: ST.
+void Node::harden(Stop& s, std::string_view why, Turn& t) {
+    notice(Severity::warning, "stop", 0, fmt::format("halt: {}; ST is sent instead", why), t);
+    s.soft = false;
+    if (s.step == 1) confirm_ = StopKind::quick;  // its BG may come late
+    send_stop(s, msg_act(cw::ST), static_cast<std::uint8_t>(bus_.manners.retries), t);
+}
+
+void Node::stop_finished(Stop& s, Outcome outcome, Reason reason, std::string text, std::int32_t code, Turn& t) {
+    const Stop was = s;
+    s.active = false;
+    if (was.part) bus_.part_done(*this, {outcome == Outcome::accepted, reason, code, text}, t);
+    if (outcome == Outcome::accepted) {
+        return accepted(was.ticket, was.until_done, was.kind == StopKind::off ? WaitFor::off : WaitFor::standstill, 0, std::move(text), t);
+    }
+    result(was.ticket, outcome, reason, std::move(text), t, code);
+}
+
+/// The axis must stand within half as long again as its ramp takes, and 300 ms.
+void Node::supervise(bool soft, Turn& t) {
+    const auto& rate = soft ? dc_ : sd_;
+    double ramp_s = 2.0;
+    if (rate && *rate > 0) ramp_s = static_cast<double>(std::llabs(fb_.velocity)) / static_cast<double>(*rate);
+    if (!soft && sd_ == 0u) ramp_s = 0;
+    ramp_s = std::min(ramp_s * 1.5 + 0.3, 60.0);
+    supervise_at_ = t.now + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(ramp_s));
+    supervise_soft_ = soft;
+}
+
+void Node::supervision_due(Turn& t) {
+    supervise_at_ = never;
+    if (!fb_.moving || !online()) return;
+    notice(Severity::warning, "stop", 0,
+           fmt::format("the axis still moves after {}, at {} pulse/s; ST is sent", supervise_soft_ ? "a halt" : "a stop", fb_.velocity), t);
+    Stop s;
+    s.by_supervision = true;
+    add_stop(s, t);
+}
+
+void Node::stopped_by_all(Turn& t) {
+    interrupt_motions("global_stop", true, t);
+    Stop s;
+    s.part = true;
+    add_stop(s, t);
+}
+
+}  // namespace axisgate::uim342

@@ -1,0 +1,202 @@
+# How rooms, families, suites and embedded files become targets. Folder names are the only list there is.
+
+add_library(axisgate_flags INTERFACE)
+target_compile_options(axisgate_flags INTERFACE -Wall -Wextra -Wpedantic -Werror -Wshadow -Wconversion -Wno-sign-conversion
+  -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-align -Wformat=2 -Wnull-dereference)
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  # GCC 12 sees these in Boost and libstdc++ headers, where they are wrong (GCC PR 105562, 105651, 108076).
+  target_compile_options(axisgate_flags INTERFACE -Wno-null-dereference -Wno-maybe-uninitialized -Wno-restrict -Wno-stringop-overflow
+    -Wno-array-bounds -Wno-stringop-overread -Wno-dangling-pointer)
+endif()
+target_compile_definitions(axisgate_flags INTERFACE AXISGATE_VERSION="${PROJECT_VERSION}" BOOST_ASIO_NO_DEPRECATED
+  SPDLOG_FMT_EXTERNAL $<$<CONFIG:Debug>:_GLIBCXX_ASSERTIONS>)
+if(AXISGATE_SANITIZE)
+  add_compile_options(-fsanitize=${AXISGATE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${AXISGATE_SANITIZE})
+endif()
+if(AXISGATE_FUZZ)
+  add_compile_options(-fsanitize=fuzzer-no-link)
+endif()
+
+find_program(CCACHE ccache)
+if(CCACHE)
+  set(launch ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime ${CCACHE})
+  set(CMAKE_C_COMPILER_LAUNCHER ${launch})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${launch})
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-fpch-preprocess>)
+  endif()
+endif()
+find_program(MOLD mold)
+if(MOLD AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  add_link_options(-fuse-ld=mold)
+endif()
+
+function(axisgate_pch target kind)
+  if(kind STREQUAL asio)
+    target_precompile_headers(${target} PRIVATE <boost/asio.hpp> <boost/json.hpp> <string> <vector> <map> <memory> <functional>)
+  elseif(kind STREQUAL beast)
+    target_precompile_headers(${target} PRIVATE <boost/asio.hpp> <boost/beast.hpp> <boost/json.hpp> <string> <vector> <map> <memory> <functional>)
+  elseif(kind STREQUAL gtest)
+    target_precompile_headers(${target} PRIVATE <gtest/gtest.h> <boost/json.hpp> <string> <vector> <map> <memory> <functional>)
+  endif()
+endfunction()
+
+# axisgate_room(NAME FOLDER [LINKS ...] [PCH kind]): every .cpp of the folder (not below it) becomes the library axisgate::NAME.
+function(axisgate_room name folder)
+  cmake_parse_arguments(A "" "PCH" "LINKS" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)
+  if(sources)
+    add_library(axisgate_${name} STATIC ${sources})
+    target_include_directories(axisgate_${name} PUBLIC ${PROJECT_SOURCE_DIR})
+    target_link_libraries(axisgate_${name} PUBLIC ${A_LINKS} PRIVATE axisgate_flags)
+    if(A_PCH)
+      axisgate_pch(axisgate_${name} ${A_PCH})
+    endif()
+  else()
+    add_library(axisgate_${name} INTERFACE)
+    target_include_directories(axisgate_${name} INTERFACE ${PROJECT_SOURCE_DIR})
+    target_link_libraries(axisgate_${name} INTERFACE ${A_LINKS})
+  endif()
+  add_library(axisgate::${name} ALIAS axisgate_${name})
+endfunction()
+
+# One family per folder that has a family.cpp. Two targets each: the twin does not link the adapter's packing code.
+function(axisgate_families)
+  file(GLOB folders CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/adapters/*/family.cpp)
+  set(names "")
+  foreach(f ${folders})
+    get_filename_component(dir ${f} DIRECTORY)
+    get_filename_component(name ${dir} NAME)
+    if(NOT EXISTS ${PROJECT_SOURCE_DIR}/schema/families/${name}.json)
+      message(FATAL_ERROR "adapters/${name} has no catalogue: write schema/families/${name}.json")
+    endif()
+    list(APPEND names ${name})
+    file(GLOB all CONFIGURE_DEPENDS ${dir}/*.cpp)
+    file(GLOB twin CONFIGURE_DEPENDS ${dir}/twin*.cpp)
+    list(REMOVE_ITEM all ${twin})
+    add_library(axisgate_${name}_twin STATIC ${twin})
+    target_link_libraries(axisgate_${name}_twin PUBLIC axisgate::core PRIVATE axisgate_flags)
+    add_library(axisgate_${name} STATIC ${all})
+    target_link_libraries(axisgate_${name} PUBLIC axisgate::core PRIVATE axisgate_flags axisgate_${name}_twin)
+  endforeach()
+  set(declare "")
+  set(list "")
+  foreach(n ${names})
+    string(APPEND declare "const Family& family_${n}();\n")
+    string(APPEND list "        &family_${n}(),\n")
+  endforeach()
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/families.cpp CONTENT
+"// Generated from the folders of adapters/: the list of families.
+#include \"gateway/core/family.hpp\"
+#include <array>
+#include <vector>
+namespace axisgate {
+@declare@
+std::span<const Family* const> all_families() {
+    static const std::vector<const Family*> families{
+@list@    };
+    return families;
+}
+const Family* find_family(std::string_view name) {
+    for (const Family* f : all_families()) {
+        if (f->name == name) return f;
+    }
+    return nullptr;
+}
+}  // namespace axisgate
+" @ONLY)
+  add_library(axisgate_families STATIC ${PROJECT_BINARY_DIR}/generated/families.cpp)
+  target_link_libraries(axisgate_families PUBLIC axisgate::core PRIVATE axisgate_flags)
+  foreach(n ${names})
+    target_link_libraries(axisgate_families PUBLIC axisgate_${n})
+  endforeach()
+  add_library(axisgate::families ALIAS axisgate_families)
+  set(AXISGATE_FAMILY_NAMES ${names} PARENT_SCOPE)
+endfunction()
+
+# axisgate_embed(TARGET path...): files and folders inside the program, found by their path (gateway/core/assets.hpp).
+function(axisgate_embed target)
+  set(files "")
+  foreach(p ${ARGN})
+    if(IS_DIRECTORY ${PROJECT_SOURCE_DIR}/${p})
+      file(GLOB_RECURSE found CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/${p}/*)
+      list(APPEND files ${found})
+    elseif(EXISTS ${PROJECT_SOURCE_DIR}/${p})
+      list(APPEND files ${p})
+    endif()
+  endforeach()
+  set(asm ".section .rodata\n")
+  set(table "")
+  set(extern "")
+  set(i 0)
+  foreach(f ${files})
+    string(APPEND asm ".globl axisgate_asset_${i}\n.globl axisgate_asset_${i}_end\naxisgate_asset_${i}:\n.incbin \"${PROJECT_SOURCE_DIR}/${f}\"\naxisgate_asset_${i}_end:\n.byte 0\n")
+    string(APPEND extern "extern const char axisgate_asset_${i}[];\nextern const char axisgate_asset_${i}_end[];\n")
+    string(APPEND table "    {\"${f}\", {axisgate_asset_${i}, static_cast<std::size_t>(axisgate_asset_${i}_end - axisgate_asset_${i})}},\n")
+    math(EXPR i "${i}+1")
+    list(APPEND depends ${PROJECT_SOURCE_DIR}/${f})
+  endforeach()
+  string(APPEND asm ".section .note.GNU-stack,\"\",@progbits\n")
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/${target}.S CONTENT "${asm}" @ONLY)
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/${target}.cpp CONTENT
+"// Generated: the files that live inside the program.
+#include \"gateway/core/assets.hpp\"
+#include <vector>
+extern \"C\" {
+@extern@}
+namespace axisgate {
+std::span<const Asset> all_assets() {
+    static const std::vector<Asset> assets{
+@table@    };
+    return assets;
+}
+}  // namespace axisgate
+" @ONLY)
+  add_library(${target} STATIC ${PROJECT_BINARY_DIR}/generated/${target}.S ${PROJECT_BINARY_DIR}/generated/${target}.cpp)
+  set_source_files_properties(${PROJECT_BINARY_DIR}/generated/${target}.S PROPERTIES OBJECT_DEPENDS "${depends}")
+  target_link_libraries(${target} PUBLIC axisgate::core)
+endfunction()
+
+# One test program per folder of tests/unit, plus conformance and world, plus adapters/<family>/tests.
+function(axisgate_test_program name folder)
+  cmake_parse_arguments(A "" "" "LINKS" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)
+  if(NOT sources)
+    return()
+  endif()
+  add_executable(${name} ${sources})
+  target_link_libraries(${name} PRIVATE ${A_LINKS} axisgate_flags GTest::gmock GTest::gtest_main Boost::json)
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_compile_options(${name} PRIVATE -Wno-dangling-else)  # GoogleTest's macros are ifs
+  target_compile_definitions(${name} PRIVATE AXISGATE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  axisgate_pch(${name} gtest)
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300 LABELS ${name})
+endfunction()
+
+function(axisgate_test_suites)
+  axisgate_test_program(test_core tests/unit/core LINKS axisgate::core)
+  axisgate_test_program(test_lines tests/unit/lines LINKS axisgate::lines)
+  axisgate_test_program(test_store tests/unit/store LINKS axisgate::store axisgate_assets)
+  axisgate_test_program(test_modbus tests/unit/modbus LINKS axisgate::door_modbus)
+  axisgate_test_program(test_http tests/unit/http LINKS axisgate::door_http axisgate_assets)
+  axisgate_test_program(test_runtime tests/unit/runtime LINKS axisgate::runtime axisgate_assets)
+  foreach(f ${AXISGATE_FAMILY_NAMES})
+    axisgate_test_program(test_${f} adapters/${f}/tests LINKS axisgate_${f} axisgate_${f}_twin axisgate::core)
+  endforeach()
+  axisgate_test_program(test_conformance tests/conformance LINKS axisgate::families axisgate_assets)
+  axisgate_test_program(test_world tests/world LINKS axisgate::families axisgate_assets)
+endfunction()
+
+# tests/fuzz/*.cpp and adapters/<family>/fuzz/*.cpp: one libFuzzer program each, named fuzz_<file>.
+function(axisgate_fuzz_targets)
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/fuzz/*.cpp ${PROJECT_SOURCE_DIR}/adapters/*/fuzz/*.cpp)
+  foreach(s ${sources})
+    get_filename_component(n ${s} NAME_WE)
+    add_executable(fuzz_${n} ${s})
+    target_link_libraries(fuzz_${n} PRIVATE axisgate::families axisgate::door_modbus axisgate::door_http axisgate_assets axisgate_flags)
+    target_link_options(fuzz_${n} PRIVATE -fsanitize=fuzzer)
+    list(APPEND targets fuzz_${n})
+  endforeach()
+  add_custom_target(fuzz_all DEPENDS ${targets})
+endfunction()

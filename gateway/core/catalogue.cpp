@@ -1,0 +1,223 @@
+// Catalogue: reading a family's JSON page, and the checks that every write goes through.
+// In: the JSON text. Out: tables and lookups; all faults at once. Never guesses: a missing field is a fault, a null is "not known".
+#include "gateway/core/catalogue.hpp"
+
+#include <boost/json/parse.hpp>
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+namespace axisgate {
+namespace {
+namespace json = boost::json;
+
+std::string text_or_empty(const json::object& o, std::string_view key) {
+    const auto* v = o.if_contains(key);
+    return v && v->is_string() ? std::string(v->get_string()) : std::string();
+}
+
+std::optional<double> number(const json::value& v) {
+    if (v.is_int64()) return static_cast<double>(v.get_int64());
+    if (v.is_uint64()) return static_cast<double>(v.get_uint64());
+    if (v.is_double()) return v.get_double();
+    return std::nullopt;
+}
+
+Value value_from(const json::value& v) {
+    if (v.is_bool()) return Value{v.get_bool()};
+    if (v.is_int64()) return Value{v.get_int64()};
+    if (v.is_uint64()) return Value{static_cast<std::int64_t>(v.get_uint64())};
+    if (v.is_double()) return Value{v.get_double()};
+    if (v.is_string()) return Value{std::string(v.get_string())};
+    return Value{};
+}
+
+struct Reader {
+    std::vector<std::string>& faults;
+
+    std::string text(const json::object& o, std::string_view key, const std::string& where) {
+        const auto* v = o.if_contains(key);
+        if (!v || !v->is_string() || v->get_string().empty()) {
+            faults.push_back(fmt::format("{}.{}: a text is missing", where, key));
+            return {};
+        }
+        return std::string(v->get_string());
+    }
+
+    Parameter parameter(const json::object& o, const std::string& where) {
+        Parameter p;
+        p.id = text(o, "id", where);
+        p.name = text(o, "name", where);
+        p.group = text(o, "group", where);
+        p.description = text(o, "description", where);
+        p.storage = text_or_empty(o, "storage");
+        p.unit = text_or_empty(o, "unit");
+        const auto type = value_type_named(text(o, "type", where));
+        if (!type) faults.push_back(where + ".type: not a known type (bool u8 i8 u16 i16 i24 u32 i32 i64 f32 f64 text bytes)");
+        p.type = type.value_or(ValueType::i32);
+        const std::string access = text(o, "access", where);
+        if (access != "R" && access != "W" && access != "RW") faults.push_back(where + ".access: write R, W or RW");
+        p.access = access == "RW" ? Access::read_write : access == "W" ? Access::write : Access::read;
+        if (const auto* v = o.if_contains("min")) p.min = number(*v);
+        if (const auto* v = o.if_contains("max")) p.max = number(*v);
+        if (p.min && p.max && *p.min > *p.max) faults.push_back(where + ": min is above max");
+        if (const auto* v = o.if_contains("default")) p.factory_default = value_from(*v);
+        if (const auto* v = o.if_contains("allowed"); v && v->is_object()) {
+            for (const auto& [k, meaning] : v->get_object()) {
+                std::int64_t n = 0;
+                const std::string_view key = k;
+                if (std::from_chars(key.data(), key.data() + key.size(), n).ec != std::errc{}) {
+                    faults.push_back(fmt::format("{}.allowed: {} is not a whole number", where, key));
+                } else {
+                    p.allowed.emplace_back(n, meaning.is_string() ? std::string(meaning.get_string()) : std::string());
+                }
+            }
+        }
+        if (const auto* v = o.if_contains("first"); v && v->is_int64()) p.first = static_cast<std::uint16_t>(v->get_int64());
+        if (const auto* v = o.if_contains("count"); v && v->is_int64()) p.count = static_cast<std::uint16_t>(v->get_int64());
+        if (const auto* v = o.if_contains("wire"); v && v->is_object()) p.wire = v->get_object();
+        return p;
+    }
+};
+}  // namespace
+
+std::optional<Catalogue> Catalogue::parse(std::string_view text, std::vector<std::string>& faults) {
+    const std::size_t before = faults.size();
+    boost::system::error_code ec;
+    auto parsed = json::parse(json::string_view(text.data(), text.size()), ec);
+    if (ec || !parsed.is_object()) {
+        faults.push_back("the catalogue is not a JSON object" + (ec ? ": " + ec.message() : std::string()));
+        return std::nullopt;
+    }
+    Catalogue c;
+    c.document_ = parsed.get_object();
+    Reader read{faults};
+    c.family_ = read.text(c.document_, "family", "catalogue");
+    if (const auto* n = c.document_.if_contains("number"); n && n->is_int64()) c.number_ = static_cast<std::uint16_t>(n->get_int64());
+    if (c.number_ == 0) faults.push_back("catalogue.number: a family number from 1 on is missing");
+
+    const auto array = [&](std::string_view key) -> const json::array* {
+        const auto* v = c.document_.if_contains(key);
+        if (!v || !v->is_array()) {
+            faults.push_back(fmt::format("catalogue.{}: an array is missing", key));
+            return nullptr;
+        }
+        return &v->get_array();
+    };
+    if (const auto* list = array("parameters")) {
+        for (std::size_t i = 0; i < list->size(); ++i) {
+            const std::string where = fmt::format("parameters[{}]", i);
+            if (!(*list)[i].is_object()) {
+                faults.push_back(where + ": not an object");
+                continue;
+            }
+            Parameter p = read.parameter((*list)[i].get_object(), where);
+            const auto index = static_cast<std::uint16_t>(c.parameters_.size());
+            for (const std::string& key : {p.id, p.name}) {
+                if (const auto [it, fresh] = c.by_id_.emplace(key, index); !fresh && it->second != index) {
+                    faults.push_back(fmt::format("{}: {} is there twice", where, key));
+                }
+            }
+            c.parameters_.push_back(std::move(p));
+        }
+    }
+    if (const auto* list = array("commands")) {
+        for (const auto& v : *list) {
+            if (v.is_object()) {
+                const auto& o = v.get_object();
+                c.commands_.push_back({text_or_empty(o, "id"), text_or_empty(o, "name"), text_or_empty(o, "description")});
+            }
+        }
+    }
+    if (const auto* list = array("errors")) {
+        for (std::size_t i = 0; i < list->size(); ++i) {
+            if (!(*list)[i].is_object()) continue;
+            const auto& o = (*list)[i].get_object();
+            const auto* code = o.if_contains("code");
+            if (!code || !code->is_int64()) {
+                faults.push_back(fmt::format("errors[{}].code: a whole number is missing", i));
+                continue;
+            }
+            c.errors_.push_back({static_cast<std::int32_t>(code->get_int64()), text_or_empty(o, "kind"), text_or_empty(o, "name"),
+                                 text_or_empty(o, "text"), text_or_empty(o, "cause"), text_or_empty(o, "remedy")});
+        }
+    }
+    if (faults.size() != before) return std::nullopt;
+    return c;
+}
+
+const Parameter* Catalogue::parameter(Point point) const noexcept {
+    if (point.parameter >= parameters_.size()) return nullptr;
+    const Parameter& p = parameters_[point.parameter];
+    if (p.count == 0) return point.element == 0 ? &p : nullptr;
+    return point.element >= p.first && point.element < p.first + p.count ? &p : nullptr;
+}
+
+std::optional<Point> Catalogue::find(std::string_view id) const {
+    if (const auto it = by_id_.find(std::string(id)); it != by_id_.end() && parameters_[it->second].count == 0) {
+        return Point{it->second, 0};
+    }
+    const auto open = id.rfind('[');
+    if (open == std::string_view::npos || !id.ends_with(']')) return std::nullopt;
+    const auto it = by_id_.find(std::string(id.substr(0, open)));
+    if (it == by_id_.end()) return std::nullopt;
+    std::uint16_t element = 0;
+    const auto digits = id.substr(open + 1, id.size() - open - 2);
+    const auto [end, ec] = std::from_chars(digits.data(), digits.data() + digits.size(), element);
+    if (ec != std::errc{} || end != digits.data() + digits.size()) return std::nullopt;
+    const Point point{it->second, element};
+    return parameters_[it->second].count != 0 && parameter(point) ? std::optional(point) : std::nullopt;
+}
+
+std::string Catalogue::id_of(Point point) const {
+    const Parameter* p = parameter(point);
+    if (!p) return fmt::format("point {}.{}", point.parameter, point.element);
+    return p->count == 0 ? p->id : fmt::format("{}[{}]", p->id, point.element);
+}
+
+const ErrorCode* Catalogue::error(std::int32_t code, std::string_view kind) const noexcept {
+    for (const auto& e : errors_) {
+        if (e.code == code && (kind.empty() || e.kind == kind)) return &e;
+    }
+    return nullptr;
+}
+
+Catalogue::Checked Catalogue::check_write(Point point, const Value& value) const {
+    const Parameter* p = parameter(point);
+    if (!p) return {{}, fmt::format("{} does not know this parameter", family_)};
+    const std::string id = id_of(point);
+    if (!p->writable()) return {{}, fmt::format("{} can only be read", id)};
+    const std::string unit = p->unit.empty() ? "" : " " + p->unit;
+    if (p->type == ValueType::text || p->type == ValueType::bytes) {
+        if (const auto* s = std::get_if<std::string>(&value)) return {*s, {}};
+        return {{}, fmt::format("{} takes a text", id)};
+    }
+    if (p->type == ValueType::f32 || p->type == ValueType::f64) {
+        const auto d = as_number(value);
+        if (!d || !std::isfinite(*d)) return {{}, fmt::format("{} takes a number, not {}", id, to_text(value))};
+        if ((p->min && *d < *p->min) || (p->max && *d > *p->max)) {
+            return {{}, fmt::format("{}: {} is outside {}..{}{}", id, *d, p->min ? fmt::format("{}", *p->min) : "", p->max ? fmt::format("{}", *p->max) : "", unit)};
+        }
+        return {*d, {}};
+    }
+    const auto i = as_integer(value);
+    if (!i) return {{}, fmt::format("{} takes a whole number, not {}", id, to_text(value))};
+    if (!p->allowed.empty()) {
+        std::string list;
+        for (const auto& [n, meaning] : p->allowed) {
+            if (n == *i) return {p->type == ValueType::boolean ? Value{*i != 0} : Value{*i}, {}};
+            list += fmt::format("{}{}{}", list.empty() ? "" : ", ", n, meaning.empty() ? "" : " (" + meaning + ")");
+        }
+        return {{}, fmt::format("{}: {} is not allowed; allowed: {}", id, *i, list)};
+    }
+    const auto own = range_of(p->type).value_or(IntegerRange{INT64_MIN, INT64_MAX});
+    const double low = p->min.value_or(static_cast<double>(own.min));
+    const double high = p->max.value_or(static_cast<double>(own.max));
+    if (static_cast<double>(*i) < low || static_cast<double>(*i) > high) {
+        return {{}, fmt::format("{}: {} is outside {:.0f}..{:.0f}{}", id, *i, low, high, unit)};
+    }
+    return {p->type == ValueType::boolean ? Value{*i != 0} : Value{*i}, {}};
+}
+
+}  // namespace axisgate

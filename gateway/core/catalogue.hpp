@@ -1,0 +1,98 @@
+// Catalogue: what exists in one family: parameters, commands, error codes. Read once from schema/families/<name>.json, then constant.
+// In: JSON text. Out: tables, lookups by id, range checks with a message that names the range.
+// Never knows a value: that is the image's and the store's.
+#pragma once
+
+#include <boost/json/value.hpp>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "gateway/core/ids.hpp"
+#include "gateway/core/value.hpp"
+
+namespace axisgate {
+
+enum class Access : std::uint8_t { read, write, read_write };
+
+struct Parameter {
+    std::string id;    ///< as the manual writes it
+    std::string name;  ///< snake_case, unique in the family
+    std::string group;
+    ValueType type = ValueType::i32;
+    std::string unit;                 ///< empty: none
+    std::optional<double> min;        ///< absent: the manual is silent; the type's range holds
+    std::optional<double> max;
+    Value factory_default;            ///< unknown: the manual is silent
+    Access access = Access::read;
+    std::string storage;              ///< "eeprom", "ram", ...
+    std::string description;
+    std::vector<std::pair<std::int64_t, std::string>> allowed;  ///< the only values, with their meaning; empty: min..max decides
+    std::uint16_t first = 0;          ///< arrays: number of the first element ...
+    std::uint16_t count = 0;          ///< ... and how many; 0: not an array
+    boost::json::object wire;         ///< the family's own keys ("cw", "index"): read by its adapter once at start
+
+    [[nodiscard]] bool readable() const noexcept { return access != Access::write; }
+    [[nodiscard]] bool writable() const noexcept { return access != Access::read; }
+};
+
+struct CatalogueCommand {
+    std::string id;
+    std::string name;
+    std::string description;
+};
+
+struct ErrorCode {
+    std::int32_t code = 0;
+    std::string kind;  ///< "error", "alarm", "notification", ...
+    std::string name;
+    std::string text;
+    std::string cause;
+    std::string remedy;
+};
+
+class Catalogue {
+public:
+    /// Reads the JSON text. On failure: every fault found, each with its place ("parameters[3].type: ...").
+    [[nodiscard]] static std::optional<Catalogue> parse(std::string_view json, std::vector<std::string>& faults);
+
+    [[nodiscard]] const std::string& family() const noexcept { return family_; }
+    [[nodiscard]] std::uint16_t number() const noexcept { return number_; }
+    [[nodiscard]] std::span<const Parameter> parameters() const noexcept { return parameters_; }
+    [[nodiscard]] std::span<const CatalogueCommand> commands() const noexcept { return commands_; }
+    [[nodiscard]] std::span<const ErrorCode> errors() const noexcept { return errors_; }
+    /// The document itself, for doors that show more than the fields above.
+    [[nodiscard]] const boost::json::object& document() const noexcept { return document_; }
+
+    [[nodiscard]] const Parameter* parameter(Point point) const noexcept;
+    /// By id or by name, with the element in brackets for arrays: "AC", "acceleration", "N[17]".
+    [[nodiscard]] std::optional<Point> find(std::string_view id) const;
+    /// The id of a point, with its element where it is an array.
+    [[nodiscard]] std::string id_of(Point point) const;
+    /// First entry with this code (and kind, if given).
+    [[nodiscard]] const ErrorCode* error(std::int32_t code, std::string_view kind = {}) const noexcept;
+
+    /// The value in the parameter's own type, or why it cannot be written, with the range ("AC: 0 is below 1; allowed 1..65000000 pulse/s^2").
+    /// `alternate ranges` of a family are its adapter's business: this check uses min, max and allowed.
+    struct Checked {
+        Value value;
+        std::string fault;  ///< empty: good
+    };
+    [[nodiscard]] Checked check_write(Point point, const Value& value) const;
+
+private:
+    std::string family_;
+    std::uint16_t number_ = 0;
+    std::vector<Parameter> parameters_;
+    std::vector<CatalogueCommand> commands_;
+    std::vector<ErrorCode> errors_;
+    std::unordered_map<std::string, std::uint16_t> by_id_;
+    boost::json::object document_;
+};
+
+}  // namespace axisgate

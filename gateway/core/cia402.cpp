@@ -1,0 +1,484 @@
+// CiA 402 over drives that know little more than on, off, move and stop.
+// In and out: see the header. The states that such a drive does not have (ready, switched on) are kept here.
+// Never sends by itself: every order is a return value.
+#include "gateway/core/cia402.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdlib>
+
+namespace axisgate {
+using namespace cia402;
+
+std::string_view name_of(PowerState state) noexcept {
+    constexpr std::array<std::string_view, 8> names{"not_ready_to_switch_on", "switch_on_disabled", "ready_to_switch_on", "switched_on",
+                                                    "operation_enabled", "quick_stop_active", "fault_reaction_active", "fault"};
+    return names[static_cast<std::size_t>(state)];
+}
+
+PowerState power_state_of(std::uint16_t sw) noexcept {
+    if ((sw & 0x4F) == 0x00) return PowerState::not_ready_to_switch_on;
+    if ((sw & 0x4F) == 0x40) return PowerState::switch_on_disabled;
+    if ((sw & 0x6F) == 0x21) return PowerState::ready_to_switch_on;
+    if ((sw & 0x6F) == 0x23) return PowerState::switched_on;
+    if ((sw & 0x6F) == 0x27) return PowerState::operation_enabled;
+    if ((sw & 0x6F) == 0x07) return PowerState::quick_stop_active;
+    if ((sw & 0x4F) == 0x0F) return PowerState::fault_reaction_active;
+    return PowerState::fault;
+}
+
+AxisProfile::Decision AxisProfile::refuse(Reason reason, std::string text) const {
+    Decision d;
+    d.refused = true;
+    d.reason = reason;
+    d.text = std::move(text);
+    return d;
+}
+
+Move AxisProfile::with_profile(const State& s, Move m) const {
+    if (!m.velocity && s.profile_velocity) m.velocity = s.profile_velocity;
+    if (!m.acceleration && s.profile_acceleration) m.acceleration = s.profile_acceleration;
+    if (!m.deceleration && s.profile_deceleration) m.deceleration = s.profile_deceleration;
+    return m;
+}
+
+void AxisProfile::forget_motion(State& s) {
+    s.active.reset();
+    s.buffered.reset();
+    s.ordered_velocity = 0;
+    s.target_velocity = 0;
+    s.setpoint_acknowledged = false;
+    s.halted = false;
+}
+
+void AxisProfile::order_on(State& s, Decision& d) {
+    forget_motion(s);
+    // The actual position is the first target: nothing moves because something was enabled.
+    s.target_position = static_cast<std::int32_t>(s.feedback.position);
+    s.power_pending = 1;
+    d.orders.emplace_back(Enable{});
+}
+
+void AxisProfile::order_off(State& s, Decision& d) {
+    const bool off = s.feedback.power == AxisFeedback::Power::off && s.power_pending != 1;
+    forget_motion(s);
+    s.quick_stopped = false;
+    if (off) return;
+    s.power_pending = 0;
+    d.orders.emplace_back(Disable{});
+}
+
+/// Transition 15 ends in switch on disabled: a drive that holds its power through a fault is switched off along with the reset.
+void AxisProfile::order_reset(State& s, Decision& d) {
+    d.orders.emplace_back(ResetFault{});
+    if (s.feedback.fault && s.feedback.power == AxisFeedback::Power::on) {
+        s.power_pending = 0;
+        d.orders.emplace_back(Disable{});
+    }
+}
+
+/// Sets the power state from what the drive says and what this class keeps for it.
+void AxisProfile::settle(State& s) const {
+    if (s.presence == Presence::offline || !s.seen) {
+        s.state = PowerState::not_ready_to_switch_on;
+        return;
+    }
+    if (s.feedback.fault) {
+        s.state = s.feedback.moving ? PowerState::fault_reaction_active : PowerState::fault;
+        s.virtual_step = 0;
+        s.quick_stopped = false;
+        s.active.reset();
+        s.buffered.reset();
+        return;
+    }
+    if (s.feedback.power == AxisFeedback::Power::on) {
+        if (s.power_pending == 0) return;  // it will be off soon; the answer decides
+        s.state = s.quick_stopped ? PowerState::quick_stop_active : PowerState::operation_enabled;
+        return;
+    }
+    if (s.power_pending == 1) return;
+    if (s.virtual_step == 3) {  // it was on by our order and went off by itself: back to the first step
+        s.virtual_step = 0;
+        forget_motion(s);
+    }
+    s.quick_stopped = false;
+    s.state = s.virtual_step == 1   ? PowerState::ready_to_switch_on
+              : s.virtual_step == 2 ? PowerState::switched_on
+                                    : PowerState::switch_on_disabled;
+}
+
+void AxisProfile::change_power(State& s, std::uint16_t cw, Decision& d) const {
+    const bool so = cw & cw_switch_on, ev = cw & cw_enable_voltage, qs = cw & cw_quick_stop, eo = cw & cw_enable_operation;
+    switch (s.state) {
+        case PowerState::not_ready_to_switch_on:
+        case PowerState::fault_reaction_active:
+        case PowerState::fault: return;  // left by the drive, or by the fault reset's edge
+        case PowerState::switch_on_disabled:
+            if (ev && qs && !so) s.virtual_step = 1;  // transition 2: shutdown
+            return settle(s);
+        case PowerState::ready_to_switch_on:
+            if (!ev || !qs) {
+                s.virtual_step = 0;  // 7
+            } else if (so && eo) {
+                s.virtual_step = 3;
+                order_on(s, d);  // 3 and 4 together
+                return;
+            } else if (so) {
+                s.virtual_step = 2;  // 3
+            }
+            return settle(s);
+        case PowerState::switched_on:
+            if (!ev || !qs) {
+                s.virtual_step = 0;  // 10
+            } else if (!so) {
+                s.virtual_step = 1;  // 6
+            } else if (eo) {
+                s.virtual_step = 3;
+                order_on(s, d);  // 4
+                return;
+            }
+            return settle(s);
+        case PowerState::operation_enabled:
+            if (!ev) {
+                s.virtual_step = 0;  // 9
+                order_off(s, d);
+            } else if (!qs) {
+                forget_motion(s);
+                d.orders.emplace_back(QuickStop{});  // 11
+            } else if (!so) {
+                s.virtual_step = 1;  // 8
+                order_off(s, d);
+            } else if (!eo) {
+                s.virtual_step = 2;  // 5
+                order_off(s, d);
+            }
+            return;
+        case PowerState::quick_stop_active:
+            if (!ev) {
+                s.virtual_step = 0;  // 12
+                order_off(s, d);
+            } else if (qs && so && eo) {
+                s.virtual_step = 3;
+                order_on(s, d);  // 16: the drive is told again, so that a lock that the stop has set is gone or is reported
+            }
+            return;
+    }
+}
+
+/// Halt, new set-points, homing start. False: refused, and `d` says why.
+bool AxisProfile::change_motion(State& s, std::uint16_t before, std::uint16_t cw, const ProcessData& data, Decision& d) const {
+    const std::uint16_t rising = cw & static_cast<std::uint16_t>(~before), falling = before & static_cast<std::uint16_t>(~cw);
+    const bool enabled = s.state == PowerState::operation_enabled && s.power_pending != 0;
+    if (falling & cw_new_setpoint) s.setpoint_acknowledged = false;
+    if (!enabled || d.orders.size() > 0) {
+        // Not enabled, or the power state changes with this very word: an edge for a motion has nothing to act on.
+        if ((rising & cw_new_setpoint) && (s.mode == mode_profile_position || s.mode == mode_homing)) {
+            d = refuse(Reason::wrong_state, fmt::format("a new set-point needs operation enabled; the axis is {}", name_of(s_.state)));
+            return false;
+        }
+        s.halted = cw & cw_halt;
+        return true;
+    }
+    if (rising & cw_halt) {
+        s.halted = true;
+        s.ordered_velocity = 0;
+        d.orders.emplace_back(Halt{});
+    } else if (falling & cw_halt) {
+        s.halted = false;
+        if (s.mode == mode_profile_position && s.active && !s.feedback.target_reached) d.orders.emplace_back(*s.active);
+    }
+    if (s.mode == mode_profile_position && (rising & cw_new_setpoint)) {
+        if (s.halted) {
+            d = refuse(Reason::wrong_state, "halt (bit 8 of the control word) is set: clear it first");
+            return false;
+        }
+        Move m;
+        m.kind = (cw & cw_relative) ? Move::Kind::relative : Move::Kind::absolute;
+        m.target = s.target_position;
+        m = with_profile(s, m);
+        const bool under_way = s.active && s.feedback.moving && !s.feedback.target_reached;
+        if (!(cw & cw_change_immediately) && under_way) {
+            if (s.buffered) {
+                d = refuse(Reason::busy, "one set-point waits already: wait until bit 12 of the status word is 0, or set bit 5");
+                return false;
+            }
+            s.buffered = m;
+            s.setpoint_acknowledged = true;
+            ++s.setpoints_accepted;
+        } else {
+            s.buffered.reset();
+            d.orders.emplace_back(m);
+        }
+    }
+    if (s.mode == mode_homing) {
+        if (rising & cw_new_setpoint) d.orders.emplace_back(Home{s.homing_method});
+        if ((falling & cw_new_setpoint) && s.feedback.moving && !s.feedback.homing_attained) d.orders.emplace_back(Halt{});
+    }
+    if (s.mode == mode_profile_velocity && !s.halted) {
+        const bool released = falling & cw_halt;
+        if ((data.target_velocity || released) && s.target_velocity != s.ordered_velocity) {
+            Move m;
+            m.kind = Move::Kind::velocity;
+            m.target = s.target_velocity;
+            m = with_profile(s, m);
+            m.velocity.reset();
+            d.orders.emplace_back(m);
+        }
+    }
+    return true;
+}
+
+AxisProfile::Decision AxisProfile::on_process_data(const ProcessData& data) {
+    State s = s_;
+    Decision d;
+    if (data.mode && *data.mode != mode_none && *data.mode != mode_profile_position && *data.mode != mode_profile_velocity && *data.mode != mode_homing) {
+        return refuse(Reason::out_of_range, fmt::format("mode of operation {} is not offered; use 1 (profile position), 3 (profile velocity) or 6 (homing)", *data.mode));
+    }
+    if (data.target_position) s.target_position = *data.target_position;
+    if (data.profile_velocity) s.profile_velocity = *data.profile_velocity;
+    if (data.profile_acceleration) s.profile_acceleration = *data.profile_acceleration;
+    if (data.profile_deceleration) s.profile_deceleration = *data.profile_deceleration;
+    if (data.target_velocity) s.target_velocity = *data.target_velocity;
+    if (data.homing_method) s.homing_method = *data.homing_method;
+    if (data.mode && *data.mode != s.mode) {
+        if (s.mode == mode_profile_velocity && s.ordered_velocity != 0) {
+            s.ordered_velocity = 0;
+            d.orders.emplace_back(Halt{});
+        }
+        s.mode = *data.mode;
+        s.setpoint_acknowledged = false;
+        s.buffered.reset();
+        if (!data.target_velocity) s.target_velocity = 0;  // an old speed must not start the axis in its new mode
+    }
+    const std::uint16_t before = s.controlword;
+    const std::uint16_t cw = data.controlword.value_or(before);
+    s.controlword = cw;
+    Decision power;
+    if (data.controlword) {
+        if ((cw & cw_fault_reset) && !(before & cw_fault_reset)) order_reset(s, power);
+        change_power(s, cw, power);
+    }
+    if (!change_motion(s, before, cw, data, power)) return power;
+    for (auto& o : power.orders) d.orders.push_back(std::move(o));
+    s_ = std::move(s);
+    return d;
+}
+
+AxisProfile::Decision AxisProfile::on_command(const CommandBody& body) {
+    State s = s_;
+    Decision d;
+    const bool present = s.presence != Presence::offline && s.seen;
+    const auto faulty = [&] {
+        return refuse(Reason::wrong_state, fmt::format("the axis is in fault (drive's code {}): reset the fault first", s.feedback.error_code));
+    };
+    if (!present && !is_urgent(body)) return refuse(Reason::no_answer, "the drive does not answer");
+    if (std::holds_alternative<Enable>(body)) {
+        if (s.feedback.fault) return faulty();
+        s.controlword = cw_switch_on | cw_enable_voltage | cw_quick_stop | cw_enable_operation;
+        if (s.state != PowerState::operation_enabled || s.power_pending == 0) {
+            s.virtual_step = 3;
+            order_on(s, d);
+        }
+    } else if (std::holds_alternative<Disable>(body)) {
+        s.controlword = 0;
+        s.virtual_step = 0;
+        forget_motion(s);
+        s.quick_stopped = false;
+        s.power_pending = 0;
+        d.orders.emplace_back(Disable{});  // said again even if the drive seems to be off
+    } else if (std::holds_alternative<QuickStop>(body)) {
+        s.controlword &= static_cast<std::uint16_t>(~cw_quick_stop);
+        forget_motion(s);
+        d.orders.emplace_back(QuickStop{});
+    } else if (std::holds_alternative<Halt>(body)) {
+        s.active.reset();
+        s.buffered.reset();
+        s.ordered_velocity = 0;
+        s.target_velocity = 0;
+        d.orders.emplace_back(Halt{});
+    } else if (std::holds_alternative<ResetFault>(body)) {
+        order_reset(s, d);
+    } else if (const auto* home = std::get_if<Home>(&body)) {
+        if (s.feedback.fault) return faulty();
+        s.buffered.reset();
+        s.active.reset();
+        s.mode = mode_homing;
+        s.homing_method = home->method;
+        d.orders.emplace_back(*home);
+    } else if (const auto* set = std::get_if<SetPosition>(&body)) {
+        d.orders.emplace_back(*set);
+    } else if (const auto* move = std::get_if<Move>(&body)) {
+        if (s.feedback.fault) return faulty();
+        if (s.state != PowerState::operation_enabled || s.power_pending == 0) {
+            return refuse(Reason::wrong_state, fmt::format("the axis is {}: enable it first", name_of(s.state)));
+        }
+        if (s.halted) return refuse(Reason::wrong_state, "halt (bit 8 of the control word) is set: clear it first");
+        s.buffered.reset();
+        if (move->kind == Move::Kind::velocity) {
+            s.mode = mode_profile_velocity;
+            s.target_velocity = static_cast<std::int32_t>(move->target);
+        } else {
+            s.mode = mode_profile_position;
+            s.target_position = static_cast<std::int32_t>(move->target);
+        }
+        d.orders.emplace_back(with_profile(s, *move));
+        if (move->kind == Move::Kind::velocity) std::get<Move>(d.orders.back()).velocity.reset();
+    } else if (const auto* together = std::get_if<StartTogether>(&body)) {
+        d.orders.emplace_back(*together);
+    } else {
+        return refuse(Reason::not_supported, "this is not a command of the axis profile");
+    }
+    s_ = std::move(s);
+    return d;
+}
+
+void AxisProfile::on_order_result(const CommandBody& order, bool good, Instant now) {
+    State& s = s_;
+    if (std::holds_alternative<Enable>(order)) {
+        s.power_pending = -1;
+        if (good) {
+            s.quick_stopped = false;
+            s.feedback.power = AxisFeedback::Power::on;
+            s.power_known_at = now;
+        } else {
+            s.virtual_step = 0;
+            s.controlword &= static_cast<std::uint16_t>(~cw_enable_operation);
+        }
+        settle(s);
+    } else if (std::holds_alternative<Disable>(order)) {
+        s.power_pending = -1;
+        if (good) {
+            s.feedback.power = AxisFeedback::Power::off;
+            s.power_known_at = now;
+        }
+        settle(s);
+    } else if (std::holds_alternative<QuickStop>(order)) {
+        if (good && s.feedback.power == AxisFeedback::Power::on) s.quick_stopped = true;
+        settle(s);
+    } else if (const auto* m = std::get_if<Move>(&order)) {
+        if (!good) return;
+        ++s.setpoints_accepted;
+        s.setpoint_acknowledged = true;
+        if (m->kind == Move::Kind::velocity) {
+            s.ordered_velocity = m->target;
+            s.active.reset();
+        } else {
+            s.ordered_velocity = 0;
+            s.active = *m;
+            if (m->kind == Move::Kind::relative) {
+                s.active->kind = Move::Kind::absolute;
+                s.active->target += s.feedback.position;
+            }
+        }
+    }
+}
+
+std::optional<CommandBody> AxisProfile::on_feedback(const AxisFeedback& feedback, Instant now) {
+    State& s = s_;
+    (void)now;
+    AxisFeedback f = feedback;
+    // Read before the drive acknowledged a power order: that part is already known better.
+    if (s.seen && f.at <= s.power_known_at) f.power = s.feedback.power;
+    s.feedback = f;
+    s.seen = true;
+    settle(s);
+    if (s.state != PowerState::operation_enabled) return std::nullopt;
+    if (f.target_reached && !f.moving) {
+        if (s.buffered && !s.halted) {
+            Move next = *s.buffered;
+            s.buffered.reset();
+            --s.setpoints_accepted;  // counted again when the drive takes it
+            return CommandBody{next};
+        }
+        if (!s.halted) s.active.reset();
+    }
+    return std::nullopt;
+}
+
+void AxisProfile::on_presence(Presence presence) {
+    if (presence == s_.presence) return;
+    s_.presence = presence;
+    s_.seen = false;
+    s_.feedback = {};
+    s_.power_pending = -1;
+    s_.power_known_at = {};
+    s_.virtual_step = 0;
+    s_.quick_stopped = false;
+    s_.controlword = 0;
+    forget_motion(s_);
+    settle(s_);
+}
+
+bool AxisProfile::commanded() const noexcept {
+    return s_.state == PowerState::operation_enabled || s_.state == PowerState::quick_stop_active || s_.power_pending == 1 || s_.feedback.moving;
+}
+
+void AxisProfile::fill(AxisPicture& p) const noexcept {
+    const State& s = s_;
+    const AxisFeedback& f = s.feedback;
+    std::uint16_t sw = 0;
+    switch (s.state) {
+        case PowerState::not_ready_to_switch_on: sw = 0; break;
+        case PowerState::switch_on_disabled: sw = sw_switch_on_disabled; break;
+        case PowerState::ready_to_switch_on: sw = 0x21; break;
+        case PowerState::switched_on: sw = 0x23; break;
+        case PowerState::operation_enabled: sw = 0x27; break;
+        case PowerState::quick_stop_active: sw = 0x07; break;
+        case PowerState::fault_reaction_active: sw = 0x0F; break;
+        case PowerState::fault: sw = 0x08; break;
+    }
+    const bool present = s.presence != Presence::offline;
+    if (present && s.seen) sw |= sw_voltage | sw_remote;
+    if (f.warning) sw |= sw_warning;
+    if (s.presence == Presence::twin) sw |= sw_simulated;
+    if (f.internal_limit) sw |= sw_internal_limit;
+    if (f.referenced) sw |= sw_referenced;
+    bool reached = f.target_reached && !f.moving;
+    switch (s.mode) {
+        case mode_profile_velocity:
+            reached = s.halted ? !f.moving : std::llabs(f.velocity - s.ordered_velocity) * 100 <= std::llabs(s.ordered_velocity);
+            if (f.velocity == 0) sw |= sw_mode_12;
+            break;
+        case mode_homing:
+            reached = !f.moving;
+            if (f.homing_attained) sw |= sw_mode_12;
+            if (f.homing_error) sw |= sw_mode_13;
+            break;
+        default:
+            if (s.halted) reached = !f.moving;
+            if (s.setpoint_acknowledged || s.buffered) sw |= sw_mode_12;
+            break;
+    }
+    if (present && s.seen && reached) sw |= sw_target_reached;
+    p.statusword = sw;
+    p.mode_display = s.mode;
+    p.position = f.position;
+    p.position_demand = f.position_demand;
+    p.velocity = f.velocity;
+    p.native_status = f.native_status;
+    p.error_code = f.error_code;
+    p.controlword = s.controlword;
+    p.mode = s.mode;
+    p.target_position = s.target_position;
+    p.profile_velocity = s.profile_velocity;
+    p.profile_acceleration = s.profile_acceleration;
+    p.profile_deceleration = s.profile_deceleration;
+    p.target_velocity = s.target_velocity;
+    p.homing_method = s.homing_method;
+    p.setpoints_accepted = s.setpoints_accepted;
+    p.presence = s.presence;
+    p.ever_seen = s.seen;
+    p.at = f.at;
+    std::uint16_t flags = 0;
+    if (present) flags |= flag_online;
+    if (s.presence == Presence::twin) flags |= flag_simulated;
+    if (f.referenced) flags |= flag_referenced;
+    if (f.moving) flags |= flag_moving;
+    if (present && s.seen && reached) flags |= flag_target_reached;
+    if (f.fault) flags |= flag_fault;
+    if (f.warning) flags |= flag_warning;
+    p.flags = flags;
+}
+
+}  // namespace axisgate

@@ -1,0 +1,153 @@
+// Command: what a client wants of one axis (or drive), and Result: the one answer it gets.
+// In: built by doors from their protocol's requests. Out: consumed by the engine, and (but for ProcessData and Hand) by adapters.
+// Never carries protocol detail of a door or of a drive: positions, velocities and accelerations are in the axis' increments.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "gateway/core/ids.hpp"
+#include "gateway/core/value.hpp"
+
+namespace axisgate {
+
+/// Number shown in register 17 (command authority).
+enum class Door : std::uint8_t { none = 0, modbus = 1, ethernet_ip = 2, http = 3, dds = 4, internal = 5 };
+[[nodiscard]] std::string_view name_of(Door door) noexcept;
+
+/// Who asked: the door and a text for the audit ("192.0.2.7:51123", "token commissioning").
+struct Origin {
+    Door door = Door::internal;
+    std::shared_ptr<const std::string> who;
+    [[nodiscard]] std::string text() const { return std::string(name_of(door)) + (who ? " " + *who : std::string()); }
+};
+
+// --- what can be asked ------------------------------------------------------------------------------------------------
+
+struct Enable {};      ///< to CiA 402 operation enabled; the actual position becomes the first target, the target velocity 0
+struct Disable {};     ///< power off
+struct QuickStop {};   ///< stop on the quick-stop ramp, then CiA 402 quick stop active
+struct Halt {};        ///< stop on the profile ramp, stay enabled
+struct ResetFault {};
+struct Home {
+    std::int16_t method = 0;  ///< CiA 402 homing method; 0: the drive's own
+};
+struct SetPosition {
+    std::int64_t position = 0;  ///< what the present position shall be called, increments
+};
+/// A motion. Values that are absent stay as the drive has them.
+struct Move {
+    enum class Kind : std::uint8_t { absolute, relative, velocity };
+    Kind kind = Kind::absolute;
+    std::int64_t target = 0;                    ///< increments, or increments/s (signed) for `velocity`
+    std::optional<std::int64_t> velocity;       ///< increments/s, > 0; not used by Kind::velocity
+    std::optional<std::int64_t> acceleration;   ///< increments/s^2, > 0
+    std::optional<std::int64_t> deceleration;   ///< increments/s^2, > 0
+    bool prepare_only = false;                  ///< load, but start only with StartTogether
+};
+/// Starts several prepared axes of one line at the same instant. Command::axis is the first of them.
+struct StartTogether {
+    std::vector<AxisId> axes;
+};
+struct ReadParameter {
+    Point point;
+};
+/// `value` has been checked against the catalogue's type and range before it gets to an adapter.
+struct WriteParameter {
+    Point point;
+    Value value;
+};
+/// One exchange in the drive's own language. The answer is the Result's `text` (and `bytes`).
+struct Native {
+    std::vector<std::uint8_t> send;
+    bool is_text = true;  ///< the client gave text (`{"send": ...}`); the family completes it (terminator, checksum, address)
+};
+/// A function of one family beyond the common ones, by its catalogue name ("program.download", "start_group").
+struct Action {
+    std::string name;
+    std::string argument;
+};
+/// Sets one of the twin's outside conditions ("stall", "power", "inputs"): the tester's hand. Only for simulated drives.
+struct Hand {
+    std::string name;
+    Value value;
+};
+/// Registers 32..47 of the standard map: those present are applied together, the control word last.
+struct ProcessData {
+    std::optional<std::uint16_t> controlword;
+    std::optional<std::int16_t> mode;
+    std::optional<std::int32_t> target_position;
+    std::optional<std::uint32_t> profile_velocity;
+    std::optional<std::uint32_t> profile_acceleration;
+    std::optional<std::uint32_t> profile_deceleration;
+    std::optional<std::int32_t> target_velocity;
+    std::optional<std::int16_t> homing_method;
+};
+
+using CommandBody = std::variant<Enable, Disable, QuickStop, Halt, ResetFault, Home, SetPosition, Move, StartTogether, ReadParameter,
+                                 WriteParameter, Native, Action, Hand, ProcessData>;
+
+struct Command {
+    Ticket ticket = no_ticket;
+    AxisId axis = no_axis;
+    CommandBody body;
+    /// false: the one Result comes when the drive has acknowledged. true: when it is done (target reached, homed, powered).
+    bool until_done = false;
+    Origin origin;
+};
+
+/// Stop, quick stop and disable overtake every queue.
+[[nodiscard]] inline bool is_urgent(const CommandBody& b) noexcept {
+    return std::holds_alternative<QuickStop>(b) || std::holds_alternative<Halt>(b) || std::holds_alternative<Disable>(b);
+}
+
+/// What to call the command in messages: "move_absolute", "enable", ... (the names of POST /axes/{name}/commands).
+[[nodiscard]] std::string_view name_of(const CommandBody& body) noexcept;
+
+// --- the one answer ---------------------------------------------------------------------------------------------------
+
+enum class Outcome : std::uint8_t {
+    accepted,  ///< the drive acknowledged it
+    done,      ///< and it is finished
+    refused,   ///< nothing reached the drive, or the drive said no; nothing changed
+    failed     ///< it was begun and did not come to its end, or nobody knows
+};
+[[nodiscard]] std::string_view name_of(Outcome outcome) noexcept;
+
+/// Why it was refused or failed. Doors map these to Modbus exceptions and HTTP status codes.
+enum class Reason : std::uint8_t {
+    none,
+    out_of_range,     ///< a value outside its type or range: Modbus exception 3, HTTP 422
+    unknown_point,    ///< no such parameter, element or function: 2, 404
+    not_writable,     ///< read only: 2, 409
+    wrong_state,      ///< the axis is not in a state for it (not enabled, fault, moving): 4, 409
+    not_supported,    ///< this drive cannot do that: 4, 409
+    drive_refused,    ///< the drive answered with an error; `code` holds it: 4, 409
+    busy,             ///< a queue or the parameter channel is full: 6, 503
+    line_down,        ///< the line is down, or the axis is not configured: 0x0A, 503
+    no_answer,        ///< the drive did not answer: 0x0B, 504
+    interrupted,      ///< another command, a stop or a fault ended it: 4, 409
+    authority,        ///< another client holds the axis: 6, 409
+    not_stored,       ///< the drive took it but the database could not: 4, 507
+    internal          ///< a fault of the gateway itself: 4, 500
+};
+[[nodiscard]] std::string_view name_of(Reason reason) noexcept;
+
+struct Result {
+    Ticket ticket = no_ticket;
+    AxisId axis = no_axis;
+    Outcome outcome = Outcome::done;
+    Reason reason = Reason::none;
+    std::int32_t code = 0;             ///< the drive's own error code, 0 if it has none
+    std::string text;                  ///< for people: what happened, why, what to do; or a Native command's answer
+    Value value;                       ///< ReadParameter: what was read; WriteParameter: what the drive took
+    std::vector<std::uint8_t> bytes;   ///< Native: the raw answer
+};
+
+[[nodiscard]] inline bool good(const Result& r) noexcept { return r.outcome == Outcome::accepted || r.outcome == Outcome::done; }
+
+}  // namespace axisgate

@@ -1,0 +1,107 @@
+// Engine parts: the engine's own records of lines, drives, axes and waiting clients. Included by engine*.cpp alone.
+// In and out: nothing; these are plain records with the one event handler that a line needs. Never used outside the engine.
+#pragma once
+
+#include "gateway/core/engine.hpp"
+
+namespace axisgate {
+
+/// One adapter with the line that it talks on: the real one, or the twin bus beside it.
+struct Engine::Side final : LineEvents {
+    Side(Engine& e, LineUnit& u, bool is_twin) : engine(e), unit(u), twin(is_twin) {}
+    Engine& engine;
+    LineUnit& unit;
+    bool twin;
+    bool up = false;
+    bool tried = false;  ///< has reported its state at least once
+    std::string why = "not opened yet";
+    std::unique_ptr<Adapter> adapter;
+    std::unique_ptr<Line> line;
+    TwinBus* bus = nullptr;  ///< `line` seen as what it is, on the twin's side
+    AdapterCounters counters_shown;
+
+    void on_frame(const Frame& frame) override;
+    void on_line_state(bool now_up, const std::string& text) override;
+    void on_sent(const Frame& frame) override;
+};
+
+struct Engine::LineUnit {
+    LineSpec spec;
+    LineId id = no_line;
+    FamilyEntry family;
+    LineKind kind = LineKind::bytes;
+    std::unique_ptr<Side> real;  ///< null on a line with the URI "twin"
+    std::unique_ptr<Side> twins; ///< null while no drive is simulated
+    std::shared_ptr<FrameLog> log;
+    std::vector<DriveId> drives;
+    Duration stale_after{};
+};
+
+struct Engine::Drive {
+    DriveSpec spec;
+    DriveId id = no_drive;
+    LineUnit* line = nullptr;
+    std::vector<AxisId> axes;
+    Presence serving = Presence::offline;  ///< whose word counts: the device's, the twin's, nobody's
+    bool device_online = false, twin_online = false;
+    bool device_lost_while_commanded = false;
+    Instant waiting_since{};               ///< when we began to wait for the device
+    DriveLink device_link;
+    std::string why = "not seen yet";
+    std::uint64_t memory_revision = 0;
+    NonVolatile memory;                    ///< what the twin starts from
+    /// The device is back: its parameters are read and compared before it gets its axes again.
+    struct Handback {
+        std::size_t waiting = 0;
+        std::size_t compared = 0;
+        std::size_t unread = 0;
+        std::vector<std::string> differences;
+    };
+    std::unique_ptr<Handback> handback;
+};
+
+struct Engine::Axis {
+    AxisSpec spec;
+    AxisId id = no_axis;
+    Drive* drive = nullptr;
+    AxisLimits limits;
+    AxisProfile profile;
+    Door authority = Door::none;
+    std::string authority_who;
+    bool stale = true;
+    bool was_fault = false;
+    std::uint16_t last_error = 0;
+    std::vector<std::uint64_t> clients;  ///< commands on their way or being watched, oldest first; bounded
+    std::map<Point, Value> stored;       ///< acknowledged writes, as the store has them
+};
+
+/// One client's command on its way.
+struct Engine::Client {
+    std::uint64_t number = 0;
+    Ticket ticket = no_ticket;
+    AxisId axis = no_axis;
+    CommandBody body;
+    Origin origin;
+    bool until_done = false;
+    std::size_t waiting = 0;   ///< orders without an answer
+    bool accepted = false;     ///< all orders were taken; the end of the motion is being watched
+    Result result;             ///< the first bad answer, or the last good one
+    Instant accepted_at{};
+};
+
+struct Engine::OrderRecord {
+    std::uint64_t client = 0;  ///< 0: of the engine's own making
+    AxisId axis = no_axis;
+    CommandBody body;
+    DriveId handback = no_drive;
+    Result kept;               ///< what the drive said, while the store works
+    Instant given_at{};
+};
+
+/// Commands of one axis that may be on their way at the same time; beyond it: busy.
+inline constexpr std::size_t max_clients_per_axis = 64;
+/// How long an `auto` drive may be silent at the start before its twin takes over, if the adapter has not given it up earlier.
+inline constexpr Duration first_answer_limit = std::chrono::milliseconds(1500);
+inline constexpr Duration housekeeping_period = std::chrono::milliseconds(50);
+
+}  // namespace axisgate

@@ -1,0 +1,52 @@
+// Family: what adapters/<family> gives to the rest: its makers of adapters and twins, its decoder, its manners.
+// In: one `const Family& family_<name>()` per folder, collected by the generated list. Out: looked up by name.
+// Never holds data about parameters: that is the catalogue's (schema/families/<name>.json).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "gateway/core/adapter.hpp"
+#include "gateway/core/twin.hpp"
+
+namespace axisgate {
+
+class Catalogue;
+
+/// Turns recorded frames into one readable line each. Has state, because some languages need the request to read the answer.
+struct Decoder {
+    /// One frame, or one run of bytes (which may complete none, one or several messages). `to_drive`: direction if it is known.
+    /// Returns one line per message, without line ends; unknown ones are said to be so.
+    virtual std::vector<std::string> on_frame(const Frame& frame, std::optional<bool> to_drive) = 0;
+    /// What was begun and never ended, at the end of the recording.
+    virtual std::vector<std::string> finish() = 0;
+    virtual ~Decoder() = default;
+};
+
+struct Family {
+    std::string_view name;  ///< folder and catalogue name: "uim342"
+
+    /// nullptr-free makers. The catalogue outlives what they make.
+    std::unique_ptr<Adapter> (*make_adapter)(const Catalogue&, LineKind);
+    std::unique_ptr<Twin> (*make_twin)(const Catalogue&, const TwinSetup&);
+    std::unique_ptr<Decoder> (*make_decoder)(const Catalogue&, LineKind);
+
+    /// Empty if the address is good in the family's form, else what is wrong and what would be right.
+    std::string (*check_address)(std::string_view address);
+    /// The address a new drive has; used by `axisgate twin` without --address.
+    std::string_view factory_address;
+    /// For a serial line whose URI does not say: "57600 8N1".
+    std::uint32_t default_bit_rate;
+    std::string_view default_format;
+    bool uses_can;    ///< speaks CAN frames
+    bool uses_bytes;  ///< speaks on a byte line
+};
+
+/// Every family that was found at configure time, in order of name. (Generated.)
+[[nodiscard]] std::span<const Family* const> all_families();
+[[nodiscard]] const Family* find_family(std::string_view name);
+
+}  // namespace axisgate

@@ -1,0 +1,93 @@
+// Frame: what crosses a line: one CAN frame, one CAN error report, or a run of bytes, with the instant it was seen.
+// In: bytes from a line, a twin or an adapter. Out: the same, with hex text for people.
+// Never interpreted here: what a frame means is known only in adapters/<family>. Never allocates.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <initializer_list>
+#include <span>
+#include <string>
+
+#include "gateway/core/instant.hpp"
+
+namespace axisgate {
+
+struct Frame {
+    enum class Kind : std::uint8_t {
+        can,        ///< `id`, `extended`, `remote`, 0..8 bytes
+        can_error,  ///< a report of the CAN controller; `id` holds the error class bits of linux/can/error.h, 8 bytes of detail
+        bytes       ///< a run of 1..capacity bytes of a byte stream; run boundaries mean nothing
+    };
+    static constexpr std::size_t capacity = 256;
+
+    Instant at{};
+    Kind kind = Kind::bytes;
+    bool extended = false;
+    bool remote = false;
+    std::uint16_t size = 0;
+    std::uint32_t id = 0;  ///< 11 or 29 bits; 0 for bytes
+    std::array<std::uint8_t, capacity> storage;  // deliberately not cleared: `size` says what is valid
+
+    Frame() noexcept {}  // NOLINT(modernize-use-equals-default): `= default` would clear `storage` in value-initialisation
+    Frame(const Frame& o) noexcept { *this = o; }
+    Frame& operator=(const Frame& o) noexcept {
+        at = o.at;
+        kind = o.kind;
+        extended = o.extended;
+        remote = o.remote;
+        size = o.size;
+        id = o.id;
+        std::memmove(storage.data(), o.storage.data(), o.size);
+        return *this;
+    }
+
+    /// One CAN data frame with a 29-bit identifier. Bytes past 8 are dropped.
+    [[nodiscard]] static Frame can_extended(std::uint32_t id, std::span<const std::uint8_t> data) noexcept {
+        Frame f;
+        f.kind = Kind::can;
+        f.extended = true;
+        f.id = id & 0x1FFFFFFFu;
+        f.assign(data.first(std::min<std::size_t>(data.size(), 8)));
+        return f;
+    }
+    /// A run of bytes. Bytes past `capacity` are dropped: split longer runs with `for_each_run`.
+    [[nodiscard]] static Frame run(std::span<const std::uint8_t> data) noexcept {
+        Frame f;
+        f.kind = Kind::bytes;
+        f.assign(data);
+        return f;
+    }
+
+    [[nodiscard]] std::span<const std::uint8_t> data() const noexcept { return {storage.data(), size}; }
+    void assign(std::span<const std::uint8_t> data) noexcept {
+        size = static_cast<std::uint16_t>(std::min(data.size(), capacity));
+        std::memcpy(storage.data(), data.data(), size);
+    }
+
+    /// Same content; the instant does not count.
+    [[nodiscard]] bool same(const Frame& o) const noexcept {
+        return kind == o.kind && extended == o.extended && remote == o.remote && id == o.id && std::ranges::equal(data(), o.data());
+    }
+};
+
+/// `04280095#01` for CAN (candump's form), `AA 05 95` for bytes, `error 00000040#...` for controller reports.
+[[nodiscard]] std::string to_text(const Frame& frame);
+
+/// Calls `f(Frame)` for pieces of `data` that fit a Frame each, in order.
+template <class F>
+void for_each_run(std::span<const std::uint8_t> data, F&& f) {
+    while (!data.empty()) {
+        const auto n = std::min(data.size(), Frame::capacity);
+        f(Frame::run(data.first(n)));
+        data = data.subspan(n);
+    }
+}
+
+/// Order in which frames that wait for the same line leave it. `urgent` is for stop, quick stop and disable alone.
+enum class Priority : std::uint8_t { urgent, command, poll };
+
+}  // namespace axisgate

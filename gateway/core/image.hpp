@@ -1,0 +1,146 @@
+// Image: the newest picture of every axis, laid out so that a door can serve it without asking anyone.
+// In: written by the engine alone, on the hot thread. Out: read by hot doors directly, by other threads through AxisCell's sequence lock.
+// Never torn: a reader sees one whole AxisPicture or another, on every thread.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <cstring>
+#include <array>
+#include <memory>
+#include <type_traits>
+#include <vector>
+
+#include "gateway/core/command.hpp"
+#include "gateway/core/ids.hpp"
+#include "gateway/core/instant.hpp"
+
+namespace axisgate {
+
+enum class Presence : std::uint8_t { offline, device, twin };  ///< who answers now
+
+/// Everything that a door shows of an axis. Plain data of fixed size.
+struct AxisPicture {
+    // identity (from the site)
+    std::uint16_t number = 0;         ///< 1-based axis number of the register map; 0: this axis is not configured (removed)
+    std::uint16_t family_number = 0;
+    // what the drive says
+    std::int64_t position = 0;        ///< increments
+    std::int64_t position_demand = 0; ///< increments
+    std::int64_t velocity = 0;        ///< increments/s
+    std::uint32_t native_status = 0;
+    std::uint16_t error_code = 0;     ///< the drive's own
+    // CiA 402
+    std::uint16_t statusword = 0;     ///< with 8 simulated, 14 stale, 15 referenced
+    std::int16_t mode_display = 0;    ///< modes of operation display
+    std::uint16_t flags = 0;          ///< register 9: 0 online, 1 simulated, 2 stale, 3 referenced, 4 moving, 5 target reached, 6 fault, 7 warning
+    // set-points as last accepted (registers 32..47 read back)
+    std::uint16_t controlword = 0;
+    std::int16_t mode = 0;            ///< modes of operation
+    std::int32_t target_position = 0;
+    std::uint32_t profile_velocity = 0;
+    std::uint32_t profile_acceleration = 0;
+    std::uint32_t profile_deceleration = 0;
+    std::int32_t target_velocity = 0;
+    std::int16_t homing_method = 0;
+    std::uint16_t setpoints_accepted = 0;  ///< counts up with each accepted set-point
+    Door authority = Door::none;           ///< who commands
+    Presence presence = Presence::offline;
+    bool ever_seen = false;                ///< feedback has arrived at least once
+    Instant at{};                          ///< when the drive said it
+};
+static_assert(std::is_trivially_copyable_v<AxisPicture>);
+
+inline constexpr std::uint16_t flag_online = 1u << 0, flag_simulated = 1u << 1, flag_stale = 1u << 2, flag_referenced = 1u << 3,
+                               flag_moving = 1u << 4, flag_target_reached = 1u << 5, flag_fault = 1u << 6, flag_warning = 1u << 7;
+
+/// One AxisPicture behind a sequence lock: one writer (the hot thread), any number of readers; readers never delay the writer.
+class AxisCell {
+public:
+    void write(const AxisPicture& p) noexcept {
+        std::uint64_t words[word_count] = {};
+        std::memcpy(words, &p, sizeof p);
+        const auto s = sequence_.load(std::memory_order_relaxed);
+        sequence_.store(s + 1, std::memory_order_relaxed);
+        std::atomic_thread_fence(std::memory_order_release);
+        for (std::size_t i = 0; i < word_count; ++i) words_[i].store(words[i], std::memory_order_relaxed);
+        sequence_.store(s + 2, std::memory_order_release);
+    }
+    [[nodiscard]] AxisPicture read() const noexcept {
+        std::uint64_t words[word_count];
+        for (;;) {
+            const auto before = sequence_.load(std::memory_order_acquire);
+            for (std::size_t i = 0; i < word_count; ++i) words[i] = words_[i].load(std::memory_order_relaxed);
+            std::atomic_thread_fence(std::memory_order_acquire);
+            if ((before & 1u) == 0 && sequence_.load(std::memory_order_relaxed) == before) break;
+        }
+        AxisPicture p;
+        std::memcpy(static_cast<void*>(&p), words, sizeof p);
+        return p;
+    }
+    /// Grows with every write; lets a reader skip what it has seen.
+    [[nodiscard]] std::uint64_t revision() const noexcept { return sequence_.load(std::memory_order_acquire) / 2; }
+
+private:
+    static constexpr std::size_t word_count = (sizeof(AxisPicture) + 7) / 8;
+    std::atomic<std::uint64_t> sequence_{0};
+    std::atomic<std::uint64_t> words_[word_count]{};
+};
+
+/// Cells by AxisId. Cells are never moved or removed while the process runs, so a reader may keep a reference.
+class Image {
+public:
+    static constexpr std::size_t max_axes = 1024;  ///< axis numbers of the register map: 1..1024 (65536 / 64)
+    static constexpr std::size_t max_ids = 16384;  ///< ids are not given twice: so many axes can be added before a restart
+
+    /// Hot thread: the picture to read or change; call publish afterwards.
+    [[nodiscard]] AxisPicture& picture(AxisId id) noexcept { return chunks_[index_of(id) / chunk]->pictures[index_of(id) % chunk]; }
+    [[nodiscard]] const AxisPicture& picture(AxisId id) const noexcept { return chunks_[index_of(id) / chunk]->pictures[index_of(id) % chunk]; }
+    void publish(AxisId id) noexcept {
+        cell_of(id).write(picture(id));
+        ++changes_;
+    }
+    /// Any thread.
+    [[nodiscard]] const AxisCell& cell(AxisId id) const noexcept { return cell_of(id); }
+    /// Any thread: how many ids exist (0..size()-1 are valid for cell()).
+    [[nodiscard]] std::size_t size() const noexcept { return size_.load(std::memory_order_acquire); }
+
+    /// Hot thread: makes room for ids below `n` (at most `max_ids`). False: there are no more ids in this process.
+    [[nodiscard]] bool grow(std::size_t n) {
+        if (n > max_ids) return false;
+        const std::size_t have = size_.load(std::memory_order_relaxed);
+        for (std::size_t c = 0; c * chunk < n; ++c) {
+            if (!chunks_[c]) chunks_[c] = std::make_unique<Chunk>();
+        }
+        if (n > have) size_.store(n, std::memory_order_release);
+        return true;
+    }
+    /// Hot thread: axis with that number of the register map, or no_axis.
+    [[nodiscard]] AxisId by_number(std::uint32_t number) const noexcept {
+        return number < by_number_.size() ? by_number_[number] : no_axis;
+    }
+    void set_numbers(std::vector<AxisId> by_number) { by_number_ = std::move(by_number); }
+    /// Hot thread: highest axis number in use.
+    [[nodiscard]] std::uint32_t last_number() const noexcept {
+        return by_number_.empty() ? 0 : static_cast<std::uint32_t>(by_number_.size() - 1);
+    }
+    /// Hot thread: grows with every published change; a door that caches can compare.
+    [[nodiscard]] std::uint64_t changes() const noexcept { return changes_; }
+
+    std::uint32_t mapping_revision = 0;  ///< register 18: hash of the site's axes and mappings
+
+private:
+    static constexpr std::size_t chunk = 64;
+    struct Chunk {
+        std::array<AxisCell, chunk> cells;
+        std::array<AxisPicture, chunk> pictures;
+    };
+    [[nodiscard]] AxisCell& cell_of(AxisId id) const noexcept { return chunks_[index_of(id) / chunk]->cells[index_of(id) % chunk]; }
+
+    std::array<std::unique_ptr<Chunk>, max_ids / chunk> chunks_;  // fixed places: a reader on another thread never sees them move
+    std::vector<AxisId> by_number_;
+    std::atomic<std::size_t> size_{0};
+    std::uint64_t changes_ = 0;
+};
+
+}  // namespace axisgate

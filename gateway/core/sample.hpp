@@ -1,0 +1,76 @@
+// Sample, AxisFeedback, DriveLink, Notice: what is now known of a drive, on its way up.
+// In: made by adapters from frames. Out: engine, image, store and doors.
+// Never invented: every field comes from something the drive said, and `at` is when it was said.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "gateway/core/command.hpp"
+#include "gateway/core/ids.hpp"
+#include "gateway/core/instant.hpp"
+#include "gateway/core/value.hpp"
+
+namespace axisgate {
+
+enum class Quality : std::uint8_t {
+    unknown,  ///< never seen
+    good,     ///< said by the drive (or its twin) recently
+    stale     ///< said once; too old to be trusted
+};
+
+/// One parameter value that a drive reported, asked for or not.
+struct Sample {
+    AxisId axis = no_axis;
+    Point point;
+    Value value;
+    Quality quality = Quality::good;
+    Instant at{};
+};
+
+/// The axis as its drive shows it now: the part of the CiA 402 picture that only the drive can know.
+/// An adapter sends the whole struct each time any of it was read anew; `at` is the instant of the newest part.
+struct AxisFeedback {
+    enum class Power : std::uint8_t { unknown, off, on };
+    Power power = Power::unknown;
+    bool moving = false;           ///< speed is not zero, or a motion is under way
+    bool target_reached = false;   ///< the last commanded motion ended at its target
+    bool referenced = false;       ///< the position has a known zero
+    bool fault = false;            ///< the drive is in an error that must be reset before it moves again
+    bool warning = false;
+    bool internal_limit = false;   ///< a limit (switch, software, torque) is active
+    bool quick_stopping = false;   ///< the quick-stop ramp runs, or the drive is locked after it
+    bool homing_attained = false;
+    bool homing_error = false;
+    std::int64_t position = 0;         ///< actual position, increments
+    std::int64_t position_demand = 0;  ///< where the drive wants to be now; equals `position` if the drive does not say
+    std::int64_t velocity = 0;         ///< actual velocity, increments/s
+    std::uint16_t error_code = 0;      ///< the drive's own, 0 = none
+    std::uint32_t native_status = 0;   ///< the drive's own status word(s), as its README says
+    Instant at{};
+};
+
+/// Whether a drive answers. Sent on every change.
+struct DriveLink {
+    DriveId drive = no_drive;
+    bool online = false;
+    std::uint32_t silent_exchanges = 0;  ///< in a row
+    Duration retry_pause{};              ///< present pause between attempts while it is silent
+    std::string text;                    ///< why, for people
+};
+
+enum class Severity : std::uint8_t { info, warning, alarm };
+[[nodiscard]] std::string_view name_of(Severity severity) noexcept;
+
+/// Something that happened and is worth keeping: an alarm, a notification, a drive that does not keep the protocol.
+struct Notice {
+    Severity severity = Severity::info;
+    DriveId drive = no_drive;
+    AxisId axis = no_axis;
+    std::string kind;       ///< stable word: "alarm", "input", "protocol", "presence", "error_report"...
+    std::int32_t code = 0;  ///< the drive's own code, 0 if none
+    std::string text;
+    Instant at{};
+};
+
+}  // namespace axisgate

@@ -1,0 +1,62 @@
+// Setup: what one adapter is told about its line: the drives on it, their axes, and the line's manners.
+// In: made by the engine from the site. Out: read by adapters and twins.
+// Never names a transport: an adapter knows frames or bytes and the bit rate, not whether a twin or a cable is behind them.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gateway/core/ids.hpp"
+#include "gateway/core/instant.hpp"
+
+namespace axisgate {
+
+enum class LineKind : std::uint8_t { can, bytes };
+
+struct AxisSetup {
+    AxisId id = no_axis;
+    int channel = 1;  ///< 1-based axis within the drive
+};
+
+struct DriveSetup {
+    DriveId id = no_drive;
+    std::string name;
+    std::string address;                         ///< in the family's own form, checked by Family::check_address
+    std::vector<AxisSetup> axes;
+    std::map<std::string, std::string> options;  ///< the drive's "options" of the site, values as text; see the family's README
+};
+
+/// How one talks on the line. A Duration of zero means: the family's own default.
+struct LineManners {
+    Duration reply_timeout{};   ///< wait for one answer
+    Duration poll_period{};     ///< time between two polls of the same axis
+    Duration pause{};           ///< silence kept between an answer and the next request
+    int retries = -1;           ///< further attempts of a repeatable exchange; -1: the family's default
+    int silent_limit = 3;       ///< exchanges without an answer after which a drive counts as absent
+    Duration stale_after{};     ///< age from which feedback counts as stale; zero: 1 s on CAN, 3 s on byte lines
+    Duration retry_pause_min = std::chrono::milliseconds(200);  ///< first pause before an absent drive is tried again ...
+    Duration retry_pause_max = std::chrono::seconds(5);         ///< ... which doubles up to this
+};
+
+struct LineSetup {
+    LineId id = no_line;
+    std::string name;
+    LineKind kind = LineKind::bytes;
+    std::uint32_t bit_rate = 0;                  ///< bit/s; 0: not known (TCP)
+    std::uint8_t bits_per_byte = 10;             ///< start, data, parity and stop bits of a byte on a serial line
+    LineManners manners;
+    std::map<std::string, std::string> options;  ///< the line's "options" of the site
+    std::vector<DriveSetup> drives;
+};
+
+/// Value of an option, or `fallback`.
+[[nodiscard]] inline std::string option(const std::map<std::string, std::string>& options, const std::string& name, std::string_view fallback) {
+    const auto it = options.find(name);
+    return it == options.end() ? std::string(fallback) : it->second;
+}
+
+}  // namespace axisgate

@@ -1,0 +1,283 @@
+// Connection: see the header. Beast parses; what is written is made here.
+// In: bytes. Out: bytes.
+#include "gateway/doors/http/connection.hpp"
+
+#include <boost/asio/write.hpp>
+#include <boost/beast/http/read.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "gateway/doors/http/websocket_session.hpp"
+
+namespace axisgate::http {
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace {
+constexpr std::size_t most_buffered = 64 * 1024;     // read ahead of the request that is answered
+constexpr std::size_t most_discarded = 2 * 1024 * 1024;  // read and thrown away so that the last answer arrives
+
+/// RFC 9110 5.6.7: "Sun, 06 Nov 1994 08:49:37 GMT".
+std::string http_date(std::int64_t unix_s) {
+    using std::chrono::days, std::chrono::floor, std::chrono::hh_mm_ss, std::chrono::sys_seconds, std::chrono::weekday, std::chrono::year_month_day;
+    static constexpr std::array<std::string_view, 7> weekdays{"Sun", "Mon", "Tue", "Wed", "Thu", "Fri", "Sat"};
+    static constexpr std::array<std::string_view, 12> months{"Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
+    const sys_seconds t{std::chrono::seconds{unix_s}};
+    const auto day = floor<days>(t);
+    const year_month_day date{day};
+    const hh_mm_ss time{t - day};
+    return fmt::format("{}, {:02} {} {:04} {:02}:{:02}:{:02} GMT", weekdays[weekday{day}.c_encoding()], static_cast<unsigned>(date.day()),
+                       months[static_cast<unsigned>(date.month()) - 1], static_cast<int>(date.year()), time.hours().count(), time.minutes().count(),
+                       time.seconds().count());
+}
+}  // namespace
+
+std::string response_head(const Response& r, bool keep, std::int64_t now_unix_s) {
+    std::string s = fmt::format("HTTP/1.1 {} {}\r\n", r.status, phrase_of(r.status));
+    for (const auto& [k, v] : r.headers.fields) {
+        s += k;
+        s += ": ";
+        // A line end in a value would begin a header of its own.
+        for (const char c : v) s += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? ' ' : c;
+        s += "\r\n";
+    }
+    if (r.status != 101 && r.status != 204 && r.status != 304) s += fmt::format("Content-Length: {}\r\n", r.body.size());
+    if (r.status != 101 && r.headers.get("Connection").empty()) s += keep ? "Connection: keep-alive\r\n" : "Connection: close\r\n";
+    s += fmt::format("Date: {}\r\nServer: axisgate\r\n\r\n", http_date(now_unix_s));
+    return s;
+}
+
+Connection::Connection(Transport socket, std::shared_ptr<SessionHost> host, std::string peer)
+    : socket_(std::move(socket)), host_(std::move(host)), peer_(std::move(peer)), timer_(socket_.get_executor()), buffer_(most_buffered) {}
+
+void Connection::start() { await_request(); }
+
+std::optional<SteadyTime> Connection::idle_since() const {
+    if (phase_ == Phase::idle && buffer_.size() == 0) return since_;
+    return std::nullopt;
+}
+
+void Connection::stop() {
+    stopping_ = true;
+    if (phase_ == Phase::idle || phase_ == Phase::header || phase_ == Phase::lingering) close();
+}
+
+void Connection::abort() { close(); }
+
+void Connection::set_timer(std::chrono::nanoseconds after) {
+    timer_.expires_after(std::chrono::duration_cast<asio::steady_timer::duration>(after));
+    timer_.async_wait([self = weak_from_this(), serial = ++timer_serial_](ErrorCode ec) {
+        const auto me = self.lock();
+        if (!ec && me && serial == me->timer_serial_) me->on_timer();
+    });
+}
+
+void Connection::on_timer() {
+    switch (phase_) {
+        case Phase::idle:
+            ++host_->counters.connections_timed_out;
+            close();
+            break;
+        case Phase::header:
+        case Phase::body:
+            // The read ends with operation_aborted and is answered with 408.
+            timed_out_ = true;
+            ++host_->counters.connections_timed_out;
+            socket_.cancel();
+            break;
+        case Phase::answering:
+            if (at_limit_) answer(serial_, std::move(*at_limit_));
+            break;
+        case Phase::writing:
+            ++host_->counters.connections_timed_out;
+            close();
+            break;
+        case Phase::lingering: close(); break;
+        case Phase::closed: break;
+    }
+}
+
+void Connection::await_request() {
+    if (stopping_ || host_->stopping) return close();
+    parser_.emplace();
+    parser_->header_limit(static_cast<std::uint32_t>(host_->settings.max_header_bytes));
+    parser_->body_limit(host_->settings.max_body_bytes);
+    if (buffer_.size() > 0) return read_header();
+    phase_ = Phase::idle;
+    since_ = std::chrono::steady_clock::now();
+    set_timer(first_ ? host_->settings.header_limit : host_->settings.idle_limit);
+    socket_.async_wait(Transport::wait_read, [self = shared_from_this()](ErrorCode ec) {
+        if (self->phase_ != Phase::idle) return;
+        if (ec) return self->close();
+        self->read_header();
+    });
+}
+
+void Connection::read_header() {
+    phase_ = Phase::header;
+    first_ = false;
+    timed_out_ = false;
+    set_timer(host_->settings.header_limit);
+    beast::http::async_read_header(socket_, buffer_, *parser_, [self = shared_from_this()](ErrorCode ec, std::size_t bytes) {
+        self->host_->counters.bytes_in += bytes;
+        self->on_header(ec);
+    });
+}
+
+void Connection::on_header(ErrorCode ec) {
+    if (phase_ != Phase::header) return;
+    if (ec) return read_failed(ec);
+    const auto expect = parser_->get()[beast::http::field::expect];
+    if (expect.empty() || parser_->is_done()) return read_body();
+    if (!beast::iequals(expect, "100-continue")) return fail(417, "bad_request", "the only expectation that is met is 100-continue");
+    if (parser_->get().version() < 11 || buffer_.size() > 0) return read_body();
+    head_ = "HTTP/1.1 100 Continue\r\n\r\n";
+    asio::async_write(socket_, asio::buffer(head_), [self = shared_from_this()](ErrorCode write_ec, std::size_t bytes) {
+        self->host_->counters.bytes_out += bytes;
+        if (self->phase_ != Phase::header) return;
+        if (write_ec) return self->close();
+        self->read_body();
+    });
+}
+
+void Connection::read_body() {
+    phase_ = Phase::body;
+    timed_out_ = false;
+    if (parser_->is_done()) return on_body({});
+    set_timer(host_->settings.body_limit);
+    beast::http::async_read(socket_, buffer_, *parser_, [self = shared_from_this()](ErrorCode ec, std::size_t bytes) {
+        self->host_->counters.bytes_in += bytes;
+        self->on_body(ec);
+    });
+}
+
+void Connection::on_body(ErrorCode ec) {
+    if (phase_ != Phase::body) return;
+    if (ec) return read_failed(ec);
+    answer_request();
+}
+
+void Connection::read_failed(ErrorCode ec) {
+    using beast::http::error;
+    if (timed_out_) return fail(408, "time_out", "the request did not come in time");
+    if (ec == error::end_of_stream || ec == asio::error::operation_aborted) return close();
+    if (ec == error::header_limit || ec == error::buffer_overflow) {
+        return fail(431, "headers_too_large", fmt::format("request line and headers may have {} bytes together", host_->settings.max_header_bytes));
+    }
+    if (ec == error::body_limit) return fail(413, "too_large", fmt::format("a body may have {} bytes", host_->settings.max_body_bytes));
+    if (ec == error::bad_version) return fail(505, "bad_request", "this gateway speaks HTTP/1.1");
+    const bool is_http_fault = ec.category() == make_error_code(error::bad_method).category();
+    if (is_http_fault && ec != error::partial_message) return fail(400, "bad_request", fmt::format("this is not HTTP: {}", ec.message()));
+    close();  // the connection broke
+}
+
+void Connection::fail(unsigned status, std::string_view reason, std::string detail) {
+    ++host_->counters.malformed;
+    ++serial_;
+    since_ = std::chrono::steady_clock::now();
+    request_ = {};
+    Response r = problem(status, reason, std::move(detail));
+    r.headers.set("Cache-Control", "no-store");
+    r.headers.set("X-Content-Type-Options", "nosniff");
+    host_->counters.answered("none", "none", status, 0);
+    write(std::move(r), false);
+}
+
+void Connection::answer_request() {
+    auto& m = parser_->get();
+    request_ = {};
+    request_.method = method_named(std::string_view(m.method_string()));
+    request_.target = std::string(m.target());
+    request_.http_1_0 = m.version() < 11;
+    for (const auto& f : m) request_.headers.fields.emplace_back(std::string(f.name_string()), std::string(f.value()));
+    request_.body = std::move(m.body());
+    request_.peer = peer_;
+    phase_ = Phase::answering;
+    since_ = std::chrono::steady_clock::now();
+    const std::uint64_t serial = ++serial_;
+    at_limit_.reset();
+    auto handled = host_->router.handle(request_, [self = weak_from_this(), serial](Response r) {
+        if (const auto me = self.lock()) me->answer(serial, std::move(r));
+    });
+    if (handled.now) return answer(serial, std::move(*handled.now));
+    at_limit_ = std::move(handled.at_limit);
+    set_timer(handled.limit);
+}
+
+void Connection::answer(std::uint64_t serial, Response response) {
+    if (phase_ != Phase::answering || serial != serial_) return;  // too late: the limit has answered already
+    const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - since_).count();
+    const auto method = request_.method == Method::other ? std::string_view("other") : name_of(request_.method);
+    host_->counters.answered(host_->router.route_of(request_), method, response.status, took_s);
+    const bool keep = parser_->get().keep_alive() && !stopping_ && !host_->stopping;
+    write(std::move(response), keep);
+}
+
+void Connection::write(Response response, bool keep) {
+    phase_ = Phase::writing;
+    at_limit_.reset();
+    const auto now_s = std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch()).count();
+    head_ = response_head(response, keep, now_s);
+    const bool upgraded = response.status == 101;
+    body_ = response.without_body ? std::string() : std::move(response.body);
+    set_timer(host_->settings.write_limit);
+    const std::array<asio::const_buffer, 2> buffers{asio::buffer(head_), asio::buffer(body_)};
+    asio::async_write(socket_, buffers, [self = shared_from_this(), keep, upgraded](ErrorCode ec, std::size_t bytes) {
+        self->host_->counters.bytes_out += bytes;
+        if (self->phase_ != Phase::writing) return;
+        if (ec) return self->close();
+        self->on_written(keep, upgraded);
+    });
+}
+
+void Connection::on_written(bool keep, bool upgraded) {
+    if (upgraded) return upgrade();
+    if (keep && !stopping_) return await_request();
+    linger();
+}
+
+void Connection::upgrade() {
+    ++timer_serial_;
+    timer_.cancel();
+    phase_ = Phase::closed;
+    const auto data = static_cast<const std::uint8_t*>(buffer_.data().data());
+    auto session = std::make_shared<WebSocketSession>(std::move(socket_), host_);
+    std::vector<std::uint8_t> early(data, data + buffer_.size());
+    auto self = shared_from_this();  // this connection ends here; its place is the session's
+    host_->add(session);
+    host_->remove(this);
+    session->start(early);
+}
+
+void Connection::linger() {
+    // Closing with unread bytes resets the connection, and the client may lose the answer: say the end, read on for a while.
+    phase_ = Phase::lingering;
+    ErrorCode ignored;
+    socket_.shutdown(Transport::shutdown_send, ignored);
+    buffer_.clear();
+    discarded_ = 0;
+    set_timer(host_->settings.linger_limit);
+    discard();
+}
+
+void Connection::discard() {
+    socket_.async_read_some(buffer_.prepare(16 * 1024), [self = shared_from_this()](ErrorCode ec, std::size_t bytes) {
+        if (self->phase_ != Phase::lingering) return;
+        self->discarded_ += bytes;
+        if (ec || self->discarded_ > most_discarded) return self->close();
+        self->discard();
+    });
+}
+
+void Connection::close() {
+    if (phase_ == Phase::closed) return;
+    phase_ = Phase::closed;
+    ++timer_serial_;
+    timer_.cancel();
+    ErrorCode ignored;
+    socket_.close(ignored);
+    host_->remove(this);
+}
+
+}  // namespace axisgate::http

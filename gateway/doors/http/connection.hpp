@@ -1,0 +1,74 @@
+// Connection: one TCP connection that speaks HTTP/1.1: requests one after the other, answers in the same order.
+// In: bytes. Out: bytes; a WebSocket session when a request was upgraded.
+// Bounds: header and body bytes, time for each step (see Settings). While one request is answered nothing is read, so a client that sends
+// many at once (pipelining) waits in its own socket. A fault is answered once and the connection is closed.
+#pragma once
+
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <boost/beast/http/string_body.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "gateway/doors/http/session.hpp"
+
+namespace axisgate::http {
+
+class Connection final : public Session, public std::enable_shared_from_this<Connection> {
+public:
+    Connection(Transport socket, std::shared_ptr<SessionHost> host, std::string peer);
+
+    void start();
+    [[nodiscard]] std::optional<SteadyTime> idle_since() const override;
+    void stop() override;
+    void abort() override;
+
+private:
+    using Parser = boost::beast::http::request_parser<boost::beast::http::string_body>;
+    using ErrorCode = boost::system::error_code;
+    enum class Phase : std::uint8_t { idle, header, body, answering, writing, lingering, closed };
+
+    void await_request();
+    void read_header();
+    void on_header(ErrorCode ec);
+    void read_body();
+    void on_body(ErrorCode ec);
+    void read_failed(ErrorCode ec);
+    void answer_request();
+    void answer(std::uint64_t serial, Response response);
+    void fail(unsigned status, std::string_view reason, std::string detail);
+    void write(Response response, bool keep);
+    void on_written(bool keep, bool upgraded);
+    void upgrade();
+    void linger();
+    void discard();
+    void set_timer(std::chrono::nanoseconds after);
+    void on_timer();
+    void close();
+
+    Transport socket_;
+    std::shared_ptr<SessionHost> host_;
+    std::string peer_;
+    boost::asio::steady_timer timer_;
+    std::uint64_t timer_serial_ = 0;
+    boost::beast::flat_buffer buffer_;
+    std::optional<Parser> parser_;
+    Request request_;
+    std::optional<Response> at_limit_;
+    std::uint64_t serial_ = 0;  ///< of the request that is answered; a late answer to another one is ignored
+    SteadyTime since_{};        ///< phase idle: when it began; later: when the request was whole
+    Phase phase_ = Phase::idle;
+    bool first_ = true;         ///< no request yet on this connection
+    bool timed_out_ = false;
+    bool stopping_ = false;
+    std::size_t discarded_ = 0;
+    std::string head_;          ///< of the answer that is being written
+    std::string body_;
+};
+
+/// Status line and headers of a response, up to and with the empty line.
+[[nodiscard]] std::string response_head(const Response& response, bool keep, std::int64_t now_unix_s);
+
+}  // namespace axisgate::http

@@ -1,0 +1,142 @@
+// Handlers: one function per route: a call in, an answer out, now or later.
+// In: the taken-apart request and the Gateway. Out: Handled. Callbacks of the Gateway keep copies only, never the Call or the Context.
+// Never touches a socket, and never waits.
+#pragma once
+
+#include <boost/json/object.hpp>
+#include <boost/json/value.hpp>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gateway/core/gateway.hpp"
+#include "gateway/doors/http/message.hpp"
+#include "gateway/doors/http/problem.hpp"
+#include "gateway/doors/http/settings.hpp"
+#include "gateway/doors/http/text.hpp"
+
+namespace axisgate::http {
+
+/// What all handlers share; outlives every call.
+struct Context {
+    Gateway& gateway;
+    const Settings& settings;
+    AssetLookup asset;
+    std::function<std::string()> own_metrics;  ///< the door's own counters as Prometheus text
+};
+
+/// One request on its way. Lives only as long as the handler's call.
+struct Call {
+    const Context& context;
+    const Request& request;
+    const Target& target;
+    std::vector<std::string> names;  ///< the path's `{...}` segments, decoded, in order
+    boost::json::value body;         ///< of routes that take JSON: what was sent
+    Respond respond;
+
+    [[nodiscard]] Gateway& gateway() const noexcept { return context.gateway; }
+    [[nodiscard]] Origin origin() const { return {Door::http, std::make_shared<const std::string>(request.peer)}; }
+};
+
+using Handler = Handled (*)(Call&);
+
+// --- handlers_gateway.cpp ---------------------------------------------------------------------------------------------
+Handled get_health(Call&);
+Handled get_ready(Call&);
+Handled get_metrics(Call&);
+Handled get_description(Call&);
+Handled get_about(Call&);
+Handled open_stream(Call&);
+// --- handlers_catalogue.cpp -------------------------------------------------------------------------------------------
+Handled list_families(Call&);
+Handled get_family(Call&);
+Handled list_family_parameters(Call&);
+Handled list_family_commands(Call&);
+Handled list_family_errors(Call&);
+// --- handlers_site.cpp ------------------------------------------------------------------------------------------------
+Handled list_lines(Call&);
+Handled list_drives(Call&);
+Handled list_axes(Call&);
+Handled get_line(Call&);
+Handled get_drive(Call&);
+Handled get_axis(Call&);
+Handled add_line(Call&);
+Handled add_drive(Call&);
+Handled add_axis(Call&);
+Handled replace_line(Call&);
+Handled replace_drive(Call&);
+Handled replace_axis(Call&);
+Handled change_line(Call&);
+Handled change_drive(Call&);
+Handled change_axis(Call&);
+Handled remove_line(Call&);
+Handled remove_drive(Call&);
+Handled remove_axis(Call&);
+Handled get_site(Call&);
+Handled replace_site(Call&);
+// --- handlers_commands.cpp --------------------------------------------------------------------------------------------
+Handled command_axis(Call&);
+Handled act_on_axis(Call&);
+Handled start_moves(Call&);
+// --- handlers_parameters.cpp ------------------------------------------------------------------------------------------
+Handled list_parameters(Call&);
+Handled read_parameter(Call&);
+Handled write_parameter(Call&);
+// --- handlers_drives.cpp ----------------------------------------------------------------------------------------------
+Handled exchange_native(Call&);
+Handled get_hand(Call&);
+Handled set_hand(Call&);
+// --- handlers_records.cpp ---------------------------------------------------------------------------------------------
+Handled get_trace(Call&);
+Handled list_events(Call&);
+
+// --- shared -----------------------------------------------------------------------------------------------------------
+
+/// An axis of the site in force, with what it hangs on.
+struct AxisPlace {
+    std::shared_ptr<const SiteState> site;
+    std::size_t index = 0;
+    std::string line, family;
+    const Catalogue* catalogue = nullptr;
+    [[nodiscard]] const AxisSpec& spec() const { return site->site.axes[index]; }
+    [[nodiscard]] AxisId id() const { return index < site->axis_ids.size() ? site->axis_ids[index] : no_axis; }
+};
+[[nodiscard]] std::optional<AxisPlace> find_axis(const Gateway& gateway, std::string_view name);
+[[nodiscard]] AxisPlace axis_at(const Gateway& gateway, std::shared_ptr<const SiteState> site, std::size_t index);
+/// Index by name in one of the site's lists.
+template <class Spec>
+[[nodiscard]] std::optional<std::size_t> index_of_name(const std::vector<Spec>& list, std::string_view name) {
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        if (list[i].name == name) return i;
+    }
+    return std::nullopt;
+}
+/// 404 that names what there is none of: "there is no axis slide".
+[[nodiscard]] Response nothing_named(std::string_view what, std::string_view name);
+/// 400 for a query parameter that is wrong.
+[[nodiscard]] Response bad_query(std::string_view name, std::string_view must);
+/// A flag of the query; false if it is not given. On nothing: `fault` holds the answer.
+[[nodiscard]] bool query_flag(const Call& call, std::string_view name, std::optional<Response>& fault);
+/// A whole number of the query.
+[[nodiscard]] std::int64_t query_whole(const Call& call, std::string_view name, std::int64_t low, std::int64_t high, std::int64_t otherwise,
+                                       std::optional<Response>& fault);
+
+/// Body of a 200 to a command.
+[[nodiscard]] boost::json::object command_answer(Ticket ticket, std::string_view result, std::string_view reason, std::string_view axis,
+                                                 std::string_view command);
+/// Hands a command to the gateway; a good result goes through `show`, another becomes a problem. `wait_s` > 0: until it is done, or for
+/// that long, whichever is sooner.
+[[nodiscard]] Handled submit_command(Call& call, Command command, std::string axis, std::string name, double wait_s,
+                                     std::function<Response(const Result&)> show);
+/// The result of a command as a 200.
+[[nodiscard]] Response answer_of(const Result& result, std::string_view axis, std::string_view command);
+/// `?wait=`: 0 if it is not given.
+[[nodiscard]] double query_wait(const Call& call, std::optional<Response>& fault);
+
+/// Longest time that a handler waits for the gateway when the client gave none: a result must come, this is for when it does not.
+inline constexpr std::chrono::seconds gateway_limit{30};
+
+}  // namespace axisgate::http

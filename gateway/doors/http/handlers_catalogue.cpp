@@ -1,0 +1,44 @@
+// Handlers of the catalogue: families, their parameters, commands and error codes.
+// In: calls. Out: answers at once; constant while the program runs.
+#include "gateway/doors/http/documents.hpp"
+#include "gateway/doors/http/handlers.hpp"
+
+namespace axisgate::http {
+namespace json = boost::json;
+namespace {
+/// The list of a family's things, each through `show`.
+template <class List, class Show>
+Handled list_of(Call& c, List list, Show show) {
+    const auto entry = c.gateway().families().find(c.names[0]);
+    if (!entry.family || !entry.catalogue) return nothing_named("family", c.names[0]);
+    json::array out;
+    for (const auto& x : list(*entry.catalogue)) out.push_back(show(x));
+    return json_response(out);
+}
+}  // namespace
+
+Handled list_families(Call& c) {
+    json::array out;
+    for (const auto& e : c.gateway().families().entries) out.push_back(family_document(e));
+    return json_response(out);
+}
+
+Handled get_family(Call& c) {
+    const auto entry = c.gateway().families().find(c.names[0]);
+    if (!entry.family || !entry.catalogue) return nothing_named("family", c.names[0]);
+    return json_response(family_document(entry));
+}
+
+Handled list_family_parameters(Call& c) {
+    return list_of(c, [](const Catalogue& k) { return k.parameters(); }, [](const Parameter& p) { return parameter_document(p, p.id); });
+}
+
+Handled list_family_commands(Call& c) {
+    return list_of(c, [](const Catalogue& k) { return k.commands(); }, [](const CatalogueCommand& x) { return command_document(x); });
+}
+
+Handled list_family_errors(Call& c) {
+    return list_of(c, [](const Catalogue& k) { return k.errors(); }, [](const ErrorCode& e) { return error_document(e); });
+}
+
+}  // namespace axisgate::http

@@ -1,0 +1,112 @@
+// Handlers of what is recorded: the frames of a line, and the events.
+// In: calls. Out: JSON, or files that other tools read.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "gateway/core/frame_export.hpp"
+#include "gateway/doors/http/documents.hpp"
+#include "gateway/doors/http/handlers.hpp"
+
+namespace axisgate::http {
+namespace json = boost::json;
+namespace {
+constexpr std::int64_t most_frames = 65536;
+constexpr std::int64_t json_frames = 1000;
+
+enum class Format : std::uint8_t { json, candump, pcapng, text };
+
+/// By `?format=`, else by Accept.
+std::optional<Format> format_of(const Call& c, std::optional<Response>& fault) {
+    if (const auto name = c.target.query.get("format")) {
+        if (*name == "json") return Format::json;
+        if (*name == "candump") return Format::candump;
+        if (*name == "pcapng") return Format::pcapng;
+        if (*name == "text") return Format::text;
+        fault = bad_query("format", "json, candump, pcapng or text");
+        return std::nullopt;
+    }
+    static constexpr std::array<std::string_view, 4> media{"application/json", "text/plain", "application/x-pcapng", "application/vnd.tcpdump.pcap"};
+    const auto best = best_accepted(c.request.headers.get("Accept"), media);
+    if (!best) {
+        fault = problem(406, "not_acceptable", "this can be given as application/json, text/plain (candump) or application/x-pcapng");
+        return std::nullopt;
+    }
+    static constexpr std::array<Format, 4> formats{Format::json, Format::candump, Format::pcapng, Format::pcapng};
+    return formats[*best];
+}
+
+Response file(std::string_view media, std::string name, std::string body) {
+    Response r;
+    r.headers.set("Content-Type", std::string(media));
+    r.headers.set("Content-Disposition", fmt::format("attachment; filename=\"{}\"", name));
+    r.body = std::move(body);
+    return r;
+}
+}  // namespace
+
+Handled get_trace(Call& c) {
+    const auto site = c.gateway().site();
+    const auto index = index_of_name(site->site.lines, c.names[0]);
+    if (!index || *index >= site->line_ids.size()) return nothing_named("line", c.names[0]);
+    std::optional<Response> fault;
+    const auto format = format_of(c, fault);
+    if (fault) return *fault;
+    const std::int64_t since = query_whole(c, "since", 0, INT64_MAX, -1, fault);
+    const std::int64_t limit = query_whole(c, "limit", 1, most_frames, *format == Format::json ? json_frames : most_frames, fault);
+    if (fault) return *fault;
+
+    // Without `since` the newest ones are wanted; the gateway counts from the oldest.
+    Gateway::Trace trace = c.gateway().trace(site->line_ids[*index], static_cast<std::uint64_t>(std::max<std::int64_t>(0, since)),
+                                             static_cast<std::size_t>(since < 0 ? most_frames : limit));
+    if (since < 0) {
+        trace.missed = 0;
+        if (trace.entries.size() > static_cast<std::size_t>(limit)) {
+            trace.entries.erase(trace.entries.begin(), trace.entries.end() - static_cast<std::ptrdiff_t>(limit));
+        }
+    }
+    switch (*format) {
+        case Format::json: break;
+        case Format::candump: {
+            // A run of bytes has no candump form; the text form is what comes nearest.
+            const bool bytes = std::ranges::any_of(trace.entries, [](const TraceEntry& e) { return e.frame.kind == Frame::Kind::bytes; });
+            return file("text/plain; charset=utf-8", c.names[0] + ".log", bytes ? trace_text(trace.entries, c.names[0]) : candump_text(trace.entries, c.names[0]));
+        }
+        case Format::pcapng: return file("application/x-pcapng", c.names[0] + ".pcapng", pcapng(trace.entries, c.names[0]));
+        case Format::text: return file("text/plain; charset=utf-8", c.names[0] + ".txt", trace_text(trace.entries, c.names[0]));
+    }
+    json::array frames;
+    for (const auto& e : trace.entries) frames.push_back(frame_document(e));
+    return json_response(json::object{{"line", c.names[0]}, {"missed", trace.missed}, {"next", trace.next}, {"frames", std::move(frames)}});
+}
+
+Handled list_events(Call& c) {
+    EventQuery query;
+    if (const auto since = c.target.query.get("since")) {
+        if (const auto id = parse_whole(*since, 0, INT64_MAX)) {
+            query.since_id = static_cast<std::uint64_t>(*id);
+        } else if (const auto time = parse_time(*since)) {
+            query.since_unix_ns = *time;
+        } else {
+            return bad_query("since", "an event id or a time such as 2026-01-02T03:04:05Z");
+        }
+    }
+    if (const auto axis = c.target.query.get("axis")) query.axis = std::string(*axis);
+    if (const auto severity = c.target.query.get("severity")) {
+        for (const auto s : {Severity::info, Severity::warning, Severity::alarm}) {
+            if (*severity == name_of(s)) query.at_least = s;
+        }
+        if (!query.at_least) return bad_query("severity", "info, warning or alarm");
+    }
+    std::optional<Response> fault;
+    query.limit = static_cast<std::size_t>(query_whole(c, "limit", 1, 1000, 200, fault));
+    if (fault) return *fault;
+    auto events = c.gateway().events(query);
+    std::ranges::sort(events, {}, &Event::id);
+    json::array out;
+    for (const auto& e : events) out.push_back(event_document(e));
+    return json_response(out);
+}
+
+}  // namespace axisgate::http

@@ -1,0 +1,53 @@
+// Router: from a request to the handler of its route, with everything that holds for all routes: hosts, origins, methods, media types.
+// In: a Request. Out: Handled: an answer, or a promise of one through the Respond that came with the request.
+// Never touches a socket. The routes are a table, so that a test can compare it with schema/openapi.yaml.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "gateway/doors/http/handlers.hpp"
+
+namespace axisgate::http {
+
+struct Route {
+    enum class Takes : std::uint8_t { nothing, json, patch };                ///< patch: also application/merge-patch+json
+    enum class Gives : std::uint8_t { json, text, yaml, nothing, own };      ///< own: the handler looks at Accept itself
+
+    std::string_view path;  ///< as the description writes it: "/api/v1/axes/{axis}/commands"
+    Method method = Method::get;
+    Handler handler = nullptr;
+    Takes takes = Takes::nothing;
+    Gives gives = Gives::json;
+    bool same_origin_only = false;  ///< even though it is a GET: the live feed
+};
+
+/// Every route of this door, HEAD and OPTIONS apart: those follow from these.
+[[nodiscard]] std::span<const Route> all_routes() noexcept;
+
+class Router {
+public:
+    explicit Router(Context context) : context_(std::move(context)) {}
+
+    /// `respond` is called at most once, later, and only if the answer is not in the result. It may be called after the promise's limit:
+    /// then it is the caller's to ignore it.
+    [[nodiscard]] Handled handle(const Request& request, Respond respond) const;
+    /// The route's path for a counter: as in the table, "static" for files, "none" where nothing matched.
+    [[nodiscard]] std::string_view route_of(const Request& request) const;
+
+private:
+    [[nodiscard]] Handled dispatch(const Request& request, const Respond& respond) const;
+    [[nodiscard]] std::optional<Response> check_host(const Request& request) const;
+    [[nodiscard]] static std::optional<Response> check_origin(const Request& request);
+    static void finish(Response& response, bool is_head);
+
+    Context context_;
+};
+
+/// Whether an Origin header names the same host and port as the Host header.
+[[nodiscard]] bool same_host(std::string_view origin, std::string_view host);
+/// Whether a Host header may name this gateway; see Settings::allowed_hosts.
+[[nodiscard]] bool host_allowed(std::string_view host, const Settings& settings);
+
+}  // namespace axisgate::http

@@ -1,0 +1,226 @@
+// Server: see the header.
+// In: connections. Out: sessions.
+#include "gateway/doors/http/server.hpp"
+
+#include <fmt/format.h>
+
+#include <unordered_map>
+
+#include "gateway/doors/http/connection.hpp"
+#include "gateway/doors/http/session.hpp"
+
+namespace axisgate::http {
+namespace asio = boost::asio;
+using asio::ip::tcp;
+using ErrorCode = boost::system::error_code;
+
+namespace {
+std::string text_of(const tcp::endpoint& e) {
+    return e.address().is_v6() ? fmt::format("[{}]:{}", e.address().to_string(), e.port()) : fmt::format("{}:{}", e.address().to_string(), e.port());
+}
+}  // namespace
+
+struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> {
+    Settings own_settings;
+    Counters own_counters;
+    asio::io_context& context;
+    Router own_router;
+    tcp::acceptor acceptor;
+    asio::steady_timer hub_timer, pause_timer, stop_timer;
+    StreamHub own_hub;  // after the timers: it may ask for them at once
+    std::unordered_map<const Session*, std::shared_ptr<Session>> sessions;
+    std::function<void()> done;
+
+    Parts(asio::io_context& c, Gateway& gateway, Settings s, AssetLookup asset)
+        : SessionHost(own_settings, own_router, own_counters, own_hub),
+          own_settings(std::move(s)),
+          context(c),
+          own_router(Context{gateway, own_settings, std::move(asset), [this] { return own_counters.text(); }}),
+          acceptor(c),
+          hub_timer(c),
+          pause_timer(c),
+          stop_timer(c),
+          own_hub(gateway, own_settings, own_counters, [this] { rearm(); }) {}
+
+    // --- sessions ------------------------------------------------------------------------------------------------------
+    void add(std::shared_ptr<Session> session) override {
+        const Session* key = session.get();
+        sessions.emplace(key, std::move(session));
+        own_counters.connections = sessions.size();
+    }
+    void remove(const Session* session) override {
+        const auto it = sessions.find(session);
+        if (it == sessions.end()) return;
+        const auto kept = std::move(it->second);  // lives until this call's caller is done with it
+        sessions.erase(it);
+        own_counters.connections = sessions.size();
+        if (stopping && sessions.empty()) stopped();
+    }
+
+    // --- accepting -----------------------------------------------------------------------------------------------------
+    void accept() {
+        acceptor.async_accept([self = weak_from_this()](ErrorCode ec, tcp::socket socket) {
+            const auto me = self.lock();
+            if (!me || me->stopping) return;
+            if (ec == asio::error::operation_aborted) return;
+            if (ec) return me->accept_later();  // no descriptors left, or the client is gone already
+            me->take(std::move(socket));
+            me->accept();
+        });
+    }
+    void accept_later() {
+        pause_timer.expires_after(std::chrono::milliseconds(100));
+        pause_timer.async_wait([self = weak_from_this()](ErrorCode ec) {
+            const auto me = self.lock();
+            if (!ec && me && !me->stopping) me->accept();
+        });
+    }
+    void take(tcp::socket socket) {
+        ErrorCode ec;
+        const auto peer = socket.remote_endpoint(ec);
+        if (ec) return;
+        if (sessions.size() >= own_settings.max_connections) close_longest_idle();
+        if (sessions.size() >= own_settings.max_connections) {
+            ++own_counters.connections_refused;
+            refuse(std::move(socket));
+            return;
+        }
+        ++own_counters.connections_accepted;
+        socket.set_option(tcp::no_delay(true), ec);
+        auto connection = std::make_shared<Connection>(std::move(socket), shared_from_this(), text_of(peer));
+        add(connection);
+        connection->start();
+    }
+    void close_longest_idle() {
+        Session* oldest = nullptr;
+        SteadyTime since{};
+        for (const auto& [key, session] : sessions) {
+            const auto idle = session->idle_since();
+            if (idle && (!oldest || *idle < since)) {
+                oldest = session.get();
+                since = *idle;
+            }
+        }
+        if (oldest) oldest->abort();
+    }
+    void refuse(tcp::socket socket) {
+        // One small write into an empty socket buffer; whether it arrives is the client's matter.
+        Response r = problem(503, "busy", fmt::format("{} connections are open already", own_settings.max_connections));
+        const auto now_s = std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch()).count();
+        const std::string all = response_head(r, false, now_s) + r.body;
+        ErrorCode ignored;
+        socket.non_blocking(true, ignored);
+        socket.write_some(asio::buffer(all), ignored);
+        socket.shutdown(tcp::socket::shutdown_send, ignored);
+    }
+
+    // --- the live feed's time --------------------------------------------------------------------------------------------
+    void rearm() {
+        const Instant due = own_hub.deadline();
+        if (due == never) {
+            hub_timer.cancel();
+            return;
+        }
+        hub_timer.expires_at(std::chrono::steady_clock::time_point(std::chrono::duration_cast<std::chrono::steady_clock::duration>(due.time_since_epoch())));
+        hub_timer.async_wait([self = weak_from_this()](ErrorCode ec) {
+            const auto me = self.lock();
+            if (ec || !me || !me->own_hub.attached()) return;
+            me->own_hub.on_deadline(steady_instant());
+            me->rearm();
+        });
+    }
+
+    // --- the end -------------------------------------------------------------------------------------------------------
+    void stop(std::function<void()> then) {
+        if (stopping) return;
+        stopping = true;
+        done = std::move(then);
+        ErrorCode ignored;
+        acceptor.close(ignored);
+        pause_timer.cancel();
+        std::vector<std::shared_ptr<Session>> all;
+        for (const auto& [key, session] : sessions) all.push_back(session);
+        for (const auto& session : all) session->stop();
+        if (sessions.empty()) return stopped();
+        stop_timer.expires_after(own_settings.stop_limit);
+        stop_timer.async_wait([self = weak_from_this()](ErrorCode ec) {
+            if (const auto me = self.lock(); !ec && me) me->abort_all();
+        });
+    }
+    void abort_all() {
+        std::vector<std::shared_ptr<Session>> all;
+        for (const auto& [key, session] : sessions) all.push_back(session);
+        for (const auto& session : all) session->abort();
+    }
+    void stopped() {
+        stop_timer.cancel();
+        hub_timer.cancel();
+        if (done) asio::post(context, std::exchange(done, nullptr));
+    }
+};
+
+std::optional<tcp::endpoint> parse_bind(std::string_view bind, std::string& fault) {
+    const auto colon = bind.rfind(':');
+    const auto port = colon == std::string_view::npos ? std::nullopt : parse_whole(bind.substr(colon + 1), 0, 65535);
+    if (!port) {
+        fault = fmt::format("{} is not ADDRESS:PORT: write 127.0.0.1:8080", bind);
+        return std::nullopt;
+    }
+    std::string_view host = bind.substr(0, colon);
+    if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
+    if (host == "localhost") host = "127.0.0.1";
+    if (host.empty() || host == "*") host = "0.0.0.0";
+    ErrorCode ec;
+    const auto address = asio::ip::make_address(std::string(host), ec);
+    if (ec) {
+        fault = fmt::format("{} is not an IP address: write 127.0.0.1, [::1], or 0.0.0.0 for every address", host);
+        return std::nullopt;
+    }
+    return tcp::endpoint(address, static_cast<std::uint16_t>(*port));
+}
+
+Server::Server(asio::io_context& context, Gateway& gateway, Settings settings, AssetLookup asset)
+    : parts_(std::make_shared<Parts>(context, gateway, std::move(settings), std::move(asset))) {}
+
+Server::~Server() {
+    ErrorCode ignored;
+    parts_->stopping = true;
+    parts_->done = nullptr;
+    parts_->acceptor.close(ignored);
+    parts_->pause_timer.cancel();
+    parts_->stop_timer.cancel();
+    parts_->hub_timer.cancel();
+    parts_->abort_all();
+    parts_->own_hub.detach();  // handlers that still wait in the io_context may keep the parts longer than the Gateway lives
+}
+
+std::string Server::start() {
+    std::string fault;
+    const auto endpoint = parse_bind(parts_->own_settings.bind, fault);
+    if (!endpoint) return "HTTP: " + fault;
+    auto& acceptor = parts_->acceptor;
+    ErrorCode ec;
+    acceptor.open(endpoint->protocol(), ec);
+    if (!ec) acceptor.set_option(tcp::acceptor::reuse_address(true), ec);
+    if (!ec) acceptor.bind(*endpoint, ec);
+    if (!ec) acceptor.listen(asio::socket_base::max_listen_connections, ec);
+    if (ec) {
+        ErrorCode ignored;
+        acceptor.close(ignored);
+        return fmt::format("HTTP: cannot listen on {}: {}; choose another [http] bind, or end what listens there", parts_->own_settings.bind, ec.message());
+    }
+    parts_->accept();
+    return {};
+}
+
+std::string Server::address() const {
+    ErrorCode ec;
+    const auto endpoint = parts_->acceptor.local_endpoint(ec);
+    return ec ? std::string() : text_of(endpoint);
+}
+
+void Server::stop(std::function<void()> done) { parts_->stop(std::move(done)); }
+
+const Counters& Server::counters() const noexcept { return parts_->own_counters; }
+
+}  // namespace axisgate::http

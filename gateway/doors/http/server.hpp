@@ -1,0 +1,45 @@
+// Server: the HTTP door as a whole: listens, keeps its connections within their number, feeds the live feed its time, stops in order.
+// In: a Gateway, Settings, the embedded files. Out: an open door at an address.
+// Runs on one io_context with one thread (the warm one), which also runs the Gateway's callbacks.
+#pragma once
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "gateway/core/gateway.hpp"
+#include "gateway/doors/http/counters.hpp"
+#include "gateway/doors/http/settings.hpp"
+
+namespace axisgate::http {
+
+class Server {
+public:
+    /// The Gateway outlives the server.
+    Server(boost::asio::io_context& context, Gateway& gateway, Settings settings, AssetLookup asset);
+    ~Server();
+    Server(const Server&) = delete;
+    Server& operator=(const Server&) = delete;
+
+    /// Opens the door. Empty: it is open; else what is wrong and what to do.
+    [[nodiscard]] std::string start();
+    /// "127.0.0.1:8080", with the port that was really taken; empty while it is closed.
+    [[nodiscard]] std::string address() const;
+    /// Takes no more connections, ends idle ones, lets requests in progress end (for at most Settings::stop_limit), closes live-feed
+    /// clients with 1001; then calls `done`, from the io_context.
+    void stop(std::function<void()> done);
+
+    [[nodiscard]] const Counters& counters() const noexcept;
+
+private:
+    struct Parts;
+    std::shared_ptr<Parts> parts_;
+};
+
+/// "ADDRESS:PORT" into an endpoint: IP addresses, `localhost`, `*` or nothing for every address. On nothing: `fault`.
+[[nodiscard]] std::optional<boost::asio::ip::tcp::endpoint> parse_bind(std::string_view bind, std::string& fault);
+
+}  // namespace axisgate::http

@@ -1,0 +1,50 @@
+// Session: what a server sees of one open socket, be it plain requests or the live feed; and what a session sees of its server.
+// In and out: interfaces alone.
+// The seam for TLS is `Transport`: whoever adds it makes this type a stream that is one or the other; nothing else names a socket type.
+#pragma once
+
+#include <boost/asio/ip/tcp.hpp>
+#include <chrono>
+#include <memory>
+
+#include "gateway/core/instant.hpp"
+#include "gateway/doors/http/counters.hpp"
+#include "gateway/doors/http/router.hpp"
+#include "gateway/doors/http/settings.hpp"
+#include "gateway/doors/http/stream_hub.hpp"
+
+namespace axisgate::http {
+
+using Transport = boost::asio::ip::tcp::socket;
+using SteadyTime = std::chrono::steady_clock::time_point;
+
+struct Session {
+    /// Since when nothing is in progress on it; nothing while a request is, and for the live feed.
+    [[nodiscard]] virtual std::optional<SteadyTime> idle_since() const = 0;
+    /// Ends after what is in progress; at once if nothing is.
+    virtual void stop() = 0;
+    /// Ends now.
+    virtual void abort() = 0;
+    virtual ~Session() = default;
+};
+
+/// Kept alive by its sessions.
+struct SessionHost {
+    const Settings& settings;
+    const Router& router;
+    Counters& counters;
+    StreamHub& hub;
+    bool stopping = false;
+
+    virtual void add(std::shared_ptr<Session> session) = 0;
+    virtual void remove(const Session* session) = 0;
+    SessionHost(const Settings& s, const Router& r, Counters& c, StreamHub& h) : settings(s), router(r), counters(c), hub(h) {}
+    SessionHost(const SessionHost&) = delete;
+    SessionHost& operator=(const SessionHost&) = delete;
+    virtual ~SessionHost() = default;
+};
+
+/// The steady clock as the pure parts of this door take it.
+[[nodiscard]] inline Instant steady_instant() { return Instant{std::chrono::steady_clock::now().time_since_epoch()}; }
+
+}  // namespace axisgate::http

@@ -1,0 +1,76 @@
+// Static files: see the header.
+// In: targets. Out: responses.
+#include "gateway/doors/http/static_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "gateway/doors/http/problem.hpp"
+
+namespace axisgate::http {
+namespace {
+/// FNV-1a, 64 bits: names the content, nothing depends on it being hard to forge.
+std::uint64_t hash_of(std::string_view bytes) noexcept {
+    std::uint64_t h = 14695981039346656037ull;
+    for (const unsigned char c : bytes) h = (h ^ c) * 1099511628211ull;
+    return h;
+}
+
+bool is_hidden_or_upward(const Target& target) {
+    if (target.path.empty()) return true;
+    return std::ranges::any_of(target.segments, [](const std::string& s) {
+        return s.starts_with('.') || s.find('\\') != std::string::npos || std::ranges::any_of(s, [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+    });
+}
+}  // namespace
+
+std::string_view media_for(std::string_view path) noexcept {
+    static constexpr std::array<std::pair<std::string_view, std::string_view>, 14> types{{{".html", "text/html; charset=utf-8"},
+                                                                                          {".js", "text/javascript; charset=utf-8"},
+                                                                                          {".mjs", "text/javascript; charset=utf-8"},
+                                                                                          {".css", "text/css; charset=utf-8"},
+                                                                                          {".json", "application/json"},
+                                                                                          {".map", "application/json"},
+                                                                                          {".webmanifest", "application/manifest+json"},
+                                                                                          {".svg", "image/svg+xml"},
+                                                                                          {".png", "image/png"},
+                                                                                          {".ico", "image/x-icon"},
+                                                                                          {".woff2", "font/woff2"},
+                                                                                          {".woff", "font/woff"},
+                                                                                          {".txt", "text/plain; charset=utf-8"},
+                                                                                          {".yaml", "application/yaml"}}};
+    for (const auto& [ending, type] : types) {
+        if (path.ends_with(ending)) return type;
+    }
+    return "application/octet-stream";
+}
+
+Response static_file(const AssetLookup& asset, const Target& target, const Headers& headers) {
+    if (is_hidden_or_upward(target)) return problem(404, "not_found", "there is no such file");
+    std::string path = target.path;
+    if (path.ends_with('/')) path += "index.html";
+    std::string_view bytes = asset ? asset("web/dist" + path) : std::string_view();
+    if (bytes.data() == nullptr && target.segments.back().find('.') == std::string::npos) {
+        path = "/index.html";
+        bytes = asset ? asset("web/dist/index.html") : std::string_view();
+    }
+    if (bytes.data() == nullptr) {
+        return problem(404, "not_found", target.path == "/" ? "this build holds no page; the interface is described at /api/v1/openapi.yaml" : "there is no such file");
+    }
+    Response r;
+    const std::string tag = fmt::format("\"{:016x}\"", hash_of(bytes));
+    r.headers.set("ETag", tag);
+    r.headers.set("Cache-Control", "no-cache");  // kept, but asked for each time: the tag makes that cheap
+    if (tag_listed(headers.get("If-None-Match"), tag, true)) {
+        r.status = 304;
+        return r;
+    }
+    r.headers.set("Content-Type", std::string(media_for(path)));
+    r.body = std::string(bytes);
+    return r;
+}
+
+}  // namespace axisgate::http

@@ -1,0 +1,309 @@
+// Stream hub: see the header.
+// In: requests, events, time. Out: frames in queues.
+#include "gateway/doors/http/stream_hub.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "gateway/doors/http/documents.hpp"
+#include "gateway/doors/http/handlers.hpp"
+#include "gateway/doors/http/text.hpp"
+#include "gateway/doors/http/websocket_codec.hpp"
+
+namespace axisgate::http {
+namespace json = boost::json;
+namespace {
+/// "axes/*" for "axes/feeder".
+std::string wildcard_of(std::string_view topic) { return std::string(topic.substr(0, topic.find('/'))) + "/*"; }
+
+/// The line's name in "lines/NAME/frames"; empty if it is another topic. (A name has no slash.)
+std::string_view line_of_frames(std::string_view topic) {
+    constexpr std::string_view head = "lines/", tail = "/frames";
+    if (topic.size() <= head.size() + tail.size() || !topic.starts_with(head) || !topic.ends_with(tail)) return {};
+    return topic.substr(head.size(), topic.size() - head.size() - tail.size());
+}
+
+json::object frames_document(const std::vector<TraceEntry>& entries, std::size_t from, std::uint64_t missed) {
+    json::array list;
+    for (std::size_t i = from; i < entries.size(); ++i) list.push_back(frame_document(entries[i]));
+    return {{"missed", missed}, {"frames", std::move(list)}};
+}
+}  // namespace
+
+void StreamClient::close(std::uint16_t code, std::string_view reason) {
+    if (closing_) return;
+    closing_ = code;
+    queue.clear();
+    queue.push_control(std::make_shared<const std::string>(close_frame(code, reason)));
+    has_work_ = true;
+}
+
+StreamHub::StreamHub(Gateway& gateway, const Settings& settings, Counters& counters, std::function<void()> rearm)
+    : gateway_(gateway), settings_(settings), counters_(counters), rearm_(std::move(rearm)), sources_(gateway) {
+    sources_.take_site(gateway_.site());
+    gateway_.listen(this);
+}
+
+StreamHub::~StreamHub() { detach(); }
+
+void StreamHub::detach() {
+    if (attached_) gateway_.unlisten(this);
+    attached_ = false;
+}
+
+std::shared_ptr<StreamClient> StreamHub::add(std::function<void()> wake) {
+    clients_.push_back(std::make_shared<StreamClient>(settings_.max_events_waiting, std::move(wake)));
+    counters_.stream_clients = clients_.size();
+    return clients_.back();
+}
+
+void StreamHub::remove(const std::shared_ptr<StreamClient>& client) {
+    clients_.remove(client);
+    counters_.stream_clients = clients_.size();
+    const auto used = periods();
+    std::erase_if(groups_, [&](const auto& g) { return !used.contains(g.first); });
+}
+
+Instant StreamHub::deadline() const {
+    if (new_site_) return time_zero;
+    Instant next = never;
+    for (const auto& [period, at] : groups_) next = std::min(next, at);
+    return next;
+}
+
+void StreamHub::on_text(StreamClient& c, std::string_view text, Instant now) {
+    if (c.closing_) return;
+    take_site(now);
+    std::string fault;
+    const auto request = read_stream_request(text, fault);
+    if (!request) {
+        tell_error(c, fault);
+        if (++c.wrong_in_a_row_ >= wrong_requests) c.close(close_unsupported, "three messages in a row were not a request");
+        wake(c);
+        return;
+    }
+    c.wrong_in_a_row_ = 0;
+    for (const auto& topic : request->unsubscribe) unsubscribe(c, topic);
+    for (const auto& topic : request->subscribe) subscribe(c, topic, request->period_ms);
+    resolve(c, now, &request->subscribe);
+    keep_groups(now);
+    wake(c);
+    if (rearm_) rearm_();
+}
+
+void StreamHub::subscribe(StreamClient& c, const std::string& topic, std::int64_t period_ms) {
+    if (c.topics_.size() >= most_topics && !c.topics_.contains(topic)) return tell_error(c, fmt::format("at most {} topics", most_topics), topic);
+    if (topic == "events") {
+        c.events_ = true;
+    } else if (topic == "site") {
+        c.site_ = true;
+        tell_site(c);
+    } else if (const auto line = line_of_frames(topic); !line.empty() && sources_.find(fmt::format("lines/{}", line))) {
+        auto it = std::ranges::find(c.frames_, topic, &StreamClient::FrameWatch::topic);
+        if (it == c.frames_.end()) {
+            c.frames_.push_back({std::string(line), topic, sources_.next_number(), period_ms, no_line, 0});
+            it = std::prev(c.frames_.end());
+        }
+        it->period_ms = period_ms;
+        begin_frames(c, *it);
+    } else if (topic != "axes/*" && topic != "drives/*" && topic != "lines/*" && !sources_.find(topic)) {
+        return tell_error(c, "there is no such topic: use axes/*, axes/NAME, drives/*, drives/NAME, lines/*, lines/NAME, lines/NAME/frames, events, site", topic);
+    }
+    c.topics_.insert_or_assign(topic, period_ms);
+}
+
+void StreamHub::unsubscribe(StreamClient& c, const std::string& topic) {
+    if (c.topics_.erase(topic) == 0) return tell_error(c, "this topic is not subscribed", topic);
+    if (topic == "events") c.events_ = false;
+    if (topic == "site") c.site_ = false;
+    std::erase_if(c.frames_, [&](const auto& f) { return f.topic == topic; });
+}
+
+void StreamHub::resolve(StreamClient& c, Instant now, const std::vector<std::string>* snapshots_of) {
+    std::map<std::uint32_t, std::uint64_t> sent;
+    for (const auto& [period, list] : c.watches_) {
+        for (const auto& w : list) sent.emplace(w.source->number, w.sent_version);
+    }
+    c.watches_.clear();
+    const auto asked_now = [&](const std::string& topic) { return snapshots_of && std::ranges::find(*snapshots_of, topic) != snapshots_of->end(); };
+    std::map<std::string_view, bool> wildcard_now;
+    for (const std::string_view w : {"axes/*", "drives/*", "lines/*"}) wildcard_now[w] = asked_now(std::string(w));
+    for (const auto& [topic, source] : sources_.all()) {
+        auto subscription = c.topics_.find(topic);
+        const std::string wildcard = wildcard_of(topic);
+        const bool by_name = subscription != c.topics_.end();
+        if (!by_name) subscription = c.topics_.find(wildcard);
+        if (subscription == c.topics_.end()) continue;
+        StreamClient::Watch watch{source, 0};
+        const auto before = sent.find(source->number);
+        const bool snapshot = before == sent.end() || wildcard_now[wildcard] || (by_name && asked_now(topic));
+        if (snapshot) {
+            sources_.look(*source, now, true);
+            watch.sent_version = source->version;
+            if (source->frame) put_state(c, source->number, source->frame);
+        } else {
+            watch.sent_version = before->second;
+        }
+        c.watches_[subscription->second].push_back(std::move(watch));
+    }
+}
+
+std::set<std::int64_t> StreamHub::periods() const {
+    std::set<std::int64_t> out;
+    for (const auto& c : clients_) {
+        for (const auto& [period, list] : c->watches_) out.insert(period);
+        for (const auto& f : c->frames_) out.insert(f.period_ms);
+    }
+    return out;
+}
+
+void StreamHub::keep_groups(Instant now) {
+    const auto used = periods();
+    std::erase_if(groups_, [&](const auto& g) { return !used.contains(g.first); });
+    for (const auto period : used) groups_.emplace(period, now + std::chrono::milliseconds(period));
+}
+
+LineId StreamHub::line_id(std::string_view line) const {
+    const auto source = sources_.find(fmt::format("lines/{}", line));
+    return source && source->index < sources_.site().line_ids.size() ? sources_.site().line_ids[source->index] : no_line;
+}
+
+void StreamHub::on_deadline(Instant now) {
+    take_site(now);
+    for (auto& [period_ms, at] : groups_) {
+        if (at > now) continue;
+        const auto period = std::chrono::milliseconds(period_ms);
+        at += period;
+        if (at <= now) at = now + period;  // late: periods are not made up for
+        for (const auto& c : clients_) {
+            if (c->closing_) continue;
+            if (const auto list = c->watches_.find(period_ms); list != c->watches_.end()) {
+                for (auto& w : list->second) {
+                    sources_.look(*w.source, now);
+                    if (w.sent_version == w.source->version) continue;
+                    w.sent_version = w.source->version;
+                    put_state(*c, w.source->number, w.source->frame);
+                }
+            }
+            for (auto& f : c->frames_) {
+                if (f.period_ms == period_ms) tell_frames(*c, f, now);
+            }
+            wake(*c);
+        }
+    }
+}
+
+void StreamHub::begin_frames(StreamClient& c, StreamClient::FrameWatch& watch) {
+    const LineId id = line_id(watch.line);
+    if (id == no_line) return;
+    watch.id = id;
+    // The newest ones, whatever the number of kept frames is: read up to the end, keep the last stretch.
+    Gateway::Trace trace = gateway_.trace(id, 0, most_frames);
+    for (int i = 0; i < 64 && trace.entries.size() == most_frames; ++i) {
+        Gateway::Trace more = gateway_.trace(id, trace.next, most_frames);
+        if (more.entries.empty()) break;
+        trace = std::move(more);
+    }
+    watch.since = trace.next;
+    const std::size_t from = trace.entries.size() > first_frames ? trace.entries.size() - first_frames : 0;
+    put_state(c, watch.number, stream_message(watch.topic, gateway_.now_unix_ns(), frames_document(trace.entries, from, 0)));
+}
+
+void StreamHub::tell_frames(StreamClient& c, StreamClient::FrameWatch& watch, Instant now) {
+    // The list before is still waiting: this client is slow. Its place in the recording is kept; what is overwritten meanwhile is counted.
+    if (c.queue.state_waits(watch.number)) return;
+    const LineId id = line_id(watch.line);
+    if (id == no_line) return;
+    if (id != watch.id) return begin_frames(c, watch);  // another line of that name: its numbers begin anew
+    auto& last = last_frames_;
+    const bool same = last.message && last.at == now && last.line == watch.line && last.since == watch.since;
+    if (!same) {
+        const auto trace = gateway_.trace(id, watch.since, most_frames);
+        last.at = now;
+        last.line = watch.line;
+        last.since = watch.since;
+        last.missed = trace.missed;
+        last.next = trace.next;
+        last.frames = trace.entries.size();
+        last.message = stream_message(watch.topic, gateway_.now_unix_ns(), frames_document(trace.entries, 0, trace.missed));
+    }
+    watch.since = last.next;
+    if (last.frames > 0 || last.missed > 0) put_state(c, watch.number, last.message);
+}
+
+void StreamHub::tell_site(StreamClient& c) {
+    put_event(c, stream_message("site", gateway_.now_unix_ns(), json::object{{"revision", sources_.site().revision}}));
+}
+
+void StreamHub::tell_error(StreamClient& c, std::string_view text, std::string_view topic) {
+    ++counters_.stream_requests_wrong;
+    json::object data{{"text", text}};
+    if (!topic.empty()) data["topic"] = topic.substr(0, 256);
+    put_event(c, stream_message("error", gateway_.now_unix_ns(), data));
+}
+
+void StreamHub::put_event(StreamClient& c, SharedFrame frame) {
+    if (c.closing_) return;
+    if (!c.queue.push_event(std::move(frame))) {
+        c.close(close_try_later, fmt::format("more than {} events wait: read faster, and ask /api/v1/events for what is missing", settings_.max_events_waiting));
+    }
+    c.has_work_ = true;
+}
+
+void StreamHub::put_state(StreamClient& c, std::uint32_t number, SharedFrame frame) {
+    if (c.closing_) return;
+    if (c.queue.push_state(number, std::move(frame))) ++counters_.stream_states_replaced;
+    c.has_work_ = true;
+}
+
+void StreamHub::wake(StreamClient& c) {
+    if (!c.has_work_) return;
+    c.has_work_ = false;
+    if (c.wake_) c.wake_();
+}
+
+void StreamHub::on_event(const Event& event) {
+    SharedFrame frame;
+    for (const auto& c : clients_) {
+        if (!c->events_ || c->closing_) continue;
+        if (!frame) frame = stream_message("events", event.at_unix_ns, event_document(event));
+        put_event(*c, frame);
+        wake(*c);
+    }
+}
+
+void StreamHub::on_site(const std::shared_ptr<const SiteState>& site) {
+    // Snapshots need an instant; the next on_deadline has one, and it is due at once.
+    new_site_ = site;
+    if (rearm_) rearm_();
+}
+
+void StreamHub::take_site(Instant now) {
+    if (!new_site_) return;
+    const auto before = sources_.all();
+    sources_.take_site(std::move(new_site_));
+    new_site_.reset();
+    std::vector<std::shared_ptr<Source>> gone;
+    for (const auto& [topic, source] : before) {
+        if (!sources_.find(topic)) gone.push_back(source);
+    }
+    for (const auto& c : clients_) {
+        if (c->closing_) continue;
+        for (const auto& source : gone) {
+            const bool watched = c->topics_.contains(source->topic) || c->topics_.contains(wildcard_of(source->topic));
+            if (watched) put_state(*c, source->number, stream_message(source->topic, gateway_.now_unix_ns(), nullptr));
+            c->topics_.erase(source->topic);
+            if (source->kind == Source::Kind::line) {
+                c->topics_.erase(source->topic + "/frames");
+                std::erase_if(c->frames_, [&](const auto& f) { return f.topic == source->topic + "/frames"; });
+            }
+        }
+        resolve(*c, now, nullptr);
+        if (c->site_) tell_site(*c);
+        wake(*c);
+    }
+    keep_groups(now);
+}
+
+}  // namespace axisgate::http

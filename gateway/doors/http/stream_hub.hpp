@@ -1,0 +1,129 @@
+// Stream hub: the live feed without sockets: who subscribed to what, what changed since, and what waits for whom.
+// In: requests of clients, events, the passing of time, the Gateway's pictures. Out: frames in each client's queue, and a wake-up.
+// Bounds: topics per client; the queue's (states newest wins, events refused over the bound: the client is closed with 1013 and the reason).
+// Never reads a clock and never sends: the WebSocket session does.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <list>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gateway/core/gateway.hpp"
+#include "gateway/doors/http/counters.hpp"
+#include "gateway/doors/http/settings.hpp"
+#include "gateway/doors/http/stream_queue.hpp"
+#include "gateway/doors/http/stream_request.hpp"
+#include "gateway/doors/http/stream_sources.hpp"
+
+namespace axisgate::http {
+
+class StreamHub;
+
+/// One client of the live feed, as the hub sees it.
+class StreamClient {
+public:
+    StreamClient(std::size_t max_events, std::function<void()> wake) : queue(max_events), wake_(std::move(wake)) {}
+
+    StreamQueue queue;
+    /// Not 0: the client is to be closed with this code; the close frame is in the queue.
+    [[nodiscard]] std::uint16_t closing() const noexcept { return closing_; }
+    /// Drops what waits and puts a close frame in its place.
+    void close(std::uint16_t code, std::string_view reason);
+
+private:
+    friend class StreamHub;
+    struct Watch {
+        std::shared_ptr<Source> source;
+        std::uint64_t sent_version = 0;
+    };
+    struct FrameWatch {
+        std::string line, topic;
+        std::uint32_t number = 0;
+        std::int64_t period_ms = 0;
+        LineId id = no_line;      ///< whose recording `since` belongs to
+        std::uint64_t since = 0;  ///< next sequence number wanted
+    };
+    std::function<void()> wake_;
+    std::map<std::string, std::int64_t, std::less<>> topics_;    ///< as subscribed, with the period in ms
+    std::map<std::int64_t, std::vector<Watch>> watches_;         ///< by period
+    std::vector<FrameWatch> frames_;
+    bool events_ = false;
+    bool site_ = false;
+    int wrong_in_a_row_ = 0;
+    std::uint16_t closing_ = 0;
+    bool has_work_ = false;  ///< something was put into the queue since the last wake-up
+};
+
+class StreamHub final : public GatewayListener {
+public:
+    /// `rearm` is called when deadline() has changed by another cause than on_deadline.
+    StreamHub(Gateway& gateway, const Settings& settings, Counters& counters, std::function<void()> rearm);
+    ~StreamHub() override;
+    /// Hears no more from the Gateway and asks it nothing more.
+    void detach();
+    [[nodiscard]] bool attached() const noexcept { return attached_; }
+    StreamHub(const StreamHub&) = delete;
+    StreamHub& operator=(const StreamHub&) = delete;
+
+    /// `wake`: something is in the queue. It may be called from inside any call of the hub; it must not call the hub.
+    [[nodiscard]] std::shared_ptr<StreamClient> add(std::function<void()> wake);
+    void remove(const std::shared_ptr<StreamClient>& client);
+    [[nodiscard]] std::size_t clients() const noexcept { return clients_.size(); }
+
+    /// One text message of a client.
+    void on_text(StreamClient& client, std::string_view text, Instant now);
+    /// When on_deadline wants to be called; `never` if nobody watches anything.
+    [[nodiscard]] Instant deadline() const;
+    void on_deadline(Instant now);
+
+    void on_event(const Event& event) override;
+    void on_site(const std::shared_ptr<const SiteState>& site) override;
+
+private:
+    static constexpr std::size_t most_topics = 4096;       ///< subscribed by one client
+    static constexpr std::size_t first_frames = 200;       ///< of a line, told at once
+    static constexpr std::size_t most_frames = 4096;       ///< in one message
+    static constexpr int wrong_requests = 3;               ///< in a row, then the client is closed
+
+    void subscribe(StreamClient& c, const std::string& topic, std::int64_t period_ms);
+    void unsubscribe(StreamClient& c, const std::string& topic);
+    void resolve(StreamClient& c, Instant now, const std::vector<std::string>* snapshots_of);
+    void begin_frames(StreamClient& c, StreamClient::FrameWatch& watch);
+    void tell_frames(StreamClient& c, StreamClient::FrameWatch& watch, Instant now);
+    void tell_site(StreamClient& c);
+    void tell_error(StreamClient& c, std::string_view text, std::string_view topic = {});
+    void put_event(StreamClient& c, SharedFrame frame);
+    void put_state(StreamClient& c, std::uint32_t number, SharedFrame frame);
+    void wake(StreamClient& c);
+    void take_site(Instant now);
+    void keep_groups(Instant now);
+    [[nodiscard]] std::set<std::int64_t> periods() const;
+    [[nodiscard]] LineId line_id(std::string_view line) const;
+
+    Gateway& gateway_;
+    const Settings& settings_;
+    Counters& counters_;
+    std::function<void()> rearm_;
+    StreamSources sources_;
+    std::list<std::shared_ptr<StreamClient>> clients_;
+    std::map<std::int64_t, Instant> groups_;               ///< next scan by period in ms
+    std::shared_ptr<const SiteState> new_site_;            ///< told, but not taken yet
+    bool attached_ = true;
+
+    /// The last stretch of frames that was made, for clients that want the same one.
+    struct {
+        Instant at{};
+        std::string line;
+        std::uint64_t since = 0, missed = 0, next = 0;
+        std::size_t frames = 0;
+        SharedFrame message;
+    } last_frames_;
+};
+
+}  // namespace axisgate::http

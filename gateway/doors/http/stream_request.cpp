@@ -1,0 +1,62 @@
+// Stream request: see the header.
+// In: text. Out: a request or a fault.
+#include "gateway/doors/http/stream_request.hpp"
+
+#include <boost/json/parse.hpp>
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace axisgate::http {
+namespace {
+namespace json = boost::json;
+
+bool read_topics(const json::value& v, std::string_view key, std::vector<std::string>& into, std::string& fault) {
+    if (!v.is_array() || v.get_array().size() > most_topics_per_request) {
+        fault = fmt::format("{} must be a list of at most {} topics", key, most_topics_per_request);
+        return false;
+    }
+    for (const auto& t : v.get_array()) {
+        if (!t.is_string()) {
+            fault = fmt::format("{} must hold texts", key);
+            return false;
+        }
+        into.emplace_back(t.get_string());
+    }
+    return true;
+}
+}  // namespace
+
+std::optional<StreamRequest> read_stream_request(std::string_view text, std::string& fault) {
+    boost::system::error_code ec;
+    const json::value v = json::parse(text, ec);
+    if (ec || !v.is_object()) {
+        fault = "a request is a JSON object: {\"subscribe\": [\"axes/*\"], \"period_ms\": 50}";
+        return std::nullopt;
+    }
+    StreamRequest r;
+    bool asks = false;
+    for (const auto& [k, x] : v.get_object()) {
+        if (k == "subscribe" || k == "unsubscribe") {
+            asks = true;
+            if (!read_topics(x, k, k == "subscribe" ? r.subscribe : r.unsubscribe, fault)) return std::nullopt;
+        } else if (k == "period_ms") {
+            const double ms = x.is_number() ? x.to_number<double>() : 0;
+            if (!(ms >= 10 && ms <= 10'000) || std::nearbyint(ms) != ms) {
+                fault = "period_ms must be a whole number from 10 to 10000";
+                return std::nullopt;
+            }
+            r.period_ms = (static_cast<std::int64_t>(ms) + 9) / 10 * 10;
+        } else {
+            fault = fmt::format("{} is not known here: use subscribe, unsubscribe, period_ms", std::string_view(k));
+            return std::nullopt;
+        }
+    }
+    if (!asks) {
+        fault = "subscribe or unsubscribe is missing";
+        return std::nullopt;
+    }
+    return r;
+}
+
+}  // namespace axisgate::http

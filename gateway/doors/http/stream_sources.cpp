@@ -1,0 +1,120 @@
+// Stream sources: see the header.
+// In: the Gateway's pictures and reports. Out: shared frames.
+#include "gateway/doors/http/stream_sources.hpp"
+
+#include <fmt/format.h>
+
+#include "gateway/doors/http/documents.hpp"
+#include "gateway/doors/http/handlers.hpp"
+#include "gateway/doors/http/websocket_codec.hpp"
+
+namespace axisgate::http {
+namespace json = boost::json;
+namespace {
+SharedFrame message_of(std::string_view topic, std::int64_t at_unix_ns, std::string_view data) {
+    std::string text = "{\"topic\":";
+    json_text(json::value(topic), text);
+    fmt::format_to(std::back_inserter(text), ",\"at\":{},\"data\":", at_unix_ns);
+    text += data;
+    text += '}';
+    return std::make_shared<const std::string>(server_frame(Opcode::text, text));
+}
+}  // namespace
+
+SharedFrame stream_message(std::string_view topic, std::int64_t at_unix_ns, const json::value& data) {
+    return message_of(topic, at_unix_ns, json_text(data));
+}
+
+bool same_but_time(const AxisPicture& a, const AxisPicture& b) noexcept {
+    return a.number == b.number && a.family_number == b.family_number && a.position == b.position && a.position_demand == b.position_demand &&
+           a.velocity == b.velocity && a.native_status == b.native_status && a.error_code == b.error_code && a.statusword == b.statusword &&
+           a.mode_display == b.mode_display && a.flags == b.flags && a.controlword == b.controlword && a.mode == b.mode &&
+           a.target_position == b.target_position && a.profile_velocity == b.profile_velocity && a.profile_acceleration == b.profile_acceleration &&
+           a.profile_deceleration == b.profile_deceleration && a.target_velocity == b.target_velocity && a.homing_method == b.homing_method &&
+           a.setpoints_accepted == b.setpoints_accepted && a.authority == b.authority && a.presence == b.presence && a.ever_seen == b.ever_seen;
+}
+
+void StreamSources::take_site(std::shared_ptr<const SiteState> site) {
+    site_ = std::move(site);
+    std::map<std::string, std::shared_ptr<Source>, std::less<>> next;
+    const auto put = [&](Source::Kind kind, std::string topic, std::size_t index) {
+        std::shared_ptr<Source> source;
+        if (const auto it = by_topic_.find(topic); it != by_topic_.end()) {
+            source = it->second;
+        } else {
+            source = std::make_shared<Source>();
+            source->kind = kind;
+            source->topic = topic;
+            source->number = next_number();
+        }
+        source->index = index;
+        source->fresh = true;
+        next.emplace(std::move(topic), std::move(source));
+    };
+    for (std::size_t i = 0; i < site_->site.axes.size(); ++i) put(Source::Kind::axis, "axes/" + site_->site.axes[i].name, i);
+    for (std::size_t i = 0; i < site_->site.drives.size(); ++i) put(Source::Kind::drive, "drives/" + site_->site.drives[i].name, i);
+    for (std::size_t i = 0; i < site_->site.lines.size(); ++i) put(Source::Kind::line, "lines/" + site_->site.lines[i].name, i);
+    by_topic_ = std::move(next);
+}
+
+std::shared_ptr<Source> StreamSources::find(std::string_view topic) const {
+    const auto it = by_topic_.find(topic);
+    return it == by_topic_.end() ? nullptr : it->second;
+}
+
+void StreamSources::look(Source& s, Instant now, bool force) {
+    if (s.looked == now && s.frame && !s.fresh && !force) return;
+    s.looked = now;
+    if (s.kind == Source::Kind::axis) {
+        look_axis(s, now, force);
+    } else {
+        look_slow(s, now, force);
+    }
+}
+
+void StreamSources::look_axis(Source& s, Instant now, bool force) {
+    const AxisId id = s.index < site_->axis_ids.size() ? site_->axis_ids[s.index] : no_axis;
+    if (id == no_axis) return;
+    const std::uint64_t revision = gateway_.picture_revision(id);
+    const bool first = !s.frame || s.fresh;
+    if (!first && !force && revision == s.picture_revision) return;
+    const AxisPicture picture = gateway_.picture(id);
+    const bool changed = first || !same_but_time(picture, s.picture);
+    const bool moved_on = picture.at != s.picture.at && now - s.built >= time_only_period;
+    s.picture_revision = revision;
+    if (!changed && !moved_on && !force) {
+        // The revision is noted, but not the instant: it is compared with the one that was sent. So that it is told later without
+        // another change, the picture must be looked at again.
+        if (picture.at != s.picture.at) s.picture_revision = revision - 1;
+        return;
+    }
+    const AxisPlace place = axis_at(gateway_, site_, s.index);
+    std::string data = json_text(axis_document({place.spec(), place.line, place.family, place.catalogue, picture, gateway_.to_unix_ns(picture.at)}));
+    const bool differs = changed ? data != s.text : moved_on;
+    s.picture = picture;
+    s.fresh = false;
+    if (!differs && !force) return;
+    s.frame = message_of(s.topic, gateway_.now_unix_ns(), data);
+    s.text = std::move(data);
+    s.built = now;
+    if (differs) ++s.version;
+}
+
+void StreamSources::look_slow(Source& s, Instant now, bool force) {
+    if (s.frame && !s.fresh && !force && now - s.built < slow_period) return;
+    std::string data;
+    if (s.kind == Source::Kind::drive) {
+        data = json_text(drive_document(*site_, s.index, s.index < site_->drive_ids.size() ? gateway_.drive_status(site_->drive_ids[s.index]) : DriveStatus{}));
+    } else {
+        data = json_text(line_document(*site_, s.index, s.index < site_->line_ids.size() ? gateway_.line_report(site_->line_ids[s.index]) : LineReport{}));
+    }
+    s.built = now;
+    s.fresh = false;
+    const bool differs = data != s.text;
+    if (!differs && s.frame && !force) return;
+    s.frame = message_of(s.topic, gateway_.now_unix_ns(), data);
+    s.text = std::move(data);
+    if (differs) ++s.version;
+}
+
+}  // namespace axisgate::http

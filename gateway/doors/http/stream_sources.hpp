@@ -1,0 +1,72 @@
+// Stream sources: the states that the live feed can show, each as one prepared frame that all its clients share.
+// In: the site in force, pictures, drive and line reports. Out: per topic a version number and the frame that shows it.
+// Never sends: it is asked by the hub, and looks at each source at most once per instant.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "gateway/core/gateway.hpp"
+#include "gateway/core/instant.hpp"
+#include "gateway/doors/http/stream_queue.hpp"
+
+namespace axisgate::http {
+
+/// `{"topic": ..., "at": ..., "data": ...}` as a WebSocket frame.
+[[nodiscard]] SharedFrame stream_message(std::string_view topic, std::int64_t at_unix_ns, const boost::json::value& data);
+
+struct Source {
+    enum class Kind : std::uint8_t { axis, drive, line };
+    Kind kind = Kind::axis;
+    std::string topic;          ///< "axes/feeder"
+    std::uint32_t number = 0;   ///< of the topic, for queues; never given twice
+    std::size_t index = 0;      ///< in the site's list
+    std::uint64_t version = 0;  ///< grows with each frame worth sending
+    SharedFrame frame;          ///< the newest
+
+    // what the frame was made from
+    std::uint64_t picture_revision = 0;
+    AxisPicture picture{};
+    std::string text;           ///< of drives and lines: the serialised data
+    Instant built{}, looked{};
+    bool fresh = true;          ///< nothing was built since the site was put in force
+};
+
+/// Same for a client, the instant of the data apart.
+[[nodiscard]] bool same_but_time(const AxisPicture& a, const AxisPicture& b) noexcept;
+
+class StreamSources {
+public:
+    /// When only the instant of an axis' data moves on, a frame is worth sending this often.
+    static constexpr std::chrono::milliseconds time_only_period{1000};
+    /// Drives and lines are looked at this often at most.
+    static constexpr std::chrono::milliseconds slow_period{250};
+
+    explicit StreamSources(Gateway& gateway) : gateway_(gateway) {}
+
+    /// Takes another site: sources of the same name stay (their next look makes a new frame if anything differs), others come and go.
+    void take_site(std::shared_ptr<const SiteState> site);
+    [[nodiscard]] const SiteState& site() const { return *site_; }
+    [[nodiscard]] std::shared_ptr<Source> find(std::string_view topic) const;
+    [[nodiscard]] const std::map<std::string, std::shared_ptr<Source>, std::less<>>& all() const noexcept { return by_topic_; }
+    /// A number for a topic that is not a source ("lines/can0/frames" of one client).
+    [[nodiscard]] std::uint32_t next_number() noexcept { return ++last_number_; }
+
+    /// Looks at the source and makes a new frame if it changed. `force`: makes one in any case (a snapshot; the version does not grow
+    /// for that alone).
+    void look(Source& source, Instant now, bool force = false);
+
+private:
+    void look_axis(Source& source, Instant now, bool force);
+    void look_slow(Source& source, Instant now, bool force);
+
+    Gateway& gateway_;
+    std::shared_ptr<const SiteState> site_;
+    std::map<std::string, std::shared_ptr<Source>, std::less<>> by_topic_;
+    std::uint32_t last_number_ = 0;
+};
+
+}  // namespace axisgate::http

@@ -1,0 +1,437 @@
+// Text: see the header. Everything here is a function of its arguments.
+#include "gateway/doors/http/text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+
+namespace axisgate::http {
+namespace {
+namespace json = boost::json;
+
+int hex_digit(char c) noexcept {
+    if (c >= '0' && c <= '9') return c - '0';
+    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+    return -1;
+}
+
+char lower_char(char c) noexcept { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+bool same_word(std::string_view a, std::string_view b) noexcept {
+    return std::ranges::equal(a, b, {}, lower_char, lower_char);
+}
+
+/// Length of the valid UTF-8 sequence at the beginning of `s` (no surrogates, no overlong forms); 0 if there is none.
+std::size_t sequence_length(std::string_view s) noexcept {
+    const auto at = [&](std::size_t i) { return static_cast<unsigned char>(s[i]); };
+    const auto tail = [&](std::size_t i) { return i < s.size() && (at(i) & 0xC0u) == 0x80u; };
+    const unsigned char c = at(0);
+    if (c < 0x80) return 1;
+    if (c >= 0xC2 && c <= 0xDF) return tail(1) ? 2 : 0;
+    if (c >= 0xE0 && c <= 0xEF) {
+        if (!tail(1) || !tail(2)) return 0;
+        if ((c == 0xE0 && at(1) < 0xA0) || (c == 0xED && at(1) > 0x9F)) return 0;
+        return 3;
+    }
+    if (c >= 0xF0 && c <= 0xF4) {
+        if (!tail(1) || !tail(2) || !tail(3)) return 0;
+        if ((c == 0xF0 && at(1) < 0x90) || (c == 0xF4 && at(1) > 0x8F)) return 0;
+        return 4;
+    }
+    return 0;
+}
+
+void put_string(std::string_view s, std::string& out) {
+    out += '"';
+    while (!s.empty()) {
+        const char c = s.front();
+        std::size_t n = 1;
+        if (c == '"' || c == '\\') {
+            out += '\\';
+            out += c;
+        } else if (static_cast<unsigned char>(c) < 0x20) {
+            switch (c) {
+                case '\n': out += "\\n"; break;
+                case '\r': out += "\\r"; break;
+                case '\t': out += "\\t"; break;
+                default: out += fmt::format("\\u{:04x}", static_cast<unsigned>(c)); break;
+            }
+        } else if (n = sequence_length(s); n > 0) {
+            out += s.substr(0, n);
+        } else {
+            out += "\xEF\xBF\xBD";
+            n = 1;
+        }
+        s.remove_prefix(n);
+    }
+    out += '"';
+}
+
+void put_double(double d, std::string& out) {
+    if (!std::isfinite(d)) {
+        out += "null";
+        return;
+    }
+    if (std::nearbyint(d) == d && std::fabs(d) < 9007199254740992.0) {
+        fmt::format_to(std::back_inserter(out), "{}", static_cast<std::int64_t>(d));
+        return;
+    }
+    fmt::format_to(std::back_inserter(out), "{}", d);
+}
+
+/// One item of a comma separated list, taken off its front. Commas in quoted strings do not separate.
+std::string_view next_item(std::string_view& list) noexcept {
+    bool quoted = false;
+    std::size_t i = 0;
+    for (; i < list.size(); ++i) {
+        if (list[i] == '"') quoted = !quoted;
+        if (list[i] == ',' && !quoted) break;
+    }
+    const auto item = list.substr(0, i);
+    list.remove_prefix(std::min(i + 1, list.size()));
+    return trimmed(item);
+}
+
+/// How well the Accept header likes the type, 0..1000; -1: not at all. The most specific range decides (RFC 9110 12.5.1).
+int liking(std::string_view accept, std::string_view media) noexcept {
+    if (trimmed(accept).empty()) return 1000;
+    const auto kind = media.substr(0, media.find('/'));
+    int best_specific = -1, quality = -1;
+    while (!accept.empty()) {
+        const auto item = next_item(accept);
+        const auto range = trimmed(item.substr(0, item.find(';')));
+        int specific = -1;
+        if (same_word(range, media)) {
+            specific = 2;
+        } else if (range.size() > 2 && range.ends_with("/*") && same_word(range.substr(0, range.size() - 2), kind)) {
+            specific = 1;
+        } else if (range == "*/*") {
+            specific = 0;
+        }
+        if (specific <= best_specific) continue;
+        best_specific = specific;
+        quality = 1000;
+        for (auto rest = item.substr(std::min(item.find(';'), item.size())); !rest.empty();) {
+            rest.remove_prefix(1);
+            const auto parameter = trimmed(rest.substr(0, rest.find(';')));
+            rest = rest.substr(std::min(rest.find(';'), rest.size()));
+            if (parameter.size() > 2 && (parameter.starts_with("q=") || parameter.starts_with("Q="))) {
+                if (const auto q = parse_number(parameter.substr(2))) quality = static_cast<int>(std::clamp(*q, 0.0, 1.0) * 1000);
+            }
+        }
+    }
+    return quality > 0 ? quality : -1;
+}
+}  // namespace
+
+std::optional<std::string> percent_decode(std::string_view text, bool plus_is_space) {
+    std::string out;
+    out.reserve(text.size());
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        char c = text[i];
+        if (c == '%') {
+            const int high = i + 2 < text.size() ? hex_digit(text[i + 1]) : -1;
+            const int low = i + 2 < text.size() ? hex_digit(text[i + 2]) : -1;
+            if (high < 0 || low < 0) return std::nullopt;
+            c = static_cast<char>(high * 16 + low);
+            i += 2;
+        } else if (c == '+' && plus_is_space) {
+            c = ' ';
+        }
+        if (c == '\0') return std::nullopt;
+        out += c;
+    }
+    if (!is_utf8(out)) return std::nullopt;
+    return out;
+}
+
+std::string percent_encode(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '.' || c == '_' || c == '~';
+        if (plain) {
+            out += c;
+        } else {
+            out += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+        }
+    }
+    return out;
+}
+
+std::optional<std::string_view> Query::get(std::string_view name) const noexcept {
+    for (const auto& [k, v] : pairs) {
+        if (k == name) return v;
+    }
+    return std::nullopt;
+}
+
+std::optional<Target> parse_target(std::string_view target) {
+    bool bare_query = false;
+    for (const std::string_view scheme : {"http://", "https://"}) {
+        if (target.size() > scheme.size() && same_word(target.substr(0, scheme.size()), scheme)) {
+            target.remove_prefix(scheme.size());
+            const auto end = target.find_first_of("/?");
+            target = end == std::string_view::npos ? std::string_view("/") : target.substr(end);
+            bare_query = target.front() == '?';  // "http://host?a=b": the path is "/"
+        }
+    }
+    if (!bare_query && (target.empty() || target.front() != '/')) return std::nullopt;
+    if (!std::ranges::all_of(target, [](char c) { return static_cast<unsigned char>(c) > 0x20 && c != 0x7F && c != '#'; })) return std::nullopt;
+    Target t;
+    const auto mark = target.find('?');
+    std::string_view path = bare_query ? std::string_view() : target.substr(1, mark == std::string_view::npos ? mark : mark - 1);
+    bool slashes = false;
+    for (;;) {
+        const auto slash = path.find('/');
+        auto segment = percent_decode(path.substr(0, slash));
+        if (!segment) return std::nullopt;
+        slashes = slashes || segment->find('/') != std::string::npos;
+        t.segments.push_back(std::move(*segment));
+        if (slash == std::string_view::npos) break;
+        path.remove_prefix(slash + 1);
+    }
+    if (!slashes) {
+        for (const auto& s : t.segments) t.path += "/" + s;
+    }
+    std::string_view query = mark == std::string_view::npos ? std::string_view() : target.substr(mark + 1);
+    while (!query.empty()) {
+        const auto end = query.find('&');
+        const auto item = query.substr(0, end);
+        query.remove_prefix(end == std::string_view::npos ? query.size() : end + 1);
+        if (item.empty()) continue;
+        const auto equals = item.find('=');
+        auto key = percent_decode(item.substr(0, equals), true);
+        auto value = percent_decode(equals == std::string_view::npos ? std::string_view() : item.substr(equals + 1), true);
+        if (!key || !value) return std::nullopt;
+        t.query.pairs.emplace_back(std::move(*key), std::move(*value));
+    }
+    return t;
+}
+
+std::optional<bool> parse_flag(std::string_view text) noexcept {
+    if (text.empty() || text == "1" || text == "true") return true;
+    if (text == "0" || text == "false") return false;
+    return std::nullopt;
+}
+
+std::optional<std::int64_t> parse_whole(std::string_view text, std::int64_t low, std::int64_t high) noexcept {
+    std::int64_t n = 0;
+    const auto [end, ec] = std::from_chars(text.data(), text.data() + text.size(), n);
+    if (ec != std::errc{} || text.empty() || end != text.data() + text.size() || n < low || n > high) return std::nullopt;
+    return n;
+}
+
+std::optional<double> parse_number(std::string_view text) noexcept {
+    double d = 0;
+    const auto [end, ec] = std::from_chars(text.data(), text.data() + text.size(), d);
+    if (ec != std::errc{} || text.empty() || end != text.data() + text.size() || !std::isfinite(d)) return std::nullopt;
+    return d;
+}
+
+std::string format_time(std::int64_t unix_ns) {
+    using namespace std::chrono;
+    const sys_time<nanoseconds> t{nanoseconds{unix_ns}};
+    const auto day = floor<days>(t);
+    const year_month_day date{day};
+    const hh_mm_ss time{floor<microseconds>(t - day)};
+    return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:06}Z", static_cast<int>(date.year()), static_cast<unsigned>(date.month()),
+                       static_cast<unsigned>(date.day()), time.hours().count(), time.minutes().count(), time.seconds().count(), time.subseconds().count());
+}
+
+std::optional<std::int64_t> parse_time(std::string_view s) noexcept {
+    using namespace std::chrono;
+    const auto digits = [&s](std::size_t n, std::int64_t low, std::int64_t high) -> std::optional<std::int64_t> {
+        if (s.size() < n || !std::ranges::all_of(s.substr(0, n), [](char c) { return c >= '0' && c <= '9'; })) return std::nullopt;
+        const auto v = parse_whole(s.substr(0, n), low, high);
+        if (v) s.remove_prefix(n);
+        return v;
+    };
+    const auto skip = [&s](std::string_view any) {
+        if (s.empty() || any.find(s.front()) == std::string_view::npos) return false;
+        s.remove_prefix(1);
+        return true;
+    };
+    const auto y = digits(4, 1970, 2261);
+    if (!y || !skip("-")) return std::nullopt;
+    const auto mo = digits(2, 1, 12);
+    if (!mo || !skip("-")) return std::nullopt;
+    const auto d = digits(2, 1, 31);
+    if (!d || !skip("Tt ")) return std::nullopt;
+    const auto h = digits(2, 0, 23);
+    if (!h || !skip(":")) return std::nullopt;
+    const auto mi = digits(2, 0, 59);
+    if (!mi || !skip(":")) return std::nullopt;
+    const auto sec = digits(2, 0, 60);
+    if (!sec) return std::nullopt;
+    std::int64_t fraction_ns = 0;
+    if (skip(".")) {
+        std::int64_t weight = 100'000'000;
+        std::size_t n = 0;
+        while (!s.empty() && s.front() >= '0' && s.front() <= '9') {
+            fraction_ns += weight * (s.front() - '0');
+            weight /= 10;
+            ++n;
+            s.remove_prefix(1);
+        }
+        if (n == 0) return std::nullopt;
+    }
+    std::int64_t offset_min = 0;
+    if (!s.empty() && (s.front() == 'Z' || s.front() == 'z')) {
+        s.remove_prefix(1);
+    } else {
+        // A plus that a query string turned into a blank is still a plus.
+        const bool minus = !s.empty() && s.front() == '-';
+        if (!skip("+- ")) return std::nullopt;
+        const auto oh = digits(2, 0, 23);
+        if (!oh || !skip(":")) return std::nullopt;
+        const auto om = digits(2, 0, 59);
+        if (!om) return std::nullopt;
+        offset_min = (*oh * 60 + *om) * (minus ? -1 : 1);
+    }
+    const year_month_day date{year{static_cast<int>(*y)}, month{static_cast<unsigned>(*mo)}, day{static_cast<unsigned>(*d)}};
+    if (!s.empty() || !date.ok()) return std::nullopt;
+    const std::int64_t total_s = sys_days{date}.time_since_epoch().count() * 86'400LL + *h * 3600 + *mi * 60 + *sec - offset_min * 60;
+    return total_s * 1'000'000'000LL + fraction_ns;
+}
+
+bool accepts(std::string_view accept, std::string_view media) noexcept { return liking(accept, media) >= 0; }
+
+std::optional<std::size_t> best_accepted(std::string_view accept, std::span<const std::string_view> media) noexcept {
+    std::optional<std::size_t> best;
+    int best_liking = -1;
+    for (std::size_t i = 0; i < media.size(); ++i) {
+        if (const int l = liking(accept, media[i]); l > best_liking) {
+            best_liking = l;
+            best = i;
+        }
+    }
+    return best;
+}
+
+std::string media_of(std::string_view content_type) {
+    const auto end = content_type.find(';');
+    std::string_view rest = end == std::string_view::npos ? std::string_view() : content_type.substr(end + 1);
+    while (!rest.empty()) {
+        const auto stop = rest.find(';');
+        const std::string parameter = lower(trimmed(rest.substr(0, stop)));
+        rest.remove_prefix(stop == std::string_view::npos ? rest.size() : stop + 1);
+        if (parameter.starts_with("charset=") && parameter != "charset=utf-8" && parameter != "charset=\"utf-8\"") return {};
+    }
+    return lower(trimmed(content_type.substr(0, end)));
+}
+
+bool tag_listed(std::string_view header, std::string_view tag, bool weak) noexcept {
+    while (!header.empty()) {
+        auto item = next_item(header);
+        if (item == "*") return true;
+        if (weak && item.starts_with("W/")) item.remove_prefix(2);
+        if (item == tag) return true;
+    }
+    return false;
+}
+
+std::string to_hex(std::span<const std::uint8_t> bytes) {
+    static constexpr char digits[] = "0123456789ABCDEF";
+    std::string out;
+    out.reserve(bytes.size() * 2);
+    for (const auto b : bytes) {
+        out += digits[b >> 4];
+        out += digits[b & 15];
+    }
+    return out;
+}
+
+std::optional<std::vector<std::uint8_t>> from_hex(std::string_view text) {
+    std::vector<std::uint8_t> out;
+    for (std::size_t i = 0; i < text.size();) {
+        if (text[i] == ' ' || text[i] == '\t') {
+            ++i;
+            continue;
+        }
+        const int high = hex_digit(text[i]);
+        const int low = i + 1 < text.size() ? hex_digit(text[i + 1]) : -1;
+        if (high < 0 || low < 0) return std::nullopt;
+        out.push_back(static_cast<std::uint8_t>(high * 16 + low));
+        i += 2;
+    }
+    return out;
+}
+
+bool is_utf8(std::string_view text) noexcept {
+    while (!text.empty()) {
+        const auto n = sequence_length(text);
+        if (n == 0) return false;
+        text.remove_prefix(n);
+    }
+    return true;
+}
+
+std::string lower(std::string_view text) {
+    std::string out(text);
+    std::ranges::transform(out, out.begin(), lower_char);
+    return out;
+}
+
+std::string_view trimmed(std::string_view text) noexcept {
+    while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
+    while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
+    return text;
+}
+
+void json_text(const json::value& value, std::string& out) {
+    switch (value.kind()) {
+        case json::kind::null: out += "null"; break;
+        case json::kind::bool_: out += value.get_bool() ? "true" : "false"; break;
+        case json::kind::int64: fmt::format_to(std::back_inserter(out), "{}", value.get_int64()); break;
+        case json::kind::uint64: fmt::format_to(std::back_inserter(out), "{}", value.get_uint64()); break;
+        case json::kind::double_: put_double(value.get_double(), out); break;
+        case json::kind::string: put_string(std::string_view(value.get_string()), out); break;
+        case json::kind::array: {
+            out += '[';
+            bool first = true;
+            for (const auto& item : value.get_array()) {
+                if (!first) out += ',';
+                first = false;
+                json_text(item, out);
+            }
+            out += ']';
+            break;
+        }
+        case json::kind::object: {
+            out += '{';
+            bool first = true;
+            for (const auto& [k, v] : value.get_object()) {
+                if (!first) out += ',';
+                first = false;
+                put_string(std::string_view(k), out);
+                out += ':';
+                json_text(v, out);
+            }
+            out += '}';
+            break;
+        }
+    }
+}
+
+std::string json_text(const json::value& value) {
+    std::string out;
+    json_text(value, out);
+    return out;
+}
+
+json::value number(double value) {
+    if (!std::isfinite(value)) return nullptr;
+    if (std::nearbyint(value) == value && std::fabs(value) < 9007199254740992.0) return static_cast<std::int64_t>(value);
+    return value;
+}
+
+json::value text_or_null(std::string_view text) {
+    if (text.empty()) return nullptr;
+    return json::value(json::string_view(text.data(), text.size()));
+}
+
+}  // namespace axisgate::http

@@ -1,0 +1,57 @@
+// WebSocket session: one live-feed client: moves bytes between its socket, the codec and its queue in the hub.
+// In: bytes. Out: bytes. One write at a time, of many frames together.
+// Bounds: message size, time for a write, silence, time for the closing handshake (see Settings); the queue's own.
+#pragma once
+
+#include <boost/asio/steady_timer.hpp>
+#include <array>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gateway/doors/http/session.hpp"
+#include "gateway/doors/http/websocket_codec.hpp"
+
+namespace axisgate::http {
+
+class WebSocketSession final : public Session, public std::enable_shared_from_this<WebSocketSession> {
+public:
+    WebSocketSession(Transport socket, std::shared_ptr<SessionHost> host);
+    ~WebSocketSession() override;
+
+    /// `early`: bytes that came with the handshake.
+    void start(std::span<const std::uint8_t> early);
+    [[nodiscard]] std::optional<SteadyTime> idle_since() const override { return std::nullopt; }
+    void stop() override;
+    void abort() override;
+
+private:
+    using ErrorCode = boost::system::error_code;
+
+    void read();
+    void take(std::span<const std::uint8_t> bytes);
+    void begin_close(std::uint16_t code, std::string_view reason);
+    void pump();
+    void on_written(ErrorCode ec, std::size_t bytes);
+    void arm();
+    void on_timer();
+    void finish();
+    void close();
+
+    Transport socket_;
+    std::shared_ptr<SessionHost> host_;
+    boost::asio::steady_timer timer_;
+    std::shared_ptr<StreamClient> client_;
+    WebSocketParser parser_;
+    std::array<std::uint8_t, 8192> buffer_{};
+    std::vector<SharedFrame> batch_;       ///< being written
+    SteadyTime heard_{}, pinged_{}, write_began_{}, close_began_{};
+    bool writing_ = false;
+    bool closing_ = false;        ///< a close frame is in the queue or was sent
+    bool close_heard_ = false;
+    bool finished_ = false;       ///< our side of the stream is shut
+    bool closed_ = false;
+};
+
+}  // namespace axisgate::http

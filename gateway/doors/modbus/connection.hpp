@@ -1,0 +1,85 @@
+// Connection: one TCP client of the Modbus door: a non-blocking socket around a Session.
+// In: readiness of the socket, results of the client's writes. Out: all answers of one wake-up in one send.
+// Never reads ahead of what it may begin, and never keeps more unsent than one AnswerBuffer (64 KiB): a client that does not take its
+// answers is not read from, and is closed by the server's sweep.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gateway/doors/modbus/poller.hpp"
+#include "gateway/doors/modbus/session.hpp"
+
+namespace axisgate::modbus {
+
+/// When something is to be done about a connection that does nothing itself. Kept apart from it, so that a sweep over a thousand
+/// connections reads two instants each and nothing else.
+struct ConnectionTimes {
+    Instant last_request = time_zero;  ///< or when it was accepted
+    Instant deadline = never;          ///< of half a request, or of answers that the client does not take
+};
+
+/// Names a connection for as long as the server lives: its place in the lower 32 bits, a count of the place's users in the upper.
+using ConnectionToken = std::uint64_t;
+
+/// The server, as a connection sees it.
+struct ConnectionHost {
+    [[nodiscard]] virtual Instant now() const = 0;
+    [[nodiscard]] virtual ConnectionTimes& times(ConnectionToken token) = 0;
+    /// The connection can go on; the server calls resume() soon, but not from inside this call.
+    virtual void ready(ConnectionToken token) = 0;
+    /// The connection is closed. It is destroyed later, not from inside this call.
+    virtual void closed(ConnectionToken token) = 0;
+    virtual ~ConnectionHost() = default;
+
+    Duration partial_timeout{};
+    Duration stall_timeout{};
+    AnswerBuffer scratch;
+};
+
+class Connection final : private SessionWaker {
+public:
+    /// Owns `fd`, a connected non-blocking socket that `poller` watches for EPOLLIN under `token`.
+    Connection(int fd, Poller& poller, ConnectionHost& host, Responder& responder, ConnectionToken token, std::string who);
+    ~Connection() override;
+    Connection(const Connection&) = delete;
+    Connection& operator=(const Connection&) = delete;
+
+    void on_ready(std::uint32_t events);
+    void resume();
+    /// Closes now. Writes on their way go on. `why` is counted if it is not nullptr.
+    void close(Counter* why = nullptr);
+
+    [[nodiscard]] ConnectionToken token() const noexcept { return token_; }
+    [[nodiscard]] bool commands_now(const Image& image) const { return session_.commands_now(image); }
+    /// It has sent at least one whole request.
+    [[nodiscard]] bool has_asked() const noexcept { return session_.requests() > 0; }
+    /// Why it stands still, for whoever closes it at its deadline.
+    [[nodiscard]] bool has_unsent() const noexcept { return !backlog_.empty(); }
+
+private:
+    void wake(Session& session) override;
+    void read();
+    void write();
+    void pump();
+    [[nodiscard]] bool send();
+    void watch(std::uint64_t requests_before, Session::Work work, Instant now);
+    void choose_events();
+
+    int fd_;
+    Poller& poller_;
+    ConnectionHost& host_;
+    Counters& counters_;
+    ConnectionToken token_;
+    std::uint32_t events_;
+    bool ended_ = false;     // the client will send nothing more
+    bool resuming_ = false;  // ready() was called and resume() was not
+    bool had_partial_ = false;
+    std::vector<std::uint8_t> backlog_;  // what the socket did not take
+    std::size_t sent_ = 0;               // of it
+    Session session_;
+};
+
+}  // namespace axisgate::modbus

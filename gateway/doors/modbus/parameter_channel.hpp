@@ -1,0 +1,62 @@
+// Parameter channel: registers 48..54 of an axis, through which a client reads and writes any parameter of its drive.
+// In: writes to selector, request and value; the result of the exchange. Out: a ReadParameter or WriteParameter command; the registers.
+// Never waits: a client starts an exchange with one write and watches the state register. One exchange at a time per axis, whoever asks.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "gateway/core/catalogue.hpp"
+#include "gateway/core/command.hpp"
+#include "gateway/doors/modbus/wire.hpp"
+
+namespace axisgate::modbus {
+
+/// State of one axis' channel.
+///
+///   selector  parameter: position in the family's catalogue (0-based) + element << 16 (0 if it is not an array)
+///   request   1: read the parameter into `value`; 2: write `value` to it; 0: back to idle. Other numbers are illegal values.
+///   state     0 idle, 1 busy, 2 done, 3 refused
+///   value     i32. u32 parameters: the same 32 bits unsigned. f32 and f64: only whole numbers, other values are refused (out_of_range),
+///             never rounded. Texts and bytes are refused (not_supported). After a write it shows what the drive took.
+///   error     0, or after a refusal the drive's own code if it gave one, else the number of the Reason
+///
+/// While it is busy nobody writes to it (busy, exception 6): a value that was put there would be overwritten by the answer.
+class ParameterChannel {
+public:
+    enum class State : std::uint16_t { idle = 0, busy = 1, done = 2, refused = 3 };
+
+    /// Writes to offsets 48..50 and 52..53 in one request; absent: not touched.
+    struct Write {
+        std::optional<std::uint32_t> selector;
+        std::optional<std::uint16_t> request;
+        std::optional<std::uint32_t> value;
+    };
+    /// What became of a write.
+    struct Outcome {
+        Exception exception = Exception::none;  ///< then nothing has changed
+        std::optional<CommandBody> command;     ///< to be given to the engine; the channel is busy until finish()
+    };
+    /// `catalogue`: of the axis' family, nullptr if it is not known (then exchanges are refused with line_down).
+    [[nodiscard]] Outcome write(const Write& write, const Catalogue* catalogue);
+
+    /// The result of the command that write() gave. Ignored unless busy.
+    void finish(const Result& result, const Catalogue* catalogue);
+
+    /// Registers 48..54 into a block of block_size bytes; 51 is `state`.
+    void render(WordOrder order, std::uint8_t* block) const noexcept;
+
+    [[nodiscard]] State state() const noexcept { return state_; }
+
+private:
+    void refuse(Reason reason, std::int32_t code = 0) noexcept;
+    [[nodiscard]] bool take(const Value& value, ValueType type) noexcept;
+
+    std::uint32_t selector_ = 0;
+    std::uint16_t request_ = 0;
+    State state_ = State::idle;
+    std::uint32_t value_ = 0;
+    std::uint16_t error_ = 0;
+};
+
+}  // namespace axisgate::modbus

@@ -1,0 +1,294 @@
+// PDU: see the header.
+#include "gateway/doors/modbus/pdu.hpp"
+
+#include <cstring>
+#include <utility>
+
+namespace axisgate::modbus {
+namespace {
+constexpr bool overflows(std::uint16_t address, std::uint16_t count) noexcept { return std::uint32_t{address} + count > 0x1'0000u; }
+constexpr bool outside(std::uint16_t count, std::uint16_t most) noexcept { return count == 0 || count > most; }
+constexpr std::uint16_t coil_on = 0xFF00, coil_off = 0x0000;
+}  // namespace
+
+struct Responder::Request {
+    const Client& client;
+    std::uint8_t slot;
+    UnitMap& map;
+    std::span<const std::uint8_t> pdu;
+    Instant now;
+    std::uint8_t* out;
+    LateAnswer& late;
+
+    [[nodiscard]] std::uint16_t word(std::size_t at) const noexcept { return get16(pdu.data() + at); }
+};
+
+Responder::Responder(DoorPort& port, Settings settings)
+    : port_(port),
+      settings_(std::move(settings)),
+      standard_(port, settings_.word_order),
+      identity_(Identity::gateway(settings_.version, settings_.word_order)),
+      tickets_(settings_.max_commands) {
+    maps_[0] = maps_[1] = maps_[255] = &standard_;
+    plan_.commands.reserve(WritePlan::max_commands);
+    port_.attach(Door::modbus, this);
+}
+
+Responder::~Responder() { port_.attach(Door::modbus, nullptr); }
+
+void Responder::set_map(std::uint8_t unit, UnitMap* map) {
+    if (unit <= 1 || unit == 255) return;
+    UnitMap* const before = std::exchange(maps_[unit], map);
+    if (!before) return;
+    for (const UnitMap* other : maps_) {
+        if (other == before) return;
+    }
+    tickets_.forget(before);
+}
+
+bool Responder::may_overtake_waiting(std::span<const std::uint8_t> pdu) noexcept {
+    switch (pdu[0]) {
+        case function::write_single_coil:
+        case function::write_single_register:
+        case function::write_multiple_coils:
+        case function::write_multiple_registers:
+            return true;
+        default:
+            return false;
+    }
+}
+
+std::size_t Responder::exception_answer(std::uint8_t fn, Exception e, std::uint8_t* out) noexcept {
+    counters_.count(e);
+    out[0] = static_cast<std::uint8_t>(fn | function::exception_bit);
+    out[1] = static_cast<std::uint8_t>(e);
+    return 2;
+}
+
+std::size_t Responder::answer(const Client& client, std::uint8_t slot, std::uint8_t unit, std::span<const std::uint8_t> pdu, Instant now,
+                              std::uint8_t* out, LateAnswer& late) {
+    counters_.requests.add();
+    UnitMap* const map = maps_[unit];
+    if (!map) return exception_answer(pdu[0], Exception::no_path, out);
+    late.unit = unit;
+    late.function = pdu[0];
+    Request r{client, slot, *map, pdu, now, out, late};
+    const Answer a = dispatch(r);
+    return a.exception == Exception::none ? a.size : exception_answer(pdu[0], a.exception, out);
+}
+
+std::size_t Responder::finish(const LateAnswer& late, Instant now, std::uint8_t* out) {
+    if (late.exception != Exception::none) return exception_answer(late.function, late.exception, out);
+    if (!late.reads) {
+        std::memcpy(out, late.echo.data(), late.echo_size);
+        return late.echo_size;
+    }
+    UnitMap* const map = maps_[late.unit];
+    const Exception e =
+        map ? map->read_registers(Table::holding_registers, late.read_address, late.read_count, now, out + 2) : Exception::no_path;
+    if (e != Exception::none) return exception_answer(late.function, e, out);
+    out[0] = late.function;
+    out[1] = static_cast<std::uint8_t>(2 * late.read_count);
+    return 2 + 2 * std::size_t{late.read_count};
+}
+
+Responder::Answer Responder::dispatch(Request& r) {
+    switch (r.pdu[0]) {
+        case function::read_holding_registers:
+        case function::read_input_registers:
+            return read_registers(r);
+        case function::read_coils:
+        case function::read_discrete_inputs:
+            return read_bits(r);
+        case function::write_single_coil:
+        case function::write_single_register:
+            return write_single(r);
+        case function::write_multiple_coils:
+        case function::write_multiple_registers:
+            return write_multiple(r);
+        case function::mask_write_register:
+            return mask_write(r);
+        case function::read_write_multiple_registers:
+            return read_write(r);
+        case function::diagnostics:
+            return diagnostics(r);
+        case function::report_server_id:
+            if (r.pdu.size() != 1) return {Exception::illegal_value, 0};
+            return {Exception::none, report_server_id(identity_, r.out)};
+        case function::encapsulated_interface:
+            return encapsulated(r);
+        default:
+            return {Exception::illegal_function, 0};
+    }
+}
+
+Responder::Answer Responder::read_registers(Request& r) {
+    if (r.pdu.size() != 5) return {Exception::illegal_value, 0};
+    const std::uint16_t address = r.word(1);
+    const std::uint16_t count = r.word(3);
+    if (outside(count, limit::read_registers)) return {Exception::illegal_value, 0};
+    if (overflows(address, count)) return {Exception::illegal_address, 0};
+    const Table table = r.pdu[0] == function::read_holding_registers ? Table::holding_registers : Table::input_registers;
+    if (const auto e = r.map.read_registers(table, address, count, r.now, r.out + 2); e != Exception::none) return {e, 0};
+    r.out[0] = r.pdu[0];
+    r.out[1] = static_cast<std::uint8_t>(2 * count);
+    return {Exception::none, 2 + 2 * std::size_t{count}};
+}
+
+Responder::Answer Responder::read_bits(Request& r) {
+    if (r.pdu.size() != 5) return {Exception::illegal_value, 0};
+    const std::uint16_t address = r.word(1);
+    const std::uint16_t count = r.word(3);
+    if (outside(count, limit::read_bits)) return {Exception::illegal_value, 0};
+    if (overflows(address, count)) return {Exception::illegal_address, 0};
+    const Table table = r.pdu[0] == function::read_coils ? Table::coils : Table::discrete_inputs;
+    if (const auto e = r.map.read_bits(table, address, count, r.out + 2); e != Exception::none) return {e, 0};
+    const std::size_t bytes = (count + 7u) / 8u;
+    r.out[0] = r.pdu[0];
+    r.out[1] = static_cast<std::uint8_t>(bytes);
+    return {Exception::none, 2 + bytes};
+}
+
+Responder::Answer Responder::write_single(Request& r) {
+    if (r.pdu.size() != 5) return {Exception::illegal_value, 0};
+    if (r.pdu[0] == function::write_single_register) {
+        return carry_out(r, Table::holding_registers, r.word(1), 1, r.pdu.data() + 3, 5);
+    }
+    const std::uint16_t value = r.word(3);
+    if (value != coil_on && value != coil_off) return {Exception::illegal_value, 0};
+    const std::uint8_t bit = value == coil_on ? 1 : 0;
+    return carry_out(r, Table::coils, r.word(1), 1, &bit, 5);
+}
+
+Responder::Answer Responder::write_multiple(Request& r) {
+    if (r.pdu.size() < 6) return {Exception::illegal_value, 0};
+    const bool coils = r.pdu[0] == function::write_multiple_coils;
+    const std::uint16_t address = r.word(1);
+    const std::uint16_t count = r.word(3);
+    const std::size_t bytes = coils ? (count + 7u) / 8u : 2u * count;
+    if (outside(count, coils ? limit::write_bits : limit::write_registers)) return {Exception::illegal_value, 0};
+    if (r.pdu[5] != bytes || r.pdu.size() != 6 + bytes) return {Exception::illegal_value, 0};
+    if (overflows(address, count)) return {Exception::illegal_address, 0};
+    return carry_out(r, coils ? Table::coils : Table::holding_registers, address, count, r.pdu.data() + 6, 5);
+}
+
+Responder::Answer Responder::mask_write(Request& r) {
+    if (r.pdu.size() != 7) return {Exception::illegal_value, 0};
+    const std::uint16_t address = r.word(1);
+    const std::uint16_t and_mask = r.word(3);
+    const std::uint16_t or_mask = r.word(5);
+    if (const auto e = r.map.check_write(Table::holding_registers, address, 1); e != Exception::none) return {e, 0};
+    std::uint8_t value[2];
+    if (const auto e = r.map.read_registers(Table::holding_registers, address, 1, r.now, value); e != Exception::none) return {e, 0};
+    put16(value, static_cast<std::uint16_t>((get16(value) & and_mask) | (or_mask & ~std::uint32_t{and_mask})));
+    return carry_out(r, Table::holding_registers, address, 1, value, 7);
+}
+
+Responder::Answer Responder::read_write(Request& r) {
+    if (r.pdu.size() < 10) return {Exception::illegal_value, 0};
+    const std::uint16_t read_address = r.word(1);
+    const std::uint16_t read_count = r.word(3);
+    const std::uint16_t write_address = r.word(5);
+    const std::uint16_t write_count = r.word(7);
+    const std::size_t bytes = 2u * write_count;
+    if (outside(read_count, limit::read_write_read) || outside(write_count, limit::read_write_write)) return {Exception::illegal_value, 0};
+    if (r.pdu[9] != bytes || r.pdu.size() != 10 + bytes) return {Exception::illegal_value, 0};
+    if (overflows(read_address, read_count) || overflows(write_address, write_count)) return {Exception::illegal_address, 0};
+    // Both halves are checked before anything is written: a request that cannot be answered shall not have moved something.
+    if (const auto e = r.map.check_write(Table::holding_registers, write_address, write_count); e != Exception::none) return {e, 0};
+    if (const auto e = r.map.check_read(Table::holding_registers, read_address, read_count); e != Exception::none) return {e, 0};
+    r.late.reads = true;
+    r.late.read_address = read_address;
+    r.late.read_count = read_count;
+    return carry_out(r, Table::holding_registers, write_address, write_count, r.pdu.data() + 10, 0);
+}
+
+Responder::Answer Responder::diagnostics(Request& r) {
+    if (r.pdu.size() < 3 || r.pdu.size() % 2 == 0) return {Exception::illegal_value, 0};
+    if (r.word(1) != 0) return {Exception::illegal_function, 0};  // only "return query data"
+    std::memcpy(r.out, r.pdu.data(), r.pdu.size());
+    return {Exception::none, r.pdu.size()};
+}
+
+Responder::Answer Responder::encapsulated(Request& r) {
+    if (r.pdu.size() < 2) return {Exception::illegal_value, 0};
+    if (r.pdu[1] != function::device_identification) return {Exception::illegal_function, 0};
+    if (r.pdu.size() != 4) return {Exception::illegal_value, 0};
+    identity_.set_mapping_revision(port_.image().mapping_revision);
+    const auto a = read_device_identification(identity_, r.pdu[2], r.pdu[3], r.out);
+    return {a.exception, a.size};
+}
+
+Responder::Answer Responder::carry_out(Request& r, Table table, std::uint16_t address, std::uint16_t count, const std::uint8_t* data,
+                                       std::size_t echo_size) {
+    // Address and state faults of the map come before "busy", so that a fault is always told the same way.
+    if (const auto e = r.map.check_write(table, address, count); e != Exception::none) return {e, 0};
+    if (tickets_.free() == 0) return {Exception::busy, 0};
+    plan_.commands.clear();
+    if (const auto e = r.map.write(table, address, count, data, plan_); e != Exception::none) return {e, 0};
+    if (plan_.commands.size() > tickets_.free()) {
+        Result refused;
+        refused.outcome = Outcome::refused;
+        refused.reason = Reason::busy;
+        for (const auto& c : plan_.commands) {
+            if (c.own) r.map.on_own_result(c.note, refused);
+        }
+        return {Exception::busy, 0};
+    }
+
+    LateAnswer& late = r.late;
+    late.echo_size = static_cast<std::uint8_t>(echo_size);
+    if (echo_size > 0) std::memcpy(late.echo.data(), r.pdu.data(), echo_size);
+    const Instant deadline = r.now + settings_.result_timeout;
+    for (auto& c : plan_.commands) {
+        TicketTable::Waiting waiting;
+        waiting.axis = c.axis;
+        if (c.own) {
+            waiting.map = &r.map;
+            waiting.note = c.note;
+        } else {
+            waiting.owner = r.client.owner;
+            waiting.slot = r.slot;
+            ++late.outstanding;
+        }
+        Command command;
+        command.ticket = tickets_.open(waiting, deadline);
+        command.axis = c.axis;
+        command.body = std::move(c.body);
+        command.origin = {Door::modbus, r.client.who};
+        counters_.commands.add();
+        port_.submit(std::move(command));
+    }
+    if (late.outstanding > 0) return {Exception::none, 0};
+    return {Exception::none, finish(late, r.now, r.out)};
+}
+
+void Responder::on_result(const Result& result) {
+    const auto waiting = tickets_.close(result.ticket);
+    if (!waiting || (!waiting->owner && !waiting->map)) {
+        counters_.results_unclaimed.add();
+        return;
+    }
+    if (waiting->owner) {
+        waiting->owner->on_written(waiting->slot, waiting->axis, exception_of(result));
+    } else {
+        waiting->map->on_own_result(waiting->note, result);
+    }
+}
+
+void Responder::expire(Instant now) {
+    while (const auto waiting = tickets_.expired(now)) {
+        counters_.results_timed_out.add();
+        Result result;
+        result.axis = waiting->axis;
+        result.outcome = Outcome::failed;
+        result.reason = Reason::no_answer;
+        if (waiting->owner) {
+            waiting->owner->on_written(waiting->slot, waiting->axis, Exception::no_answer);
+        } else if (waiting->map) {
+            waiting->map->on_own_result(waiting->note, result);
+        }
+    }
+}
+
+}  // namespace axisgate::modbus

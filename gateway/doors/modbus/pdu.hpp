@@ -1,0 +1,116 @@
+// PDU: function codes to answers. The Responder is the one place where requests of all connections become reads, Commands and exceptions.
+// In: one request PDU with its unit id and the moment. Out: the answer PDU, or a LateAnswer that is finished when the drives have answered.
+// Never knows a socket: the RTU line and the TCP server ask the same Responder. Checks go function, count, address, then state.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "gateway/core/door.hpp"
+#include "gateway/doors/modbus/counters.hpp"
+#include "gateway/doors/modbus/identification.hpp"
+#include "gateway/doors/modbus/standard_map.hpp"
+#include "gateway/doors/modbus/ticket_table.hpp"
+#include "gateway/doors/modbus/unit_map.hpp"
+#include "gateway/doors/modbus/wire.hpp"
+
+namespace axisgate::modbus {
+
+/// The answer to a write whose commands are on their way.
+struct LateAnswer {
+    std::uint8_t unit = 0;
+    std::uint8_t function = 0;
+    Exception exception = Exception::none;  ///< the first failure decides
+    bool reads = false;                     ///< function 23: the registers are read when the write has succeeded
+    std::uint16_t read_address = 0;
+    std::uint16_t read_count = 0;
+    std::uint16_t outstanding = 0;  ///< results that have not come
+    std::uint8_t echo_size = 0;
+    std::array<std::uint8_t, 8> echo{};  ///< the good answer of every other function
+
+    void on_written(Exception e) noexcept {
+        if (outstanding > 0) --outstanding;
+        if (exception == Exception::none) exception = e;
+    }
+};
+
+class Responder final : public ResultSink {
+public:
+    struct Settings {
+        WordOrder word_order = WordOrder::high_first;
+        std::string version = "0";
+        Duration result_timeout = std::chrono::seconds(30);  ///< a result that has not come by then is taken for "no answer"
+        std::size_t max_commands = 4096;                     ///< on their way at once, of all clients; a write beyond is answered busy (6)
+    };
+    Responder(DoorPort& port, Settings settings);
+    ~Responder() override;
+    Responder(const Responder&) = delete;
+    Responder& operator=(const Responder&) = delete;
+
+    /// Who sends a request; lives until forget().
+    struct Client {
+        WriteOwner* owner = nullptr;
+        std::shared_ptr<const std::string> who;  ///< for the audit: "192.0.2.7:51123"
+    };
+    /// Answers a request PDU of 1..253 bytes. Returns the size of the answer in `out` (max_pdu bytes); 0: it comes later: `late` is filled
+    /// and client.owner is told with `slot` once per outstanding command, never from inside this call; then finish() makes the answer.
+    [[nodiscard]] std::size_t answer(const Client& client, std::uint8_t slot, std::uint8_t unit, std::span<const std::uint8_t> pdu,
+                                     Instant now, std::uint8_t* out, LateAnswer& late);
+    [[nodiscard]] std::size_t finish(const LateAnswer& late, Instant now, std::uint8_t* out);
+
+    /// Whether this request may be begun while earlier writes of the same client wait for their drives: plain writes only. Everything that
+    /// reads must see what was written before it.
+    [[nodiscard]] static bool may_overtake_waiting(std::span<const std::uint8_t> pdu) noexcept;
+
+    /// The client has gone: results of its commands go to nobody.
+    void forget(const WriteOwner& owner) noexcept { tickets_.forget(&owner); }
+    /// Puts a map behind a unit id (2..254), or takes it away (nullptr). The map outlives its being there.
+    void set_map(std::uint8_t unit, UnitMap* map);
+
+    /// Ends what has waited longer than the result time-out. To be called now and then.
+    void expire(Instant now);
+
+    /// Commands whose results have not come.
+    [[nodiscard]] std::size_t waiting() const noexcept { return tickets_.used(); }
+
+    void on_result(const Result& result) override;
+
+    [[nodiscard]] Counters& counters() noexcept { return counters_; }
+    [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
+    [[nodiscard]] const DoorPort& port() const noexcept { return port_; }
+    [[nodiscard]] StandardMap& standard_map() noexcept { return standard_; }
+
+private:
+    struct Request;
+    struct Answer {
+        Exception exception = Exception::none;
+        std::size_t size = 0;
+    };
+    [[nodiscard]] Answer dispatch(Request& r);
+    [[nodiscard]] Answer read_bits(Request& r);
+    [[nodiscard]] Answer read_registers(Request& r);
+    [[nodiscard]] Answer write_single(Request& r);
+    [[nodiscard]] Answer write_multiple(Request& r);
+    [[nodiscard]] Answer mask_write(Request& r);
+    [[nodiscard]] Answer read_write(Request& r);
+    [[nodiscard]] Answer diagnostics(Request& r);
+    [[nodiscard]] Answer encapsulated(Request& r);
+    /// Carries a write out. Size 0 without an exception: it waits.
+    [[nodiscard]] Answer carry_out(Request& r, Table table, std::uint16_t address, std::uint16_t count, const std::uint8_t* data,
+                                   std::size_t echo_size);
+    std::size_t exception_answer(std::uint8_t function, Exception e, std::uint8_t* out) noexcept;
+
+    DoorPort& port_;
+    Settings settings_;
+    StandardMap standard_;
+    std::array<UnitMap*, 256> maps_{};
+    Identity identity_;
+    TicketTable tickets_;
+    WritePlan plan_;
+    Counters counters_;
+};
+
+}  // namespace axisgate::modbus

@@ -1,0 +1,65 @@
+// Poller: see the header. An epoll descriptor inside the io_context's own: it is readable while one of its sockets is ready.
+#include "gateway/doors/modbus/poller.hpp"
+
+#include <unistd.h>
+
+#include <utility>
+
+namespace axisgate::modbus {
+
+struct Poller::State : std::enable_shared_from_this<State> {
+    State(boost::asio::io_context& io, std::function<void(std::span<const epoll_event>)> ready)
+        : descriptor(io.get_executor()), on_ready(std::move(ready)) {
+        fd = ::epoll_create1(EPOLL_CLOEXEC);
+        boost::system::error_code ignored;
+        if (fd >= 0) (void)descriptor.assign(fd, ignored);
+    }
+
+    struct Ready {
+        std::shared_ptr<State> self;
+        void operator()(boost::system::error_code) {
+            State& s = *self;
+            if (s.ended) return;
+            // While several sockets are ready more become so meanwhile: asking again here is cheaper than a turn of the io_context.
+            epoll_event events[events_per_turn];
+            for (int room = events_per_turn, n = 2; room > 0 && n > 1 && !s.ended; room -= n) {
+                n = ::epoll_wait(s.fd, events, room, 0);
+                if (n > 0) s.on_ready({events, static_cast<std::size_t>(n)});
+            }
+            if (!s.ended) s.arm(std::move(self));
+        }
+    };
+    void arm(std::shared_ptr<State> self) { descriptor.async_wait(boost::asio::posix::descriptor_base::wait_read, Ready{std::move(self)}); }
+
+    boost::asio::posix::basic_stream_descriptor<boost::asio::io_context::executor_type> descriptor;
+    std::function<void(std::span<const epoll_event>)> on_ready;
+    int fd = -1;
+    bool ended = false;
+};
+
+Poller::Poller(boost::asio::io_context& io, std::function<void(std::span<const epoll_event>)> on_ready)
+    : state_(std::make_shared<State>(io, std::move(on_ready))) {
+    state_->arm(state_);
+}
+
+Poller::~Poller() {
+    state_->ended = true;
+    boost::system::error_code ignored;
+    state_->descriptor.close(ignored);
+}
+
+bool Poller::add(int fd, std::uint64_t token, std::uint32_t events) noexcept {
+    epoll_event e{};
+    e.events = events;
+    e.data.u64 = token;
+    return ::epoll_ctl(state_->fd, EPOLL_CTL_ADD, fd, &e) == 0;
+}
+
+void Poller::change(int fd, std::uint64_t token, std::uint32_t events) noexcept {
+    epoll_event e{};
+    e.events = events;
+    e.data.u64 = token;
+    (void)::epoll_ctl(state_->fd, EPOLL_CTL_MOD, fd, &e);
+}
+
+}  // namespace axisgate::modbus

@@ -1,0 +1,40 @@
+// Poller: the readiness of many sockets behind one descriptor of the io_context.
+// In: descriptors with a token each. Out: one call per turn with those that are ready, at most `events_per_turn` of them.
+// Never reads or writes. Why not one asynchronous wait per socket: each of those costs an epoll_ctl and an operation object per request;
+// here both are paid once per turn, however many sockets are ready (measured at 64 connections: 0.87 of a plain epoll server's requests/s
+// before, the figures of tests/bench now).
+#pragma once
+
+#include <sys/epoll.h>
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/posix/basic_stream_descriptor.hpp>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+
+namespace axisgate::modbus {
+
+class Poller {
+public:
+    /// So many sockets are served before other work of the thread (a drive's frame, a timer) has its turn: some 100 us.
+    static constexpr int events_per_turn = 16;
+
+    /// `on_ready` is called from the io_context with tokens (epoll_event::data.u64) and events.
+    Poller(boost::asio::io_context& io, std::function<void(std::span<const epoll_event>)> on_ready);
+    ~Poller();
+    Poller(const Poller&) = delete;
+    Poller& operator=(const Poller&) = delete;
+
+    /// Level-triggered. Errors and hang-ups are always told. False: the kernel refused (out of memory, too many watches).
+    [[nodiscard]] bool add(int fd, std::uint64_t token, std::uint32_t events) noexcept;
+    void change(int fd, std::uint64_t token, std::uint32_t events) noexcept;
+    // A descriptor that is closed leaves by itself.
+
+private:
+    struct State;
+    std::shared_ptr<State> state_;
+};
+
+}  // namespace axisgate::modbus

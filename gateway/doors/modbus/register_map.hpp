@@ -1,0 +1,62 @@
+// Register map: the 64 registers that one axis has in the standard map: their names, types, and how they are made and read.
+// In: an AxisPicture; register data of a write. Out: big-endian registers in either word order; a ProcessData; verdicts on addresses.
+// Never knows which axis it serves, and never judges values: that is the engine's.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "gateway/core/command.hpp"
+#include "gateway/core/image.hpp"
+#include "gateway/core/instant.hpp"
+#include "gateway/doors/modbus/wire.hpp"
+
+namespace axisgate::modbus {
+
+inline constexpr std::uint16_t registers_per_axis = 64;
+inline constexpr std::size_t block_size = 2 * registers_per_axis;  ///< bytes
+
+/// Offsets within an axis' 64 registers.
+namespace reg {
+inline constexpr std::uint16_t statusword = 0, mode_display = 1, position = 2, velocity = 4, position_demand = 6, error_code = 8, flags = 9,
+                               native_status = 10, age = 12, heartbeat = 14, family = 15, setpoints_accepted = 16, authority = 17,
+                               mapping_revision = 18, controlword = 32, mode = 33, target_position = 34, profile_velocity = 36,
+                               profile_acceleration = 38, profile_deceleration = 40, target_velocity = 42, homing_method = 44,
+                               channel_selector = 48, channel_request = 50, channel_state = 51, channel_value = 52, channel_error = 54;
+}  // namespace reg
+
+enum class RegisterType : std::uint8_t { u16, i16, u32, i32 };
+struct RegisterRow {
+    std::uint16_t offset;
+    RegisterType type;
+    bool writable;
+    std::string_view name;
+    [[nodiscard]] constexpr std::uint16_t width() const noexcept { return type == RegisterType::u32 || type == RegisterType::i32 ? 2 : 1; }
+};
+/// Every mapped register in ascending order. Offsets that are not here read 0 and cannot be written.
+[[nodiscard]] std::span<const RegisterRow> standard_registers() noexcept;
+
+/// Makes registers 0..47 of `block` (block_size bytes) but for age and heartbeat, which depend on the moment of the request and stay 0.
+/// Position and position demand show the low 32 bits of the increments, so that differences stay right when a count passes 2^31.
+/// Velocity stops at the limits of i32. Registers 48..63 are not touched.
+void render(const AxisPicture& picture, std::uint32_t mapping_revision, WordOrder order, std::uint8_t* block) noexcept;
+
+/// Register 12: milliseconds since the drive said it; 0xFFFFFFFF if it never did, or if it was longer ago than that.
+[[nodiscard]] std::uint32_t age_ms(const AxisPicture& picture, Instant now) noexcept;
+/// Register 14: whole seconds of the gateway's time line, modulo 65536.
+[[nodiscard]] std::uint16_t heartbeat(Instant now) noexcept;
+
+/// Whether `count` registers from `offset` (both within one axis) may be written: illegal_address if one of them is not writable,
+/// illegal_value if the write begins or ends in the middle of a 32-bit value.
+[[nodiscard]] Exception check_write_offsets(std::uint16_t offset, std::uint16_t count) noexcept;
+
+/// Set-points (offsets 32..44) of a write that check_write_offsets has passed. `data`: 2 * count bytes.
+[[nodiscard]] ProcessData process_data(std::uint16_t offset, std::uint16_t count, const std::uint8_t* data, WordOrder order) noexcept;
+
+/// The 64 bits of coils and discrete inputs: flags in bits 0..15, the status word in 16..31, the rest 0.
+[[nodiscard]] std::uint64_t bits_of(const AxisPicture& picture) noexcept;
+
+}  // namespace axisgate::modbus

@@ -1,0 +1,313 @@
+// Server: see the header. Places are found by number; the instants of all places lie together, so that a sweep is a walk over one array.
+#include "gateway/doors/modbus/server.hpp"
+
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <boost/asio/basic_socket_acceptor.hpp>
+#include <boost/asio/ip/v6_only.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <utility>
+
+#include "gateway/doors/modbus/connection.hpp"
+#include "gateway/doors/modbus/endpoint.hpp"
+
+namespace axisgate::modbus {
+namespace {
+namespace asio = boost::asio;
+using tcp = asio::ip::tcp;
+
+constexpr auto sweep_period = std::chrono::milliseconds(250);
+constexpr int accepts_per_turn = 64;
+constexpr int backlog = 1024;
+
+void set_option(int fd, int level, int name, int value) { (void)::setsockopt(fd, level, name, &value, sizeof value); }
+
+bool someone_waits(int listening) {
+    pollfd p{listening, POLLIN, 0};
+    return ::poll(&p, 1, 0) > 0;
+}
+
+/// No delay: an answer is a whole segment already. Keep-alive finds a peer without power within about a minute.
+void prepare(int fd) {
+    set_option(fd, IPPROTO_TCP, TCP_NODELAY, 1);
+    set_option(fd, SOL_SOCKET, SO_KEEPALIVE, 1);
+    set_option(fd, IPPROTO_TCP, TCP_KEEPIDLE, 30);
+    set_option(fd, IPPROTO_TCP, TCP_KEEPINTVL, 10);
+    set_option(fd, IPPROTO_TCP, TCP_KEEPCNT, 3);
+}
+}  // namespace
+
+class Server::Impl final : public ConnectionHost, public std::enable_shared_from_this<Server::Impl> {
+public:
+    Impl(asio::io_context& io, DoorPort& port, ServerSettings settings)
+        : io_(io),
+          port_(port),
+          settings_(std::move(settings)),
+          responder_(port, settings_.responder),
+          poller_(io, [this](std::span<const epoll_event> events) { on_ready(events); }),
+          timer_(io) {
+        partial_timeout = settings_.partial_timeout;
+        stall_timeout = settings_.stall_timeout;
+        places_.resize(settings_.max_connections);
+        times_.resize(settings_.max_connections);
+        for (std::size_t i = settings_.max_connections; i-- > 0;)
+            free_.push_back(i);
+    }
+
+    std::string open(std::span<const std::string> binds) {
+        for (const auto& text : binds) {
+            std::string fault = listen(text);
+            if (fault.empty()) continue;
+            close();
+            return fault;
+        }
+        for (const auto& l : listeners_)
+            accept_on(l);
+        return {};
+    }
+
+    [[nodiscard]] std::vector<std::string> addresses() const {
+        std::vector<std::string> texts;
+        for (const auto& l : listeners_) {
+            boost::system::error_code ignored;
+            texts.push_back(to_text(l->acceptor.local_endpoint(ignored)));
+        }
+        return texts;
+    }
+
+    void close() {
+        boost::system::error_code ignored;
+        for (const auto& l : listeners_)
+            l->acceptor.close(ignored);
+        listeners_.clear();
+        timer_.cancel();
+        for (const auto& place : places_) {
+            if (place.connection) place.connection->close();
+        }
+        bury();
+    }
+
+    void sweep() {
+        const Instant at = port_.now();
+        responder_.expire(at);
+        for (std::size_t i = 0; i < places_.size(); ++i) {
+            Connection* const c = places_[i].connection.get();
+            if (!c) continue;
+            if (times_[i].deadline <= at) {
+                c->close(c->has_unsent() ? &counters().closed_not_reading : &counters().closed_partial);
+            } else if (at - times_[i].last_request >= settings_.idle_timeout && !c->commands_now(port_.image())) {
+                c->close(&counters().closed_idle);
+            }
+        }
+        bury();
+        for (const auto& l : listeners_) {
+            if (std::exchange(l->paused, false)) accept_on(l);
+        }
+    }
+
+    [[nodiscard]] Counters& counters() noexcept { return responder_.counters(); }
+    [[nodiscard]] Responder& responder() noexcept { return responder_; }
+
+    // --- ConnectionHost
+    Instant now() const override { return port_.now(); }
+    ConnectionTimes& times(ConnectionToken token) override { return times_[place_of(token)]; }
+    void ready(ConnectionToken token) override {
+        // All results of a turn arrive before the posted function runs: their answers leave in one send per connection.
+        if (ready_.empty()) {
+            asio::post(io_, [weak = weak_from_this()] {
+                if (const auto self = weak.lock()) self->resume_ready();
+            });
+        }
+        ready_.push_back(token);
+    }
+    void closed(ConnectionToken token) override {
+        const std::size_t i = place_of(token);
+        buried_.push_back(std::move(places_[i].connection));  // it is still at work: destroyed by bury()
+        times_[i] = {};
+        free_.push_back(i);
+        counters().connections_open.remove();
+    }
+
+private:
+    struct Listener {
+        explicit Listener(asio::io_context& io) : acceptor(io.get_executor()) {}
+        asio::basic_socket_acceptor<tcp, asio::io_context::executor_type> acceptor;
+        bool paused = false;  // out of descriptors: tried again at the next sweep
+    };
+    struct Place {
+        std::unique_ptr<Connection> connection;
+        std::uint32_t users = 0;
+    };
+    [[nodiscard]] static std::size_t place_of(ConnectionToken token) noexcept { return static_cast<std::uint32_t>(token); }
+    /// nullptr: that connection is closed, whoever has its place now.
+    [[nodiscard]] Connection* find(ConnectionToken token) const noexcept {
+        Connection* const c = places_[place_of(token)].connection.get();
+        return c && c->token() == token ? c : nullptr;
+    }
+
+    void on_ready(std::span<const epoll_event> events) {
+        for (const auto& e : events) {
+            if (Connection* const c = find(e.data.u64)) c->on_ready(e.events);
+        }
+        bury();
+    }
+
+    void resume_ready() {
+        resuming_.swap(ready_);
+        for (const ConnectionToken token : resuming_) {
+            if (Connection* const c = find(token)) c->resume();
+        }
+        resuming_.clear();
+        bury();
+    }
+
+    void bury() { buried_.clear(); }
+
+    std::string listen(const std::string& text) {
+        const auto bind = parse_endpoint(text);
+        if (!bind.fault.empty()) return "[modbus] bind " + bind.fault;
+        auto l = std::make_shared<Listener>(io_);
+        boost::system::error_code ec;
+        (void)l->acceptor.open(bind.endpoint.protocol(), ec);
+        if (!ec) (void)l->acceptor.set_option(tcp::acceptor::reuse_address(true), ec);
+        if (!ec && bind.endpoint.address().is_v6()) (void)l->acceptor.set_option(asio::ip::v6_only(true), ec);
+        if (!ec) (void)l->acceptor.bind(bind.endpoint, ec);
+        if (!ec) (void)l->acceptor.listen(backlog, ec);
+        if (!ec) (void)l->acceptor.native_non_blocking(true, ec);
+        if (ec) {
+            std::string fault = "[modbus] bind \"" + text + "\": cannot listen: " + ec.message();
+            if (ec == asio::error::access_denied) {
+                fault += "; ports below 1024 need the capability CAP_NET_BIND_SERVICE: grant it or choose a port above";
+            } else if (ec == asio::error::address_in_use) {
+                fault += "; stop the program that has this port, or choose another";
+            } else {
+                fault += "; choose an address that this host has";
+            }
+            return fault;
+        }
+        listeners_.push_back(std::move(l));
+        return {};
+    }
+
+    void accept_on(const std::shared_ptr<Listener>& l) {
+        l->acceptor.async_wait(tcp::acceptor::wait_read, [weak = weak_from_this(), l](boost::system::error_code ec) {
+            const auto self = weak.lock();
+            if (!self || ec || !l->acceptor.is_open()) return;
+            self->accept_some(*l);
+            self->bury();
+            if (!l->paused) self->accept_on(l);
+        });
+    }
+
+    void accept_some(Listener& l) {
+        for (int i = 0; i < accepts_per_turn; ++i) {
+            sockaddr_storage peer{};
+            socklen_t length = sizeof peer;
+            const int fd = ::accept4(l.acceptor.native_handle(), reinterpret_cast<sockaddr*>(&peer), &length, SOCK_NONBLOCK | SOCK_CLOEXEC);
+            if (fd >= 0) {
+                admit(fd, peer, length);
+            } else if (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM) {
+                // Told even if nobody is waiting: then nobody is closed for it. Else the waiting client stays in the listen queue; asking
+                // again at once would only burn the processor.
+                if (!someone_waits(l.acceptor.native_handle())) return;
+                if (!evict_one()) {
+                    l.paused = true;
+                    watch_time();
+                    return;
+                }
+            } else if (errno != EINTR && errno != ECONNABORTED && errno != EPROTO) {
+                return;
+            }
+        }
+    }
+
+    void admit(int fd, const sockaddr_storage& peer, socklen_t length) {
+        if (free_.empty() && !evict_one()) {
+            counters().connections_refused.add();
+            ::close(fd);
+            return;
+        }
+        const std::size_t i = free_.back();
+        const ConnectionToken token = (std::uint64_t{++places_[i].users} << 32) | i;
+        prepare(fd);
+        if (!poller_.add(fd, token, EPOLLIN)) {
+            counters().connections_refused.add();
+            ::close(fd);
+            return;
+        }
+        tcp::endpoint from;
+        from.resize(std::min<std::size_t>(length, from.capacity()));
+        std::memcpy(from.data(), &peer, from.size());
+        free_.pop_back();
+        times_[i] = {port_.now(), never};
+        places_[i].connection = std::make_unique<Connection>(fd, poller_, *this, responder_, token, to_text(from));
+        counters().connections_accepted.add();
+        counters().connections_open.add();
+        watch_time();
+    }
+
+    /// Closes the connection that has been idle for longest, if one may be closed.
+    bool evict_one() {
+        const Instant at = port_.now();
+        Connection* oldest = nullptr;
+        Instant since = never;
+        for (std::size_t i = 0; i < places_.size(); ++i) {
+            Connection* const c = places_[i].connection.get();
+            if (!c || times_[i].last_request >= since) continue;
+            if (at - times_[i].last_request < settings_.idle_before_eviction && c->has_asked()) continue;
+            if (c->commands_now(port_.image())) continue;
+            oldest = c;
+            since = times_[i].last_request;
+        }
+        if (oldest) oldest->close(&counters().connections_evicted);
+        return oldest != nullptr;
+    }
+
+    void watch_time() {
+        if (std::exchange(timing_, true)) return;
+        timer_.expires_after(sweep_period);
+        timer_.async_wait([weak = weak_from_this()](boost::system::error_code ec) {
+            const auto self = weak.lock();
+            if (!self) return;
+            self->timing_ = false;
+            if (ec) return;
+            self->sweep();
+            const bool paused = std::any_of(self->listeners_.begin(), self->listeners_.end(), [](const auto& l) { return l->paused; });
+            if (paused || self->free_.size() < self->places_.size() || self->responder_.waiting() > 0) self->watch_time();
+        });
+    }
+
+    asio::io_context& io_;
+    DoorPort& port_;
+    ServerSettings settings_;
+    Responder responder_;
+    Poller poller_;
+    asio::steady_timer timer_;
+    bool timing_ = false;
+    std::vector<std::shared_ptr<Listener>> listeners_;
+    std::vector<Place> places_;
+    std::vector<ConnectionTimes> times_;
+    std::vector<std::size_t> free_;
+    std::vector<std::unique_ptr<Connection>> buried_;
+    std::vector<ConnectionToken> ready_, resuming_;
+};
+
+Server::Server(asio::io_context& io, DoorPort& port, ServerSettings settings)
+    : impl_(std::make_shared<Impl>(io, port, std::move(settings))) {}
+Server::~Server() { impl_->close(); }
+std::string Server::open(std::span<const std::string> binds) { return impl_->open(binds); }
+std::vector<std::string> Server::addresses() const { return impl_->addresses(); }
+void Server::close() { impl_->close(); }
+void Server::set_map(std::uint8_t unit, UnitMap* map) { impl_->responder().set_map(unit, map); }
+void Server::sweep() { impl_->sweep(); }
+const Counters& Server::counters() const noexcept { return impl_->counters(); }
+
+}  // namespace axisgate::modbus

@@ -1,0 +1,64 @@
+// Server: the Modbus/TCP door: listeners, the limit on connections, and the time-outs, on the hot thread's io_context.
+// In: bind addresses, a DoorPort. Out: served clients; counters for /metrics.
+// Never blocks, never uses descriptor sets (select), and never lets one client's bytes, silence or slowness delay another's answer.
+//
+// What happens at the bounds:
+//   connections     at `max_connections` the longest idle one is closed for a new one; never one that commands (a write on its way, or an
+//                   axis moving that it set in motion under Modbus' authority), nor one whose last request is younger than
+//                   `idle_before_eviction`. If none is left to close, the new one is refused (closed at once).
+//   idle            a connection without a request for `idle_timeout` is closed, unless it commands.
+//   half a request  is closed `partial_timeout` after its first byte, however slowly further bytes drip in.
+//   not reading     a client that takes no answers is not read from while 64 KiB wait, and closed when it has taken nothing for
+//                   `stall_timeout`.
+//   in flight       32 writes per connection, 4096 in all (then exception 6); reads behind a write wait for it.
+#pragma once
+
+#include <boost/asio/io_context.hpp>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gateway/core/door.hpp"
+#include "gateway/doors/modbus/pdu.hpp"
+
+namespace axisgate::modbus {
+
+struct ServerSettings {
+    Responder::Settings responder;
+    std::size_t max_connections = 1024;
+    Duration idle_timeout = std::chrono::seconds(60);
+    Duration idle_before_eviction = std::chrono::milliseconds(100);
+    Duration partial_timeout = std::chrono::seconds(5);
+    Duration stall_timeout = std::chrono::seconds(5);
+};
+
+class Server {
+public:
+    /// Attaches itself to the port as the sink of Door::modbus. `io` and `port` outlive it. Everything on the thread that runs `io`.
+    Server(boost::asio::io_context& io, DoorPort& port, ServerSettings settings);
+    ~Server();
+    Server(const Server&) = delete;
+    Server& operator=(const Server&) = delete;
+
+    /// Listens on "ADDRESS:PORT", one or several. Empty: all are open; else none is, and this says which one failed, why, and what to do.
+    [[nodiscard]] std::string open(std::span<const std::string> binds);
+    /// What is listened on, with the ports that the system chose.
+    [[nodiscard]] std::vector<std::string> addresses() const;
+    /// Closes listeners and connections. Commands on their way go on.
+    void close();
+
+    /// Own maps of the site: see Responder::set_map.
+    void set_map(std::uint8_t unit, UnitMap* map);
+    /// Applies the time-outs as of the port's now(). The server's own timer calls it four times a second while anyone is connected.
+    void sweep();
+
+    /// May be read on any thread while the server lives.
+    [[nodiscard]] const Counters& counters() const noexcept;
+
+private:
+    class Impl;
+    std::shared_ptr<Impl> impl_;
+};
+
+}  // namespace axisgate::modbus

@@ -1,0 +1,105 @@
+// Session: see the header. Answers leave in the order of the requests; writes may be on their way together, so that a stop that follows a
+// slow write is not held up by it.
+#include "gateway/doors/modbus/session.hpp"
+
+#include <algorithm>
+
+namespace axisgate::modbus {
+
+Session::~Session() { abandon(); }
+
+void Session::abandon() noexcept {
+    if (count_ > 0) responder_.forget(*this);
+    count_ = 0;
+}
+
+void Session::put_header(std::uint8_t* adu, std::uint16_t transaction, std::uint8_t unit, std::size_t pdu_size) noexcept {
+    put16(adu, transaction);
+    put16(adu + 2, 0);
+    put16(adu + 4, static_cast<std::uint16_t>(pdu_size + 1));
+    adu[6] = unit;
+}
+
+Session::Work Session::work(Instant now, AnswerBuffer& out) {
+    partial_ = false;
+    for (;;) {
+        if (out.room() < max_adu) return Work::output_full;
+        if (count_ > 0 && slots_[head_].late.outstanding == 0) {
+            const Slot& slot = slots_[head_];
+            std::uint8_t* const adu = out.bytes.data() + out.size;
+            const std::size_t size = responder_.finish(slot.late, now, adu + mbap_size);
+            put_header(adu, slot.transaction, slot.late.unit, size);
+            out.size += mbap_size + size;
+            head_ = index(1);
+            --count_;
+            continue;
+        }
+        Adu adu;
+        switch (framer_.peek(adu)) {
+            case AduFramer::Verdict::need_more:
+                partial_ = framer_.buffered() > 0;
+                return Work::need_bytes;
+            case AduFramer::Verdict::bad_protocol:
+            case AduFramer::Verdict::bad_length:
+                // What was asked before the garbage is still answered.
+                return count_ > 0 ? Work::waits_for_results : Work::not_modbus;
+            case AduFramer::Verdict::adu:
+                break;
+        }
+        if (count_ > 0) {
+            const bool read_waits = slots_[index(count_ - 1)].late.reads;
+            if (count_ == max_in_flight || read_waits || !Responder::may_overtake_waiting(adu.pdu)) return Work::waits_for_results;
+        }
+        framer_.pop();
+        begin(adu, now, out);
+    }
+}
+
+void Session::begin(const Adu& adu, Instant now, AnswerBuffer& out) {
+    ++requests_;
+    const std::size_t at = index(count_);
+    Slot& slot = slots_[at];
+    slot.transaction = adu.transaction;
+    slot.late = {};
+    std::uint8_t* const bytes = out.bytes.data() + out.size;
+    const std::size_t size =
+        responder_.answer(client_, static_cast<std::uint8_t>(at), adu.unit, adu.pdu, now, bytes + mbap_size, slot.late);
+    if (size > 0 && count_ == 0) {
+        put_header(bytes, adu.transaction, adu.unit, size);
+        out.size += mbap_size + size;
+        return;
+    }
+    if (size > 0) {  // known already, but earlier answers are not: it queues up behind them
+        slot.late.unit = adu.unit;
+        slot.late.outstanding = 0;
+        slot.late.reads = false;
+        slot.late.exception = Exception::none;
+        slot.late.echo_size = static_cast<std::uint8_t>(size);
+        std::copy_n(bytes + mbap_size, size, slot.late.echo.begin());
+    }
+    ++count_;
+}
+
+void Session::on_written(std::uint8_t slot, AxisId axis, Exception exception) {
+    slots_[slot].late.on_written(exception);
+    if (exception == Exception::none) {
+        const std::uint16_t number = responder_.port().image().picture(axis).number;
+        if (number < commanded_.size()) commanded_.set(number);
+    }
+    if (slot == head_ && slots_[slot].late.outstanding == 0) waker_.wake(*this);
+}
+
+bool Session::commands_now(const Image& image) const {
+    if (count_ > 0) return true;
+    if (commanded_.none()) return false;
+    for (std::size_t number = 1; number < commanded_.size(); ++number) {
+        if (!commanded_[number]) continue;
+        const AxisId id = image.by_number(static_cast<std::uint32_t>(number));
+        if (id == no_axis) continue;
+        const AxisPicture& p = image.picture(id);
+        if ((p.flags & flag_moving) != 0 && p.authority == Door::modbus) return true;
+    }
+    return false;
+}
+
+}  // namespace axisgate::modbus

@@ -1,0 +1,149 @@
+// Standard map: see the header. A block is valid while its axis' cell has the revision it was rendered from.
+#include "gateway/doors/modbus/standard_map.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace axisgate::modbus {
+namespace {
+constexpr std::uint32_t index_at(std::uint32_t address) noexcept { return address / registers_per_axis; }
+constexpr std::uint16_t offset_at(std::uint32_t address) noexcept { return static_cast<std::uint16_t>(address % registers_per_axis); }
+bool is_bits(Table table) noexcept { return table == Table::coils || table == Table::discrete_inputs; }
+}  // namespace
+
+std::uint8_t* StandardMap::block(std::uint32_t index) {
+    const Image& image = port_.image();
+    const AxisId id = axis_at(index);
+    if (id == no_axis) {
+        if (index < rows_.size() && rows_[index].id != no_axis) rows_[index].belong_to(no_axis);
+        return nullptr;
+    }
+    if (index >= rows_.size()) {
+        rows_.resize(index + 1);
+        blocks_.resize(rows_.size() * block_size);
+    }
+    if (mapping_revision_ != image.mapping_revision) {
+        mapping_revision_ = image.mapping_revision;
+        for (auto& row : rows_)
+            row.revision = 0;
+    }
+    Row& row = rows_[index];
+    std::uint8_t* const bytes = blocks_.data() + index * block_size;
+    // Cells start at revision 0 and count from 1, so 0 also means "not rendered".
+    const std::uint64_t revision = image.cell(id).revision();
+    if (row.id != id) {
+        row.belong_to(id);
+        std::memset(bytes, 0, block_size);
+    } else if (row.revision == revision && revision != 0) {
+        return bytes;
+    }
+    render(image.picture(id), mapping_revision_, order_, bytes);
+    row.revision = revision;
+    ++renders_;
+    return bytes;
+}
+
+Exception StandardMap::check_read(Table, std::uint16_t address, std::uint16_t count) {
+    const std::uint32_t last = index_at(std::uint32_t{address} + count - 1);
+    for (std::uint32_t i = index_at(address); i <= last; ++i) {
+        if (axis_at(i) == no_axis) return Exception::no_path;
+    }
+    return Exception::none;
+}
+
+Exception StandardMap::read_registers(Table, std::uint16_t address, std::uint16_t count, Instant now, std::uint8_t* out) {
+    const std::uint32_t begin = address;
+    const std::uint32_t end = begin + count;
+    const std::uint32_t first = index_at(begin);
+    const std::uint32_t last = index_at(end - 1);
+    for (std::uint32_t i = first; i <= last; ++i) {
+        if (!block(i)) return Exception::no_path;
+    }
+    std::memcpy(out, blocks_.data() + 2 * std::size_t{begin}, 2 * std::size_t{count});
+    for (std::uint32_t i = first; i <= last; ++i) {
+        const std::uint32_t base = i * registers_per_axis;
+        // Age and heartbeat belong to this moment. A read may begin or end in the middle of the age.
+        if (base + reg::heartbeat < begin || base + reg::age >= end) continue;
+        std::uint8_t words[6];
+        put32(words, age_ms(port_.image().picture(rows_[i].id), now), order_);
+        put16(words + 4, heartbeat(now));
+        const std::uint32_t from = std::max(begin, base + reg::age);
+        const std::uint32_t to = std::min(end, base + reg::heartbeat + 1u);
+        std::memcpy(out + 2 * std::size_t(from - begin), words + 2 * std::size_t(from - base - reg::age), 2 * std::size_t(to - from));
+    }
+    return Exception::none;
+}
+
+Exception StandardMap::read_bits(Table, std::uint16_t address, std::uint16_t count, std::uint8_t* out) {
+    std::memset(out, 0, (count + 7u) / 8u);
+    const std::uint32_t begin = address;
+    const std::uint32_t end = begin + count;
+    for (std::uint32_t at = begin; at < end;) {
+        const AxisId id = axis_at(index_at(at));
+        if (id == no_axis) return Exception::no_path;
+        const std::uint16_t skip = offset_at(at);
+        const std::uint32_t n = std::min<std::uint32_t>(registers_per_axis - skip, end - at);
+        std::uint64_t bits = bits_of(port_.image().picture(id)) >> skip;
+        if (n < 64) bits &= (std::uint64_t{1} << n) - 1;
+        for (std::uint32_t to = at - begin; bits != 0;) {  // to: the bit of `out` where the lowest of `bits` belongs
+            const std::uint32_t shift = to % 8;
+            out[to / 8] = static_cast<std::uint8_t>(out[to / 8] | (bits << shift));
+            bits >>= 8 - shift;
+            to += 8 - shift;
+        }
+        at += n;
+    }
+    return Exception::none;
+}
+
+Exception StandardMap::check_write(Table table, std::uint16_t address, std::uint16_t count) {
+    // Coils show what is; what shall be is written as a control word. No range that is writable goes across two axes.
+    if (is_bits(table) || table == Table::input_registers) return Exception::illegal_address;
+    if (const auto e = check_write_offsets(offset_at(address), count); e != Exception::none) return e;
+    return axis_at(index_at(address)) == no_axis ? Exception::no_path : Exception::none;
+}
+
+Exception StandardMap::write(Table table, std::uint16_t address, std::uint16_t count, const std::uint8_t* data, WritePlan& plan) {
+    if (const auto e = check_write(table, address, count); e != Exception::none) return e;
+    const std::uint32_t index = index_at(address);
+    const std::uint16_t offset = offset_at(address);
+    if (offset >= reg::channel_selector) return write_channel(index, offset, count, data, plan);
+    plan.commands.push_back({axis_at(index), process_data(offset, count, data, order_), false, 0});
+    return Exception::none;
+}
+
+Exception StandardMap::write_channel(std::uint32_t index, std::uint16_t offset, std::uint16_t count, const std::uint8_t* data,
+                                     WritePlan& plan) {
+    std::uint8_t* const bytes = block(index);
+    if (!bytes) return Exception::no_path;
+    Row& row = rows_[index];
+    if (!row.channel) row.channel = std::make_unique<ParameterChannel>();
+
+    ParameterChannel::Write write;
+    const auto has = [&](std::uint16_t r) { return r >= offset && r < offset + count; };
+    const auto at = [&](std::uint16_t r) { return data + 2 * std::size_t(r - offset); };
+    if (has(reg::channel_selector)) write.selector = get32(at(reg::channel_selector), order_);
+    if (has(reg::channel_request)) write.request = get16(at(reg::channel_request));
+    if (has(reg::channel_value)) write.value = get32(at(reg::channel_value), order_);
+
+    auto outcome = row.channel->write(write, port_.catalogue(row.id));
+    if (outcome.exception != Exception::none) return outcome.exception;
+    if (outcome.command) {
+        ++row.exchange;
+        plan.commands.push_back({row.id, std::move(*outcome.command), true, (std::uint32_t{row.exchange} << 16) | index});
+    }
+    row.channel->render(order_, bytes);
+    return Exception::none;
+}
+
+void StandardMap::on_own_result(std::uint32_t note, const Result& result) {
+    const std::uint32_t index = note & 0xFFFFu;
+    if (index >= rows_.size()) return;
+    Row& row = rows_[index];
+    // The axis may have been removed or replaced since: its channel went with it.
+    if (!row.channel || row.exchange != (note >> 16)) return;
+    row.channel->finish(result, port_.catalogue(row.id));
+    row.channel->render(order_, blocks_.data() + index * block_size);
+}
+
+}  // namespace axisgate::modbus

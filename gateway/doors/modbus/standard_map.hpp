@@ -1,0 +1,60 @@
+// Standard map: units 0, 1 and 255. Axis number n owns 64 registers and 64 bits from (n-1)*64; holding and input registers are the same.
+// In: checked requests. Out: registers copied from one rendered block per axis; ProcessData commands; parameter channel exchanges.
+// Never renders an axis whose picture has not changed, and never allocates in a read once an axis number has been seen.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "gateway/core/door.hpp"
+#include "gateway/doors/modbus/parameter_channel.hpp"
+#include "gateway/doors/modbus/register_map.hpp"
+#include "gateway/doors/modbus/unit_map.hpp"
+
+namespace axisgate::modbus {
+
+class StandardMap final : public UnitMap {
+public:
+    StandardMap(const DoorPort& port, WordOrder order) : port_(port), order_(order) {}
+
+    Exception check_read(Table table, std::uint16_t address, std::uint16_t count) override;
+    Exception read_registers(Table table, std::uint16_t address, std::uint16_t count, Instant now, std::uint8_t* out) override;
+    Exception read_bits(Table table, std::uint16_t address, std::uint16_t count, std::uint8_t* out) override;
+    Exception check_write(Table table, std::uint16_t address, std::uint16_t count) override;
+    Exception write(Table table, std::uint16_t address, std::uint16_t count, const std::uint8_t* data, WritePlan& plan) override;
+    /// `note`: the axis number whose parameter channel asked, and which of its exchanges it was.
+    void on_own_result(std::uint32_t note, const Result& result) override;
+
+    /// How many times a block was rendered anew (for tests: unchanged axes cost nothing).
+    [[nodiscard]] std::uint64_t renders() const noexcept { return renders_; }
+
+private:
+    struct Row {
+        AxisId id = no_axis;         // whom the block shows; no_axis: nobody yet
+        std::uint64_t revision = 0;  // of the axis' cell when the block was rendered
+        std::uint16_t exchange = 0;  // counts the channel's exchanges: an answer to an older one is not taken for a newer one's
+        std::unique_ptr<ParameterChannel> channel;  // made at the first write
+
+        void belong_to(AxisId axis) {  // another axis, or none: its channel went with it; `exchange` goes on counting
+            id = axis;
+            revision = 0;
+            channel.reset();
+        }
+    };
+
+    /// Brings the block of the axis with this index (number - 1) up to date; nullptr: not configured.
+    [[nodiscard]] std::uint8_t* block(std::uint32_t index);
+    [[nodiscard]] AxisId axis_at(std::uint32_t index) const noexcept { return port_.image().by_number(index + 1); }
+    [[nodiscard]] Exception write_channel(std::uint32_t index, std::uint16_t offset, std::uint16_t count, const std::uint8_t* data,
+                                          WritePlan& plan);
+
+    const DoorPort& port_;
+    WordOrder order_;
+    std::uint32_t mapping_revision_ = 0;
+    std::uint64_t renders_ = 0;
+    std::vector<Row> rows_;             // by axis number - 1; grows to the highest number asked for, at most 1024
+    std::vector<std::uint8_t> blocks_;  // block_size bytes per row, so that a read across axes is one copy
+};
+
+}  // namespace axisgate::modbus

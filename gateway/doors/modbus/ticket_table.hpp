@@ -1,0 +1,62 @@
+// Ticket table: which answer waits for which Command of this door.
+// In: who waits and until when. Out: a ticket; later, who it was. Bounded; a full table is told, and nothing is allocated after start.
+// Never gives a ticket twice: a late result of a forgotten ticket finds nobody.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "gateway/core/door.hpp"
+#include "gateway/doors/modbus/unit_map.hpp"
+
+namespace axisgate::modbus {
+
+/// Who asked, told when one of its commands has ended.
+struct WriteOwner {
+    virtual void on_written(std::uint8_t slot, AxisId axis, Exception exception) = 0;
+    virtual ~WriteOwner() = default;
+};
+
+class TicketTable {
+public:
+    struct Waiting {
+        WriteOwner* owner = nullptr;  ///< nullptr with map nullptr: the one who asked has gone
+        UnitMap* map = nullptr;
+        std::uint32_t note = 0;  ///< for the map
+        std::uint8_t slot = 0;   ///< for the owner
+        AxisId axis = no_axis;
+    };
+
+    explicit TicketTable(std::size_t capacity);
+
+    [[nodiscard]] std::size_t free() const noexcept { return entries_.size() - used_; }
+    [[nodiscard]] std::size_t used() const noexcept { return used_; }
+    /// There must be a free place. Deadlines must not go back from call to call.
+    [[nodiscard]] Ticket open(const Waiting& waiting, Instant deadline);
+    /// Takes the entry out; nothing if the ticket is not (or no longer) known.
+    [[nodiscard]] std::optional<Waiting> close(Ticket ticket);
+    /// Takes out the oldest entry if its deadline has come.
+    [[nodiscard]] std::optional<Waiting> expired(Instant now);
+    [[nodiscard]] Instant next_deadline() const noexcept { return oldest_ == none ? never : entries_[oldest_].deadline; }
+    /// The results of everything that `owner` or `map` waits for go to nobody.
+    void forget(const WriteOwner* owner) noexcept;
+    void forget(const UnitMap* map) noexcept;
+
+private:
+    static constexpr std::uint16_t none = 0xFFFF;
+    struct Entry {
+        std::uint64_t generation = 0;  // counts up with each use of the place; odd while it is used
+        Waiting waiting;
+        Instant deadline{};
+        std::uint16_t older = none, younger = none;  // by age while used; `younger` chains the free places
+    };
+    Waiting take(std::uint16_t index);
+
+    std::vector<Entry> entries_;
+    std::size_t used_ = 0;
+    std::uint16_t free_ = none;
+    std::uint16_t oldest_ = none, youngest_ = none;
+};
+
+}  // namespace axisgate::modbus

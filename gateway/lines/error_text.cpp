@@ -1,0 +1,16 @@
+// Error text: see error_text.hpp. In: errno. Out: words.
+// Never uses strerror(), whose text another thread could change.
+#include "gateway/lines/error_text.hpp"
+
+#include <fmt/format.h>
+
+#include <cstring>
+
+namespace axisgate {
+
+std::string error_text(int error) {
+    const char* name = ::strerrordesc_np(error);
+    return fmt::format("{} ({})", name != nullptr ? name : "unknown error", error);
+}
+
+}  // namespace axisgate

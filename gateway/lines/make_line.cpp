@@ -1,0 +1,56 @@
+// Making lines: see make_line.hpp. In: a URI. Out: a line.
+// Never opens anything.
+#include "gateway/lines/make_line.hpp"
+
+#include "gateway/lines/pty_line.hpp"
+#include "gateway/lines/serial_line.hpp"
+#include "gateway/lines/tcp_line.hpp"
+#include "gateway/lines/tcp_listen_line.hpp"
+
+namespace axisgate {
+namespace {
+
+/// Stands where a line should be and says why there is none.
+class NoLine final : public RealLine {
+public:
+    NoLine(const LineBase& base, std::string why) : RealLine(base), why_(std::move(why)) {}
+    ~NoLine() override { close(); }
+
+private:
+    void start() override { went_down(why_); }
+    void stop() override {}
+    void flush() override {}
+    std::string why_;
+};
+
+}  // namespace
+
+std::unique_ptr<Line> make_line(const LineUri& uri, const LineBase& base, const CanLineOptions& can) {
+    switch (uri.kind) {
+        case LineUri::Kind::can:
+            return std::make_unique<CanLine>(base, uri.interface, can);
+        case LineUri::Kind::serial:
+            return std::make_unique<SerialLine>(base, uri.path, uri.serial);
+        case LineUri::Kind::tcp:
+            return std::make_unique<TcpLine>(base, uri.host, uri.port);
+        case LineUri::Kind::tcp_listen:
+            return std::make_unique<TcpListenLine>(base, uri.host, uri.port);
+        case LineUri::Kind::pty:
+            return std::make_unique<PtyLine>(base, uri.path);
+        case LineUri::Kind::twin:
+            break;
+    }
+    return std::make_unique<NoLine>(base, "a twin line has no real side");
+}
+
+std::unique_ptr<Line> make_real_line(std::string_view uri, const LineSetup& setup, boost::asio::io_context& io,
+                                     std::string_view default_format) {
+    const LineBase base{io, machine_clock()};
+    const LineUriResult parsed = parse_line_uri(uri, setup.bit_rate == 0 ? 9600 : setup.bit_rate, default_format);
+    if (!parsed.good()) return std::make_unique<NoLine>(base, parsed.fault);
+    CanLineOptions can;
+    can.bit_rate = setup.bit_rate;
+    return make_line(parsed.uri, base, can);
+}
+
+}  // namespace axisgate

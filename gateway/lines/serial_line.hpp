@@ -1,0 +1,33 @@
+// SerialLine: a serial port (RS-232, RS-422, RS-485, a USB adapter) as a line.
+// In: a path and settings. Out: see StreamLine; errors of the receiver counted.
+// Never leaves more than a few bytes in the driver: what is there can no longer be overtaken by a stop.
+#pragma once
+
+#include <string>
+
+#include "gateway/core/line_uri.hpp"
+#include "gateway/lines/parity_marks.hpp"
+#include "gateway/lines/stream_line.hpp"
+
+namespace axisgate {
+
+class SerialLine final : public StreamLine {
+public:
+    SerialLine(const LineBase& base, std::string path, const SerialSettings& settings);
+    ~SerialLine() override { close(); }
+
+private:
+    void start() override;
+    [[nodiscard]] std::size_t filter(std::span<std::uint8_t> data) override;
+    [[nodiscard]] std::size_t room_to_write() override;
+    [[nodiscard]] Duration pause_before_write() const override;
+    void on_gone(int error) override;
+
+    std::string path_;
+    SerialSettings settings_;
+    Duration byte_time_;
+    std::size_t most_unsent_;  ///< bytes
+    ParityMarks marks_;
+};
+
+}  // namespace axisgate

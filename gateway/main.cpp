@@ -1,0 +1,145 @@
+// axisgate: start here. Reads the command line and hands over to the command that was named.
+// In: arguments, the environment. Out: the exit code (0 good, 1 failed, 2 wrong usage or configuration). Never does the work itself.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "gateway/runtime/commands.hpp"
+#include "gateway/runtime/files.hpp"
+
+extern char** environ;
+
+namespace {
+using namespace axisgate;
+
+struct Common {
+    std::string config_file, data_dir, site_file;
+    std::vector<std::string> set;
+};
+
+ConfigSources sources_of(const Common& c, bool& good) {
+    ConfigSources s;
+    s.file_name = c.config_file;
+    if (!c.config_file.empty()) {
+        std::string fault;
+        s.file_text = read_file(c.config_file, fault, 1u << 20);
+        if (!s.file_text) {
+            complain(fault);
+            good = false;
+        }
+    }
+    for (char** e = environ; e && *e; ++e) {
+        if (std::string_view(*e).starts_with("AXISGATE_")) s.environment.emplace_back(*e);
+    }
+    if (!c.data_dir.empty()) s.overrides.push_back("data.dir=" + c.data_dir);
+    for (const auto& o : c.set) s.overrides.push_back(o);
+    return s;
+}
+
+bool config_of(const Common& c, Config& config) {
+    bool good = true;
+    const auto sources = sources_of(c, good);
+    std::vector<ConfigFault> faults;
+    config = read_config(sources, faults);
+    for (const auto& f : faults) complain(fmt::format("{}: {}; {}", f.place, f.text, f.remedy));
+    return good && faults.empty();
+}
+
+void add_config(CLI::App& app, Common& c, bool site) {
+    app.add_option("--config", c.config_file, "TOML file of this host")->type_name("FILE.toml");
+    app.add_option("--data", c.data_dir, "data directory (default ./var)")->type_name("DIR");
+    if (site) app.add_option("--site", c.site_file, "site document to put in force")->type_name("FILE.json");
+    app.add_option("--set", c.set, "one value of the configuration, such as http.bind=127.0.0.1:8081; may be repeated")->type_name("SECTION.KEY=VALUE")->allow_extra_args(false);
+}
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app{"axisgate: a gateway between Modbus, HTTP and motor drives, with an embedded model of each drive"};
+    app.set_version_flag("--version", "axisgate " AXISGATE_VERSION);
+    app.require_subcommand(1);
+    app.fallthrough(false);
+
+    Common serve_common, check_common, backup_common, restore_common;
+    auto* serve = app.add_subcommand("serve", "run the gateway");
+    add_config(*serve, serve_common, true);
+
+    TwinOptions twin_options;
+    auto* twin = app.add_subcommand("twin", "run embedded drives by themselves on a line that anything can open");
+    twin->add_option("family", twin_options.family, "family, see `axisgate families`")->required()->type_name("FAMILY");
+    twin->add_option("--line", twin_options.line_uri, "can:can0, serial:/dev/ttyUSB0?baud=57600, tcp-listen:HOST:PORT, tcp:HOST:PORT or pty:PATH")->required()->type_name("URI");
+    twin->add_option("--address", twin_options.addresses, "address of a drive; may be repeated")->type_name("A")->allow_extra_args(false);
+    twin->add_option("--state", twin_options.state_file, "file of the non-volatile memory: read at the start, written at each change")->type_name("FILE");
+    twin->add_option("--hand", twin_options.hand_bind, "serve the tester's hand (inputs, stall, power ...) over HTTP here")->type_name("HOST:PORT");
+    twin->add_option("--time-scale", twin_options.time_scale, "how many times as fast the drives' clock runs, 0.001 to 10000")->type_name("X");
+    twin->add_option("--option", twin_options.options, "an option of the family, such as crc=13; may be repeated")->type_name("NAME=VALUE")->allow_extra_args(false);
+
+    std::string families_format = "table";
+    auto* families = app.add_subcommand("families", "list the drive families of this program");
+    families->add_option("--format", families_format, "table or json")->check(CLI::IsMember({"table", "json"}));
+
+    std::string catalogue_family, catalogue_what = "parameters", catalogue_format = "table";
+    auto* catalogue = app.add_subcommand("catalogue", "what a family has: parameters, commands, errors");
+    catalogue->add_option("family", catalogue_family)->required()->type_name("FAMILY");
+    catalogue->add_option("what", catalogue_what, "parameters, commands or errors")->check(CLI::IsMember({"parameters", "commands", "errors"}));
+    catalogue->add_option("--format", catalogue_format, "table, csv or json")->check(CLI::IsMember({"table", "csv", "json"}));
+
+    std::string decode_family, decode_format = "candump", decode_file = "-";
+    auto* decode = app.add_subcommand("decode", "one readable line per recorded frame");
+    decode->add_option("family", decode_family)->required()->type_name("FAMILY");
+    decode->add_option("--format", decode_format, "candump, hex (lines of bytes, > to the drive, < from it) or trace")->check(CLI::IsMember({"candump", "hex", "trace"}));
+    decode->add_option("file", decode_file, "recorded line; - or nothing: standard input")->type_name("FILE");
+
+    auto* check = app.add_subcommand("check", "find all faults of configuration and site");
+    add_config(*check, check_common, true);
+
+    std::string backup_file, restore_file;
+    auto* backup = app.add_subcommand("backup", "copy the database into one file; the gateway may run");
+    backup->add_option("file", backup_file)->required()->type_name("FILE");
+    add_config(*backup, backup_common, false);
+    auto* restore = app.add_subcommand("restore", "put a backup in place of the database; the gateway must not run");
+    restore->add_option("file", restore_file)->required()->type_name("FILE");
+    add_config(*restore, restore_common, false);
+
+    auto* version = app.add_subcommand("version", "print the version");
+    auto* help = app.add_subcommand("help", "print this text");
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        if (e.get_exit_code() == 0) return app.exit(e);
+        complain(std::string(e.what()) + "; see `axisgate help`");
+        return exit_usage;
+    }
+
+    if (*version) {
+        fmt::print("axisgate {}\n", AXISGATE_VERSION);
+        return exit_good;
+    }
+    if (*help) {
+        fmt::print("{}", app.help("", CLI::AppFormatMode::All));
+        return exit_good;
+    }
+    if (*families) return command_families(families_format);
+    if (*catalogue) return command_catalogue(catalogue_family, catalogue_what, catalogue_format);
+    if (*decode) return command_decode(decode_family, decode_format, decode_file);
+    if (*twin) return command_twin(twin_options);
+    if (*check) {
+        bool good = true;
+        const auto sources = sources_of(check_common, good);
+        const int code = command_check(sources, check_common.site_file);
+        return good ? code : exit_usage;
+    }
+    if (*serve) {
+        ServeOptions o;
+        if (!config_of(serve_common, o.config)) return exit_usage;
+        o.site_file = serve_common.site_file;
+        return command_serve(o);
+    }
+    Config config;
+    if (*backup) return config_of(backup_common, config) ? command_backup(config, backup_file) : exit_usage;
+    if (*restore) return config_of(restore_common, config) ? command_restore(config, restore_file) : exit_usage;
+    return exit_usage;
+}

@@ -1,0 +1,15 @@
+// Catalogues: reads the embedded page of every family that was built in.
+// In: the assets. Out: Families, whose catalogues live as long as the process. Never looks at the disk.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gateway/core/site.hpp"
+
+namespace axisgate {
+
+/// All families with their catalogues; faults name the file. Read once, kept for the life of the process.
+[[nodiscard]] Families load_families(std::vector<std::string>& faults);
+
+}  // namespace axisgate

@@ -1,0 +1,108 @@
+// Cold: gathers what came in since the last write into one transaction, writes it, and says so.
+// In and out: see the header. Never holds more than its mailboxes' bounds plus one batch.
+#include "gateway/runtime/cold.hpp"
+
+#include <pthread.h>
+
+#include "gateway/runtime/clock.hpp"
+
+namespace axisgate {
+namespace {
+// At 64 commands per axis and 64 axes this is more than can be on the way; beyond it the write fails with a reason.
+constexpr std::size_t hot_ring = 8192;
+}  // namespace
+
+Cold::Cold(Store& store, Answers answers)
+    : store_(store), answers_(std::move(answers)), from_hot_(hot_ring, io_.get_executor(), [this](ColdJob&& job) { take(std::move(job)); }) {
+    if (const auto last = store_.last_event_id()) next_event_id_ = *last + 1;
+}
+
+Cold::~Cold() { stop(); }
+
+void Cold::start() {
+    thread_ = std::thread([this] {
+        pthread_setname_np(pthread_self(), "axisgate-cold");
+        io_.run();
+    });
+}
+
+void Cold::stop() {
+    if (!thread_.joinable()) return;
+    work_.reset();  // what is posted already is still done
+    thread_.join();
+}
+
+void Cold::run(std::function<void(Store&)> job) {
+    boost::asio::post(io_, [this, job = std::move(job)] { job(store_); });
+}
+
+void Cold::take(ColdJob&& job) {
+    if (auto* o = std::get_if<StoreOrder>(&job)) orders_.push_back(std::move(*o));
+    if (auto* e = std::get_if<EventAt>(&job)) events_.push_back(std::move(*e));
+    if (auto* s = std::get_if<ParameterSeen>(&job)) seen_.push_back(std::move(*s));
+    if (auto* t = std::get_if<TwinMemory>(&job)) twins_.push_back(std::move(*t));
+    if (batch_posted_) return;
+    batch_posted_ = true;
+    boost::asio::post(io_, [this] { write_batch(); });
+}
+
+void Cold::write_batch() {
+    batch_posted_ = false;
+    auto orders = std::move(orders_);
+    auto events_at = std::move(events_);
+    auto seen = std::move(seen_);
+    auto twins = std::move(twins_);
+    orders_.clear();
+    events_.clear();
+    seen_.clear();
+    twins_.clear();
+    const Instant begun = monotonic_now();
+
+    std::vector<ParameterWrite> writes;
+    writes.reserve(orders.size());
+    for (const auto& o : orders) {
+        writes.push_back({o.axis_name, o.parameter, o.value, o.previous, o.origin.door, o.origin.who ? *o.origin.who : "", unix_now_ns(), o.storage});
+    }
+    std::vector<Event> events;
+    events.reserve(events_at.size());
+    for (auto& e : events_at) {
+        e.event.at_unix_ns = unix_ns_of(e.at);
+        events.push_back(std::move(e.event));
+    }
+    std::string fault;
+    const auto failed = [&](const StoreError& e) {
+        faults_.fetch_add(1, std::memory_order_relaxed);
+        healthy_.store(false, std::memory_order_relaxed);
+        if (answers_.fault) answers_.fault(e.text);
+    };
+    // Parameter writes are what a client waits for: events and values seen may be lost on a full disk, these must be reported.
+    bool good = true;
+    if (const auto done = store_.commit(StoreBatch{writes, events, seen}); done) {
+        if (!events.empty()) next_event_id_ = *done;
+    } else {
+        good = false;
+        fault = done.error().text;
+        failed(done.error());
+    }
+    for (const auto& t : twins) {
+        if (const auto done = store_.save_twin(t.drive, t.memory); !done) {
+            good = false;
+            failed(done.error());
+        }
+    }
+    if (good) healthy_.store(true, std::memory_order_relaxed);
+    for (auto it = events.rbegin(); it != events.rend(); ++it) {
+        const auto back = static_cast<std::uint64_t>(it - events.rbegin());
+        it->id = fault.empty() ? next_event_id_ - back : 0;  // 0: streamed, but not kept
+    }
+    batches_.fetch_add(1, std::memory_order_relaxed);
+    write_ns_.fetch_add(static_cast<std::uint64_t>((monotonic_now() - begun).count()), std::memory_order_relaxed);
+    if (!orders.empty()) {
+        std::vector<Stored> stored;
+        for (const auto& o : orders) stored.push_back({o.ticket, fault});
+        answers_.stored(std::move(stored));
+    }
+    if (!events.empty()) answers_.events(std::move(events));
+}
+
+}  // namespace axisgate

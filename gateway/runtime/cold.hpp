@@ -1,0 +1,79 @@
+// Cold: the thread that waits for the disk, so that nobody else has to.
+// In: store orders, events, twin memories, sites, from the hot and the warm thread. Out: what was stored, or why not.
+// Never called back from inside another room: answers go through mailboxes.
+#pragma once
+
+#include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/io_context.hpp>
+#include <functional>
+#include <memory>
+#include <string>
+#include <thread>
+#include <variant>
+#include <vector>
+
+#include "gateway/core/engine.hpp"
+#include "gateway/runtime/mailbox.hpp"
+#include "gateway/store/store.hpp"
+
+namespace axisgate {
+
+struct EventAt {
+    Event event;
+    Instant at{};
+};
+struct TwinMemory {
+    std::string drive;
+    NonVolatile memory;
+};
+using ColdJob = std::variant<StoreOrder, EventAt, TwinMemory, ParameterSeen>;
+
+struct Stored {
+    Ticket order = no_ticket;
+    std::string fault;  ///< empty: on disk
+};
+
+class Cold {
+public:
+    struct Answers {
+        std::function<void(std::vector<Stored>)> stored;           ///< called on the cold thread, once per batch
+        std::function<void(std::vector<Event>)> events;            ///< with ids, on disk or not
+        std::function<void(std::string)> fault;                    ///< the store failed: for the log
+    };
+    Cold(Store& store, Answers answers);
+    ~Cold();
+
+    /// One mailbox per sending thread.
+    [[nodiscard]] Mailbox<ColdJob>& from_hot() noexcept { return from_hot_; }
+    [[nodiscard]] boost::asio::io_context& context() noexcept { return io_; }
+    /// Runs a function on the cold thread (from the warm thread: sites, backups).
+    void run(std::function<void(Store&)> job);
+    void start();
+    /// Writes what is there and ends the thread.
+    void stop();
+    [[nodiscard]] std::uint64_t batches() const noexcept { return batches_.load(std::memory_order_relaxed); }
+    [[nodiscard]] std::uint64_t faults() const noexcept { return faults_.load(std::memory_order_relaxed); }
+    [[nodiscard]] std::uint64_t write_ns() const noexcept { return write_ns_.load(std::memory_order_relaxed); }
+    [[nodiscard]] bool healthy() const noexcept { return healthy_.load(std::memory_order_relaxed); }
+
+private:
+    void take(ColdJob&& job);
+    void write_batch();
+
+    Store& store_;
+    Answers answers_;
+    boost::asio::io_context io_{1};
+    boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work_{io_.get_executor()};
+    Mailbox<ColdJob> from_hot_;
+    std::vector<StoreOrder> orders_;
+    std::vector<EventAt> events_;
+    std::vector<ParameterSeen> seen_;
+    std::vector<TwinMemory> twins_;
+    bool batch_posted_ = false;
+    std::uint64_t next_event_id_ = 1;
+    std::atomic<std::uint64_t> batches_{0}, faults_{0}, write_ns_{0};
+    std::atomic<bool> healthy_{true};
+    std::thread thread_;
+};
+
+}  // namespace axisgate

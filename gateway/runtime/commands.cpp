@@ -1,0 +1,197 @@
+// Commands: families, catalogue, check, backup, restore.
+// In and out: see the header. Never starts a thread.
+#include "gateway/runtime/commands.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/json/serialize.hpp>
+#include <cstdio>
+
+#include "gateway/core/assets.hpp"
+#include "gateway/runtime/catalogues.hpp"
+#include "gateway/runtime/site_file.hpp"
+#include "gateway/store/backup.hpp"
+#include "gateway/store/store.hpp"
+
+namespace axisgate {
+namespace json = boost::json;
+
+void complain(const std::string& text) { fmt::print(stderr, "axisgate: {}\n", text); }
+
+namespace {
+using Row = std::vector<std::string>;
+
+void print_table(const Row& head, const std::vector<Row>& rows) {
+    std::vector<std::size_t> width(head.size());
+    const auto measure = [&](const Row& r) {
+        for (std::size_t i = 0; i < r.size(); ++i) width[i] = std::max(width[i], r[i].size());
+    };
+    measure(head);
+    for (const auto& r : rows) measure(r);
+    const auto print = [&](const Row& r) {
+        std::string line;
+        for (std::size_t i = 0; i < r.size(); ++i) line += i + 1 < r.size() ? fmt::format("{:<{}}  ", r[i], width[i]) : r[i];
+        fmt::print("{}\n", line);
+    };
+    print(head);
+    for (const auto& r : rows) print(r);
+}
+
+std::string csv_field(const std::string& s) {
+    if (s.find_first_of(",\"\r\n") == std::string::npos) return s;
+    std::string out = "\"";
+    for (const char c : s) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return out + "\"";
+}
+
+void print_csv(const Row& head, const std::vector<Row>& rows) {
+    const auto print = [](const Row& r) {
+        std::string line;
+        for (const auto& f : r) line += (line.empty() && &f == &r.front() ? "" : ",") + csv_field(f);
+        fmt::print("{}\r\n", line);  // RFC 4180
+    };
+    print(head);
+    for (const auto& r : rows) print(r);
+}
+
+std::string plain(const json::value* v) {
+    if (!v || v->is_null()) return "";
+    if (v->is_string()) return std::string(v->get_string());
+    return json::serialize(*v);
+}
+
+std::optional<FamilyEntry> family_named(const Families& families, const std::string& name) {
+    const auto e = families.find(name);
+    if (e.family) return e;
+    complain(fmt::format("there is no family {}; families: {}", name, families.names()));
+    return std::nullopt;
+}
+
+std::optional<Families> families_or_complain() {
+    std::vector<std::string> faults;
+    auto families = load_families(faults);
+    for (const auto& f : faults) complain(f);
+    if (!faults.empty()) return std::nullopt;
+    return families;
+}
+
+constexpr std::string_view parameter_fields[] = {"id", "name", "group", "type", "unit", "min", "max", "default", "access", "storage", "description"};
+}  // namespace
+
+int command_families(const std::string& format) {
+    const auto families = families_or_complain();
+    if (!families) return exit_failed;
+    json::array list;
+    std::vector<Row> rows;
+    for (const auto& e : families->entries) {
+        const auto& doc = e.catalogue->document();
+        std::string lines = e.family->uses_can && e.family->uses_bytes ? "can, bytes" : e.family->uses_can ? "can" : "bytes";
+        rows.push_back({std::to_string(e.catalogue->number()), std::string(e.family->name), plain(doc.if_contains("title")), lines,
+                        std::string(e.family->factory_address), std::to_string(e.catalogue->parameters().size()),
+                        std::to_string(e.catalogue->commands().size()), std::to_string(e.catalogue->errors().size())});
+        list.push_back({{"number", e.catalogue->number()}, {"name", e.family->name}, {"title", plain(doc.if_contains("title"))},
+                        {"can", e.family->uses_can}, {"bytes", e.family->uses_bytes}, {"factory_address", e.family->factory_address},
+                        {"parameters", e.catalogue->parameters().size()}, {"commands", e.catalogue->commands().size()}, {"errors", e.catalogue->errors().size()}});
+    }
+    if (format == "json") {
+        fmt::print("{}\n", json::serialize(list));
+    } else {
+        print_table({"number", "name", "title", "lines", "factory address", "parameters", "commands", "errors"}, rows);
+    }
+    return exit_good;
+}
+
+int command_catalogue(const std::string& family, const std::string& what, const std::string& format) {
+    const auto families = families_or_complain();
+    if (!families) return exit_failed;
+    const auto entry = family_named(*families, family);
+    if (!entry) return exit_usage;
+    const auto* list = entry->catalogue->document().if_contains(what);
+    if (!list || !list->is_array()) {
+        complain(fmt::format("a catalogue has parameters, commands and errors, not {}", what));
+        return exit_usage;
+    }
+    Row head;
+    if (what == "parameters") {
+        for (const auto f : parameter_fields) head.emplace_back(f);
+    } else if (what == "commands") {
+        head = {"id", "name", "description"};
+    } else {
+        head = {"code", "kind", "name", "text", "cause", "remedy"};
+    }
+    if (format == "json") {
+        json::array out;
+        for (const auto& item : list->get_array()) {
+            if (what != "parameters") {
+                out.push_back(item);
+                continue;
+            }
+            json::object o;
+            for (const auto& f : head) {
+                const auto* v = item.get_object().if_contains(f);
+                o[f] = v ? *v : json::value(nullptr);
+            }
+            out.push_back(std::move(o));
+        }
+        fmt::print("{}\n", json::serialize(out));
+        return exit_good;
+    }
+    std::vector<Row> rows;
+    for (const auto& item : list->get_array()) {
+        Row r;
+        for (const auto& f : head) r.push_back(plain(item.get_object().if_contains(f)));
+        rows.push_back(std::move(r));
+    }
+    if (format == "csv") {
+        print_csv(head, rows);
+    } else {
+        print_table(head, rows);
+    }
+    return exit_good;
+}
+
+int command_check(const ConfigSources& sources, const std::string& site_file) {
+    std::vector<ConfigFault> faults;
+    (void)read_config(sources, faults);
+    for (const auto& f : faults) complain(fmt::format("{}: {}; {}", f.place, f.text, f.remedy));
+    std::size_t count = faults.size();
+    if (!site_file.empty()) {
+        const auto families = families_or_complain();
+        if (!families) return exit_failed;
+        const auto read = read_site_file(site_file, *families);
+        for (const auto& f : read.faults) complain(f);
+        count += read.faults.size();
+    }
+    if (count == 0) fmt::print("no faults found\n");
+    return count == 0 ? exit_good : exit_usage;
+}
+
+int command_backup(const Config& config, const std::string& file) {
+    if (const auto done = backup_database(config.data_dir, file); !done) {
+        complain(done.error().text);
+        return exit_failed;
+    }
+    fmt::print("{}\n", file);
+    return exit_good;
+}
+
+int command_restore(const Config& config, const std::string& file) {
+    StoreOptions options;
+    options.directory = config.data_dir;
+    const auto migrations = migrations_among(all_assets());
+    if (!migrations) {
+        complain(migrations.error().text);
+        return exit_failed;
+    }
+    options.migrations = *migrations;
+    const auto done = restore_database(file, options);
+    if (!done) {
+        complain(done.error().text);
+        return exit_failed;
+    }
+    fmt::print("restored into {}{}\n", config.data_dir, done->kept.empty() ? "" : "; the database that was there is kept as " + done->kept);
+    return exit_good;
+}
+
+}  // namespace axisgate

@@ -1,0 +1,43 @@
+// Commands: the parts of `axisgate` that are not the service: tables, decoding, checking, backup, single twins.
+// In: arguments. Out: text on standard output, faults on standard error, an exit code (0 good, 1 failed, 2 wrong usage).
+// Never prints anything but what was asked for on standard output.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gateway/runtime/config.hpp"
+
+namespace axisgate {
+
+inline constexpr int exit_good = 0, exit_failed = 1, exit_usage = 2;
+
+struct ServeOptions {
+    Config config;
+    std::string site_file;  ///< replaces the stored site when it is given
+};
+[[nodiscard]] int command_serve(const ServeOptions& options);
+
+[[nodiscard]] int command_families(const std::string& format);
+[[nodiscard]] int command_catalogue(const std::string& family, const std::string& what, const std::string& format);
+[[nodiscard]] int command_decode(const std::string& family, const std::string& format, const std::string& file);
+/// Reads configuration and site as `serve` would; prints every fault with file, line and remedy.
+[[nodiscard]] int command_check(const ConfigSources& sources, const std::string& site_file);
+[[nodiscard]] int command_backup(const Config& config, const std::string& file);
+[[nodiscard]] int command_restore(const Config& config, const std::string& file);
+
+struct TwinOptions {
+    std::string family;
+    std::string line_uri;
+    std::vector<std::string> addresses;
+    std::string state_file;
+    std::string hand_bind;
+    double time_scale = 1.0;
+    std::vector<std::string> options;  ///< "name=value" for the twins
+};
+[[nodiscard]] int command_twin(const TwinOptions& options);
+
+/// "axisgate: TEXT" on standard error.
+void complain(const std::string& text);
+
+}  // namespace axisgate

@@ -1,0 +1,216 @@
+// Configuration: one table of keys serves the file, the environment and --set.
+// In and out: see the header. Never stops at the first fault.
+#include "gateway/runtime/config.hpp"
+
+#define TOML_EXCEPTIONS 0
+#include <toml++/toml.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <functional>
+
+namespace axisgate {
+namespace {
+using Fault = std::optional<std::string>;  // the remedy, if the text cannot be the value
+
+struct Key {
+    std::string_view section, name;
+    std::function<Fault(Config&, const std::string&)> set;
+};
+
+Fault set_integer(std::int64_t& into, const std::string& s, std::int64_t low, std::int64_t high) {
+    std::int64_t v = 0;
+    const auto [p, ec] = std::from_chars(s.data(), s.data() + s.size(), v);
+    if (ec != std::errc{} || p != s.data() + s.size() || v < low || v > high) return fmt::format("write a whole number from {} to {}", low, high);
+    into = v;
+    return {};
+}
+Fault set_bool(bool& into, const std::string& s) {
+    if (s == "true" || s == "1" || s == "on") {
+        into = true;
+    } else if (s == "false" || s == "0" || s == "off") {
+        into = false;
+    } else {
+        return "write true or false";
+    }
+    return {};
+}
+Fault set_bind(std::string& into, const std::string& s) {
+    if (!s.empty() && s != "off" && !parse_host_port(s)) return "write HOST:PORT, such as 127.0.0.1:1502 or [::1]:1502, or off";
+    into = s == "off" ? "" : s;
+    return {};
+}
+Fault set_text(std::string& into, const std::string& s) {
+    into = s;
+    return {};
+}
+
+const std::vector<Key>& keys() {
+    static const std::vector<Key> list{
+        {"data", "dir", [](Config& c, const std::string& s) -> Fault { return s.empty() ? Fault("name a directory") : set_text(c.data_dir, s); }},
+        {"http", "bind", [](Config& c, const std::string& s) { return set_bind(c.http_bind, s); }},
+        {"http", "tls_cert", [](Config& c, const std::string& s) { return set_text(c.http_tls_cert, s); }},
+        {"http", "tls_key", [](Config& c, const std::string& s) { return set_text(c.http_tls_key, s); }},
+        {"http", "allowed_hosts",
+         [](Config& c, const std::string& s) -> Fault {
+             c.http_allowed_hosts.clear();
+             for (std::size_t i = 0; i < s.size();) {
+                 const auto comma = std::min(s.find(',', i), s.size());
+                 if (comma > i) c.http_allowed_hosts.push_back(s.substr(i, comma - i));
+                 i = comma + 1;
+             }
+             return {};
+         }},
+        {"modbus", "bind", [](Config& c, const std::string& s) { return set_bind(c.modbus_bind, s); }},
+        {"modbus", "word_order",
+         [](Config& c, const std::string& s) -> Fault {
+             if (s != "high_first" && s != "low_first") return "write high_first or low_first";
+             c.modbus_low_word_first = s == "low_first";
+             return {};
+         }},
+        {"modbus", "idle_timeout_s", [](Config& c, const std::string& s) { return set_integer(c.modbus_idle_timeout_s, s, 1, 86400); }},
+        {"modbus", "max_connections", [](Config& c, const std::string& s) { return set_integer(c.modbus_max_connections, s, 1, 8192); }},
+        {"modbus_rtu", "port", [](Config& c, const std::string& s) { return set_text(c.modbus_rtu_port, s); }},
+        {"enip", "bind", [](Config& c, const std::string& s) { return set_bind(c.enip_bind, s); }},
+        {"dds", "enabled", [](Config& c, const std::string& s) { return set_bool(c.dds_enabled, s); }},
+        {"dds", "domain", [](Config& c, const std::string& s) { return set_integer(c.dds_domain, s, 0, 232); }},
+        {"log", "level",
+         [](Config& c, const std::string& s) -> Fault {
+             for (const auto* l : {"trace", "debug", "info", "warning", "error", "off"}) {
+                 if (s == l) return set_text(c.log_level, s);
+             }
+             return "write trace, debug, info, warning, error or off";
+         }},
+        {"log", "file", [](Config& c, const std::string& s) { return set_text(c.log_file, s); }},
+        {"runtime", "spin_us", [](Config& c, const std::string& s) { return set_integer(c.spin_us, s, 0, 1000); }},
+        {"runtime", "hot_cpu", [](Config& c, const std::string& s) { return set_integer(c.hot_cpu, s, -1, 1023); }},
+        {"limits", "http_connections", [](Config& c, const std::string& s) { return set_integer(c.max_http_connections, s, 1, 8192); }},
+        {"limits", "trace_frames", [](Config& c, const std::string& s) { return set_integer(c.trace_frames, s, 64, 1'000'000); }},
+    };
+    return list;
+}
+
+std::string known_names(std::string_view section) {
+    std::string s;
+    for (const auto& k : keys()) {
+        if (section.empty()) {
+            const std::string name = fmt::format("[{}]", k.section);
+            if (s.find(name) == std::string::npos) s += (s.empty() ? "" : " ") + name;
+        } else if (k.section == section) {
+            s += (s.empty() ? "" : ", ") + std::string(k.name);
+        }
+    }
+    return s;
+}
+
+const Key* find_key(std::string_view section, std::string_view name) {
+    for (const auto& k : keys()) {
+        if (k.section == section && k.name == name) return &k;
+    }
+    return nullptr;
+}
+
+std::optional<std::string> text_of(const toml::node& node) {
+    if (const auto* s = node.as_string()) return s->get();
+    if (const auto* i = node.as_integer()) return std::to_string(i->get());
+    if (const auto* b = node.as_boolean()) return b->get() ? "true" : "false";
+    if (const auto* a = node.as_array()) {
+        std::string s;
+        for (const auto& x : *a) {
+            const auto* t = x.as_string();
+            if (!t) return std::nullopt;
+            s += (s.empty() ? "" : ",") + t->get();
+        }
+        return s;
+    }
+    return std::nullopt;
+}
+
+void read_file(Config& c, const ConfigSources& sources, std::vector<ConfigFault>& faults) {
+    const auto place = [&](const toml::source_region& r) { return fmt::format("{}:{}", sources.file_name, r.begin.line); };
+    const toml::parse_result parsed = toml::parse(*sources.file_text, std::string_view(sources.file_name));
+    if (!parsed) {
+        faults.push_back({place(parsed.error().source()), std::string(parsed.error().description()), "mend the line; strings stand in double quotes"});
+        return;
+    }
+    for (const auto& [section, node] : parsed.table()) {
+        const auto* table = node.as_table();
+        const std::string names = known_names(section.str());
+        if (!table || names.empty()) {
+            faults.push_back({place(node.source()), fmt::format("[{}] is not a section", section.str()), "sections: " + known_names("")});
+            continue;
+        }
+        for (const auto& [name, value] : *table) {
+            const Key* key = find_key(section.str(), name.str());
+            if (!key) {
+                faults.push_back({place(value.source()), fmt::format("[{}] has no key {}", section.str(), name.str()), "keys: " + names});
+                continue;
+            }
+            const auto text = text_of(value);
+            const Fault fault = text ? key->set(c, *text) : Fault("write a text, a number, true or false");
+            if (fault) faults.push_back({place(value.source()), fmt::format("{}.{}: {} is not possible", section.str(), name.str(), text.value_or("this value")), *fault});
+        }
+    }
+}
+}  // namespace
+
+std::optional<HostPort> parse_host_port(std::string_view text) {
+    const auto colon = text.rfind(':');
+    if (colon == std::string_view::npos || colon == 0) return std::nullopt;
+    std::string_view host = text.substr(0, colon), port = text.substr(colon + 1);
+    if (host.front() == '[') {
+        if (host.size() < 3 || host.back() != ']') return std::nullopt;
+        host = host.substr(1, host.size() - 2);
+    } else if (host.find(':') != std::string_view::npos) {
+        return std::nullopt;
+    }
+    std::uint32_t n = 0;
+    const auto [p, ec] = std::from_chars(port.data(), port.data() + port.size(), n);
+    if (port.empty() || ec != std::errc{} || p != port.data() + port.size() || n > 65535) return std::nullopt;
+    return HostPort{std::string(host), static_cast<std::uint16_t>(n)};
+}
+
+Config read_config(const ConfigSources& sources, std::vector<ConfigFault>& faults) {
+    Config c;
+    if (sources.file_text) read_file(c, sources, faults);
+    const auto apply = [&](std::string_view section, std::string_view name, const std::string& value, const std::string& place) {
+        const Key* key = find_key(section, name);
+        if (!key) {
+            const std::string names = known_names(section);
+            faults.push_back({place, fmt::format("there is no key {}.{}", section, name), names.empty() ? "sections: " + known_names("") : "keys: " + names});
+            return;
+        }
+        if (const Fault fault = key->set(c, value)) faults.push_back({place, fmt::format("{}.{}: \"{}\" is not possible", section, name, value), *fault});
+    };
+    for (const auto& entry : sources.environment) {
+        constexpr std::string_view prefix = "AXISGATE_";
+        const auto equals = entry.find('=');
+        if (!entry.starts_with(prefix) || equals == std::string::npos) continue;
+        std::string name = entry.substr(prefix.size(), equals - prefix.size());
+        std::ranges::transform(name, name.begin(), [](unsigned char x) { return static_cast<char>(std::tolower(x)); });
+        // The longest section that fits: "modbus_rtu_port" is [modbus_rtu] port, not [modbus] rtu_port.
+        const Key* best = nullptr;
+        for (const auto& k : keys()) {
+            if (name == fmt::format("{}_{}", k.section, k.name)) best = &k;
+        }
+        if (!best) continue;  // other programs of the house may use the prefix too
+        apply(best->section, best->name, entry.substr(equals + 1), entry.substr(0, equals));
+    }
+    for (const auto& o : sources.overrides) {
+        const auto equals = o.find('=');
+        const auto dot = o.find('.');
+        if (equals == std::string::npos || dot == std::string::npos || dot > equals) {
+            faults.push_back({"--set " + o, "this is not section.key=value", "write for example --set http.bind=127.0.0.1:8081"});
+            continue;
+        }
+        apply(o.substr(0, dot), o.substr(dot + 1, equals - dot - 1), o.substr(equals + 1), "--set " + o.substr(0, equals));
+    }
+    if (c.http_tls_cert.empty() != c.http_tls_key.empty()) {
+        faults.push_back({sources.file_name.empty() ? "configuration" : sources.file_name, "http.tls_cert and http.tls_key go together", "give both or none"});
+    }
+    return c;
+}
+
+}  // namespace axisgate

@@ -1,0 +1,61 @@
+// Configuration of this host: the TOML file, environment and --set, as one checked value.
+// In: text of the file, environment entries, overrides. Out: Config, or all faults at once with place and remedy.
+// Never opens anything that it names.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace axisgate {
+
+struct Config {
+    std::string data_dir = "./var";              ///< [data] dir
+    std::string http_bind = "127.0.0.1:8080";    ///< [http] bind; empty: no HTTP door
+    std::string http_tls_cert, http_tls_key;     ///< [http] tls_cert, tls_key
+    std::vector<std::string> http_allowed_hosts; ///< [http] allowed_hosts: further names that a browser may use for this host
+    std::string modbus_bind = "127.0.0.1:1502";  ///< [modbus] bind; empty: no Modbus/TCP door
+    bool modbus_low_word_first = false;          ///< [modbus] word_order = "high_first" | "low_first"
+    std::int64_t modbus_idle_timeout_s = 60;     ///< [modbus] idle_timeout_s, 1..86400
+    std::int64_t modbus_max_connections = 1024;  ///< [modbus] max_connections, 1..8192
+    std::string modbus_rtu_port;                 ///< [modbus_rtu] port; empty: none
+    std::string enip_bind = "127.0.0.1:44818";   ///< [enip] bind
+    bool dds_enabled = false;                    ///< [dds] enabled
+    std::int64_t dds_domain = 0;                 ///< [dds] domain, 0..232
+    std::string log_level = "info";              ///< [log] level: trace debug info warning error off
+    std::string log_file;                        ///< [log] file; empty: standard error
+    std::int64_t spin_us = 0;                    ///< [runtime] spin_us, 0..1000: how long the hot loop polls before it sleeps
+    std::int64_t hot_cpu = -1;                   ///< [runtime] hot_cpu: processor for the hot loop; -1: any
+    std::int64_t max_http_connections = 512;     ///< [limits] http_connections
+    std::int64_t trace_frames = 4096;            ///< [limits] trace_frames per line
+};
+
+struct ConfigFault {
+    std::string place;   ///< "axisgate.toml:12", "--set http.bind", "AXISGATE_HTTP_BIND"
+    std::string text;
+    std::string remedy;
+};
+
+struct ConfigSources {
+    std::string file_name;                 ///< for messages; empty: no file was given
+    std::optional<std::string> file_text;
+    std::vector<std::string> environment;  ///< "AXISGATE_HTTP_BIND=..." entries; others are ignored
+    std::vector<std::string> overrides;    ///< "section.key=value" of --set, strongest
+};
+
+/// Reads all sources. Unknown sections, keys and values are faults.
+[[nodiscard]] Config read_config(const ConfigSources& sources, std::vector<ConfigFault>& faults);
+
+/// "HOST:PORT" or "[V6]:PORT" taken apart; nothing if it is not one.
+struct HostPort {
+    std::string host;
+    std::uint16_t port = 0;
+};
+[[nodiscard]] std::optional<HostPort> parse_host_port(std::string_view text);
+
+}  // namespace axisgate

@@ -1,0 +1,61 @@
+// Decode: turns a recorded line into readable exchanges, one line per message.
+// In: a candump log, hex lines, or a trace as JSON; from a file or standard input. Out: text. Never drops a line silently: what cannot be
+// read is said with its place.
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "gateway/runtime/catalogues.hpp"
+#include "gateway/runtime/commands.hpp"
+#include "gateway/runtime/files.hpp"
+#include "gateway/runtime/recording.hpp"
+
+namespace axisgate {
+
+int command_decode(const std::string& family, const std::string& format_name, const std::string& file) {
+    std::vector<std::string> faults;
+    const auto families = load_families(faults);
+    for (const auto& f : faults)
+        complain(f);
+    if (!faults.empty()) return exit_failed;
+    const auto entry = families.find(family);
+    if (!entry.family) {
+        complain(fmt::format("there is no family {}; families: {}", family, families.names()));
+        return exit_usage;
+    }
+    const auto format = recording_format_named(format_name);
+    if (!format) {
+        complain(fmt::format("there is no format {}; formats: candump, hex, trace", format_name));
+        return exit_usage;
+    }
+    std::string fault;
+    const auto text = read_file(file, fault);
+    if (!text) {
+        complain(fault);
+        return exit_failed;
+    }
+    const auto can = entry.family->make_decoder(*entry.catalogue, LineKind::can);
+    const auto bytes = entry.family->make_decoder(*entry.catalogue, LineKind::bytes);
+    bool good = true;
+    RecordingEvents events;
+    events.frame = [&](const RecordedFrame& r) {
+        Decoder& decoder = r.frame.kind == Frame::Kind::bytes ? *bytes : *can;
+        for (const auto& line : decoder.on_frame(r.frame, r.to_drive))
+            fmt::print("{}{}{}\n", r.stamp, r.stamp.empty() ? "" : " ", line);
+    };
+    events.fault = [&](std::size_t place, const std::string& what) {
+        const std::string at = place == 0                          ? file
+                               : *format == RecordingFormat::trace ? fmt::format("{}: frame {}", file, place)
+                                                                   : fmt::format("{}:{}", file, place);
+        complain(fmt::format("{}: {}", at, what));
+        good = false;
+    };
+    read_recording(*text, *format, events);
+    for (Decoder* d : {can.get(), bytes.get()}) {
+        for (const auto& line : d->finish())
+            fmt::print("{}\n", line);
+    }
+    return good ? exit_good : exit_failed;
+}
+
+}  // namespace axisgate

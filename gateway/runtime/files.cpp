@@ -1,0 +1,61 @@
+// Files: see the header.
+// In and out: see the header. Never throws.
+#include "gateway/runtime/files.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+namespace axisgate {
+
+std::optional<std::string> read_file(const std::string& path, std::string& fault, std::size_t limit) {
+    const bool standard = path == "-";
+    const int fd = standard ? 0 : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (fd < 0) {
+        fault = fmt::format("cannot read {}: {}", path, std::strerror(errno));
+        return std::nullopt;
+    }
+    std::string text;
+    char buffer[65536];
+    ssize_t n = 0;
+    while ((n = ::read(fd, buffer, sizeof buffer)) > 0 || (n < 0 && errno == EINTR)) {
+        if (n < 0) continue;
+        text.append(buffer, static_cast<std::size_t>(n));
+        if (text.size() > limit) {
+            fault = fmt::format("{} is larger than {} bytes", path, limit);
+            break;
+        }
+    }
+    if (n < 0 && fault.empty()) fault = fmt::format("cannot read {}: {}", path, std::strerror(errno));
+    if (!standard) ::close(fd);
+    if (!fault.empty()) return std::nullopt;
+    return text;
+}
+
+std::string write_file(const std::string& path, std::string_view text) {
+    const std::string temporary = path + ".new";
+    const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0640);
+    if (fd < 0) return fmt::format("cannot write {}: {}", temporary, std::strerror(errno));
+    bool good = true;
+    for (std::size_t done = 0; good && done < text.size();) {
+        const ssize_t n = ::write(fd, text.data() + done, text.size() - done);
+        if (n < 0 && errno == EINTR) continue;
+        good = n > 0;
+        if (good) done += static_cast<std::size_t>(n);
+    }
+    good = good && ::fsync(fd) == 0;
+    const int error = errno;
+    ::close(fd);
+    if (!good || ::rename(temporary.c_str(), path.c_str()) != 0) {
+        const std::string why = std::strerror(good ? errno : error);
+        ::unlink(temporary.c_str());
+        return fmt::format("cannot write {}: {}", path, why);
+    }
+    return {};
+}
+
+}  // namespace axisgate

@@ -1,0 +1,183 @@
+// Hot: the turn. Everything that is ready is done, then what it caused is handed on in one go, then the loop sleeps until the next deadline.
+// In and out: see the header. Never does more than a bounded amount of work between two looks at the clock.
+#include "gateway/runtime/hot.hpp"
+
+#include <fmt/format.h>
+#include <pthread.h>
+#include <sched.h>
+
+#include "gateway/lines/make_line.hpp"
+#include "gateway/runtime/clock.hpp"
+
+namespace axisgate {
+namespace {
+constexpr std::size_t command_ring = 1024;
+constexpr std::size_t job_ring = 256;
+constexpr std::size_t stored_ring = 8192;
+constexpr int handlers_per_turn = 128;
+constexpr Duration reports_period = std::chrono::milliseconds(100);
+constexpr Duration stop_limit = std::chrono::milliseconds(1500);
+}  // namespace
+
+Hot::Hot(Families families, HotSettings settings)
+    : settings_(settings),
+      engine_(std::move(families), *this, image_, settings.trace_frames),
+      commands_(command_ring, io_.get_executor(), [this](Command&& c) { engine_.on_command(std::move(c), now()); }),
+      jobs_(job_ring, io_.get_executor(), [this](Job&& j) { j(engine_, now()); }),
+      stored_(stored_ring, io_.get_executor(), [this](Stored&& s) { engine_.on_stored(s.order, s.fault, now()); }) {}
+
+Hot::~Hot() { stop(); }
+
+Instant Hot::now() const { return monotonic_now(); }
+
+void Hot::start() {
+    last_turn_ns_.store(ns_of(now()), std::memory_order_relaxed);
+    thread_ = std::thread([this] {
+        pthread_setname_np(pthread_self(), "axisgate-hot");
+        if (settings_.cpu >= 0) {
+            cpu_set_t set;
+            CPU_ZERO(&set);
+            CPU_SET(static_cast<unsigned>(settings_.cpu), &set);
+            (void)pthread_setaffinity_np(pthread_self(), sizeof set, &set);  // a wish: without the processor it runs anywhere
+        }
+        run();
+    });
+}
+
+void Hot::stop() {
+    if (!thread_.joinable()) return;
+    stopping_.store(true);
+    boost::asio::post(io_, [] {});
+    thread_.join();
+}
+
+void Hot::run() {
+    const auto spin = std::chrono::microseconds(settings_.spin_us);
+    Instant stop_by = never;
+    bool stopping = false;
+    while (!finished_) {
+        end_turn();
+        std::size_t ran = io_.poll_one();
+        if (ran == 0 && settings_.spin_us > 0) {
+            const Instant until = now() + spin;
+            while (ran == 0 && now() < until && armed_ > now()) ran = io_.poll_one();
+        }
+        if (ran == 0) io_.run_one();
+        for (int n = 0; n < handlers_per_turn && io_.poll_one() > 0; ++n) {
+        }
+        if (stopping_.load(std::memory_order_relaxed)) {
+            if (!stopping) {
+                stopping = true;
+                stop_by = now() + stop_limit;
+                engine_.shut_down(now());
+            }
+            bool moving = false;
+            for (std::size_t i = 0; i < image_.size(); ++i) moving = moving || (image_.picture(AxisId{static_cast<std::uint16_t>(i)}).flags & flag_moving);
+            arm(now() + std::chrono::milliseconds(5));
+            finished_ = !moving || now() >= stop_by;
+        }
+    }
+    end_turn();
+}
+
+void Hot::end_turn() {
+    Instant t = now();
+    for (int round = 0; round < 8; ++round) {  // what doors submit on a result belongs to the same turn, up to a bound
+        if (engine_.deadline() <= t) engine_.on_deadline(t);
+        turn_commands_.clear();
+        turn_commands_.swap(submitted_);
+        for (auto& c : turn_commands_) engine_.on_command(std::move(c), t);
+        turn_results_.clear();
+        turn_results_.swap(results_);
+        for (auto& r : turn_results_) {
+            const Door door = door_of(r.ticket);
+            if (ResultSink* sink = static_cast<std::size_t>(door) < sinks_.size() ? sinks_[static_cast<std::size_t>(door)] : nullptr) {
+                sink->on_result(r);
+            } else if (door != Door::internal && out_.results) {
+                (void)out_.results->push(std::move(r));  // never full: no more tickets are given out than it has places
+            }
+        }
+        if (submitted_.empty() && results_.empty()) break;
+    }
+    if (t >= next_reports_) publish_reports(t);
+    if (out_.results) out_.results->announce();
+    if (out_.samples) out_.samples->announce();
+    if (out_.cold) out_.cold->announce();
+    turns_.fetch_add(1, std::memory_order_relaxed);
+    last_turn_ns_.store(ns_of(t), std::memory_order_relaxed);
+    const Instant next = std::min(engine_.deadline(), next_reports_);
+    arm(submitted_.empty() && results_.empty() ? next : t);
+}
+
+/// Sets the loop's one timer. A timer that rings too early costs one turn; so it is only moved forward in time when it must be.
+void Hot::arm(Instant deadline) {
+    if (armed_ <= deadline && armed_ > now()) return;
+    armed_ = deadline;
+    if (deadline == never) {
+        timer_.cancel();
+        return;
+    }
+    timer_.expires_at(std::chrono::steady_clock::time_point(std::chrono::duration_cast<std::chrono::steady_clock::duration>(deadline.time_since_epoch())));
+    timer_.async_wait([this](const boost::system::error_code& ec) {
+        if (!ec) armed_ = never;
+    });
+}
+
+void Hot::submit(Command command) { submitted_.push_back(std::move(command)); }
+
+void Hot::on_event(Event event, Instant at) {
+    if (!out_.cold) return;
+    const auto lost = lost_events_.load(std::memory_order_relaxed);
+    if (lost > lost_told_) {
+        Event gap;
+        gap.severity = Severity::warning;
+        gap.kind = "gap";
+        gap.text = fmt::format("{} events could not be taken: more came than can be written", lost - lost_told_);
+        if (out_.cold->push(EventAt{std::move(gap), at})) lost_told_ = lost;
+    }
+    if (!out_.cold->push(EventAt{std::move(event), at})) lost_events_.fetch_add(1, std::memory_order_relaxed);
+}
+
+void Hot::on_sample(const Sample& sample) {
+    if (out_.samples) (void)out_.samples->push(Sample(sample));  // a state: the next reading replaces one that was not taken
+}
+
+void Hot::on_store(StoreOrder order) {
+    const Ticket ticket = order.ticket;
+    if (!out_.cold || !out_.cold->push(std::move(order))) {
+        // Told in the next turn, not from inside the engine's own call.
+        boost::asio::post(io_, [this, ticket] { engine_.on_stored(ticket, "the database cannot keep up: too many writes wait for the disk", now()); });
+    }
+}
+
+void Hot::on_twin_memory(const std::string& drive, NonVolatile memory) {
+    if (out_.cold) (void)out_.cold->push(TwinMemory{drive, std::move(memory)});  // the next change carries the whole memory again
+}
+
+std::unique_ptr<Line> Hot::make_line(const LineSpec& spec, const LineSetup& setup) {
+    return make_real_line(spec.uri, setup, io_, find_family(spec.family)->default_format);
+}
+
+void Hot::publish_reports(Instant now) {
+    next_reports_ = now + reports_period;
+    auto r = std::make_shared<Reports>();
+    const auto& site = *engine_.site();
+    const auto room = [](auto& list, std::size_t index) {
+        if (list.size() <= index) list.resize(index + 1);
+    };
+    for (const LineId id : site.line_ids) {
+        room(r->lines, index_of(id));
+        room(r->logs, index_of(id));
+        r->lines[index_of(id)] = engine_.line_report(id, now);
+        r->logs[index_of(id)] = engine_.frame_log(id);
+    }
+    for (const DriveId id : site.drive_ids) {
+        room(r->drives, index_of(id));
+        r->drives[index_of(id)] = engine_.drive_status(id);
+    }
+    r->complaints = engine_.complaints();
+    r->settled = engine_.settled();
+    reports_.store(std::move(r), std::memory_order_release);
+}
+
+}  // namespace axisgate

@@ -1,0 +1,114 @@
+// Hot: the thread that a PLC feels: lines, twins, engine and the Modbus door on one io_context, with no hand-over between them.
+// In: commands of the warm thread, what lines and sockets bring, time. Out: results, events, snapshots of reports.
+// Never waits for a disk, a lock or another thread.
+#pragma once
+
+#include <atomic>
+#include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <functional>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "gateway/core/door.hpp"
+#include "gateway/core/engine.hpp"
+#include "gateway/runtime/cold.hpp"
+#include "gateway/runtime/mailbox.hpp"
+
+namespace axisgate {
+
+/// What the warm thread may read at any time: the newest reports of lines and drives, at most 200 ms old.
+struct Reports {
+    std::vector<LineReport> lines;    ///< by LineId
+    std::vector<DriveStatus> drives;  ///< by DriveId
+    std::vector<std::shared_ptr<const FrameLog>> logs;  ///< by LineId
+    std::vector<std::string> complaints;
+    bool settled = false;
+};
+
+struct HotSettings {
+    std::int64_t spin_us = 0;
+    int cpu = -1;
+    std::size_t trace_frames = 4096;
+};
+
+class Hot final : public EngineHost, public DoorPort {
+public:
+    using Job = std::function<void(Engine&, Instant)>;
+    struct Outlets {
+        Mailbox<Result>* results = nullptr;    ///< to the warm thread: results of its own commands
+        Mailbox<Sample>* samples = nullptr;    ///< to the warm thread
+        Mailbox<ColdJob>* cold = nullptr;
+    };
+
+    Hot(Families families, HotSettings settings);
+    ~Hot() override;
+
+    void connect(Outlets outlets) { out_ = outlets; }
+    [[nodiscard]] boost::asio::io_context& context() noexcept { return io_; }
+    [[nodiscard]] Mailbox<Command>& commands() noexcept { return commands_; }
+    [[nodiscard]] Mailbox<Job>& jobs() noexcept { return jobs_; }
+    [[nodiscard]] Mailbox<Stored>& stored() noexcept { return stored_; }
+    /// Any thread: cells of the image; axis pictures by AxisCell.
+    [[nodiscard]] const Image& image_for_readers() const noexcept { return image_; }
+    [[nodiscard]] std::shared_ptr<const Reports> reports() const { return reports_.load(std::memory_order_acquire); }
+    [[nodiscard]] Engine& engine() noexcept { return engine_; }  ///< before start(), or on the hot thread
+
+    void start();
+    /// Stops moving axes, gives them a moment, closes the lines, ends the thread.
+    void stop();
+    /// Instant of the last turn: the watchdog looks at it.
+    [[nodiscard]] Instant last_turn() const noexcept { return at_ns(last_turn_ns_.load(std::memory_order_relaxed)); }
+    [[nodiscard]] std::uint64_t turns() const noexcept { return turns_.load(std::memory_order_relaxed); }
+    [[nodiscard]] std::uint64_t lost_events() const noexcept { return lost_events_.load(std::memory_order_relaxed); }
+
+    // DoorPort (hot thread)
+    [[nodiscard]] Instant now() const override;
+    [[nodiscard]] const Image& image() const override { return image_; }
+    [[nodiscard]] const Catalogue* catalogue(AxisId axis) const override { return engine_.catalogue(axis); }
+    void submit(Command command) override;
+    void attach(Door door, ResultSink* sink) override { sinks_[static_cast<std::size_t>(door)] = sink; }
+
+    // EngineHost (hot thread)
+    std::unique_ptr<Line> make_line(const LineSpec& spec, const LineSetup& setup) override;
+    void on_result(const Result& result) override { results_.push_back(result); }
+    void on_event(Event event, Instant at) override;
+    void on_sample(const Sample& sample) override;
+    void on_store(StoreOrder order) override;
+    void on_twin_memory(const std::string& drive, NonVolatile memory) override;
+
+private:
+    void run();
+    void end_turn();
+    void arm(Instant deadline);
+    void publish_reports(Instant now);
+
+    HotSettings settings_;
+    boost::asio::io_context io_{1};
+    boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work_{io_.get_executor()};
+    boost::asio::steady_timer timer_{io_};
+    Instant armed_ = never;
+    Image image_;
+    Engine engine_;
+    Outlets out_;
+    Mailbox<Command> commands_;
+    Mailbox<Job> jobs_;
+    Mailbox<Stored> stored_;
+    std::vector<Command> submitted_;  // by doors of this thread, during the present turn
+    std::vector<Result> results_;
+    std::vector<Command> turn_commands_;  // the two above while they are worked on; kept for their room
+    std::vector<Result> turn_results_;
+    std::array<ResultSink*, 6> sinks_{};
+    std::atomic<std::shared_ptr<const Reports>> reports_{std::make_shared<const Reports>()};
+    Instant next_reports_{};
+    std::atomic<std::int64_t> last_turn_ns_{0};
+    std::atomic<std::uint64_t> turns_{0}, lost_events_{0};
+    std::uint64_t lost_told_ = 0;
+    std::atomic<bool> stopping_{false};
+    bool finished_ = false;
+    std::thread thread_;
+};
+
+}  // namespace axisgate

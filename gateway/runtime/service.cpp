@@ -1,0 +1,309 @@
+// Service: `axisgate serve`: assembles store, hot, cold and warm threads and doors, says `ready`, and takes it all down again in order.
+// In: the configuration, a site. Out: the running gateway; an exit code. Never starts a door before what it shows is there.
+#include <fmt/format.h>
+#include <pthread.h>
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <boost/asio/signal_set.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/json/parse.hpp>
+#include <boost/json/serialize.hpp>
+#include <csignal>
+#include <cstdio>
+#include <future>
+
+#include "gateway/core/assets.hpp"
+#include "gateway/doors/http/server.hpp"
+#include "gateway/doors/modbus/server.hpp"
+#include "gateway/runtime/catalogues.hpp"
+#include "gateway/runtime/clock.hpp"
+#include "gateway/runtime/commands.hpp"
+#include "gateway/runtime/files.hpp"
+#include "gateway/runtime/hot.hpp"
+#include "gateway/runtime/site_file.hpp"
+#include "gateway/runtime/systemd.hpp"
+#include "gateway/runtime/warm_gateway.hpp"
+
+namespace axisgate {
+namespace {
+/// Longest wait for lines and drives before `ready` is said all the same; what is missing is then named in it.
+constexpr auto ready_limit = std::chrono::seconds(5);
+
+bool open_log(const Config& c) {
+    try {
+        std::shared_ptr<spdlog::logger> log;
+        if (c.log_file.empty()) {
+            log = std::make_shared<spdlog::logger>("axisgate", std::make_shared<spdlog::sinks::stderr_sink_mt>());
+        } else {
+            log = std::make_shared<spdlog::logger>("axisgate", std::make_shared<spdlog::sinks::basic_file_sink_mt>(c.log_file));
+        }
+        log->set_pattern("%Y-%m-%dT%H:%M:%S.%f%z %l %v");
+        log->set_level(spdlog::level::from_str(c.log_level));
+        log->flush_on(spdlog::level::info);
+        spdlog::set_default_logger(std::move(log));
+        return true;
+    } catch (const spdlog::spdlog_ex& e) {
+        complain(fmt::format("cannot open the log file {}: {}; check the folder and its rights, or leave log.file empty", c.log_file, e.what()));
+        return false;
+    }
+}
+
+void log_event(const Event& e) {
+    const auto level = e.severity == Severity::alarm ? spdlog::level::err : e.severity == Severity::warning ? spdlog::level::warn : spdlog::level::info;
+    std::string where;
+    if (!e.line.empty()) where += " line=" + e.line;
+    if (!e.drive.empty()) where += " drive=" + e.drive;
+    if (!e.axis.empty()) where += " axis=" + e.axis;
+    if (!e.door.empty()) where += " by=" + e.door + (e.who.empty() ? "" : "/" + e.who);
+    spdlog::log(level, "{}{}: {}", e.kind, where, e.text);
+}
+
+struct LogListener final : GatewayListener {
+    void on_event(const Event& event) override { log_event(event); }
+    void on_site(const std::shared_ptr<const SiteState>&) override {}
+};
+
+std::string modbus_metrics(const modbus::Counters& c) {
+    std::string s;
+    const auto put = [&](std::string_view name, std::string_view type, std::string_view help, std::uint64_t value) {
+        s += fmt::format("# HELP axisgate_modbus_{0} {1}\n# TYPE axisgate_modbus_{0} {2}\naxisgate_modbus_{0} {3}\n", name, help, type, value);
+    };
+    put("requests_total", "counter", "Requests taken for an answer.", c.requests.value());
+    put("connections", "gauge", "Connections open now.", c.connections_open.value());
+    put("connections_accepted_total", "counter", "Connections accepted.", c.connections_accepted.value());
+    put("connections_refused_total", "counter", "Connections refused at the limit.", c.connections_refused.value());
+    put("connections_evicted_total", "counter", "Idle connections closed to make room.", c.connections_evicted.value());
+    put("closed_not_modbus_total", "counter", "Connections closed for bytes that were not Modbus.", c.closed_not_modbus.value());
+    put("received_bytes_total", "counter", "Bytes received.", c.bytes_received.value());
+    put("sent_bytes_total", "counter", "Bytes sent.", c.bytes_sent.value());
+    s += "# HELP axisgate_modbus_exceptions_total Exception answers by code.\n# TYPE axisgate_modbus_exceptions_total counter\n";
+    for (const int code : {1, 2, 3, 4, 6, 10, 11}) {
+        s += fmt::format("axisgate_modbus_exceptions_total{{code=\"{}\"}} {}\n", code, c.exceptions[static_cast<std::size_t>(code)].value());
+    }
+    return s;
+}
+
+/// Everything that lives while the service runs; destroyed from the last to the first.
+struct Service {
+    const ServeOptions& options;
+    Families families;
+    std::unique_ptr<Store> store;
+    boost::asio::io_context warm{1};
+    std::unique_ptr<Hot> hot;
+    std::unique_ptr<Cold> cold;
+    std::unique_ptr<WarmGateway> gateway;
+    std::unique_ptr<modbus::Server> modbus;
+    std::unique_ptr<http::Server> http;
+    LogListener log;
+    boost::asio::signal_set signals{warm};
+    boost::asio::steady_timer tick{warm};
+    Instant started = monotonic_now();
+    bool ready_said = false;
+    int code = exit_good;
+
+    explicit Service(const ServeOptions& o) : options(o) {}
+
+    int open_store();
+    int load_site(Site& site, std::uint64_t& revision);
+    int open_doors();
+    void watch();
+    void say_ready();
+    void take_down();
+};
+
+int Service::open_store() {
+    StoreOptions so;
+    so.directory = options.config.data_dir;
+    const auto migrations = migrations_among(all_assets());
+    if (!migrations) {
+        complain(migrations.error().text);
+        return exit_failed;
+    }
+    so.migrations = *migrations;
+    auto opened = Store::open(so);
+    if (!opened) {
+        complain(opened.error().text);
+        return exit_failed;
+    }
+    store = std::move(*opened);
+    auto reader = StoreReader::open(so);
+    if (!reader) {
+        complain(reader.error().text);
+        return exit_failed;
+    }
+    HotSettings hs;
+    hs.spin_us = options.config.spin_us;
+    hs.cpu = static_cast<int>(options.config.hot_cpu);
+    hs.trace_frames = static_cast<std::size_t>(options.config.trace_frames);
+    hot = std::make_unique<Hot>(families, hs);
+    Cold::Answers answers;
+    answers.stored = [this](std::vector<Stored> list) {
+        for (auto& s : list) {
+            // The hot thread empties this ring in every turn; it has more places than orders can be on the way.
+            while (!hot->stored().push(std::move(s))) std::this_thread::yield();
+        }
+        hot->stored().announce();
+    };
+    answers.events = [this](std::vector<Event> list) { gateway->events_written(std::move(list)); };
+    answers.fault = [](std::string text) { spdlog::error("store: {}", text); };
+    cold = std::make_unique<Cold>(*store, std::move(answers));
+    gateway = std::make_unique<WarmGateway>(warm, *hot, *cold, families, std::move(*reader));
+    gateway->listen(&log);
+    hot->connect({&gateway->results(), &gateway->samples(), &cold->from_hot()});
+    return exit_good;
+}
+
+int Service::load_site(Site& site, std::uint64_t& revision) {
+    if (!options.site_file.empty()) {
+        auto read = read_site_file(options.site_file, families);
+        for (const auto& f : read.faults) complain(f);
+        if (!read.site) return exit_usage;
+        site = std::move(*read.site);
+        SiteChange change;
+        change.axes.emplace();
+        change.drives.emplace();
+        for (const auto& a : site.axes) change.axes->push_back(a.name);
+        for (const auto& d : site.drives) change.drives->push_back(d.name);
+        const auto saved = store->save_site(boost::json::serialize(to_json(site)), "--site " + options.site_file, unix_now_ns(), change);
+        if (!saved) {
+            complain(saved.error().text);
+            return exit_failed;
+        }
+        revision = *saved;
+        return exit_good;
+    }
+    const auto stored = store->load_site();
+    if (!stored) {
+        complain(stored.error().text);
+        return exit_failed;
+    }
+    if (!*stored) return exit_good;  // an empty site: everything is set up over the page or the API
+    revision = (*stored)->revision;
+    std::vector<SiteFault> faults;
+    boost::system::error_code ec;
+    const auto document = boost::json::parse((*stored)->text, ec);
+    auto parsed = ec ? std::nullopt : parse_site(document, families, faults);
+    if (!parsed) {
+        for (const auto& f : faults) complain(fmt::format("stored site, {}: {}; {}", f.pointer, f.text, f.remedy));
+        complain("the stored site does not fit this program; start with --site FILE.json to replace it");
+        return exit_failed;
+    }
+    site = std::move(*parsed);
+    return exit_good;
+}
+
+int Service::open_doors() {
+    std::vector<Gateway::DoorInfo> doors;
+    if (!options.config.modbus_bind.empty()) {
+        modbus::ServerSettings ms;
+        ms.responder.version = AXISGATE_VERSION;
+        ms.responder.word_order = options.config.modbus_low_word_first ? modbus::WordOrder::low_first : modbus::WordOrder::high_first;
+        ms.max_connections = static_cast<std::size_t>(options.config.modbus_max_connections);
+        ms.idle_timeout = std::chrono::seconds(options.config.modbus_idle_timeout_s);
+        modbus = std::make_unique<modbus::Server>(hot->context(), *hot, ms);
+        const std::string binds[] = {options.config.modbus_bind};
+        if (const std::string fault = modbus->open(binds); !fault.empty()) {
+            complain(fault);
+            return exit_failed;
+        }
+        for (const auto& a : modbus->addresses()) doors.push_back({"modbus", a});
+    }
+    if (!options.config.http_bind.empty()) {
+        http::Settings hs;
+        hs.version = AXISGATE_VERSION;
+        hs.bind = options.config.http_bind;
+        hs.allowed_hosts = options.config.http_allowed_hosts;
+        hs.max_connections = static_cast<std::size_t>(options.config.max_http_connections);
+        http = std::make_unique<http::Server>(warm, *gateway, hs, [](std::string_view path) { return asset(path); });
+        if (const std::string fault = http->start(); !fault.empty()) {
+            complain(fault);
+            return exit_failed;
+        }
+        doors.push_back({"http", http->address()});
+    }
+    gateway->set_doors(doors);
+    gateway->more_metrics = [this] { return modbus ? modbus_metrics(modbus->counters()) : std::string(); };
+    return exit_good;
+}
+
+void Service::say_ready() {
+    const auto reports = hot->reports();
+    if (!reports->settled && monotonic_now() - started < ready_limit) return;
+    ready_said = true;
+    std::string text = "ready";
+    for (const auto& d : gateway->doors()) text += fmt::format(" {}={}", d.name, d.address);
+    text += fmt::format(" axes={}", gateway->site()->site.axes.size());
+    for (const auto& c : reports->complaints) text += "; " + c;
+    fmt::print("{}\n", text);
+    std::fflush(stdout);
+    notify_manager("READY=1\nSTATUS=serving");
+    spdlog::info("{}", text);
+}
+
+/// The warm thread's own clock: says `ready` when all is up, and feeds the watchdog as long as the hot loop turns.
+void Service::watch() {
+    if (!ready_said) say_ready();
+    const auto interval = watchdog_interval();
+    if (interval && monotonic_now() - hot->last_turn() < std::chrono::seconds(1)) notify_manager("WATCHDOG=1");
+    auto next = ready_said ? std::chrono::milliseconds(500) : std::chrono::milliseconds(2);
+    if (interval) next = std::min(next, std::chrono::duration_cast<std::chrono::milliseconds>(*interval));
+    tick.expires_after(next);
+    tick.async_wait([this](const boost::system::error_code& ec) {
+        if (!ec) watch();
+    });
+}
+
+void Service::take_down() {
+    notify_manager("STOPPING=1");
+    hot->stop();  // brings moving axes to rest first
+    bool closed = !http;
+    if (http) http->stop([&closed] { closed = true; });
+    const Instant limit = monotonic_now() + std::chrono::seconds(3);
+    while (!closed && monotonic_now() < limit) (void)warm.run_one_for(std::chrono::milliseconds(50));
+    cold->stop();
+}
+}  // namespace
+
+int command_serve(const ServeOptions& options) {
+    if (!open_log(options.config)) return exit_failed;
+    if (!options.config.modbus_rtu_port.empty() || options.config.dds_enabled || !options.config.http_tls_cert.empty()) {
+        if (!options.config.modbus_rtu_port.empty()) complain("modbus_rtu.port: this version has no Modbus RTU door; leave the key out");
+        if (options.config.dds_enabled) complain("dds.enabled: this version has no DDS door; set it to false");
+        if (!options.config.http_tls_cert.empty()) complain("http.tls_cert: this version serves HTTP without TLS; leave the keys out, and keep http.bind on loopback or behind a proxy");
+        return exit_usage;
+    }
+    (void)std::signal(SIGPIPE, SIG_IGN);
+    std::vector<std::string> faults;
+    Service s(options);
+    s.families = load_families(faults);
+    for (const auto& f : faults) complain(f);
+    if (!faults.empty()) return exit_failed;
+    if (const int code = s.open_store(); code != exit_good) return code;
+    Site site;
+    std::uint64_t revision = 0;
+    if (const int code = s.load_site(site, revision); code != exit_good) return code;
+    auto memory = read_site_memory(*s.store, site);
+    auto state = s.hot->engine().apply_site(std::move(site), std::move(memory), revision, monotonic_now());
+    s.gateway->set_site(state);
+    if (const int code = s.open_doors(); code != exit_good) return code;
+
+    s.signals.add(SIGINT);
+    s.signals.add(SIGTERM);
+    s.signals.async_wait([&s](const boost::system::error_code& ec, int) {
+        if (!ec) s.warm.stop();
+    });
+    s.cold->start();
+    s.hot->start();
+    s.watch();
+    pthread_setname_np(pthread_self(), "axisgate-warm");
+    s.warm.run();
+    s.warm.restart();
+    s.take_down();
+    spdlog::info("stopped");
+    return s.code;
+}
+
+}  // namespace axisgate

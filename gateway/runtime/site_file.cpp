@@ -1,0 +1,55 @@
+// Site file: see the header.
+// In and out: see the header. Never stops at the first fault, but JSON that is none has only one.
+#include "gateway/runtime/site_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/json/stream_parser.hpp>
+
+#include "gateway/runtime/files.hpp"
+
+namespace axisgate {
+
+SiteFile read_site_file(const std::string& path, const Families& families) {
+    SiteFile out;
+    std::string fault;
+    const auto text = read_file(path, fault, 16u << 20);
+    if (!text) {
+        out.faults.push_back(fault);
+        return out;
+    }
+    boost::system::error_code ec;
+    boost::json::stream_parser parser;
+    const std::size_t used = parser.write_some(text->data(), text->size(), ec);
+    std::size_t rest = used;
+    while (!ec && rest < text->size() && (*text)[rest] <= ' ') ++rest;
+    if (!ec) parser.finish(ec);
+    if (ec || rest != text->size()) {
+        const auto line = 1 + std::count(text->begin(), text->begin() + static_cast<std::ptrdiff_t>(std::min(used, text->size())), '\n');
+        out.faults.push_back(fmt::format("{}:{}: this is not JSON ({}); every name in double quotes, no comma before a closing bracket, nothing behind the end",
+                                         path, line, ec ? ec.message() : "something follows the document"));
+        return out;
+    }
+    std::vector<SiteFault> wrong;
+    out.site = parse_site(parser.release(), families, wrong);
+    for (const auto& f : wrong) {
+        out.faults.push_back(fmt::format("{}:{}: {} ({}); {}", path, line_of_pointer(*text, f.pointer), f.text, f.pointer.empty() ? "/" : f.pointer, f.remedy));
+    }
+    return out;
+}
+
+SiteMemory read_site_memory(StoreReader& store, const Site& site) {
+    SiteMemory memory;
+    for (const auto& d : site.drives) {
+        if (auto m = store.load_twin(d.name)) memory.twins[d.name] = std::move(*m);
+    }
+    for (const auto& a : site.axes) {
+        if (const auto rows = store.stored(a.name)) {
+            for (const auto& row : *rows) memory.stored[a.name][row.parameter] = row.value;
+        }
+    }
+    return memory;
+}
+
+}  // namespace axisgate

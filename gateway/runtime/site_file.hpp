@@ -1,0 +1,24 @@
+// Site file: a site document read from disk, with faults that name file and line.
+// In: a path. Out: a checked site, or every fault as one line for standard error. Never changes the file.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gateway/core/engine.hpp"
+#include "gateway/core/site.hpp"
+#include "gateway/store/reader.hpp"
+
+namespace axisgate {
+
+struct SiteFile {
+    std::optional<Site> site;
+    std::vector<std::string> faults;  ///< "site.json:12: ... (/axes/0/number); what to do"
+};
+[[nodiscard]] SiteFile read_site_file(const std::string& path, const Families& families);
+
+/// What twins and axes of a site had before, from the store.
+[[nodiscard]] SiteMemory read_site_memory(StoreReader& store, const Site& site);
+
+}  // namespace axisgate

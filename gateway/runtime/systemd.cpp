@@ -1,0 +1,39 @@
+// systemd: sd_notify(3)'s protocol is one datagram, which spares the library.
+// In and out: see the header. Never blocks: the socket is sent to without waiting.
+#include "gateway/runtime/systemd.hpp"
+
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <cstddef>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+namespace axisgate {
+
+void notify_manager(std::string_view state) noexcept {
+    const char* path = std::getenv("NOTIFY_SOCKET");
+    sockaddr_un address{};
+    if (!path || (path[0] != '/' && path[0] != '@') || std::strlen(path) >= sizeof address.sun_path) return;
+    address.sun_family = AF_UNIX;
+    std::memcpy(address.sun_path, path, std::strlen(path));
+    if (path[0] == '@') address.sun_path[0] = '\0';
+    const int fd = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    if (fd < 0) return;
+    const auto length = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + std::strlen(path));
+    (void)::sendto(fd, state.data(), state.size(), MSG_NOSIGNAL | MSG_DONTWAIT, reinterpret_cast<const sockaddr*>(&address), length);
+    ::close(fd);
+}
+
+std::optional<std::chrono::microseconds> watchdog_interval() noexcept {
+    const char* usec = std::getenv("WATCHDOG_USEC");
+    const char* pid = std::getenv("WATCHDOG_PID");
+    if (!usec || (pid && std::strtol(pid, nullptr, 10) != getpid())) return std::nullopt;
+    const long long period = std::strtoll(usec, nullptr, 10);
+    if (period < 2000) return std::nullopt;
+    return std::chrono::microseconds(period / 2);
+}
+
+}  // namespace axisgate

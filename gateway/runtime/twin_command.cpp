@@ -1,0 +1,260 @@
+// Twin: embedded drives by themselves on a line that anything can open: a maker's tool, a terminal, a test.
+// In: a line URI, addresses, a memory file, the tester's hand over HTTP. Out: the drives' frames. Never runs an adapter.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/signal_set.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/json/parse.hpp>
+#include <boost/json/serialize.hpp>
+#include <csignal>
+#include <cstdio>
+#include <memory>
+
+#include "gateway/core/line_uri.hpp"
+#include "gateway/doors/http/hand_server.hpp"
+#include "gateway/lines/make_line.hpp"
+#include "gateway/runtime/catalogues.hpp"
+#include "gateway/runtime/clock.hpp"
+#include "gateway/runtime/commands.hpp"
+#include "gateway/runtime/files.hpp"
+#include "gateway/runtime/memory_file.hpp"
+
+namespace axisgate {
+namespace {
+/// The drives' own time: real time since the start, stretched.
+class ScaledClock {
+public:
+    explicit ScaledClock(double scale) : scale_(scale), begun_(monotonic_now()) {}
+    [[nodiscard]] Instant now() const {
+        return time_zero + std::chrono::seconds(1) + Duration(static_cast<std::int64_t>(static_cast<double>((monotonic_now() - begun_).count()) * scale_));
+    }
+    [[nodiscard]] Instant real(Instant scaled) const {
+        if (scaled == never) return never;
+        const auto d = scaled - (time_zero + std::chrono::seconds(1));
+        const double ns = static_cast<double>(d.count()) / scale_;
+        return ns > 9e17 ? never : begun_ + Duration(static_cast<std::int64_t>(ns) + 1);
+    }
+
+private:
+    double scale_;
+    Instant begun_;
+};
+
+class TwinHost final : public LineEvents {
+public:
+    TwinHost(boost::asio::io_context& io, double scale, std::string state_file) : clock_(scale), timer_(io), state_file_(std::move(state_file)) {}
+
+    struct Drive {
+        std::string address;
+        std::unique_ptr<Twin> twin;
+        std::uint64_t saved = 0;
+    };
+    std::vector<Drive> drives;
+    std::unique_ptr<Line> line;
+    bool up = false;
+    std::string why;
+
+    void power_on(const std::map<std::string, NonVolatile>& memories) {
+        for (auto& d : drives) {
+            const auto m = memories.find(d.address);
+            Out out;
+            d.twin->power_on(m == memories.end() ? NonVolatile{} : m->second, clock_.now(), out);
+            d.saved = d.twin->non_volatile_revision();
+            send(out);
+        }
+        arm();
+    }
+    void on_frame(const Frame& frame) override {
+        Frame f = frame;
+        f.at = clock_.now();
+        for (auto& d : drives) {
+            Out out;
+            d.twin->on_frame(f, f.at, out);
+            send(out);
+        }
+        after();
+    }
+    void on_line_state(bool now_up, const std::string& text) override {
+        up = now_up;
+        why = text;
+    }
+    void on_sent(const Frame&) override {}
+
+    std::vector<HandItem> hand(std::size_t index) const { return drives[index].twin->hand(); }
+    std::string set_hand(std::size_t index, const std::vector<std::pair<std::string, Value>>& items) {
+        std::string wrong;
+        for (const auto& [name, value] : items) {
+            Out out;
+            wrong = drives[index].twin->set_hand(name, value, clock_.now(), out);
+            send(out);
+            if (!wrong.empty()) break;
+        }
+        after();
+        return wrong;
+    }
+
+private:
+    void send(const Out& out) {
+        for (const auto& tx : out.frames) (void)line->send(tx.frame, tx.priority, monotonic_now());
+    }
+    void after() {
+        save();
+        arm();
+    }
+    void save() {
+        bool changed = false;
+        for (auto& d : drives) {
+            const auto revision = d.twin->non_volatile_revision();
+            changed = changed || revision != d.saved;
+            d.saved = revision;
+        }
+        if (!changed || state_file_.empty()) return;
+        std::map<std::string, NonVolatile> memories;
+        for (auto& d : drives) memories[d.address] = d.twin->non_volatile();
+        if (const std::string fault = write_file(state_file_, memories_to_json(memories)); !fault.empty()) complain(fault);
+    }
+    void arm() {
+        Instant next = never;
+        for (auto& d : drives) next = std::min(next, d.twin->deadline());
+        const Instant real = clock_.real(next);
+        if (real == armed_) return;
+        armed_ = real;
+        timer_.cancel();
+        if (real == never) return;
+        timer_.expires_at(std::chrono::steady_clock::time_point(std::chrono::duration_cast<std::chrono::steady_clock::duration>(real.time_since_epoch())));
+        timer_.async_wait([this](const boost::system::error_code& ec) {
+            if (ec) return;
+            armed_ = never;
+            const Instant now = clock_.now();
+            for (auto& d : drives) {
+                Out out;
+                // Bounded: what is due again at once gets the next turn.
+                if (d.twin->deadline() <= now) d.twin->on_deadline(now, out);
+                send(out);
+            }
+            after();
+        });
+    }
+
+    ScaledClock clock_;
+    boost::asio::steady_timer timer_;
+    Instant armed_ = never;
+    std::string state_file_;
+};
+}  // namespace
+
+int command_twin(const TwinOptions& o) {
+    std::vector<std::string> faults;
+    const auto families = load_families(faults);
+    for (const auto& f : faults) complain(f);
+    if (!faults.empty()) return exit_failed;
+    const auto entry = families.find(o.family);
+    if (!entry.family) {
+        complain(fmt::format("there is no family {}; families: {}", o.family, families.names()));
+        return exit_usage;
+    }
+    const Family& family = *entry.family;
+    const auto uri = parse_line_uri(o.line_uri, family.default_bit_rate, family.default_format);
+    bool usable = true;
+    const auto refuse = [&usable](const std::string& text) {
+        complain(text);
+        usable = false;
+    };
+    if (!uri.good()) refuse("--line: " + uri.fault);
+    if (uri.good() && uri.uri.kind == LineUri::Kind::twin) refuse("--line: twin is a line of `serve` alone; use tcp-listen:HOST:PORT, pty:PATH, serial: or can:");
+    if (!(o.time_scale >= 0.001 && o.time_scale <= 10000)) refuse("--time-scale: write a number from 0.001 to 10000");
+    auto addresses = o.addresses;
+    if (addresses.empty()) addresses.emplace_back(family.factory_address);
+    for (const auto& a : addresses) {
+        if (const std::string wrong = family.check_address(a); !wrong.empty()) refuse("--address: " + wrong);
+        if (std::ranges::count(addresses, a) > 1) refuse(fmt::format("--address: {} is there twice", a));
+    }
+    std::map<std::string, std::string> options;
+    for (const auto& x : o.options) {
+        const auto equals = x.find('=');
+        if (equals == std::string::npos || equals == 0) {
+            refuse("--option: write NAME=VALUE");
+        } else {
+            options[x.substr(0, equals)] = x.substr(equals + 1);
+        }
+    }
+    std::map<std::string, NonVolatile> memories;
+    if (usable && !o.state_file.empty()) {
+        std::string fault;
+        if (const auto text = read_file(o.state_file, fault)) {
+            const std::string wrong = memories_from_json(*text, memories);
+            if (!wrong.empty()) refuse(fmt::format("--state {}: {}", o.state_file, wrong));
+        } else if (const std::string made = write_file(o.state_file, memories_to_json({})); !made.empty()) {
+            refuse("--state: " + made);
+        }
+    }
+    if (!usable) return exit_usage;
+
+    (void)std::signal(SIGPIPE, SIG_IGN);
+    boost::asio::io_context io{1};
+    TwinHost host(io, o.time_scale, o.state_file);
+    const LineKind kind = uri.uri.kind == LineUri::Kind::can ? LineKind::can : LineKind::bytes;
+    for (const auto& a : addresses) {
+        TwinSetup t;
+        t.address = a;
+        t.kind = kind;
+        t.options = options;
+        t.axes = 16;  // as many channels as the family has; it takes fewer if it has fewer
+        host.drives.push_back({a, family.make_twin(*entry.catalogue, t), 0});
+    }
+    LineSetup setup;
+    setup.name = o.line_uri;
+    setup.kind = kind;
+    setup.bit_rate = family.default_bit_rate;
+    host.line = make_real_line(o.line_uri, setup, io, family.default_format);
+    host.line->open(host, monotonic_now());
+    host.power_on(memories);
+
+    std::unique_ptr<http::HandServer> hand;
+    if (!o.hand_bind.empty()) {
+        std::vector<http::HandServer::Drive> list;
+        for (std::size_t i = 0; i < host.drives.size(); ++i) {
+            list.push_back({host.drives[i].address, [&host, i] { return host.hand(i); },
+                            [&host, i](const std::vector<std::pair<std::string, Value>>& items) { return host.set_hand(i, items); }});
+        }
+        hand = std::make_unique<http::HandServer>(io, o.hand_bind, std::move(list));
+        if (const std::string fault = hand->open(); !fault.empty()) {
+            complain(fault);
+            return exit_failed;
+        }
+    }
+    boost::asio::signal_set signals(io, SIGINT, SIGTERM);
+    signals.async_wait([&io](const boost::system::error_code& ec, int) {
+        if (!ec) io.stop();
+    });
+    boost::asio::steady_timer wait(io);
+    std::string told;
+    std::function<void()> look = [&] {
+        if (host.up) {
+            std::string list;
+            for (const auto& a : addresses) list += (list.empty() ? "" : ",") + a;
+            fmt::print("ready {} addresses={} line={}{}\n", o.family, list, host.line->status(monotonic_now()).text, hand ? " hand=" + hand->address() : "");
+            std::fflush(stdout);
+            return;
+        }
+        if (!host.why.empty() && host.why != told) {
+            told = host.why;
+            complain(fmt::format("{}: {}; trying again", o.line_uri, told));
+        }
+        wait.expires_after(std::chrono::milliseconds(5));
+        wait.async_wait([&look](const boost::system::error_code& ec) {
+            if (!ec) look();
+        });
+    };
+    look();
+    io.run();
+    host.line->close();
+    io.restart();
+    for (int i = 0; i < 100 && io.poll() > 0; ++i) {
+    }
+    return exit_good;
+}
+
+}  // namespace axisgate

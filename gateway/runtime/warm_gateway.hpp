@@ -1,0 +1,79 @@
+// WarmGateway: the Gateway that HTTP sees: it gives commands to the hot thread, sites and queries to the store, and keeps the newest samples.
+// In: calls on the warm thread; mailboxes from hot and cold. Out: callbacks on the warm executor.
+// Never used on another thread. Bounded: so many commands wait at most; the next is told to come again.
+#pragma once
+
+#include <boost/asio/io_context.hpp>
+#include <functional>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "gateway/core/gateway.hpp"
+#include "gateway/runtime/cold.hpp"
+#include "gateway/runtime/hot.hpp"
+#include "gateway/store/reader.hpp"
+
+namespace axisgate {
+
+class WarmGateway final : public Gateway {
+public:
+    /// `reader` is this thread's own connection to the database.
+    WarmGateway(boost::asio::io_context& warm, Hot& hot, Cold& cold, Families families, std::unique_ptr<StoreReader> reader);
+
+    [[nodiscard]] Mailbox<Result>& results() noexcept { return results_; }
+    [[nodiscard]] Mailbox<Sample>& samples() noexcept { return samples_; }
+    /// Events that the cold thread has numbered; called on the cold thread.
+    void events_written(std::vector<Event> events);
+    void set_doors(std::vector<DoorInfo> doors) { doors_ = std::move(doors); }
+    void set_site(std::shared_ptr<const SiteState> site);
+    /// More sentences for not_ready and more lines for metrics, from the service.
+    std::function<std::vector<std::string>()> more_not_ready;
+    std::function<std::string()> more_metrics;
+
+    [[nodiscard]] std::vector<DoorInfo> doors() const override { return doors_; }
+    [[nodiscard]] double uptime_s() const override;
+    [[nodiscard]] std::int64_t now_unix_ns() const override;
+    [[nodiscard]] std::int64_t to_unix_ns(Instant instant) const override;
+    [[nodiscard]] const Families& families() const override { return families_; }
+    [[nodiscard]] std::vector<std::string> not_ready() const override;
+    [[nodiscard]] std::string metrics() const override;
+    [[nodiscard]] std::shared_ptr<const SiteState> site() const override { return site_; }
+    void apply_site(Site site, std::uint64_t expected_revision, Origin origin, std::function<void(SiteAnswer)> then) override;
+    [[nodiscard]] AxisPicture picture(AxisId axis) const override;
+    [[nodiscard]] std::uint64_t picture_revision(AxisId axis) const override;
+    Ticket submit(Command command, std::function<void(const Result&)> then) override;
+    [[nodiscard]] LiveParameter live(AxisId axis, Point point) const override;
+    [[nodiscard]] std::vector<StoredParameter> stored(const std::string& axis) const override;
+    [[nodiscard]] std::vector<StoredParameter> history(const std::string& axis, const std::string& parameter, std::size_t limit) const override;
+    [[nodiscard]] LineReport line_report(LineId line) const override;
+    [[nodiscard]] DriveStatus drive_status(DriveId drive) const override;
+    [[nodiscard]] Trace trace(LineId line, std::uint64_t since, std::size_t limit) const override;
+    void hand(DriveId drive, std::function<void(std::optional<std::vector<HandItem>>)> then) override;
+    void set_hand(DriveId drive, std::vector<std::pair<std::string, Value>> items, Origin origin, std::function<void(std::string)> then) override;
+    [[nodiscard]] std::vector<Event> events(const EventQuery& query) const override;
+    void listen(GatewayListener* listener) override { listeners_.push_back(listener); }
+    void unlisten(GatewayListener* listener) override { std::erase(listeners_, listener); }
+
+private:
+    void answer(Result&& result);
+    void finish_site(bool good, std::string fault, std::shared_ptr<const SiteState> state, const std::function<void(SiteAnswer)>& then);
+
+    boost::asio::io_context& io_;
+    Hot& hot_;
+    Cold& cold_;
+    Families families_;
+    std::unique_ptr<StoreReader> reader_;
+    Mailbox<Result> results_;
+    Mailbox<Sample> samples_;
+    std::shared_ptr<const SiteState> site_ = std::make_shared<const SiteState>();
+    std::vector<DoorInfo> doors_;
+    std::vector<GatewayListener*> listeners_;
+    std::unordered_map<Ticket, std::function<void(const Result&)>> waiting_;
+    std::unordered_map<std::uint64_t, LiveParameter> live_;  // by axis << 32 | parameter << 16 | element
+    std::uint64_t next_ticket_ = 1;
+    bool applying_ = false;
+    Instant started_;
+};
+
+}  // namespace axisgate

@@ -1,0 +1,168 @@
+// Backup (VACUUM INTO a temporary file, check, rename) and restore (copy, check, take the place).
+// In: paths. Out: done or why not.
+// Never trusts a copy that was not read back: the check is part of both.
+#include "gateway/store/backup.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <filesystem>
+
+#include "gateway/store/files.hpp"
+#include "gateway/store/migrate.hpp"
+#include "gateway/store/sqlite.hpp"
+
+namespace axisgate {
+namespace {
+using Kind = StoreError::Kind;
+
+struct Target {
+    std::string file;
+    std::string directory;
+};
+
+StoreResult<Target> target_of(const std::string& target, const StoreFiles& files) {
+    std::error_code ec;
+    const auto path = std::filesystem::absolute(target, ec).lexically_normal();
+    if (ec || target.empty() || !path.has_filename()) return fail(Kind::invalid, "name the file that shall hold the backup");
+    Target t{path.string(), path.parent_path().string()};
+    if (std::filesystem::is_directory(path, ec)) {
+        return fail(Kind::invalid, fmt::format("{} is a directory. Name the file that shall hold the backup, such as {}/axisgate-backup.db",
+                                               t.file, t.file));
+    }
+    const std::string name = path.filename().string();
+    const bool own_name = name.starts_with("axisgate.db") || name == "axisgate.lock";
+    if ((own_name && files::same(t.directory, files.directory)) || files::same(t.file, files.database)) {
+        return fail(Kind::invalid, fmt::format("{} is one of the database's own files. Choose another name for the backup", t.file));
+    }
+    return t;
+}
+
+/// Where the database goes that is about to be replaced.
+StoreResult<std::string> place_aside(const StoreFiles& files) {
+    for (int number = 1; number <= 99; ++number) {
+        if (!files::exists(files.replaced(number))) return files.replaced(number);
+    }
+    return fail(Kind::conflict,
+                fmt::format("{} and 98 more replaced databases are still kept. Remove those that are no longer needed", files.replaced(1)));
+}
+
+/// Opens a copy that nobody else knows and looks whether it is a whole database of ours.
+StoreResult<int> check_copy(const std::string& file, std::span<const Migration> migrations, int newest) {
+    if (files::size(file) == 0) return fail(Kind::corrupt, fmt::format("{} is empty. Name a backup that holds a database", file));
+    // Read-write: a copy of a live file may bring its log along, which is taken in here.
+    auto db = Db::open(file, Db::Mode::read_write);
+    if (!db) return fail(db);
+    if (auto r = check_identity(**db, newest); !r) return fail(r);
+    if (auto r = check_soundness(**db, true); !r) return fail(r);
+    if (!migrations.empty()) {
+        if (auto r = check_structure(**db, migrations); !r) return fail(r);
+    }
+    return version_of(**db);
+}
+
+}  // namespace
+
+StoreResult<> backup_database(const std::string& directory, const std::string& target) {
+    const StoreFiles files(directory);
+    if (!files::exists(files.database)) {
+        return fail(Kind::not_found,
+                    fmt::format("there is no database {} to back up. Name the service's data directory (--data DIR)", files.database));
+    }
+    const auto to = target_of(target, files);
+    if (!to) return fail(to, "no backup made");
+    static std::atomic<unsigned> count{0};  // two backups to one name at once must not share their unfinished file
+    const std::string part = fmt::format("{}.{}-{}.part", to->file, ::getpid(), ++count);
+    const auto made = [&]() -> StoreResult<> {
+        auto db = Db::open(files.database, Db::Mode::read_only);
+        if (!db) return fail(db);
+        const auto version = version_of(**db);
+        if (!version) return fail(version);
+        if (auto r = check_identity(**db, *version); !r) return r;  // any version can be backed up, but only a database of ours
+        if (auto r = files::create(part, to->directory); !r) return r;
+        {
+            Query vacuum(**db, "VACUUM INTO ?");
+            if (auto r = vacuum.bind(part).run(); !r) return r;
+        }
+        if (auto r = check_copy(part, {}, *version); !r) return fail(r, "the copy is not good");
+        if (auto r = files::sync(part, to->directory); !r) return r;
+        return files::rename(part, to->file, to->directory);
+    }();
+    if (!made) {
+        files::remove_database(part);
+        return fail(made, fmt::format("no backup made to {}", to->file));
+    }
+    return {};
+}
+
+StoreResult<RestoreReport> restore_database(const std::string& source, const StoreOptions& options) {
+    const StoreFiles files(options.directory);
+    const auto failed = [&](const auto& r) { return fail(r, fmt::format("{} not restored, nothing was replaced", source)); };
+    for (const std::string& own : {files.database, files.incoming, files.restored, files.fresh}) {
+        if (files::same(source, own)) {
+            return fail(Kind::invalid, fmt::format("{} is one of the database's own files. Name a backup file", source));
+        }
+    }
+    if (auto r = files::make_directory(files.directory); !r) return failed(r);
+    const auto lock = DirectoryLock::take(files);
+    if (!lock) return failed(lock);
+    if (auto r = finish_restore(files); !r) return failed(r);
+    if (auto r = place_aside(files); !r) return failed(r);  // before anything is copied
+
+    const auto checked = [&]() -> StoreResult<int> {
+        if (auto r = files::copy(source, files.incoming, files.directory); !r) return fail(r);
+        // A copy that was taken of a live database by hand has its newest rows in the log beside it.
+        if (files::size(source + "-wal") > 0) {
+            if (auto r = files::copy(source + "-wal", files.incoming + "-wal", files.directory); !r) return fail(r);
+        }
+        const int newest = static_cast<int>(options.migrations.size());
+        auto version = check_copy(files.incoming, options.migrations, newest);
+        if (!version) {
+            // The message speaks of the copy, which is about to go; the user knows the source.
+            StoreError e = version.error();
+            for (std::size_t at = e.text.find(files.incoming); at != std::string::npos; at = e.text.find(files.incoming)) {
+                e.text.replace(at, files.incoming.size(), source);
+            }
+            return fail(std::move(e));
+        }
+        // Everything into the one file: from here on it stands alone.
+        auto db = Db::open(files.incoming, Db::Mode::read_write);
+        if (!db) return fail(db);
+        if (auto r = (*db)->exec("PRAGMA journal_mode=DELETE"); !r) return fail(r);
+        return version;
+    }();
+    if (!checked) {
+        files::remove_database(files.incoming);
+        return failed(checked);
+    }
+    if (auto r = files::sync(files.incoming, files.directory); !r) return failed(r);
+    if (auto r = files::rename(files.incoming, files.restored, files.directory); !r) return failed(r);
+    const auto kept = finish_restore(files);
+    if (!kept) return fail(kept, fmt::format("{} is good, but did not take its place yet; the next start tries again", source));
+    return RestoreReport{*kept, *checked};
+}
+
+StoreResult<std::string> finish_restore(const StoreFiles& files) {
+    files::remove_database(files.fresh);
+    files::remove_database(files.incoming);
+    if (!files::exists(files.restored)) return std::string();
+    // Each step can be the last before a crash: the log goes aside before its database, so that the same number is found again, and
+    // the restored file takes the place only when nothing of the old one is in it.
+    auto place = place_aside(files);
+    if (!place) return place;
+    const std::string& aside = *place;
+    const bool old = files::exists(files.database);
+    const std::string wal = files.database + "-wal";
+    if (files::exists(wal)) {
+        if (auto r = files::rename(wal, aside + "-wal", files.directory); !r) return fail(r);
+    }
+    ::unlink((files.database + "-shm").c_str());
+    if (old) {
+        if (auto r = files::rename(files.database, aside, files.directory); !r) return fail(r);
+    }
+    if (auto r = files::rename(files.restored, files.database, files.directory); !r) return fail(r);
+    return old ? aside : std::string();
+}
+
+}  // namespace axisgate

@@ -1,0 +1,84 @@
+// StoreReader: everything that can be read from the parameter database, over a connection of its own.
+// In: names. Out: values with who, when and from where; errors as values.
+// Never writes. Readers do not wait for the writer, nor it for them (write-ahead log). One thread at a time per reader.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gateway/store/files.hpp"
+#include "gateway/store/records.hpp"
+#include "gateway/store/sqlite.hpp"
+
+namespace axisgate {
+
+class StoreReader {
+public:
+    /// Opens the database of a running (or stopped) gateway for reading. Errors: not_found if there is none yet; newer; not_ours; corrupt;
+    /// invalid if it is older than this program (the service upgrades it when it starts).
+    [[nodiscard]] static StoreResult<std::unique_ptr<StoreReader>> open(const StoreOptions& options);
+    virtual ~StoreReader() = default;
+    StoreReader(const StoreReader&) = delete;
+    StoreReader& operator=(const StoreReader&) = delete;
+
+    // --- site --------------------------------------------------------------------------------------------------------------
+    /// The document in force; nothing if none was ever saved.
+    [[nodiscard]] StoreResult<std::optional<SiteRevision>> load_site();
+    [[nodiscard]] StoreResult<std::optional<SiteRevision>> site(std::uint64_t revision);
+    /// Newest first, without the texts.
+    [[nodiscard]] StoreResult<std::vector<SiteRevision>> site_history();
+
+    // --- parameters --------------------------------------------------------------------------------------------------------
+    /// Every axis that the store knows, in order of name; removed ones too.
+    [[nodiscard]] StoreResult<std::vector<AxisRecord>> axes();
+    /// Newest acknowledged write of each parameter, in order of parameter id; none for removed axes.
+    [[nodiscard]] StoreResult<std::vector<ParameterRecord>> stored(std::string_view axis);
+    [[nodiscard]] StoreResult<std::optional<ParameterRecord>> stored(std::string_view axis, std::string_view parameter);
+    /// Writes, newest first, also of removed axes. `parameter` empty: all of the axis. `limit`: 1..max_answer_rows (clamped).
+    /// `before_id`: rows with a smaller id, for the next page; 0: from the newest.
+    [[nodiscard]] StoreResult<std::vector<ParameterRecord>> history(std::string_view axis, std::string_view parameter, std::size_t limit,
+                                                                    std::uint64_t before_id = 0);
+    /// What the drive last said, in order of parameter id; none for removed axes.
+    [[nodiscard]] StoreResult<std::vector<ParameterSeen>> seen(std::string_view axis);
+
+    // --- snapshots ---------------------------------------------------------------------------------------------------------
+    /// In order of n. Those of a removed axis stay and are there again when an axis of that name is made.
+    [[nodiscard]] StoreResult<std::vector<SnapshotInfo>> snapshots(std::string_view axis);
+    [[nodiscard]] StoreResult<std::optional<AxisSnapshot>> snapshot(std::string_view axis, std::uint32_t n);
+
+    // --- twins -------------------------------------------------------------------------------------------------------------
+    /// Empty if nothing was saved: factory state.
+    [[nodiscard]] StoreResult<NonVolatile> load_twin(std::string_view drive);
+
+    // --- events ------------------------------------------------------------------------------------------------------------
+    [[nodiscard]] StoreResult<std::vector<Event>> events(const EventFilter& filter);
+    /// Highest id ever given, 0 if none; also when that event is gone.
+    [[nodiscard]] StoreResult<std::uint64_t> last_event_id();
+
+    // --- documents ---------------------------------------------------------------------------------------------------------
+    [[nodiscard]] StoreResult<std::optional<StoreDocument>> document(std::string_view kind, std::string_view name);
+    /// With their texts, in order of name.
+    [[nodiscard]] StoreResult<std::vector<StoreDocument>> documents(std::string_view kind);
+
+    // --- the file ----------------------------------------------------------------------------------------------------------
+    /// SQLite's integrity check, references between tables, structure. Good, or `corrupt` with what was found. Reads the whole file.
+    [[nodiscard]] StoreResult<> check();
+    [[nodiscard]] StoreResult<StoreFacts> facts();
+    /// See backup_database (gateway/store/backup.hpp). Does not use this reader's connection.
+    [[nodiscard]] StoreResult<> backup(const std::string& target);
+    [[nodiscard]] const std::string& directory() const noexcept { return files_.directory; }
+
+protected:
+    explicit StoreReader(StoreOptions options) : options_(std::move(options)), files_(options_.directory) {}
+
+    StoreOptions options_;
+    StoreFiles files_;
+    std::optional<DirectoryLock> lock_;  // before db_: the database is closed before another process is let in
+    std::unique_ptr<Db> db_;
+};
+
+}  // namespace axisgate

@@ -1,0 +1,157 @@
+// What the store takes and gives: plain values, and the bounds of each.
+// In: built by the runtime from results, samples, notices and the site. Out: the same, read back.
+// Never holds ids of the running process (AxisId, DriveId): names alone outlive it. Times are nanoseconds since 1970 (UTC).
+//
+// Event, EventQuery and StoredParameter are gateway/core/gateway.hpp's; what is added to them here is added by derivation, so that a
+// vector of ours can be handed on as a vector of theirs.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gateway/core/command.hpp"
+#include "gateway/core/gateway.hpp"
+#include "gateway/core/value.hpp"
+#include "gateway/store/migrate.hpp"
+
+namespace axisgate {
+
+/// Bounds of the database. What lies beyond a bound of rows goes, oldest first; what is too long or too many is refused (`invalid`),
+/// except that texts of events are cut: an event must not be lost for its length.
+struct StoreLimits {
+    std::uint64_t site_revisions = 50;
+    std::uint64_t parameter_writes = 100'000;  ///< rows of the history, all axes together
+    std::uint64_t events = 200'000;
+    std::uint64_t piece = 256;                      ///< rows deleted beyond those added, per transaction, when a table is over its bound
+    std::uint64_t max_bytes = 2ull << 30;           ///< size of the database file; 0: only the disk bounds it
+    std::int64_t seen_refresh_ns = 60'000'000'000;  ///< an unchanged value last seen is not written again before this time (spares flash)
+};
+inline constexpr std::size_t max_name_bytes = 256;         ///< axis, drive, parameter, snapshot and document names
+inline constexpr std::size_t max_value_bytes = 1u << 20;   ///< one text value
+inline constexpr std::size_t max_event_text_bytes = 8192;  ///< longer ones are cut, marked with " [...]"
+inline constexpr std::size_t max_comment_bytes = 65'536;
+inline constexpr std::size_t max_site_bytes = 16u << 20;
+inline constexpr std::size_t max_document_bytes = 1u << 20;
+inline constexpr std::size_t max_documents = 10'000;        ///< per kind
+inline constexpr std::size_t max_batch_rows = 10'000;       ///< writes, events and seen values of one batch, each
+inline constexpr std::size_t max_snapshot_values = 65'536;  ///< also of one twin's memory
+inline constexpr std::size_t max_snapshots = 1'000;         ///< per axis
+inline constexpr std::uint64_t max_event_id = 1ull << 53;   ///< exact as a JSON number
+inline constexpr std::size_t max_answer_rows = 10'000;      ///< of history and events: more are read in pages
+
+struct StoreOptions {
+    std::string directory;
+    std::vector<Migration> migrations;  ///< see migrations_among; their SQL text outlives the call
+    StoreLimits limits;
+    std::string vfs;  ///< SQLite file layer by name; empty: the usual one
+};
+
+/// A write that a drive acknowledged.
+struct ParameterWrite {
+    std::string axis;
+    std::string parameter;  ///< catalogue id, with its element where it is an array: "AC", "N[17]"
+    Value value;
+    Value previous;  ///< what it was before; unknown if nobody knew
+    Door door = Door::internal;
+    std::string who;  ///< "192.0.2.7:51123", "token commissioning"
+    std::int64_t at_unix_ns = 0;
+    std::string storage;  ///< where the drive keeps it: "eeprom", "ram", ...
+};
+
+/// A value that the drive itself said.
+struct ParameterSeen {
+    std::string axis;
+    std::string parameter;
+    Value value;
+    std::int64_t at_unix_ns = 0;
+};
+
+/// A write read back: as the newest of its parameter, or as a row of the history.
+struct ParameterRecord : StoredParameter {
+    std::string storage;
+    std::uint64_t id = 0;  ///< number of the history row, counts up; 0 in stored()
+};
+
+/// Everything that is stored together: one transaction, one wait for the disk.
+struct StoreBatch {
+    std::span<const ParameterWrite> writes;
+    std::span<const Event> events;
+    std::span<const ParameterSeen> seen;
+};
+
+/// Answers are in order of id. If more than `limit` match, the newest ones; with `oldest_first` the oldest ones, for paging forwards.
+struct EventFilter : EventQuery {
+    EventFilter() = default;
+    EventFilter(const EventQuery& q) : EventQuery(q) {}  // NOLINT(google-explicit-constructor): a query is a filter
+    std::string kind;                                    ///< empty: any
+    std::uint64_t before_id = 0;                         ///< events with a smaller id, for paging backwards; 0: no bound
+    bool oldest_first = false;
+};
+
+struct SiteRevision {
+    std::uint64_t revision = 0;  ///< counts up; never given twice
+    std::int64_t at_unix_ns = 0;
+    std::string who;
+    std::string text;         ///< the document; empty in site_history()
+    std::uint64_t bytes = 0;  ///< length of the document
+};
+
+struct NameChange {
+    std::string from;
+    std::string to;
+};
+/// What a new site means for what the store knows by name. Done in the same transaction as the site itself, so that a crash cannot
+/// leave values under a name that is gone.
+struct SiteChange {
+    std::vector<NameChange> renamed_axes;
+    std::vector<NameChange> renamed_drives;
+    /// All names of the new site, if given: what the store knows beyond them is removed (as remove_axis and remove_drive do).
+    std::optional<std::vector<std::string>> axes;
+    std::optional<std::vector<std::string>> drives;
+};
+
+struct AxisRecord {
+    std::string name;
+    std::optional<std::int64_t> removed_unix_ns;  ///< set: no longer in the site; its history and snapshots are still here
+};
+
+struct SnapshotValue {
+    std::string parameter;
+    Value value;
+};
+struct SnapshotInfo {
+    std::uint32_t n = 0;  ///< counts up per axis from 1; never given twice
+    std::string name;
+    std::string comment;
+    std::string who;
+    std::int64_t at_unix_ns = 0;
+    std::uint64_t values = 0;  ///< how many
+};
+struct AxisSnapshot : SnapshotInfo {
+    std::vector<SnapshotValue> parameters;  ///< in order of parameter id
+};
+
+/// A small named text of the gateway's own (a recipe, a token's record).
+struct StoreDocument {
+    std::string kind;
+    std::string name;
+    std::string text;
+    std::string who;
+    std::int64_t at_unix_ns = 0;
+};
+
+struct StoreFacts {
+    std::string file;
+    int version = 0;
+    std::uint64_t bytes = 0;             ///< of the database file
+    std::uint64_t free_bytes = 0;        ///< of them unused, for new rows
+    std::uint64_t wal_bytes = 0;         ///< of the write-ahead log
+    std::uint64_t parameter_writes = 0;  ///< rows
+    std::uint64_t events = 0;            ///< rows
+};
+
+}  // namespace axisgate

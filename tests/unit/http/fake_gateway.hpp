@@ -1,0 +1,300 @@
+// A Gateway for tests of the HTTP door: a small site, a made-up family, and answers that the test gives when it wants.
+// In: what the test sets. Out: what the door asked. Never has a thread or a clock: now_ns is set by the test.
+#pragma once
+
+#include <boost/json/parse.hpp>
+#include <gtest/gtest.h>
+
+#include <deque>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "gateway/core/gateway.hpp"
+
+namespace axisgate::http::test {
+
+inline constexpr std::string_view catalogue_text = R"({
+  "family": "demo", "number": 7, "title": "Demo drive", "channels": {"max": 2},
+  "parameters": [
+    {"id": "AC", "name": "acceleration", "group": "motion", "type": "u32", "unit": "pulse/s^2", "min": 1, "max": 65000000, "default": 20000,
+     "access": "RW", "storage": "eeprom", "description": "Acceleration of motions."},
+    {"id": "ML", "name": "model", "group": "identity", "type": "text", "access": "R", "description": "Model name."},
+    {"id": "KEY", "name": "unlock", "group": "identity", "type": "u16", "access": "W", "description": "Opens what is locked."},
+    {"id": "MT", "name": "micro_steps", "group": "motor", "type": "u8", "allowed": {"1": "full", "16": "sixteenth"}, "default": 16,
+     "access": "RW", "description": "Steps."},
+    {"id": "PP", "name": "protocol", "group": "bus", "type": "u8", "min": 0, "max": 200, "access": "RW", "description": "Array.", "first": 1, "count": 8},
+    {"id": "N", "name": "registers", "group": "program", "type": "f64", "access": "RW", "description": "Long array.", "first": 1, "count": 2000}
+  ],
+  "commands": [{"id": "BG", "name": "begin", "description": "Starts."}],
+  "errors": [{"code": 49, "kind": "error", "name": "overcurrent", "text": "too much current", "cause": "short", "remedy": "look"}]
+})";
+
+inline std::string check_demo_address(std::string_view address) {
+    return address.find_first_not_of("0123456789") == std::string_view::npos && !address.empty() ? "" : "an address is a number";
+}
+
+class FakeGateway final : public Gateway {
+public:
+    explicit FakeGateway(std::string_view site_text = default_site) {
+        std::vector<std::string> faults;
+        catalogue = *Catalogue::parse(catalogue_text, faults);
+        family.name = "demo";
+        family.check_address = check_demo_address;
+        family.factory_address = "5";
+        family.default_bit_rate = 57600;
+        family.default_format = "8N1";
+        family.uses_can = true;
+        family.uses_bytes = true;
+        families_.entries.push_back({&family, &catalogue});
+        put_site(site_text);
+    }
+
+    static constexpr std::string_view default_site = R"({
+      "lines": [{"name": "can0", "uri": "twin", "family": "demo", "bitrate": 1000000}, {"name": "can1", "uri": "twin", "family": "demo"}],
+      "drives": [{"name": "feeder", "line": "can0", "address": 5}, {"name": "slide", "line": "can0", "address": 6}, {"name": "bare", "line": "can1", "address": 7}],
+      "axes": [{"name": "feeder", "drive": "feeder", "number": 1, "unit": "mm", "increments_per_unit": 3200},
+               {"name": "slide", "drive": "slide", "number": 2, "increments_per_unit": 1}],
+      "mappings": [{"unit": 2, "table": "holding", "address": 0, "point": "slide.position", "type": "i32"}] })";
+
+    /// Puts a site in force as if it had been applied; ids stay with the names.
+    void put_site(std::string_view text) {
+        std::vector<SiteFault> faults;
+        auto site = parse_site(boost::json::parse(text), families_, faults);
+        ASSERT_TRUE(site) << (faults.empty() ? "" : faults.front().text);
+        put_site(std::move(*site));
+    }
+    void put_site(Site site) {
+        auto state = std::make_shared<SiteState>();
+        state->revision = site_ ? site_->revision + 1 : 1;
+        for (const auto& l : site.lines) state->line_ids.push_back(LineId{id_of("line " + l.name)});
+        for (const auto& d : site.drives) state->drive_ids.push_back(DriveId{id_of("drive " + d.name)});
+        for (const auto& a : site.axes) state->axis_ids.push_back(AxisId{id_of("axis " + a.name)});
+        state->site = std::move(site);
+        site_ = state;
+        const auto all = listeners;
+        for (auto* l : all) l->on_site(site_);
+    }
+    [[nodiscard]] AxisId axis(const std::string& name) { return AxisId{id_of("axis " + name)}; }
+    [[nodiscard]] DriveId drive(const std::string& name) { return DriveId{id_of("drive " + name)}; }
+    [[nodiscard]] LineId line(const std::string& name) { return LineId{id_of("line " + name)}; }
+
+    void set_picture(const std::string& name, AxisPicture p) {
+        pictures[axis(name)] = p;
+        ++revisions[axis(name)];
+    }
+    void tell(Event e) {
+        e.id = ++last_event;
+        if (e.at_unix_ns == 0) e.at_unix_ns = now_ns;
+        events_.push_back(e);
+        const auto all = listeners;
+        for (auto* l : all) l->on_event(e);
+    }
+    /// Answers the oldest command that waits.
+    void finish(Result r) {
+        ASSERT_FALSE(waiting.empty());
+        auto w = std::move(waiting.front());
+        waiting.pop_front();
+        r.ticket = w.ticket;
+        r.axis = w.command.axis;
+        w.then(r);
+    }
+
+    // --- what the test sets and reads ----------------------------------------------------------------------------------
+    Catalogue catalogue;
+    Family family{};
+    std::int64_t now_ns = 1'767'323'045'678'901'234;  // 2026-01-02T03:04:05.678901234Z
+    std::vector<std::string> missing;
+    std::map<AxisId, AxisPicture> pictures;
+    std::map<AxisId, std::uint64_t> revisions;
+    std::map<std::pair<AxisId, Point>, LiveParameter> live_values;
+    std::map<std::string, std::vector<StoredParameter>> stored_values;
+    std::map<DriveId, DriveStatus> drive_states;
+    std::map<LineId, LineReport> line_states;
+    std::map<LineId, std::vector<TraceEntry>> traces;
+    std::map<DriveId, std::vector<HandItem>> hands;
+    std::string hand_fault;
+    std::vector<Event> events_;
+    mutable std::vector<EventQuery> event_queries;
+    std::uint64_t last_event = 0;
+    std::set<GatewayListener*> listeners;
+    mutable int pictures_read = 0;
+
+    struct Waiting {
+        Ticket ticket;
+        Command command;
+        std::function<void(const Result&)> then;
+    };
+    std::deque<Waiting> waiting;
+    std::vector<Command> submitted;
+    /// Set: commands are answered inside submit.
+    std::function<Result(const Command&)> at_once;
+    Ticket last_ticket = (std::uint64_t{3} << 56) + 16;
+
+    enum class Apply { now, later, fail, overtake_once, overtake_always } apply = Apply::now;
+    std::vector<std::pair<Site, std::uint64_t>> applied;  ///< with the expected revision
+    std::function<void()> apply_waiting;
+
+    // --- Gateway -------------------------------------------------------------------------------------------------------
+    std::vector<DoorInfo> doors() const override { return {{"http", "127.0.0.1:8080"}, {"modbus", "127.0.0.1:1502"}}; }
+    double uptime_s() const override { return 12.5; }
+    std::int64_t now_unix_ns() const override { return now_ns; }
+    std::int64_t to_unix_ns(Instant i) const override { return 1'767'323'045'000'000'000 + ns_of(i); }
+    const Families& families() const override { return families_; }
+    std::vector<std::string> not_ready() const override { return missing; }
+    std::string metrics() const override { return "# HELP axisgate_up 1\n# TYPE axisgate_up gauge\naxisgate_up 1\n"; }
+    std::shared_ptr<const SiteState> site() const override { return site_; }
+
+    void apply_site(Site site, std::uint64_t expected, Origin, std::function<void(SiteAnswer)> then) override {
+        applied.emplace_back(site, expected);
+        if (apply == Apply::fail) return then({false, "the disk is full", site_});
+        if (apply == Apply::overtake_once || apply == Apply::overtake_always) {
+            if (apply == Apply::overtake_once) apply = Apply::now;
+            put_site(Site(site_->site));  // somebody else was faster
+            return then({false, "the site has another revision", site_});
+        }
+        auto go = [this, site = std::move(site), then]() mutable {
+            put_site(std::move(site));
+            then({true, "", site_});
+        };
+        if (apply == Apply::later) {
+            apply_waiting = std::move(go);
+        } else {
+            go();
+        }
+    }
+
+    AxisPicture picture(AxisId id) const override {
+        ++pictures_read;
+        const auto it = pictures.find(id);
+        return it == pictures.end() ? AxisPicture{} : it->second;
+    }
+    std::uint64_t picture_revision(AxisId id) const override {
+        const auto it = revisions.find(id);
+        return it == revisions.end() ? 0 : it->second;
+    }
+    Ticket submit(Command command, std::function<void(const Result&)> then) override {
+        command.ticket = ++last_ticket;
+        submitted.push_back(command);
+        if (at_once) {
+            Result r = at_once(command);
+            r.ticket = command.ticket;
+            then(r);
+        } else {
+            waiting.push_back({command.ticket, command, std::move(then)});
+        }
+        return command.ticket;
+    }
+    LiveParameter live(AxisId id, Point p) const override {
+        const auto it = live_values.find({id, p});
+        return it == live_values.end() ? LiveParameter{} : it->second;
+    }
+    std::vector<StoredParameter> stored(const std::string& name) const override {
+        const auto it = stored_values.find(name);
+        return it == stored_values.end() ? std::vector<StoredParameter>{} : it->second;
+    }
+    std::vector<StoredParameter> history(const std::string& name, const std::string& parameter, std::size_t limit) const override {
+        std::vector<StoredParameter> out;
+        for (const auto& s : stored(name)) {
+            if (s.parameter == parameter && out.size() < limit) out.push_back(s);
+        }
+        return out;
+    }
+    LineReport line_report(LineId id) const override {
+        const auto it = line_states.find(id);
+        return it == line_states.end() ? LineReport{} : it->second;
+    }
+    DriveStatus drive_status(DriveId id) const override {
+        const auto it = drive_states.find(id);
+        return it == drive_states.end() ? DriveStatus{} : it->second;
+    }
+    Trace trace(LineId id, std::uint64_t since, std::size_t limit) const override {
+        Trace t;
+        t.next = std::max<std::uint64_t>(since, 1);
+        const auto it = traces.find(id);
+        if (it == traces.end() || it->second.empty()) return t;
+        const std::uint64_t oldest = it->second.front().sequence;
+        if (since < oldest) t.missed = oldest - std::max<std::uint64_t>(since, 1);
+        for (const auto& e : it->second) {
+            if (e.sequence < since || t.entries.size() >= limit) continue;
+            t.entries.push_back(e);
+            t.next = e.sequence + 1;
+        }
+        return t;
+    }
+    void hand(DriveId id, std::function<void(std::optional<std::vector<HandItem>>)> then) override {
+        const auto it = hands.find(id);
+        then(it == hands.end() ? std::nullopt : std::optional(it->second));
+    }
+    void set_hand(DriveId id, std::vector<std::pair<std::string, Value>> items, Origin, std::function<void(std::string)> then) override {
+        if (!hand_fault.empty()) return then(hand_fault);
+        for (const auto& [k, v] : items) {
+            for (auto& h : hands[id]) {
+                if (h.name == k) h.value = v;
+            }
+        }
+        then("");
+    }
+    std::vector<Event> events(const EventQuery& query) const override {
+        event_queries.push_back(query);
+        std::vector<Event> out;
+        for (const auto& e : events_) {
+            if (e.id > query.since_id && e.at_unix_ns >= query.since_unix_ns && (query.axis.empty() || e.axis == query.axis) &&
+                (!query.at_least || e.severity >= *query.at_least)) {
+                out.push_back(e);
+            }
+        }
+        if (out.size() > query.limit) out.erase(out.begin(), out.end() - static_cast<std::ptrdiff_t>(query.limit));
+        return out;
+    }
+    void listen(GatewayListener* l) override { listeners.insert(l); }
+    void unlisten(GatewayListener* l) override { listeners.erase(l); }
+
+private:
+    std::uint16_t id_of(const std::string& name) { return ids_.emplace(name, static_cast<std::uint16_t>(ids_.size())).first->second; }
+
+    Families families_;
+    std::shared_ptr<const SiteState> site_;
+    std::map<std::string, std::uint16_t> ids_;
+};
+
+inline Event event(std::string text, std::string axis = {}, Severity severity = Severity::info, std::string kind = "note") {
+    Event e;
+    e.severity = severity;
+    e.kind = std::move(kind);
+    e.axis = std::move(axis);
+    e.text = std::move(text);
+    return e;
+}
+
+inline AxisSpec axis_spec(std::string name, std::string drive, int number, int channel = 1) {
+    AxisSpec a;
+    a.name = std::move(name);
+    a.drive = std::move(drive);
+    a.number = number;
+    a.channel = channel;
+    return a;
+}
+
+/// A picture as an enabled, referenced axis at rest shows it.
+inline AxisPicture standing(std::int64_t position, std::int64_t at_ms = 600) {
+    AxisPicture p;
+    p.number = 1;
+    p.family_number = 7;
+    p.position = position;
+    p.position_demand = position;
+    p.statusword = 0x9637;  // operation enabled, simulated, remote, target reached, set-point acknowledged, referenced
+    p.mode_display = 1;
+    p.flags = flag_online | flag_simulated | flag_referenced | flag_target_reached;
+    p.presence = Presence::twin;
+    p.target_position = static_cast<std::int32_t>(position);
+    p.authority = Door::http;
+    p.setpoints_accepted = 3;
+    p.native_status = 0x1234;
+    p.ever_seen = true;
+    p.at = at_ns(at_ms * 1'000'000);
+    return p;
+}
+
+}  // namespace axisgate::http::test

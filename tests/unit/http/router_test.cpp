@@ -1,0 +1,229 @@
+// What holds for all routes: methods, hosts, origins, media types, errors, headers; and the page's files.
+#include "gateway/doors/http/static_files.hpp"
+#include "tests/unit/http/harness.hpp"
+
+namespace axisgate::http::test {
+namespace {
+
+TEST_F(HttpTest, ProblemsHaveTheMembersOfRfc9457) {
+    const auto a = call("GET", "/api/v1/axes/none");
+    EXPECT_EQ(a.status, 404u);
+    EXPECT_EQ(a.headers.get("Content-Type"), "application/problem+json");
+    EXPECT_EQ(a.at("type"), "urn:axisgate:problem:not_found");
+    EXPECT_EQ(a.at("title"), "Not found");
+    EXPECT_EQ(a.at("status"), "404");
+    EXPECT_EQ(a.at("detail"), "there is no axis none");
+    EXPECT_EQ(a.at("code"), "null");
+    EXPECT_EQ(a.at("reason"), "not_found");
+}
+
+TEST_F(HttpTest, UnknownPathsAreProblems) {
+    for (const auto* path : {"/api", "/api/", "/api/v1", "/api/v1/", "/api/v2/axes", "/api/v1/mappings", "/api/v1/recipes", "/api/v1/axes/feeder/snapshots", "/api/v1/axes/",
+                             "/api/v1/axes/feeder/", "/api/v1//axes", "/api/v1/axes/feeder/commands/1", "/api/v1/Axes"}) {
+        for (const auto* method : {"GET", "POST", "OPTIONS"}) {
+            const auto a = call(method, path, method == std::string_view("POST") ? "{}" : "");
+            EXPECT_EQ(a.status, 404u) << method << " " << path;
+            EXPECT_EQ(a.at("reason"), "not_found");
+        }
+    }
+}
+
+TEST_F(HttpTest, MethodsThatARouteDoesNotHave) {
+    const auto a = call("DELETE", "/api/v1/site");
+    EXPECT_EQ(a.status, 405u);
+    EXPECT_EQ(a.headers.get("Allow"), "GET, HEAD, PUT, OPTIONS");
+    EXPECT_EQ(call("POST", "/api/v1/axes/feeder", "{}").status, 405u);
+    EXPECT_EQ(call("GET", "/api/v1/axes/feeder/commands").headers.get("Allow"), "POST, OPTIONS");
+    EXPECT_EQ(call("HEAD", "/api/v1/axes/feeder/commands").status, 405u);
+    EXPECT_EQ(call("BREW", "/api/v1/about").status, 405u);
+    EXPECT_EQ(call("POST", "/index.html", "{}").headers.get("Allow"), "GET, HEAD, OPTIONS");
+}
+
+TEST_F(HttpTest, OptionsAndHead) {
+    const auto o = call("OPTIONS", "/api/v1/axes/feeder");
+    EXPECT_EQ(o.status, 204u);
+    EXPECT_EQ(o.headers.get("Allow"), "GET, HEAD, PUT, PATCH, DELETE, OPTIONS");
+    EXPECT_EQ(o.headers.get("Access-Control-Allow-Origin"), "");
+    EXPECT_EQ(call("OPTIONS", "*").status, 204u);
+    const auto get = call("GET", "/api/v1/about");
+    const auto head = call("HEAD", "/api/v1/about");
+    EXPECT_EQ(head.status, 200u);
+    EXPECT_TRUE(head.without_body);
+    EXPECT_EQ(head.text.size(), get.text.size()) << "measured, so that Content-Length is right";
+    EXPECT_EQ(head.headers.get("Content-Type"), get.headers.get("Content-Type"));
+    EXPECT_FALSE(get.without_body);
+}
+
+TEST_F(HttpTest, SecurityHeadersEverywhere) {
+    for (const auto* path : {"/api/v1/about", "/", "/nothing.js", "/api/v1/none", "/metrics"}) {
+        const auto a = call("GET", path);
+        EXPECT_EQ(a.headers.get("X-Content-Type-Options"), "nosniff") << path;
+        EXPECT_EQ(a.headers.get("Referrer-Policy"), "no-referrer") << path;
+        EXPECT_TRUE(a.headers.get("Content-Security-Policy").starts_with("default-src 'self'")) << path;
+        EXPECT_EQ(a.headers.get("Content-Security-Policy").find("unsafe"), std::string_view::npos);
+        EXPECT_EQ(a.headers.get("X-Frame-Options"), "DENY") << path;
+    }
+    EXPECT_EQ(call("GET", "/api/v1/about").headers.get("Cache-Control"), "no-store");
+    EXPECT_EQ(call("GET", "/").headers.get("Cache-Control"), "no-cache");
+}
+
+TEST_F(HttpTest, HostsOnALoopbackBind) {
+    const auto with = [this](std::string host) { return call("GET", "/healthz", "", {{"Host", std::move(host)}}).status; };
+    for (const auto* good : {"127.0.0.1:8080", "127.0.0.1", "localhost", "LOCALHOST:1", "page.localhost", "[::1]:8080", "192.0.2.7", "[2001:db8::1]", "localhost."}) EXPECT_EQ(with(good), 200u) << good;
+    for (const auto* bad : {"evil.example", "evil.example:8080", "", "127.0.0.1.evil.example", "localhost.evil.example", "1.2.3", "1.2.3.4.5", "256.1.1.1", "[x]", "gateway"}) {
+        EXPECT_EQ(with(bad), 421u) << bad;
+    }
+    settings.allowed_hosts = {"Gateway.example"};
+    EXPECT_EQ(with("gateway.EXAMPLE:8080"), 200u);
+    EXPECT_EQ(with("evil.example"), 421u);
+    EXPECT_EQ(call("GET", "/healthz", "", {{"Host", "evil.example"}}).at("reason"), "misdirected");
+    EXPECT_EQ(call("GET", "/", "", {{"Host", "evil.example"}}).status, 421u) << "the page too";
+}
+
+TEST_F(HttpTest, HostsOnAnOpenBind) {
+    settings.bind = "0.0.0.0:8080";
+    const auto with = [this](std::string host) { return call("GET", "/healthz", "", {{"Host", std::move(host)}}).status; };
+    EXPECT_EQ(with("gateway.example"), 200u);
+    settings.allowed_hosts = {"gateway.example"};
+    EXPECT_EQ(with("gateway.example"), 200u);
+    EXPECT_EQ(with("other.example"), 421u);
+    EXPECT_EQ(with("192.0.2.7"), 200u);
+}
+
+TEST_F(HttpTest, HostHeaderItself) {
+    auto r = request("GET", "/healthz");
+    r.headers.fields.clear();
+    EXPECT_EQ(send(r).status, 400u);
+    r.http_1_0 = true;
+    EXPECT_EQ(send(r).status, 200u) << "HTTP/1.0 has none";
+    r.headers.fields = {{"Host", "localhost"}, {"host", "localhost"}};
+    EXPECT_EQ(send(r).status, 400u);
+}
+
+TEST_F(HttpTest, RequestsOfOtherSitesCannotChangeAnything) {
+    gateway.at_once = [](const Command&) { return good_result(); };
+    const auto with = [this](std::string origin, std::string host = "127.0.0.1:8080") {
+        return call("POST", "/api/v1/axes/feeder/commands", R"({"command":"enable"})", {{"Host", std::move(host)}, {"Origin", std::move(origin)}}).status;
+    };
+    for (const auto* good : {"http://127.0.0.1:8080", "https://127.0.0.1:8080", "HTTP://127.0.0.1:8080"}) EXPECT_EQ(with(good), 200u) << good;
+    EXPECT_EQ(with("http://localhost", "localhost"), 200u);
+    EXPECT_EQ(with("http://localhost:80", "localhost"), 200u) << "the port that goes without saying";
+    const auto commands = gateway.submitted.size();
+    for (const auto* bad : {"http://evil.example", "http://127.0.0.1:8081", "http://127.0.0.1", "null", "", "ftp://127.0.0.1:8080", "127.0.0.1:8080", "http://127.0.0.1:8080.evil.example"}) {
+        EXPECT_EQ(with(bad), 403u) << bad;
+    }
+    EXPECT_EQ(gateway.submitted.size(), commands) << "nothing got through";
+    EXPECT_EQ(call("POST", "/api/v1/axes/feeder/commands", R"({"command":"enable"})", {{"Sec-Fetch-Site", "cross-site"}}).status, 403u);
+    EXPECT_EQ(call("DELETE", "/api/v1/axes/feeder", "", {{"Origin", "http://evil.example"}}).status, 403u);
+    EXPECT_EQ(call("PUT", "/api/v1/site", "{}", {{"Origin", "http://evil.example"}}).status, 403u);
+    EXPECT_EQ(call("GET", "/api/v1/axes", "", {{"Origin", "http://evil.example"}}).status, 200u) << "reading is the browser's to forbid";
+}
+
+TEST_F(HttpTest, Bodies) {
+    const std::string path = "/api/v1/axes/feeder/commands";
+    EXPECT_EQ(call("POST", path, R"({"command":"enable"})", {{"Content-Type", "text/plain"}}).status, 415u);
+    EXPECT_EQ(call("POST", path, "command=enable", {{"Content-Type", "application/x-www-form-urlencoded"}}).status, 415u);
+    EXPECT_EQ(call("POST", path, R"({"command":"enable"})", {{"Content-Type", "application/json; charset=iso-8859-1"}}).status, 415u);
+    EXPECT_EQ(call("POST", path, R"({"command":"enable"})", {{"Content-Type", "application/merge-patch+json"}}).status, 415u) << "that is for PATCH";
+    EXPECT_EQ(call("POST", path).status, 415u) << "no body at all";
+    EXPECT_EQ(call("POST", path, R"({"command":"enable"})", {{"Content-Type", "application/json;charset=utf-8"}}).status, 0u);
+    for (const auto* bad : {"{", "[]", "5", "null", "\"x\"", "{\"command\":\"enable\"} x", "{\"command\":\"\xFF\"}", "{'command':'enable'}"}) {
+        const auto a = call("POST", path, bad);
+        EXPECT_EQ(a.status, 400u) << bad;
+        EXPECT_EQ(a.at("reason"), "bad_request");
+    }
+    EXPECT_EQ(call("POST", path, std::string(100000, '[')).status, 400u) << "depth is bounded";
+    const auto patch = call("PATCH", "/api/v1/axes/feeder", R"({"unit":"deg"})", {{"Content-Type", "application/merge-patch+json"}});
+    EXPECT_EQ(patch.status, 200u);
+}
+
+TEST_F(HttpTest, Accept) {
+    EXPECT_EQ(call("GET", "/api/v1/about", "", {{"Accept", "text/html"}}).status, 406u);
+    EXPECT_EQ(call("GET", "/api/v1/about", "", {{"Accept", "text/html, */*;q=0.1"}}).status, 200u);
+    EXPECT_EQ(call("GET", "/metrics", "", {{"Accept", "application/json"}}).status, 406u);
+    EXPECT_EQ(call("GET", "/api/v1/openapi.yaml", "", {{"Accept", "application/yaml"}}).status, 200u);
+    EXPECT_EQ(call("DELETE", "/api/v1/drives/bare", "", {{"Accept", "text/html"}}).status, 204u) << "it gives nothing that could be refused";
+}
+
+TEST_F(HttpTest, BadTargets) {
+    for (const auto* target : {"", "api/v1/about", "/api/v1/axes/%zz", "/api/v1/axes/%00", "/a b", "//x:y z", "/api/v1/axes/%ff"}) EXPECT_EQ(call("GET", target).status, 400u) << target;
+    EXPECT_EQ(call("GET", "http://127.0.0.1:8080/healthz").status, 200u) << "absolute form";
+}
+
+TEST_F(HttpTest, AnExceptionIsA500) {
+    gateway.at_once = [](const Command&) -> Result { throw std::runtime_error("out of memory"); };
+    const auto a = call("POST", "/api/v1/axes/feeder/commands", R"({"command":"enable"})");
+    EXPECT_EQ(a.status, 500u);
+    EXPECT_EQ(a.at("reason"), "internal");
+}
+
+TEST_F(HttpTest, AnAnswerFromInsideTheCallIsAnAnswerAtOnce) {
+    gateway.at_once = [](const Command&) { return good_result(); };
+    EXPECT_EQ(call("POST", "/api/v1/axes/feeder/commands", R"({"command":"enable"})").status, 200u);
+    EXPECT_FALSE(promised);
+    EXPECT_TRUE(later.empty()) << "told once, not twice";
+}
+
+TEST_F(HttpTest, StaticFiles) {
+    const auto page = call("GET", "/");
+    EXPECT_EQ(page.status, 200u);
+    EXPECT_EQ(page.text, "<html>page</html>");
+    EXPECT_EQ(page.headers.get("Content-Type"), "text/html; charset=utf-8");
+    const std::string tag(page.headers.get("ETag"));
+    EXPECT_EQ(tag.size(), 18u);
+    for (const auto* route : {"/axes", "/axes/feeder", "/a/b/c", "/index.html", "/assets"}) EXPECT_EQ(call("GET", route).text, page.text) << route;
+    const auto js = call("GET", "/assets/main.js");
+    EXPECT_EQ(js.text, "let a = 1;");
+    EXPECT_EQ(js.headers.get("Content-Type"), "text/javascript; charset=utf-8");
+    EXPECT_NE(js.headers.get("ETag"), tag);
+    const auto same = call("GET", "/", "", {{"If-None-Match", "\"x\", W/" + tag}});
+    EXPECT_EQ(same.status, 304u);
+    EXPECT_TRUE(same.without_body);
+    EXPECT_EQ(same.headers.get("ETag"), tag);
+    EXPECT_EQ(call("GET", "/", "", {{"If-None-Match", "\"x\""}}).status, 200u);
+    EXPECT_EQ(call("GET", "/empty.txt").status, 200u) << "an empty file is a file";
+    EXPECT_TRUE(call("HEAD", "/").without_body);
+    EXPECT_EQ(call("GET", "/missing.js").status, 404u);
+    EXPECT_EQ(call("GET", "/missing.js").at("reason"), "not_found");
+}
+
+TEST_F(HttpTest, PathsThatWantToLeadOut) {
+    for (const auto* path : {"/../secret.txt", "/%2e%2e/secret.txt", "/..%2fsecret.txt", "/assets/..%2f..%2f..%2fsecret.txt", "/assets/../../secret.txt", "/.git/config", "/..\\secret.txt",
+                             "/%2e%2e%5csecret.txt", "/a%0Ab", "//etc/passwd.txt", "/web/dist/index.html"}) {
+        const auto a = call("GET", path);
+        EXPECT_EQ(a.status, 404u) << path;
+        EXPECT_EQ(a.text.find("not for the page"), std::string::npos) << path;
+    }
+}
+
+TEST_F(HttpTest, APageThatIsNotBuiltIn) {
+    files.erase("web/dist/index.html");
+    const auto a = call("GET", "/");
+    EXPECT_EQ(a.status, 404u);
+    EXPECT_NE(a.at("detail").find("openapi.yaml"), std::string::npos);
+}
+
+TEST_F(HttpTest, MediaTypesOfFiles) {
+    EXPECT_EQ(media_for("/a.css"), "text/css; charset=utf-8");
+    EXPECT_EQ(media_for("/a.svg"), "image/svg+xml");
+    EXPECT_EQ(media_for("/a.woff2"), "font/woff2");
+    EXPECT_EQ(media_for("/a.unknown"), "application/octet-stream");
+}
+
+TEST_F(HttpTest, RoutesForCounters) {
+    EXPECT_EQ(router.route_of(request("GET", "/api/v1/axes/feeder?x=1")), "/api/v1/axes/{axis}");
+    EXPECT_EQ(router.route_of(request("GET", "/api/v1/none")), "none");
+    EXPECT_EQ(router.route_of(request("GET", "/anything.js")), "static");
+    EXPECT_EQ(router.route_of(request("GET", "%")), "none");
+}
+
+TEST(HttpHosts, SameHost) {
+    EXPECT_TRUE(same_host("http://[::1]:8080", "[::1]:8080"));
+    EXPECT_TRUE(same_host("http://[::1]", "[::1]"));
+    EXPECT_TRUE(same_host("https://a.example:443", "a.example"));
+    EXPECT_FALSE(same_host("https://a.example", "a.example:80"));
+    EXPECT_FALSE(same_host("http://", ""));
+    EXPECT_FALSE(same_host("http://a", ""));
+}
+}  // namespace
+}  // namespace axisgate::http::test

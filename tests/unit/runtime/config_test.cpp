@@ -1,0 +1,79 @@
+// Configuration: the file, the environment and --set; every fault with its place.
+// In: texts. Out: a Config or faults. Never reads a file.
+#include "gateway/runtime/config.hpp"
+
+#include <gtest/gtest.h>
+
+#include "gateway/runtime/memory_file.hpp"
+
+namespace axisgate {
+namespace {
+
+TEST(Config, DefaultsAreLoopback) {
+    std::vector<ConfigFault> faults;
+    const Config c = read_config({}, faults);
+    EXPECT_TRUE(faults.empty());
+    EXPECT_EQ(c.http_bind, "127.0.0.1:8080");
+    EXPECT_EQ(c.modbus_bind, "127.0.0.1:1502");
+    EXPECT_EQ(c.data_dir, "./var");
+    EXPECT_FALSE(c.dds_enabled);
+    EXPECT_EQ(c.spin_us, 0);
+}
+
+TEST(Config, SetBeatsEnvironmentBeatsFile) {
+    ConfigSources s;
+    s.file_name = "f.toml";
+    s.file_text = "[modbus]\nbind = \"127.0.0.1:1\"\nidle_timeout_s = 7\n[modbus_rtu]\nport = \"/dev/x\"\n[http]\nallowed_hosts = [\"a\", \"b\"]\n";
+    s.environment = {"AXISGATE_MODBUS_BIND=127.0.0.1:2", "AXISGATE_MODBUS_RTU_PORT=/dev/y", "AXISGATE_SOMETHING_ELSE=1", "PATH=/bin"};
+    s.overrides = {"modbus.bind=127.0.0.1:3", "http.bind=off"};
+    std::vector<ConfigFault> faults;
+    const Config c = read_config(s, faults);
+    EXPECT_TRUE(faults.empty()) << faults[0].text;
+    EXPECT_EQ(c.modbus_bind, "127.0.0.1:3");
+    EXPECT_EQ(c.modbus_idle_timeout_s, 7);
+    EXPECT_EQ(c.modbus_rtu_port, "/dev/y");
+    EXPECT_EQ(c.http_bind, "");
+    EXPECT_EQ(c.http_allowed_hosts, (std::vector<std::string>{"a", "b"}));
+}
+
+TEST(Config, EveryFaultAtOnceWithLineAndRemedy) {
+    ConfigSources s;
+    s.file_name = "f.toml";
+    s.file_text = "[http]\nbind = 5\nnonsense = 1\n[log]\nlevel = \"loud\"\n[what]\nx = 1\n[runtime]\nspin_us = 1001\n";
+    s.overrides = {"nothing", "http.nothing=1", "runtime.hot_cpu=x"};
+    std::vector<ConfigFault> faults;
+    (void)read_config(s, faults);
+    std::vector<std::string> places;
+    for (const auto& f : faults) {
+        places.push_back(f.place);
+        EXPECT_FALSE(f.remedy.empty()) << f.text;
+    }
+    for (const auto* p : {"f.toml:2", "f.toml:3", "f.toml:5", "f.toml:6", "f.toml:9", "--set nothing", "--set http.nothing", "--set runtime.hot_cpu"}) {
+        EXPECT_NE(std::find(places.begin(), places.end(), p), places.end()) << p;
+    }
+    EXPECT_EQ(faults.size(), 8u);
+    s.file_text = "[http\nbind";
+    faults.clear();
+    (void)read_config(s, faults);
+    ASSERT_FALSE(faults.empty());
+    EXPECT_EQ(faults[0].place, "f.toml:1");
+}
+
+TEST(Config, HostAndPort) {
+    EXPECT_EQ(parse_host_port("127.0.0.1:80")->port, 80);
+    EXPECT_EQ(parse_host_port("[::1]:80")->host, "::1");
+    for (const auto* bad : {"", ":80", "x", "x:", "x:y", "x:65536", "::1:80", "[]:1", "[::1]80"}) EXPECT_FALSE(parse_host_port(bad)) << bad;
+}
+
+TEST(MemoryFile, KeepsTypes) {
+    std::map<std::string, NonVolatile> m{{"5", {{"AC", Value{std::int64_t{5000}}}, {"on", Value{true}}, {"f", Value{1.5}}, {"t", Value{std::string("x")}}}}};
+    std::map<std::string, NonVolatile> back;
+    EXPECT_EQ(memories_from_json(memories_to_json(m), back), "");
+    EXPECT_EQ(back, m);
+    EXPECT_NE(memories_from_json("[1]", back), "");
+    EXPECT_NE(memories_from_json("{\"5\": 1}", back), "");
+    EXPECT_EQ(memories_from_json(" \n", back), "");
+}
+
+}  // namespace
+}  // namespace axisgate

@@ -1,0 +1,149 @@
+// Recording: each form that recorded lines have, read back into the frames they were made of, and what is not one said with its place.
+// In: text. Out: frames, faults. Needs no file.
+#include "gateway/runtime/recording.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "gateway/core/frame_export.hpp"
+
+namespace axisgate {
+namespace {
+
+struct Read {
+    std::vector<RecordedFrame> frames;
+    std::vector<std::size_t> faults;
+};
+Read read(std::string_view text, RecordingFormat format) {
+    Read r;
+    RecordingEvents events;
+    events.frame = [&](const RecordedFrame& f) { r.frames.push_back(f); };
+    events.fault = [&](std::size_t place, const std::string& what) {
+        EXPECT_FALSE(what.empty());
+        r.faults.push_back(place);
+    };
+    read_recording(text, format, events);
+    return r;
+}
+
+struct Line {
+    std::string_view name, text;
+    RecordingFormat format;
+    std::string_view frame;  // to_text; empty: not a line
+    std::string_view stamp = {};
+    std::optional<bool> to_drive = {};
+};
+const Line lines[]{
+    {"log", "(1.500000) can0 04280095#01", RecordingFormat::candump, "04280095#01", "(1.500000)"},
+    {"log_sent", "(1.5) can0 04280095#01 T", RecordingFormat::candump, "04280095#01", "(1.5)", true},
+    {"log_received", "(1.5) can0 123#0102 R", RecordingFormat::candump, "123#0102", "(1.5)", false},
+    {"log_date", "(2026-01-02 03:04:05.678901) can0 123#01", RecordingFormat::candump, "123#01", "(2026-01-02 03:04:05.678901)"},
+    {"log_remote", "(1.5) can0 00000123#R8", RecordingFormat::candump, "00000123#R", "(1.5)"},
+    {"log_report", "(1.5) can0 20000040#0000000000000000", RecordingFormat::candump, "error 00000040#0000000000000000", "(1.5)"},
+    {"log_empty", "can0 123#", RecordingFormat::candump, "123#"},
+    {"screen", "  can0  04280095   [1]  01", RecordingFormat::candump, "04280095#01"},
+    {"screen_none", "can0  04280095   [0]", RecordingFormat::candump, "04280095#"},
+    {"screen_remote", "can0  04280095   [0]  remote request", RecordingFormat::candump, "04280095#R"},
+    {"screen_text", "can0  123   [2]  41 42   'AB'", RecordingFormat::candump, "123#4142"},
+    {"screen_direction", " (1.5)  can0  TX - -  04280095   [1]  01", RecordingFormat::candump, "04280095#01", "(1.5)", true},
+    {"text_can", "(1.5) can0 device > 04280095#01", RecordingFormat::candump, "04280095#01", "(1.5)", true},
+    {"text_bytes", "(1.5) ttyS1 twin < AA 05 95", RecordingFormat::candump, "AA 05 95", "(1.5)", false},
+    {"text_report", "(1.5) can0 device < error 00000040#00", RecordingFormat::candump, "error 00000040#00", "(1.5)", false},
+    {"text_in_hex", "(1.5) ttyS1 device > AA 05 95", RecordingFormat::hex, "AA 05 95", "(1.5)", true},
+    {"hex", "AA 05 95", RecordingFormat::hex, "AA 05 95"},
+    {"hex_to", "> AA:05:95", RecordingFormat::hex, "AA 05 95", {}, true},
+    {"hex_from", "<AA0595", RecordingFormat::hex, "AA 05 95", {}, false},
+    {"trace_can", R"([{"at":"t","to_drive":true,"kind":"can","id":69730453,"extended":true,"remote":false,"data":"01"}])",
+     RecordingFormat::trace, "04280095#01", "t", true},
+    {"trace_bytes", R"({"frames":[{"at":"t","to_drive":false,"kind":"bytes","id":null,"extended":false,"remote":false,"data":"AA0595"}]})",
+     RecordingFormat::trace, "AA 05 95", "t", false},
+    {"bad_nine_bytes", "can0 123#010203040506070809", RecordingFormat::candump, ""},
+    {"bad_half_byte", "can0 123#1", RecordingFormat::candump, ""},
+    {"bad_id", "can0 12345678901#01", RecordingFormat::candump, ""},
+    {"bad_short_id", "can0 12#01", RecordingFormat::candump, ""},
+    {"bad_stamp", "(1.5 can0 123#01", RecordingFormat::candump, ""},
+    {"bad_interface_alone", "can0", RecordingFormat::candump, ""},
+    {"bad_can_fd", "can0 123##101", RecordingFormat::candump, ""},
+    {"bad_hex", "> AA 0", RecordingFormat::hex, ""},
+    {"bad_hex_word", "hello", RecordingFormat::hex, ""},
+    {"bad_trace_id", R"([{"kind":"can","id":-1,"data":"01"}])", RecordingFormat::trace, ""},
+    {"bad_trace_wide_id", R"([{"kind":"can","id":536870912,"data":"01"}])", RecordingFormat::trace, ""},
+    {"bad_trace_data", R"([{"kind":"can","id":1,"data":7}])", RecordingFormat::trace, ""},
+    {"bad_trace_long", R"([{"kind":"can","id":1,"data":"010203040506070809"}])", RecordingFormat::trace, ""},
+};
+class Forms : public testing::TestWithParam<Line> {};
+
+TEST_P(Forms, IsReadOrSaidToBeWrong) {
+    const Line& c = GetParam();
+    const Read r = read(c.text, c.format);
+    if (c.frame.empty()) {
+        EXPECT_EQ(r.frames.size(), 0u);
+        EXPECT_EQ(r.faults, std::vector<std::size_t>{1});
+        return;
+    }
+    EXPECT_TRUE(r.faults.empty());
+    ASSERT_EQ(r.frames.size(), 1u);
+    EXPECT_EQ(to_text(r.frames[0].frame), c.frame);
+    EXPECT_EQ(r.frames[0].stamp, c.stamp);
+    EXPECT_EQ(r.frames[0].to_drive, c.to_drive);
+}
+INSTANTIATE_TEST_SUITE_P(Lines, Forms, testing::ValuesIn(lines), [](const auto& i) { return std::string(i.param.name); });
+
+TEST(Recording, WhatTheApiWritesIsReadBack) {
+    std::mt19937 random(7);
+    std::vector<TraceEntry> entries(200);
+    for (auto& e : entries) {
+        Frame& f = e.frame;
+        f.kind = static_cast<Frame::Kind>(random() % 3);
+        f.extended = f.kind == Frame::Kind::can && random() % 2;
+        f.remote = f.kind == Frame::Kind::can && random() % 8 == 0;
+        f.id = f.kind == Frame::Kind::bytes ? 0 : random() & (f.extended || f.kind == Frame::Kind::can_error ? 0x1FFFFFFFu : 0x7FFu);
+        std::vector<std::uint8_t> data(f.remote ? 0 : f.kind == Frame::Kind::bytes ? 1 + random() % 40 : random() % 9);
+        for (auto& b : data)
+            b = static_cast<std::uint8_t>(random());
+        f.assign(data);
+        e.to_drive = random() % 2;
+        e.simulated = random() % 2;
+        e.at_unix_ns = 1'700'000'000'000'000'000 + static_cast<std::int64_t>(random()) * 1000;
+    }
+    const Read text = read(trace_text(entries, "can0"), RecordingFormat::candump);
+    ASSERT_TRUE(text.faults.empty());
+    ASSERT_EQ(text.frames.size(), entries.size());
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        EXPECT_EQ(to_text(text.frames[i].frame), to_text(entries[i].frame)) << i;
+        EXPECT_EQ(text.frames[i].to_drive, entries[i].to_drive) << i;
+    }
+    std::erase_if(entries, [](const TraceEntry& e) { return e.frame.kind == Frame::Kind::bytes; });
+    const Read log = read(candump_text(entries, "can0"), RecordingFormat::candump);
+    ASSERT_TRUE(log.faults.empty());
+    ASSERT_EQ(log.frames.size(), entries.size());
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        EXPECT_EQ(to_text(log.frames[i].frame), to_text(entries[i].frame)) << i;
+        EXPECT_EQ(log.frames[i].frame.kind, entries[i].frame.kind) << i;
+    }
+}
+
+TEST(Recording, PlacesAreLinesAndEntries) {
+    const Read r = read("# a comment\n\n  \r\ncan0 123#01\r\nnonsense\ncan0 124#02\nmore\n", RecordingFormat::candump);
+    ASSERT_EQ(r.frames.size(), 2u);
+    EXPECT_EQ(r.frames[1].frame.id, 0x124u);
+    EXPECT_EQ(r.faults, (std::vector<std::size_t>{5, 7}));
+    EXPECT_EQ(read("{]", RecordingFormat::trace).faults, std::vector<std::size_t>{0});
+    EXPECT_EQ(read("{\"frames\":7}", RecordingFormat::trace).faults, std::vector<std::size_t>{0});
+    EXPECT_EQ(read("[7, {}]", RecordingFormat::trace).faults, (std::vector<std::size_t>{1, 2}));
+}
+
+TEST(Recording, ALongRunOfBytesComesInPieces) {
+    std::string text = "> ";
+    for (int i = 0; i < 700; ++i)
+        text += "5A ";
+    const Read r = read(text, RecordingFormat::hex);
+    ASSERT_EQ(r.frames.size(), 3u);
+    EXPECT_EQ(r.frames[0].frame.size, 256);
+    EXPECT_EQ(r.frames[2].frame.size, 700 - 512);
+    EXPECT_EQ(r.frames[2].to_drive, true);
+}
+
+}  // namespace
+}  // namespace axisgate

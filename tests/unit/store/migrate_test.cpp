@@ -1,0 +1,110 @@
+// Migrations: order, upgrades with a copy before, steps that fail, files that are newer.
+#include "tests/unit/store/fixture.hpp"
+
+namespace axisgate::test {
+namespace {
+using testing::HasSubstr;
+
+TEST(Migrations, AreFoundAmongTheAssetsInOrderOfNumber) {
+    const Asset assets[] = {
+        {"schema/sql/0002_two.sql", "b"}, {"web/dist/index.html", "x"}, {"schema/sql/0001_one.sql", "a"}, {"schema/sql/README.md", "x"}};
+    const auto m = must(migrations_among(assets));
+    ASSERT_EQ(m.size(), 2u);
+    EXPECT_EQ(m[0].number, 1);
+    EXPECT_EQ(m[0].sql, "a");
+    EXPECT_EQ(m[1].name, "0002_two.sql");
+}
+
+TEST(Migrations, WrongNumbersAreAFaultOfTheProgram) {
+    const std::vector<std::vector<Asset>> wrong = {{},
+                                                   {{"schema/sql/0002_two.sql", ""}},
+                                                   {{"schema/sql/0001_a.sql", ""}, {"schema/sql/0001_b.sql", ""}},
+                                                   {{"schema/sql/0001_a.sql", ""}, {"schema/sql/0003_c.sql", ""}},
+                                                   {{"schema/sql/base.sql", ""}},
+                                                   {{"schema/sql/0001.sql", ""}}};
+    for (const auto& assets : wrong)
+        EXPECT_EQ(refused(migrations_among(assets)).kind, Kind::internal);
+}
+
+class Upgrade : public testing::Test {
+protected:
+    Upgrade() {
+        const auto store = open_store(dir_);
+        must(commit_one(*store, a_write("feeder", "AC", std::int64_t{7})));
+        version_ = static_cast<int>(program_migrations().size());
+    }
+    StoreOptions with(std::string_view sql) const {
+        auto o = options_for(dir_.path());
+        o.migrations.push_back({version_ + 1, "next.sql", sql});
+        return o;
+    }
+    std::string before() const { return dir_ / ("axisgate.db.before-" + std::to_string(version_ + 1)); }
+
+    TempDir dir_;
+    int version_ = 0;
+};
+
+TEST_F(Upgrade, KeepsTheValuesAndACopyFromBefore) {
+    const auto next = with("CREATE TABLE more (x INTEGER) STRICT; INSERT INTO more VALUES (5);");
+    {
+        const auto store = open_store(next);
+        ASSERT_NE(store, nullptr);
+        EXPECT_EQ(must(store->facts()).version, version_ + 1);
+        EXPECT_EQ(must(store->stored("feeder", "AC"))->value, Value{std::int64_t{7}});
+        must(store->check());
+    }
+    auto copy = must(Db::open(before(), Db::Mode::read_only));
+    EXPECT_EQ(must(version_of(*copy)), version_);
+    EXPECT_EQ(must(copy->integer("SELECT value FROM parameter_stored")), 7);
+    // The copy is a backup like any other: it brings the older state back.
+    must(restore_database(before(), options_for(dir_.path())));
+    EXPECT_EQ(must(open_store(dir_)->facts()).version, version_);
+}
+
+TEST_F(Upgrade, IsDoneOnce) {
+    const auto next = with("CREATE TABLE more (x INTEGER) STRICT");
+    { const auto store = open_store(next); }
+    std::filesystem::remove(before());
+    { const auto store = open_store(next); }
+    EXPECT_FALSE(std::filesystem::exists(before()));  // no copy without an upgrade
+}
+
+TEST_F(Upgrade, AStepThatFailsIsUndoneWhole) {
+    const auto error = refused(Store::open(with("CREATE TABLE more (x INTEGER) STRICT; INSERT INTO no_such_table VALUES (1);")));
+    EXPECT_THAT(error.text, HasSubstr("no_such_table"));
+    EXPECT_THAT(error.text, HasSubstr("next.sql"));
+    EXPECT_THAT(error.text, HasSubstr(before()));
+    const auto store = open_store(dir_);  // the older program goes on
+    ASSERT_NE(store, nullptr);
+    EXPECT_EQ(must(store->stored("feeder", "AC"))->value, Value{std::int64_t{7}});
+    auto db = must(Db::open(dir_ / "axisgate.db", Db::Mode::read_only));
+    EXPECT_EQ(must(db->integer("SELECT count(*) FROM sqlite_schema WHERE name = 'more'")), 0);
+}
+
+TEST_F(Upgrade, AStepThatEndsItsTransactionOrBreaksReferencesIsAFaultOfTheProgram) {
+    EXPECT_THAT(refused(Store::open(with("CREATE TABLE more (x INTEGER) STRICT; COMMIT"))).text, HasSubstr("ends its transaction"));
+    const auto broken = refused(Store::open(with("PRAGMA defer_foreign_keys=ON; DELETE FROM axis")));
+    EXPECT_THAT(broken.text, HasSubstr("breaks the references"));
+    EXPECT_EQ(must(open_store(dir_)->stored("feeder")).size(), 1u);
+}
+
+TEST_F(Upgrade, ACopyThatCannotBeMadeStopsTheUpgrade) {
+    std::filesystem::create_directories(before() + "/in the way");
+    const auto error = refused(Store::open(with("CREATE TABLE more (x INTEGER) STRICT")));
+    EXPECT_THAT(error.text, HasSubstr("not upgraded"));
+    EXPECT_EQ(must(open_store(dir_)->facts()).version, version_);
+    EXPECT_THAT(names_in(dir_.path()), testing::Not(testing::Contains(testing::HasSubstr(".part"))));
+}
+
+TEST_F(Upgrade, AnOlderProgramIsRefusedByTheNewerFile) {
+    { const auto store = open_store(with("CREATE TABLE more (x INTEGER) STRICT")); }
+    const auto before_open = content_of(dir_ / "axisgate.db");
+    const auto error = refused(Store::open(options_for(dir_.path())));
+    EXPECT_EQ(error.kind, Kind::newer);
+    EXPECT_THAT(error.text, HasSubstr("Install the newer axisgate"));
+    EXPECT_THAT(error.text, HasSubstr(before()));
+    EXPECT_EQ(content_of(dir_ / "axisgate.db"), before_open);
+}
+
+}  // namespace
+}  // namespace axisgate::test

@@ -1,0 +1,197 @@
+// The site document: revisions, history, and names that change together with it; twins' memory and documents.
+#include "tests/unit/store/fixture.hpp"
+
+namespace axisgate::test {
+namespace {
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+TEST(Site, NoneAtFirstThenTheNewest) {
+    const TempDir dir;
+    {
+        const auto store = open_store(dir);
+        EXPECT_FALSE(must(store->load_site()));
+        EXPECT_EQ(must(store->save_site("{\"a\":1}", "http admin", 10)), 1u);
+        EXPECT_EQ(must(store->save_site("{\"ä\":2}", "file", 20)), 2u);
+    }
+    const auto store = open_store(dir);
+    const auto site = must(store->load_site());
+    ASSERT_TRUE(site);
+    EXPECT_EQ(site->revision, 2u);
+    EXPECT_EQ(site->text, "{\"ä\":2}");
+    EXPECT_EQ(site->bytes, site->text.size());
+    EXPECT_EQ(site->who, "file");
+    EXPECT_EQ(site->at_unix_ns, 20);
+    EXPECT_EQ(must(store->site(1))->text, "{\"a\":1}");
+    EXPECT_FALSE(must(store->site(3)));
+}
+
+TEST(Site, TheSameTextIsNoNewRevision) {
+    const TempDir dir;
+    const auto store = open_store(dir);
+    must(store->save_site("a", "x", 1));
+    must(store->save_site("b", "x", 2));
+    EXPECT_EQ(must(store->save_site("b", "y", 3)), 2u);
+    EXPECT_EQ(must(store->save_site("a", "y", 4)), 3u);  // going back is a change
+    EXPECT_EQ(must(store->site_history()).size(), 3u);
+}
+
+TEST(Site, TheLastFiftyAreKeptAndNumbersGoOn) {
+    const TempDir dir;
+    {
+        const auto store = open_store(dir);
+        for (int i = 1; i <= 60; ++i)
+            EXPECT_EQ(must(store->save_site("site " + std::to_string(i), "x", i)), static_cast<std::uint64_t>(i));
+        const auto history = must(store->site_history());
+        ASSERT_EQ(history.size(), 50u);
+        EXPECT_EQ(history.front().revision, 60u);
+        EXPECT_EQ(history.back().revision, 11u);
+        EXPECT_EQ(history.back().bytes, 7u);
+        EXPECT_TRUE(history.back().text.empty());
+        EXPECT_FALSE(must(store->site(10)));
+        EXPECT_EQ(must(store->site(11))->text, "site 11");
+    }
+    EXPECT_EQ(must(open_store(dir)->save_site("next", "x", 61)), 61u);
+}
+
+TEST(Site, SizeIsBounded) {
+    const TempDir dir;
+    const auto store = open_store(dir);
+    EXPECT_EQ(refused(store->save_site("", "x", 1)).kind, Kind::invalid);
+    EXPECT_EQ(refused(store->save_site(std::string(max_site_bytes + 1, ' '), "x", 1)).kind, Kind::invalid);
+    EXPECT_EQ(must(store->save_site(std::string(max_site_bytes, ' '), "x", 1)), 1u);
+}
+
+class SiteNames : public testing::Test {
+protected:
+    SiteNames() : store_(open_store(dir_)) {
+        must(store_->commit(std::vector{a_write("a", "P", std::string("of a")), a_write("b", "P", std::string("of b")),
+                                        a_write("c", "P", std::string("of c"))}));
+        for (const char* drive : {"da", "db", "dc"})
+            must(store_->save_twin(drive, {{"V", Value{std::string("of ") + drive}}}));
+    }
+    std::string stored(const std::string& axis) {
+        const auto r = must(store_->stored(axis, "P"));
+        return r ? to_text(r->value) : "-";
+    }
+    std::string twin(const std::string& drive) {
+        const auto m = must(store_->load_twin(drive));
+        return m.empty() ? "-" : to_text(m.at("V"));
+    }
+    TempDir dir_;
+    std::unique_ptr<Store> store_;
+};
+
+TEST_F(SiteNames, CanBeExchanged) {
+    SiteChange change;
+    change.renamed_axes = {{"a", "b"}, {"b", "c"}, {"c", "a"}};
+    change.renamed_drives = {{"da", "db"}, {"db", "da"}};
+    must(store_->save_site("{}", "x", 1, change));
+    EXPECT_THAT((std::vector{stored("a"), stored("b"), stored("c")}), ElementsAre("of c", "of a", "of b"));
+    EXPECT_THAT((std::vector{twin("da"), twin("db"), twin("dc")}), ElementsAre("of db", "of da", "of dc"));
+}
+
+TEST_F(SiteNames, WhatTheNewSiteDoesNotNameIsRemoved) {
+    SiteChange change;
+    change.renamed_axes = {{"a", "b"}};  // the old b is gone: its name was taken
+    change.axes = {{"b", "new"}};
+    change.renamed_drives = {{"da", "db"}};
+    change.drives = {{"db", "new"}};
+    must(store_->save_site("{}", "x", 77, change));
+    EXPECT_THAT((std::vector{stored("a"), stored("b"), stored("c")}), ElementsAre("-", "of a", "-"));
+    EXPECT_THAT((std::vector{twin("da"), twin("db"), twin("dc")}), ElementsAre("-", "of da", "-"));
+    EXPECT_EQ(must(store_->history("b", "P", 10)).size(), 1u);
+    EXPECT_EQ(must(store_->history("c", "P", 10)).size(), 1u);  // removed, not forgotten
+    EXPECT_EQ(must(store_->axes()).size(), 3u);
+}
+
+TEST_F(SiteNames, AnAxisThatWasNeverWrittenDoesNotInheritByItsNewName) {
+    must(store_->remove_axis("b", 5));
+    SiteChange change;
+    change.renamed_axes = {{"never written", "b"}};
+    must(store_->save_site("{}", "x", 6, change));
+    EXPECT_TRUE(must(store_->history("b", "", 10)).empty());
+}
+
+TEST_F(SiteNames, WithoutListsNothingIsRemoved) {
+    must(store_->save_site("{}", "x", 1));
+    EXPECT_EQ(stored("a"), "of a");
+    EXPECT_EQ(twin("dc"), "of dc");
+}
+
+TEST_F(SiteNames, AnEmptySiteRemovesEverythingStored) {
+    SiteChange change;
+    change.axes.emplace();
+    change.drives.emplace();
+    must(store_->save_site("{}", "x", 1, change));
+    EXPECT_EQ(stored("a") + stored("b") + stored("c") + twin("da"), "----");
+}
+
+TEST_F(SiteNames, AWrongChangeRefusesTheSiteWhole) {
+    SiteChange twice;
+    twice.renamed_axes = {{"a", "x"}, {"b", "x"}};
+    EXPECT_EQ(refused(store_->save_site("{}", "x", 1, twice)).kind, Kind::invalid);
+    SiteChange empty;
+    empty.renamed_drives = {{"da", ""}};
+    EXPECT_THAT(refused(store_->save_site("{}", "x", 1, empty)).text, HasSubstr("the site is not stored"));
+    EXPECT_FALSE(must(store_->load_site()));
+    EXPECT_EQ(stored("a"), "of a");
+}
+
+// --- twins ---------------------------------------------------------------------------------------------------------------------
+
+TEST(TwinMemory, EmptyIsFactoryStateAndDifferencesAloneAreWritten) {
+    const TempDir dir;
+    NonVolatile memory{{"AC", Value{std::int64_t{5}}}, {"name", Value{std::string("x")}}, {"ratio", Value{0.5}}};
+    {
+        const auto store = open_store(dir);
+        EXPECT_TRUE(must(store->load_twin("feeder")).empty());
+        must(store->save_twin("feeder", memory));
+        EXPECT_EQ(must(store->load_twin("feeder")), memory);
+        const auto log = std::filesystem::file_size(dir / "axisgate.db-wal");
+        for (int i = 0; i < 50; ++i)
+            must(store->save_twin("feeder", memory));
+        EXPECT_EQ(std::filesystem::file_size(dir / "axisgate.db-wal"), log);  // the same again costs no write
+        memory.erase("name");
+        memory["AC"] = 5.0;  // another kind
+        memory["DC"] = true;
+        must(store->save_twin("feeder", memory));
+        must(store->save_twin("slide", {{"AC", Value{std::int64_t{1}}}}));
+    }
+    const auto store = open_store(dir);
+    EXPECT_EQ(must(store->load_twin("feeder")), memory);
+    EXPECT_TRUE(std::holds_alternative<double>(must(store->load_twin("feeder")).at("AC")));
+    must(store->remove_drive("feeder"));
+    EXPECT_TRUE(must(store->load_twin("feeder")).empty());
+    EXPECT_EQ(must(store->load_twin("slide")).size(), 1u);
+    must(store->save_twin("slide", {}));
+    EXPECT_TRUE(must(store->load_twin("slide")).empty());
+    EXPECT_EQ(refused(store->save_twin("", memory)).kind, Kind::invalid);
+    EXPECT_EQ(refused(store->save_twin("x", {{"", Value{true}}})).kind, Kind::invalid);
+    EXPECT_EQ(refused(store->save_twin("x", {{"P", Value{std::string(max_value_bytes + 1, 'x')}}})).kind, Kind::invalid);
+}
+
+// --- documents -----------------------------------------------------------------------------------------------------------------
+
+TEST(Documents, AreReplacedListedAndDeleted) {
+    const TempDir dir;
+    const auto store = open_store(dir);
+    must(store->save_document({"recipe", "b", "1", "me", 1}));
+    must(store->save_document({"recipe", "a", "2", "me", 2}));
+    must(store->save_document({"token", "a", "3", "me", 3}));
+    must(store->save_document({"recipe", "b", "4", "you", 4}));
+    const auto recipes = must(store->documents("recipe"));
+    ASSERT_EQ(recipes.size(), 2u);
+    EXPECT_EQ(recipes[0].name, "a");
+    EXPECT_EQ(recipes[1].text, "4");
+    EXPECT_EQ(recipes[1].who, "you");
+    EXPECT_EQ(must(store->document("token", "a"))->text, "3");
+    EXPECT_FALSE(must(store->document("token", "b")));
+    must(store->delete_document("recipe", "b"));
+    EXPECT_EQ(refused(store->delete_document("recipe", "b")).kind, Kind::not_found);
+    EXPECT_EQ(refused(store->save_document({"", "b", "4", "you", 4})).kind, Kind::invalid);
+    EXPECT_EQ(refused(store->save_document({"recipe", "b", std::string(max_document_bytes + 1, 'x'), "you", 4})).kind, Kind::invalid);
+}
+
+}  // namespace
+}  // namespace axisgate::test

@@ -1,0 +1,74 @@
+#!/bin/bash
+# Runs inside the emulated machine: gateway and twin on a real vcan interface, candump as witness.
+# In: the program. Out: one line per check, "pass: ..." or "FAIL: ...". Never touches a network but this guest's own.
+program=$1
+export PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/tmp
+cd /tmp || exit 1
+ip link set lo up
+api=http://127.0.0.1:8080/api/v1
+
+check() { # TEXT CONDITION...
+    local text=$1; shift
+    if "$@"; then echo "pass: $text"; else echo "FAIL: $text"; fi
+}
+# until SECONDS COMMAND...: true as soon as the command is
+until_true() {
+    local end=$((SECONDS + $1)); shift
+    while ! "$@"; do [ $SECONDS -lt $end ] || return 1; sleep 0.2; done
+}
+field() { curl -s -m 10 "$api/$1" | jq -r "$2"; }
+is() { [ "$(field "$1" "$2")" = "$3" ]; }
+command() { curl -s -m 60 -H 'Content-Type: application/json' -d "$2" "$api/axes/$1/commands?wait=40" | jq -r .result; }
+result_is() { local r; r=$(command "$1" "$2"); [ "$r" = "$3" ] || { echo "info: $2 -> $r"; false; }; }
+captured() { grep -q "$1" candump.log; }
+
+check "vcan0 can be made" ip link add dev vcan0 type vcan
+ip link set vcan0 up
+stdbuf -oL candump -L vcan0 >candump.log 2>/dev/null &
+witness=$!
+
+"$program" twin uim342 --line can:vcan0 --address 5 --address 6 >twin.log 2>&1 &
+twin=$!
+check "the twin is ready on the bus" until_true 60 grep -q '^ready ' twin.log
+
+cat >site.json <<'SITE'
+{"lines": [{"name": "can0", "uri": "can:vcan0", "family": "uim342", "bitrate": 1000000}],
+ "drives": [{"name": "left", "line": "can0", "address": 5, "presence": "device"}, {"name": "right", "line": "can0", "address": 6, "presence": "auto"}],
+ "axes": [{"name": "left", "drive": "left", "number": 1, "unit": "mm", "increments_per_unit": 3200},
+          {"name": "right", "drive": "right", "number": 2, "unit": "mm", "increments_per_unit": 3200}], "mappings": []}
+SITE
+"$program" serve --data /tmp/data --site site.json >gateway.log 2>gateway.err &
+gateway=$!
+check "the gateway is ready" until_true 90 grep -q '^ready ' gateway.log
+check "the left drive answers over SocketCAN" until_true 30 is axes/left .online true
+check "and is not called simulated: for the gateway this is a real drive" is axes/left .simulated false
+check "the right drive answers too" until_true 30 is drives/right .presence_now device
+check "enable" result_is left '{"command":"enable"}' done
+check "move to 2 mm ends there" result_is left '{"command":"move_absolute","position":2,"velocity":5,"acceleration":50,"deceleration":50}' done
+check "position is 6400 increments" is axes/left .position_increments 6400
+check "the witness saw the move command of node 5" captured '042800A0#00190000'
+check "the witness saw BG" captured '04280096#'
+check "the witness saw the acknowledgement of BG from node 5" captured '05200016#00000000'
+
+check "interface down: the line is down" eval 'ip link set vcan0 down; until_true 20 is lines/can0 .status.state down'
+check "the axis is stale" until_true 20 is axes/left .stale true
+check "interface up again: everything heals" eval 'ip link set vcan0 up; until_true 40 is axes/left .stale false'
+check "and moves" result_is left '{"command":"move_relative","position":-1,"velocity":5}' done
+
+kill $twin; wait $twin 2>/dev/null
+check "without the drive: left is offline" until_true 30 is axes/left .online false
+check "without the drive: the twin serves right, and says so" until_true 30 is axes/right .simulated true
+"$program" twin uim342 --line can:vcan0 --address 5 --address 6 >twin2.log 2>&1 &
+twin=$!
+check "the drive is back: left heals by itself" until_true 60 is axes/left .online true
+check "the drive is back: right is handed back at rest" until_true 60 is axes/right .simulated false
+
+ip link del vcan0
+check "interface gone: the line is down" until_true 20 is lines/can0 .status.state down
+ip link add dev vcan0 type vcan && ip link set vcan0 up
+check "interface back: the line is up again" until_true 40 is lines/can0 .status.state up
+
+kill $gateway
+check "the gateway ends when asked" until_true 20 eval '! kill -0 $gateway 2>/dev/null'
+kill $twin $witness 2>/dev/null
+while read -r line; do echo "info: $line"; done < <(tail -n 5 gateway.err)

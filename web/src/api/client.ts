@@ -1,0 +1,154 @@
+// Client: the REST half of the HTTP door. In: calls of the page. Out: documents, or a Problem.
+// A browser opens at most six connections to one host. Ordinary requests use at most four at once and wait here for their turn;
+// urgent ones (stop, halt, disable) never wait behind them. At most 200 wait; beyond that a call is refused in words.
+// Never retries a command: a move that was perhaps taken must not be said twice.
+import { asProblem, Problem, problemOf } from './problem';
+import type {
+  About, Axis, AxisParameter, Command, CommandAnswer, Drive, GatewayEvent, HandItem, Line, NativeReply, Value,
+} from './types';
+
+const ordinaryAtOnce = 4;
+const mostWaiting = 200;
+
+interface Options {
+  method?: 'GET' | 'POST' | 'PUT' | 'PATCH' | 'DELETE';
+  body?: unknown;
+  urgent?: boolean;
+  timeout_ms?: number;
+  signal?: AbortSignal;
+}
+
+interface Waiting {
+  start: () => void;
+  giveUp: (problem: Problem) => void;
+  reads: boolean;
+}
+
+const part = encodeURIComponent;
+
+export class Client {
+  private running = 0;
+  private waiting: Waiting[] = [];
+
+  constructor(
+    private readonly base = '/api/v1',
+    private readonly fetcher: typeof fetch = (...a) => fetch(...a),
+  ) {}
+
+  about = () => this.call<About>('/about');
+  axes = () => this.call<Axis[]>('/axes');
+  drives = () => this.call<Drive[]>('/drives');
+  lines = () => this.call<Line[]>('/lines');
+
+  events(query: { since?: number; limit?: number; axis?: string; severity?: string } = {}) {
+    const q = new URLSearchParams();
+    for (const [k, v] of Object.entries(query)) if (v !== undefined && v !== '') q.set(k, String(v));
+    return this.call<GatewayEvent[]>(`/events${q.size ? `?${q}` : ''}`);
+  }
+
+  command(axis: string, command: Command, urgent = false) {
+    return this.call<CommandAnswer>(`/axes/${part(axis)}/commands`, { method: 'POST', body: command, urgent });
+  }
+
+  parameters(axis: string, query: { array?: string; first?: number } = {}, signal?: AbortSignal) {
+    const q = new URLSearchParams();
+    if (query.array !== undefined) q.set('array', query.array);
+    if (query.first !== undefined) q.set('first', String(query.first));
+    return this.call<AxisParameter[]>(`/axes/${part(axis)}/parameters${q.size ? `?${q}` : ''}`, signal ? { signal } : {});
+  }
+
+  /** `cached`: the last known value; else the drive is asked now. */
+  parameter(axis: string, id: string, query: { cached?: boolean; history?: number } = {}, signal?: AbortSignal) {
+    const q = new URLSearchParams();
+    if (query.cached) q.set('cached', '1');
+    if (query.history) q.set('history', String(query.history));
+    return this.call<AxisParameter>(`/axes/${part(axis)}/parameters/${part(id)}${q.size ? `?${q}` : ''}`, signal ? { signal } : {});
+  }
+
+  writeParameter(axis: string, id: string, value: Value) {
+    return this.call<CommandAnswer>(`/axes/${part(axis)}/parameters/${part(id)}`, { method: 'PUT', body: { value } });
+  }
+
+  native(drive: string, send: { send: string } | { send_hex: string }) {
+    return this.call<NativeReply>(`/drives/${part(drive)}/native`, { method: 'POST', body: send });
+  }
+
+  hand = (drive: string, signal?: AbortSignal) =>
+    this.call<HandItem[]>(`/drives/${part(drive)}/hand?describe=1`, signal ? { signal } : {});
+
+  setHand = (drive: string, change: Record<string, Value>) =>
+    this.call<Record<string, Value>>(`/drives/${part(drive)}/hand`, { method: 'PATCH', body: change });
+
+  /** Commands that wait in the page and have not been sent are given up: a stop overtakes them. Reads go on. */
+  dropWaitingCommands(why: string): void {
+    const commands = this.waiting.filter((w) => !w.reads);
+    this.waiting = this.waiting.filter((w) => w.reads);
+    for (const w of commands) w.giveUp(new Problem('cancelled', why));
+  }
+
+  async call<T>(path: string, options: Options = {}): Promise<T> {
+    if (!options.urgent) await this.turn((options.method ?? 'GET') === 'GET');
+    try {
+      return await this.send<T>(path, options);
+    } finally {
+      if (!options.urgent) this.done();
+    }
+  }
+
+  private turn(reads: boolean): Promise<void> {
+    if (this.running < ordinaryAtOnce) {
+      this.running += 1;
+      return Promise.resolve();
+    }
+    if (this.waiting.length >= mostWaiting) {
+      return Promise.reject(new Problem('crowded', 'too many requests of this page wait for an answer: try again in a moment'));
+    }
+    return new Promise((resolve, reject) => {
+      this.waiting.push({ start: resolve, giveUp: reject, reads });
+    });
+  }
+
+  private done(): void {
+    const next = this.waiting.shift();
+    if (next) next.start(); // it takes over the place: `running` stays
+    else this.running -= 1;
+  }
+
+  private async send<T>(path: string, options: Options): Promise<T> {
+    const limit = options.timeout_ms ?? 15_000;
+    const aborter = new AbortController();
+    let timedOut = false;
+    const timer = setTimeout(() => {
+      timedOut = true;
+      aborter.abort();
+    }, limit);
+    const given = () => aborter.abort();
+    if (options.signal?.aborted) given();
+    options.signal?.addEventListener('abort', given, { once: true });
+    try {
+      const headers: Record<string, string> = { accept: 'application/json, application/problem+json' };
+      const init: RequestInit = { method: options.method ?? 'GET', headers, signal: aborter.signal, cache: 'no-store' };
+      if (options.body !== undefined) {
+        headers['content-type'] = 'application/json';
+        init.body = JSON.stringify(options.body);
+      }
+      if (options.urgent) {
+        init.keepalive = true; // a stop on its way survives the closing of the page
+        init.priority = 'high';
+      }
+      const response = await this.fetcher(this.base + path, init);
+      if (!response.ok) throw await problemOf(response);
+      if (response.status === 204) return undefined as T;
+      return (await response.json()) as T;
+    } catch (error) {
+      if (error instanceof Problem) throw error;
+      if (timedOut) throw new Problem('timed_out', `the gateway did not answer within ${limit / 1000} s`);
+      if (options.signal?.aborted) throw new Problem('cancelled', 'given up');
+      if (error instanceof SyntaxError) throw new Problem('answered', 'the answer of the gateway cannot be read');
+      throw asProblem(new Problem('unreachable', 'the gateway cannot be reached'));
+    } finally {
+      clearTimeout(timer);
+      options.signal?.removeEventListener('abort', given);
+    }
+  }
+}

@@ -1,0 +1,54 @@
+// Problem: what went wrong with a request, always with a sentence for people.
+// In: a response that is not good, or what fetch threw. Out: a Problem. Never shows a status number where the gateway gave words.
+import type { ProblemDocument } from './types';
+
+export type ProblemKind =
+  | 'answered' // the gateway said no, and why
+  | 'unreachable' // nobody answered
+  | 'timed_out' // no answer within the limit
+  | 'cancelled' // the page itself gave it up
+  | 'crowded'; // too many requests wait in the page
+
+export class Problem extends Error {
+  override readonly name = 'Problem';
+  constructor(
+    readonly kind: ProblemKind,
+    detail: string,
+    readonly status = 0,
+    readonly document: ProblemDocument = {},
+  ) {
+    super(detail);
+  }
+
+  /** The stable word of the gateway ("wrong_state"), or the kind where the gateway said nothing. */
+  get reason(): string {
+    return this.document.reason ?? this.kind;
+  }
+
+  /** The gateway's sentence, every fault of a document that is wrong, and the drive's own code. */
+  get words(): string {
+    const faults = (this.document.faults ?? []).map((f) => f.text).filter((t) => t && !this.message.includes(t));
+    const code = this.document.code;
+    return [this.message, ...faults].join('; ') + (code !== null && code !== undefined ? ` (drive's code ${code})` : '');
+  }
+}
+
+/** Reads the body of a response that is not good. Something else than a problem document becomes one. */
+export async function problemOf(response: Response): Promise<Problem> {
+  const text = await response.text().catch(() => '');
+  const type = response.headers.get('content-type') ?? '';
+  if (/^application\/(problem\+)?json\b/.test(type)) {
+    try {
+      const document = JSON.parse(text) as ProblemDocument;
+      const detail = document.detail || document.title;
+      if (typeof detail === 'string' && detail) return new Problem('answered', detail, response.status, document);
+    } catch {
+      // Half a document says nothing: the status has to do.
+    }
+  }
+  return new Problem('answered', `the gateway answered ${response.status} ${response.statusText}`.trim(), response.status);
+}
+
+export function asProblem(error: unknown): Problem {
+  return error instanceof Problem ? error : new Problem('unreachable', error instanceof Error ? error.message : String(error));
+}

@@ -1,0 +1,2971 @@
+// Generated from schema/openapi.yaml by `npm run api`. Do not edit: change the description and run it again.
+export interface paths {
+    "/healthz": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The process is alive */
+        get: operations["getHealth"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/readyz": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The gateway is ready to serve, or what is missing */
+        get: operations["getReady"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/metrics": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Counters and gauges as Prometheus text */
+        get: operations["getMetrics"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/openapi.yaml": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** This description */
+        get: operations["getDescription"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/about": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Name, version, families, doors and their addresses */
+        get: operations["getAbout"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/families": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The drive families */
+        get: operations["listFamilies"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/families/{family}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example uim342 */
+                family: components["parameters"]["family"];
+            };
+            cookie?: never;
+        };
+        /** One family, with everything its catalogue says beside parameters, commands and errors */
+        get: operations["getFamily"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/families/{family}/parameters": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example uim342 */
+                family: components["parameters"]["family"];
+            };
+            cookie?: never;
+        };
+        /** The parameters of the family, in the order of the manual */
+        get: operations["listFamilyParameters"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/families/{family}/commands": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example uim342 */
+                family: components["parameters"]["family"];
+            };
+            cookie?: never;
+        };
+        /** The drive's own commands */
+        get: operations["listFamilyCommands"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/families/{family}/errors": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example uim342 */
+                family: components["parameters"]["family"];
+            };
+            cookie?: never;
+        };
+        /** The drive's own error codes */
+        get: operations["listFamilyErrors"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/lines": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** All lines, with their state */
+        get: operations["listLines"];
+        put?: never;
+        /** Adds a line */
+        post: operations["addLine"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/lines/{line}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example can0 */
+                line: components["parameters"]["line"];
+            };
+            cookie?: never;
+        };
+        /** One line, with its state */
+        get: operations["getLine"];
+        /** Replaces a line; another `name` in the body renames it, and its drives follow */
+        put: operations["replaceLine"];
+        post?: never;
+        /** Removes a line; 409 while drives hang on it, unless `cascade` */
+        delete: operations["removeLine"];
+        options?: never;
+        head?: never;
+        /** Changes some members of a line (JSON merge patch; null removes a member) */
+        patch: operations["changeLine"];
+        trace?: never;
+    };
+    "/api/v1/lines/{line}/trace": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example can0 */
+                line: components["parameters"]["line"];
+            };
+            cookie?: never;
+        };
+        /**
+         * Recorded frames, oldest first
+         * @description Without `format` the `Accept` header decides. A gap in `sequence`, or `missed` above 0, means that frames were overwritten
+         *     before they were read. Ask again with `since` = `next` for what came later.
+         */
+        get: operations["getTrace"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/drives": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** All drives, with their presence */
+        get: operations["listDrives"];
+        put?: never;
+        /** Adds a drive */
+        post: operations["addDrive"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/drives/{drive}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                drive: components["parameters"]["drive"];
+            };
+            cookie?: never;
+        };
+        /** One drive, with its presence */
+        get: operations["getDrive"];
+        /** Replaces a drive; another `name` in the body renames it, and its axes follow */
+        put: operations["replaceDrive"];
+        post?: never;
+        /** Removes a drive; 409 while axes hang on it, unless `cascade` */
+        delete: operations["removeDrive"];
+        options?: never;
+        head?: never;
+        /** Changes some members of a drive (JSON merge patch; null removes a member) */
+        patch: operations["changeDrive"];
+        trace?: never;
+    };
+    "/api/v1/drives/{drive}/native": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                drive: components["parameters"]["drive"];
+            };
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** One exchange in the drive's own language, through the line's queue */
+        post: operations["exchangeNative"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/drives/{drive}/hand": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                drive: components["parameters"]["drive"];
+            };
+            cookie?: never;
+        };
+        /** The outside conditions of a simulated drive; 409 while the drive is not simulated */
+        get: operations["getHand"];
+        /** Sets the named conditions, all or none; those not named stay */
+        put: operations["setHand"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        /** Sets the named conditions, all or none; those not named stay */
+        patch: operations["changeHand"];
+        trace?: never;
+    };
+    "/api/v1/axes": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** All axes, with their state */
+        get: operations["listAxes"];
+        put?: never;
+        /** Adds an axis */
+        post: operations["addAxis"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/axes/{axis}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+            };
+            cookie?: never;
+        };
+        /** One axis, with its state */
+        get: operations["getAxis"];
+        /** Replaces an axis; another `name` in the body renames it */
+        put: operations["replaceAxis"];
+        post?: never;
+        /** Removes an axis; 409 while mappings name it, unless `cascade` */
+        delete: operations["removeAxis"];
+        options?: never;
+        head?: never;
+        /** Changes some members of an axis (JSON merge patch; null removes a member) */
+        patch: operations["changeAxis"];
+        trace?: never;
+    };
+    "/api/v1/axes/{axis}/commands": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+            };
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Commands an axis
+         * @description Without `wait` the answer comes when the drive has acknowledged the command (`accepted`). With `wait` it comes when the
+         *     command is done (target reached, homed, powered), or when the time is over: then the answer is `accepted` with the reason
+         *     `not done after N s`, and the command goes on. A command that is refused or failed is answered with a problem, which
+         *     carries `ticket`, `result` and `reason` too.
+         */
+        post: operations["commandAxis"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/axes/{axis}/actions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+            };
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** A function of the drive's family beyond the common commands, by its catalogue name */
+        post: operations["actOnAxis"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/axes/{axis}/parameters": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+            };
+            cookie?: never;
+        };
+        /**
+         * The parameters of an axis, with the last values known; no exchange with the drive
+         * @description The elements of an array of at most 256 are listed one by one. A longer array is one entry, with `first` and `count`; list its
+         *     elements with `array`.
+         */
+        get: operations["listParameters"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/axes/{axis}/parameters/{parameter}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+                /**
+                 * @description id or name of the catalogue; elements of an array with their number in brackets, percent-encoded (`PP%5B5%5D`)
+                 * @example AC
+                 */
+                parameter: components["parameters"]["parameter"];
+            };
+            cookie?: never;
+        };
+        /**
+         * Reads one parameter from the drive now
+         * @description If the drive does not answer, the last known value is answered with the quality `stale` and `text` says why; if none is known,
+         *     503 or 504.
+         */
+        get: operations["readParameter"];
+        /** Writes one parameter; answered by what the drive said */
+        put: operations["writeParameter"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/moves/start": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Starts several prepared axes of one line at the same instant
+         * @description Prepare each axis first with a move command that has `"prepare":true`.
+         */
+        post: operations["startMoves"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/site": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The whole site as one document */
+        get: operations["getSite"];
+        /** Replaces the whole site; only what changed is disturbed */
+        put: operations["replaceSite"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/events": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Alarms, writes, commands, line, presence and site changes; oldest first
+         * @description If there are more than `limit`, the newest ones. Ids count up without gaps.
+         */
+        get: operations["listEvents"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/stream": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * The live feed, a WebSocket (RFC 6455)
+         * @description The client sends text messages `StreamRequest`; the gateway sends text messages `StreamMessage`, one topic each.
+         *
+         *     | Topic | `data` | When |
+         *     |---|---|---|
+         *     | `axes/NAME`, `axes/*` | `Axis` without `age_ms` | at once, then when it changed, at most once per period; when only `at` moved on, once per second; null when the axis was removed |
+         *     | `drives/NAME`, `drives/*` | `Drive` | the same way, looked at every 250 ms at most |
+         *     | `lines/NAME`, `lines/*` | `Line` | the same way, looked at every 250 ms at most |
+         *     | `lines/NAME/frames` | `StreamFrames` | frames that crossed the line since, in one list per period |
+         *     | `events` | `Event` | each event, as it happens |
+         *     | `site` | `{"revision": N}` | at once, then with each change of the site |
+         *     | `error` | `StreamError` | the answer to a request that is wrong |
+         *
+         *     States (axes, drives, lines) are dropped for a newer one when the client reads slowly; events never: a client that falls
+         *     more than 4096 events behind is closed with 1013. Other codes: 1001 the gateway stops, 1002 protocol error,
+         *     1003 binary or three messages in a row that are not a request, 1007 not UTF-8, 1008 no sign of life, 1009 message over 64 KiB.
+         *     The gateway sends a ping every 20 s. A browser's `Origin` must be the gateway's own host.
+         */
+        get: operations["openStream"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+}
+export type webhooks = Record<string, never>;
+export interface components {
+    schemas: {
+        /**
+         * @default 0
+         * @enum {string}
+         */
+        Flag: "0" | "1" | "true" | "false";
+        /**
+         * Format: date-time
+         * @description RFC 3339, UTC, with a fraction
+         * @example 2026-01-02T03:04:05.678901Z
+         */
+        Time: string;
+        /** @description null, and only null */
+        Nothing: Record<string, never> | null;
+        /** @enum {string} */
+        Severity: "info" | "warning" | "alarm";
+        /** @description a truth, a number or a text; bytes are a text of hex pairs */
+        Value: boolean | number | string;
+        /** @description a value, or null where none is known */
+        MaybeValue: (boolean | null) | (number | null) | (string | null);
+        /** @description the family's own options; see the family's README */
+        Options: {
+            [key: string]: string | number | boolean;
+        };
+        Fault: {
+            /**
+             * @description JSON pointer to the place
+             * @example /axes/2/number
+             */
+            pointer: string;
+            /**
+             * @description what the pointer points into, the body of the request or the site that would result
+             * @enum {string}
+             */
+            document: "body" | "site";
+            /** @description what is wrong */
+            text: string;
+            /** @description what to do */
+            remedy: string;
+        };
+        Problem: {
+            /**
+             * @description `urn:axisgate:problem:` and the reason
+             * @example urn:axisgate:problem:not_found
+             */
+            type: string;
+            title: string;
+            status: number;
+            /** @description what happened, to what, why, what to do */
+            detail: string;
+            /** @description the request target */
+            instance?: string;
+            /** @description the drive's own error code, where it has one */
+            code: number | null;
+            /**
+             * @description a stable word. From drives and the engine: out_of_range, unknown_point, not_writable, wrong_state, not_supported,
+             *     drive_refused, busy, line_down, no_answer, interrupted, authority, not_stored, internal. From this door: bad_request,
+             *     forbidden, not_found, method_not_allowed, not_acceptable, time_out, conflict, precondition_failed,
+             *     precondition_required, too_large, unsupported_media_type, misdirected, invalid, upgrade_required, headers_too_large,
+             *     not_simulated, not_ready
+             */
+            reason: string;
+            /** @description the axis, where one is concerned */
+            axis?: string;
+            faults?: components["schemas"]["Fault"][];
+        };
+        CommandProblem: components["schemas"]["Problem"] & {
+            /** @description null if nothing was sent */
+            ticket?: number | null;
+            /** @enum {string} */
+            result?: "refused" | "failed";
+            command?: string;
+        };
+        NotReady: components["schemas"]["Problem"] & components["schemas"]["Ready"];
+        Health: {
+            /** @enum {string} */
+            status: "ok";
+            uptime_s: number;
+        };
+        Ready: {
+            ready: boolean;
+            missing: string[];
+        };
+        About: {
+            /** @enum {string} */
+            name: "axisgate";
+            version: string;
+            /** @enum {string} */
+            api: "/api/v1";
+            uptime_s: number;
+            now: components["schemas"]["Time"];
+            site_revision: number;
+            families: string[];
+            doors: {
+                name: string;
+                address: string;
+            }[];
+            /** @description how many */
+            lines: number;
+            /** @description how many */
+            drives: number;
+            /** @description how many */
+            axes: number;
+        };
+        /** @description the members below, and whatever else the family's catalogue says of the whole family */
+        Family: {
+            /** @example uim342 */
+            name: string;
+            /** @description family number of register 15 */
+            number: number;
+            /** @description speaks CAN frames */
+            uses_can: boolean;
+            /** @description speaks on a byte line (serial or TCP) */
+            uses_bytes: boolean;
+            factory_address: string;
+            default_bit_rate: number | null;
+            /**
+             * @description of a serial line
+             * @example 8N1
+             */
+            default_format: string | null;
+            /** @description how many */
+            parameters: number;
+            /** @description how many */
+            commands: number;
+            /** @description how many */
+            errors: number;
+        } & {
+            [key: string]: unknown;
+        };
+        Parameter: {
+            /** @description as the manual writes it */
+            id: string;
+            /** @description snake_case */
+            name: string;
+            group: string;
+            /** @enum {string} */
+            type: "bool" | "u8" | "i8" | "u16" | "i16" | "i24" | "u32" | "i32" | "i64" | "f32" | "f64" | "text" | "bytes";
+            unit: string | null;
+            min: number | null;
+            max: number | null;
+            default: components["schemas"]["MaybeValue"];
+            /** @enum {string} */
+            access: "R" | "W" | "RW";
+            storage: string | null;
+            description: string;
+            /** @description the only values that are allowed, with their meaning; null where min and max decide */
+            allowed: {
+                value: number;
+                meaning: string;
+            }[] | null;
+            /** @description of an array, the number of its first element */
+            first: number | null;
+            /** @description of an array, how many elements */
+            count: number | null;
+        };
+        CatalogueCommand: {
+            id: string;
+            name: string;
+            description: string | null;
+        };
+        ErrorCode: {
+            code: number;
+            /** @example alarm */
+            kind: string | null;
+            name: string | null;
+            text: string | null;
+            cause: string | null;
+            remedy: string | null;
+        };
+        /** @description how one talks on the line; what is left out is the family's default */
+        Manners: {
+            reply_timeout_ms?: number;
+            poll_period_ms?: number;
+            pause_ms?: number;
+            retries?: number;
+            silent_limit?: number;
+            retry_pause_min_ms?: number;
+            retry_pause_max_ms?: number;
+        };
+        LineFields: {
+            name?: components["schemas"]["Name"];
+            /** @description can:can0, serial:/dev/ttyUSB0?baud=9600&format=7N1&rs485=1, tcp:HOST:PORT, tcp-listen:HOST:PORT, pty:PATH, twin */
+            uri?: string;
+            family?: string;
+            /** @description bit/s; left out or 0 - from the URI or the family's default */
+            bitrate?: number;
+            options?: components["schemas"]["Options"];
+            manners?: components["schemas"]["Manners"];
+        };
+        /** @description 1 to 64 letters, digits, - _ and . */
+        Name: string;
+        LineSpec: components["schemas"]["LineFields"] & Record<string, never>;
+        /** @description a whole line; `name` may be left out, and `status` and `drives` are ignored */
+        LineChange: components["schemas"]["LineFields"] & Record<string, never>;
+        /** @description the members of `LineFields` that change; null removes one */
+        LinePatch: Record<string, never>;
+        LineStatus: {
+            /** @enum {string} */
+            state: "closed" | "opening" | "up" | "down" | "bus_off";
+            /** @description for people */
+            text: string;
+            frames_in: number;
+            frames_out: number;
+            bytes_in: number;
+            bytes_out: number;
+            /** @description frames that found the queue full */
+            dropped: number;
+            errors: number;
+            /** @description times the line came back */
+            reopened: number;
+            /** @description frames waiting now */
+            queued: number;
+            /** @description share of the bit rate used in the last second */
+            load: number;
+            /** @description the CAN controller's counter */
+            tx_errors: number;
+            /** @description the CAN controller's counter */
+            rx_errors: number;
+        };
+        Line: components["schemas"]["LineFields"] & {
+            readonly drives: string[];
+            readonly status: components["schemas"]["LineStatus"] & {
+                counters: components["schemas"]["LineCounters"];
+                /** @description some drives of the line are simulated now */
+                has_twin_bus: boolean;
+                /** @description the bus of the simulated drives; null if there is none */
+                twin: components["schemas"]["LineStatus"] | components["schemas"]["Nothing"];
+            };
+        };
+        /** @description what the protocol counted on the line */
+        LineCounters: {
+            exchanges: number;
+            timeouts: number;
+            retries: number;
+            refused: number;
+            garbled: number;
+            unexpected: number;
+        };
+        DriveFields: {
+            name?: components["schemas"]["Name"];
+            line?: string;
+            /** @description number or text, in the family's own form; left out in a request - the factory address */
+            address?: number | string;
+            /**
+             * @description device - the real one only; twin - the embedded model only; auto - the real one if it answers, else the twin
+             * @enum {string}
+             */
+            presence?: "device" | "twin" | "auto";
+            options?: components["schemas"]["Options"];
+        };
+        DriveSpec: components["schemas"]["DriveFields"] & Record<string, never>;
+        /** @description a whole drive; `name` may be left out, and `family`, `axes` and `status` are ignored */
+        DriveChange: components["schemas"]["DriveFields"] & Record<string, never>;
+        /** @description the members of `DriveFields` that change; null removes one */
+        DrivePatch: Record<string, never>;
+        DriveStatus: {
+            /**
+             * @description who serves the axes now
+             * @enum {string}
+             */
+            presence: "offline" | "device" | "twin";
+            /** @description somebody serves them */
+            online: boolean;
+            simulated: boolean;
+            /** @description the real drive answers */
+            device_online: boolean;
+            /** @description why it is so */
+            text: string;
+            silent_exchanges: number;
+            retry_pause_ms: number;
+        };
+        Drive: components["schemas"]["DriveFields"] & {
+            readonly family: string;
+            readonly axes: string[];
+            readonly status: components["schemas"]["DriveStatus"];
+        };
+        AxisFields: {
+            name?: components["schemas"]["Name"];
+            drive?: string;
+            /**
+             * @description axis within the drive
+             * @default 1
+             */
+            channel?: number;
+            /** @description place in the register map */
+            number?: number;
+            /** @description for people */
+            unit?: string;
+            /** @default 1 */
+            increments_per_unit?: number;
+            /** @description software limit of the gateway */
+            position_min?: number;
+            /** @description software limit of the gateway */
+            position_max?: number;
+            /** @description unit/s */
+            velocity_max?: number;
+            /** @description unit/s^2 */
+            acceleration_max?: number;
+        };
+        AxisSpec: components["schemas"]["AxisFields"] & Record<string, never>;
+        /** @description a whole axis; `name` may be left out, and the members that only tell the state are ignored */
+        AxisChange: components["schemas"]["AxisFields"] & Record<string, never>;
+        /** @description the members of `AxisFields` that change; null removes one */
+        AxisPatch: Record<string, never>;
+        AxisState: {
+            readonly line: string;
+            readonly family: string;
+            /** @description the drive or its twin answers */
+            readonly online: boolean;
+            /** @description the twin answers */
+            readonly simulated: boolean;
+            /** @description the data is too old to be trusted */
+            readonly stale: boolean;
+            /** @enum {string} */
+            readonly presence: "offline" | "device" | "twin";
+            /**
+             * @description CiA 402 state, from the status word
+             * @enum {string}
+             */
+            readonly state: "not_ready_to_switch_on" | "switch_on_disabled" | "ready_to_switch_on" | "switched_on" | "operation_enabled" | "quick_stop_active" | "fault_reaction_active" | "fault";
+            /** @description CiA 402, with bit 8 simulated, 14 stale, 15 referenced */
+            readonly statusword: number;
+            /** @description as last accepted */
+            readonly controlword: number;
+            /** @enum {string} */
+            readonly mode: "none" | "profile_position" | "profile_velocity" | "homing" | "other";
+            /** @description modes of operation display */
+            readonly mode_number: number;
+            readonly moving: boolean;
+            readonly target_reached: boolean;
+            /** @description the position has a known zero */
+            readonly referenced: boolean;
+            readonly fault: boolean;
+            readonly warning: boolean;
+            /** @description status word bit 11 */
+            readonly internal_limit: boolean;
+            /** @description in `unit`; null until the drive has said it */
+            readonly position: number | null;
+            readonly position_demand: number | null;
+            /** @description unit/s */
+            readonly velocity: number | null;
+            /** @description as last accepted */
+            readonly target_position: number | null;
+            /** @description unit/s */
+            readonly target_velocity: number | null;
+            readonly position_increments: number | null;
+            readonly position_demand_increments: number | null;
+            /** @description increments/s */
+            readonly velocity_increments: number | null;
+            readonly target_position_increments: number | null;
+            readonly error: {
+                /** @description the drive's own, 0 for none */
+                code: number;
+                /** @description empty for none */
+                text: string;
+            };
+            /** @description the drive's own status word(s) */
+            readonly native: number;
+            /**
+             * @description who commands
+             * @enum {string}
+             */
+            readonly authority: "none" | "modbus" | "ethernet_ip" | "http" | "dds" | "internal";
+            /** @description counts up */
+            readonly setpoints_accepted: number;
+            /**
+             * Format: date-time
+             * @description when the drive said it
+             */
+            readonly at: string | null;
+            /** @description age of the data; not in the stream */
+            readonly age_ms?: number | null;
+        };
+        Axis: components["schemas"]["AxisFields"] & components["schemas"]["AxisState"] & Record<string, never>;
+        Command: components["schemas"]["SimpleCommand"] | components["schemas"]["HomeCommand"] | components["schemas"]["SetPositionCommand"] | components["schemas"]["MovePositionCommand"] | components["schemas"]["MoveVelocityCommand"];
+        SimpleCommand: {
+            /** @enum {string} */
+            command: "enable" | "disable" | "quick_stop" | "halt" | "reset_fault";
+        };
+        HomeCommand: {
+            /** @enum {string} */
+            command: "home";
+            /**
+             * @description CiA 402 homing method; 0 - the drive's own
+             * @default 0
+             */
+            method?: number;
+        };
+        SetPositionCommand: {
+            /** @enum {string} */
+            command: "set_position";
+            /** @description what the present position shall be called, in `unit` */
+            position: number;
+        };
+        MovePositionCommand: {
+            /** @enum {string} */
+            command: "move_absolute" | "move_relative";
+            /** @description target, or distance, in `unit` */
+            position: number;
+            /** @description unit/s; left out - as the drive has it */
+            velocity?: number;
+            /** @description unit/s^2 */
+            acceleration?: number;
+            /** @description unit/s^2 */
+            deceleration?: number;
+            /**
+             * @description load it; /api/v1/moves/start starts it
+             * @default false
+             */
+            prepare?: boolean;
+        };
+        MoveVelocityCommand: {
+            /** @enum {string} */
+            command: "move_velocity";
+            /** @description unit/s, signed */
+            velocity: number;
+            /** @description unit/s^2 */
+            acceleration?: number;
+            /** @description unit/s^2 */
+            deceleration?: number;
+            /**
+             * @description load it; /api/v1/moves/start starts it
+             * @default false
+             */
+            prepare?: boolean;
+        };
+        Action: {
+            name: string;
+            /** @default  */
+            argument?: string;
+        };
+        MovesStart: {
+            axes: string[];
+        };
+        CommandAnswer: {
+            /** @description names this command; counts up */
+            ticket: number;
+            /** @enum {string} */
+            result: "accepted" | "done";
+            /** @description empty, or why it is not done yet */
+            reason: string;
+            axis: string;
+            command: string;
+            /** @description the drive's own, where it has one */
+            code: number | null;
+            /** @description what the drive or its adapter said beside; empty if nothing */
+            text: string;
+            value: components["schemas"]["MaybeValue"];
+        };
+        ParameterWrite: {
+            value: components["schemas"]["Value"];
+        };
+        AxisParameter: components["schemas"]["Parameter"] & {
+            value: components["schemas"]["MaybeValue"];
+            /** @enum {string} */
+            quality: "unknown" | "good" | "stale";
+            /**
+             * Format: date-time
+             * @description when the drive said it
+             */
+            at: string | null;
+            stored: components["schemas"]["MaybeValue"];
+            previous: components["schemas"]["MaybeValue"];
+            /**
+             * Format: date-time
+             * @description last write through the gateway
+             */
+            written_at: string | null;
+            written_by: string | null;
+            /** @description the door */
+            written_through: string | null;
+            /** @description why the value is stale, else empty */
+            text: string;
+            history?: {
+                value: components["schemas"]["MaybeValue"];
+                previous: components["schemas"]["MaybeValue"];
+                written_at: components["schemas"]["Time"];
+                written_by: string | null;
+                written_through: string | null;
+            }[];
+        };
+        /** @description one of the two */
+        NativeRequest: {
+            /** @description text in the drive's language; the family completes it (terminator */
+            send?: string;
+            /** @description bytes as hex pairs */
+            send_hex?: string;
+        };
+        NativeReply: {
+            reply: string;
+            reply_hex: string;
+            took_ms: number;
+        };
+        /**
+         * @description outside conditions by name: power, silent, stall (booleans), inputs (bit mask), limit_positive, limit_negative, home_switch
+         *     (booleans), temperature (deg C), inject_error (code; 0 clears), position (increments), load (0..1), and what a family adds
+         */
+        Hand: {
+            [key: string]: components["schemas"]["MaybeValue"];
+        };
+        HandItem: {
+            name: string;
+            value: components["schemas"]["MaybeValue"];
+            writable: boolean;
+            description: string;
+        };
+        Frame: {
+            sequence: number;
+            at: components["schemas"]["Time"];
+            to_drive: boolean;
+            /** @description crossed the bus of the twins */
+            simulated: boolean;
+            /** @enum {string} */
+            kind: "can" | "can_error" | "bytes";
+            /** @description CAN identifier; null for bytes */
+            id: number | null;
+            extended: boolean;
+            remote: boolean;
+            /** @description hex pairs */
+            data: string;
+            /** @example 04280095#01 */
+            text: string;
+        };
+        Trace: {
+            line: string;
+            /** @description asked for but overwritten */
+            missed: number;
+            /** @description `since` for the next request */
+            next: number;
+            frames: components["schemas"]["Frame"][];
+        };
+        Event: {
+            id: number;
+            at: components["schemas"]["Time"];
+            severity: components["schemas"]["Severity"];
+            /** @description alarm, write, line, presence, site, command, input, ... */
+            kind: string;
+            axis: string | null;
+            drive: string | null;
+            line: string | null;
+            /** @description the drive's own */
+            code: number | null;
+            text: string;
+            /** @description who and from where */
+            who: string | null;
+            door: string | null;
+            parameter: string | null;
+            old: string | null;
+            new: string | null;
+        };
+        Site: {
+            lines?: components["schemas"]["LineSpec"][];
+            drives?: components["schemas"]["DriveSpec"][];
+            axes?: components["schemas"]["AxisSpec"][];
+            mappings?: Record<string, never>[];
+        };
+        SiteChange: {
+            dry_run: boolean;
+            valid: boolean;
+            /** @description of the site in force now */
+            revision: number;
+            differences: string[];
+            faults: components["schemas"]["Fault"][];
+        };
+        /** @description `subscribe`, `unsubscribe` or both; unsubscribing comes first */
+        StreamRequest: {
+            /**
+             * @example [
+             *       "axes/*",
+             *       "events",
+             *       "lines/can0/frames"
+             *     ]
+             */
+            subscribe?: string[];
+            unsubscribe?: string[];
+            /**
+             * @description of the topics of this request
+             * @default 100
+             */
+            period_ms?: number;
+        };
+        StreamMessage: {
+            topic: string;
+            /**
+             * Format: int64
+             * @description ns since 1970
+             */
+            at: number;
+            data: components["schemas"]["Nothing"] | components["schemas"]["Axis"] | components["schemas"]["Drive"] | components["schemas"]["Line"] | components["schemas"]["Event"] | components["schemas"]["StreamFrames"] | components["schemas"]["StreamError"] | {
+                revision: number;
+            };
+        };
+        StreamFrames: {
+            /** @description frames that were overwritten before they could be sent */
+            missed: number;
+            frames: components["schemas"]["Frame"][];
+        };
+        StreamError: {
+            text: string;
+            /** @description the topic that is not known, where that is it */
+            topic?: string;
+        };
+    };
+    responses: {
+        /** @description removed */
+        Removed: {
+            headers: {
+                "Site-Revision": components["headers"]["SiteRevision"];
+                [name: string]: unknown;
+            };
+            content?: never;
+        };
+        /** @description any other problem (405, 406, 408, 413, 421, 431, 500, 503) */
+        Problem: {
+            headers: {
+                [name: string]: unknown;
+            };
+            content: {
+                "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description the request cannot be read (not JSON, a query parameter that is none) */
+        BadRequest: {
+            headers: {
+                [name: string]: unknown;
+            };
+            content: {
+                /**
+                 * @example {
+                 *       "type": "urn:axisgate:problem:bad_request",
+                 *       "title": "Bad request",
+                 *       "status": 400,
+                 *       "detail": "limit must be a whole number from 1 to 1000",
+                 *       "code": null,
+                 *       "reason": "bad_request"
+                 *     }
+                 */
+                "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description the request comes from a page of another host */
+        Forbidden: {
+            headers: {
+                [name: string]: unknown;
+            };
+            content: {
+                /**
+                 * @example {
+                 *       "type": "urn:axisgate:problem:forbidden",
+                 *       "title": "Forbidden",
+                 *       "status": 403,
+                 *       "detail": "the request comes from a page of another host (http://example.org)",
+                 *       "code": null,
+                 *       "reason": "forbidden"
+                 *     }
+                 */
+                "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description there is none of that name */
+        NotFound: {
+            headers: {
+                [name: string]: unknown;
+            };
+            content: {
+                /**
+                 * @example {
+                 *       "type": "urn:axisgate:problem:not_found",
+                 *       "title": "Not found",
+                 *       "status": 404,
+                 *       "detail": "there is no axis slide",
+                 *       "code": null,
+                 *       "reason": "not_found"
+                 *     }
+                 */
+                "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description none of the accepted media types can be given */
+        NotAcceptable: {
+            headers: {
+                [name: string]: unknown;
+            };
+            content: {
+                /**
+                 * @example {
+                 *       "type": "urn:axisgate:problem:not_acceptable",
+                 *       "title": "Not acceptable",
+                 *       "status": 406,
+                 *       "detail": "this can be given as application/json",
+                 *       "code": null,
+                 *       "reason": "not_acceptable"
+                 *     }
+                 */
+                "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description it conflicts with what is there; `detail` names it */
+        Conflict: {
+            headers: {
+                [name: string]: unknown;
+            };
+            content: {
+                /**
+                 * @example {
+                 *       "type": "urn:axisgate:problem:conflict",
+                 *       "title": "Conflict",
+                 *       "status": 409,
+                 *       "detail": "drive feeder is on the line can0",
+                 *       "code": null,
+                 *       "reason": "conflict"
+                 *     }
+                 */
+                "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description the axis or the drive refused it, or it was ended before it was done */
+        Refused: {
+            headers: {
+                [name: string]: unknown;
+            };
+            content: {
+                /**
+                 * @example {
+                 *       "type": "urn:axisgate:problem:wrong_state",
+                 *       "title": "Wrong state",
+                 *       "status": 409,
+                 *       "detail": "the axis is not enabled",
+                 *       "code": null,
+                 *       "reason": "wrong_state",
+                 *       "axis": "feeder",
+                 *       "ticket": 18,
+                 *       "result": "refused",
+                 *       "command": "move_absolute"
+                 *     }
+                 */
+                "application/problem+json": components["schemas"]["CommandProblem"];
+            };
+        };
+        /** @description the site has another revision than `If-Match` says */
+        PreconditionFailed: {
+            headers: {
+                [name: string]: unknown;
+            };
+            content: {
+                "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description the gateway is configured to demand `If-Match` */
+        PreconditionRequired: {
+            headers: {
+                [name: string]: unknown;
+            };
+            content: {
+                "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description the body is over 1 MiB */
+        TooLarge: {
+            headers: {
+                [name: string]: unknown;
+            };
+            content: {
+                "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description the body is not `application/json` */
+        UnsupportedMediaType: {
+            headers: {
+                [name: string]: unknown;
+            };
+            content: {
+                "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description the document is JSON but not right; `faults` names every place, with a remedy */
+        Unprocessable: {
+            headers: {
+                [name: string]: unknown;
+            };
+            content: {
+                /**
+                 * @example {
+                 *       "type": "urn:axisgate:problem:out_of_range",
+                 *       "title": "Out of range",
+                 *       "status": 422,
+                 *       "detail": "AC: 0 is outside 1..65000000 pulse/s^2",
+                 *       "code": null,
+                 *       "reason": "out_of_range",
+                 *       "axis": "feeder",
+                 *       "faults": [
+                 *         {
+                 *           "document": "body",
+                 *           "pointer": "/value",
+                 *           "text": "AC: 0 is outside 1..65000000 pulse/s^2",
+                 *           "remedy": "write a value in the range"
+                 *         }
+                 *       ]
+                 *     }
+                 */
+                "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description the line is down, or the queue is full; `Retry-After` says when to try again */
+        Unavailable: {
+            headers: {
+                [name: string]: unknown;
+            };
+            content: {
+                "application/problem+json": components["schemas"]["CommandProblem"];
+            };
+        };
+        /** @description the drive did not answer */
+        NoAnswer: {
+            headers: {
+                [name: string]: unknown;
+            };
+            content: {
+                "application/problem+json": components["schemas"]["CommandProblem"];
+            };
+        };
+        /** @description the database could not keep it */
+        NotStored: {
+            headers: {
+                [name: string]: unknown;
+            };
+            content: {
+                "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+    };
+    parameters: {
+        /** @example uim342 */
+        family: string;
+        /** @example can0 */
+        line: string;
+        /** @example feeder */
+        drive: string;
+        /** @example feeder */
+        axis: string;
+        /**
+         * @description id or name of the catalogue; elements of an array with their number in brackets, percent-encoded (`PP%5B5%5D`)
+         * @example AC
+         */
+        parameter: string;
+        /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
+        ifMatch: string;
+        /** @description 1 removes also what hangs on it (drives of a line, axes of a drive, mappings of an axis) */
+        cascade: components["schemas"]["Flag"];
+        /** @description seconds to wait until the command is done */
+        wait: number;
+    };
+    requestBodies: never;
+    headers: {
+        /**
+         * @description the revision of the site, in quotes; for `If-Match`
+         * @example "3"
+         */
+        ETag: string;
+        /** @description the revision of the site; in quotes it is the entity tag that `If-Match` takes */
+        SiteRevision: number;
+        /** @description where the new entry is */
+        Location: string;
+    };
+    pathItems: never;
+}
+export type $defs = Record<string, never>;
+export interface operations {
+    getHealth: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description alive */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "status": "ok",
+                     *       "uptime_s": 12.5
+                     *     }
+                     */
+                    "application/json": components["schemas"]["Health"];
+                };
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    getReady: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description ready */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "ready": true,
+                     *       "missing": []
+                     *     }
+                     */
+                    "application/json": components["schemas"]["Ready"];
+                };
+            };
+            /** @description not ready; `missing` says what is missing, one sentence each */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "type": "urn:axisgate:problem:not_ready",
+                     *       "title": "Not ready",
+                     *       "status": 503,
+                     *       "detail": "line can0 is down",
+                     *       "code": null,
+                     *       "reason": "line_down",
+                     *       "ready": false,
+                     *       "missing": [
+                     *         "line can0 is down"
+                     *       ]
+                     *     }
+                     */
+                    "application/problem+json": components["schemas"]["NotReady"];
+                };
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    getMetrics: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Prometheus text exposition format 0.0.4; every name begins with `axisgate_` */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/plain": string;
+                };
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    getDescription: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description this file */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/yaml": string;
+                };
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    getAbout: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description about this gateway */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "name": "axisgate",
+                     *       "version": "0.1.0",
+                     *       "api": "/api/v1",
+                     *       "uptime_s": 12.5,
+                     *       "now": "2026-01-02T03:04:05.678901Z",
+                     *       "site_revision": 3,
+                     *       "families": [
+                     *         "uim342"
+                     *       ],
+                     *       "doors": [
+                     *         {
+                     *           "name": "http",
+                     *           "address": "127.0.0.1:8080"
+                     *         },
+                     *         {
+                     *           "name": "modbus",
+                     *           "address": "127.0.0.1:1502"
+                     *         }
+                     *       ],
+                     *       "lines": 1,
+                     *       "drives": 1,
+                     *       "axes": 1
+                     *     }
+                     */
+                    "application/json": components["schemas"]["About"];
+                };
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    listFamilies: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description in order of name */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Family"][];
+                };
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    getFamily: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example uim342 */
+                family: components["parameters"]["family"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the family */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Family"];
+                };
+            };
+            404: components["responses"]["NotFound"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    listFamilyParameters: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example uim342 */
+                family: components["parameters"]["family"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description all of them; null where the manual is silent */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Parameter"][];
+                };
+            };
+            404: components["responses"]["NotFound"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    listFamilyCommands: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example uim342 */
+                family: components["parameters"]["family"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description all of them */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CatalogueCommand"][];
+                };
+            };
+            404: components["responses"]["NotFound"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    listFamilyErrors: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example uim342 */
+                family: components["parameters"]["family"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description all of them */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorCode"][];
+                };
+            };
+            404: components["responses"]["NotFound"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    listLines: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description in the order of the site */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Line"][];
+                };
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    addLine: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
+                "If-Match"?: components["parameters"]["ifMatch"];
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "name": "can0",
+                 *       "uri": "twin",
+                 *       "family": "uim342",
+                 *       "bitrate": 1000000
+                 *     }
+                 */
+                "application/json": components["schemas"]["LineSpec"];
+            };
+        };
+        responses: {
+            /** @description added and in force */
+            201: {
+                headers: {
+                    Location: components["headers"]["Location"];
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Line"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            409: components["responses"]["Conflict"];
+            412: components["responses"]["PreconditionFailed"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getLine: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example can0 */
+                line: components["parameters"]["line"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the line */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Line"];
+                };
+            };
+            404: components["responses"]["NotFound"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    replaceLine: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
+                "If-Match"?: components["parameters"]["ifMatch"];
+            };
+            path: {
+                /** @example can0 */
+                line: components["parameters"]["line"];
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["LineChange"];
+            };
+        };
+        responses: {
+            /** @description replaced and in force */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Line"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            412: components["responses"]["PreconditionFailed"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    removeLine: {
+        parameters: {
+            query?: {
+                /** @description 1 removes also what hangs on it (drives of a line, axes of a drive, mappings of an axis) */
+                cascade?: components["parameters"]["cascade"];
+            };
+            header?: {
+                /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
+                "If-Match"?: components["parameters"]["ifMatch"];
+            };
+            path: {
+                /** @example can0 */
+                line: components["parameters"]["line"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            204: components["responses"]["Removed"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            412: components["responses"]["PreconditionFailed"];
+            507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    changeLine: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
+                "If-Match"?: components["parameters"]["ifMatch"];
+            };
+            path: {
+                /** @example can0 */
+                line: components["parameters"]["line"];
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "bitrate": 500000
+                 *     }
+                 */
+                "application/json": components["schemas"]["LinePatch"];
+                "application/merge-patch+json": components["schemas"]["LinePatch"];
+            };
+        };
+        responses: {
+            /** @description changed and in force */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Line"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            412: components["responses"]["PreconditionFailed"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getTrace: {
+        parameters: {
+            query?: {
+                /** @description json; candump (the log format of can-utils; of a byte line the same as text); pcapng (for Wireshark); text (a line per frame) */
+                format?: "json" | "candump" | "pcapng" | "text";
+                /** @description frames with this sequence number or a greater one, the oldest `limit` of them; left out - the newest `limit` */
+                since?: number;
+                /** @description at most so many frames; without it 1000 as JSON, and all that is kept (at most 65536) in a file */
+                limit?: number;
+            };
+            header?: never;
+            path: {
+                /** @example can0 */
+                line: components["parameters"]["line"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the frames */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Trace"];
+                    /** @example (1700000000.123456) can0 04280095#01 */
+                    "text/plain": string;
+                    "application/x-pcapng": string;
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            404: components["responses"]["NotFound"];
+            406: components["responses"]["NotAcceptable"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    listDrives: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description in the order of the site */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Drive"][];
+                };
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    addDrive: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
+                "If-Match"?: components["parameters"]["ifMatch"];
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "name": "feeder",
+                 *       "line": "can0",
+                 *       "address": 5,
+                 *       "presence": "auto"
+                 *     }
+                 */
+                "application/json": components["schemas"]["DriveSpec"];
+            };
+        };
+        responses: {
+            /** @description added and in force */
+            201: {
+                headers: {
+                    Location: components["headers"]["Location"];
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Drive"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            409: components["responses"]["Conflict"];
+            412: components["responses"]["PreconditionFailed"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getDrive: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                drive: components["parameters"]["drive"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the drive */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Drive"];
+                };
+            };
+            404: components["responses"]["NotFound"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    replaceDrive: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
+                "If-Match"?: components["parameters"]["ifMatch"];
+            };
+            path: {
+                /** @example feeder */
+                drive: components["parameters"]["drive"];
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["DriveChange"];
+            };
+        };
+        responses: {
+            /** @description replaced and in force */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Drive"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            412: components["responses"]["PreconditionFailed"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    removeDrive: {
+        parameters: {
+            query?: {
+                /** @description 1 removes also what hangs on it (drives of a line, axes of a drive, mappings of an axis) */
+                cascade?: components["parameters"]["cascade"];
+            };
+            header?: {
+                /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
+                "If-Match"?: components["parameters"]["ifMatch"];
+            };
+            path: {
+                /** @example feeder */
+                drive: components["parameters"]["drive"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            204: components["responses"]["Removed"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            412: components["responses"]["PreconditionFailed"];
+            507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    changeDrive: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
+                "If-Match"?: components["parameters"]["ifMatch"];
+            };
+            path: {
+                /** @example feeder */
+                drive: components["parameters"]["drive"];
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "presence": "twin"
+                 *     }
+                 */
+                "application/json": components["schemas"]["DrivePatch"];
+                "application/merge-patch+json": components["schemas"]["DrivePatch"];
+            };
+        };
+        responses: {
+            /** @description changed and in force */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Drive"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            412: components["responses"]["PreconditionFailed"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    exchangeNative: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                drive: components["parameters"]["drive"];
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NativeRequest"];
+            };
+        };
+        responses: {
+            /** @description what the drive answered */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "reply": "51200",
+                     *       "reply_hex": "35313230300D",
+                     *       "took_ms": 7
+                     *     }
+                     */
+                    "application/json": components["schemas"]["NativeReply"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            503: components["responses"]["Unavailable"];
+            504: components["responses"]["NoAnswer"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getHand: {
+        parameters: {
+            query?: {
+                /** @description 1 answers a list with a description of each item in place of the plain object */
+                describe?: components["schemas"]["Flag"];
+            };
+            header?: never;
+            path: {
+                /** @example feeder */
+                drive: components["parameters"]["drive"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description names and values, or the described list */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "power": true,
+                     *       "silent": false,
+                     *       "stall": false,
+                     *       "inputs": 0,
+                     *       "temperature": 25
+                     *     }
+                     */
+                    "application/json": components["schemas"]["Hand"] | components["schemas"]["HandItem"][];
+                };
+            };
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    setHand: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                drive: components["parameters"]["drive"];
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Hand"];
+            };
+        };
+        responses: {
+            /** @description set; the conditions as they are now */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Hand"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    changeHand: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                drive: components["parameters"]["drive"];
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "stall": true
+                 *     }
+                 */
+                "application/json": components["schemas"]["Hand"];
+                "application/merge-patch+json": components["schemas"]["Hand"];
+            };
+        };
+        responses: {
+            /** @description set; the conditions as they are now */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Hand"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    listAxes: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description in the order of the site */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Axis"][];
+                };
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    addAxis: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
+                "If-Match"?: components["parameters"]["ifMatch"];
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "name": "feeder",
+                 *       "drive": "feeder",
+                 *       "channel": 1,
+                 *       "number": 1,
+                 *       "unit": "mm",
+                 *       "increments_per_unit": 3200
+                 *     }
+                 */
+                "application/json": components["schemas"]["AxisSpec"];
+            };
+        };
+        responses: {
+            /** @description added and in force */
+            201: {
+                headers: {
+                    Location: components["headers"]["Location"];
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Axis"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            409: components["responses"]["Conflict"];
+            412: components["responses"]["PreconditionFailed"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getAxis: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the axis */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Axis"];
+                };
+            };
+            404: components["responses"]["NotFound"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    replaceAxis: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
+                "If-Match"?: components["parameters"]["ifMatch"];
+            };
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["AxisChange"];
+            };
+        };
+        responses: {
+            /** @description replaced and in force */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Axis"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            412: components["responses"]["PreconditionFailed"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    removeAxis: {
+        parameters: {
+            query?: {
+                /** @description 1 removes also what hangs on it (drives of a line, axes of a drive, mappings of an axis) */
+                cascade?: components["parameters"]["cascade"];
+            };
+            header?: {
+                /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
+                "If-Match"?: components["parameters"]["ifMatch"];
+            };
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            204: components["responses"]["Removed"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            412: components["responses"]["PreconditionFailed"];
+            507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    changeAxis: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
+                "If-Match"?: components["parameters"]["ifMatch"];
+            };
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "unit": "deg",
+                 *       "increments_per_unit": 8.88888888888889
+                 *     }
+                 */
+                "application/json": components["schemas"]["AxisPatch"];
+                "application/merge-patch+json": components["schemas"]["AxisPatch"];
+            };
+        };
+        responses: {
+            /** @description changed and in force */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Axis"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            412: components["responses"]["PreconditionFailed"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    commandAxis: {
+        parameters: {
+            query?: {
+                /** @description seconds to wait until the command is done */
+                wait?: components["parameters"]["wait"];
+            };
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Command"];
+            };
+        };
+        responses: {
+            /** @description acknowledged, or done */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "ticket": 17,
+                     *       "result": "accepted",
+                     *       "reason": "",
+                     *       "axis": "feeder",
+                     *       "command": "move_absolute",
+                     *       "code": null,
+                     *       "text": "",
+                     *       "value": null
+                     *     }
+                     */
+                    "application/json": components["schemas"]["CommandAnswer"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Refused"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            503: components["responses"]["Unavailable"];
+            504: components["responses"]["NoAnswer"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    actOnAxis: {
+        parameters: {
+            query?: {
+                /** @description seconds to wait until the command is done */
+                wait?: components["parameters"]["wait"];
+            };
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "name": "program.start",
+                 *       "argument": "1"
+                 *     }
+                 */
+                "application/json": components["schemas"]["Action"];
+            };
+        };
+        responses: {
+            /** @description acknowledged, or done; `text` is what the drive answered */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CommandAnswer"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Refused"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            503: components["responses"]["Unavailable"];
+            504: components["responses"]["NoAnswer"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    listParameters: {
+        parameters: {
+            query?: {
+                /** @description this group alone */
+                group?: string;
+                /** @description the elements of this array alone */
+                array?: string;
+                /** @description with `array`, begin with this element; at most 1024 elements are answered */
+                first?: number;
+            };
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description in the order of the catalogue */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AxisParameter"][];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            404: components["responses"]["NotFound"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    readParameter: {
+        parameters: {
+            query?: {
+                /** @description 1 answers the last known value, without an exchange with the drive */
+                cached?: components["schemas"]["Flag"];
+                /** @description so many of the last writes through the gateway, newest first, in `history` */
+                history?: number;
+            };
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+                /**
+                 * @description id or name of the catalogue; elements of an array with their number in brackets, percent-encoded (`PP%5B5%5D`)
+                 * @example AC
+                 */
+                parameter: components["parameters"]["parameter"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the parameter */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AxisParameter"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Refused"];
+            503: components["responses"]["Unavailable"];
+            504: components["responses"]["NoAnswer"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    writeParameter: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+                /**
+                 * @description id or name of the catalogue; elements of an array with their number in brackets, percent-encoded (`PP%5B5%5D`)
+                 * @example AC
+                 */
+                parameter: components["parameters"]["parameter"];
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "value": 20000
+                 *     }
+                 */
+                "application/json": components["schemas"]["ParameterWrite"];
+            };
+        };
+        responses: {
+            /** @description the drive took it, and it is stored; `value` is what the drive took */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CommandAnswer"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Refused"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            503: components["responses"]["Unavailable"];
+            504: components["responses"]["NoAnswer"];
+            507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    startMoves: {
+        parameters: {
+            query?: {
+                /** @description seconds to wait until the command is done */
+                wait?: components["parameters"]["wait"];
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "axes": [
+                 *         "left",
+                 *         "right"
+                 *       ]
+                 *     }
+                 */
+                "application/json": components["schemas"]["MovesStart"];
+            };
+        };
+        responses: {
+            /** @description started, or all done */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CommandAnswer"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            409: components["responses"]["Refused"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            503: components["responses"]["Unavailable"];
+            504: components["responses"]["NoAnswer"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getSite: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the site in force */
+            200: {
+                headers: {
+                    ETag: components["headers"]["ETag"];
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "lines": [
+                     *         {
+                     *           "name": "can0",
+                     *           "uri": "twin",
+                     *           "family": "uim342",
+                     *           "bitrate": 1000000
+                     *         }
+                     *       ],
+                     *       "drives": [
+                     *         {
+                     *           "name": "feeder",
+                     *           "line": "can0",
+                     *           "address": 5,
+                     *           "presence": "auto"
+                     *         }
+                     *       ],
+                     *       "axes": [
+                     *         {
+                     *           "name": "feeder",
+                     *           "drive": "feeder",
+                     *           "channel": 1,
+                     *           "number": 1,
+                     *           "unit": "mm",
+                     *           "increments_per_unit": 3200
+                     *         }
+                     *       ],
+                     *       "mappings": []
+                     *     }
+                     */
+                    "application/json": components["schemas"]["Site"];
+                };
+            };
+            /** @description the site is the one of `If-None-Match` */
+            304: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    replaceSite: {
+        parameters: {
+            query?: {
+                /** @description 1 answers what would change and what is wrong, and changes nothing */
+                dry_run?: components["schemas"]["Flag"];
+            };
+            header?: {
+                /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
+                "If-Match"?: components["parameters"]["ifMatch"];
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Site"];
+            };
+        };
+        responses: {
+            /** @description stored and in force; with `dry_run` what would be */
+            200: {
+                headers: {
+                    ETag: components["headers"]["ETag"];
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "dry_run": true,
+                     *       "valid": true,
+                     *       "revision": 3,
+                     *       "differences": [
+                     *         "axis feeder: unit mm -> deg"
+                     *       ],
+                     *       "faults": []
+                     *     }
+                     */
+                    "application/json": components["schemas"]["SiteChange"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            409: components["responses"]["Conflict"];
+            412: components["responses"]["PreconditionFailed"];
+            413: components["responses"]["TooLarge"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            428: components["responses"]["PreconditionRequired"];
+            507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    listEvents: {
+        parameters: {
+            query?: {
+                /** @description an event id (events with a greater id) or an RFC 3339 time (events not older) */
+                since?: string;
+                /** @description of this axis alone */
+                axis?: string;
+                /** @description of this severity or a higher one */
+                severity?: components["schemas"]["Severity"];
+                limit?: number;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the events */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Event"][];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    openStream: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description switched to WebSocket */
+            101: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            /** @description the request was not a WebSocket handshake of version 13 */
+            426: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+}

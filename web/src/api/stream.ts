@@ -1,0 +1,216 @@
+// Stream: the one WebSocket of the page, kept up. In: topics that the page wants. Out: messages, and the state of the connection.
+// Pauses between attempts grow from 0.5 s to 10 s and start anew only after a connection that was live for 5 s. A connection that says nothing for
+// `quiet_ms` is asked for a sign of life, and is given up if none comes: a dead cable closes no socket by itself.
+// Never keeps messages: they go to the reader at once. Never reports "live" before the gateway has spoken.
+
+export type Phase = 'connecting' | 'live' | 'waiting';
+
+export interface StreamState {
+  phase: Phase;
+  /** Counts connections that went live; what was heard under an older number is not live any more. */
+  epoch: number;
+  /** When it was last live; milliseconds of the page's own clock, 0: never. */
+  lastLiveAt: number;
+  /** When the next attempt is made; only while waiting. */
+  retryAt: number;
+  attempts: number;
+  why: string;
+}
+
+export interface StreamMessage {
+  topic: string;
+  /** ns since 1970, the gateway's clock (rounded to what a double holds). */
+  at: number;
+  data: unknown;
+}
+
+export interface StreamOptions {
+  url: string;
+  onState: (state: StreamState) => void;
+  onMessage: (message: StreamMessage) => void;
+  open?: (url: string) => WebSocket;
+  now?: () => number;
+  random?: () => number;
+  firstPause_ms?: number;
+  longestPause_ms?: number;
+  connectLimit_ms?: number;
+  quiet_ms?: number;
+  answer_ms?: number;
+}
+
+const steady_ms = 5_000;
+/** Asking for `site` anew is answered at once: that is the sign of life. */
+const signOfLife = JSON.stringify({ subscribe: ['site'] });
+
+export class Stream {
+  private socket: WebSocket | undefined;
+  private timer: ReturnType<typeof setTimeout> | undefined;
+  private wanted = new Map<string, number>();
+  private heardAt = 0;
+  private liveSince = 0;
+  private askedAt = 0;
+  private stopped = true;
+  private state: StreamState = { phase: 'connecting', epoch: 0, lastLiveAt: 0, retryAt: 0, attempts: 0, why: '' };
+  private readonly o: Required<StreamOptions>;
+
+  constructor(options: StreamOptions) {
+    this.o = {
+      open: (url) => new WebSocket(url),
+      now: () => performance.now(),
+      random: Math.random,
+      firstPause_ms: 500,
+      longestPause_ms: 10_000,
+      connectLimit_ms: 5_000,
+      quiet_ms: 2_000,
+      answer_ms: 2_000,
+      ...options,
+    };
+  }
+
+  start(): void {
+    if (!this.stopped) return;
+    this.stopped = false;
+    this.connect();
+  }
+
+  stop(): void {
+    this.stopped = true;
+    clearTimeout(this.timer);
+    this.drop();
+  }
+
+  /** Tries at once, without waiting for the pause to end (a button; the network came back; the page is seen again). */
+  retryNow(): void {
+    if (this.stopped || this.state.phase !== 'waiting') return;
+    clearTimeout(this.timer);
+    this.connect();
+  }
+
+  /** Something woke the page up: look whether the connection is alive, without waiting for the next turn. */
+  wake(): void {
+    if (this.stopped) return;
+    if (this.state.phase === 'waiting') this.retryNow();
+    else if (this.state.phase === 'live') this.watch();
+  }
+
+  subscribe(topics: Record<string, number>): void {
+    for (const [topic, period_ms] of Object.entries(topics)) this.wanted.set(topic, period_ms);
+    if (this.state.phase === 'live') this.ask(Object.entries(topics));
+  }
+
+  unsubscribe(topic: string): void {
+    if (this.wanted.delete(topic) && this.state.phase === 'live') this.send(JSON.stringify({ unsubscribe: [topic] }));
+  }
+
+  private tell(change: Partial<StreamState>): void {
+    this.state = { ...this.state, ...change };
+    this.o.onState(this.state);
+  }
+
+  private connect(): void {
+    this.tell({ phase: 'connecting', retryAt: 0 });
+    let socket: WebSocket;
+    try {
+      socket = this.o.open(this.o.url);
+    } catch (error) {
+      return this.lost(error instanceof Error ? error.message : 'the address cannot be opened');
+    }
+    this.socket = socket;
+    this.timer = setTimeout(() => this.lost('the gateway does not answer'), this.o.connectLimit_ms);
+    socket.onopen = () => {
+      if (socket !== this.socket) return;
+      // Live only after the first answer: an open socket alone says nothing about the gateway behind it.
+      this.ask([['site', 1000], ...[...this.wanted].filter(([t]) => t !== 'site')]);
+    };
+    socket.onmessage = (event: MessageEvent) => {
+      if (socket === this.socket) this.heard(event.data);
+    };
+    socket.onclose = (event: CloseEvent) => {
+      if (socket === this.socket) this.lost(closeWords(event));
+    };
+    socket.onerror = () => {
+      // The close event follows and says more.
+    };
+  }
+
+  private heard(text: unknown): void {
+    this.heardAt = this.o.now();
+    this.askedAt = 0;
+    if (this.state.phase === 'connecting') {
+      clearTimeout(this.timer);
+      this.liveSince = this.heardAt;
+      this.tell({ phase: 'live', epoch: this.state.epoch + 1, why: '', lastLiveAt: this.heardAt });
+      this.timer = setTimeout(() => this.watch(), this.o.quiet_ms);
+    }
+    if (typeof text !== 'string') return;
+    let message: StreamMessage;
+    try {
+      message = JSON.parse(text) as StreamMessage;
+    } catch {
+      return; // not ours; the connection itself is alive
+    }
+    if (typeof message?.topic === 'string') this.o.onMessage(message);
+  }
+
+  private watch(): void {
+    clearTimeout(this.timer);
+    const now = this.o.now();
+    const quiet = now - this.heardAt;
+    if (this.askedAt > 0 && now - this.askedAt >= this.o.answer_ms) return this.lost('the gateway has fallen silent');
+    if (quiet >= this.o.quiet_ms && this.askedAt === 0) {
+      this.askedAt = now;
+      this.send(signOfLife);
+    }
+    const next = this.askedAt > 0 ? this.o.answer_ms - (now - this.askedAt) : this.o.quiet_ms - quiet;
+    this.timer = setTimeout(() => this.watch(), Math.max(next, 10));
+  }
+
+  private ask(topics: Iterable<[string, number]>): void {
+    const byPeriod = new Map<number, string[]>();
+    for (const [topic, period] of topics) byPeriod.set(period, [...(byPeriod.get(period) ?? []), topic]);
+    for (const [period_ms, subscribe] of byPeriod) this.send(JSON.stringify({ subscribe, period_ms }));
+  }
+
+  private send(text: string): void {
+    if (this.socket?.readyState === 1 /* OPEN */) this.socket.send(text);
+  }
+
+  private drop(): void {
+    const socket = this.socket;
+    this.socket = undefined;
+    this.askedAt = 0;
+    if (!socket) return;
+    socket.onopen = socket.onmessage = socket.onclose = socket.onerror = null;
+    try {
+      socket.close();
+    } catch {
+      // It was never open.
+    }
+  }
+
+  private lost(why: string): void {
+    clearTimeout(this.timer);
+    const wasLive = this.state.phase === 'live';
+    const lastLiveAt = wasLive ? this.heardAt : this.state.lastLiveAt;
+    this.drop();
+    if (this.stopped) return;
+    // A gateway that accepts and closes in a circle is not knocked at twice a second for ever.
+    const steady = wasLive && this.o.now() - this.liveSince >= steady_ms;
+    const attempts = (steady ? 0 : this.state.attempts) + 1;
+    const grown = Math.min(this.o.firstPause_ms * 2 ** (attempts - 1), this.o.longestPause_ms);
+    // Spread by a fifth, so that many pages do not knock at the same instant after a restart.
+    const pause = Math.min(grown * (0.8 + 0.4 * this.o.random()), this.o.longestPause_ms);
+    this.timer = setTimeout(() => this.connect(), pause);
+    this.tell({ phase: 'waiting', attempts, why, retryAt: this.o.now() + pause, lastLiveAt });
+  }
+}
+
+function closeWords(event: CloseEvent): string {
+  if (event.reason) return event.reason;
+  switch (event.code) {
+    case 1001: return 'the gateway has stopped';
+    case 1008: return 'the gateway refused the connection';
+    case 1013: return 'this page read too slowly';
+    default: return 'the gateway cannot be reached';
+  }
+}

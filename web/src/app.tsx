@@ -1,0 +1,55 @@
+// App: the frame around whatever page the address names. In: the route. Out: the whole page.
+import { useEffect } from 'preact/hooks';
+import { Head, Spoken, Strip } from './components/frame';
+import { route } from './router';
+import { AxisPage } from './pages/axis';
+import { EventsPage } from './pages/events';
+import { GatewayPage } from './pages/gateway';
+import { LinePage, LinesPage } from './pages/lines';
+import { Overview } from './pages/overview';
+
+const titles = { overview: 'Axes', lines: 'Lines and drives', events: 'Events', gateway: 'Gateway', unknown: 'No such page' };
+
+export function App() {
+  const r = route.value;
+  const title = r.page === 'axis' || r.page === 'line' ? r.name : titles[r.page];
+  useEffect(() => {
+    document.title = `${title} · axisgate`;
+  }, [title]);
+  return (
+    <>
+      <a class="skip" href="#content">
+        To the content
+      </a>
+      <div class="top">
+        <Head />
+        <Strip />
+      </div>
+      <div id="content" class="content">
+        <Page />
+      </div>
+      <Spoken />
+    </>
+  );
+}
+
+function Page() {
+  const r = route.value;
+  switch (r.page) {
+    case 'overview': return <Overview />;
+    case 'axis': return <AxisPage key={r.name} name={r.name} />;
+    case 'lines': return <LinesPage />;
+    case 'line': return <LinePage key={r.name} name={r.name} />;
+    case 'events': return <EventsPage />;
+    case 'gateway': return <GatewayPage />;
+    case 'unknown':
+      return (
+        <main class="page narrow">
+          <h1 tabIndex={-1}>There is no such page</h1>
+          <p>
+            <span class="mono">{r.path}</span> names no page. <a href="/">All axes</a>
+          </p>
+        </main>
+      );
+  }
+}

@@ -1,0 +1,153 @@
+// Axis controls: what a person can tell an axis: power, motion, jog, stops. In: the axis' name and unit. Out: commands; the answer in
+// words underneath. Whether the axis may do it is for the gateway to say: nothing is greyed by guesswork, a refusal tells its reason.
+import { signal, type Signal } from '@preact/signals';
+import { useId, useMemo } from 'preact/hooks';
+import type { Axis, Command } from '../api/types';
+import { useGateway } from '../gateway';
+import { kept } from '../state/kept';
+import { unitOf } from '../words/axis';
+import { parseNumber } from '../words/number';
+import { Field } from './field';
+import { Icon } from './icon';
+import { JogButton } from './jog-button';
+
+type Which = 'target' | 'distance' | 'speed' | 'acceleration' | 'deceleration' | 'zero';
+
+/** A slow speed to begin with: a tenth of the limit, or 10 units (1000 increments) a second. */
+const gentle = (axis: Axis): string => String(axis.velocity_max ? axis.velocity_max / 10 : axis.unit ? 10 : 1000);
+
+export function useControls(axis: Axis) {
+  const { commander } = useGateway();
+  const name = axis.name;
+  const fields = useMemo(() => {
+    const f = (w: Which, first = '') => kept(`typed.${name}.${w}`, first);
+    return { target: f('target'), distance: f('distance'), speed: f('speed', gentle(axis)), acceleration: f('acceleration'), deceleration: f('deceleration'), zero: f('zero', '0') };
+  }, [name]);
+  const wrong: Signal<Which | ''> = useMemo(() => signal(''), [name]);
+  const unit = unitOf(axis);
+
+  const read = (which: Which, words: string, need: 'any' | 'positive'): number | null => {
+    const parsed = parseNumber(fields[which].value);
+    let why = parsed.good ? '' : parsed.why;
+    if (parsed.good && need === 'positive' && parsed.value <= 0) why = 'It must be greater than 0; the buttons give the direction.';
+    wrong.value = why ? which : '';
+    if (why) commander.tell(name, 'refused', `${words}: ${why}`);
+    return why || !parsed.good ? null : parsed.value;
+  };
+  /** An empty field: as the drive has it. undefined: wrong, and it has been said. */
+  const optional = (which: Which, words: string): number | null | undefined =>
+    fields[which].value.trim() === '' ? null : (read(which, words, 'positive') ?? undefined);
+
+  const move = (kind: 'move_absolute' | 'move_relative', sign = 1) => {
+    const which = kind === 'move_absolute' ? 'target' : 'distance';
+    const position = read(which, kind === 'move_absolute' ? 'Target' : 'Distance', 'any');
+    if (position === null) return;
+    const command: Extract<Command, { command: 'move_absolute' | 'move_relative' }> = { command: kind, position: position * sign };
+    for (const [key, label, which] of [['velocity', 'Speed', 'speed'], ['acceleration', 'Acceleration', 'acceleration'], ['deceleration', 'Deceleration', 'deceleration']] as const) {
+      const v = optional(which, label);
+      if (v === undefined) return;
+      if (v !== null) command[key] = v;
+    }
+    void commander.send(name, command, `Move ${kind === 'move_absolute' ? 'to' : 'by'} ${command.position} ${unit}`);
+  };
+  const jogSpeed = () => read('speed', 'Speed', 'positive');
+  const simple = (command: 'enable' | 'disable' | 'halt' | 'reset_fault' | 'home' | 'quick_stop', words: string) => () =>
+    void commander.send(name, { command } as Command, words);
+  const setZero = () => {
+    const position = read('zero', 'Position', 'any');
+    if (position !== null) void commander.send(name, { command: 'set_position', position }, `Call this place ${position} ${unit}`);
+  };
+  return { fields, wrong, unit, move, jogSpeed, simple, setZero };
+}
+
+export const resultId = (axis: string): string => `result-${axis}`;
+
+export function ResultLine({ axis, id }: { axis: string; id: string }) {
+  const note = useGateway().commander.note(axis).value;
+  return (
+    <p class={`result result-${note.tone}`} id={id} role="status" title={note.text}>
+      {note.tone === 'refused' && <Icon name="triangle" size={14} />}
+      {note.tone === 'good' && <Icon name="check" size={14} />}
+      <span>{note.text}</span>
+    </p>
+  );
+}
+
+/** The compact form, for a tile. `bare`: power and stops alone. */
+export function TileControls({ axis, bare }: { axis: Axis; bare: boolean }) {
+  const c = useControls(axis);
+  const name = axis.name;
+  const wrong = c.wrong.value;
+  const result = resultId(name);
+  return (
+    <div class="controls">
+      {!bare && (
+        <div class="control-rows">
+          <Field label="Target" longLabel={`Target of ${name}`} unit={c.unit} text={c.fields.target} wrong={wrong === 'target'} describedBy={result} onEnter={() => c.move('move_absolute')} />
+          <button type="button" class="button tinted" aria-label={`Move ${name} to target`} onClick={() => c.move('move_absolute')}>Move to</button>
+          <Field label="Distance" longLabel={`Distance of ${name}`} unit={c.unit} text={c.fields.distance} wrong={wrong === 'distance'} describedBy={result} onEnter={() => c.move('move_relative')} />
+          <button type="button" class="button" aria-label={`Move ${name} by distance`} onClick={() => c.move('move_relative')}>Move by</button>
+          <Field label="Speed" longLabel={`Speed of ${name}`} unit={`${c.unit}/s`} text={c.fields.speed} wrong={wrong === 'speed'} describedBy={result} placeholder="as is" />
+          <span class="pair">
+            <JogButton axis={name} direction={-1} speed={c.jogSpeed} unit={c.unit} />
+            <JogButton axis={name} direction={1} speed={c.jogSpeed} unit={c.unit} />
+          </span>
+        </div>
+      )}
+      <div class="control-power">
+        <span class="group">
+          <button type="button" class="button" aria-label={`Enable ${name}`} onClick={c.simple('enable', 'Enable')}>Enable</button>
+          <button type="button" class="button" aria-label={`Disable ${name}`} onClick={c.simple('disable', 'Disable')}>Disable</button>
+        </span>
+        <button type="button" class="button" aria-label={`Reset fault of ${name}`} onClick={c.simple('reset_fault', 'Reset fault')}>Reset</button>
+        <button type="button" class="button" aria-label={`Halt ${name}`} title="Stop on the profile ramp, stay enabled" onClick={c.simple('halt', 'Halt')}>Halt</button>
+      </div>
+    </div>
+  );
+}
+
+/** The whole form, for the page of an axis. */
+export function FullControls({ axis }: { axis: Axis }) {
+  const c = useControls(axis);
+  const result = useId();
+  const name = axis.name;
+  const wrong = c.wrong.value;
+  const u = c.unit;
+  return (
+    <div class="controls controls-full">
+      <div class="control-power">
+        <span class="group">
+          <button type="button" class="button" onClick={c.simple('enable', 'Enable')}>Enable</button>
+          <button type="button" class="button" onClick={c.simple('disable', 'Disable')}>Disable</button>
+        </span>
+        <button type="button" class="button" onClick={c.simple('reset_fault', 'Reset fault')}>Reset fault</button>
+        <button type="button" class="button" title="Stop on the profile ramp, stay enabled" onClick={c.simple('halt', 'Halt')}>Halt</button>
+        <button type="button" class="button" title="Stop on the quick-stop ramp; enable to go on" onClick={c.simple('quick_stop', 'Quick stop')}>Quick stop</button>
+        <button type="button" class="button" title="Homing, by the drive's own method" onClick={c.simple('home', 'Home')}>Home</button>
+      </div>
+      <div class="control-rows">
+        <Field label="Target" unit={u} text={c.fields.target} wrong={wrong === 'target'} describedBy={result} onEnter={() => c.move('move_absolute')} />
+        <button type="button" class="button primary" onClick={() => c.move('move_absolute')}>Move to</button>
+        <Field label="Distance" unit={u} text={c.fields.distance} wrong={wrong === 'distance'} describedBy={result} onEnter={() => c.move('move_relative')} />
+        <span class="pair">
+          <button type="button" class="button" aria-label="Move back by distance" onClick={() => c.move('move_relative', -1)}>− by</button>
+          <button type="button" class="button" aria-label="Move forward by distance" onClick={() => c.move('move_relative')}>+ by</button>
+        </span>
+        <Field label="Speed" unit={`${u}/s`} text={c.fields.speed} wrong={wrong === 'speed'} describedBy={result} placeholder="as is" />
+        <span class="pair">
+          <JogButton axis={name} direction={-1} speed={c.jogSpeed} unit={u} />
+          <JogButton axis={name} direction={1} speed={c.jogSpeed} unit={u} />
+        </span>
+      </div>
+      <div class="control-ramps">
+        <Field label="Accel." longLabel="Acceleration" unit={`${u}/s²`} text={c.fields.acceleration} wrong={wrong === 'acceleration'} describedBy={result} placeholder="as is" />
+        <Field label="Decel." longLabel="Deceleration" unit={`${u}/s²`} text={c.fields.deceleration} wrong={wrong === 'deceleration'} describedBy={result} placeholder="as is" />
+      </div>
+      <div class="control-rows">
+        <Field label="Position" longLabel="What the present position shall be called" unit={u} text={c.fields.zero} wrong={wrong === 'zero'} describedBy={result} />
+        <button type="button" class="button" title="Calls the present position this; nothing moves" onClick={c.setZero}>Set position</button>
+      </div>
+      <ResultLine axis={name} id={result} />
+    </div>
+  );
+}

@@ -1,0 +1,142 @@
+// Axis tile: one axis, live: what it is, where it is, what it does, what is wrong, and what can be told to it.
+// In: the axis' name. Out: the tile. The readings are drawn apart from the controls, so that typing is never disturbed by them.
+import type { ReadonlySignal } from '@preact/signals';
+import type { ComponentChildren } from 'preact';
+import { useGateway } from '../gateway';
+import { axisPath } from '../router';
+import { tick } from '../state/clock';
+import type { AxisEntry } from '../state/store';
+import { markOf, motionWord, noticeOf, positionText, stateWord, targetText, unitOf, velocityText } from '../words/axis';
+import { duration } from '../words/time';
+import { ResultLine, resultId, TileControls } from './axis-controls';
+import { Icon } from './icon';
+import { memo } from './memo';
+import { Mark, Pill } from './pill';
+import { Sparkline } from './sparkline';
+import { StopButton } from './stop';
+
+type EntrySignal = ReadonlySignal<AxisEntry>;
+
+/** How long ago the connection was last live, in words; ticks only while it is lost. */
+export function lastKnownWords(store: ReturnType<typeof useGateway>['store']): string {
+  const c = store.connection.value;
+  if (c.phase === 'live' || c.lastLiveAt === 0) return '';
+  return duration(tick.value - c.lastLiveAt);
+}
+
+export function Notice({ entry }: { entry: EntrySignal }) {
+  const { store } = useGateway();
+  const axis = entry.value.data;
+  const trust = store.trustOf(entry.value);
+  const driveText = trust === 'offline' ? (store.drive(axis.drive)?.value.data.status.text ?? '') : '';
+  const word = noticeOf(axis, trust, driveText, trust === 'disconnected' ? lastKnownWords(store) || 'some time' : '');
+  return (
+    <p class={`notice tone-${word.tone}`} title={word.long} data-field="notice">
+      <Icon name={word.icon} size={14} />
+      <span>{word.text}</span>
+    </p>
+  );
+}
+
+/** Position, velocity and target. Greyed and said to be old as soon as they are not live. */
+export function Readout({ entry, large = false }: { entry: EntrySignal; large?: boolean }) {
+  const { store } = useGateway();
+  const axis = entry.value.data;
+  const trust = store.trustOf(entry.value);
+  const unit = unitOf(axis);
+  return (
+    <div class={`readout${large ? ' readout-large' : ''}${trust === 'live' ? '' : ' is-old'}`} data-trust={trust}>
+      <p class="position" data-field="position" data-value={axis.position ?? ''} data-live={trust === 'live'}>
+        <span class="visually-hidden">{trust === 'live' ? 'Position' : 'Last known position, not live'}: </span>
+        <span class="figure">{positionText(axis)}</span>
+        <span class="unit">{unit}</span>
+      </p>
+      <dl class="minor">
+        <div>
+          <dt>Velocity</dt>
+          <dd data-field="velocity">
+            {velocityText(axis)} <span class="unit">{unit}/s</span>
+          </dd>
+        </div>
+        <div>
+          <dt>Target</dt>
+          <dd data-field="target">
+            {targetText(axis)} <span class="unit">{unit}</span>
+          </dd>
+        </div>
+      </dl>
+    </div>
+  );
+}
+
+export function StatePills({ entry }: { entry: EntrySignal }) {
+  const { store } = useGateway();
+  const trust = store.trustOf(entry.value);
+  return (
+    <p class="pills">
+      <Pill label="State" id="state" word={stateWord(entry.value.data, trust)} />
+      <Pill label="Motion" id="motion" word={motionWord(entry.value.data, trust)} />
+    </p>
+  );
+}
+
+function TileHead({ entry }: { entry: EntrySignal }) {
+  const axis = entry.value.data;
+  return (
+    <header class="tile-head">
+      <h3>
+        <a href={axisPath(axis.name)}>{axis.name}</a>
+      </h3>
+      <p class="where">
+        <Mark mark={markOf(axis)} />
+        <span>
+          {axis.family} · {axis.line} · axis {axis.number}
+        </span>
+      </p>
+      <StopButton axis={axis.name} urgent={axis.moving} />
+    </header>
+  );
+}
+
+export function AxisTile({ name, bare }: { name: string; bare: boolean }) {
+  const { store } = useGateway();
+  const entry = store.axis(name);
+  if (!entry) return null;
+  return (
+    <TileFrame entry={entry}>
+      <TileHead entry={entry} />
+      <div class="tile-live">
+        <Readout entry={entry} />
+        <Sparkline axis={name} />
+      </div>
+      <StatePills entry={entry} />
+      <Steady entry={entry} bare={bare} />
+      <footer class="tile-foot">
+        <Notice entry={entry} />
+        <ResultLine axis={name} id={resultId(name)} />
+      </footer>
+    </TileFrame>
+  );
+}
+
+/** The frame tells the condition too; it is drawn anew only when the condition changes. */
+function TileFrame({ entry, children }: { entry: EntrySignal; children: ComponentChildren }) {
+  const { store } = useGateway();
+  const axis = entry.value.data;
+  const condition = axis.fault && store.trustOf(entry.value) === 'live' ? 'fault' : store.trustOf(entry.value);
+  return (
+    <article class="tile card" data-axis={axis.name} data-condition={condition} data-presence={axis.presence} aria-label={`Axis ${axis.name}`}>
+      {children}
+    </article>
+  );
+}
+
+/** The controls need name, unit and limits of the axis, which change only with the site: live readings do not redraw them. */
+const SteadyControls = memo(TileControls, (a, b) => {
+  const x = a.axis;
+  const y = b.axis;
+  return a.bare === b.bare && x.name === y.name && x.unit === y.unit && x.velocity_max === y.velocity_max;
+});
+function Steady({ entry, bare }: { entry: EntrySignal; bare: boolean }) {
+  return <SteadyControls axis={entry.value.data} bare={bare} />;
+}

@@ -1,0 +1,52 @@
+// Events, newest first: severity in words and icon, what happened, to what, by whom. In: events. Out: a list.
+// Severity is a word and a shape before it is a colour.
+import type { GatewayEvent, Severity } from '../api/types';
+import { axisPath } from '../router';
+import { clockTime } from '../words/time';
+import { Icon, type IconName } from './icon';
+
+const marks: Record<Severity, { icon: IconName; text: string; tone: string }> = {
+  info: { icon: 'info', text: 'Info', tone: 'muted' },
+  warning: { icon: 'triangle', text: 'Warning', tone: 'warning' },
+  alarm: { icon: 'octagon', text: 'Alarm', tone: 'fault' },
+};
+
+function subject(e: GatewayEvent) {
+  if (e.axis) return <a href={axisPath(e.axis)}>{e.axis}</a>;
+  return e.drive ?? e.line ?? null;
+}
+
+export function EventItem({ event }: { event: GatewayEvent }) {
+  const m = marks[event.severity];
+  const about = subject(event);
+  const change = event.parameter ? `${event.parameter}: ${event.old ?? 'not known'} → ${event.new ?? ''}` : '';
+  return (
+    <li class={`event tone-${m.tone}`} data-severity={event.severity}>
+      <span class="event-mark" title={m.text}>
+        <Icon name={m.icon} size={14} />
+        <span class={event.severity === 'info' ? 'visually-hidden' : ''}>{m.text}</span>
+      </span>
+      <time dateTime={event.at} title={event.at}>
+        {clockTime(event.at)}
+      </time>
+      <span class="event-what">
+        {about && <b>{about} </b>}
+        <span>{event.text || change || event.kind}</span>
+        {event.text && change && <span class="event-change mono"> {change}</span>}
+        {event.code ? <span class="mono"> (code {event.code})</span> : null}
+        {event.who && <span class="event-who"> by {event.who}</span>}
+      </span>
+    </li>
+  );
+}
+
+export function EventList({ events, limit }: { events: GatewayEvent[]; limit: number }) {
+  if (events.length === 0) return <p class="empty"><Icon name="info" /> Nothing has happened yet.</p>;
+  return (
+    <ol class="events">
+      {events.slice(0, limit).map((e) => (
+        <EventItem key={e.id} event={e} />
+      ))}
+    </ol>
+  );
+}

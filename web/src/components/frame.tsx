@@ -1,0 +1,161 @@
+// Frame: head, navigation, strip and regions that every page shares. In: the store and the route. Out: what is around a page.
+// The strip under the head is always there, so that nothing moves when the connection is lost: its words change, not its place.
+import { useEffect } from 'preact/hooks';
+import { signal } from '@preact/signals';
+import { useGateway } from '../gateway';
+import { route, type Route } from '../router';
+import { tick } from '../state/clock';
+import { dark, nextTheme } from '../state/theme';
+import { duration } from '../words/time';
+import { Icon, type IconName } from './icon';
+import { lastKnownWords } from './axis-tile';
+import { StopAll } from './stop';
+
+const places: { path: string; text: string; icon: IconName; pages: Route['page'][] }[] = [
+  { path: '/', text: 'Axes', icon: 'axis', pages: ['overview', 'axis'] },
+  { path: '/lines', text: 'Lines', icon: 'lines', pages: ['lines', 'line'] },
+  { path: '/events', text: 'Events', icon: 'list', pages: ['events'] },
+  { path: '/gateway', text: 'Gateway', icon: 'box', pages: ['gateway'] },
+];
+
+export function Navigation() {
+  const page = route.value.page;
+  return (
+    <nav class="nav" aria-label="Pages">
+      {places.map((p) => (
+        <a key={p.path} href={p.path} aria-current={p.pages.includes(page) ? 'page' : undefined}>
+          <Icon name={p.icon} />
+          <span>{p.text}</span>
+        </a>
+      ))}
+    </nav>
+  );
+}
+
+function Connection() {
+  const { store } = useGateway();
+  const phase = store.connection.value.phase;
+  const words = phase === 'live' ? 'Live' : phase === 'connecting' ? 'Connecting' : 'Not connected';
+  return (
+    <span class={`connection is-${phase}`} role="status" aria-label={`Connection to the gateway: ${words}`} data-field="connection">
+      <Icon name={phase === 'live' ? 'check' : phase === 'connecting' ? 'clock' : 'unplugged'} size={14} />
+      <span>{words}</span>
+    </span>
+  );
+}
+
+function ThemeButton() {
+  const toDark = !dark.value;
+  return (
+    <button type="button" class="button quiet square" aria-label={toDark ? 'Dark theme' : 'Light theme'} title={toDark ? 'Dark theme' : 'Light theme'} onClick={nextTheme}>
+      <Icon name={toDark ? 'moon' : 'sun'} />
+    </button>
+  );
+}
+
+export function Head() {
+  return (
+    <header class="head">
+      <a class="brand" href="/" aria-label="axisgate, overview">
+        <svg viewBox="0 0 24 24" width="22" height="22" aria-hidden="true">
+          <path d="M4 20V4h3v13h13v3z" fill="currentColor" />
+          <path d="M11 13V9h4V5h5v8z" class="brand-accent" />
+        </svg>
+        <span>axisgate</span>
+      </a>
+      <Navigation />
+      <Connection />
+      <ThemeButton />
+      <StopAll />
+    </header>
+  );
+}
+
+function Counted({ n, one, many, tone }: { n: number; one: string; many: string; tone?: string }) {
+  return (
+    <span class={`counted${n > 0 && tone ? ` tone-${tone}` : ''}`}>
+      <b>{n}</b> {n === 1 ? one : many}
+    </span>
+  );
+}
+
+export function Strip() {
+  const gateway = useGateway();
+  const { store, commander } = gateway;
+  const c = store.connection.value;
+  const stop = commander.stopReport.value;
+  if (c.phase !== 'live') {
+    const since = lastKnownWords(store);
+    const first = c.lastLiveAt === 0;
+    const next = c.phase === 'waiting' ? `Next try in ${duration(Math.max(0, c.retryAt - tick.value))}.` : 'Trying now.';
+    return (
+      <div class="strip is-lost" data-field="strip">
+        <Icon name="unplugged" />
+        <span class="strip-text">
+          <b>{first ? 'No connection to the gateway yet.' : 'Connection lost.'}</b>{' '}
+          {first ? '' : `All values are the last known ones, from ${since} ago. `}
+          <span class="strip-more">
+            {c.why && `${c.why.charAt(0).toUpperCase()}${c.why.slice(1)}. `}
+            {next}
+          </span>
+          {stop.tone !== 'none' && <b> {stop.text}</b>}
+        </span>
+        <button type="button" class="button" onClick={() => gateway.stream.retryNow()}>
+          Try now
+        </button>
+      </div>
+    );
+  }
+  const n = store.counts.value;
+  return (
+    <div class="strip" data-field="strip">
+      <span class="strip-text">
+        <Counted n={n.axes} one="axis" many="axes" />
+        <Counted n={n.moving} one="moving" many="moving" tone="active" />
+        <Counted n={n.fault} one="in fault" many="in fault" tone="fault" />
+        <Counted n={n.simulated} one="simulated" many="simulated" />
+        <Counted n={n.offline} one="offline" many="offline" tone="warning" />
+      </span>
+      <span class={`strip-stop result-${stop.tone}`}>{stop.text}</span>
+    </div>
+  );
+}
+
+/** What is spoken without being asked: alarms, the loss of the connection, the answer to "stop all". Seen by screen readers only. */
+const spoken = signal('');
+export function Spoken() {
+  const { store, commander } = useGateway();
+  useEffect(() => {
+    let waiting = 0;
+    let quietUntil = 0;
+    const say = (text: string) => {
+      waiting += 1;
+      const now = performance.now();
+      if (now < quietUntil) return; // a burst of alarms is told as a number, at its end
+      quietUntil = now + 2000;
+      spoken.value = text;
+      waiting = 0;
+      setTimeout(() => {
+        if (waiting > 0) spoken.value = `${waiting} more alarms`;
+        waiting = 0;
+      }, 2000);
+    };
+    return store.onEvent((e) => {
+      if (e.severity === 'alarm') say(`Alarm. ${e.axis ?? e.drive ?? e.line ?? ''}: ${e.text}`);
+    });
+  }, [store]);
+  const lost = store.connection.value.phase === 'waiting' ? 'Connection to the gateway lost. Values are not live.' : '';
+  return (
+    <>
+      <div class="visually-hidden" role="alert" data-field="spoken">
+        {spoken.value}
+      </div>
+      <div class="visually-hidden" role="alert">
+        {lost}
+      </div>
+      <div class="visually-hidden" role="status">
+        {commander.stopReport.value.text}
+      </div>
+    </>
+  );
+}

@@ -1,0 +1,64 @@
+// Icons: drawn here, so that nothing is fetched. In: a name. Out: an SVG that is hidden from screen readers; the word beside it speaks.
+import type { JSX } from 'preact';
+
+const shapes = {
+  'circle-dashed': <circle cx="8" cy="8" r="5.5" stroke-dasharray="2.4 2.2" />,
+  circle: <circle cx="8" cy="8" r="5.5" />,
+  'circle-half': (
+    <>
+      <circle cx="8" cy="8" r="5.5" />
+      <path d="M8 2.5a5.5 5.5 0 0 1 0 11z" fill="currentColor" stroke="none" />
+    </>
+  ),
+  dot: <circle cx="8" cy="8" r="2.5" fill="currentColor" stroke="none" />,
+  check: <path d="M3 8.5l3.2 3.2L13 4.8" />,
+  'power-off': <path d="M8 2v5M4.6 4.2a5 5 0 1 0 6.8 0" />,
+  power: <path d="M8 2v5M4.6 4.2a5 5 0 1 0 6.8 0" />,
+  octagon: <path d="M5.5 2h5L14 5.5v5L10.5 14h-5L2 10.5v-5z" fill="currentColor" stroke="none" />,
+  triangle: <path d="M8 2.5l6 10.5H2zM8 6.5v3M8 11.2v.3" />,
+  unplugged: <path d="M2 2l12 12M6 4V2M10 4V2M4.5 5H11v3.2M10 10.5A3.5 3.5 0 0 1 4.5 8V5M8 11v3" />,
+  plug: <path d="M6 4V2M10 4V2M4.5 5h7v3a3.5 3.5 0 0 1-7 0zM8 11.5V14" />,
+  chip: <path d="M4.5 4.5h7v7h-7zM6.5 2v2.5M9.5 2v2.5M6.5 11.5V14M9.5 11.5V14M2 6.5h2.5M2 9.5h2.5M11.5 6.5H14M11.5 9.5H14" />,
+  clock: <path d="M8 2.5a5.5 5.5 0 1 0 0 11 5.5 5.5 0 0 0 0-11M8 5v3.2l2.2 1.4" />,
+  'arrow-right': <path d="M2.5 8h11M9 3.5L13.5 8 9 12.5" />,
+  'arrow-left': <path d="M13.5 8h-11M7 3.5L2.5 8 7 12.5" />,
+  target: (
+    <>
+      <circle cx="8" cy="8" r="5.5" />
+      <circle cx="8" cy="8" r="1.8" fill="currentColor" stroke="none" />
+    </>
+  ),
+  pause: <path d="M5.5 3.5v9M10.5 3.5v9" />,
+  stop: <rect x="3.5" y="3.5" width="9" height="9" fill="currentColor" stroke="none" />,
+  info: <path d="M8 2.5a5.5 5.5 0 1 0 0 11 5.5 5.5 0 0 0 0-11M8 7.5v3.5M8 5v.3" />,
+  sun: <path d="M8 5.2a2.8 2.8 0 1 0 0 5.6 2.8 2.8 0 0 0 0-5.6M8 1.5v1.4M8 13.1v1.4M1.5 8h1.4M13.1 8h1.4M3.4 3.4l1 1M11.6 11.6l1 1M12.6 3.4l-1 1M4.4 11.6l-1 1" />,
+  moon: <path d="M13 9.6A5.5 5.5 0 0 1 6.4 3a5.5 5.5 0 1 0 6.6 6.6z" />,
+  refresh: <path d="M13 8a5 5 0 1 1-1.5-3.6M13 2v3h-3" />,
+  axis: <path d="M2 13.5h12M3.5 10h9M5 8V5.5h6V8z" />,
+  lines: <path d="M2 8h12M5 8V4.5M11 8v3.5M3.5 2.5h3v2h-3zM9.5 11.5h3v2h-3z" />,
+  list: <path d="M5.5 4h8M5.5 8h8M5.5 12h8M2.5 4h.4M2.5 8h.4M2.5 12h.4" />,
+  box: <path d="M2.5 4.5h11v7h-11zM5 9h.4M8 9h3" />,
+  up: <path d="M8 13V3M3.5 7.5L8 3l4.5 4.5" />,
+} satisfies Record<string, JSX.Element>;
+
+export type IconName = keyof typeof shapes;
+
+export function Icon({ name, size = 16 }: { name: IconName; size?: number }) {
+  return (
+    <svg
+      class="icon"
+      width={size}
+      height={size}
+      viewBox="0 0 16 16"
+      fill="none"
+      stroke="currentColor"
+      stroke-width="1.5"
+      stroke-linecap="round"
+      stroke-linejoin="round"
+      aria-hidden="true"
+      focusable="false"
+    >
+      {shapes[name]}
+    </svg>
+  );
+}

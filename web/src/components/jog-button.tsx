@@ -1,0 +1,84 @@
+// Jog button: the axis moves while it is held, by finger, mouse or key, and stops when it is let go, when the pointer is lost,
+// when the page is hidden, closed or loses the keyboard. Never starts by a click alone that was not held.
+import { useEffect, useRef } from 'preact/hooks';
+import { useGateway } from '../gateway';
+import { Icon } from './icon';
+
+export interface JogProps {
+  axis: string;
+  direction: 1 | -1;
+  /** The speed asked for, in the axis' unit per second, or null after the caller has said why not. */
+  speed: () => number | null;
+  unit: string;
+}
+
+export function JogButton({ axis, direction, speed, unit }: JogProps) {
+  const gateway = useGateway();
+  const button = useRef<HTMLButtonElement>(null);
+  const jog = gateway.jog(axis);
+
+  // The two buttons of an axis share its jog: each ends only what it began.
+  const holding = useRef(false);
+
+  const press = () => {
+    const v = speed();
+    if (v === null) return;
+    holding.current = true;
+    button.current?.classList.add('is-held');
+    jog.press(direction * v, `Jog ${direction > 0 ? '+' : '−'}${v} ${unit}/s`);
+  };
+  const release = () => {
+    if (!holding.current) return;
+    holding.current = false;
+    button.current?.classList.remove('is-held');
+    jog.release();
+  };
+
+  useEffect(() => {
+    const whenHidden = () => {
+      if (document.hidden) release();
+    };
+    addEventListener('blur', release);
+    addEventListener('pagehide', release);
+    document.addEventListener('visibilitychange', whenHidden);
+    return () => {
+      removeEventListener('blur', release);
+      removeEventListener('pagehide', release);
+      document.removeEventListener('visibilitychange', whenHidden);
+      release();
+    };
+  }, [jog]);
+
+  const isKey = (e: KeyboardEvent) => e.key === ' ' || e.key === 'Enter';
+  return (
+    <button
+      ref={button}
+      type="button"
+      class="button jog"
+      aria-label={`Jog ${axis} ${direction > 0 ? 'forward' : 'backward'} while held`}
+      title="Moves while held"
+      onPointerDown={(e) => {
+        if (e.button !== 0) return;
+        e.currentTarget.setPointerCapture?.(e.pointerId);
+        press();
+      }}
+      onPointerUp={release}
+      onPointerCancel={release}
+      onLostPointerCapture={release}
+      onContextMenu={(e) => e.preventDefault()}
+      onKeyDown={(e) => {
+        if (!isKey(e)) return;
+        e.preventDefault();
+        if (!e.repeat) press();
+      }}
+      onKeyUp={(e) => {
+        if (isKey(e)) release();
+      }}
+      onBlur={release}
+    >
+      {direction < 0 && <Icon name="arrow-left" size={14} />}
+      <span>Jog</span>
+      {direction > 0 && <Icon name="arrow-right" size={14} />}
+    </button>
+  );
+}

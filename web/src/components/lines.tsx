@@ -1,0 +1,146 @@
+// Lines and drives, as rows of cards: state in words, load, what the protocol counted; who serves each drive, and why.
+// In: the store. Out: two lists that become stacked cards on a narrow screen. Old values are greyed like those of an axis.
+import { useGateway } from '../gateway';
+import { axisPath, linePath } from '../router';
+import type { Drive, Line } from '../api/types';
+import type { Word } from '../words/axis';
+import { formatExact } from '../words/number';
+import { Icon } from './icon';
+import { Pill } from './pill';
+
+export function lineWord(state: Line['status']['state']): Word {
+  switch (state) {
+    case 'up': return { text: 'Up', icon: 'check', tone: 'good', long: 'The line is up' };
+    case 'opening': return { text: 'Opening', icon: 'clock', tone: 'neutral', long: 'The line is being opened' };
+    case 'down': return { text: 'Down', icon: 'unplugged', tone: 'fault', long: 'The line is down' };
+    case 'bus_off': return { text: 'Bus off', icon: 'triangle', tone: 'fault', long: 'The CAN controller has left the bus' };
+    case 'closed': return { text: 'Closed', icon: 'circle-dashed', tone: 'muted', long: 'The line is closed' };
+  }
+}
+
+export function presenceWord(drive: Drive): Word {
+  switch (drive.status.presence) {
+    case 'device': return { text: 'Real drive', icon: 'plug', tone: 'good', long: 'The real drive answers' };
+    case 'twin': return { text: 'Simulated', icon: 'chip', tone: 'simulated', long: 'The embedded model answers' };
+    case 'offline': return { text: 'Offline', icon: 'unplugged', tone: 'warning', long: 'Nobody answers' };
+  }
+}
+
+const wanted: Record<Drive['presence'], string> = { auto: 'real, else simulated', device: 'real only', twin: 'simulated only' };
+
+function Load({ share }: { share: number }) {
+  const percent = Math.min(100, Math.max(0, share * 100));
+  return (
+    <span class="load" title="Share of the bit rate used in the last second">
+      <meter min={0} max={100} high={70} optimum={0} value={percent} aria-label="Load" />
+      <span class="figure-small">{percent < 10 ? percent.toFixed(1) : Math.round(percent)} %</span>
+    </span>
+  );
+}
+
+export function Count({ label, value, bad = false, title }: { label: string; value: number; bad?: boolean; title?: string }) {
+  return (
+    <div class={`count${bad && value > 0 ? ' is-bad' : ''}`} title={title}>
+      <dt>{label}</dt>
+      <dd>{formatExact(value)}</dd>
+    </div>
+  );
+}
+
+function LineCard({ name }: { name: string }) {
+  const { store } = useGateway();
+  const known = store.line(name)?.value;
+  if (!known) return null;
+  const line = known.data;
+  const s = line.status;
+  const live = store.connected.value && known.epoch === store.connection.value.epoch;
+  return (
+    <li class={`row${live ? '' : ' is-old'}`} data-line={name}>
+      <div class="row-head">
+        <h3>
+          <a href={linePath(name)}>{name}</a>
+        </h3>
+        <Pill label="State" word={live ? lineWord(s.state) : { ...lineWord(s.state), tone: 'muted', text: `Was ${lineWord(s.state).text.toLowerCase()}` }} />
+        <Load share={s.load} />
+      </div>
+      <p class="where">
+        {line.family} · <span class="mono">{line.uri}</span>
+        {s.text && s.text !== 'up' ? ` · ${s.text}` : ''}
+      </p>
+      <dl class="counts">
+        <Count label="Exchanges" value={s.counters.exchanges} />
+        <Count label="Time-outs" value={s.counters.timeouts} bad />
+        <Count label="Retries" value={s.counters.retries} bad />
+        <Count label="Garbled" value={s.counters.garbled} bad />
+        <Count label="Refused" value={s.counters.refused} />
+        <Count label="Dropped" value={s.dropped} bad title="Frames that found the queue full" />
+        <Count label="Queued" value={s.queued} />
+        <Count label="Reopened" value={s.reopened} />
+      </dl>
+    </li>
+  );
+}
+
+function DriveCard({ name }: { name: string }) {
+  const { store } = useGateway();
+  const known = store.drive(name)?.value;
+  if (!known) return null;
+  const drive = known.data;
+  const s = drive.status;
+  const live = store.connected.value && known.epoch === store.connection.value.epoch;
+  const word = presenceWord(drive);
+  return (
+    <li class={`row${live ? '' : ' is-old'}`} data-drive={name}>
+      <div class="row-head">
+        <h3>{name}</h3>
+        <Pill label="Presence" word={live ? word : { ...word, tone: 'muted', text: `Was ${word.text.toLowerCase()}` }} />
+      </div>
+      <p class="where">
+        {drive.family} · {drive.line} · address <span class="mono">{String(drive.address)}</span> · {wanted[drive.presence]}
+      </p>
+      <p class="why">{s.text || '\u00a0'}</p>
+      <p class="where">
+        {drive.axes.length === 0 ? 'no axis' : 'Axes: '}
+        {drive.axes.map((a, i) => (
+          <>
+            {i > 0 && ', '}
+            <a href={axisPath(a)}>{a}</a>
+          </>
+        ))}
+        {s.silent_exchanges > 0 && ` · silent ${s.silent_exchanges} times, next try within ${s.retry_pause_ms} ms`}
+      </p>
+    </li>
+  );
+}
+
+export function LineList() {
+  const names = useGateway().store.lineNames.value;
+  if (names.length === 0) return <Empty text="No line is configured." />;
+  return (
+    <ul class="rows card">
+      {names.map((n) => (
+        <LineCard key={n} name={n} />
+      ))}
+    </ul>
+  );
+}
+
+export function DriveList() {
+  const names = useGateway().store.driveNames.value;
+  if (names.length === 0) return <Empty text="No drive is configured." />;
+  return (
+    <ul class="rows card">
+      {names.map((n) => (
+        <DriveCard key={n} name={n} />
+      ))}
+    </ul>
+  );
+}
+
+export function Empty({ text }: { text: string }) {
+  return (
+    <p class="empty">
+      <Icon name="info" /> {text}
+    </p>
+  );
+}

@@ -1,0 +1,340 @@
+// Parameters of one axis: live, stored and default value, range, who wrote last; read from the drive, write with a check before.
+// In: REST. Out: a table. Reading all goes one by one and can be ended; a slow drive is not flooded. What was typed stays until the
+// drive took it. At most 100 rows are drawn at once; more on demand.
+import { signal, useSignal, type Signal } from '@preact/signals';
+import { useEffect, useId, useMemo, useRef } from 'preact/hooks';
+import { asProblem } from '../api/problem';
+import type { AxisParameter } from '../api/types';
+import { useGateway } from '../gateway';
+import { capital } from '../state/commander';
+import { editText, rangeText, readValue, sameValue, unitWords, valueText } from '../words/parameter';
+import { clockTime } from '../words/time';
+import { Icon } from './icon';
+import { Empty } from './lines';
+import { memo } from './memo';
+import { Section } from './section';
+
+const rowsAtOnce = 100;
+
+interface Row {
+  data: Signal<AxisParameter>;
+  note: Signal<{ tone: 'none' | 'busy' | 'good' | 'refused'; text: string }>;
+  /** What is typed; null: the field shows nothing of its own. */
+  typed: Signal<string | null>;
+}
+
+const isLongArray = (p: AxisParameter) => p.count !== null && p.count > 0 && !/\]$/.test(p.id);
+
+export function Parameters({ axis }: { axis: string }) {
+  const { client, store } = useGateway();
+  const rows: Signal<Row[]> = useMemo(() => signal([]), [axis]);
+  const loaded = useSignal<'waiting' | 'there' | string>('waiting');
+  const search = useSignal('');
+  const group = useSignal('');
+  const onlyChanged = useSignal(false);
+  const most = useSignal(rowsAtOnce);
+  const progress = useSignal<{ done: number; of: number } | null>(null);
+  const reading = useRef<AbortController | null>(null);
+  const epoch = store.connection.value.epoch;
+
+  const load = async (signalOfEnd: AbortSignal) => {
+    try {
+      const list = await client.parameters(axis, {}, signalOfEnd);
+      const before = new Map(rows.peek().map((r) => [r.data.peek().id, r]));
+      rows.value = list.map((p) => {
+        const known = before.get(p.id);
+        if (known) known.data.value = p;
+        return known ?? newRow(p);
+      });
+      loaded.value = 'there';
+    } catch (error) {
+      if (!signalOfEnd.aborted && rows.peek().length === 0) loaded.value = asProblem(error).words;
+    }
+  };
+
+  useEffect(() => {
+    if (epoch === 0) return;
+    const end = new AbortController();
+    void load(end.signal);
+    return () => end.abort();
+  }, [axis, epoch]);
+  useEffect(() => () => reading.current?.abort(), [axis]);
+  // Somebody else wrote: look again at what is known.
+  useEffect(
+    () =>
+      store.onEvent((e) => {
+        if (e.axis !== axis || !e.parameter) return;
+        const row = rows.peek().find((r) => r.data.peek().id === e.parameter);
+        if (row) void client.parameter(axis, row.data.peek().id, { cached: true }).then((p) => (row.data.value = p), () => undefined);
+      }),
+    [axis],
+  );
+
+  const groups = [...new Set(rows.value.map((r) => r.data.peek().group))].filter(Boolean);
+  const text = search.value.trim().toLowerCase();
+  const matching = rows.value.filter((r) => {
+    const p = r.data.peek();
+    if (group.value && p.group !== group.value) return false;
+    if (onlyChanged.value && (r.data.value.value === null || p.default === null || sameValue(r.data.value.value, p.default))) return false;
+    return text === '' || p.id.toLowerCase().includes(text) || p.name.toLowerCase().includes(text) || p.description.toLowerCase().includes(text);
+  });
+  const shown = matching.slice(0, most.value);
+
+  const readAll = async () => {
+    const end = (reading.current = new AbortController());
+    const wanted = matching.filter((r) => r.data.peek().access !== 'W' && !isLongArray(r.data.peek()));
+    progress.value = { done: 0, of: wanted.length };
+    for (const [i, row] of wanted.entries()) {
+      if (end.signal.aborted) break;
+      await read(row, end.signal);
+      progress.value = { done: i + 1, of: wanted.length };
+    }
+    progress.value = null;
+    reading.current = null;
+  };
+
+  const read = async (row: Row, end?: AbortSignal) => {
+    const id = row.data.peek().id;
+    row.note.value = { tone: 'busy', text: 'Reading …' };
+    try {
+      const p = await client.parameter(axis, id, {}, end);
+      row.data.value = p;
+      row.note.value = p.quality === 'stale' ? { tone: 'refused', text: capital(p.text || 'stale') } : { tone: 'none', text: '' };
+    } catch (error) {
+      row.note.value = end?.aborted ? { tone: 'none', text: '' } : { tone: 'refused', text: capital(asProblem(error).words) };
+    }
+  };
+
+  const write = async (row: Row) => {
+    const p = row.data.peek();
+    const value = readValue(row.typed.peek() ?? '', p);
+    if (!value.good) {
+      row.note.value = { tone: 'refused', text: value.why };
+      return;
+    }
+    row.note.value = { tone: 'busy', text: 'Writing …' };
+    try {
+      const answer = await client.writeParameter(axis, p.id, value.value);
+      row.data.value = { ...row.data.peek(), value: answer.value, quality: 'good' };
+      row.note.value = { tone: 'good', text: sameValue(answer.value, value.value) ? 'Written.' : `Written; the drive took ${valueText(answer.value, p)}.` };
+      row.typed.value = null;
+      const now = await client.parameter(axis, p.id, { cached: true });
+      row.data.value = now;
+    } catch (error) {
+      if (row.note.peek().tone === 'good') return; // it was written; only the look afterwards failed
+      row.note.value = { tone: 'refused', text: capital(asProblem(error).words) };
+    }
+  };
+
+  const open = async (row: Row) => {
+    const p = row.data.peek();
+    const known = rows.peek().filter((r) => r.data.peek().id.startsWith(`${p.id}[`));
+    row.note.value = { tone: 'busy', text: 'Listing …' };
+    try {
+      const list = await client.parameters(axis, { array: p.id, first: (p.first ?? 0) + known.length });
+      const at = rows.peek().indexOf(row) + known.length + 1;
+      rows.value = rows.peek().toSpliced(at, 0, ...list.map(newRow));
+      row.note.value = { tone: 'none', text: `${known.length + list.length} of ${p.count} elements are listed below.` };
+    } catch (error) {
+      row.note.value = { tone: 'refused', text: capital(asProblem(error).words) };
+    }
+  };
+
+  return (
+    <Section
+      title="Parameters"
+      class="parameters"
+      beside={
+        <>
+          <input class="search" type="search" placeholder="Search" aria-label="Search parameters" value={search.value} onInput={(e) => (search.value = e.currentTarget.value)} />
+          {groups.length > 1 && (
+            <label class="select">
+              <span class="visually-hidden">Group</span>
+              <select value={group.value} onChange={(e) => (group.value = e.currentTarget.value)}>
+                <option value="">all groups</option>
+                {groups.map((g) => (
+                  <option key={g} value={g}>
+                    {g.replaceAll('_', ' ')}
+                  </option>
+                ))}
+              </select>
+            </label>
+          )}
+          <button type="button" class="button" aria-pressed={onlyChanged.value} onClick={() => (onlyChanged.value = !onlyChanged.value)}>
+            Not default
+          </button>
+          {progress.value ? (
+            <button type="button" class="button" onClick={() => reading.current?.abort()}>
+              Reading {progress.value.done} of {progress.value.of}: end
+            </button>
+          ) : (
+            <button type="button" class="button" onClick={() => void readAll()} disabled={matching.length === 0}>
+              Read {matching.length === rows.value.length ? 'all' : 'shown'}
+            </button>
+          )}
+        </>
+      }
+    >
+      {loaded.value === 'waiting' ? (
+        <Empty text="Waiting for the list." />
+      ) : loaded.value !== 'there' ? (
+        <Empty text={capital(loaded.value)} />
+      ) : matching.length === 0 ? (
+        <Empty text={rows.value.length === 0 ? 'This family has no parameters.' : 'No parameter matches.'} />
+      ) : (
+        <div class="card table-scroll" tabIndex={0} role="region" aria-label="Parameters">
+          <table class="table">
+            <thead>
+              <tr>
+                <th scope="col">Parameter</th>
+                <th scope="col" class="num">Live</th>
+                <th scope="col" class="num">Stored</th>
+                <th scope="col" class="num">Default</th>
+                <th scope="col">Range</th>
+                <th scope="col">New value</th>
+                <th scope="col">Last written</th>
+              </tr>
+            </thead>
+            <tbody>
+              {shown.map((r) => (
+                <ParameterRow key={r.data.peek().id} row={r} read={read} write={write} open={open} />
+              ))}
+            </tbody>
+          </table>
+          {matching.length > shown.length && (
+            <button type="button" class="button more" onClick={() => (most.value += rowsAtOnce)}>
+              Show more ({matching.length - shown.length} are not shown)
+            </button>
+          )}
+        </div>
+      )}
+    </Section>
+  );
+}
+
+const newRow = (p: AxisParameter): Row => ({ data: signal(p), note: signal({ tone: 'none', text: '' }), typed: signal(null) });
+
+interface RowProps {
+  row: Row;
+  read: (row: Row) => void;
+  write: (row: Row) => void;
+  open: (row: Row) => void;
+}
+
+function RowView({ row, read, write, open }: RowProps) {
+  const note = useId();
+  const p = row.data.value;
+  const n = row.note.value;
+  const differs = p.value !== null && p.default !== null && !sameValue(p.value, p.default);
+  const apart = p.value !== null && p.stored !== null && !sameValue(p.value, p.stored);
+  const long = isLongArray(p);
+  return (
+    <tr data-parameter={p.id} class={p.quality === 'good' ? '' : 'is-not-good'}>
+      <th scope="row" title={p.description}>
+        <span class="mono id">{p.id}</span>
+        <span class="name">{p.name.replaceAll('_', ' ')}</span>
+      </th>
+      <td class="num" data-label="Live" data-field="live">
+        {long ? (
+          <span class="where">{p.count} elements</span>
+        ) : (
+          <>
+            <span class={`mono value${differs ? ' differs' : ''}`} title={p.at ? `The drive said it at ${clockTime(p.at)}` : 'Not read yet'}>
+              {valueText(p.value, p)}
+            </span>{' '}
+            <span class="unit">{p.value !== null ? unitWords(p.unit) : ''}</span>
+            {p.quality === 'stale' && <span class="flag"> stale</span>}
+            {p.quality === 'unknown' && <span class="visually-hidden"> not read yet</span>}
+          </>
+        )}
+      </td>
+      <td class="num mono" data-label="Stored">
+        {valueText(p.stored, p)}
+        {apart && <span class="flag" title="The drive has another value than the one written last"> differs</span>}
+      </td>
+      <td class="num mono" data-label="Default">{valueText(p.default, p)}</td>
+      <td class="range" data-label="Range">
+        <span class="mono">{rangeText(p)}</span> <span class="unit">{unitWords(p.unit)}</span>
+      </td>
+      <td class="edit" data-label="New value">
+        <div class="edit-row">
+          {long ? (
+            <button type="button" class="button small" onClick={() => open(row)}>
+              List elements
+            </button>
+          ) : (
+            <>
+              {p.access !== 'R' && <Editor row={row} describedBy={note} write={() => write(row)} />}
+              {p.access !== 'W' && (
+                <button type="button" class="button small quiet square" aria-label={`Read ${p.id} from the drive`} title="Read from the drive" onClick={() => read(row)}>
+                  <Icon name="refresh" size={14} />
+                </button>
+              )}
+              {p.access === 'R' && <span class="where">read only</span>}
+            </>
+          )}
+        </div>
+        <p class={`row-note result-${n.tone}`} id={note} role="status">
+          {n.text}
+        </p>
+      </td>
+      <td class="written" data-label="Last written">
+        {p.written_at ? (
+          <>
+            <time dateTime={p.written_at}>{clockTime(p.written_at)}</time>{' '}
+            <span class="where">
+              {p.written_by ?? 'not said by whom'}
+              {p.written_through ? ` (${p.written_through})` : ''}
+            </span>
+          </>
+        ) : (
+          <span class="where">never here</span>
+        )}
+      </td>
+    </tr>
+  );
+}
+const ParameterRow = memo(RowView, (a, b) => a.row === b.row);
+
+function Editor({ row, describedBy, write }: { row: Row; describedBy: string; write: () => void }) {
+  const p = row.data.value;
+  const wrong = row.note.value.tone === 'refused' && row.typed.value !== null;
+  const text = row.typed.value ?? '';
+  const choices = p.type === 'bool' ? [{ value: 0, meaning: 'off' }, { value: 1, meaning: 'on' }] : p.allowed && p.allowed.length > 0 ? p.allowed : null;
+  return (
+    <>
+      {choices ? (
+        <select aria-label={`New value of ${p.id}`} aria-describedby={describedBy} value={text} onChange={(e) => (row.typed.value = e.currentTarget.value)}>
+          <option value="" disabled>
+            choose
+          </option>
+          {choices.map((c) => (
+            <option key={c.value} value={String(c.value)}>
+              {c.value} {c.meaning}
+            </option>
+          ))}
+        </select>
+      ) : (
+        <input
+          type="text"
+          class={wrong ? 'is-wrong' : ''}
+          inputMode={p.type === 'text' || p.type === 'bytes' ? 'text' : 'decimal'}
+          autocomplete="off"
+          spellcheck={false}
+          aria-label={`New value of ${p.id}`}
+          aria-describedby={describedBy}
+          aria-invalid={wrong || undefined}
+          placeholder={editText(p.value)}
+          value={text}
+          onInput={(e) => (row.typed.value = e.currentTarget.value)}
+          onKeyDown={(e) => {
+            if (e.key === 'Enter' && !e.repeat) write();
+          }}
+        />
+      )}
+      <button type="button" class="button small" aria-label={`Write ${p.id}`} onClick={write}>
+        Write
+      </button>
+    </>
+  );
+}

@@ -1,0 +1,16 @@
+// Section: a titled part of a page. In: title, things beside it, the content. Out: a labelled region.
+import type { ComponentChildren } from 'preact';
+import { useId } from 'preact/hooks';
+
+export function Section({ title, beside, children, class: more = '' }: { title: string; beside?: ComponentChildren; children: ComponentChildren; class?: string }) {
+  const id = useId();
+  return (
+    <section class={`section ${more}`} aria-labelledby={id}>
+      <header class="section-head">
+        <h2 id={id}>{title}</h2>
+        {beside}
+      </header>
+      {children}
+    </section>
+  );
+}

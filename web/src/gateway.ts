@@ -1,0 +1,121 @@
+// Gateway: the page's half of the gateway, put together: client, stream, store, commander. In: nothing but the address of the page.
+// Out: one object that components reach through useGateway(). Asks for the lists after each connection and each change of the site.
+import { effect } from '@preact/signals';
+import { createContext } from 'preact';
+import { useContext } from 'preact/hooks';
+import { Client } from './api/client';
+import { Stream, type StreamMessage } from './api/stream';
+import { Commander } from './state/commander';
+import { Jog } from './state/jog';
+import { Store } from './state/store';
+
+const overviewPeriod_ms = 100;
+const closePeriod_ms = 50;
+const listRetry_ms = 2_000;
+
+export class Gateway {
+  readonly client: Client;
+  readonly store: Store;
+  readonly commander: Commander;
+  readonly stream: Stream;
+  private readonly jogs = new Map<string, Jog>();
+  private readonly extra = new Map<string, Set<(m: StreamMessage) => void>>();
+
+  constructor(parts: { client?: Client; store?: Store; url?: string } = {}) {
+    this.client = parts.client ?? new Client();
+    this.store = parts.store ?? new Store({ schedule: beforeNextPicture });
+    this.commander = new Commander(this.client, () => (this.store.connected.peek() ? '' : 'The page is not connected to the gateway.'));
+    this.stream = new Stream({
+      url: parts.url ?? streamUrl(location),
+      onState: (s) => this.store.setConnection(s),
+      onMessage: (m) => {
+        this.store.take(m);
+        for (const reader of this.extra.get(m.topic) ?? []) reader(m);
+      },
+    });
+    this.stream.subscribe({ 'axes/*': overviewPeriod_ms, 'drives/*': 500, 'lines/*': 500, events: 1000 });
+  }
+
+  start(): void {
+    let listedFor = '';
+    effect(() => {
+      const { phase, epoch } = this.store.connection.value;
+      const revision = this.store.siteRevision.value;
+      if (phase !== 'live' || revision === 0 || `${epoch}/${revision}` === listedFor) return;
+      const fresh = !listedFor.startsWith(`${epoch}/`);
+      listedFor = `${epoch}/${revision}`;
+      void this.list(epoch, fresh);
+    });
+    this.stream.start();
+    addEventListener('online', () => this.stream.wake());
+    document.addEventListener('visibilitychange', () => {
+      if (!document.hidden) this.stream.wake();
+    });
+  }
+
+  jog(axis: string): Jog {
+    let j = this.jogs.get(axis);
+    if (!j) this.jogs.set(axis, (j = new Jog(this.client, this.commander, axis)));
+    return j;
+  }
+
+  /** Follows one axis more closely while its page is open. Gives back the function that ends it. */
+  watchClosely(axis: string): () => void {
+    const topic = `axes/${axis}`;
+    this.stream.subscribe({ [topic]: closePeriod_ms });
+    return () => this.stream.unsubscribe(topic);
+  }
+
+  /** Another topic of the stream, such as the frames of a line. Gives back the function that ends it. */
+  follow(topic: string, period_ms: number, reader: (message: StreamMessage) => void): () => void {
+    const readers = this.extra.get(topic) ?? new Set();
+    readers.add(reader);
+    this.extra.set(topic, readers);
+    this.stream.subscribe({ [topic]: period_ms });
+    return () => {
+      readers.delete(reader);
+      if (readers.size === 0) this.stream.unsubscribe(topic);
+    };
+  }
+
+  private async list(epoch: number, withEvents: boolean): Promise<void> {
+    const current = () => this.store.connection.peek().epoch === epoch && this.store.connected.peek();
+    try {
+      const [axes, drives, lines] = await Promise.all([this.client.axes(), this.client.drives(), this.client.lines()]);
+      if (!current()) return;
+      this.store.setLists({ axes, drives, lines }, epoch);
+      if (!withEvents) return;
+      const [events, about] = await Promise.all([this.client.events({ limit: 200 }), this.client.about()]);
+      this.store.setEvents(events);
+      this.store.about.value = about;
+    } catch {
+      // The stream is up but REST did not answer. As long as the connection is the same, ask again.
+      setTimeout(() => {
+        if (current()) void this.list(epoch, withEvents);
+      }, listRetry_ms);
+    }
+  }
+}
+
+export function streamUrl(at: { protocol: string; host: string }): string {
+  return `${at.protocol === 'https:' ? 'wss' : 'ws'}://${at.host}/api/v1/stream`;
+}
+
+/** Before the next picture of the screen. A hidden page draws none; its states are taken in all the same, less often. */
+function beforeNextPicture(flush: () => void): void {
+  let done = false;
+  const once = () => {
+    if (!done) flush();
+    done = true;
+  };
+  requestAnimationFrame(once);
+  setTimeout(once, 250);
+}
+
+const Context = createContext<Gateway | null>(null);
+export const GatewayProvider = Context.Provider;
+export function useGateway(): Gateway {
+  const g = useContext(Context);
+  if (!g) throw new Error('no gateway around this component');
+  return g;
+}

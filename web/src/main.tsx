@@ -1,0 +1,26 @@
+// Main: start here. Theme first, then clock, router, gateway, page. In: the document. Out: a living page. Never anything inline.
+import { render } from 'preact';
+import { App } from './app';
+import { Gateway, GatewayProvider } from './gateway';
+import { startRouter } from './router';
+import { startClock } from './state/clock';
+import { applyTheme } from './state/theme';
+import './styles/tokens.css';
+import './styles/base.css';
+import './styles/frame.css';
+import './styles/controls.css';
+import './styles/tile.css';
+import './styles/lists.css';
+import './styles/axis.css';
+
+applyTheme();
+startClock();
+startRouter();
+const gateway = new Gateway();
+gateway.start();
+render(
+  <GatewayProvider value={gateway}>
+    <App />
+  </GatewayProvider>,
+  document.getElementById('app') as HTMLElement,
+);

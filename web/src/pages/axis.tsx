@@ -1,0 +1,92 @@
+// Axis: one axis on its own page: readings, controls, scope, states, parameters, console, the twin's hand, its events.
+// In: its name. Out: a page. Follows the axis at 50 ms while it is open.
+import { useEffect } from 'preact/hooks';
+import { FullControls } from '../components/axis-controls';
+import { Notice, Readout, StatePills } from '../components/axis-tile';
+import { Console } from '../components/console';
+import { EventList } from '../components/events';
+import { Hand } from '../components/hand';
+import { Empty } from '../components/lines';
+import { memo } from '../components/memo';
+import { Parameters } from '../components/parameters';
+import { Mark } from '../components/pill';
+import { Scope } from '../components/scope';
+import { Section } from '../components/section';
+import { StateMachine } from '../components/state-machine';
+import { StopButton } from '../components/stop';
+import { useGateway } from '../gateway';
+import { linePath } from '../router';
+import { markOf, unitOf } from '../words/axis';
+
+const Controls = memo(FullControls, (a, b) => a.axis.name === b.axis.name && a.axis.unit === b.axis.unit);
+
+export function AxisPage({ name }: { name: string }) {
+  const gateway = useGateway();
+  const { store } = gateway;
+  void store.axisNames.value; // an axis that appears makes this page anew
+  const entry = store.axis(name);
+  useEffect(() => gateway.watchClosely(name), [gateway, name]);
+
+  if (!entry) {
+    return (
+      <main class="page">
+        <p class="crumbs">
+          <a href="/">Axes</a>
+        </p>
+        <h1 tabIndex={-1}>{name}</h1>
+        <Empty text={store.listed.value ? `There is no axis ${name}.` : 'Waiting for the gateway.'} />
+      </main>
+    );
+  }
+  const axis = entry.value.data;
+  const trust = store.trustOf(entry.value);
+  return (
+    <main class="page axis-page" data-axis={name} data-condition={trust} data-presence={axis.presence}>
+      <header class="axis-head">
+        <div>
+          <p class="crumbs">
+            <a href="/">Axes</a>
+          </p>
+          <h1 tabIndex={-1}>{name}</h1>
+          <Mark mark={markOf(axis)} />
+        </div>
+        <p class="where">
+          {axis.family} · line <a href={linePath(axis.line)}>{axis.line}</a> · drive {axis.drive}, channel {axis.channel} · axis {axis.number} · commanded by{' '}
+          {axis.authority.replace('_', '/')}
+        </p>
+        <StopButton axis={name} large urgent={axis.moving} />
+      </header>
+      <div class="axis-top">
+        <div class="axis-state card" data-condition={trust} data-presence={axis.presence}>
+          <Readout entry={entry} large />
+          <StatePills entry={entry} />
+          <Notice entry={entry} />
+          <Controls axis={axis} />
+        </div>
+        <Scope axis={name} unit={unitOf(axis)} />
+      </div>
+      <div class="axis-three">
+        <Section title="State machine">
+          <StateMachine axis={axis} trust={trust} />
+        </Section>
+        <Section title="Native console">
+          <Console drive={axis.drive} />
+        </Section>
+        <Section title="Hand of the twin">
+          <Hand drive={axis.drive} />
+        </Section>
+      </div>
+      <Parameters axis={name} />
+      <Section title="Events of this axis">
+        <div class="card scroll" tabIndex={0} role="region" aria-label="Events of this axis">
+          <AxisEvents name={name} />
+        </div>
+      </Section>
+    </main>
+  );
+}
+
+function AxisEvents({ name }: { name: string }) {
+  const { store } = useGateway();
+  return <EventList events={store.events.value.filter((e) => e.axis === name)} limit={100} />;
+}

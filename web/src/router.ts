@@ -1,0 +1,65 @@
+// Router: which page the address names. In: the address bar and links inside the page. Out: a signal.
+// The gateway answers index.html for every address that is not a file or an API path, so that an address can be sent to a colleague.
+import { signal } from '@preact/signals';
+
+export type Route =
+  | { page: 'overview' }
+  | { page: 'axis'; name: string }
+  | { page: 'lines' }
+  | { page: 'line'; name: string }
+  | { page: 'events' }
+  | { page: 'gateway' }
+  | { page: 'unknown'; path: string };
+
+export function routeOf(path: string): Route {
+  const parts = path.split('/').filter(Boolean).map(decode);
+  const [first, second, ...rest] = parts;
+  if (first === undefined) return { page: 'overview' };
+  if (rest.length === 0 && second !== undefined) {
+    if (first === 'axes') return { page: 'axis', name: second };
+    if (first === 'lines') return { page: 'line', name: second };
+  }
+  if (second === undefined && (first === 'lines' || first === 'events' || first === 'gateway')) return { page: first };
+  return { page: 'unknown', path };
+}
+
+// A last part with a point looks like a file to the gateway, which then has no page to answer; a slash at the end says it is none.
+const pathOf = (kind: string, name: string): string => `/${kind}/${encodeURIComponent(name)}${name.includes('.') ? '/' : ''}`;
+export const axisPath = (name: string): string => pathOf('axes', name);
+export const linePath = (name: string): string => pathOf('lines', name);
+
+export const route = signal<Route>({ page: 'overview' });
+
+export function go(path: string): void {
+  if (path !== location.pathname) history.pushState(null, '', path);
+  arrive(true);
+}
+
+function arrive(byLink: boolean): void {
+  route.value = routeOf(location.pathname);
+  if (!byLink) return;
+  scrollTo(0, 0);
+  // Keyboard and screen reader begin at the new page, as they would after a real load.
+  requestAnimationFrame(() => document.querySelector<HTMLElement>('main h1')?.focus({ preventScroll: true }));
+}
+
+export function startRouter(): void {
+  arrive(false);
+  addEventListener('popstate', () => arrive(false));
+  document.addEventListener('click', (event) => {
+    if (event.defaultPrevented || event.button !== 0 || event.metaKey || event.ctrlKey || event.shiftKey || event.altKey) return;
+    const link = (event.target as Element | null)?.closest?.('a');
+    if (!link || link.target || link.origin !== location.origin || link.hasAttribute('download') || link.pathname.startsWith('/api/')) return;
+    if (link.hash && link.pathname === location.pathname) return; // a place on this page
+    event.preventDefault();
+    go(link.pathname);
+  });
+}
+
+function decode(s: string): string {
+  try {
+    return decodeURIComponent(s);
+  } catch {
+    return s;
+  }
+}

@@ -1,0 +1,142 @@
+// Commander: what people tell an axis, and the answer in words. In: commands of tiles and keys. Out: requests, one note per axis.
+// A stop never waits: it goes past the queue of the page, drops what waits there, and is said again when a motion that was still on
+// its way has been answered, so that it cannot be overtaken. It may be said while the page is not live; nothing else may.
+// Never repeats a motion by itself.
+import { signal, type Signal } from '@preact/signals';
+import type { Client } from '../api/client';
+import { asProblem, Problem } from '../api/problem';
+import type { Command, CommandAnswer } from '../api/types';
+
+export type NoteTone = 'none' | 'busy' | 'good' | 'refused';
+export interface Note {
+  tone: NoteTone;
+  text: string;
+}
+const quiet: Note = { tone: 'none', text: '' };
+
+export interface StopReport {
+  text: string;
+  tone: NoteTone;
+}
+
+const motions = new Set(['move_absolute', 'move_relative', 'move_velocity', 'home', 'enable']);
+const isMotion = (c: Command) => motions.has(c.command);
+
+export class Commander {
+  /** The answer to "stop all". */
+  readonly stopReport: Signal<StopReport> = signal(quiet);
+  private readonly notes = new Map<string, Signal<Note>>();
+  private readonly onTheirWay = new Map<string, number>();
+  private readonly stopsWanted = new Set<string>();
+  private readonly serial = new Map<string, number>();
+
+  constructor(
+    private readonly client: Pick<Client, 'command' | 'dropWaitingCommands'>,
+    /** Why commands other than stops cannot be given now; empty: they can. */
+    private readonly blocked: () => string = () => '',
+  ) {}
+
+  note(axis: string): Signal<Note> {
+    let n = this.notes.get(axis);
+    if (!n) this.notes.set(axis, (n = signal(quiet)));
+    return n;
+  }
+
+  tell(axis: string, tone: NoteTone, text: string): void {
+    this.note(axis).value = { tone, text };
+  }
+
+  async send(axis: string, command: Command, words: string): Promise<CommandAnswer | Problem> {
+    const why = isStop(command) ? '' : this.blocked();
+    const mine = this.begin(axis);
+    if (why) {
+      this.tell(axis, 'refused', `${words}: not sent. ${why}`);
+      return new Problem('cancelled', why);
+    }
+    this.tell(axis, 'busy', `${words} …`);
+    if (isMotion(command)) this.onTheirWay.set(axis, (this.onTheirWay.get(axis) ?? 0) + 1);
+    let result: CommandAnswer | Problem;
+    try {
+      result = await this.client.command(axis, command, isStop(command));
+    } catch (error) {
+      result = asProblem(error);
+    }
+    if (isMotion(command)) this.arrived(axis);
+    if (this.serial.get(axis) === mine) this.tell(axis, ...noteOf(words, result));
+    return result;
+  }
+
+  /** Stops one axis: the quick stop; a drive that has none gets a halt. */
+  async stop(axis: string): Promise<Problem | null> {
+    this.client.dropWaitingCommands('a stop came first');
+    if ((this.onTheirWay.get(axis) ?? 0) > 0) this.stopsWanted.add(axis);
+    const mine = this.begin(axis);
+    this.tell(axis, 'busy', 'Stop …');
+    const problem = await this.stopOnce(axis);
+    if (this.serial.get(axis) === mine) {
+      if (!problem) this.tell(axis, 'good', 'Stop: accepted');
+      else this.tell(axis, 'refused', `Stop NOT confirmed: ${problem.words}`);
+    }
+    return problem;
+  }
+
+  async stopAll(axes: readonly string[]): Promise<void> {
+    if (axes.length === 0) {
+      this.stopReport.value = { tone: 'good', text: 'There is no axis to stop.' };
+      return;
+    }
+    this.stopReport.value = { tone: 'busy', text: `Stopping ${axes.length === 1 ? '1 axis' : `${axes.length} axes`} …` };
+    const answers = await Promise.all(axes.map(async (a) => ({ axis: a, problem: await this.stop(a) })));
+    const bad = answers.filter((a) => a.problem);
+    const good = axes.length - bad.length;
+    if (bad.length === 0) {
+      this.stopReport.value = { tone: 'good', text: `Stop accepted by ${axes.length === 1 ? 'the axis' : `all ${axes.length} axes`}.` };
+    } else {
+      const which = bad.slice(0, 4).map((b) => b.axis).join(', ') + (bad.length > 4 ? ` and ${bad.length - 4} more` : '');
+      const why = bad[0]?.problem?.words ?? '';
+      this.stopReport.value = { tone: 'refused', text: `Stop accepted by ${good} of ${axes.length}. NOT confirmed by ${which}: ${why}` };
+    }
+  }
+
+  private async stopOnce(axis: string): Promise<Problem | null> {
+    try {
+      await this.client.command(axis, { command: 'quick_stop' }, true);
+      return null;
+    } catch (error) {
+      const problem = asProblem(error);
+      if (problem.reason !== 'not_supported') return problem;
+    }
+    try {
+      await this.client.command(axis, { command: 'halt' }, true);
+      return null;
+    } catch (error) {
+      return asProblem(error);
+    }
+  }
+
+  /** A motion has been answered. If a stop was said meanwhile, it is said again now. */
+  private arrived(axis: string): void {
+    const left = (this.onTheirWay.get(axis) ?? 1) - 1;
+    this.onTheirWay.set(axis, left);
+    if (left === 0 && this.stopsWanted.delete(axis)) void this.stopOnce(axis);
+  }
+
+  private begin(axis: string): number {
+    const mine = (this.serial.get(axis) ?? 0) + 1;
+    this.serial.set(axis, mine);
+    return mine;
+  }
+}
+
+const isStop = (c: Command) => c.command === 'quick_stop' || c.command === 'halt' || c.command === 'disable';
+
+function noteOf(words: string, result: CommandAnswer | Problem): [NoteTone, string] {
+  if ('result' in result) {
+    const said = [result.reason, result.text].filter(Boolean).join('. ');
+    return ['good', `${words}: ${result.result}${said ? `. ${said}` : ''}`];
+  }
+  const failed = result.document.result === 'failed' || result.kind !== 'answered';
+  return ['refused', `${words}: ${failed ? 'failed' : 'refused'}. ${capital(result.words)}`];
+}
+
+export const capital = (s: string): string => s.charAt(0).toUpperCase() + s.slice(1);

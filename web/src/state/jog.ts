@@ -1,0 +1,62 @@
+// Jog: the axis moves while a button is held, and stops when it is let go, whatever happens first. In: press and release. Out: one
+// move_velocity, then halts. The halt is sent at once, and again when the move has been answered if that came later; if it fails it
+// is tried again for three seconds, and then said loudly. Never moves again without a new press.
+import { asProblem } from '../api/problem';
+import type { Client } from '../api/client';
+import type { Commander } from './commander';
+
+const retry_ms = 300;
+const mostRetries = 10;
+
+export class Jog {
+  private held = 0;
+
+  constructor(
+    private readonly client: Pick<Client, 'command'>,
+    private readonly commander: Pick<Commander, 'send' | 'tell'>,
+    private readonly axis: string,
+  ) {}
+
+  get active(): boolean {
+    return this.held !== 0;
+  }
+
+  press(velocity: number, words: string): void {
+    if (this.held) return;
+    const mine = (this.held = Math.random());
+    void this.commander.send(this.axis, { command: 'move_velocity', velocity }, words).then((answer) => {
+      const taken = 'result' in answer;
+      const certainlyNot = !taken && (answer.kind === 'cancelled' || (answer.kind === 'answered' && answer.status < 500));
+      const stillHeld = this.held === mine;
+      if (!taken && stillHeld) this.held = 0;
+      // Let go before the answer: the first halt may have overtaken the move. No answer: the move may have been taken.
+      if (!certainlyNot && !(taken && stillHeld)) void this.halt(false);
+    });
+  }
+
+  release(): void {
+    if (!this.held) return;
+    this.held = 0;
+    void this.halt(true);
+  }
+
+  private async halt(say: boolean): Promise<void> {
+    for (let i = 0; ; i += 1) {
+      try {
+        await this.client.command(this.axis, { command: 'halt' }, true);
+        if (say) this.commander.tell(this.axis, 'good', 'Jog: ended, halt accepted');
+        return;
+      } catch (error) {
+        const problem = asProblem(error);
+        // The drive said no: it is not moving by this jog, or it never will listen. Trying again changes nothing.
+        if (problem.kind === 'answered' && problem.status < 500) {
+          this.commander.tell(this.axis, 'refused', `Jog: halt refused. ${problem.words}`);
+          return;
+        }
+        this.commander.tell(this.axis, 'refused', `Jog: the halt is NOT confirmed: ${problem.words}`);
+        if (i >= mostRetries || this.held) return;
+        await new Promise((r) => setTimeout(r, retry_ms));
+      }
+    }
+  }
+}

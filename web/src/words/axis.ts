@@ -1,0 +1,105 @@
+// An axis in words: its condition, its state, its motion. In: the axis document and how much it is trusted. Out: words, an icon, a tone.
+// The tone only underlines the words: no state is told by colour alone.
+import type { Axis, AxisStateName } from '../api/types';
+import type { Trust } from '../state/store';
+import { decimalsOf, formatNumber } from './number';
+import type { IconName } from '../components/icon';
+
+export type Tone = 'neutral' | 'good' | 'active' | 'warning' | 'fault' | 'simulated' | 'muted';
+export interface Word {
+  text: string;
+  icon: IconName;
+  tone: Tone;
+  /** A whole sentence, for the title and for screen readers. */
+  long: string;
+}
+
+const states: Record<AxisStateName, Word> = {
+  not_ready_to_switch_on: { text: 'Not ready', icon: 'circle-dashed', tone: 'muted', long: 'Not ready to switch on' },
+  switch_on_disabled: { text: 'Disabled', icon: 'power-off', tone: 'neutral', long: 'Switch on disabled: the axis has no power' },
+  ready_to_switch_on: { text: 'Ready', icon: 'circle', tone: 'neutral', long: 'Ready to switch on' },
+  switched_on: { text: 'Switched on', icon: 'circle-half', tone: 'neutral', long: 'Switched on, operation not enabled' },
+  operation_enabled: { text: 'Enabled', icon: 'check', tone: 'good', long: 'Operation enabled: the axis follows commands' },
+  quick_stop_active: { text: 'Quick stop', icon: 'octagon', tone: 'warning', long: 'Quick stop active: enable the axis to go on' },
+  fault_reaction_active: { text: 'Fault reaction', icon: 'triangle', tone: 'fault', long: 'Fault reaction active: the drive is stopping' },
+  fault: { text: 'Fault', icon: 'triangle', tone: 'fault', long: 'Fault: reset it when its cause is gone' },
+};
+
+export const stateName = (s: AxisStateName): string => states[s].long.split(':')[0] as string;
+
+export function stateWord(axis: Axis, trust: Trust): Word {
+  if (trust === 'disconnected') {
+    const w = states[axis.state];
+    return { ...w, tone: 'muted', text: `Was ${w.text.toLowerCase()}`, long: `Not live. Last known state: ${w.long}` };
+  }
+  if (trust === 'offline') return { text: 'Offline', icon: 'unplugged', tone: 'muted', long: 'Offline: nobody answers for this axis' };
+  return states[axis.state];
+}
+
+export function motionWord(axis: Axis, trust: Trust): Word {
+  if (trust === 'disconnected') return { text: 'Not live', icon: 'unplugged', tone: 'muted', long: 'Whether it moves now is not known' };
+  if (trust === 'offline') return { text: 'Not known', icon: 'circle-dashed', tone: 'muted', long: 'Whether it moves is not known' };
+  if (trust === 'stale') return { text: 'Stale', icon: 'clock', tone: 'warning', long: 'The last data is too old to be trusted' };
+  if (axis.moving) {
+    const back = (axis.velocity ?? 0) < 0;
+    const homing = axis.mode === 'homing';
+    return { text: homing ? 'Homing' : 'Moving', icon: back ? 'arrow-left' : 'arrow-right', tone: 'active', long: homing ? 'Homing' : back ? 'Moving, negative' : 'Moving, positive' };
+  }
+  if (axis.target_reached) return { text: 'In position', icon: 'target', tone: 'good', long: 'Target reached' };
+  return { text: 'At rest', icon: 'pause', tone: 'neutral', long: 'At rest, not at a target' };
+}
+
+/** Which of the two answers: said in capitals on every tile. */
+export function markOf(axis: Axis): { text: string; kind: 'real' | 'simulated' | 'none'; long: string } {
+  if (axis.presence === 'twin') return { text: 'SIMULATED', kind: 'simulated', long: 'The embedded model of the drive answers; nothing real moves' };
+  if (axis.presence === 'device') return { text: 'REAL', kind: 'real', long: 'The real drive answers; something real moves' };
+  return { text: 'NO DRIVE', kind: 'none', long: 'Neither a drive nor its model answers' };
+}
+
+export const unitOf = (axis: Pick<Axis, 'unit'>): string => axis.unit || 'inc';
+
+export const positionText = (axis: Axis): string => formatNumber(axis.position, decimalsOf(axis.increments_per_unit));
+export const velocityText = (axis: Axis): string => formatNumber(axis.velocity, decimalsOf(axis.increments_per_unit));
+export const targetText = (axis: Axis): string => formatNumber(axis.target_position, decimalsOf(axis.increments_per_unit));
+
+/** The one thing about the axis that a person must know now. */
+export function noticeOf(axis: Axis, trust: Trust, driveText: string, lastKnown: string): Word {
+  if (trust === 'disconnected') {
+    return { text: `Not live: last known ${lastKnown} ago`, icon: 'unplugged', tone: 'warning', long: 'The connection to the gateway is lost' };
+  }
+  if (trust === 'offline') {
+    const why = driveText || 'nobody answers';
+    return { text: `Offline: ${why}`, icon: 'unplugged', tone: 'warning', long: `Offline: ${why}` };
+  }
+  if (axis.fault || axis.error.code !== 0) {
+    const text = `${axis.fault ? 'Fault' : 'Error'} ${axis.error.code}: ${axis.error.text || 'the drive says no more'}`;
+    return { text, icon: 'triangle', tone: axis.fault ? 'fault' : 'warning', long: text };
+  }
+  if (trust === 'stale') return { text: 'Stale: the drive has not said anything new', icon: 'clock', tone: 'warning', long: 'Stale data' };
+  if (axis.internal_limit) return { text: 'A limit is active', icon: 'triangle', tone: 'warning', long: 'Internal limit active' };
+  if (axis.warning) return { text: 'Warning', icon: 'triangle', tone: 'warning', long: 'The drive reports a warning' };
+  if (!axis.referenced) return { text: 'No error. Not referenced', icon: 'dot', tone: 'muted', long: 'No error. The position has no known zero: home the axis' };
+  return { text: 'No error. Referenced', icon: 'dot', tone: 'muted', long: 'No error. The position has a known zero' };
+}
+
+/** Bits of the status word, CiA 402 with axisgate's own 8, 14 and 15. */
+export const statusBits: readonly { bit: number; name: string; lowActive?: boolean }[] = [
+  { bit: 0, name: 'Ready to switch on' },
+  { bit: 1, name: 'Switched on' },
+  { bit: 2, name: 'Operation enabled' },
+  { bit: 3, name: 'Fault' },
+  { bit: 4, name: 'Voltage enabled' },
+  { bit: 5, name: 'Quick stop (0 is active)', lowActive: true },
+  { bit: 6, name: 'Switch on disabled' },
+  { bit: 7, name: 'Warning' },
+  { bit: 8, name: 'Simulated' },
+  { bit: 9, name: 'Remote' },
+  { bit: 10, name: 'Target reached' },
+  { bit: 11, name: 'Internal limit active' },
+  { bit: 12, name: 'Mode: set-point acknowledged / speed 0 / homed' },
+  { bit: 13, name: 'Mode: following error / homing error' },
+  { bit: 14, name: 'Stale' },
+  { bit: 15, name: 'Referenced' },
+];
+
+export const hex = (value: number, digits: number): string => `0x${(value >>> 0).toString(16).toUpperCase().padStart(digits, '0')}`;

@@ -1,0 +1,92 @@
+// A parameter in words: its range, its value, and what a person typed for it. In: the parameter as the gateway describes it.
+// Out: text, or a value of the right type, or why it is none, with the range. Never changes a value to make it fit.
+import type { AxisParameter, MaybeValue, Value } from '../api/types';
+import { formatExact, parseNumber } from './number';
+
+type Described = Pick<AxisParameter, 'type' | 'min' | 'max' | 'unit' | 'allowed'>;
+
+const limits: Record<string, readonly [number, number]> = {
+  u8: [0, 255],
+  i8: [-128, 127],
+  u16: [0, 65535],
+  i16: [-32768, 32767],
+  i24: [-8388608, 8388607],
+  u32: [0, 4294967295],
+  i32: [-2147483648, 2147483647],
+};
+
+/** The narrower of the manual's range and the type's; null where there is none. */
+export function rangeOf(p: Described): { min: number | null; max: number | null } {
+  const [low, high] = limits[p.type] ?? [null, null];
+  return {
+    min: p.min !== null && (low === null || p.min > low) ? p.min : low,
+    max: p.max !== null && (high === null || p.max < high) ? p.max : high,
+  };
+}
+
+/** "pulse/s^2" as people write it. */
+export const unitWords = (unit: string | null): string => (unit ?? '').replace(/\^2\b/g, '²').replace(/\^3\b/g, '³').replace(/^deg C$/, '°C');
+
+export function rangeText(p: Described): string {
+  if (p.allowed && p.allowed.length > 0) {
+    const values = p.allowed.map((a) => formatExact(a.value));
+    return values.length > 6 ? `${values.slice(0, 6).join(', ')}, …` : values.join(', ');
+  }
+  if (p.type === 'bool') return '0, 1';
+  if (p.type === 'text') return 'text';
+  if (p.type === 'bytes') return 'hex pairs';
+  const { min, max } = rangeOf(p);
+  if (min === null && max === null) return p.type.startsWith('f') ? 'number' : 'whole number';
+  if (min === null) return `up to ${formatExact(max as number)}`;
+  if (max === null) return `from ${formatExact(min)}`;
+  return `${formatExact(min)} … ${formatExact(max)}`;
+}
+
+export function valueText(value: MaybeValue, p: Pick<Described, 'allowed'>): string {
+  if (value === null) return '–';
+  if (typeof value === 'boolean') return value ? 'on' : 'off';
+  if (typeof value === 'string') return value === '' ? '(empty)' : value;
+  const meaning = p.allowed?.find((a) => a.value === value)?.meaning;
+  return meaning ? `${formatExact(value)} ${meaning}` : formatExact(value);
+}
+
+/** What a field shows when it is opened for writing. */
+export function editText(value: MaybeValue): string {
+  if (value === null) return '';
+  if (typeof value === 'boolean') return value ? '1' : '0';
+  return String(value);
+}
+
+export type Read = { good: true; value: Value } | { good: false; why: string };
+
+export function readValue(text: string, p: Described): Read {
+  const unit = p.unit ? ` ${unitWords(p.unit)}` : '';
+  if (p.type === 'text') return { good: true, value: text };
+  if (p.type === 'bytes') {
+    const bytes = text.replace(/\s/g, '');
+    return /^([0-9a-f]{2})*$/i.test(bytes) ? { good: true, value: bytes.toUpperCase() } : { good: false, why: 'Write bytes as pairs of hex digits, such as 0A FF.' };
+  }
+  if (p.type === 'bool') {
+    const t = text.trim().toLowerCase();
+    if (['1', 'on', 'true', 'yes'].includes(t)) return { good: true, value: true };
+    if (['0', 'off', 'false', 'no'].includes(t)) return { good: true, value: false };
+    return { good: false, why: 'Write 1 (on) or 0 (off).' };
+  }
+  const parsed = parseNumber(text);
+  if (!parsed.good) return parsed;
+  const { value } = parsed;
+  const shown = formatExact(value);
+  if (!p.type.startsWith('f') && !Number.isInteger(value)) return { good: false, why: `${shown} is not a whole number. Range: ${rangeText(p)}${unit}.` };
+  if (p.allowed && p.allowed.length > 0 && !p.allowed.some((a) => a.value === value)) return { good: false, why: `${shown} is not allowed. Allowed: ${rangeText(p)}.` };
+  const { min, max } = rangeOf(p);
+  if ((min !== null && value < min) || (max !== null && value > max)) return { good: false, why: `${shown} is outside the range ${rangeText(p)}${unit}.` };
+  return { good: true, value };
+}
+
+/** The same value? Numbers of f32 parameters come back rounded. */
+export function sameValue(a: MaybeValue, b: MaybeValue): boolean {
+  if (typeof a === 'number' && typeof b === 'number') return a === b || Math.abs(a - b) <= 1e-6 * Math.max(Math.abs(a), Math.abs(b));
+  if (typeof a === 'boolean' && typeof b === 'number') return Number(a) === b;
+  if (typeof a === 'number' && typeof b === 'boolean') return a === Number(b);
+  return a === b;
+}

@@ -1,0 +1,59 @@
+// The words of an axis: every state has its own word and icon; nothing old is said as if it were live.
+import { describe, expect, it } from 'vitest';
+import type { AxisStateName } from '../src/api/types';
+import { hex, markOf, motionWord, noticeOf, positionText, stateWord, statusBits } from '../src/words/axis';
+import { axis } from './fixtures';
+
+const states: AxisStateName[] = ['not_ready_to_switch_on', 'switch_on_disabled', 'ready_to_switch_on', 'switched_on', 'operation_enabled', 'quick_stop_active', 'fault_reaction_active', 'fault'];
+
+describe('state', () => {
+  it('has a different word for every state, and an icon beside the colour', () => {
+    const words = states.map((state) => stateWord(axis({ state }), 'live'));
+    expect(new Set(words.map((w) => w.text)).size).toBe(states.length);
+    for (const w of words) expect(w.icon).toBeTruthy();
+  });
+  it.each(states)('%s is told in the past while the page is not connected', (state) => {
+    const w = stateWord(axis({ state }), 'disconnected');
+    expect(w.text).toMatch(/^Was /);
+    expect(w.tone).toBe('muted');
+  });
+  it('of an offline axis is Offline, whatever the last state was', () => expect(stateWord(axis(), 'offline').text).toBe('Offline'));
+});
+
+describe('motion', () => {
+  it.each([
+    [{ moving: true, velocity: 5 }, 'live', 'Moving', 'arrow-right'],
+    [{ moving: true, velocity: -5 }, 'live', 'Moving', 'arrow-left'],
+    [{ moving: true, velocity: 5, mode: 'homing' }, 'live', 'Homing', 'arrow-right'],
+    [{ target_reached: true }, 'live', 'In position', 'target'],
+    [{}, 'live', 'At rest', 'pause'],
+    [{ moving: true }, 'stale', 'Stale', 'clock'],
+    [{ moving: true }, 'offline', 'Not known', 'circle-dashed'],
+    [{ moving: true }, 'disconnected', 'Not live', 'unplugged'],
+  ] as const)('%o, %s: %s', (change, trust, text, icon) => expect(motionWord(axis(change), trust)).toMatchObject({ text, icon }));
+});
+
+describe('mark', () => {
+  it.each([['twin', 'SIMULATED'], ['device', 'REAL'], ['offline', 'NO DRIVE']] as const)('%s is %s', (presence, text) => expect(markOf(axis({ presence })).text).toBe(text));
+});
+
+describe('notice', () => {
+  const fault = axis({ fault: true, error: { code: 8, text: 'the motor is stalled' } });
+  it('tells a fault with code and text', () => expect(noticeOf(fault, 'live', '', '').text).toBe('Fault 8: the motor is stalled'));
+  it('tells a fault without text too', () => expect(noticeOf(axis({ fault: true, error: { code: 3, text: '' } }), 'live', '', '').text).toContain('Fault 3'));
+  it('tells the loss of the connection before anything else', () => expect(noticeOf(fault, 'disconnected', '', '12 s').text).toBe('Not live: last known 12 s ago'));
+  it('tells why an axis is offline', () => expect(noticeOf(axis(), 'offline', 'no answer from address 5', '').text).toBe('Offline: no answer from address 5'));
+  it('tells of stale data', () => expect(noticeOf(axis(), 'stale', '', '').text).toMatch(/^Stale/));
+  it('says when nothing is wrong', () => expect(noticeOf(axis({ referenced: true }), 'live', '', '').text).toBe('No error. Referenced'));
+});
+
+it('shows the position with the places that the resolution is worth', () => {
+  expect(positionText(axis({ position: 100 }))).toBe('100.000');
+  expect(positionText(axis({ position: 100, increments_per_unit: 1 }))).toBe('100');
+  expect(positionText(axis({ position: null }))).toBe('–');
+});
+it('names all 16 bits of the status word', () => expect(statusBits.map((b) => b.bit)).toEqual([...Array(16).keys()]));
+it('writes hex with fixed digits, unsigned', () => {
+  expect(hex(0x237, 4)).toBe('0x0237');
+  expect(hex(-1, 8)).toBe('0xFFFFFFFF');
+});

@@ -1,0 +1,177 @@
+// @vitest-environment happy-dom
+// The components over a store that is fed by hand: what a person sees of an axis, and what the page does with what is typed.
+import { render } from 'preact';
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+import type { Client } from '../src/api/client';
+import { Problem } from '../src/api/problem';
+import type { StreamState } from '../src/api/stream';
+import type { Drive } from '../src/api/types';
+import { App } from '../src/app';
+import { Gateway, GatewayProvider } from '../src/gateway';
+import { route } from '../src/router';
+import { Store } from '../src/state/store';
+import { axis, event, world } from './fixtures';
+
+const live = (epoch = 1): StreamState => ({ phase: 'live', epoch, lastLiveAt: 1, retryAt: 0, attempts: 0, why: '' });
+let root: HTMLElement;
+let gateway: Gateway;
+let client: Record<string, ReturnType<typeof vi.fn>>;
+const tell = (change: object = {}, at_ms = 1000) => gateway.store.take({ topic: 'axes/feeder', at: at_ms * 1e6, data: axis({ name: 'feeder', number: 1, ...change }) });
+const tick = () => new Promise((r) => setTimeout(r, 40));
+const text = (selector: string) => root.querySelector(selector)?.textContent?.replace(/\s+/g, ' ').trim() ?? '';
+const button = (name: string) => [...root.querySelectorAll('button')].find((b) => (b.getAttribute('aria-label') ?? b.textContent ?? '').trim() === name) as HTMLButtonElement;
+const field = (name: string) => root.querySelector<HTMLInputElement>(`input[aria-label="${name}"]`) as HTMLInputElement;
+const type = (input: HTMLInputElement, value: string) => {
+  input.value = value;
+  input.dispatchEvent(new Event('input', { bubbles: true }));
+};
+
+beforeEach(async () => {
+  sessionStorage.clear();
+  route.value = { page: 'overview' };
+  root = document.createElement('div');
+  document.body.append(root);
+  client = { command: vi.fn(() => new Promise(() => undefined)), dropWaitingCommands: vi.fn(), parameters: vi.fn(async () => []), hand: vi.fn(async () => []) };
+  gateway = new Gateway({ client: client as unknown as Client, store: new Store(), url: 'ws://nowhere/' });
+  gateway.store.setConnection(live());
+  gateway.store.setLists({ axes: [axis({ name: 'feeder', number: 1 })], drives: [world().driveOf('feeder').document() as Drive], lines: [] }, 1);
+  tell({ position: 100 });
+  render(<GatewayProvider value={gateway}><App /></GatewayProvider>, root);
+  await tick();
+});
+afterEach(() => {
+  render(null, root);
+  root.remove();
+});
+
+describe('tile', () => {
+  it('shows name, mark, position with unit, state and motion in words', () => {
+    expect(text('[data-axis=feeder] h3')).toBe('feeder');
+    expect(text('[data-axis=feeder] [data-field=mark]')).toBe('SIMULATED');
+    expect(text('[data-axis=feeder] [data-field=position]')).toBe('Position: 100.000mm');
+    expect(text('[data-axis=feeder] [data-field=state]')).toContain('Enabled');
+    expect(text('[data-axis=feeder] [data-field=motion]')).toContain('At rest');
+  });
+  it('follows the stream', async () => {
+    tell({ position: 123.4567, velocity: 50, moving: true }, 1100);
+    await tick();
+    expect(text('[data-field=position]')).toContain('123.457');
+    expect(text('[data-field=motion]')).toContain('Moving');
+    expect(text('[data-field=strip]')).toContain('1 moving');
+  });
+  it('never shows an old value as live', async () => {
+    gateway.store.setConnection({ ...live(), phase: 'waiting', retryAt: 1e9, why: 'the gateway has stopped' });
+    await tick();
+    expect(text('[data-field=position]')).toContain('Last known position, not live');
+    expect(root.querySelector('[data-field=position]')?.getAttribute('data-live')).toBe('false');
+    expect(text('[data-field=state]')).toContain('Was enabled');
+    expect(text('[data-field=notice]')).toMatch(/^Not live: last known .* ago$/);
+    expect(text('[data-field=strip]')).toContain('Connection lost.');
+    expect(text('[data-field=connection]')).toBe('Not connected');
+    gateway.store.setConnection(live(2));
+    await tick();
+    expect(text('[data-field=position]')).toContain('Last known'); // connected again, but nothing was heard of this axis yet
+    tell({ position: 5 }, 2000);
+    await tick();
+    expect(text('[data-field=position]')).toBe('Position: 5.000mm');
+  });
+  it('shows a fault with code and text', async () => {
+    tell({ fault: true, state: 'fault', error: { code: 8, text: 'the motor is stalled' } }, 1100);
+    await tick();
+    expect(text('[data-axis=feeder] [data-field=notice]')).toBe('Fault 8: the motor is stalled');
+    expect(root.querySelector('[data-axis=feeder]')?.getAttribute('data-condition')).toBe('fault');
+  });
+});
+
+describe('controls', () => {
+  it('send what is typed', () => {
+    type(field('Target of feeder'), '12.5');
+    type(field('Speed of feeder'), '30');
+    button('Move feeder to target').click();
+    expect(client.command).toHaveBeenCalledWith('feeder', { command: 'move_absolute', position: 12.5, velocity: 30 }, false);
+  });
+  it('leave the speed to the drive when the field is empty', () => {
+    type(field('Distance of feeder'), '-2');
+    type(field('Speed of feeder'), '');
+    button('Move feeder by distance').click();
+    expect(client.command).toHaveBeenCalledWith('feeder', { command: 'move_relative', position: -2 }, false);
+  });
+  it('keep what was typed when it is refused, and show the reason', async () => {
+    client.command!.mockRejectedValueOnce(new Problem('answered', 'the axis is disabled: enable it first', 409, { reason: 'wrong_state', result: 'refused' }));
+    type(field('Target of feeder'), '77');
+    button('Move feeder to target').click();
+    await tick();
+    expect(text('#result-feeder')).toBe('Move to 77 mm: refused. The axis is disabled: enable it first');
+    expect(field('Target of feeder').value).toBe('77');
+  });
+  it('send nothing for what is no number, and mark the field', async () => {
+    type(field('Target of feeder'), '1,5');
+    button('Move feeder to target').click();
+    await tick();
+    expect(client.command).not.toHaveBeenCalled();
+    expect(field('Target of feeder').getAttribute('aria-invalid')).toBe('true');
+    expect(text('#result-feeder')).toContain('decimal sign');
+  });
+  it('keep what is typed through a storm of readings', async () => {
+    const f = field('Target of feeder');
+    type(f, '4');
+    for (let i = 0; i < 20; i += 1) tell({ position: i }, 1100 + i);
+    await tick();
+    expect(field('Target of feeder')).toBe(f);
+    expect(f.value).toBe('4');
+  });
+  it('stop by button and by Escape, from inside a field too', () => {
+    button('Stop feeder').click();
+    expect(client.command).toHaveBeenLastCalledWith('feeder', { command: 'quick_stop' }, true);
+    field('Target of feeder').dispatchEvent(new KeyboardEvent('keydown', { key: 'Escape', bubbles: true }));
+    expect(client.command).toHaveBeenCalledTimes(2);
+    field('Target of feeder').dispatchEvent(new KeyboardEvent('keydown', { key: 'Escape', bubbles: true, repeat: true }));
+    expect(client.command).toHaveBeenCalledTimes(2); // a held key says it once
+  });
+  it('jog only with a speed above zero', () => {
+    type(field('Speed of feeder'), '0');
+    button('Jog feeder forward while held').dispatchEvent(new PointerEvent('pointerdown', { button: 0, bubbles: true }));
+    expect(client.command).not.toHaveBeenCalled();
+    expect(gateway.commander.note('feeder').value.text).toContain('greater than 0');
+  });
+  it('jog while held, and halt when the pointer lets go or the window loses the keyboard', async () => {
+    client.command!.mockImplementation(async () => ({ result: 'accepted', reason: '', text: '' }));
+    type(field('Speed of feeder'), '3');
+    const jog = button('Jog feeder backward while held');
+    jog.dispatchEvent(new PointerEvent('pointerdown', { button: 0, bubbles: true }));
+    expect(client.command).toHaveBeenLastCalledWith('feeder', { command: 'move_velocity', velocity: -3 }, false);
+    await tick();
+    jog.dispatchEvent(new PointerEvent('pointerup', { bubbles: true }));
+    expect(client.command).toHaveBeenLastCalledWith('feeder', { command: 'halt' }, true);
+    await tick();
+    jog.dispatchEvent(new KeyboardEvent('keydown', { key: ' ', bubbles: true }));
+    await tick();
+    globalThis.dispatchEvent(new Event('blur'));
+    expect(client.command).toHaveBeenCalledTimes(4);
+    expect(client.command).toHaveBeenLastCalledWith('feeder', { command: 'halt' }, true);
+  });
+});
+
+describe('alarms and pages', () => {
+  it('speaks alarms, not infos', async () => {
+    gateway.store.take({ topic: 'events', at: 1, data: event(1, { severity: 'info', text: 'nothing' }) });
+    await tick();
+    expect(text('[data-field=spoken]')).toBe('');
+    gateway.store.take({ topic: 'events', at: 1, data: event(2, { severity: 'alarm', text: 'the motor is stalled' }) });
+    await tick();
+    expect(text('[data-field=spoken]')).toBe('Alarm. feeder: the motor is stalled');
+  });
+  it('says that a page or an axis is not there', async () => {
+    route.value = { page: 'axis', name: 'nobody' };
+    await tick();
+    expect(text('main')).toContain('There is no axis nobody.');
+    route.value = { page: 'unknown', path: '/x' };
+    await tick();
+    expect(text('main')).toContain('names no page');
+  });
+  it.each([{ page: 'axis', name: 'feeder' }, { page: 'lines' }, { page: 'line', name: 'can0' }, { page: 'events' }, { page: 'gateway' }] as const)('draws %o with one heading', async (r) => {
+    route.value = r;
+    await tick();
+    expect(root.querySelectorAll('main h1')).toHaveLength(1);
+  });
+});

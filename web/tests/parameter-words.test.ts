@@ -1,0 +1,62 @@
+// A parameter's range and what is typed for it: out of range tells the range; nothing is bent to fit.
+import { describe, expect, it } from 'vitest';
+import { rangeText, readValue, sameValue, unitWords, valueText } from '../src/words/parameter';
+
+const p = (change: object) => ({ type: 'u32', min: null, max: null, unit: null, allowed: null, ...change }) as Parameters<typeof readValue>[1];
+
+describe('rangeText', () => {
+  it.each([
+    [{ min: 1, max: 65000000 }, '1 … 65\u202f000\u202f000'],
+    [{ type: 'u8' }, '0 … 255'],
+    [{ type: 'i16' }, '\u221232\u202f768 … 32\u202f767'],
+    [{ type: 'i16', max: 100 }, '\u221232\u202f768 … 100'],
+    [{ type: 'u8', min: -5, max: 1000 }, '0 … 255'],
+    [{ type: 'f32', min: 0 }, 'from 0'],
+    [{ type: 'f64', max: 2.5 }, 'up to 2.5'],
+    [{ type: 'f32' }, 'number'],
+    [{ type: 'i64' }, 'whole number'],
+    [{ type: 'bool' }, '0, 1'],
+    [{ type: 'text' }, 'text'],
+    [{ allowed: [{ value: 0, meaning: 'nothing' }, { value: 2, meaning: 'origin' }] }, '0, 2'],
+  ])('%o', (change, text) => expect(rangeText(p(change))).toBe(text));
+});
+
+describe('readValue', () => {
+  it.each([
+    [{ min: 1, max: 100 }, '50', 50], [{ type: 'i16' }, '-2', -2], [{ type: 'f32' }, '1.25', 1.25], [{ type: 'bool' }, 'on', true], [{ type: 'bool' }, '0', false],
+    [{ type: 'text' }, ' as it is ', ' as it is '], [{ type: 'bytes' }, '0a ff', '0AFF'], [{ allowed: [{ value: 2, meaning: '' }] }, '2', 2], [{ type: 'u32' }, '0x10', 16],
+  ])('%o takes %j', (change, text, value) => expect(readValue(text, p(change))).toEqual({ good: true, value }));
+  it.each([
+    [{ min: 1, max: 65000000, unit: 'pulse/s^2' }, '0', /0 is outside the range 1 … 65\u202f000\u202f000 pulse\/s²/],
+    [{ min: 1, max: 100 }, '101', /outside the range 1 … 100/],
+    [{ type: 'u8' }, '256', /0 … 255/],
+    [{ type: 'u8' }, '1.5', /not a whole number.*0 … 255/],
+    [{ allowed: [{ value: 0, meaning: '' }, { value: 2, meaning: '' }] }, '1', /Allowed: 0, 2/],
+    [{ type: 'bool' }, '2', /1 \(on\) or 0 \(off\)/],
+    [{ type: 'bytes' }, 'ABC', /pairs/],
+    [{}, 'abc', /not a number/],
+    [{}, '', /Type a number/],
+  ])('%o refuses %j with the range', (change, text, why) => {
+    const r = readValue(text, p(change));
+    expect(r.good).toBe(false);
+    if (!r.good) expect(r.why).toMatch(why);
+  });
+});
+
+it('shows values with their meaning', () => {
+  expect(valueText(2, { allowed: [{ value: 2, meaning: 'origin' }] })).toBe('2 origin');
+  expect(valueText(true, { allowed: null })).toBe('on');
+  expect(valueText('', { allowed: null })).toBe('(empty)');
+  expect(valueText(null, { allowed: null })).toBe('–');
+});
+it('compares values as the drive means them', () => {
+  expect(sameValue(0.1, Math.fround(0.1))).toBe(true);
+  expect(sameValue(1, 2)).toBe(false);
+  expect(sameValue(true, 1)).toBe(true);
+  expect(sameValue(null, 0)).toBe(false);
+});
+it('writes units as people do', () => {
+  expect(unitWords('pulse/s^2')).toBe('pulse/s²');
+  expect(unitWords('deg C')).toBe('°C');
+  expect(unitWords(null)).toBe('');
+});

@@ -1,0 +1,26 @@
+// The addresses of the pages, there and back.
+import { expect, it } from 'vitest';
+import { axisPath, linePath, routeOf } from '../src/router';
+
+it.each([
+  ['/', { page: 'overview' }],
+  ['', { page: 'overview' }],
+  ['/lines', { page: 'lines' }],
+  ['/events/', { page: 'events' }],
+  ['/gateway', { page: 'gateway' }],
+  ['/axes/feeder', { page: 'axis', name: 'feeder' }],
+  ['/lines/can0', { page: 'line', name: 'can0' }],
+  ['/axes', { page: 'unknown', path: '/axes' }],
+  ['/axes/a/b', { page: 'unknown', path: '/axes/a/b' }],
+  ['/nonsense', { page: 'unknown', path: '/nonsense' }],
+  ['/axes/%E0%A4%A', { page: 'axis', name: '%E0%A4%A' }],
+])('%s', (path, route) => expect(routeOf(path)).toEqual(route));
+
+it.each(['feeder', 'gantry.x', 'a_b-c', 'Z9'])('finds the axis %s by its own address', (name) => {
+  expect(routeOf(axisPath(name))).toEqual({ page: 'axis', name });
+  expect(routeOf(linePath(name))).toEqual({ page: 'line', name });
+});
+it('ends the address of a name with a point in a slash, so that it is not taken for a file', () => {
+  expect(axisPath('gantry.x')).toBe('/axes/gantry.x/');
+  expect(axisPath('gantry')).toBe('/axes/gantry');
+});

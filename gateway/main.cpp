@@ -119,7 +119,7 @@ int main(int argc, char** argv) {
         return exit_good;
     }
     if (*help) {
-        fmt::print("{}", app.help("", CLI::AppFormatMode::All));
+        fmt::print("{}", app.get_formatter()->make_help(&app, "axisgate", CLI::AppFormatMode::All));
         return exit_good;
     }
     if (*families) return command_families(families_format);

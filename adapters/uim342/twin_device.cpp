@@ -107,6 +107,9 @@ void Device::on_frame(const Frame& frame, Instant now, Out& out) {
     if (kind_ == LineKind::can) {
         if (!online_ || frame.kind != Frame::Kind::can || !is_for_me(consumer_of(frame.id))) return;
         if (const auto t = read_can(frame)) {
+            // Another node's error report is no instruction: answering it would make two nodes report to each other for ever, once a
+            // spoilt identifier has named a node as the producer.
+            if (t->cw == 0x0F && t->dl >= 4 && t->producer != host_id) return;
             instruct(*t, now, out);
             settle(now, out);
         }

@@ -47,7 +47,7 @@ void Profile::add(double duration, double velocity, double acceleration) noexcep
 void Profile::brake(double to_speed, double rate, double cut_in) noexcept {
     const double direction = last_.velocity < 0 ? -1 : 1;
     const double from = std::abs(last_.velocity);
-    const double floor = std::max(to_speed, std::min(cut_in, from));
+    const double floor = std::max(to_speed, cut_in);
     if (from > floor && rate < no_ramp) add((from - floor) / rate, direction * from, -direction * rate);
     last_.velocity = direction * to_speed;
 }
@@ -79,7 +79,7 @@ void Profile::go_on(int direction, double speed, double distance, const Ramps& r
     if (ramp_distance(from, ramps.cut_in, d) > distance) d = (from * from - ramps.cut_in * ramps.cut_in) / (2 * distance);
 
     if (from > speed) {
-        const double floor = std::max(speed, std::min(ramps.cut_in, from));
+        const double floor = std::max(speed, ramps.cut_in);
         distance -= ramp_distance(from, floor, d);
         if (from > floor && d < no_ramp) add((from - floor) / d, direction * from, -direction * d);
         from = speed;

@@ -146,7 +146,9 @@ void Engine::refuse(const Command& c, Reason reason, std::string text) {
 
 bool Engine::take_authority(Axis& a, const Origin& origin, Instant now) {
     if (origin.door == Door::internal || origin.door == Door::none) return true;
-    const std::string who = origin.text();
+    std::string who = origin.text();
+    // A client that opens a connection per request comes from another port each time and is still the same client.
+    if (origin.door == Door::http) who = who.substr(0, who.rfind(':'));
     if (a.authority != origin.door || a.authority_who != who) {
         Event e;
         e.kind = "authority";
@@ -327,6 +329,7 @@ void Engine::order_result(const Result& given, Instant now) {
         if (const auto c = clients_.find(record.client); c != clients_.end()) order.origin = c->second->origin;
         r.value = order.value;
         record.kept = r;
+        save_twin_memory(*a->drive);  // a twin's EEPROM goes to disk along with the value that it took
         host_.on_store(std::move(order));
         return;
     }

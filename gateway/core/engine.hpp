@@ -117,6 +117,7 @@ private:
     void begin_handback(Drive& drive, Instant now);
     bool handback_result(const Result& result, Instant now);
     void housekeeping(Instant now);
+    void save_twin_memory(Drive& drive);
     void drop_axis(Axis& axis, std::string_view why, Instant now);
 
     Axis* axis(AxisId id) const;

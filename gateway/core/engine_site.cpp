@@ -513,15 +513,18 @@ void Engine::housekeeping(Instant now) {
                 }
             }
         }
-        if (d.serving == Presence::twin && d.line->twins) {
-            const Twin* t = d.line->twins->bus->twin(d.id);
-            if (t && t->non_volatile_revision() != d.memory_revision) {
-                d.memory_revision = t->non_volatile_revision();
-                d.memory = t->non_volatile();
-                host_.on_twin_memory(d.spec.name, d.memory);
-            }
-        }
+        save_twin_memory(d);
     }
+}
+
+/// Hands a twin's non-volatile memory to the store if it has changed since.
+void Engine::save_twin_memory(Drive& d) {
+    if (d.serving != Presence::twin || !d.line->twins) return;
+    const Twin* t = d.line->twins->bus->twin(d.id);
+    if (!t || t->non_volatile_revision() == d.memory_revision) return;
+    d.memory_revision = t->non_volatile_revision();
+    d.memory = t->non_volatile();
+    host_.on_twin_memory(d.spec.name, d.memory);
 }
 
 // --- what others ask ------------------------------------------------------------------------------------------------

@@ -352,6 +352,7 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
         if (const auto* a = f.get("address")) {
             if (a->is_string()) {
                 d.address = std::string(a->get_string());
+                if (d.address.empty()) f.fault("address", "the address is empty", "write the drive's address, or leave it out for the factory's");
             } else if (a->is_int64() || a->is_uint64()) {
                 d.address = json::serialize(*a);
             } else {

@@ -7,8 +7,8 @@
 #include <algorithm>
 
 #include "gateway/core/wire_time.hpp"
-#include "gateway/lines/serial_port.hpp"
 #include "gateway/lines/error_text.hpp"
+#include "gateway/lines/serial_port.hpp"
 
 namespace axisgate {
 namespace {

@@ -10,6 +10,7 @@
 #include <sys/file.h>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -60,6 +61,13 @@ bool near_enough(std::uint32_t asked, std::uint32_t granted) noexcept {
     return off * 100 <= std::uint64_t{asked} * 3;
 }
 
+/// A pseudo-terminal has no wire: it takes every format and says 8N1.
+bool is_pseudo_terminal(int fd) noexcept {
+    struct stat what {};
+    constexpr unsigned first_major = 136, last_major = 143;  // of /dev/pts
+    return ::fstat(fd, &what) == 0 && major(what.st_rdev) >= first_major && major(what.st_rdev) <= last_major;
+}
+
 /// Empty, or what is wrong.
 std::string set_up(int fd, const SerialSettings& s, std::string& granted) {
     termios2 t{};
@@ -71,7 +79,8 @@ std::string set_up(int fd, const SerialSettings& s, std::string& granted) {
     if (!near_enough(s.baud, now.c_ospeed))
         return fmt::format("cannot do {} bit/s (it would do {}): use another bit rate", s.baud, now.c_ospeed);
     constexpr unsigned format_bits = CSIZE | PARENB | PARODD | CSTOPB;
-    if ((now.c_cflag & format_bits) != (t.c_cflag & format_bits)) return fmt::format("cannot do the format {}: use 8N1", to_text(s.format));
+    if ((now.c_cflag & format_bits) != (t.c_cflag & format_bits) && !is_pseudo_terminal(fd))
+        return fmt::format("cannot do the format {}: use 8N1", to_text(s.format));
     granted = fmt::format("{} bit/s {}", now.c_ospeed, to_text(s.format));
     if (s.rtscts) granted += ", RTS/CTS";
     return {};

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-#include "gateway/lines/tcp_socket.hpp"
 #include "gateway/lines/error_text.hpp"
+#include "gateway/lines/tcp_socket.hpp"
 
 namespace axisgate {
 namespace {

@@ -99,6 +99,10 @@ void Hot::end_turn() {
         }
         if (submitted_.empty() && results_.empty()) break;
     }
+    if (!settled_ && engine_.settled()) {  // said at once: somebody waits for it to say `ready`
+        settled_ = true;
+        next_reports_ = t;
+    }
     if (t >= next_reports_) publish_reports(t);
     if (out_.results) out_.results->announce();
     if (out_.samples) out_.samples->announce();

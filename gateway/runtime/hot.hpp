@@ -108,6 +108,7 @@ private:
     std::uint64_t lost_told_ = 0;
     std::atomic<bool> stopping_{false};
     bool finished_ = false;
+    bool settled_ = false;
     std::thread thread_;
 };
 

@@ -131,6 +131,8 @@ sockets.on('connection', (socket) => {
   const topics = new Map();
   /** @type {Map<string, {text: string, at: number}>} */
   const sent = new Map();
+  /** @type {Map<string, number>} */
+  const framesSent = new Map();
   /** @param {string} topic @param {unknown} data */
   const tell = (topic, data) => {
     if (socket.readyState === 1) socket.send(JSON.stringify({ topic, at: Date.now() * 1e6, data }));
@@ -146,7 +148,13 @@ sockets.on('connection', (socket) => {
   };
   /** @param {string} topic @param {boolean} always */
   const look = (topic, always) => {
-    const [kind, name] = topic.split('/');
+    const [kind, name, rest] = topic.split('/');
+    if (rest === 'frames') {
+      const frames = (world.frames.get(name ?? '') ?? []).filter((f) => always || f.sequence > (framesSent.get(topic) ?? 0));
+      framesSent.set(topic, frames.at(-1)?.sequence ?? framesSent.get(topic) ?? 0);
+      if (frames.length > 0 || always) tell(topic, { missed: 0, frames });
+      return;
+    }
     if (kind === 'axes') for (const n of name === '*' ? world.axes.keys() : [name ?? '']) state(`axes/${n}`, world.axis(n), always);
     if (kind === 'drives') for (const n of name === '*' ? world.drives.keys() : [name ?? '']) state(`drives/${n}`, world.driveOf(n).document(), always);
     if (kind === 'lines') for (const l of world.site.lines) if (name === '*' || name === l.name) state(`lines/${l.name}`, world.line(l.name), always);

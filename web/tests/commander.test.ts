@@ -48,6 +48,16 @@ describe('answers in words', () => {
     await settle();
     expect(commander.note('a').value.text).toBe('Home: failed. The gateway did not answer within 15 s');
   });
+  it('takes good news away after a while, and leaves refusals', async () => {
+    const { said, commander } = make();
+    void commander.send('a', { command: 'enable' }, 'Enable');
+    void commander.send('b', { command: 'enable' }, 'Enable');
+    said[0]!.good();
+    said[1]!.bad(refusal('no'));
+    await vi.advanceTimersByTimeAsync(20_001);
+    expect(commander.note('a').value.text).toBe('');
+    expect(commander.note('b').value.text).toBe('Enable: refused. No');
+  });
   it('lets a late answer not cover a newer one', async () => {
     const { said, commander } = make();
     void commander.send('a', { command: 'enable' }, 'Enable');

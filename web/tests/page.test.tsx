@@ -87,26 +87,26 @@ describe('controls', () => {
   it('send what is typed', () => {
     type(field('Target of feeder'), '12.5');
     type(field('Speed of feeder'), '30');
-    button('Move feeder to target').click();
+    button('Move to target of feeder').click();
     expect(client.command).toHaveBeenCalledWith('feeder', { command: 'move_absolute', position: 12.5, velocity: 30 }, false);
   });
   it('leave the speed to the drive when the field is empty', () => {
     type(field('Distance of feeder'), '-2');
     type(field('Speed of feeder'), '');
-    button('Move feeder by distance').click();
+    button('Move by distance of feeder').click();
     expect(client.command).toHaveBeenCalledWith('feeder', { command: 'move_relative', position: -2 }, false);
   });
   it('keep what was typed when it is refused, and show the reason', async () => {
     client.command!.mockRejectedValueOnce(new Problem('answered', 'the axis is disabled: enable it first', 409, { reason: 'wrong_state', result: 'refused' }));
     type(field('Target of feeder'), '77');
-    button('Move feeder to target').click();
+    button('Move to target of feeder').click();
     await tick();
     expect(text('#result-feeder')).toBe('Move to 77 mm: refused. The axis is disabled: enable it first');
     expect(field('Target of feeder').value).toBe('77');
   });
   it('send nothing for what is no number, and mark the field', async () => {
     type(field('Target of feeder'), '1,5');
-    button('Move feeder to target').click();
+    button('Move to target of feeder').click();
     await tick();
     expect(client.command).not.toHaveBeenCalled();
     expect(field('Target of feeder').getAttribute('aria-invalid')).toBe('true');
@@ -149,6 +149,21 @@ describe('controls', () => {
     globalThis.dispatchEvent(new Event('blur'));
     expect(client.command).toHaveBeenCalledTimes(4);
     expect(client.command).toHaveBeenLastCalledWith('feeder', { command: 'halt' }, true);
+  });
+});
+
+describe('what appears later', () => {
+  it('is noticed by who asked for it before', async () => {
+    route.value = { page: 'axis', name: 'later' };
+    await tick();
+    expect(text('main')).toContain('There is no axis later.');
+    gateway.store.take({ topic: 'axes/later', at: 2e9, data: axis({ name: 'later', number: 9, drive: 'late-drive', position: 1 }) });
+    await tick();
+    expect(text('main h1')).toBe('later');
+    expect(text('main')).toContain('not simulated now');
+    gateway.store.take({ topic: 'drives/late-drive', at: 2e9, data: { ...world().driveOf('feeder').document(), name: 'late-drive' } });
+    await tick();
+    expect(text('main')).not.toContain('not simulated now');
   });
 });
 

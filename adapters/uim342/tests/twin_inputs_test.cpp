@@ -140,6 +140,28 @@ TEST(TwinInputs, Action03StopOnTheGroupsDc) {
     }
 }
 
+/// The time of a deceleration belongs to the whole way from the desired speed: half the speed is gone in half the time.
+TEST(TwinInputs, StopInTimeWhileStillAccelerating) {
+    Bench b;
+    b.setup({"86 04 01 00", "99 E8 03 00 00", "98 02", "9A E8 03 00 00", "B4 00 80 83", "95 01", "9D 10 27 00 00", "96"});
+    b.pass_ms(500);
+    EXPECT_EQ(b.speed(), 5000);
+    b.inputs(1);
+    b.pass_ms(250);
+    EXPECT_EQ(b.speed(), 2500);
+    b.pass_ms(250.001);
+    EXPECT_TRUE(b.stopped());
+}
+
+TEST(TwinInputs, StartByAnInputClearsTheInPositionFlag) {
+    Rig r(edges[1], 0x08);
+    r.b.setup({"A0 64 00 00 00", "9E E8 03 00 00", "96"});
+    r.b.pass_ms(1000);
+    EXPECT_TRUE(r.b.in_position());
+    (void)r.trigger();
+    EXPECT_FALSE(r.b.in_position());
+}
+
 TEST(TwinInputs, BeginIsAllowedOnTheDcRamp) {
     Rig r(edges[1], 0x03);
     r.run(10000);

@@ -621,6 +621,16 @@ TEST(TwinAddressing, AnswersGoToWhoAsked) {
     EXPECT_EQ(to_text(out.frames[0].frame), "0520005A#02");  // notifications to 4
 }
 
+/// A spoilt identifier can name a node as the producer; then its neighbour's report would be answered by a report, and so on for ever.
+TEST(TwinAddressing, ReportsOfOtherNodesAreNotAnswered) {
+    Bench b;
+    const auto report = hex("00 32 2E 00 00 00");
+    const auto id = [](unsigned producer) { return (producer & 0x1Fu) << 24 | 5u << 19 | 0x0Fu; };
+    EXPECT_TRUE(b.frame(Frame::can_extended(id(6), report)).empty());
+    EXPECT_FALSE(b.error());
+    EXPECT_EQ(b.frame(Frame::can_extended(id(4), report)), Lines{"0F 00 32 0F 00 00 00"}) << "a host's instruction of that length is wrong";
+}
+
 TEST(TwinAddressing, SerialNumbersFollowTheAddressAndModelsTheOption) {
     std::set<std::string> serials;
     for (const char* n : {"5", "6", "7", "8", "9"}) {

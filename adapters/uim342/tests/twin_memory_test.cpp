@@ -147,9 +147,9 @@ TEST(TwinMemory, TheSameValueAgainIsNoChange) {
 
 TEST(TwinMemory, VolatileByUse) {
     Bench b;
-    b.setup({"98 03", "9D E8 03 00 00", "A0 64 00 00 00", "9F 65 00 00 00", "9E 66 00 00 00", "B7 01 01 00 00", "98 04"});
+    b.setup({"98 03", "9D E8 03 00 00", "A0 64 00 00 00", "9F 65 00 00 00", "9E 66 00 00 00", "B7 01 01 00 00"});
     (void)b.ask("81 00");
-    b.setup({"95 01", "97"});
+    b.setup({"95 01", "97", "98 04"});
     EXPECT_TRUE(b.send("7E 01").empty());
     EXPECT_EQ(b.ask("98"), "18 00");
     EXPECT_EQ(b.ask("95"), "15 00");
@@ -205,6 +205,15 @@ TEST(TwinMemory, FactoryDefaultsSpareTheAddressAndTheSerialNumber) {
     for (const Stored& s : eeprom_class)
         EXPECT_EQ(b.ask(s.get), s.factory) << s.name;  // and in the EEPROM
     EXPECT_EQ(b.ask("8C"), serial);
+    // What acts at once follows at once: the loop is closed again, the input is unfiltered.
+    b.setup({"86 06 00 00", "B5 00 64 00"});
+    (void)b.send("7E 02");
+    EXPECT_EQ(b.inputs(1), Lines{"5A 02"});
+    b.setup({"95 01", "9D E8 03 00 00", "96"});
+    b.hand("stall", true);
+    EXPECT_EQ(b.pass_ms(1000), Lines{"5A 00 1D 00 00 00"});
+    b.hand("stall", false);
+    b.setup({"95 00"});
     // With the driver on too.
     b.setup({"99 88 13 00 00", "95 01"});
     (void)b.send("7E 02");

@@ -222,6 +222,28 @@ TEST(TwinBytes, GarbageBeforeAFrameNeverCostsTheFrame) {
     }
 }
 
+/// Without a CRC the ID and the length must be possible; else a stray AD before a frame whose byte 14 is CC would swallow it.
+TEST(TwinBytes, StrayStartBeforeAFrameThatEndsLikeOne) {
+    std::vector<std::uint8_t> m = hex("AA 05 9D 04 00 00 00 00 00 00 00 00 00 00 00 CC");
+    for (int v = 0; m[14] != 0xCC; ++v) {
+        ASSERT_LT(v, 65536);
+        m[4] = static_cast<std::uint8_t>(v);
+        m[5] = static_cast<std::uint8_t>(v >> 8);
+        const auto crc = crc16(std::span(m).subspan(1, 12));
+        m[13] = static_cast<std::uint8_t>(crc);
+        m[14] = static_cast<std::uint8_t>(crc >> 8);
+    }
+    const std::string answer = ByteBench().send(m);
+    EXPECT_EQ(answer.substr(0, 17), "AA 05 2E 05 02 " + text(std::span(m).subspan(4, 1)));
+    m.insert(m.begin(), 0xAD);
+    EXPECT_EQ(ByteBench().send(m), answer);
+    // An impossible length: two bytes lost from a frame without CRC, so that data stand where the length was.
+    ByteBench b;
+    EXPECT_EQ(b.send("AD 05 95 09 01 00 00 00 00 00 00 00 00 00 00 CC"), "");
+    EXPECT_EQ(b.send("AD 85 95 01 01 00 00 00 00 00 00 00 00 00 00 CC"), "");
+    EXPECT_EQ(b.send(mo_on_plain), mo_on_plain_ack);
+}
+
 TEST(TwinBytes, StartAndEndBytesInsideAFrameAreData) {
     ByteBench b;
     // BL = 0xAA: control word AD, data AA; PA = CCADAACC as 32 bits.

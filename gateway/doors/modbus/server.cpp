@@ -27,6 +27,7 @@ using tcp = asio::ip::tcp;
 constexpr auto sweep_period = std::chrono::milliseconds(250);
 constexpr int accepts_per_turn = 64;
 constexpr int backlog = 1024;
+constexpr int socket_buffer = 64 * 1024;  // bytes each way: what a client that does not read can hold in the kernel is bounded too
 
 void set_option(int fd, int level, int name, int value) { (void)::setsockopt(fd, level, name, &value, sizeof value); }
 
@@ -179,6 +180,8 @@ private:
         (void)l->acceptor.open(bind.endpoint.protocol(), ec);
         if (!ec) (void)l->acceptor.set_option(tcp::acceptor::reuse_address(true), ec);
         if (!ec && bind.endpoint.address().is_v6()) (void)l->acceptor.set_option(asio::ip::v6_only(true), ec);
+        if (!ec) (void)l->acceptor.set_option(tcp::acceptor::send_buffer_size(socket_buffer), ec);  // clients inherit both
+        if (!ec) (void)l->acceptor.set_option(tcp::acceptor::receive_buffer_size(socket_buffer), ec);
         if (!ec) (void)l->acceptor.bind(bind.endpoint, ec);
         if (!ec) (void)l->acceptor.listen(backlog, ec);
         if (!ec) (void)l->acceptor.native_non_blocking(true, ec);

@@ -8,8 +8,8 @@
 //                   `idle_before_eviction`. If none is left to close, the new one is refused (closed at once).
 //   idle            a connection without a request for `idle_timeout` is closed, unless it commands.
 //   half a request  is closed `partial_timeout` after its first byte, however slowly further bytes drip in.
-//   not reading     a client that takes no answers is not read from while 64 KiB wait, and closed when it has taken nothing for
-//                   `stall_timeout`.
+//   not reading     a client that takes no answers is not read from while some wait (at most 64 KiB here and the kernel's socket
+//                   buffers, which are set to 64 KiB each way), and closed when it has taken nothing for `stall_timeout`.
 //   in flight       32 writes per connection, 4096 in all (then exception 6); reads behind a write wait for it.
 #pragma once
 

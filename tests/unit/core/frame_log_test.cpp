@@ -118,7 +118,7 @@ TEST(FrameLog, cutsRunsThatDoNotFitASlot) {
 }
 
 TEST(FrameLog, aReaderBesideTheWriterSeesWholeFramesOnly) {
-    FrameLog log(64);
+    FrameLog log(256);
     std::atomic<bool> stop{false};
     std::thread writer([&] {
         std::array<std::uint8_t, Frame::capacity> data{};
@@ -131,7 +131,7 @@ TEST(FrameLog, aReaderBesideTheWriterSeesWholeFramesOnly) {
         }
     });
     std::uint64_t next = 1, seen = 0, missed = 0;
-    while (seen < 20'000) {
+    while (seen < 5'000) {
         const auto r = log.read(next, 50, 0);
         std::uint64_t last = next - 1;
         for (const TraceEntry& e : r.entries) {

@@ -3,11 +3,11 @@
 #pragma once
 
 #include <boost/json/parse.hpp>
-#include <gtest/gtest.h>
 
 #include <deque>
 #include <map>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -62,7 +62,7 @@ public:
     void put_site(std::string_view text) {
         std::vector<SiteFault> faults;
         auto site = parse_site(boost::json::parse(text), families_, faults);
-        ASSERT_TRUE(site) << (faults.empty() ? "" : faults.front().text);
+        if (!site) throw std::logic_error("the test's site is wrong: " + faults.front().text);
         put_site(std::move(*site));
     }
     void put_site(Site site) {
@@ -93,7 +93,7 @@ public:
     }
     /// Answers the oldest command that waits.
     void finish(Result r) {
-        ASSERT_FALSE(waiting.empty());
+        if (waiting.empty()) throw std::logic_error("no command waits");
         auto w = std::move(waiting.front());
         waiting.pop_front();
         r.ticket = w.ticket;

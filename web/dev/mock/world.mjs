@@ -381,6 +381,8 @@ export class World {
     /** @type {Map<string, any[]>} */
     this.frames = new Map(site.lines.map((l) => [l.name, []]));
     this.exchanges = 0;
+    this.askedFor = 0;
+    this.frameCount = 0;
     for (const d of site.drives) {
       const line = site.lines.find((l) => l.name === d.line);
       if (!line) throw new Error(`drive ${d.name}: there is no line ${d.line}`);
@@ -410,6 +412,17 @@ export class World {
 
   /** @param {number} dt seconds */
   step(dt) {
+    this.askedFor += dt;
+    if (this.askedFor > 0.2) {
+      this.askedFor = 0;
+      for (const [line, list] of this.frames) {
+        for (const to_drive of [true, false]) {
+          const data = to_drive ? '01' : '0100A3';
+          list.push({ sequence: (this.frameCount += 1), at: this.now(), to_drive, simulated: this.line(line).uri === 'twin', kind: 'can', id: 0x04280095, extended: true, remote: false, data, text: `04280095#${data}` });
+        }
+        list.splice(0, list.length - 200);
+      }
+    }
     for (const axis of this.axes.values()) {
       const was = axis.faultCode;
       if (axis.drive.online) {

@@ -84,9 +84,9 @@ export function TileControls({ axis, bare }: { axis: Axis; bare: boolean }) {
       {!bare && (
         <div class="control-rows">
           <Field label="Target" longLabel={`Target of ${name}`} unit={c.unit} text={c.fields.target} wrong={wrong === 'target'} describedBy={result} onEnter={() => c.move('move_absolute')} />
-          <button type="button" class="button tinted" aria-label={`Move ${name} to target`} onClick={() => c.move('move_absolute')}>Move to</button>
+          <button type="button" class="button tinted" aria-label={`Move to target of ${name}`} onClick={() => c.move('move_absolute')}>Move to</button>
           <Field label="Distance" longLabel={`Distance of ${name}`} unit={c.unit} text={c.fields.distance} wrong={wrong === 'distance'} describedBy={result} onEnter={() => c.move('move_relative')} />
-          <button type="button" class="button" aria-label={`Move ${name} by distance`} onClick={() => c.move('move_relative')}>Move by</button>
+          <button type="button" class="button" aria-label={`Move by distance of ${name}`} onClick={() => c.move('move_relative')}>Move by</button>
           <Field label="Speed" longLabel={`Speed of ${name}`} unit={`${c.unit}/s`} text={c.fields.speed} wrong={wrong === 'speed'} describedBy={result} placeholder="as is" />
           <span class="pair">
             <JogButton axis={name} direction={-1} speed={c.jogSpeed} unit={c.unit} />

@@ -23,7 +23,6 @@ const Controls = memo(FullControls, (a, b) => a.axis.name === b.axis.name && a.a
 export function AxisPage({ name }: { name: string }) {
   const gateway = useGateway();
   const { store } = gateway;
-  void store.axisNames.value; // an axis that appears makes this page anew
   const entry = store.axis(name);
   useEffect(() => gateway.watchClosely(name), [gateway, name]);
 

@@ -13,18 +13,14 @@ export interface Note {
   text: string;
 }
 const quiet: Note = { tone: 'none', text: '' };
-
-export interface StopReport {
-  text: string;
-  tone: NoteTone;
-}
+const goodStays_ms = 20_000;
 
 const motions = new Set(['move_absolute', 'move_relative', 'move_velocity', 'home', 'enable']);
 const isMotion = (c: Command) => motions.has(c.command);
 
 export class Commander {
   /** The answer to "stop all". */
-  readonly stopReport: Signal<StopReport> = signal(quiet);
+  readonly stopReport: Signal<Note> = signal(quiet);
   private readonly notes = new Map<string, Signal<Note>>();
   private readonly onTheirWay = new Map<string, number>();
   private readonly stopsWanted = new Set<string>();
@@ -43,7 +39,18 @@ export class Commander {
   }
 
   tell(axis: string, tone: NoteTone, text: string): void {
-    this.note(axis).value = { tone, text };
+    const n = this.note(axis);
+    n.value = { tone, text };
+    this.fade(n);
+  }
+
+  /** Good news leaves after a while, so that it is not read as the answer to something later. Refusals stay until the next command. */
+  private fade(of: Signal<Note>): void {
+    const told = of.peek();
+    if (told.tone !== 'good') return;
+    setTimeout(() => {
+      if (of.peek() === told) of.value = quiet;
+    }, goodStays_ms);
   }
 
   async send(axis: string, command: Command, words: string): Promise<CommandAnswer | Problem> {
@@ -91,6 +98,7 @@ export class Commander {
     const good = axes.length - bad.length;
     if (bad.length === 0) {
       this.stopReport.value = { tone: 'good', text: `Stop accepted by ${axes.length === 1 ? 'the axis' : `all ${axes.length} axes`}.` };
+      this.fade(this.stopReport);
     } else {
       const which = bad.slice(0, 4).map((b) => b.axis).join(', ') + (bad.length > 4 ? ` and ${bad.length - 4} more` : '');
       const why = bad[0]?.problem?.words ?? '';

@@ -40,6 +40,12 @@ class Shelf<T extends { name: string }> {
     return this.pending.size > 0;
   }
 
+  /** Whoever asks for what is not there yet is told when it appears: asking reads the names too. */
+  get(name: string): Signal<Known<T>> | undefined {
+    void this.names.value;
+    return this.entries.get(name);
+  }
+
   put(name: string, data: T | null, epoch: number): void {
     this.pending.set(name, data === null ? null : { data, epoch });
   }
@@ -115,7 +121,7 @@ export class Store {
     this.counts = computed(() => {
       const c = { axes: 0, moving: 0, fault: 0, simulated: 0, offline: 0 };
       for (const name of this.axisNames.value) {
-        const a = this.axisShelf.entries.get(name)?.value.data;
+        const a = this.axisShelf.get(name)?.value.data;
         if (!a) continue;
         c.axes += 1;
         if (!a.online) c.offline += 1;
@@ -128,13 +134,13 @@ export class Store {
   }
 
   axis(name: string): ReadonlySignal<AxisEntry> | undefined {
-    return this.axisShelf.entries.get(name);
+    return this.axisShelf.get(name);
   }
   drive(name: string): ReadonlySignal<Known<Drive>> | undefined {
-    return this.driveShelf.entries.get(name);
+    return this.driveShelf.get(name);
   }
   line(name: string): ReadonlySignal<Known<Line>> | undefined {
-    return this.lineShelf.entries.get(name);
+    return this.lineShelf.get(name);
   }
 
   trail(axis: string): Trail {

@@ -1,0 +1,177 @@
+// Reach: by keyboard alone, by screen reader (axe-core), on a phone; nothing jumps while values change.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { after, before, test } from 'node:test';
+import { launch, open, shot, tileOf, until } from './lib/browser.mjs';
+import { Program } from './lib/program.mjs';
+
+const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+let program, browser;
+before(async () => {
+  program = await Program.start();
+  browser = await launch();
+});
+after(async () => {
+  await browser?.close();
+  await program?.end();
+});
+const settled = (page) => page.locator('[data-live=true], main h1').first().waitFor();
+
+const examine = (page) =>
+  page.evaluate(async () => {
+    const r = await globalThis.axe.run(document, { runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'] });
+    const bad = r.violations.filter((v) => v.impact === 'serious' || v.impact === 'critical');
+    return bad.map((v) => ({ id: v.id, where: v.nodes.slice(0, 4).map((n) => n.target.join(' ')), why: v.nodes[0].failureSummary }));
+  });
+
+for (const colorScheme of ['light', 'dark']) {
+  for (const path of ['/', '/axes/feeder', '/lines', '/lines/can0', '/events', '/gateway']) {
+    test(`axe-core finds nothing serious on ${path}, ${colorScheme}`, async () => {
+      // The policy of the page forbids foreign code; the examiner is let in beside it.
+      const page = await open(browser, program.url + path, { colorScheme, bypassCSP: true });
+      await settled(page);
+      if (path === '/axes/feeder') await page.locator('[data-parameter]').first().waitFor();
+      await page.addScriptTag({ content: axe });
+      assert.deepEqual(await examine(page), []);
+      await page.context().close();
+    });
+  }
+}
+
+test('axe-core finds nothing serious while the connection is lost', async () => {
+  const page = await open(browser, program.url, { bypassCSP: true });
+  await settled(page);
+  page.expectLoss(true);
+  await program.stop('SIGKILL');
+  try {
+    await page.locator('[data-condition=disconnected]').first().waitFor();
+    await page.addScriptTag({ content: axe });
+    assert.deepEqual(await examine(page), []);
+    await page.context().close();
+  } finally {
+    await program.run();
+  }
+});
+
+test('by keyboard alone: an axis is enabled, moved and stopped', async () => {
+  const page = await open(browser, program.url);
+  await page.locator('[data-axis=feeder] [data-live=true]').waitFor();
+  const focused = () =>
+    page.evaluate(() => {
+      const e = document.activeElement;
+      const label = e.getAttribute('aria-label') ?? (e.labels && e.labels[0]?.textContent) ?? e.textContent;
+      const o = getComputedStyle(e);
+      const box = e.closest('.field-box');
+      const visible = o.outlineStyle !== 'none' && parseFloat(o.outlineWidth) >= 2;
+      const boxVisible = box ? getComputedStyle(box).outlineStyle !== 'none' : false;
+      return { label: label?.trim().replace(/Esc$/, ''), visible: visible || boxVisible };
+    });
+  const reach = async (label) => {
+    for (let i = 0; i < 60; i += 1) {
+      await page.keyboard.press('Tab');
+      const f = await focused();
+      assert.ok(f.visible, `the focus on "${f.label}" cannot be seen`);
+      if (f.label === label) return;
+    }
+    assert.fail(`"${label}" cannot be reached with the Tab key`);
+  };
+  await reach('Stop all');
+  await reach('Stop feeder');
+  await reach('Target of feeder');
+  await page.keyboard.type('4');
+  await reach('Speed of feeder');
+  await page.keyboard.press('Control+A');
+  await page.keyboard.type('20');
+  await reach('Jog feeder forward while held');
+  await reach('Enable feeder');
+  await page.keyboard.press('Enter');
+  const feeder = tileOf(page, 'feeder');
+  await until('it is enabled', async () => /Enabled/.test(await feeder.text('state')));
+  await page.getByRole('textbox', { name: 'Target of feeder' }).focus();
+  await page.keyboard.press('Enter');
+  await until('it has moved', async () => Math.abs((await feeder.position()) - 4) < 0.01 || (await feeder.position()));
+  await page.keyboard.press('Escape');
+  await until('it was stopped', async () => (await program.axis('feeder')).state === 'quick_stop_active' || (await program.axis('feeder')).state, 3_000);
+  await page.context().close();
+});
+
+test('the first Tab offers the way past the head', async () => {
+  const page = await open(browser, program.url);
+  await settled(page);
+  await page.keyboard.press('Tab');
+  assert.equal(await page.evaluate(() => document.activeElement.textContent.trim()), 'To the content');
+  await page.context().close();
+});
+
+for (const width of [390, 320, 768, 1024, 1440]) {
+  test(`at ${width} px no page scrolls sideways and the stops are in sight`, async () => {
+    const page = await open(browser, program.url, { viewport: { width, height: 844 }, hasTouch: width < 500, isMobile: width < 500 });
+    for (const path of ['/', '/axes/feeder', '/axes/slide.x/', '/lines', '/lines/can0', '/events', '/gateway']) {
+      await page.goto(program.url + path);
+      await settled(page);
+      if (path.startsWith('/axes')) await page.locator('[data-parameter]').first().waitFor();
+      const wide = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+      assert.ok(wide <= 0, `${path} is ${wide} px too wide`);
+      assert.ok(await page.getByRole('button', { name: /^Stop all/ }).isVisible());
+      await page.evaluate(() => scrollTo(0, 1e6));
+      const box = await page.getByRole('button', { name: /^Stop all/ }).boundingBox();
+      assert.ok(box && box.y >= 0 && box.y < 100 && box.x + box.width <= width, `${path}: Stop all is at ${JSON.stringify(box)}`);
+    }
+    await shot(page, `width-${width}`);
+    await page.context().close();
+  });
+}
+
+test('fingers find controls that are large enough', async () => {
+  const page = await open(browser, program.url, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+  await page.locator('[data-axis=feeder] [data-live=true]').waitFor();
+  const small = await page.evaluate(() => [...document.querySelectorAll('.tile button')].map((b) => [b.getAttribute('aria-label'), b.getBoundingClientRect().height]).filter(([, h]) => h < 40));
+  assert.deepEqual(small, []);
+  await page.context().close();
+});
+
+test('nothing jumps while values, states and the connection change', async () => {
+  const page = await open(browser, program.url);
+  await page.locator('[data-axis=feeder] [data-live=true]').waitFor();
+  const places = () => page.evaluate(() => [...document.querySelectorAll('.tile button, .tile input, .head button')].map((e) => {
+    const r = e.getBoundingClientRect();
+    return [e.getAttribute('aria-label') ?? e.textContent, Math.round(r.x), Math.round(r.y), Math.round(r.width), Math.round(r.height)].join(' ');
+  }).filter((t) => !/theme/.test(t)));
+  const before = await places();
+  await program.command('feeder', { command: 'enable' });
+  await program.command('feeder', { command: 'move_relative', position: -120, velocity: 80 });
+  const feeder = tileOf(page, 'feeder');
+  await until('it moves', async () => /Moving/.test(await feeder.text('motion')));
+  assert.deepEqual(await places(), before);
+  await page.getByRole('button', { name: 'Stop feeder' }).click();
+  await until('the answer is there', async () => /accepted/.test(await feeder.result()));
+  await page.getByRole('button', { name: 'Move to target of feeder' }).click();
+  await until('the refusal is there', async () => (await feeder.result()).length > 10);
+  assert.deepEqual(await places(), before);
+  page.expectLoss(true);
+  await program.stop('SIGKILL');
+  try {
+    await page.locator('[data-condition=disconnected]').first().waitFor();
+    assert.deepEqual(await places(), before);
+    await page.context().close();
+  } finally {
+    await program.run();
+  }
+});
+
+test('the theme can be chosen and is kept', async () => {
+  const page = await open(browser, program.url, { colorScheme: 'light' });
+  await settled(page);
+  const ground = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+  const light = await ground();
+  await page.getByRole('button', { name: 'Dark theme' }).click();
+  const dark = await ground();
+  assert.notEqual(dark, light);
+  await page.reload();
+  await settled(page);
+  assert.equal(await ground(), dark);
+  await page.getByRole('button', { name: 'Light theme' }).click();
+  assert.equal(await ground(), light);
+  await page.context().close();
+});

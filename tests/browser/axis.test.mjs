@@ -1,0 +1,124 @@
+// The page of an axis: parameters with their range, the native console, the twin's hand, the state machine, the scope.
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { launch, open, shot, until } from './lib/browser.mjs';
+import { Program, isMock } from './lib/program.mjs';
+
+let program, browser, page, list;
+before(async () => {
+  program = await Program.start();
+  browser = await launch();
+  page = await open(browser, `${program.url}/axes/feeder`);
+  await page.locator('[data-parameter]').first().waitFor();
+  list = (await program.call('GET', '/axes/feeder/parameters')).body;
+});
+after(async () => {
+  await browser?.close();
+  await program?.end();
+});
+
+/** A parameter that may be written without harm, with a range. */
+const writable = () => list.find((p) => p.access === 'RW' && p.min !== null && p.max !== null && p.min >= 0 && !p.allowed && !p.count && /acceleration|AC\b/i.test(`${p.name} ${p.id}`)) ?? list.find((p) => p.access === 'RW' && p.max !== null && !p.allowed && !p.count);
+const row = (id) => page.locator(`tr[data-parameter="${id}"]`);
+
+test('a value out of range is refused with the range, and stays typed', async () => {
+  const p = writable();
+  const r = row(p.id);
+  await page.getByRole('searchbox', { name: 'Search parameters' }).fill(p.id);
+  await r.getByRole('textbox').fill(String(p.max + 1));
+  await r.getByRole('button', { name: `Write ${p.id}` }).click();
+  const note = r.locator('.row-note');
+  await until('the range is told', async () => /outside the range/.test(await note.innerText()) || (await note.innerText()));
+  const digits = (await note.innerText()).replace(/\D/g, '');
+  assert.ok(digits.includes(String(p.max)), `${p.max} is not in: ${await note.innerText()}`);
+  assert.equal(await r.getByRole('textbox').inputValue(), String(p.max + 1));
+  assert.equal(await r.getByRole('textbox').getAttribute('aria-invalid'), 'true');
+  await shot(page, 'parameter-range');
+});
+
+test('a value in the range is written, and who wrote it is shown', async () => {
+  const p = writable();
+  const r = row(p.id);
+  const value = p.min + Math.min(1000, Math.floor((p.max - p.min) / 2));
+  await r.getByRole('textbox').fill(String(value));
+  await r.getByRole('textbox').press('Enter');
+  await until('it is written', async () => /^Written/.test(await r.locator('.row-note').innerText()) || (await r.locator('.row-note').innerText()));
+  const now = (await program.call('GET', `/axes/feeder/parameters/${encodeURIComponent(p.id)}`)).body;
+  assert.equal(now.value, value);
+  assert.equal(now.stored, value);
+  await until('the writer is shown', async () => /127\.0\.0\.1/.test(await r.locator('.written').innerText()) || (await r.locator('.written').innerText()));
+  assert.equal(await r.getByRole('textbox').inputValue(), '');
+});
+
+test('a value that somebody else wrote is seen', async () => {
+  const p = writable();
+  const value = p.min + 7;
+  await program.call('PUT', `/axes/feeder/parameters/${encodeURIComponent(p.id)}`, { value });
+  await until('it is seen', async () => (await row(p.id).locator('[data-field=live]').innerText()).replace(/\D/g, '').startsWith(String(value)) || (await row(p.id).locator('[data-field=live]').innerText()));
+});
+
+test('a parameter is read from the drive on demand', async () => {
+  const p = list.find((x) => x.access !== 'W' && !x.count);
+  await page.getByRole('searchbox', { name: 'Search parameters' }).fill(p.id);
+  await row(p.id).getByRole('button', { name: `Read ${p.id} from the drive` }).click();
+  await until('it is there', async () => (await row(p.id).locator('[data-field=live]').innerText()) !== '–' && (await row(p.id).locator('.row-note').innerText()) === '');
+  await page.getByRole('searchbox', { name: 'Search parameters' }).fill('');
+});
+
+test('a line in the drive\'s own language is answered in the console', async () => {
+  const input = page.getByRole('textbox', { name: 'Line to send to feeder' });
+  const line = isMock ? 'PR P' : 'MO';
+  await input.fill(line);
+  await input.press('Enter');
+  const last = page.locator('.console-log li').last();
+  await until('a reply', async () => /\d+ ms/.test(await last.innerText()) || (await last.innerText()));
+  await input.press('ArrowUp');
+  assert.equal(await input.inputValue(), line);
+  await input.fill('this is no instruction ~~');
+  await input.press('Enter');
+  await until('the refusal is told', async () => (await page.locator('.console-log li.result-refused').count()) === 1);
+  assert.equal(await input.inputValue(), 'this is no instruction ~~');
+});
+
+test('the hand of the twin has switches that take', async () => {
+  const stall = page.getByRole('switch', { name: 'Stall' });
+  await stall.waitFor();
+  assert.equal(await stall.getAttribute('aria-checked'), 'false');
+  await stall.click();
+  await until('it took', async () => (await stall.getAttribute('aria-checked')) === 'true');
+  assert.equal((await program.call('GET', '/drives/feeder/hand')).body.stall, true);
+  await stall.click();
+  await until('it took', async () => (await program.call('GET', '/drives/feeder/hand')).body.stall === false);
+});
+
+test('the state machine marks the present state, in words too', async () => {
+  const drawing = page.getByRole('img', { name: /^Present state: / });
+  assert.equal(await drawing.getAttribute('aria-label'), 'Present state: Switch on disabled');
+  await page.getByRole('button', { name: 'Enable', exact: true }).click();
+  await page.getByRole('img', { name: 'Present state: Operation enabled' }).waitFor();
+  assert.equal((await page.locator('.node.is-now').textContent()).trim(), 'Operation enabled');
+});
+
+test('the scope draws a move', async () => {
+  await program.command('feeder', { command: 'move_relative', position: 20, velocity: 40 });
+  await until('it has arrived', async () => (await program.axis('feeder')).target_reached === true);
+  const inked = await page.evaluate(() => {
+    const c = document.querySelector('.scope canvas');
+    const pixels = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
+    let n = 0;
+    for (let i = 3; i < pixels.length; i += 4) if (pixels[i] > 0) n += 1;
+    return n;
+  });
+  assert.ok(inked > 1000, `${inked} pixels`);
+  await shot(page, 'scope', { fullPage: true });
+});
+
+test('the present position can be given another name without a motion', async () => {
+  await page.getByRole('textbox', { name: 'What the present position shall be called' }).fill('0');
+  await page.getByRole('button', { name: 'Set position' }).click();
+  await until('it took', async () => Math.abs((await program.axis('feeder')).position) < 0.01 || (await program.axis('feeder')).position);
+});
+
+test('nothing on the way was a fault of the page', () => {
+  assert.deepEqual(page.faults(), []);
+});

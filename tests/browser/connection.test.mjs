@@ -1,0 +1,83 @@
+// The loss of the gateway: shown at once, nothing old is shown as live, and it heals by itself when the gateway is back.
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { launch, open, shot, tileOf, until } from './lib/browser.mjs';
+import { Program } from './lib/program.mjs';
+
+let program, browser, page, feeder;
+before(async () => {
+  program = await Program.start();
+  browser = await launch();
+  page = await open(browser, program.url);
+  feeder = tileOf(page, 'feeder');
+  await feeder.tile.locator('[data-live=true]').waitFor();
+});
+after(async () => {
+  await browser?.close();
+  await program?.end();
+});
+
+const trust = () => feeder.tile.getAttribute('data-condition');
+
+test('the loss is shown within a second, and every value is said to be old', async () => {
+  page.expectLoss(true);
+  await program.stop('SIGKILL');
+  await until('the loss is shown', async () => (await trust()) === 'disconnected' || (await trust()), 1_000);
+  assert.match(await page.locator('[data-field=strip]').innerText(), /Connection lost\..*last known/s);
+  assert.equal(await page.locator('[data-field=connection]').innerText(), 'Not connected');
+  assert.equal(await page.locator('[data-live=true]').count(), 0);
+  assert.match(await feeder.text('position'), /^Last known position, not live/);
+  assert.match(await feeder.text('notice'), /^Not live: last known/);
+  assert.match(await feeder.text('state'), /Was /);
+  await shot(page, 'connection-lost');
+});
+
+test('a stop that cannot be delivered is said loudly; a move is not even sent', async () => {
+  await page.keyboard.press('Escape');
+  await until('the failure is told', async () => /NOT confirmed/.test(await page.locator('[data-field=strip]').innerText()));
+  await page.getByRole('textbox', { name: 'Target of feeder' }).fill('5');
+  await page.getByRole('button', { name: 'Move to target of feeder' }).click();
+  await until('it is told', async () => /not sent/.test(await feeder.result()) || (await feeder.result()));
+});
+
+test('the pauses between attempts grow', async () => {
+  const attempts = [];
+  const listener = () => attempts.push(Date.now());
+  page.on('websocket', listener);
+  await new Promise((r) => setTimeout(r, 6_000));
+  page.off('websocket', listener);
+  assert.ok(attempts.length >= 1 && attempts.length <= 5, `${attempts.length} attempts in 6 s`);
+});
+
+test('it heals by itself when the gateway is back, and what was typed is still there', async () => {
+  await program.run();
+  await until('it is live again', async () => (await trust()) === 'live' || (await trust()), 15_000);
+  page.expectLoss(false);
+  assert.equal(await page.locator('[data-field=connection]').innerText(), 'Live');
+  assert.equal(await page.getByRole('textbox', { name: 'Target of feeder' }).inputValue(), '5');
+  await program.command('feeder', { command: 'enable' });
+  const begin = await feeder.position();
+  await program.command('feeder', { command: 'move_relative', position: 3, velocity: 20 });
+  await until('the position is live', async () => (await feeder.position()) > begin + 2.9 || (await feeder.position()));
+  assert.deepEqual(page.faults(), []);
+});
+
+test('an orderly stop of the gateway is told as such', async () => {
+  page.expectLoss(true);
+  await program.stop('SIGTERM');
+  await until('the loss is shown', async () => (await trust()) === 'disconnected', 3_000);
+  await program.run();
+  await page.getByRole('button', { name: 'Try now' }).click({ timeout: 2_000 }).catch(() => undefined); // it may have healed already
+  await until('it is live again', async () => (await trust()) === 'live', 15_000);
+  page.expectLoss(false);
+});
+
+test('a drive that falls silent costs its own axis alone', async () => {
+  const answer = await program.call('PATCH', '/drives/feeder/hand', { power: false });
+  assert.equal(answer.status, 200, JSON.stringify(answer.body));
+  await until('the axis is not live any more', async () => (await trust()) !== 'live' || 'live', 15_000);
+  assert.equal(await tileOf(page, 'slide.x').tile.getAttribute('data-condition'), 'live');
+  await shot(page, 'drive-silent');
+  await program.call('PATCH', '/drives/feeder/hand', { power: true });
+  await until('the axis is back', async () => (await trust()) === 'live' || (await trust()), 20_000);
+});

@@ -1,0 +1,69 @@
+// Browser: Debian's Chromium through playwright-core, with a fresh profile, and a watch over everything that a page must not do.
+// In: CHROMIUM (default /usr/bin/chromium). Out: pages that remember console errors, exceptions and requests to other hosts.
+import { mkdirSync } from 'node:fs';
+import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { chromium } from 'playwright-core';
+
+export const artefacts = fileURLToPath(new URL('../../../build/browser', import.meta.url));
+mkdirSync(artefacts, { recursive: true });
+
+const flags = ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'];
+
+export const launch = () => chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: flags });
+
+/** A page of its own context. `page.faults()` is what it did wrong so far. */
+export async function open(browser, url, options = {}) {
+  const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, reducedMotion: 'reduce', ...options });
+  const page = await context.newPage();
+  page.setDefaultTimeout(10_000);
+  const faults = [];
+  const host = new URL(url).host;
+  let lossExpected = false;
+  page.on('console', (m) => {
+    // While the gateway is away on purpose, the browser itself complains that it cannot be reached.
+    if (m.type() !== 'error' || (lossExpected && /ERR_CONNECTION|ERR_EMPTY_RESPONSE|ERR_FAILED|WebSocket/.test(m.text()))) return;
+    // A refusal is an answer that the page shows; the browser notes it as an error all the same.
+    if (/responded with a status of (4\d\d|503|504)/.test(m.text()) && m.location().url.includes('/api/v1/')) return;
+    faults.push(`console: ${m.text()}`);
+  });
+  page.on('pageerror', (e) => faults.push(`exception: ${e.message}`));
+  page.on('request', (r) => {
+    const u = new URL(r.url());
+    if (u.host !== host) faults.push(`request to another host: ${r.url()}`);
+  });
+  page.on('websocket', (w) => {
+    if (new URL(w.url()).host !== host) faults.push(`websocket to another host: ${w.url()}`);
+  });
+  page.faults = () => faults;
+  page.expectLoss = (yes) => (lossExpected = yes);
+  await page.goto(url);
+  return page;
+}
+
+export const shot = (page, name, options = {}) => page.screenshot({ path: join(artefacts, `${name}.png`), ...options });
+
+/** One axis on the page, by its name. */
+export function tileOf(page, axis) {
+  const tile = page.locator(`[data-axis="${axis}"]`).first();
+  const field = (name) => tile.locator(`[data-field="${name}"]`).first();
+  return {
+    tile,
+    field,
+    position: async () => Number(await field('position').getAttribute('data-value')),
+    text: async (name) => (await field(name).innerText()).replace(/\s+/g, ' ').trim(),
+    result: () => page.locator(`[id="result-${axis}"]`).innerText(),
+  };
+}
+
+/** Waits until the condition holds; says what it was at the end if it never does. */
+export async function until(what, condition, limit_ms = 10_000) {
+  const end = Date.now() + limit_ms;
+  let last;
+  for (;;) {
+    last = await condition();
+    if (last === true) return;
+    if (Date.now() > end) throw new Error(`${what} did not come true within ${limit_ms} ms; last: ${JSON.stringify(last)}`);
+    await new Promise((r) => setTimeout(r, 50));
+  }
+}

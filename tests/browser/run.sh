@@ -1,0 +1,21 @@
+#!/bin/sh
+# Browser tests: the page of the real program in Debian's Chromium.
+# In: AXISGATE_BIN (default build/release/axisgate), CHROMIUM (default /usr/bin/chromium). Out: counts, pictures under build/browser.
+# Arguments are test files; without any, all of them run.
+set -eu
+here=$(cd "$(dirname "$0")" && pwd)
+root=$(cd "$here/../.." && pwd)
+bin=${AXISGATE_BIN:-$root/build/release/axisgate}
+chromium=${CHROMIUM:-/usr/bin/chromium}
+[ -x "$bin" ] || { echo "browser: there is no program $bin; build it, or name it by AXISGATE_BIN" >&2; exit 2; }
+[ -x "$chromium" ] || { echo "browser: there is no $chromium; apt-get install chromium, or name another by CHROMIUM" >&2; exit 2; }
+case "$bin" in /*) ;; *) bin="$PWD/$bin" ;; esac
+cd "$here"
+# Installed anew only when the lock file is newer than what is there.
+if [ ! -e node_modules/.package-lock.json ] || [ package-lock.json -nt node_modules/.package-lock.json ]; then
+  npm ci --silent --no-fund --no-audit
+fi
+if [ $# -eq 0 ]; then set -- ./*.test.mjs; fi
+AXISGATE_BIN=$bin CHROMIUM=$chromium exec node --test --test-concurrency=1 --test-timeout=180000 \
+  --test-reporter=spec --test-reporter-destination=stdout \
+  --test-reporter=./lib/counts.mjs --test-reporter-destination=stdout "$@"

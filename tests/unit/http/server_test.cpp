@@ -1,0 +1,399 @@
+// The door on real sockets: keep-alive, pipelining, bounds, slow and broken clients, many connections, the end.
+#include <set>
+#include <sstream>
+
+#include "gateway/doors/http/connection.hpp"
+#include "tests/unit/http/socket_harness.hpp"
+
+namespace axisgate::http::test {
+namespace {
+using std::chrono::milliseconds;
+
+class HttpServer : public ::testing::Test {
+protected:
+    Door door;
+};
+
+TEST_F(HttpServer, KeepsConnectionsAlive) {
+    door.open();
+    Client c(door.port);
+    for (int i = 0; i < 5; ++i) {
+        const auto a = c.get("/api/v1/about");
+        EXPECT_EQ(a.status(), 200u);
+        EXPECT_TRUE(a.message.keep_alive());
+        EXPECT_EQ(a.message[beast::http::field::server], "axisgate");
+        EXPECT_FALSE(a.message[beast::http::field::date].empty());
+    }
+    EXPECT_EQ(door.on([&] { return door.server().counters().connections_accepted; }), 1u);
+    c.send("GET /healthz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
+    EXPECT_FALSE(c.receive().message.keep_alive());
+    EXPECT_TRUE(c.closed());
+}
+
+TEST_F(HttpServer, Http10) {
+    door.open();
+    Client c(door.port);
+    c.send("GET /healthz HTTP/1.0\r\n\r\n");
+    EXPECT_EQ(c.receive().status(), 200u);
+    EXPECT_TRUE(c.closed());
+}
+
+TEST_F(HttpServer, PipelinedAnswersKeepTheirOrder) {
+    door.open();
+    Client c(door.port);
+    std::string all = Client::post_text("/api/v1/axes/feeder/commands", R"({"command":"enable"})");
+    for (int i = 0; i < 20; ++i) all += "GET /api/v1/axes/n" + std::to_string(i) + " HTTP/1.1\r\nHost: localhost\r\n\r\n";
+    ASSERT_TRUE(c.send(all));
+    ASSERT_TRUE(door.until([&] { return door.gateway.waiting.size() == 1; }));
+    door.on([&] { door.gateway.finish(good_result()); });
+    EXPECT_EQ(c.receive().json().at("result"), "accepted") << "the one that took long comes first all the same";
+    for (int i = 0; i < 20; ++i) EXPECT_EQ(c.receive().json().at("detail"), "there is no axis n" + std::to_string(i));
+}
+
+TEST_F(HttpServer, RequestsInSinglePieces) {
+    door.open();
+    door.on([&] { door.gateway.at_once = [](const Command&) { return good_result(); }; });
+    Client c(door.port);
+    for (const char byte : Client::post_text("/api/v1/axes/feeder/commands", R"({"command":"halt"})")) ASSERT_TRUE(c.send(std::string_view(&byte, 1)));
+    EXPECT_EQ(c.receive().status(), 200u);
+    c.send("PUT /api/v1/axes/feeder/parameters/AC HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nTransfer-Encoding: chunked\r\n\r\n"
+           "5\r\n{\"val\r\n8\r\nue\": 25}\r\n0\r\n\r\n");
+    EXPECT_EQ(c.receive().status(), 200u);
+    EXPECT_EQ(door.on([&] { return std::get<WriteParameter>(door.gateway.submitted.back().body).value; }), Value{std::int64_t{25}});
+}
+
+TEST_F(HttpServer, HeadAndStatusesWithoutABody) {
+    door.open();
+    Client c(door.port);
+    c.send("HEAD /api/v1/axes HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    const auto head = c.receive(true);
+    EXPECT_EQ(head.status(), 200u);
+    EXPECT_GT(std::stoi(std::string(head.message[beast::http::field::content_length])), 100);
+    const auto page = c.get("/");
+    const std::string tag(page.message[beast::http::field::etag]);
+    EXPECT_EQ(c.get("/", "If-None-Match: " + tag + "\r\n").status(), 304u);
+    c.send("DELETE /api/v1/drives/bare HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    const auto gone = c.receive();
+    EXPECT_EQ(gone.status(), 204u);
+    EXPECT_TRUE(gone.message[beast::http::field::content_length].empty());
+    c.send("OPTIONS * HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    EXPECT_EQ(c.receive().status(), 204u);
+    EXPECT_EQ(c.get("/healthz").status(), 200u) << "the connection is still in step";
+}
+
+TEST_F(HttpServer, Bounds) {
+    door.open();
+    {
+        Client c(door.port);
+        c.send("GET /healthz HTTP/1.1\r\nHost: localhost\r\nX: " + std::string(9000, 'x') + "\r\n\r\n");
+        EXPECT_EQ(c.receive().status(), 431u);
+        EXPECT_TRUE(c.closed());
+    }
+    {
+        Client c(door.port);
+        c.send("GET /" + std::string(9000, 'x') + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
+        const auto a = c.receive();
+        EXPECT_EQ(a.status(), 431u);
+        EXPECT_EQ(a.json().at("reason"), "headers_too_large");
+    }
+    {
+        Client c(door.port);
+        std::string many = "GET /healthz HTTP/1.1\r\nHost: localhost\r\n";
+        for (int i = 0; i < 1000; ++i) many += "A: b\r\n";
+        c.send(many + "\r\n");
+        EXPECT_EQ(c.receive().status(), 200u) << "6 KiB of small headers are within the bound";
+    }
+    {
+        Client c(door.port);
+        c.send("PUT /api/v1/site HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 1048577\r\n\r\n{");
+        const auto a = c.receive();
+        EXPECT_EQ(a.status(), 413u) << "before the body came";
+        EXPECT_EQ(a.message[beast::http::field::content_type], "application/problem+json");
+        EXPECT_TRUE(c.closed());
+    }
+    {
+        Client c(door.port);
+        c.send("PUT /api/v1/site HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nTransfer-Encoding: chunked\r\n\r\n");
+        const std::string chunk = "10000\r\n" + std::string(65536, ' ') + "\r\n";
+        for (int i = 0; i < 17 && c.send(chunk); ++i) {
+        }
+        EXPECT_EQ(c.receive().status(), 413u) << "chunks are counted";
+    }
+    {
+        Client c(door.port);
+        EXPECT_EQ(c.post("/api/v1/moves/start", R"({"axes":[]})" + std::string(1048576 - 11, ' ')).status(), 422u) << "exactly the bound is read";
+    }
+}
+
+TEST_F(HttpServer, WhatIsNotHttp) {
+    door.open();
+    struct Row {
+        const char* what;
+        std::string bytes;
+        unsigned status;
+    };
+    for (const auto& [what, bytes, status] :
+         std::vector<Row>{{"garbage", "\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03\r\n\r\n", 400},
+                          {"version", "GET / HTTP/2.0\r\nHost: a\r\n\r\n", 505},
+                          {"no version", "GET /\r\n\r\n", 400},
+                          {"preface of HTTP/2", "PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n", 505},
+                          {"space in a name", "GET / HTTP/1.1\r\nHo st: a\r\n\r\n", 400},
+                          {"two lengths", "POST /api/v1/moves/start HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1\r\nContent-Length: 2\r\n\r\n{}", 400},
+                          {"length and chunks", "POST /api/v1/moves/start HTTP/1.1\r\nHost: localhost\r\nContent-Length: 5\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\n", 400},
+                          {"negative length", "POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: -1\r\n\r\n", 400},
+                          {"length that is none", "POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1x\r\n\r\n", 400},
+                          {"bad chunk", "PUT /api/v1/site HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\nzz\r\n", 400},
+                          {"NUL in a header", std::string("GET / HTTP/1.1\r\nHost: a\0b\r\n\r\n", 30), 400},
+                          {"other expectation", "POST / HTTP/1.1\r\nHost: localhost\r\nExpect: magic\r\nContent-Length: 2\r\n\r\n{}", 417}}) {
+        Client c(door.port);
+        ASSERT_TRUE(c.send(bytes)) << what;
+        const auto a = c.receive();
+        EXPECT_EQ(a.status(), status) << what;
+        EXPECT_FALSE(a.message.keep_alive()) << what;
+        EXPECT_TRUE(c.closed()) << what;
+    }
+    Client good(door.port);
+    EXPECT_EQ(good.get("/healthz").status(), 200u) << "nobody else is touched";
+    EXPECT_EQ(door.on([&] { return door.server().counters().malformed; }), 12u);
+}
+
+TEST_F(HttpServer, ClientsThatGoAwayInTheMiddle) {
+    door.open();
+    for (const auto* part : {"", "G", "GET / HT", "GET / HTTP/1.1\r\nHost: loc", "PUT /api/v1/site HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 100\r\n\r\n{"}) {
+        Client c(door.port);
+        c.send(part);
+        c.close();
+    }
+    EXPECT_TRUE(door.until([&] { return door.server().counters().connections == 0; }));
+    {
+        Client c(door.port);
+        c.send(Client::post_text("/api/v1/axes/feeder/commands", R"({"command":"enable"})"));
+        ASSERT_TRUE(door.until([&] { return door.gateway.waiting.size() == 1; }));
+        c.close();
+    }
+    door.on([&] { door.gateway.finish(good_result()); });
+    EXPECT_TRUE(door.until([&] { return door.server().counters().connections == 0; }));
+}
+
+TEST_F(HttpServer, AClientThatOnlySendsIsStillAnswered) {
+    door.open();
+    Client c(door.port);
+    c.send("GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    c.shutdown_send();
+    EXPECT_EQ(c.receive().status(), 200u);
+    EXPECT_TRUE(c.closed());
+}
+
+TEST_F(HttpServer, SlowHeaders) {
+    door.settings.header_limit = milliseconds(100);
+    door.open();
+    Client half(door.port), silent(door.port);
+    half.send("GET /healthz HTTP/1.1\r\nHo");
+    const auto a = half.receive();
+    EXPECT_EQ(a.status(), 408u);
+    EXPECT_EQ(a.json().at("reason"), "time_out");
+    EXPECT_TRUE(half.closed());
+    EXPECT_TRUE(silent.closed()) << "without a word there is nothing to answer";
+    EXPECT_EQ(door.on([&] { return door.server().counters().connections_timed_out; }), 2u);
+}
+
+TEST_F(HttpServer, SlowHeadersOfALaterRequest) {
+    door.settings.header_limit = milliseconds(100);
+    door.open();
+    Client c(door.port);
+    EXPECT_EQ(c.get("/healthz").status(), 200u);
+    c.send("G");
+    EXPECT_EQ(c.receive().status(), 408u);
+}
+
+TEST_F(HttpServer, SlowBodies) {
+    door.settings.body_limit = milliseconds(100);
+    door.open();
+    Client c(door.port);
+    c.send("PUT /api/v1/site HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 100\r\n\r\n{");
+    EXPECT_EQ(c.receive().status(), 408u);
+    EXPECT_TRUE(c.closed());
+}
+
+TEST_F(HttpServer, IdleConnectionsAreClosed) {
+    door.settings.idle_limit = milliseconds(100);
+    door.open();
+    Client c(door.port);
+    EXPECT_EQ(c.get("/healthz").status(), 200u);
+    EXPECT_TRUE(c.closed());
+}
+
+TEST_F(HttpServer, AClientThatDoesNotReadItsAnswer) {
+    door.settings.write_limit = milliseconds(100);
+    door.open();
+    Client c(door.port, 4096);
+    c.send("GET /big.txt HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    EXPECT_TRUE(door.until([&] { return door.server().counters().connections_timed_out == 1; }));
+    EXPECT_TRUE(door.until([&] { return door.server().counters().connections == 0; }));
+    EXPECT_LT(c.rest().size(), door.big_file.size());
+    Client reads(door.port);
+    EXPECT_EQ(reads.get("/big.txt").message.body().size(), door.big_file.size());
+}
+
+TEST_F(HttpServer, ContinueIsSaidBeforeABody) {
+    door.open();
+    Client c(door.port);
+    c.send("POST /api/v1/moves/start HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 2\r\nExpect: 100-continue\r\n\r\n");
+    EXPECT_EQ(c.receive().status(), 100u);
+    c.send("{}");
+    EXPECT_EQ(c.receive().status(), 422u);
+    c.send("POST /api/v1/moves/start HTTP/1.1\r\nHost: localhost\r\nContent-Length: 9999999\r\nExpect: 100-continue\r\n\r\n");
+    EXPECT_EQ(c.receive().status(), 413u) << "no continue for what is refused anyway";
+}
+
+TEST_F(HttpServer, TheWaitEndsAtTheSocketToo) {
+    door.open();
+    Client c(door.port);
+    const auto a = c.post("/api/v1/axes/feeder/commands?wait=0.05", R"({"command":"home"})");
+    EXPECT_EQ(a.status(), 200u);
+    EXPECT_EQ(a.json().at("reason"), "not done after 0.05 s");
+    door.on([&] { door.gateway.finish(good_result(Outcome::done)); });  // too late: nobody waits any more
+    EXPECT_EQ(c.get("/healthz").json().at("status"), "ok") << "the late answer is not given to another request";
+}
+
+TEST_F(HttpServer, ManyConnections) {
+    door.open();
+    std::vector<std::unique_ptr<Client>> clients;
+    for (int i = 0; i < 200; ++i) clients.push_back(std::make_unique<Client>(door.port));
+    for (auto& c : clients) EXPECT_EQ(c->get("/healthz").status(), 200u);
+    EXPECT_EQ(door.on([&] { return door.server().counters().connections; }), 200u);
+    clients.clear();
+    EXPECT_TRUE(door.until([&] { return door.server().counters().connections == 0; }));
+}
+
+TEST_F(HttpServer, OverTheNumberTheLongestIdleOneGoes) {
+    door.settings.max_connections = 3;
+    door.open();
+    Client a(door.port), b(door.port), c(door.port);
+    for (auto* x : {&a, &b, &c}) EXPECT_EQ(x->get("/healthz").status(), 200u);
+    EXPECT_EQ(a.get("/healthz").status(), 200u);  // now b is idle for the longest
+    Client d(door.port);
+    EXPECT_EQ(d.get("/healthz").status(), 200u);
+    EXPECT_TRUE(b.closed());
+    EXPECT_EQ(a.get("/healthz").status(), 200u);
+    EXPECT_EQ(c.get("/healthz").status(), 200u);
+}
+
+TEST_F(HttpServer, WithoutAnIdleOneTheNewOneIsRefused) {
+    door.settings.max_connections = 2;
+    door.open();
+    Client a(door.port), b(door.port);
+    for (auto* x : {&a, &b}) x->send(Client::post_text("/api/v1/axes/feeder/commands", R"({"command":"enable"})"));
+    ASSERT_TRUE(door.until([&] { return door.gateway.waiting.size() == 2; }));
+    Client c(door.port);
+    const auto refused = c.receive();
+    EXPECT_EQ(refused.status(), 503u);
+    EXPECT_EQ(refused.json().at("reason"), "busy");
+    EXPECT_EQ(door.on([&] { return door.server().counters().connections_refused; }), 1u);
+    door.on([&] {
+        door.gateway.finish(good_result());
+        door.gateway.finish(good_result());
+    });
+    EXPECT_EQ(a.receive().status(), 200u);
+    EXPECT_EQ(b.receive().status(), 200u);
+}
+
+TEST_F(HttpServer, Metrics) {
+    door.open();
+    Client c(door.port);
+    c.get("/api/v1/axes/feeder");
+    c.get("/api/v1/axes/none");
+    const std::string text = c.get("/metrics").message.body();
+    EXPECT_NE(text.find("axisgate_up 1\n"), std::string::npos) << "the gateway's";
+    EXPECT_NE(text.find("axisgate_http_requests_total{route=\"/api/v1/axes/{axis}\",method=\"GET\",status=\"200\"} 1\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("status=\"404\"} 1\n"), std::string::npos);
+    EXPECT_NE(text.find("axisgate_http_request_duration_seconds_bucket{le=\"+Inf\"} 2\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("axisgate_http_connections 1\n"), std::string::npos);
+    // Every sample has its HELP and TYPE.
+    std::istringstream lines(text);
+    std::set<std::string> typed;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("# TYPE ")) {
+            typed.insert(line.substr(7, line.find(' ', 7) - 7));
+        } else if (!line.starts_with('#')) {
+            std::string name = line.substr(0, line.find_first_of("{ "));
+            for (const std::string_view tail : {"_bucket", "_sum", "_count"}) {
+                if (name.ends_with(tail) && typed.contains(name.substr(0, name.size() - tail.size()))) name.resize(name.size() - tail.size());
+            }
+            EXPECT_TRUE(typed.contains(name)) << line;
+        }
+    }
+}
+
+TEST_F(HttpServer, StopsInOrder) {
+    door.open();
+    Client idle(door.port), busy(door.port), half(door.port);
+    EXPECT_EQ(idle.get("/healthz").status(), 200u);
+    busy.send(Client::post_text("/api/v1/axes/feeder/commands", R"({"command":"enable"})"));
+    half.send("GET / HT");
+    ASSERT_TRUE(door.until([&] { return door.gateway.waiting.size() == 1; }));
+    bool stopped = false;
+    door.on([&] { door.server().stop([&stopped] { stopped = true; }); });
+    EXPECT_TRUE(idle.closed());
+    EXPECT_TRUE(half.closed());
+    EXPECT_FALSE(door.on([&] { return stopped; })) << "a request is in progress";
+    EXPECT_TRUE(Client(door.port).connected.failed()) << "no new ones";
+    door.on([&] { door.gateway.finish(good_result()); });
+    const auto a = busy.receive();
+    EXPECT_EQ(a.status(), 200u);
+    EXPECT_FALSE(a.message.keep_alive());
+    EXPECT_TRUE(busy.closed());
+    busy.close();
+    EXPECT_TRUE(door.until([&] { return stopped; }));
+}
+
+TEST_F(HttpServer, StopsEvenIfSomebodyNeverEnds) {
+    door.settings.stop_limit = milliseconds(100);
+    door.open();
+    Client busy(door.port);
+    busy.send(Client::post_text("/api/v1/axes/feeder/commands", R"({"command":"enable"})"));
+    ASSERT_TRUE(door.until([&] { return door.gateway.waiting.size() == 1; }));
+    bool stopped = false;
+    door.on([&] { door.server().stop([&stopped] { stopped = true; }); });
+    EXPECT_TRUE(door.until([&] { return stopped; }));
+    EXPECT_TRUE(busy.closed());
+    door.on([&] { door.gateway.finish(good_result()); });  // nobody is there, and nothing happens
+}
+
+TEST_F(HttpServer, APortThatIsTaken) {
+    door.open();
+    asio::io_context context;
+    FakeGateway other;
+    Settings settings;
+    settings.bind = "127.0.0.1:" + std::to_string(door.port);
+    Server second(context, other, settings, {});
+    const std::string fault = second.start();
+    EXPECT_NE(fault.find(settings.bind), std::string::npos) << fault;
+    EXPECT_NE(fault.find("bind"), std::string::npos) << "with what to do";
+    EXPECT_EQ(second.address(), "");
+}
+
+TEST(HttpBind, Addresses) {
+    std::string fault;
+    EXPECT_EQ(parse_bind("127.0.0.1:8080", fault), tcp::endpoint(asio::ip::make_address("127.0.0.1"), 8080));
+    EXPECT_EQ(parse_bind("[::1]:80", fault), tcp::endpoint(asio::ip::make_address("::1"), 80));
+    EXPECT_EQ(parse_bind("localhost:0", fault), tcp::endpoint(asio::ip::make_address("127.0.0.1"), 0));
+    EXPECT_EQ(parse_bind(":8080", fault), tcp::endpoint(asio::ip::make_address("0.0.0.0"), 8080));
+    EXPECT_EQ(parse_bind("*:8080", fault), tcp::endpoint(asio::ip::make_address("0.0.0.0"), 8080));
+    for (const auto* bad : {"", "8080", "127.0.0.1", "127.0.0.1:", "127.0.0.1:x", "127.0.0.1:65536", "host.example:80", "[::1:80"}) {
+        fault.clear();
+        EXPECT_FALSE(parse_bind(bad, fault)) << bad;
+        EXPECT_FALSE(fault.empty()) << bad;
+    }
+}
+
+TEST(HttpHead, ValuesCannotBeginHeadersOfTheirOwn) {
+    Response r;
+    r.headers.set("Location", "/a\r\nSet-Cookie: x=1");
+    const std::string head = response_head(r, true, 784'111'777);
+    EXPECT_EQ(head.find("\r\nSet-Cookie"), std::string::npos) << head;
+    EXPECT_NE(head.find("Date: Sun, 06 Nov 1994 08:49:37 GMT\r\n"), std::string::npos) << head;
+    EXPECT_TRUE(head.ends_with("\r\n\r\n"));
+}
+}  // namespace
+}  // namespace axisgate::http::test

@@ -1,0 +1,209 @@
+// PtyLine: the link and its manners, programs that come and go.
+// In: what a program at the other side does. Out: pass or fail. Never sleeps.
+#include "gateway/lines/pty_line.hpp"
+
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+#include <termios.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/unit/lines/fixture.hpp"
+
+namespace axisgate {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace test;
+using testing::HasSubstr;
+
+class PtyLineTest : public LineTest {
+protected:
+    fs::path folder;
+    std::string path;
+    std::unique_ptr<PtyLine> line;
+
+    void SetUp() override {
+        std::string name = fs::temp_directory_path() / "axisgate-pty-XXXXXX";
+        ASSERT_NE(::mkdtemp(name.data()), nullptr);
+        folder = name;
+        path = folder / "drive";
+    }
+    void TearDown() override {
+        line.reset();
+        fs::remove_all(folder);
+    }
+    void make() {
+        line = std::make_unique<PtyLine>(base(), path);
+        ASSERT_TRUE(comes_up(*line));
+    }
+    /// As a program opens a serial port.
+    Fd program() {
+        Fd f(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+        EXPECT_GE(f.fd, 0) << errno;
+        EXPECT_TRUE(until([&] { return status().text.find("opened by a program") != std::string::npos; }));
+        return f;
+    }
+    bool send(const Frame& f, Priority p = Priority::command) { return line->send(f, p, clock.now()); }
+    [[nodiscard]] LineStatus status() const { return line->status(clock.now()); }
+    bool receives(const Fd& f, const std::string& wanted) {
+        std::string all;
+        const bool good = until([&] {
+            all += f.read();
+            return all.size() >= wanted.size();
+        });
+        EXPECT_EQ(all, wanted);
+        return good;
+    }
+};
+
+TEST_F(PtyLineTest, isASerialPortUnderAChosenName) {
+    make();
+    ASSERT_TRUE(fs::is_symlink(path));
+    EXPECT_THAT(fs::read_symlink(path).string(), HasSubstr("/dev/pts/"));
+    EXPECT_THAT(owner.states[0].second, HasSubstr("up as " + path));
+    EXPECT_THAT(status().text, HasSubstr("not opened by anybody"));
+    const Fd f = program();
+    f.write(every_byte());
+    ASSERT_TRUE(until([&] { return owner.heard().size() >= 256; }));
+    EXPECT_EQ(owner.heard(), every_byte());  // raw: nothing is turned into something else, nothing comes back
+    EXPECT_TRUE(send(text(every_byte())));
+    EXPECT_TRUE(receives(f, every_byte()));
+    EXPECT_EQ(owner.sent.size(), 1u);
+    line->close();
+    EXPECT_FALSE(fs::exists(fs::symlink_status(path)));
+}
+
+TEST_F(PtyLineTest, survivesProgramsThatComeAndGo) {
+    make();
+    for (int i = 0; i < 4; ++i) {
+        Fd f = program();
+        f.write("in");
+        ASSERT_TRUE(until([&] { return owner.heard().size() == static_cast<std::size_t>(2 * (i + 1)); }));
+        EXPECT_TRUE(send(text("out")));
+        EXPECT_TRUE(receives(f, "out"));
+        f.close();
+        ASSERT_TRUE(until([&] { return status().text.find("not opened") != std::string::npos; }));
+        EXPECT_TRUE(send(text("lost")));  // as on a cable that hangs in the air
+        settle();
+    }
+    EXPECT_EQ(owner.states.size(), 1u);  // up all the time
+    EXPECT_EQ(owner.sent.size(), 8u);
+    EXPECT_EQ(status().reopened, 0u);
+}
+
+TEST_F(PtyLineTest, theNextProgramMeetsNothingOfTheLastOne) {
+    make();
+    {
+        Fd f = program();
+        termios t{};
+        ASSERT_EQ(::tcgetattr(f.fd, &t), 0);
+        t.c_lflag |= ICANON | ECHO;
+        t.c_iflag |= ICRNL;
+        t.c_oflag |= OPOST | ONLCR;
+        ASSERT_EQ(::tcsetattr(f.fd, TCSANOW, &t), 0);
+        EXPECT_TRUE(send(text("never read")));
+        settle();
+        f.close();
+        ASSERT_TRUE(until([&] { return status().text.find("not opened") != std::string::npos; }));
+    }
+    owner.frames.clear();
+    const Fd f = program();
+    f.write("a\r\n");
+    ASSERT_TRUE(until([&] { return owner.heard() == "a\r\n"; }));
+    EXPECT_EQ(f.read(), "");
+}
+
+TEST_F(PtyLineTest, hearsAProgramThatWritesAndLeavesAtOnce) {
+    make();
+    for (int i = 1; i <= 5; ++i) {
+        {
+            const Fd f(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+            f.write("ping ");
+        }
+        ASSERT_TRUE(until([&] { return owner.heard().size() == static_cast<std::size_t>(5 * i); }));
+        ASSERT_TRUE(until([&] { return status().text.find("not opened") != std::string::npos; }));
+    }
+}
+
+TEST_F(PtyLineTest, aProgramThatDoesNotReadCostsABoundedQueue) {
+    make();
+    const Fd f = program();
+    const std::string block(Frame::capacity, 'x');
+    int refused = 0;
+    ASSERT_TRUE(until([&] {
+        refused += send(text(block)) ? 0 : 1;
+        settle();
+        return refused >= 5;
+    }));
+    EXPECT_GE(status().dropped, 5u);
+    EXPECT_EQ(status().queued, 256u);
+    std::size_t read = 0;
+    EXPECT_TRUE(until([&] {
+        read += f.read().size();
+        return status().queued == 0;
+    }));
+    EXPECT_GT(read, 10'000u);
+    EXPECT_TRUE(owner.up());
+}
+
+TEST_F(PtyLineTest, overwritesOnlyLinks) {
+    std::ofstream(path) << "precious";
+    line = std::make_unique<PtyLine>(base(), path);
+    line->open(owner, clock.now());
+    ASSERT_TRUE(until([&] { return !owner.states.empty(); }));
+    EXPECT_FALSE(owner.up());
+    EXPECT_THAT(status().text, HasSubstr("exists and is not a link"));
+    std::string content;
+    std::ifstream(path) >> content;
+    EXPECT_EQ(content, "precious");
+    fs::remove(path);
+    EXPECT_TRUE(until([&] { return owner.up(); }));
+    line->close();
+
+    fs::create_directory(path);
+    owner.states.clear();
+    line->open(owner, clock.now());
+    ASSERT_TRUE(until([&] { return !owner.states.empty(); }));
+    EXPECT_FALSE(owner.up());
+    EXPECT_TRUE(fs::is_directory(path));
+}
+
+TEST_F(PtyLineTest, replacesALinkThatWasLeftOver) {
+    fs::create_symlink("/dev/pts/no-longer-there", path);
+    make();
+    EXPECT_NE(fs::read_symlink(path), "/dev/pts/no-longer-there");
+    const Fd f = program();
+    f.write("x");
+    EXPECT_TRUE(until([&] { return owner.heard() == "x"; }));
+}
+
+TEST_F(PtyLineTest, takesAwayOnlyItsOwnLink) {
+    make();
+    fs::remove(path);
+    fs::create_symlink("/dev/null", path);  // somebody else's by now
+    line->close();
+    EXPECT_TRUE(fs::is_symlink(path));
+}
+
+TEST_F(PtyLineTest, saysThatTheFolderIsMissing) {
+    path = folder / "no" / "such" / "folder";
+    line = std::make_unique<PtyLine>(base(), path);
+    line->open(owner, clock.now());
+    ASSERT_TRUE(until([&] { return !owner.states.empty(); }));
+    EXPECT_THAT(owner.states[0].second, HasSubstr("does its folder exist"));
+}
+
+TEST_F(PtyLineTest, mayBeDestroyedFromItsEvents) {
+    make();
+    const Fd f = program();
+    owner.hears = [&](const Frame&) { line.reset(); };
+    f.write("bye");
+    ASSERT_TRUE(until([&] { return line == nullptr; }));
+    settle();
+    EXPECT_FALSE(fs::exists(fs::symlink_status(path)));
+}
+
+}  // namespace
+}  // namespace axisgate

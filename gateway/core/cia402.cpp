@@ -320,7 +320,8 @@ AxisProfile::Decision AxisProfile::on_command(const CommandBody& body) {
             s.target_velocity = static_cast<std::int32_t>(move->target);
         } else {
             s.mode = mode_profile_position;
-            s.target_position = static_cast<std::int32_t>(move->target);
+            const std::int64_t from = move->kind == Move::Kind::relative ? s.feedback.position : 0;
+            s.target_position = static_cast<std::int32_t>(from + move->target);
         }
         d.orders.emplace_back(with_profile(s, *move));
         if (move->kind == Move::Kind::velocity) std::get<Move>(d.orders.back()).velocity.reset();

@@ -401,6 +401,9 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
     if (const auto* m = o.if_contains("mappings"); m && !m->is_null()) {
         if (m->is_array()) {
             site.mappings = m->get_array();
+            for (std::size_t i = 0; i < site.mappings.size(); ++i) {
+                if (!site.mappings[i].is_object()) faults.push_back({fmt::format("/mappings/{}", i), "a mapping is an object", "write {...}"});
+            }
         } else {
             faults.push_back({"/mappings", "mappings must be a list", "write []"});
         }

@@ -237,7 +237,7 @@ TEST(TwinBytes, StrayStartBeforeAFrameThatEndsLikeOne) {
     EXPECT_EQ(answer.substr(0, 17), "AA 05 2E 05 02 " + text(std::span(m).subspan(4, 1)));
     m.insert(m.begin(), 0xAD);
     EXPECT_EQ(ByteBench().send(m), answer);
-    // An impossible length: two bytes lost from a frame without CRC, so that data stand where the length was.
+    // An impossible length, an impossible ID.
     ByteBench b;
     EXPECT_EQ(b.send("AD 05 95 09 01 00 00 00 00 00 00 00 00 00 00 CC"), "");
     EXPECT_EQ(b.send("AD 85 95 01 01 00 00 00 00 00 00 00 00 00 00 CC"), "");

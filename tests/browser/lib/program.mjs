@@ -1,7 +1,7 @@
 // Program: starts the gateway that is tested, waits for its `ready` line, stops it, starts it again on the same port.
 // In: AXISGATE_BIN (default build/release/axisgate). Out: its address. Each start has a bound: 20 s, then the test fails with its output.
 import { spawn } from 'node:child_process';
-import { mkdtempSync, rmSync } from 'node:fs';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { createServer } from 'node:net';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -12,47 +12,64 @@ export const binary = process.env.AXISGATE_BIN ?? join(root, 'build/release/axis
 export const isMock = binary.endsWith('.mjs');
 const site = fileURLToPath(new URL('../site.json', import.meta.url));
 
+/** One command of the program under test, from its first word to its end. */
+export class Process {
+  static async run(args, ready) {
+    const p = new Process();
+    p.child = spawn(binary, args, { stdio: ['ignore', 'pipe', 'pipe'] });
+    p.ended = new Promise((resolve) => p.child.once('close', (code, signal) => resolve(signal ?? code)));
+    let output = '';
+    await new Promise((resolve, reject) => {
+      const fail = (text) => {
+        p.child.kill('SIGKILL');
+        reject(new Error(`${binary} ${args.join(' ')} ${text}:\n${output}`));
+      };
+      const limit = setTimeout(() => fail('was not ready within 20 s'), 20_000);
+      p.child.once('error', (e) => fail(`cannot be started: ${e.message}`));
+      p.child.once('close', (code) => fail(`ended with ${code} before it was ready`));
+      const look = (piece) => {
+        output = (output + piece).slice(-20_000);
+        if (!(p.said = ready.exec(output))) return;
+        clearTimeout(limit);
+        resolve();
+      };
+      p.child.stdout.on('data', look);
+      p.child.stderr.on('data', look);
+    });
+    return p;
+  }
+
+  async stop(signal = 'SIGTERM') {
+    this.child.kill(signal);
+    const late = setTimeout(() => this.child.kill('SIGKILL'), 10_000);
+    await this.ended;
+    clearTimeout(late);
+  }
+}
+
 export class Program {
-  static async start() {
+  /** `site`: a document in place of site.json. */
+  static async start({ site: document } = {}) {
     const p = new Program();
     p.data = mkdtempSync(join(tmpdir(), 'axisgate-browser-'));
+    p.site = site;
+    if (document) writeFileSync((p.site = join(p.data, 'site.json')), JSON.stringify(document));
     p.port = await freePort(); // chosen here, so that a restart has the same address
     await p.run();
     return p;
   }
 
   async run() {
-    const args = ['serve', '--data', this.data, '--site', site];
+    const args = ['serve', '--data', this.data, '--site', this.site];
     for (const s of [`http.bind=127.0.0.1:${this.port}`, 'modbus.bind=127.0.0.1:0', 'enip.bind=127.0.0.1:0']) args.push('--set', s);
-    const child = spawn(binary, args, { stdio: ['ignore', 'pipe', 'pipe'] });
-    this.child = child;
-    let output = '';
-    this.ended = new Promise((resolve) => child.once('close', (code, signal) => resolve(signal ?? code)));
-    await new Promise((resolve, reject) => {
-      const limit = setTimeout(() => reject(new Error(`${binary} was not ready within 20 s:\n${output}`)), 20_000);
-      child.once('error', (e) => reject(new Error(`${binary} cannot be started: ${e.message}`)));
-      child.once('close', (code) => reject(new Error(`${binary} ended with ${code} before it was ready:\n${output}`)));
-      const look = (piece) => {
-        output = (output + piece).slice(-20_000);
-        const ready = /^ready .*?\bhttp=(\S+)/m.exec(output);
-        if (!ready) return;
-        clearTimeout(limit);
-        this.url = `http://${ready[1]}`;
-        resolve();
-      };
-      child.stdout.on('data', look);
-      child.stderr.on('data', look);
-    });
+    this.process = await Process.run(args, /^ready .*?\bhttp=(\S+)/m);
+    this.url = `http://${this.process.said[1]}`;
   }
 
   /** The process is gone when this returns. SIGKILL: as if the power had failed. */
   async stop(signal = 'SIGTERM') {
-    if (!this.child) return;
-    this.child.kill(signal);
-    const late = setTimeout(() => this.child.kill('SIGKILL'), 10_000);
-    await this.ended;
-    clearTimeout(late);
-    this.child = null;
+    await this.process?.stop(signal);
+    this.process = null;
   }
 
   async end() {
@@ -72,7 +89,7 @@ export class Program {
   command = (name, body) => this.call('POST', `/axes/${name}/commands`, body);
 }
 
-function freePort() {
+export function freePort() {
   return new Promise((resolve, reject) => {
     const s = createServer();
     s.once('error', reject);

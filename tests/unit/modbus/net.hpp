@@ -53,12 +53,8 @@ struct Net {
 
 class TcpClient {
 public:
-    /// `buffer`: bytes of the kernel's buffers each way; 0: as the system has them.
-    explicit TcpClient(Net& net, int buffer = 0) : net_(net), fd_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
-        if (buffer > 0) {
-            ::setsockopt(fd_, SOL_SOCKET, SO_RCVBUF, &buffer, sizeof buffer);
-            ::setsockopt(fd_, SOL_SOCKET, SO_SNDBUF, &buffer, sizeof buffer);
-        }
+    explicit TcpClient(Net& net, int receive_buffer = 0) : net_(net), fd_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+        if (receive_buffer > 0) ::setsockopt(fd_, SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
         const int on = 1;
         ::setsockopt(fd_, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
     }

@@ -267,17 +267,16 @@ TEST(Server, AClientThatDoesNotReadIsHeldBackAndClosed) {
     deaf.connect();
     other.connect();
     const auto request = test::bytes(adu(1, "03 00 00 00 7D"));
-    // Until neither side takes any more: the answers fill the sockets and one backlog, then the requests do.
+    // The answers fill the sockets and one backlog; then requests stay in the kernel: more of them than the door's own buffer holds.
+    const auto begun = [&] { return net.server->counters().requests.value() * request.size(); };
     std::size_t asked = 0;
-    for (int refused = 0; refused < 3;) {
+    while (asked < begun() + 2 * AduFramer::capacity) {
         const auto n = ::send(deaf.fd(), request.data(), request.size(), MSG_NOSIGNAL);
         net.turn();
         if (n > 0) asked += static_cast<std::size_t>(n);
-        refused = n > 0 ? 0 : refused + 1;
-        ASSERT_LT(asked, 64u << 20) << "it is never held back";
+        ASSERT_LT(asked, 4u << 20) << "it is never held back";
     }
     const auto taken = net.server->counters().requests.value();
-    EXPECT_LT(taken * request.size() + AduFramer::capacity, asked) << "requests wait in the client's own kernel";
     EXPECT_TRUE(serves(other));
     net.pass(4999ms);
     EXPECT_EQ(net.server->counters().closed_not_reading.value(), 0u);

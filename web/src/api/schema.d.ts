@@ -631,6 +631,15 @@ export interface components {
             reason: string;
             /** @description the axis, where one is concerned */
             axis?: string;
+            /** @description where a command is concerned: null if nothing was sent */
+            ticket?: number | null;
+            /**
+             * @description where a command is concerned
+             * @enum {string}
+             */
+            result?: "refused" | "failed";
+            /** @description the command, where one is concerned */
+            command?: string;
             faults?: components["schemas"]["Fault"][];
         };
         CommandProblem: components["schemas"]["Problem"] & {
@@ -834,7 +843,7 @@ export interface components {
             simulated: boolean;
             /** @description the real drive answers */
             device_online: boolean;
-            /** @description why it is so */
+            /** @description why it is so, for people */
             text: string;
             silent_exchanges: number;
             retry_pause_ms: number;
@@ -854,13 +863,13 @@ export interface components {
             channel?: number;
             /** @description place in the register map */
             number?: number;
-            /** @description for people */
+            /** @description for people, such as mm or deg; empty: increments */
             unit?: string;
             /** @default 1 */
             increments_per_unit?: number;
-            /** @description software limit of the gateway */
+            /** @description software limit of the gateway, in `unit` */
             position_min?: number;
-            /** @description software limit of the gateway */
+            /** @description software limit of the gateway, in `unit` */
             position_max?: number;
             /** @description unit/s */
             velocity_max?: number;
@@ -872,6 +881,12 @@ export interface components {
         AxisChange: components["schemas"]["AxisFields"] & Record<string, never>;
         /** @description the members of `AxisFields` that change; null removes one */
         AxisPatch: Record<string, never>;
+        AxisError: {
+            /** @description the drive's own, 0 for none */
+            code: number;
+            /** @description empty for none */
+            text: string;
+        };
         AxisState: {
             readonly line: string;
             readonly family: string;
@@ -911,19 +926,14 @@ export interface components {
             readonly velocity: number | null;
             /** @description as last accepted */
             readonly target_position: number | null;
-            /** @description unit/s */
+            /** @description unit/s, as last accepted */
             readonly target_velocity: number | null;
             readonly position_increments: number | null;
             readonly position_demand_increments: number | null;
             /** @description increments/s */
             readonly velocity_increments: number | null;
             readonly target_position_increments: number | null;
-            readonly error: {
-                /** @description the drive's own, 0 for none */
-                code: number;
-                /** @description empty for none */
-                text: string;
-            };
+            readonly error: components["schemas"]["AxisError"];
             /** @description the drive's own status word(s) */
             readonly native: number;
             /**
@@ -1051,7 +1061,7 @@ export interface components {
         };
         /** @description one of the two */
         NativeRequest: {
-            /** @description text in the drive's language; the family completes it (terminator */
+            /** @description text in the drive's language; the family completes it (terminator, checksum, address) */
             send?: string;
             /** @description bytes as hex pairs */
             send_hex?: string;

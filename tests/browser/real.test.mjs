@@ -1,0 +1,74 @@
+// A drive on a line of its own, played by `axisgate twin` on the far side of a TCP connection: for the gateway it is real, and the page
+// says so. When it is pulled out, its axis alone is lost, with the reason; when it is back, all heals.
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { launch, open, shot, tileOf, until } from './lib/browser.mjs';
+import { freePort, isMock, Process, Program } from './lib/program.mjs';
+
+if (isMock) {
+  console.log('the mock knows no lines: the tests with a drive on a line are left out');
+} else {
+  let program, browser, page, drive, port;
+  const plugIn = () => Process.run(['twin', 'uim342', '--line', `tcp-listen:127.0.0.1:${port}`], /^ready /m);
+  before(async () => {
+    port = await freePort();
+    drive = await plugIn();
+    program = await Program.start({
+      site: {
+        lines: [{ name: 'can0', uri: 'twin', family: 'uim342' }, { name: 'bench', uri: `tcp:127.0.0.1:${port}`, family: 'uim342' }],
+        drives: [{ name: 'feeder', line: 'can0', address: 5, presence: 'auto' }, { name: 'press', line: 'bench', address: 5, presence: 'device' }],
+        axes: [
+          { name: 'feeder', drive: 'feeder', channel: 1, number: 1, unit: 'mm', increments_per_unit: 3200 },
+          { name: 'press', drive: 'press', channel: 1, number: 2, unit: 'mm', increments_per_unit: 1000 },
+        ],
+        mappings: [],
+      },
+    });
+    browser = await launch();
+    page = await open(browser, program.url);
+  });
+  after(async () => {
+    await browser?.close();
+    await program?.end();
+    await drive?.stop();
+  });
+  const condition = (name) => tileOf(page, name).tile.getAttribute('data-condition');
+
+  test('real and simulated are told apart in words', async () => {
+    await until('the drive is live', async () => (await condition('press')) === 'live' || (await condition('press')));
+    assert.equal(await tileOf(page, 'press').text('mark'), 'REAL');
+    assert.equal(await tileOf(page, 'feeder').text('mark'), 'SIMULATED');
+    assert.match(await page.locator('[data-drive=press]').innerText(), /Real drive/);
+    await shot(page, 'real-and-simulated');
+  });
+
+  test('there is no hand for a real drive', async () => {
+    await page.goto(`${program.url}/axes/press`);
+    await page.getByText('This drive is not simulated now').waitFor();
+    await page.goto(program.url);
+    await page.locator('[data-axis=press]').waitFor();
+  });
+
+  test('a drive that is pulled out costs its own axis alone, and the reason is told', async () => {
+    await drive.stop('SIGKILL');
+    const press = tileOf(page, 'press');
+    await until('its axis is offline', async () => (await condition('press')) === 'offline' || (await condition('press')), 15_000);
+    assert.match(await press.text('notice'), /^Offline: .{5,}/);
+    assert.match(await press.text('state'), /Offline/);
+    await until('its line is down', async () => /Down/.test(await page.locator('[data-line=bench]').innerText()));
+    assert.equal(await condition('feeder'), 'live');
+    assert.equal(await page.locator('[data-field=connection]').innerText(), 'Live');
+    await shot(page, 'drive-pulled-out');
+  });
+
+  test('a command for it is refused in words', async () => {
+    await page.getByRole('button', { name: 'Enable press' }).click();
+    await until('it is refused', async () => /refused|failed/.test(await tileOf(page, 'press').result()) || (await tileOf(page, 'press').result()));
+  });
+
+  test('it heals when the drive is plugged in again', async () => {
+    drive = await plugIn();
+    await until('its axis is live', async () => (await condition('press')) === 'live' || (await condition('press')), 40_000);
+    assert.deepEqual(page.faults(), []);
+  });
+}

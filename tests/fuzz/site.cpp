@@ -1,0 +1,37 @@
+// Fuzz: the site document, as `axisgate check`, `--site` and PUT /api/v1/site read it.
+// In: JSON text. Out: nothing; laws: a site or a fault, never both; faults have a place and a remedy; what is written reads back the same.
+#include "gateway/core/site.hpp"
+
+#include <boost/json/parse.hpp>
+#include <boost/json/serialize.hpp>
+
+#include "tests/fuzz/fuzz.hpp"
+
+using namespace axisgate;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const std::string_view text(reinterpret_cast<const char*>(data), size);
+    boost::system::error_code ec;
+    const auto document = boost::json::parse(boost::json::string_view(text.data(), text.size()), ec);
+    if (ec) return 0;
+    std::vector<SiteFault> faults;
+    const auto site = parse_site(document, fuzz::families(), faults);
+    fuzz::require(site.has_value() == faults.empty(), "a site, or a fault");
+    std::size_t lines = 1;
+    for (const char c : text) lines += c == '\n';
+    for (const auto& f : faults) {
+        fuzz::require(f.pointer.empty() || f.pointer.front() == '/', "a fault has a JSON pointer");
+        fuzz::require(!f.text.empty() && !f.remedy.empty(), "a fault has a text and a remedy");
+        const auto line = line_of_pointer(text, f.pointer);
+        fuzz::require(line >= 1 && line <= lines, "a fault is on a line of the document");
+    }
+    if (!site) return 0;
+    const auto written = to_json(*site);
+    std::vector<SiteFault> again_faults;
+    const auto again = parse_site(written, fuzz::families(), again_faults);
+    fuzz::require(again.has_value(), "what was written can be read");
+    fuzz::require(to_json(*again) == written, "what was written reads back the same");
+    fuzz::require(differences(*site, *again).empty(), "a site does not differ from itself");
+    fuzz::require(mapping_revision(*site) == mapping_revision(*again), "the revision is a function of the site");
+    return 0;
+}

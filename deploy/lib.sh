@@ -28,12 +28,20 @@ install_packages() {
     as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 }
 
-# node and npm: any release from 18 on will do; Debian's own if there is none
+# Node.js 20.19 or newer builds the page. Debian 12's own is 18: then its npm fetches a newer one by name, pinned in deploy/node.
+node_is_new_enough() { node -e 'const [a, b] = process.versions.node.split(".").map(Number); process.exit(a > 20 || (a === 20 && b >= 19) ? 0 : 1)' 2>/dev/null; }
 install_node() {
-    if command -v node >/dev/null && command -v npm >/dev/null && [ "$(node -p 'process.versions.node.split(".")[0]')" -ge 18 ]; then return 0; fi
-    say "installing Debian packages: nodejs npm"
-    as_root env DEBIAN_FRONTEND=noninteractive apt-get update -qq
-    as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends nodejs npm >/dev/null
+    if command -v npm >/dev/null && node_is_new_enough; then return 0; fi
+    if ! command -v npm >/dev/null; then
+        say "installing Debian packages: nodejs npm"
+        as_root env DEBIAN_FRONTEND=noninteractive apt-get update -qq
+        as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends nodejs npm >/dev/null
+    fi
+    node_is_new_enough && return 0
+    npm_ci deploy/node
+    PATH=$(dirname "$(ls "$top"/deploy/node/node_modules/node-linux-*/bin/node | head -n 1)"):$PATH
+    export PATH
+    node_is_new_enough || die "no Node.js of 20.19 or newer could be had; install one and try again"
 }
 
 # npm_ci FOLDER: exactly what its package-lock.json names; skipped if that has been done

@@ -100,7 +100,7 @@ test('the state machine marks the present state, in words too', async () => {
 });
 
 test('the scope draws a move', async () => {
-  await program.command('feeder', { command: 'move_relative', position: 20, velocity: 40 });
+  await program.command('feeder', { command: 'move_relative', position: 20, velocity: 40, acceleration: 400, deceleration: 400 });
   await until('it has arrived', async () => (await program.axis('feeder')).target_reached === true);
   const inked = await page.evaluate(() => {
     const c = document.querySelector('.scope canvas');
@@ -115,7 +115,7 @@ test('the scope draws a move', async () => {
 
 test('the present position can be given another name without a motion', async () => {
   await page.getByRole('textbox', { name: 'What the present position shall be called' }).fill('0');
-  await page.getByRole('button', { name: 'Set position' }).click();
+  await page.getByRole('button', { name: 'Set position', exact: true }).click();
   await until('it took', async () => Math.abs((await program.axis('feeder')).position) < 0.01 || (await program.axis('feeder')).position);
 });
 

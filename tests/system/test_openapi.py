@@ -203,7 +203,9 @@ def test_every_write_answers_as_described(gateway):
     steps = [
         ("addLine", {}, line, 201), ("addLine", {}, line, 409), ("addLine", {}, {"name": "x"}, 422), ("addDrive", {}, drive, 201), ("addDrive", {}, drive, 409),
         ("addDrive", {}, {**drive, "name": "other", "address": 4}, 422), ("addAxis", {}, axis, 201), ("addAxis", {}, axis, 409), ("addAxis", {}, {**axis, "name": "other"}, 422),
-        ("replaceLine", {"line": "spare"}, line, 200), ("changeLine", {"line": "spare"}, {"bitrate": 250000}, 200), ("changeLine", {"line": "nobody"}, {"bitrate": 1}, 404),
+        ("replaceLine", {"line": "spare"}, line, 200), ("changeLine", {"line": "spare"}, {"bitrate": 250000}, 200), 
+        ("changeLine", {"line": "spare"}, {"manners": {"reply_timeout_ms": 9, "poll_period_ms": 9, "pause_ms": 1, "stale_after_ms": 900, "retries": 1, "silent_limit": 4,
+                                                       "retry_pause_min_ms": 100, "retry_pause_max_ms": 900}, "options": {"crc": "12"}}, 200), ("changeLine", {"line": "nobody"}, {"bitrate": 1}, 404),
         ("replaceDrive", {"drive": "spare"}, drive, 200), ("changeDrive", {"drive": "spare"}, {"options": {"model": "342S"}}, 200), ("replaceAxis", {"axis": "spare"}, axis, 200),
         ("changeAxis", {"axis": "spare"}, {"unit": "mm"}, 200), ("changeAxis", {"axis": "spare"}, {"unit": 5}, 422),
         ("exchangeNative", {"drive": "feeder"}, {"send": "MS[1]"}, 200), ("exchangeNative", {"drive": "feeder"}, {}, 422), ("exchangeNative", {"drive": "nobody"}, {"send": "MS[1]"}, 404),

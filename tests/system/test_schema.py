@@ -12,6 +12,7 @@ import re
 import jsonschema
 
 import harness
+import openapi
 from harness import run
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
@@ -118,6 +119,17 @@ def test_the_schema_is_one_and_its_examples_fit():
     uris = jsonschema.Draft202012Validator({"$ref": "#/$defs/line_uri", "$defs": SCHEMA["$defs"]})
     for uri in SCHEMA["$defs"]["line_uri"]["examples"]:
         uris.validate(uri)
+
+
+def test_the_description_of_the_api_names_the_same_members():
+    api = openapi.Description((TOP / "schema/openapi.yaml").read_text())
+    for mine, theirs in (("line", "LineSpec"), ("drive", "DriveSpec"), ("axis", "AxisSpec"), ("manners", "Manners")):
+        names, _ = api.members({"$ref": f"#/components/schemas/{theirs}"})
+        assert set(SCHEMA["$defs"][mine]["properties"]) == names, f"{mine}: the site's schema and openapi.yaml differ: {sorted(set(SCHEMA['$defs'][mine]['properties']) ^ names)}"
+        own = SCHEMA["$defs"][mine]["properties"]
+        for name in names if mine == "manners" else ():
+            other = api.document["components"]["schemas"]["Manners"]["properties"][name]
+            assert (own[name]["minimum"], own[name]["maximum"]) == (other["minimum"], other["maximum"]), name
 
 
 def test_the_examples_and_the_site_in_force_fit(gateway, folder):

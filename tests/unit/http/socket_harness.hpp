@@ -10,6 +10,7 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <type_traits>
 
 #include "gateway/doors/http/server.hpp"
 #include "tests/unit/http/harness.hpp"
@@ -48,8 +49,8 @@ public:
     }
     /// Runs `f` on the door's thread and waits for it.
     template <class F>
-    auto on(F f) {
-        std::packaged_task<decltype(f())()> task(std::move(f));
+    std::invoke_result_t<F> on(F f) {
+        std::packaged_task<std::invoke_result_t<F>()> task(std::move(f));
         auto result = task.get_future();
         asio::post(context_, [&task] { task(); });
         if (result.wait_for(patience) != std::future_status::ready) throw std::runtime_error("the door's thread hangs");

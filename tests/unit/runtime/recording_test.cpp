@@ -98,7 +98,9 @@ TEST(Recording, WhatTheApiWritesIsReadBack) {
         f.kind = static_cast<Frame::Kind>(random() % 3);
         f.extended = f.kind == Frame::Kind::can && random() % 2;
         f.remote = f.kind == Frame::Kind::can && random() % 8 == 0;
-        f.id = f.kind == Frame::Kind::bytes ? 0 : random() & (f.extended || f.kind == Frame::Kind::can_error ? 0x1FFFFFFFu : 0x7FFu);
+        f.id = f.kind == Frame::Kind::bytes
+                   ? 0
+                   : static_cast<std::uint32_t>(random()) & (f.extended || f.kind == Frame::Kind::can_error ? 0x1FFFFFFFu : 0x7FFu);
         std::vector<std::uint8_t> data(f.remote ? 0 : f.kind == Frame::Kind::bytes ? 1 + random() % 40 : random() % 9);
         for (auto& b : data)
             b = static_cast<std::uint8_t>(random());

@@ -107,7 +107,7 @@ function HandRow({ item, set }: { item: HandItem; set: (name: string, value: Val
               if (e.key === 'Enter' && !e.repeat) send();
             }}
           />
-          <button type="button" class="button small" aria-label={`Set ${label}`} onClick={send} disabled={typed.value === null}>
+          <button type="button" class="button small" aria-label={`Set ${label} of the twin`} onClick={send} disabled={typed.value === null}>
             Set
           </button>
         </span>

@@ -1,0 +1,289 @@
+// Round benchmark: engine, adapter and twins in virtual time: how much faster than the world is the simulated one?
+// In: options (see usage). Out: per point the ratio, the limit it is measured against, and both figures; exit 1 if a limit is not kept.
+// Nothing sleeps and nothing is measured by the clock on the wall but where a ratio says so: it is the processor's time that counts.
+#include <time.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "tests/bench/report.hpp"
+#include "tests/world/world.hpp"
+
+namespace axisgate::bench {
+namespace {
+using namespace std::chrono_literals;
+using test::families;
+
+double processor_seconds() {
+    timespec t{};
+    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec) * 1e-9;
+}
+double wall_seconds() {
+    timespec t{};
+    ::clock_gettime(CLOCK_MONOTONIC, &t);
+    return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec) * 1e-9;
+}
+
+/// What the runtime is to an engine, without keeping anything.
+struct Host final : EngineHost {
+    std::uint64_t bad = 0, results = 0, events = 0, samples = 0;
+    std::string first_bad;
+    std::unique_ptr<Line> make_line(const LineSpec&, const LineSetup&) override { std::abort(); }  // twin lines alone
+    void on_result(const Result& r) override {
+        ++results;
+        if (!good(r) && bad++ == 0) first_bad = r.text;
+    }
+    void on_event(Event, Instant) override { ++events; }
+    void on_sample(const Sample&) override { ++samples; }
+    void on_store(StoreOrder) override {}
+    void on_twin_memory(const std::string&, NonVolatile) override {}
+};
+
+struct Plant {
+    Host host;
+    Image image;
+    Engine engine{families(), host, image};
+    Instant now = at_ns(1'000'000'000);
+    std::shared_ptr<const SiteState> site;
+    std::uint64_t turns = 0;
+    std::uint64_t sequence = 0;
+
+    Plant(const FamilyEntry& e, std::size_t axes, std::size_t per_line, int poll_period_ms) {
+        namespace json = boost::json;
+        json::array lines, drives, places;
+        const auto addresses = test::addresses(e, per_line);
+        for (std::size_t i = 0; i < axes; ++i) {
+            const std::string line = "line" + std::to_string(i / addresses.size());
+            if (i % addresses.size() == 0) {
+                lines.push_back({{"name", line}, {"uri", "twin"}, {"family", e.family->name}, {"bitrate", 1'000'000}, {"manners", {{"poll_period_ms", poll_period_ms}}}});
+            }
+            const std::string name = "a" + std::to_string(i + 1);
+            drives.push_back({{"name", name}, {"line", line}, {"address", addresses[i % addresses.size()]}, {"presence", "twin"}});
+            places.push_back({{"name", name}, {"drive", name}, {"number", i + 1}, {"unit", "u"}, {"increments_per_unit", 100}});
+        }
+        std::vector<SiteFault> faults;
+        auto parsed = parse_site(json::object{{"lines", lines}, {"drives", drives}, {"axes", places}}, families(), faults);
+        if (!parsed) std::abort();
+        site = engine.apply_site(std::move(*parsed), {}, 1, now);
+    }
+    void command(AxisId axis, CommandBody body) {
+        Command c;
+        c.ticket = make_ticket(Door::http, ++sequence);
+        c.axis = axis;
+        c.body = std::move(body);
+        c.origin.door = Door::http;
+        engine.on_command(std::move(c), now);
+    }
+    void run_for(Duration d) {
+        const Instant end = now + d;
+        while (engine.deadline() <= end) {
+            now = std::max(now, engine.deadline());
+            engine.on_deadline(now);
+            ++turns;
+        }
+        now = end;
+    }
+    std::uint64_t exchanges() {
+        std::uint64_t n = 0;
+        for (const auto id : site->line_ids) n += engine.line_report(id, now).counters.exchanges;
+        return n;
+    }
+    std::size_t count(std::uint16_t flag) const {
+        std::size_t n = 0;
+        for (const auto id : site->axis_ids) n += (image.picture(id).flags & flag) != 0;
+        return n;
+    }
+};
+
+/// A thousand axes that move, each asked a hundred times a second.
+bool run_thousand(const FamilyEntry& e) {
+    constexpr std::size_t axes = 1000;
+    constexpr double rate = 100;
+    std::printf("%zu moving axes of %s, polled at %.0f Hz, engine, adapters and twins\n", axes, std::string(e.family->name).c_str(), rate);
+    // As many drives on a line as its bit rate can carry at that rate: 40 * 100 * (question + answer) fills 1 Mbit/s to about four fifths.
+    Plant p(e, axes, 40, static_cast<int>(1000 / rate));
+    p.run_for(2s);
+    for (const auto a : p.site->axis_ids) p.command(a, Enable{});
+    p.run_for(1s);
+    for (std::size_t i = 0; i < p.site->axis_ids.size(); ++i) {
+        Move m;
+        m.kind = Move::Kind::velocity;
+        m.target = (i % 2 ? 1 : -1) * static_cast<std::int64_t>(1000 + i);
+        m.acceleration = 20000;
+        m.deceleration = 20000;
+        p.command(p.site->axis_ids[i], m);
+    }
+    p.run_for(2s);
+    std::vector<std::int64_t> before;
+    for (const auto a : p.site->axis_ids) before.push_back(p.image.picture(a).position);
+    const std::uint64_t exchanges = p.exchanges();
+    const std::uint64_t turns = p.turns;
+    constexpr double simulated = 5;
+    const double begun = processor_seconds();
+    p.run_for(std::chrono::duration_cast<Duration>(std::chrono::duration<double>(simulated)));
+    const double used = processor_seconds() - begun;
+    const double polled = static_cast<double>(p.exchanges() - exchanges) / simulated / axes;
+    std::size_t moved = 0;
+    for (std::size_t i = 0; i < axes; ++i) {
+        const double way = std::fabs(static_cast<double>(p.image.picture(p.site->axis_ids[i]).position - before[i]));
+        moved += std::fabs(way - static_cast<double>(1000 + i) * simulated) < static_cast<double>(1000 + i) * 0.05;
+    }
+    bool kept = say("simulated / processor time", simulated / used, ">=", 1.0, "simulated", simulated, "processor", used, "s");
+    kept &= say("polled / wanted", polled / rate, ">=", 0.97, "polled", polled, "wanted", rate, "/s per axis");
+    kept &= say("moving / all axes", static_cast<double>(moved) / axes, ">=", 1.0, "where they should be", static_cast<double>(moved), "all", axes, "axes");
+    if (p.host.bad) std::printf("    %llu commands went wrong; the first: %s\n", static_cast<unsigned long long>(p.host.bad), p.host.first_bad.c_str());
+    std::printf("    per poll: %.2f us of processor time, %.2f turns of the engine\n", used / (polled * simulated * axes) * 1e6,
+                static_cast<double>(p.turns - turns) / (polled * simulated * axes));
+    return kept && p.host.bad == 0;
+}
+
+/// Sixteen axes on a bad cable, commanded all the time.
+bool run_world(const FamilyEntry& e, double simulated) {
+    std::printf("the world of 16 axes of %s with faults\n", std::string(e.family->name).c_str());
+    test::World w(7);
+    std::mt19937_64 random(7);
+    const auto site = w.apply(w.make_site(e, e.family->uses_can ? "can:sim" : "tcp:127.0.0.1:9", 16, "device"));
+    const auto list = test::addresses(e, site->drive_ids.size());
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        w.plug_in("line", site->drive_ids[i], e, list[i], e.family->uses_can ? LineKind::can : LineKind::bytes);
+    }
+    w.run_for(3s);
+    const double begun = wall_seconds();
+    const Instant start = w.now;
+    std::uint64_t given = 0;
+    const double faults_before = static_cast<double>(w.steps);
+    while (seconds(w.now - start) < simulated) {
+        // One fault and one command per second of the world, as a machine with a bad cable has them.
+        if (random() % 10 == 0) {
+            FaultRates to, from;
+            to.loss = static_cast<double>(random() % 100) / 1000.0;
+            to.flip = static_cast<double>(random() % 20) / 1000.0;
+            from.loss = to.loss;
+            from.delay = static_cast<double>(random() % 100) / 1000.0;
+            from.delay_max = std::chrono::milliseconds(1 + random() % 40);
+            w.cables.at("line")->set_rates(to, from);
+        }
+        if (random() % 60 == 0) w.cables.at("line")->cut(w.now);
+        if (w.cables.at("line")->is_cut() && random() % 3 == 0) w.cables.at("line")->heal(w.now);
+        const AxisId axis = site->axis_ids[random() % site->axis_ids.size()];
+        Move m;
+        m.target = static_cast<std::int64_t>(random() % 20001) - 10000;
+        m.velocity = 1 + static_cast<std::int64_t>(random() % 8000);
+        m.acceleration = 20000;
+        m.deceleration = 20000;
+        switch (random() % 4) {
+            case 0: (void)w.command(axis, Enable{}, true); break;
+            case 1: (void)w.command(axis, random() % 4 == 0 ? CommandBody{QuickStop{}} : CommandBody{ResetFault{}}); break;
+            default: (void)w.command(axis, m, true);
+        }
+        ++given;
+        w.run_for(1s);
+        w.samples.clear();
+    }
+    const double passed = seconds(w.now - start);
+    const double used = wall_seconds() - begun;
+    (void)faults_before;
+    std::size_t answered = 0;
+    for (const auto& [t, r] : w.results) answered += r.size() == 1;
+    const bool kept = say("simulated / real time", passed / used, ">=", 500, "simulated", passed, "real", used, "s");
+    std::printf("    %llu commands, %zu answered by now, %zu events, %.0f turns of the engine per simulated second\n",
+                static_cast<unsigned long long>(given), answered, w.events.size(), static_cast<double>(w.steps) / passed);
+    return kept;
+}
+
+/// A thousand twins that move and that nobody asks.
+bool run_unobserved(const FamilyEntry& e) {
+    constexpr std::size_t twins = 1000;
+    constexpr std::size_t per_bus = 100;
+    std::printf("%zu moving twins of %s that nobody polls\n", twins, std::string(e.family->name).c_str());
+    struct Quiet final : LineEvents {
+        void on_frame(const Frame&) override {}
+        void on_line_state(bool, const std::string&) override {}
+        void on_sent(const Frame&) override {}
+    } quiet;
+    // The adapters set them in motion; then each twin is left alone on a bus of its own making.
+    Plant p(e, twins, per_bus, 1000);
+    p.run_for(5s);
+    for (const auto a : p.site->axis_ids) p.command(a, Enable{});
+    p.run_for(3s);
+    for (std::size_t i = 0; i < twins; ++i) {
+        Move m;
+        m.kind = i % 2 ? Move::Kind::velocity : Move::Kind::absolute;
+        m.target = m.kind == Move::Kind::velocity ? static_cast<std::int64_t>(1000 + i) : 2'000'000'000;
+        if (m.kind == Move::Kind::absolute) m.velocity = static_cast<std::int64_t>(1000 + i);
+        m.acceleration = 20000;
+        m.deceleration = 20000;
+        p.command(p.site->axis_ids[i], m);
+    }
+    p.run_for(5s);
+    std::vector<Twin*> all;
+    for (const auto d : p.site->drive_ids) all.push_back(p.engine.twin(d));
+    std::vector<double> before;
+    for (auto* t : all) before.push_back(t->mechanics(1, p.now).position);
+    // From here nobody asks: time goes on, and only deadlines of the twins themselves are met.
+    constexpr double simulated = 3600;
+    const Instant end = p.now + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(simulated));
+    std::uint64_t wakes = 0;
+    Out out;
+    const double begun = processor_seconds();
+    for (auto* t : all) {
+        while (t->deadline() <= end) {
+            t->on_deadline(t->deadline(), out);
+            out.clear();
+            ++wakes;
+        }
+    }
+    const double used = processor_seconds() - begun;
+    std::size_t moved = 0;
+    for (std::size_t i = 0; i < twins; ++i) {
+        const double way = all[i]->mechanics(1, end).position - before[i];
+        moved += std::fabs(way - static_cast<double>(1000 + i) * simulated) < static_cast<double>(1000 + i) * 0.1 + 2;
+    }
+    bool kept = say("simulated / processor time", simulated / std::max(used, 1e-9), ">=", 100'000, "simulated", simulated, "processor", used, "s");
+    kept &= say("wake-ups / twin and hour", static_cast<double>(wakes) / twins, "<=", 2, "wake-ups", static_cast<double>(wakes), "twins", twins, "");
+    kept &= say("moved / all twins", static_cast<double>(moved) / twins, ">=", 1.0, "where they should be", static_cast<double>(moved), "all", twins, "");
+    return kept && p.host.bad == 0;
+}
+
+constexpr const char* usage = "bench_round [thousand|world|unobserved]... [--seconds S] [--report-only]\n"
+                              "  --seconds S     simulated time of the world (default 3000)\n"
+                              "  --report-only   exit 0 even if a limit is not kept\n";
+}  // namespace
+}  // namespace axisgate::bench
+
+int main(int argc, char** argv) {
+    using namespace axisgate;
+    double world = 3000;
+    bool report_only = false;
+    std::vector<std::string> wanted;
+    for (int i = 1; i < argc; ++i) {
+        const std::string a = argv[i];
+        if (a == "--report-only") {
+            report_only = true;
+        } else if (a == "--seconds" && i + 1 < argc) {
+            world = std::clamp(std::atof(argv[++i]), 1.0, 1e6);
+        } else if (a == "thousand" || a == "world" || a == "unobserved") {
+            wanted.push_back(a);
+        } else {
+            std::fputs(bench::usage, stderr);
+            return 2;
+        }
+    }
+    const auto runs = [&](const char* name) { return wanted.empty() || std::ranges::find(wanted, name) != wanted.end(); };
+    bool kept = true;
+    for (const auto& e : test::families().entries) {
+        if (runs("thousand")) kept &= bench::run_thousand(e);
+        if (runs("world")) kept &= bench::run_world(e, world);
+        if (runs("unobserved")) kept &= bench::run_unobserved(e);
+    }
+    std::printf(kept ? "all limits kept\n" : "NOT all limits kept\n");
+    return kept || report_only ? 0 : 1;
+}

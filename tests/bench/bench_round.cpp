@@ -63,7 +63,11 @@ struct Plant {
         for (std::size_t i = 0; i < axes; ++i) {
             const std::string line = "line" + std::to_string(i / addresses.size());
             if (i % addresses.size() == 0) {
-                lines.push_back({{"name", line}, {"uri", "twin"}, {"family", e.family->name}, {"bitrate", 1'000'000}, {"manners", {{"poll_period_ms", poll_period_ms}}}});
+                lines.push_back({{"name", line},
+                                 {"uri", "twin"},
+                                 {"family", e.family->name},
+                                 {"bitrate", 1'000'000},
+                                 {"manners", {{"poll_period_ms", poll_period_ms}}}});
             }
             const std::string name = "a" + std::to_string(i + 1);
             drives.push_back({{"name", name}, {"line", line}, {"address", addresses[i % addresses.size()]}, {"presence", "twin"}});
@@ -93,12 +97,14 @@ struct Plant {
     }
     std::uint64_t exchanges() {
         std::uint64_t n = 0;
-        for (const auto id : site->line_ids) n += engine.line_report(id, now).counters.exchanges;
+        for (const auto id : site->line_ids)
+            n += engine.line_report(id, now).counters.exchanges;
         return n;
     }
     std::size_t count(std::uint16_t flag) const {
         std::size_t n = 0;
-        for (const auto id : site->axis_ids) n += (image.picture(id).flags & flag) != 0;
+        for (const auto id : site->axis_ids)
+            n += (image.picture(id).flags & flag) != 0;
         return n;
     }
 };
@@ -111,7 +117,8 @@ bool run_thousand(const FamilyEntry& e) {
     // As many drives on a line as its bit rate can carry at that rate: 40 * 100 * (question + answer) fills 1 Mbit/s to about four fifths.
     Plant p(e, axes, 40, static_cast<int>(1000 / rate));
     p.run_for(2s);
-    for (const auto a : p.site->axis_ids) p.command(a, Enable{});
+    for (const auto a : p.site->axis_ids)
+        p.command(a, Enable{});
     p.run_for(1s);
     for (std::size_t i = 0; i < p.site->axis_ids.size(); ++i) {
         Move m;
@@ -123,7 +130,8 @@ bool run_thousand(const FamilyEntry& e) {
     }
     p.run_for(2s);
     std::vector<std::int64_t> before;
-    for (const auto a : p.site->axis_ids) before.push_back(p.image.picture(a).position);
+    for (const auto a : p.site->axis_ids)
+        before.push_back(p.image.picture(a).position);
     const std::uint64_t exchanges = p.exchanges();
     const std::uint64_t turns = p.turns;
     constexpr double simulated = 5;
@@ -138,8 +146,10 @@ bool run_thousand(const FamilyEntry& e) {
     }
     bool kept = say("simulated / processor time", simulated / used, ">=", 1.0, "simulated", simulated, "processor", used, "s");
     kept &= say("polled / wanted", polled / rate, ">=", 0.97, "polled", polled, "wanted", rate, "/s per axis");
-    kept &= say("moving / all axes", static_cast<double>(moved) / axes, ">=", 1.0, "where they should be", static_cast<double>(moved), "all", axes, "axes");
-    if (p.host.bad) std::printf("    %llu commands went wrong; the first: %s\n", static_cast<unsigned long long>(p.host.bad), p.host.first_bad.c_str());
+    kept &= say("moving / all axes", static_cast<double>(moved) / axes, ">=", 1.0, "where they should be", static_cast<double>(moved),
+                "all", axes, "axes");
+    if (p.host.bad)
+        std::printf("    %llu commands went wrong; the first: %s\n", static_cast<unsigned long long>(p.host.bad), p.host.first_bad.c_str());
     std::printf("    per poll: %.2f us of processor time, %.2f turns of the engine\n", used / (polled * simulated * axes) * 1e6,
                 static_cast<double>(p.turns - turns) / (polled * simulated * axes));
     return kept && p.host.bad == 0;
@@ -180,9 +190,14 @@ bool run_world(const FamilyEntry& e, double simulated) {
         m.acceleration = 20000;
         m.deceleration = 20000;
         switch (random() % 4) {
-            case 0: (void)w.command(axis, Enable{}, true); break;
-            case 1: (void)w.command(axis, random() % 4 == 0 ? CommandBody{QuickStop{}} : CommandBody{ResetFault{}}); break;
-            default: (void)w.command(axis, m, true);
+            case 0:
+                (void)w.command(axis, Enable{}, true);
+                break;
+            case 1:
+                (void)w.command(axis, random() % 4 == 0 ? CommandBody{QuickStop{}} : CommandBody{ResetFault{}});
+                break;
+            default:
+                (void)w.command(axis, m, true);
         }
         ++given;
         w.run_for(1s);
@@ -192,7 +207,8 @@ bool run_world(const FamilyEntry& e, double simulated) {
     const double used = wall_seconds() - begun;
     (void)faults_before;
     std::size_t answered = 0;
-    for (const auto& [t, r] : w.results) answered += r.size() == 1;
+    for (const auto& [t, r] : w.results)
+        answered += r.size() == 1;
     const bool kept = say("simulated / real time", passed / used, ">=", 500, "simulated", passed, "real", used, "s");
     std::printf("    %llu commands, %zu answered by now, %zu events, %.0f turns of the engine per simulated second\n",
                 static_cast<unsigned long long>(given), answered, w.events.size(), static_cast<double>(w.steps) / passed);
@@ -212,7 +228,8 @@ bool run_unobserved(const FamilyEntry& e) {
     // The adapters set them in motion; then each twin is left alone on a bus of its own making.
     Plant p(e, twins, per_bus, 1000);
     p.run_for(5s);
-    for (const auto a : p.site->axis_ids) p.command(a, Enable{});
+    for (const auto a : p.site->axis_ids)
+        p.command(a, Enable{});
     p.run_for(3s);
     for (std::size_t i = 0; i < twins; ++i) {
         Move m;
@@ -225,9 +242,11 @@ bool run_unobserved(const FamilyEntry& e) {
     }
     p.run_for(5s);
     std::vector<Twin*> all;
-    for (const auto d : p.site->drive_ids) all.push_back(p.engine.twin(d));
+    for (const auto d : p.site->drive_ids)
+        all.push_back(p.engine.twin(d));
     std::vector<double> before;
-    for (auto* t : all) before.push_back(t->mechanics(1, p.now).position);
+    for (auto* t : all)
+        before.push_back(t->mechanics(1, p.now).position);
     // From here nobody asks: time goes on, and only deadlines of the twins themselves are met.
     constexpr double simulated = 3600;
     const Instant end = p.now + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(simulated));
@@ -247,15 +266,19 @@ bool run_unobserved(const FamilyEntry& e) {
         const double way = all[i]->mechanics(1, end).position - before[i];
         moved += std::fabs(way - static_cast<double>(1000 + i) * simulated) < static_cast<double>(1000 + i) * 0.1 + 2;
     }
-    bool kept = say("simulated / processor time", simulated / std::max(used, 1e-9), ">=", 100'000, "simulated", simulated, "processor", used, "s");
-    kept &= say("wake-ups / twin and hour", static_cast<double>(wakes) / twins, "<=", 2, "wake-ups", static_cast<double>(wakes), "twins", twins, "");
-    kept &= say("moved / all twins", static_cast<double>(moved) / twins, ">=", 1.0, "where they should be", static_cast<double>(moved), "all", twins, "");
+    bool kept =
+        say("simulated / processor time", simulated / std::max(used, 1e-9), ">=", 100'000, "simulated", simulated, "processor", used, "s");
+    kept &= say("wake-ups / twin and hour", static_cast<double>(wakes) / twins, "<=", 2, "wake-ups", static_cast<double>(wakes), "twins",
+                twins, "");
+    kept &= say("moved / all twins", static_cast<double>(moved) / twins, ">=", 1.0, "where they should be", static_cast<double>(moved),
+                "all", twins, "");
     return kept && p.host.bad == 0;
 }
 
-constexpr const char* usage = "bench_round [thousand|world|unobserved]... [--seconds S] [--report-only]\n"
-                              "  --seconds S     simulated time of the world (default 3000)\n"
-                              "  --report-only   exit 0 even if a limit is not kept\n";
+constexpr const char* usage =
+    "bench_round [thousand|world|unobserved]... [--seconds S] [--report-only]\n"
+    "  --seconds S     simulated time of the world (default 3000)\n"
+    "  --report-only   exit 0 even if a limit is not kept\n";
 }  // namespace
 }  // namespace axisgate::bench
 

@@ -40,23 +40,35 @@ public:
         wanted_ = in_.ConsumeIntegralInRange<unsigned>(1, (1u << addresses_.size()) - 1);
         configure();
         line(true);
-        for (int step = 0; step < 600 && in_.remaining_bytes() > 0; ++step) one();
+        for (int step = 0; step < 600 && in_.remaining_bytes() > 0; ++step)
+            one();
         // The end of the line is the end of every command that has not ended by itself.
         line(false);
-        for (const auto& [ticket, count] : tickets_) require(count == 1, "every ticket gets exactly one result");
+        for (const auto& [ticket, count] : tickets_)
+            require(count == 1, "every ticket gets exactly one result");
     }
 
 private:
     void one() {
         switch (in_.ConsumeIntegralInRange<int>(0, 15)) {
             case 0:
-            case 1: pass(any_step(in_)); break;
-            case 2: to_deadline(); break;
+            case 1:
+                pass(any_step(in_));
+                break;
+            case 2:
+                to_deadline();
+                break;
             case 3:
-            case 4: command(); break;
-            case 5: give(any_frame(in_)); break;
+            case 4:
+                command();
+                break;
+            case 5:
+                give(any_frame(in_));
+                break;
             case 6:
-            case 7: give(frames_.plausible(in_, kind_, addresses_)); break;
+            case 7:
+                give(frames_.plausible(in_, kind_, addresses_));
+                break;
             case 8:
                 if (in_.ConsumeIntegralInRange<int>(0, 7) == 0) line(!up_);
                 break;
@@ -68,8 +80,12 @@ private:
                 adapter_->on_deadline(now_, out_);
                 drain();
                 break;
-            case 11: hand(); break;
-            default: wire(in_.ConsumeIntegralInRange<std::size_t>(1, 32)); break;
+            case 11:
+                hand();
+                break;
+            default:
+                wire(in_.ConsumeIntegralInRange<std::size_t>(1, 32));
+                break;
         }
     }
 
@@ -200,13 +216,20 @@ private:
     std::optional<CommandBody> any_body() {
         switch (in_.ConsumeIntegralInRange<int>(0, 14)) {
             case 0:
-            case 1: return Enable{};
-            case 2: return Disable{};
-            case 3: return QuickStop{};
-            case 4: return Halt{};
-            case 5: return ResetFault{};
-            case 6: return Home{in_.ConsumeIntegral<std::int16_t>()};
-            case 7: return SetPosition{in_.ConsumeIntegral<std::int32_t>()};
+            case 1:
+                return Enable{};
+            case 2:
+                return Disable{};
+            case 3:
+                return QuickStop{};
+            case 4:
+                return Halt{};
+            case 5:
+                return ResetFault{};
+            case 6:
+                return Home{in_.ConsumeIntegral<std::int16_t>()};
+            case 7:
+                return SetPosition{in_.ConsumeIntegral<std::int32_t>()};
             case 8:
             case 9: {
                 Move m;
@@ -227,7 +250,8 @@ private:
                 if (s.axes.empty()) return std::nullopt;
                 return s;
             }
-            case 11: return ReadParameter{any_point()};
+            case 11:
+                return ReadParameter{any_point()};
             case 12: {
                 const Point p = any_point();
                 auto checked = e_.catalogue->check_write(p, any_value(in_));
@@ -289,9 +313,12 @@ private:
             require(index_of(f.axis) < addresses_.size(), "feedback has an axis of the line");
             require(f.value.at <= now_, "nothing is known before it was said");
         }
-        for (const auto& s : got.samples) require(e_.catalogue->parameter(s.point) != nullptr && known(s.value), "a sample has a point and a value");
-        for (const auto& n : got.notices) require(!n.kind.empty() && !n.text.empty(), "a notice has a kind and a text");
-        for (const auto& l : got.links) require(index_of(l.drive) < addresses_.size(), "a link has a drive of the line");
+        for (const auto& s : got.samples)
+            require(e_.catalogue->parameter(s.point) != nullptr && known(s.value), "a sample has a point and a value");
+        for (const auto& n : got.notices)
+            require(!n.kind.empty() && !n.text.empty(), "a notice has a kind and a text");
+        for (const auto& l : got.links)
+            require(index_of(l.drive) < addresses_.size(), "a link has a drive of the line");
         require(up_ || got.frames.empty(), "nothing is sent on a line that is down");
         for (const auto& tx : got.frames) {
             const std::string wrong = frames_.wrong(tx.frame, kind_, configured_);
@@ -299,7 +326,8 @@ private:
             require(wrong.empty(), "nothing is sent but the protocol, to drives that the setup names");
             sent_.push_back(tx.frame);
         }
-        while (sent_.size() > 4096) sent_.pop_front();
+        while (sent_.size() > 4096)
+            sent_.pop_front();
     }
 
     const FamilyEntry& e_;

@@ -10,10 +10,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::vector<std::string> faults;
     const auto catalogue = Catalogue::parse(std::string_view(reinterpret_cast<const char*>(data), size), faults);
     fuzz::require(catalogue.has_value() == faults.empty(), "a catalogue, or faults");
-    for (const auto& f : faults) fuzz::require(!f.empty(), "a fault is a sentence");
+    for (const auto& f : faults)
+        fuzz::require(!f.empty(), "a fault is a sentence");
     if (!catalogue) return 0;
-    const Value values[]{Value{},    Value{true}, Value{std::int64_t{0}}, Value{INT64_MIN}, Value{INT64_MAX}, Value{0.5},
-                         Value{1e300}, Value{std::string()}, Value{std::string("text")}};
+    const Value values[]{Value{},    Value{true},  Value{std::int64_t{0}}, Value{INT64_MIN},          Value{INT64_MAX},
+                         Value{0.5}, Value{1e300}, Value{std::string()},   Value{std::string("text")}};
     for (std::uint16_t i = 0; i < catalogue->parameters().size(); ++i) {
         const Parameter& p = catalogue->parameters()[i];
         const Point point{i, p.count ? p.first : std::uint16_t{0}};

@@ -1,5 +1,6 @@
 // Fuzz: the host's configuration: TOML file, environment, --set.
-// In: the three, each a run of lines. Out: nothing; laws: faults have place, text and remedy; numbers are in their ranges whatever was read.
+// In: the three, each a run of lines. Out: nothing; laws: faults have place, text and remedy; numbers are in their ranges whatever was
+// read.
 #include "gateway/runtime/config.hpp"
 
 #include "tests/fuzz/fuzz.hpp"
@@ -25,7 +26,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     std::vector<ConfigFault> faults;
     const Config c = read_config(sources, faults);
-    for (const auto& f : faults) fuzz::require(!f.place.empty() && !f.text.empty() && !f.remedy.empty(), "a fault has place, text and remedy");
+    for (const auto& f : faults)
+        fuzz::require(!f.place.empty() && !f.text.empty() && !f.remedy.empty(), "a fault has place, text and remedy");
     fuzz::require(c.modbus_idle_timeout_s >= 1 && c.modbus_idle_timeout_s <= 86400, "idle_timeout_s is in its range");
     fuzz::require(c.modbus_max_connections >= 1 && c.modbus_max_connections <= 8192, "max_connections is in its range");
     fuzz::require(c.dds_domain >= 0 && c.dds_domain <= 232, "domain is in its range");

@@ -57,26 +57,38 @@ inline Frame any_frame(FuzzedDataProvider& in) {
 /// Any value that a client or a memory file can give.
 inline Value any_value(FuzzedDataProvider& in) {
     switch (in.ConsumeIntegralInRange<int>(0, 5)) {
-        case 0: return Value{in.ConsumeBool()};
-        case 1: return Value{in.ConsumeIntegral<std::int64_t>()};
-        case 2: return Value{static_cast<std::int64_t>(in.ConsumeIntegral<std::int32_t>())};
-        case 3: return Value{static_cast<std::int64_t>(in.ConsumeIntegral<std::uint8_t>())};
-        case 4: return Value{in.ConsumeFloatingPoint<double>()};
-        default: return Value{in.ConsumeRandomLengthString(24)};
+        case 0:
+            return Value{in.ConsumeBool()};
+        case 1:
+            return Value{in.ConsumeIntegral<std::int64_t>()};
+        case 2:
+            return Value{static_cast<std::int64_t>(in.ConsumeIntegral<std::int32_t>())};
+        case 3:
+            return Value{static_cast<std::int64_t>(in.ConsumeIntegral<std::uint8_t>())};
+        case 4:
+            return Value{in.ConsumeFloatingPoint<double>()};
+        default:
+            return Value{in.ConsumeRandomLengthString(24)};
     }
 }
 
 /// A step of time: mostly what a line sees, sometimes hours.
 inline Duration any_step(FuzzedDataProvider& in) {
     switch (in.ConsumeIntegralInRange<int>(0, 7)) {
-        case 0: return Duration{0};
-        case 1: return Duration{in.ConsumeIntegralInRange<std::int64_t>(0, 2'000)};
+        case 0:
+            return Duration{0};
+        case 1:
+            return Duration{in.ConsumeIntegralInRange<std::int64_t>(0, 2'000)};
         case 2:
-        case 3: return Duration{in.ConsumeIntegralInRange<std::int64_t>(0, 1'000'000)};
+        case 3:
+            return Duration{in.ConsumeIntegralInRange<std::int64_t>(0, 1'000'000)};
         case 4:
-        case 5: return Duration{in.ConsumeIntegralInRange<std::int64_t>(0, 100'000'000)};
-        case 6: return Duration{in.ConsumeIntegralInRange<std::int64_t>(0, 10'000'000'000)};
-        default: return Duration{in.ConsumeIntegralInRange<std::int64_t>(0, 10'000'000'000'000)};
+        case 5:
+            return Duration{in.ConsumeIntegralInRange<std::int64_t>(0, 100'000'000)};
+        case 6:
+            return Duration{in.ConsumeIntegralInRange<std::int64_t>(0, 10'000'000'000)};
+        default:
+            return Duration{in.ConsumeIntegralInRange<std::int64_t>(0, 10'000'000'000'000)};
     }
 }
 

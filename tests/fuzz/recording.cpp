@@ -20,7 +20,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         decoders.push_back({e.family->make_decoder(*e.catalogue, LineKind::can), e.family->make_decoder(*e.catalogue, LineKind::bytes)});
     }
     const auto one_line_each = [](const std::vector<std::string>& lines) {
-        for (const auto& l : lines) fuzz::require(!l.empty() && l.find('\n') == std::string::npos, "a decoded message is one line");
+        for (const auto& l : lines)
+            fuzz::require(!l.empty() && l.find('\n') == std::string::npos, "a decoded message is one line");
     };
     std::vector<TraceEntry> entries;
     RecordingEvents events;

@@ -18,7 +18,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto site = parse_site(document, fuzz::families(), faults);
     fuzz::require(site.has_value() == faults.empty(), "a site, or a fault");
     std::size_t lines = 1;
-    for (const char c : text) lines += c == '\n';
+    for (const char c : text)
+        lines += c == '\n';
     for (const auto& f : faults) {
         fuzz::require(f.pointer.empty() || f.pointer.front() == '/', "a fault has a JSON pointer");
         fuzz::require(!f.text.empty() && !f.remedy.empty(), "a fault has a text and a remedy");

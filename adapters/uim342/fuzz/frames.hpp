@@ -8,8 +8,9 @@
 namespace axisgate::uim342::fuzz {
 
 inline std::uint8_t any_function(FuzzedDataProvider& in) {
-    static constexpr std::uint8_t known[]{cw::PP, cw::IC, cw::IE, cw::ML, cw::SN, cw::ER, cw::MT, cw::MS, cw::MO, cw::BG, cw::ST, cw::MF, cw::AC, cw::DC, cw::SS, cw::SD,
-                                          cw::JV, cw::SP, cw::PR, cw::PA, cw::OG, cw::BL, cw::DV, cw::IL, cw::TG, cw::DI, cw::QE, cw::RT, cw::SY};
+    static constexpr std::uint8_t known[]{cw::PP, cw::IC, cw::IE, cw::ML, cw::SN, cw::ER, cw::MT, cw::MS, cw::MO, cw::BG,
+                                          cw::ST, cw::MF, cw::AC, cw::DC, cw::SS, cw::SD, cw::JV, cw::SP, cw::PR, cw::PA,
+                                          cw::OG, cw::BL, cw::DV, cw::IL, cw::TG, cw::DI, cw::QE, cw::RT, cw::SY};
     if (in.ConsumeIntegralInRange<int>(0, 7) == 0) return in.ConsumeIntegral<std::uint8_t>() & 0x7F;
     return known[in.ConsumeIntegralInRange<std::size_t>(0, std::size(known) - 1)];
 }
@@ -20,7 +21,8 @@ inline Message any_message(FuzzedDataProvider& in, std::uint8_t id, bool to_driv
     m.cw = any_function(in);
     if (in.ConsumeIntegralInRange<int>(0, 7) == 0 ? !to_drive : to_drive) m.cw |= ack_bit;
     m.dl = in.ConsumeIntegralInRange<std::uint8_t>(0, 8);
-    for (std::size_t i = 0; i < m.dl; ++i) m.d[i] = in.ConsumeBool() ? in.ConsumeIntegralInRange<std::uint8_t>(0, 15) : in.ConsumeIntegral<std::uint8_t>();
+    for (std::size_t i = 0; i < m.dl; ++i)
+        m.d[i] = in.ConsumeBool() ? in.ConsumeIntegralInRange<std::uint8_t>(0, 15) : in.ConsumeIntegral<std::uint8_t>();
     return m;
 }
 

@@ -33,7 +33,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 require(!m->message.wants_ack(), "a twin asks nobody for an acknowledgement");
             } else {
                 require(tx.frame.kind == Frame::Kind::bytes && tx.frame.size == uim342::uimessage_size, "a twin sends whole UIMessages");
-                require(tx.frame.storage[15] == 0xCC && (tx.frame.storage[0] == 0xAA || tx.frame.storage[0] == 0xAD), "a twin sends UIMessages");
+                require(tx.frame.storage[15] == 0xCC && (tx.frame.storage[0] == 0xAA || tx.frame.storage[0] == 0xAD),
+                        "a twin sends UIMessages");
             }
         }
         out.clear();
@@ -82,8 +83,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
     for (int step = 0; step < 600 && in.remaining_bytes() > 0; ++step) {
         switch (in.ConsumeIntegralInRange<int>(0, 9)) {
-            case 0: twin->on_frame(fuzz::any_frame(in), now, out); break;
-            case 1: pass(fuzz::any_step(in)); break;
+            case 0:
+                twin->on_frame(fuzz::any_frame(in), now, out);
+                break;
+            case 1:
+                pass(fuzz::any_step(in));
+                break;
             case 2:
                 if (twin->deadline() != never) pass(std::max(Duration{0}, twin->deadline() - now));
                 break;

@@ -57,7 +57,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             Message back = mine->message;
             back.id = mine->consumer;
             require(to_can(back, mine->producer).same(f), "a CAN frame is written as it was read");
-            require(twins->producer == mine->producer && twins->consumer == mine->consumer && twins->cw == mine->message.cw && twins->dl == mine->message.dl &&
+            require(twins->producer == mine->producer && twins->consumer == mine->consumer && twins->cw == mine->message.cw &&
+                        twins->dl == mine->message.dl &&
                         std::equal(twins->d.begin(), twins->d.begin() + twins->dl, mine->message.d.begin()),
                     "both readings of the manual read the same");
             (void)status_of(mine->message);

@@ -1,6 +1,6 @@
 // Bench: the adapter against simple fake nodes on a fake line, in virtual time. Not the twin: a table of answers and a few flags.
-// In: commands, scripts ("do not answer BG", "answer 30 ms late"). Out: everything the adapter said, with its instant, and what crossed the line.
-// The line takes its time per frame and lets urgent frames overtake, as real lines do.
+// In: commands, scripts ("do not answer BG", "answer 30 ms late"). Out: everything the adapter said, with its instant, and what crossed the
+// line. The line takes its time per frame and lets urgent frames overtake, as real lines do.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -26,7 +26,8 @@ inline const Catalogue& catalogue() {
         s << f.rdbuf();
         std::vector<std::string> faults;
         auto parsed = Catalogue::parse(s.str(), faults);
-        for (const auto& fault : faults) ADD_FAILURE() << fault;
+        for (const auto& fault : faults)
+            ADD_FAILURE() << fault;
         return *std::move(parsed);
     }();
     return c;
@@ -48,22 +49,26 @@ inline std::string hex(const Message& m) {
 
 inline std::vector<std::uint8_t> le(std::uint32_t v, std::size_t n) {
     std::vector<std::uint8_t> b;
-    for (std::size_t i = 0; i < n; ++i) b.push_back(static_cast<std::uint8_t>(v >> (8 * i)));
+    for (std::size_t i = 0; i < n; ++i)
+        b.push_back(static_cast<std::uint8_t>(v >> (8 * i)));
     return b;
 }
 
 /// A drive made of a table. Knows nothing of ramps: a motion runs until the test ends it (or ends at once, see `instant_motion`).
 struct FakeNode {
     explicit FakeNode(std::uint8_t address) : id(address) {
-        values = {{0x0105, le(0, 1)},    {0x0107, le(address, 1)}, {0x0108, le(10, 1)},   {0x0600, le(0, 2)}, {0x0601, le(1, 2)},      {0x0602, le(0, 2)},
-                  {0x0603, le(0, 2)},    {0x0604, le(0, 2)},       {0x0605, le(0, 2)},    {0x0606, le(1, 2)}, {0x0607, le(0, 2)},      {0x0700, le(1, 2)},
-                  {0x0701, le(1, 2)},    {0x0702, le(1, 2)},       {0x0708, le(1, 2)},    {0x1000, le(16, 2)}, {0x1001, le(28, 2)},    {0x1002, le(50, 2)},
-                  {0x1003, le(0, 2)},    {0x19FF, le(10000, 4)},   {0x1AFF, le(10000, 4)}, {0x1BFF, le(0, 4)}, {0x1CFF, le(1600000, 4)}, {0x2DFF, le(0, 4)},
-                  {0x3400, le(0x8080, 2)}, {0x3401, le(0x8080, 2)}, {0x3402, le(0x8080, 2)}, {0x3403, le(0, 2)}, {0x3500, le(0, 2)},      {0x3501, le(0, 2)},
-                  {0x3502, le(0, 2)},    {0x3D00, le(1000, 2)},    {0x3D01, le(100, 2)},  {0x3D02, le(17, 2)}, {0x3D03, le(1, 2)},     {0x3D04, le(3200, 2)},
-                  {0x2E00, le(0, 4)},    {0x2E01, le(0, 4)},       {0x2E02, le(0, 4)},    {0x2E03, le(0, 4)}, {0x2E04, le(0, 4)},      {0x18FF, le(0, 1)}};
+        values = {{0x0105, le(0, 1)},      {0x0107, le(address, 1)}, {0x0108, le(10, 1)},      {0x0600, le(0, 2)},  {0x0601, le(1, 2)},
+                  {0x0602, le(0, 2)},      {0x0603, le(0, 2)},       {0x0604, le(0, 2)},       {0x0605, le(0, 2)},  {0x0606, le(1, 2)},
+                  {0x0607, le(0, 2)},      {0x0700, le(1, 2)},       {0x0701, le(1, 2)},       {0x0702, le(1, 2)},  {0x0708, le(1, 2)},
+                  {0x1000, le(16, 2)},     {0x1001, le(28, 2)},      {0x1002, le(50, 2)},      {0x1003, le(0, 2)},  {0x19FF, le(10000, 4)},
+                  {0x1AFF, le(10000, 4)},  {0x1BFF, le(0, 4)},       {0x1CFF, le(1600000, 4)}, {0x2DFF, le(0, 4)},  {0x3400, le(0x8080, 2)},
+                  {0x3401, le(0x8080, 2)}, {0x3402, le(0x8080, 2)},  {0x3403, le(0, 2)},       {0x3500, le(0, 2)},  {0x3501, le(0, 2)},
+                  {0x3502, le(0, 2)},      {0x3D00, le(1000, 2)},    {0x3D01, le(100, 2)},     {0x3D02, le(17, 2)}, {0x3D03, le(1, 2)},
+                  {0x3D04, le(3200, 2)},   {0x2E00, le(0, 4)},       {0x2E01, le(0, 4)},       {0x2E02, le(0, 4)},  {0x2E03, le(0, 4)},
+                  {0x2E04, le(0, 4)},      {0x18FF, le(0, 1)}};
         for (std::uint16_t g = 2; g <= 7; ++g) {
-            for (const std::uint16_t cw : {0x19, 0x1A, 0x1E, 0x1F, 0x20}) group[static_cast<std::uint16_t>(g << 8 | cw)] = le(500u + g, 4);
+            for (const std::uint16_t cw : {0x19, 0x1A, 0x1E, 0x1F, 0x20})
+                group[static_cast<std::uint16_t>(g << 8 | cw)] = le(500u + g, 4);
         }
     }
 
@@ -78,16 +83,16 @@ struct FakeNode {
     bool instant_motion = false;  ///< PTP ends at its target at once
     bool silent = false;
     Duration latency = 200us;
-    std::vector<Message> heard;   ///< every instruction that reached it, in order
+    std::vector<Message> heard;  ///< every instruction that reached it, in order
     std::vector<Instant> heard_at;
     int busy = 0, most_busy = 0;  ///< instructions with acknowledgement that were not answered yet (stops apart)
 
     /// What a script wants of one instruction.
     struct Verdict {
-        bool answer = true;               ///< false: executed or not, nothing is said
+        bool answer = true;  ///< false: executed or not, nothing is said
         bool execute = true;
-        std::uint8_t error = 0;           ///< refuse with this code
-        std::optional<Message> instead;   ///< say this
+        std::uint8_t error = 0;          ///< refuse with this code
+        std::optional<Message> instead;  ///< say this
         std::optional<Duration> latency;
     };
     std::function<Verdict(const Message&)> script;
@@ -102,15 +107,18 @@ struct FakeNode {
     }
     std::vector<std::uint8_t> speed_and_position() const {
         std::vector<std::uint8_t> d{1};
-        for (const auto v : le(static_cast<std::uint32_t>(speed), 3)) d.push_back(v);
-        for (const auto v : le(static_cast<std::uint32_t>(position), 4)) d.push_back(v);
+        for (const auto v : le(static_cast<std::uint32_t>(speed), 3))
+            d.push_back(v);
+        for (const auto v : le(static_cast<std::uint32_t>(position), 4))
+            d.push_back(v);
         return d;
     }
     Message say(std::uint8_t cw, const std::vector<std::uint8_t>& data) const { return message(id, cw, data); }
     Message error_report(std::uint8_t code, const Message& about) {
-        const bool indexed = about.dl > 0 && (about.function() <= 0x07 || about.function() == 0x0F || about.function() == 0x10 || about.function() == 0x11 ||
-                                              about.function() == 0x2E || (about.function() >= 0x34 && about.function() <= 0x35) ||
-                                              about.function() == 0x3D || about.function() == 0x7E);
+        const bool indexed =
+            about.dl > 0 && (about.function() <= 0x07 || about.function() == 0x0F || about.function() == 0x10 || about.function() == 0x11 ||
+                             about.function() == 0x2E || (about.function() >= 0x34 && about.function() <= 0x35) ||
+                             about.function() == 0x3D || about.function() == 0x7E);
         last_error = {0, code, about.cw, indexed ? about.d[0] : std::uint8_t{0}, 0, 0};
         err = true;
         mf = 0;
@@ -124,8 +132,10 @@ struct FakeNode {
         const auto key = [&](std::uint8_t index) { return static_cast<std::uint16_t>(f << 8 | index); };
         const std::vector<std::uint8_t> data(m.d.begin(), m.d.begin() + m.dl);
         switch (f) {
-            case 0x0B: return say(f, ml);
-            case 0x0C: return say(f, {1, 2, 3, 4, 5, 6, 7, 8});
+            case 0x0B:
+                return say(f, ml);
+            case 0x0C:
+                return say(f, {1, 2, 3, 4, 5, 6, 7, 8});
             case 0x0F:
                 if (m.dl >= 2) last_error = {};
                 return say(f, {m.d[0], last_error[1], last_error[2], last_error[3], 0, 0});
@@ -204,8 +214,10 @@ struct FakeNode {
                 if (m.dl == 4) inputs = static_cast<std::uint8_t>((inputs & 7) | (m.d[0] & 1) << 3);
                 return say(f, {static_cast<std::uint8_t>(inputs & 7), static_cast<std::uint8_t>(inputs >> 3 & 1), 0, 0});
             }
-            case 0x7E: return m.d[0] == 1 || m.d[0] == 2 ? std::nullopt : std::optional(error_report(0x34, m));
-            default: break;
+            case 0x7E:
+                return m.d[0] == 1 || m.d[0] == 2 ? std::nullopt : std::optional(error_report(0x34, m));
+            default:
+                break;
         }
         const auto it = m.dl > 0 ? values.find(key(m.d[0])) : values.end();
         if (it == values.end()) return error_report(instruction(f) ? 0x34 : 0x32, m);
@@ -216,7 +228,8 @@ struct FakeNode {
     }
     /// The motion in progress ends at its target.
     void finish() {
-        const std::int32_t target = relative_set ? position + static_cast<std::int32_t>(number(0x2E03)) : static_cast<std::int32_t>(number(0x2E04));
+        const std::int32_t target =
+            relative_set ? position + static_cast<std::int32_t>(number(0x2E03)) : static_cast<std::int32_t>(number(0x2E04));
         relative = target - position;
         position = target;
         speed = 0;
@@ -243,8 +256,10 @@ public:
         d.axes = {{AxisId{n}, 1}};
         d.options = std::move(options);
         setup.drives.push_back(d);
-        if (with_fake) fakes[id] = std::make_unique<FakeNode>(id);
-        else fakes[id] = nullptr;
+        if (with_fake)
+            fakes[id] = std::make_unique<FakeNode>(id);
+        else
+            fakes[id] = nullptr;
         static FakeNode nobody(127);
         return with_fake ? *fakes[id] : nobody;
     }
@@ -281,7 +296,8 @@ public:
     Result ask(CommandBody body, bool until_done = false, std::uint16_t axis = 0, Duration limit = 20s) {
         const Ticket t = command(std::move(body), until_done, axis);
         const Instant end = now + limit;
-        while (!results.contains(t) && now < end) step(end);
+        while (!results.contains(t) && now < end)
+            step(end);
         if (!results.contains(t)) {
             ADD_FAILURE() << "no result within " << milliseconds_of(limit) << " ms";
             return {};
@@ -290,11 +306,13 @@ public:
     }
     void run(Duration d) {
         const Instant end = now + d;
-        while (now < end) step(end);
+        while (now < end)
+            step(end);
     }
     bool run_until(const std::function<bool()>& f, Duration limit = 20s) {
         const Instant end = now + limit;
-        while (!f() && now < end) step(end);
+        while (!f() && now < end)
+            step(end);
         return f();
     }
     /// The drive says something by itself, now.
@@ -323,7 +341,9 @@ public:
         return p.value_or(Point{});
     }
     Result read(const std::string& id, std::uint16_t axis = 0) { return ask(ReadParameter{point(id)}, false, axis); }
-    Result write(const std::string& id, std::int64_t v, std::uint16_t axis = 0) { return ask(WriteParameter{point(id), Value{v}}, false, axis); }
+    Result write(const std::string& id, std::int64_t v, std::uint16_t axis = 0) {
+        return ask(WriteParameter{point(id), Value{v}}, false, axis);
+    }
     Result native(const std::string& text) {
         Native n;
         n.send.assign(text.begin(), text.end());
@@ -367,8 +387,8 @@ public:
     Out out;
     Instant now = time_zero + 1h;
     bool line_up = false;
-    CrcMode crc = CrcMode::twelve;              ///< of the fake gateway on a byte line
-    Duration frame_time = 130us;                ///< one frame at 1 Mbit/s
+    CrcMode crc = CrcMode::twelve;                          ///< of the fake gateway on a byte line
+    Duration frame_time = 130us;                            ///< one frame at 1 Mbit/s
     std::function<bool(const Frame&, bool to_drive)> lose;  ///< true: the frame is lost
     std::map<std::uint8_t, std::unique_ptr<FakeNode>> fakes;
 
@@ -424,14 +444,17 @@ private:
             last_feedback[fb.axis] = fb.value;
             feedbacks.push_back(fb);
         }
-        for (const auto& s : out.samples) samples[{s.axis, s.point}] = s.value;
+        for (const auto& s : out.samples)
+            samples[{s.axis, s.point}] = s.value;
         for (const auto& r : out.results) {
             ++result_count[r.ticket];
             EXPECT_EQ(result_count[r.ticket], 1) << "ticket " << r.ticket << " answered twice: " << r.text;
             results[r.ticket] = r;
         }
-        for (const auto& l : out.links) links.push_back(l);
-        for (const auto& n : out.notices) notices.push_back(n);
+        for (const auto& l : out.links)
+            links.push_back(l);
+        for (const auto& n : out.notices)
+            notices.push_back(n);
     }
 
     void step(Instant end) {

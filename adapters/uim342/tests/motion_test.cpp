@@ -4,7 +4,8 @@
 namespace axisgate::uim342::test {
 namespace {
 
-Move absolute(std::int64_t target, std::optional<std::int64_t> v = {}, std::optional<std::int64_t> a = {}, std::optional<std::int64_t> d = {}) {
+Move absolute(std::int64_t target, std::optional<std::int64_t> v = {}, std::optional<std::int64_t> a = {},
+              std::optional<std::int64_t> d = {}) {
     Move m;
     m.kind = Move::Kind::absolute;
     m.target = target;
@@ -73,8 +74,10 @@ TEST(Uim342Enable, EveryStepMayFail) {
             SCOPED_TRACE(testing::Message() << std::hex << int(row.cw) << (silent ? " silent" : " refused"));
             Started s(false);
             FakeNode::Verdict v;
-            if (silent) v.answer = v.execute = false;
-            else v.error = 0x33;
+            if (silent)
+                v.answer = v.execute = false;
+            else
+                v.error = 0x33;
             s.f.script = at(row.cw, v);
             const Result r = s.b.ask(Enable{});
             EXPECT_NE(r.outcome, Outcome::accepted);
@@ -171,8 +174,9 @@ TEST(Uim342Move, SpeedOfTheDriveIsUsedIfItHasOne) {
 
 TEST(Uim342Move, RangesAreCheckedBeforeTheWire) {
     Started s;
-    for (const Move& m : {absolute(std::int64_t{1} << 31, 100), absolute(-(std::int64_t{1} << 31) - 1, 100), absolute(1, 0), absolute(1, -5),
-                          absolute(1, std::int64_t{1} << 31), absolute(1, 100, 0), absolute(1, 100, 65'000'001), absolute(1, 100, 100, 65'000'001)}) {
+    for (const Move& m :
+         {absolute(std::int64_t{1} << 31, 100), absolute(-(std::int64_t{1} << 31) - 1, 100), absolute(1, 0), absolute(1, -5),
+          absolute(1, std::int64_t{1} << 31), absolute(1, 100, 0), absolute(1, 100, 65'000'001), absolute(1, 100, 100, 65'000'001)}) {
         const Result r = s.b.ask(m);
         EXPECT_EQ(r.outcome, Outcome::refused);
         EXPECT_EQ(r.reason, Reason::out_of_range) << r.text;
@@ -280,9 +284,18 @@ TEST(Uim342Move, UntilDoneEndsInAnotherWay) {
         {"disabled", [](Started& s) { s.b.command(Disable{}); }, Reason::interrupted},
         {"replaced", [](Started& s) { s.b.command(relative(5, 5)); }, Reason::interrupted},
         {"stopped by an input action", [](Started& s) { s.f.stop = true; }, Reason::interrupted},
-        {"switched off by an input action", [](Started& s) { s.f.on = false; s.f.stop = true; }, Reason::interrupted},
+        {"switched off by an input action",
+         [](Started& s) {
+             s.f.on = false;
+             s.f.stop = true;
+         },
+         Reason::interrupted},
         {"stalled", [](Started& s) { s.f.tlif = s.f.err = s.f.stop = true; }, Reason::interrupted},
-        {"alarm", [](Started& s) { s.b.say(message(5, cw::RT, std::array<std::uint8_t, 5>{0, 0x1E})); }, Reason::interrupted},
+        {"alarm",
+         [](Started& s) {
+             s.b.say(message(5, cw::RT, std::array<std::uint8_t, 5>{0, 0x1E}));
+         },
+         Reason::interrupted},
         {"out of reach", [](Started& s) { s.f.silent = true; }, Reason::no_answer},
         {"line down", [](Started& s) { s.b.line(false); }, Reason::line_down},
     };
@@ -330,7 +343,8 @@ TEST(Uim342Move, EveryStepMayBeSilent) {
         EXPECT_EQ(r.outcome, Outcome::failed);
         EXPECT_EQ(r.reason, Reason::no_answer);
         const auto h = s.b.heard(5);
-        EXPECT_EQ(std::ranges::count_if(h, [&](const auto& l) { return std::stoul(l.substr(0, 2), nullptr, 16) == cw; }), 3) << "two repeats";
+        EXPECT_EQ(std::ranges::count_if(h, [&](const auto& l) { return std::stoul(l.substr(0, 2), nullptr, 16) == cw; }), 3)
+            << "two repeats";
         EXPECT_EQ(std::ranges::count(h, "96"), 0) << "nothing starts that could not be set";
     }
 }
@@ -383,7 +397,8 @@ TEST(Uim342Move, ManyWaitTheSixtyFifthIsRefused) {
     Started s;
     s.f.script = [](const Message&) { return FakeNode::Verdict{.latency = 40ms}; };
     std::vector<Ticket> tickets;
-    for (int i = 0; i < 80; ++i) tickets.push_back(s.b.command(ReadParameter{Bench::point("AC")}));
+    for (int i = 0; i < 80; ++i)
+        tickets.push_back(s.b.command(ReadParameter{Bench::point("AC")}));
     std::size_t busy = 0;
     for (const Ticket t : tickets) {
         if (s.b.results.contains(t)) {
@@ -395,16 +410,19 @@ TEST(Uim342Move, ManyWaitTheSixtyFifthIsRefused) {
     EXPECT_LE(busy, 16u);
     s.f.script = nullptr;
     s.b.run(3s);
-    for (const Ticket t : tickets) EXPECT_TRUE(s.b.results.contains(t));
+    for (const Ticket t : tickets)
+        EXPECT_TRUE(s.b.results.contains(t));
 }
 
 TEST(Uim342Move, CommandsKeepTheirOrder) {
     Started s;
     std::vector<Ticket> t{s.b.command(WriteParameter{Bench::point("AC"), Value{std::int64_t{11}}}), s.b.command(absolute(7, 7)),
-                          s.b.command(WriteParameter{Bench::point("AC"), Value{std::int64_t{12}}}), s.b.command(ReadParameter{Bench::point("BL")})};
+                          s.b.command(WriteParameter{Bench::point("AC"), Value{std::int64_t{12}}}),
+                          s.b.command(ReadParameter{Bench::point("BL")})};
     s.b.run(100ms);
     EXPECT_EQ(s.b.heard(5), lines({"99 0B 00 00 00", "A0 07 00 00 00", "9E 07 00 00 00", "96", "99 0C 00 00 00", "AD"}));
-    for (const Ticket x : t) EXPECT_TRUE(good(s.b.results[x]));
+    for (const Ticket x : t)
+        EXPECT_TRUE(good(s.b.results[x]));
 }
 
 // --- origin and homing -----------------------------------------------------------------------------------------------------------
@@ -458,7 +476,9 @@ TEST(Uim342Home, MethodsThatTheDriveCannotFollow) {
 /// A switch at input 2: what the drive would do at its edge, played by hand.
 struct Homing : Started {
     Homing(bool active_high = true)
-        : Started(true, {{"home_input", "2"}, {"home_velocity", "500"}, {"home_active", active_high ? "high" : "low"}, {"home_timeout_s", "5"}}), high(active_high) {
+        : Started(true,
+                  {{"home_input", "2"}, {"home_velocity", "500"}, {"home_active", active_high ? "high" : "low"}, {"home_timeout_s", "5"}}),
+          high(active_high) {
         set_switch(false);
         b.run(200ms);
         b.mark();
@@ -501,7 +521,8 @@ TEST(Uim342Home, SearchIntoTheSwitch) {
         EXPECT_TRUE(s.b.feedback().homing_attained);
         EXPECT_FALSE(s.b.feedback().homing_error);
         s.b.run(200ms);
-        for (const std::uint16_t key : {0x3401, 0x3501}) EXPECT_EQ(s.f.values[key], before.at(key)) << "put back";
+        for (const std::uint16_t key : {0x3401, 0x3501})
+            EXPECT_EQ(s.f.values[key], before.at(key)) << "put back";
         EXPECT_EQ(s.f.group, groups);
         EXPECT_EQ(s.f.values[0x1AFF], before.at(0x1AFF));
     }
@@ -543,9 +564,19 @@ TEST(Uim342Home, SearchesThatFail) {
         Reason reason;
     };
     const std::vector<Row> rows{
-        {"stopped without an edge", [](Homing& s) { s.f.speed = 0; s.f.stop = true; }, Reason::interrupted},
+        {"stopped without an edge",
+         [](Homing& s) {
+             s.f.speed = 0;
+             s.f.stop = true;
+         },
+         Reason::interrupted},
         {"stopped by the client", [](Homing& s) { s.b.command(QuickStop{}); }, Reason::interrupted},
-        {"driver off", [](Homing& s) { s.f.on = false; s.f.stop = true; }, Reason::interrupted},
+        {"driver off",
+         [](Homing& s) {
+             s.f.on = false;
+             s.f.stop = true;
+         },
+         Reason::interrupted},
         {"stall", [](Homing& s) { s.f.tlif = s.f.err = s.f.stop = true; }, Reason::interrupted},
         {"never found", [](Homing&) {}, Reason::interrupted},
         {"out of reach", [](Homing& s) { s.f.silent = true; }, Reason::no_answer},
@@ -660,8 +691,9 @@ TEST(Uim342Fault, AlarmsByKind) {
         bool fault, warning, limit;
         Severity severity;
     };
-    for (const Row& r : {Row{0x19, true, false, false, Severity::alarm}, Row{0x1A, true, false, true, Severity::alarm}, Row{0x1B, true, false, true, Severity::alarm},
-                         Row{0x1E, true, false, false, Severity::alarm}, Row{0x1F, false, true, false, Severity::warning}}) {
+    for (const Row& r : {Row{0x19, true, false, false, Severity::alarm}, Row{0x1A, true, false, true, Severity::alarm},
+                         Row{0x1B, true, false, true, Severity::alarm}, Row{0x1E, true, false, false, Severity::alarm},
+                         Row{0x1F, false, true, false, Severity::warning}}) {
         Started s;
         s.f.err = true;
         s.b.say(message(5, cw::RT, std::array<std::uint8_t, 5>{0, r.code}));

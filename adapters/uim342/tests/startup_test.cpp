@@ -24,9 +24,10 @@ TEST(Uim342Startup, FirstAskedIsTheModelThenEverythingIsReadAndNothingWritten) {
     EXPECT_EQ(b.sample("PP[5]"), Value{std::int64_t{0}});
     EXPECT_EQ(b.sample("PP[7]"), Value{std::int64_t{5}});
     EXPECT_EQ(b.sample("PP[8]"), Value{std::int64_t{10}});
-    for (const char* id : {"IC[0]", "IC[1]", "IC[2]", "IC[3]", "IC[4]", "IC[5]", "IC[6]", "IC[7]", "IE[0]", "IE[1]", "IE[2]", "IE[8]", "MT[0]", "MT[1]",
-                           "MT[2]", "MT[3]", "QE[0]", "QE[1]", "QE[2]", "QE[3]", "QE[4]", "AC", "DC", "SS", "SD", "BL", "DV[0]", "DV[1]", "DV[2]", "DV[3]",
-                           "DV[4]", "IL[0]", "IL[1]", "IL[2]", "IL[3]", "TG[0]", "TG[1]", "TG[2]", "DI", "MO", "MS[0].STOP", "MS[1].SP", "ER[0].code"}) {
+    for (const char* id : {"IC[0]", "IC[1]", "IC[2]", "IC[3]", "IC[4]", "IC[5]", "IC[6]", "IC[7]",      "IE[0]",    "IE[1]",     "IE[2]",
+                           "IE[8]", "MT[0]", "MT[1]", "MT[2]", "MT[3]", "QE[0]", "QE[1]", "QE[2]",      "QE[3]",    "QE[4]",     "AC",
+                           "DC",    "SS",    "SD",    "BL",    "DV[0]", "DV[1]", "DV[2]", "DV[3]",      "DV[4]",    "IL[0]",     "IL[1]",
+                           "IL[2]", "IL[3]", "TG[0]", "TG[1]", "TG[2]", "DI",    "MO",    "MS[0].STOP", "MS[1].SP", "ER[0].code"}) {
         EXPECT_TRUE(known(b.sample(id))) << id;
     }
     EXPECT_EQ(b.sample("SD"), Value{std::int64_t{1600000}});
@@ -47,7 +48,8 @@ TEST(Uim342Startup, MfIsClearedBeforeTheGroupValuesAreRead) {
 
 TEST(Uim342Startup, OneInstructionAtATimePerNodeSeveralNodesTogether) {
     Bench b;
-    for (const std::uint8_t id : {5, 6, 7, 37, 69, 126}) b.add(id);
+    for (const std::uint8_t id : {5, 6, 7, 37, 69, 126})
+        b.add(id);
     // Count what is on its way per node.
     std::map<std::uint8_t, int> open;
     int most = 0, together = 0;
@@ -56,14 +58,16 @@ TEST(Uim342Startup, OneInstructionAtATimePerNodeSeveralNodesTogether) {
         open[id] += to_drive ? 1 : -1;
         most = std::max(most, open[id]);
         int n = 0;
-        for (const auto& [k, v] : open) n += v > 0;
+        for (const auto& [k, v] : open)
+            n += v > 0;
         together = std::max(together, n);
         return false;
     };
     b.start();
     EXPECT_EQ(most, 1);
     EXPECT_GT(together, 2);
-    for (std::uint16_t d = 0; d < 6; ++d) EXPECT_TRUE(b.link(d) && b.link(d)->online) << d;
+    for (std::uint16_t d = 0; d < 6; ++d)
+        EXPECT_TRUE(b.link(d) && b.link(d)->online) << d;
 }
 
 TEST(Uim342Startup, IdsThatShareASidAreToldApart) {
@@ -274,10 +278,12 @@ TEST(Uim342Silence, PausesGrowUpToTheirLimit) {
     b.line(true);
     b.run(10s);
     std::vector<std::int64_t> gaps;
-    for (std::size_t i = 1; i < b.sent.size(); ++i) gaps.push_back(milliseconds_of(b.sent[i].at - b.sent[i - 1].at));
+    for (std::size_t i = 1; i < b.sent.size(); ++i)
+        gaps.push_back(milliseconds_of(b.sent[i].at - b.sent[i - 1].at));
     ASSERT_GE(gaps.size(), 8u);
     EXPECT_EQ(std::vector(gaps.begin(), gaps.begin() + 7), (std::vector<std::int64_t>{50, 50, 250, 450, 850, 1050, 1050}));
-    for (const auto& s : b.sent) EXPECT_EQ(s.message, message(5, 0x8B)) << "an absent drive is asked for its model, nothing else";
+    for (const auto& s : b.sent)
+        EXPECT_EQ(s.message, message(5, 0x8B)) << "an absent drive is asked for its model, nothing else";
     // The pause is shown as it grows.
     EXPECT_EQ(milliseconds_of(b.link()->retry_pause), 1000);
 }
@@ -287,7 +293,8 @@ TEST(Uim342Silence, ASilentDriveCostsTheOthersNothing) {
         Bench b(kind);
         FakeNode& live = b.add(5);
         live.stop = false;
-        for (const std::uint8_t id : {6, 7, 8, 9, 10, 11, 12, 13}) b.add(id, {}, false);
+        for (const std::uint8_t id : {6, 7, 8, 9, 10, 11, 12, 13})
+            b.add(id, {}, false);
         b.start(5s);
         ASSERT_TRUE(b.link(0) && b.link(0)->online);
         // The longest time between two feedbacks of the living one.
@@ -380,7 +387,8 @@ TEST(Uim342Silence, ARestartBetweenTwoPollsIsNoticed) {
 TEST(Uim342Silence, AbsoluteEncoderCountsAsReferencedIfTheSiteSaysSo) {
     for (const bool said : {false, true}) {
         Bench b;
-        FakeNode& f = b.add(5, said ? std::map<std::string, std::string>{{"referenced", "absolute"}} : std::map<std::string, std::string>{});
+        FakeNode& f =
+            b.add(5, said ? std::map<std::string, std::string>{{"referenced", "absolute"}} : std::map<std::string, std::string>{});
         f.values[0x0605] = le(1, 2);
         b.start();
         EXPECT_EQ(b.feedback().referenced, said);
@@ -429,7 +437,8 @@ TEST(Uim342Line, RemovedDrivesEndTheirCommandsOthersGoOn) {
     b.mark();
     b.run(500ms);
     EXPECT_EQ(b.links.size(), links) << "the other one was not disturbed";
-    for (const auto& s : b.heard(5)) EXPECT_NE(s, "8B");
+    for (const auto& s : b.heard(5))
+        EXPECT_NE(s, "8B");
     EXPECT_EQ(b.ask(Enable{}, false, 1).reason, Reason::line_down);
     EXPECT_EQ(b.read("AC").outcome, Outcome::done);
 }
@@ -450,8 +459,10 @@ TEST(Uim342Line, AddedAndChangedDrivesBegin) {
 }
 
 TEST(Uim342Line, AddressesAreCheckedAndBelongToOneDrive) {
-    for (const char* good : {"5", "126", "37"}) EXPECT_EQ(check_address(good), "") << good;
-    for (const char* bad : {"", "4", "127", "0", "x", "5 ", "-5", "0x05"}) EXPECT_NE(check_address(bad), "") << bad;
+    for (const char* good : {"5", "126", "37"})
+        EXPECT_EQ(check_address(good), "") << good;
+    for (const char* bad : {"", "4", "127", "0", "x", "5 ", "-5", "0x05"})
+        EXPECT_NE(check_address(bad), "") << bad;
     Bench b;
     b.add(5);
     b.add(5);
@@ -493,7 +504,8 @@ TEST(Uim342Bytes, TheWindowIsBounded) {
         Bench b(LineKind::bytes);
         b.frame_time = 2800us;
         if (*option) b.setup.options["in_flight"] = option;
-        for (std::uint8_t id = 5; id < 15; ++id) b.add(id).stop = false;
+        for (std::uint8_t id = 5; id < 15; ++id)
+            b.add(id).stop = false;
         int open = 0, most = 0;
         b.lose = [&](const Frame&, bool to_drive) {
             open += to_drive ? 1 : -1;
@@ -503,7 +515,8 @@ TEST(Uim342Bytes, TheWindowIsBounded) {
         b.start(8s);
         EXPECT_LE(most, most_allowed);
         EXPECT_GT(most, most_allowed - 1);
-        for (std::uint16_t d = 0; d < 10; ++d) EXPECT_TRUE(b.link(d)->online);
+        for (std::uint16_t d = 0; d < 10; ++d)
+            EXPECT_TRUE(b.link(d)->online);
         // Slow as the line is, nobody is forgotten: all are polled about equally often.
         b.mark();
         b.run(5s);
@@ -549,7 +562,8 @@ TEST(Uim342Bytes, GarbageAndSplitRunsCostNothing) {
     const auto frame = to_uimessage(message(5, 0x2D, std::array<std::uint8_t, 4>{0xAA, 0xCC, 0xAD, 0x00}), CrcMode::twelve);
     std::vector<std::uint8_t> bytes{0xAA, 0x05, 0xCC, 0xAD};
     bytes.insert(bytes.end(), frame.begin(), frame.end());
-    for (const auto v : bytes) b.raw(Frame::run(std::array<std::uint8_t, 1>{v}));
+    for (const auto v : bytes)
+        b.raw(Frame::run(std::array<std::uint8_t, 1>{v}));
     ASSERT_TRUE(b.results.contains(t));
     EXPECT_EQ(b.results[t].value, Value{std::int64_t{0x00ADCCAA}});
     EXPECT_EQ(b.adapter.counters().garbled, 4u);

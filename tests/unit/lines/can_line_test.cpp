@@ -186,7 +186,7 @@ protected:
 };
 
 TEST_F(CanLineTest, sendsAndReceives) {
-    open({500'000, {}, {}, seconds(1)});
+    open({500'000, {}, {}, secs(1)});
     EXPECT_THAT(asked_at_open, ElementsAre(RTM_GETLINK));
     EXPECT_EQ(owner.states.back().second, "up on can0 at 500000 bit/s");
     EXPECT_TRUE(send(can(0x04280095, {1, 2})));
@@ -202,7 +202,7 @@ TEST_F(CanLineTest, sendsAndReceives) {
     EXPECT_TRUE(owner.sent[0].same(can(0x04280095, {1, 2})));
     EXPECT_TRUE(owner.frames[0].same(can(0x123, {3})));
     EXPECT_LE(owner.frames[0].at, clock.now());
-    EXPECT_GT(owner.frames[0].at, clock.now() - seconds(5));
+    EXPECT_GT(owner.frames[0].at, clock.now() - secs(5));
     const LineStatus s = status();
     EXPECT_EQ(s.frames_in, 1u);
     EXPECT_EQ(s.frames_out, 1u);
@@ -440,7 +440,7 @@ TEST_F(CanLineTest, findsAControllerThatIsBusOffAlready) {
 }
 
 TEST_F(CanLineTest, noticesAnInterfaceThatIsSetDownOrRemoved) {
-    open({}, seconds(60), seconds(60));  // it must not be the pause that brings it back
+    open({}, secs(60), secs(60));  // it must not be the pause that brings it back
     kernel.fault = "down";
     kernel.tell(link_news(9, "can1", false));  // another interface
     settle();
@@ -504,7 +504,7 @@ TEST_F(CanLineTest, takesManyFramesPerTurnAndLosesNone) {
 }
 
 TEST_F(CanLineTest, framesWhoseEchoTheFilterHidesCountAsSentAtOnce) {
-    open({0, {{0x100, 0x700, true}}, {}, seconds(1)});
+    open({0, {{0x100, 0x700, true}}, {}, secs(1)});
     EXPECT_EQ(kernel.filters, (std::vector<CanFilter>{{0x100, 0x700, true}}));
     for (int i = 0; i < 10; ++i)
         EXPECT_TRUE(send(can(0x200)));

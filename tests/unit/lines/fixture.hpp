@@ -21,7 +21,7 @@
 namespace axisgate::test {
 
 using std::chrono::milliseconds;
-using std::chrono::seconds;
+constexpr Duration secs(int n) { return std::chrono::seconds(n); }
 
 /// The machine's clock, moved on by hand.
 struct MovedClock final : Clock {

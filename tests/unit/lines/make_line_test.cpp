@@ -97,7 +97,7 @@ TEST_F(MakeLineTest, theMachinesClockGoesForward) {
 }
 
 TEST(GrowingPause, doublesUpToItsBoundAndBeginsAnew) {
-    GrowingPause p({milliseconds(200), seconds(5)});
+    GrowingPause p({milliseconds(200), secs(5)});
     std::vector<std::int64_t> taken;
     for (int i = 0; i < 8; ++i)
         taken.push_back(milliseconds_of(p.take()));

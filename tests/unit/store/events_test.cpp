@@ -190,14 +190,19 @@ TEST(Events, LongTextsAreCutBetweenCharactersNotRefused) {
     const TempDir dir;
     const auto store = open_store(dir);
     Event e = an_event("x", "feeder", 1);
-    e.text.clear();
-    for (int i = 0; i < 5000; ++i)
-        e.text += "ä";
+    for (const std::string begin : {"", "x"}) {  // so that the bound falls between characters and inside one
+        e.text = begin;
+        for (int i = 0; i < 5000; ++i)
+            e.text += "ä";
+        must(store->append_events(std::span(&e, 1)));
+        const auto r = must(store->events({})).back();
+        EXPECT_LE(r.text.size(), max_event_text_bytes);
+        EXPECT_GT(r.text.size(), max_event_text_bytes - 8);
+        EXPECT_TRUE(r.text.ends_with("ä [...]")) << r.text.substr(r.text.size() - 12);
+    }
+    e.text = std::string(10'000, '\x80');  // no UTF-8 at all
     must(store->append_events(std::span(&e, 1)));
-    const auto r = must(store->events({})).at(0);
-    EXPECT_LE(r.text.size(), max_event_text_bytes);
-    EXPECT_GT(r.text.size(), max_event_text_bytes - 8);
-    EXPECT_TRUE(r.text.ends_with("ä [...]")) << r.text.substr(r.text.size() - 12);
+    EXPECT_TRUE(must(store->events({})).back().text.ends_with(" [...]"));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 namespace axisgate::uim342 {
 namespace {
 constexpr std::uint8_t in_commands = 1, in_polls = 2, in_probes = 4;
+constexpr std::uint8_t commands_per_poll = 8;
 
 std::optional<std::uint8_t> address_of(std::string_view text) {
     unsigned v = 0;
@@ -256,12 +257,20 @@ void LineAdapter::pump(Turn& t) {
         settle(*n, t);
     };
     while (in_flight < window_ && t.now >= quiet_until_) {
-        if (!commands_.empty()) {
+        // Commands first, but every ninth place is a poll's; polls and probes in turn, so that a busy line still finds new drives.
+        const bool may_probe = !probes_.empty() && probes_in_flight < probe_window_;
+        const bool others_wait = !polls_.empty() || may_probe;
+        if (!commands_.empty() && !(others_wait && commands_in_a_row_ >= commands_per_poll)) {
+            if (commands_in_a_row_ < commands_per_poll) ++commands_in_a_row_;
             serve(commands_, in_commands);
-        } else if (!polls_.empty()) {
-            serve(polls_, in_polls);
-        } else if (!probes_.empty() && probes_in_flight < probe_window_) {
+        } else if (may_probe && !(probed_last_ && !polls_.empty())) {
+            probed_last_ = true;
+            commands_in_a_row_ = 0;
             serve(probes_, in_probes);
+        } else if (!polls_.empty()) {
+            probed_last_ = false;
+            commands_in_a_row_ = 0;
+            serve(polls_, in_polls);
         } else {
             break;
         }

@@ -83,6 +83,8 @@ private:
     std::vector<std::pair<AxisId, Node*>> by_axis_;  ///< sorted
     DeadlineHeap heap_;
     Ring commands_, polls_, probes_;
+    bool probed_last_ = false;
+    std::uint8_t commands_in_a_row_ = 0;
     bool touched_ = false;
     Joint joint_;
 };

@@ -172,11 +172,11 @@ void LineAdapter::part_done(Node& node, Part part, Turn& t) {
         joint_.worst = std::move(part);
         joint_.worst.text = fmt::format("{}: {}", node.name(), joint_.worst.text);
     }
-    if (joint_.stage == Joint::Stage::gathering) {
-        if (joint_.bad) end_joint(Outcome::failed, joint_.worst.reason, joint_.worst.text, joint_.worst.code, t);
-        return;
+    // A joint start that one member has left is over; a joint stop is heard of to the last.
+    if (joint_.bad && joint_.kind != Joint::Kind::stop) {
+        return end_joint(Outcome::failed, joint_.worst.reason, joint_.worst.text, joint_.worst.code, t);
     }
-    if (!was_open || !joint_.open.empty()) return;
+    if (joint_.stage == Joint::Stage::gathering || !was_open || !joint_.open.empty()) return;
     if (joint_.bad) return end_joint(Outcome::failed, joint_.worst.reason, joint_.worst.text, joint_.worst.code, t);
     const bool finished = joint_.command.until_done && joint_.kind != Joint::Kind::stop;
     end_joint(finished ? Outcome::done : Outcome::accepted, Reason::none, "", 0, t);

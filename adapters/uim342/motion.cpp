@@ -152,9 +152,10 @@ void Node::job_answered(const Message& m, Turn& t) {
     if (step.select) {
         if (job_.again) {
             job_.again = false;
-        } else {
-            ++job_.at;
+            return;
         }
+        ++job_.at;
+        if (job_.kind == JobKind::native) native_answered(step, &m, t);
         return;
     }
     ++job_.at;

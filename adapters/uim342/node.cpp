@@ -319,6 +319,7 @@ void Node::exchange_answered(const Message& m, Turn& t) {
     if (part_pending_ && m.cw == cw::MS && m.d[0] == 0 && e.sent >= motion_.begun) {
         // Asked behind the joint BG: had the drive refused that, its report would have come before this.
         part_pending_ = false;
+        broadcast_until_ = t.now;
         if (part_until_done_) {
             add_wait(WaitFor::part, no_ticket, motion_.target, t);
         } else {

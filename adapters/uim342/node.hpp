@@ -218,7 +218,7 @@ private:
     void stop_silent(Stop& s, Turn& t);
     void stop_finished(Stop& s, Outcome outcome, Reason reason, std::string text, std::int32_t code, Turn& t);
     void waiting_stops(Turn& t);
-    void harden(Stop& s, std::string_view why, Turn& t);
+    void harden(Stop& s, std::string_view why, bool late_begin, Turn& t);
     void supervise(bool soft, Turn& t);
     void supervision_due(Turn& t);
     void interrupt_motions(std::string_view by, bool power_off, Turn& t);

@@ -98,7 +98,8 @@ void Node::begin_stop(Stop& s, Turn& t) {
     if (s.kind == StopKind::halt && phase_ == Phase::ready) {
         // There is no instruction "stop on DC". A jog speed of 0 and BG decelerate with DC; ST would use SD. With AC and DC as
         // times the ramp to speed 0 is not defined, and at rest there is nothing to decelerate: then ST.
-        const bool defined = time_ramps_ == false && t.now >= broadcast_until_;
+        // With a group of MF perhaps still selected JV could go astray: then ST too.
+        const bool defined = time_ramps_ == false && t.now >= broadcast_until_ && !mf_unknown_;
         if (defined && motion_on_its_way) {
             // JV=0 could overtake a PA that BG would then start: after the exchange in progress, which is not repeated any more.
             s.soft = s.waiting = true;
@@ -165,7 +166,7 @@ void Node::stop_answered(Stop& s, const Message& m, Turn& t) {
 void Node::stop_refused(Stop& s, const Message& m, Turn& t) {
     const auto report = error_report_of(m);
     const std::uint8_t code = report ? report->code : std::uint8_t{0};
-    if (s.soft) return harden(s, fmt::format("{} was refused ({})", describe_request(s.message), describe_error(code)), t);
+    if (s.soft) return harden(s, fmt::format("{} was refused ({})", describe_request(s.message), describe_error(code)), false, t);
     stop_finished(s, Outcome::refused, Reason::drive_refused,
                   fmt::format("{}: the drive says {}", describe_request(s.message), describe_error(code)), code, t);
 }
@@ -180,7 +181,7 @@ void Node::stop_silent(Stop& s, Turn& t) {
         return bus_.transmit(s.message, Priority::urgent, t);
     }
     late_.add(mark_of(s.message));
-    if (s.soft) return harden(s, fmt::format("{} was not acknowledged", describe_request(s.message)), t);
+    if (s.soft) return harden(s, fmt::format("{} was not acknowledged", describe_request(s.message)), s.step == 1, t);
     stop_finished(
         s, Outcome::failed, Reason::no_answer,
         fmt::format("{} was sent {} times and not acknowledged: whether the axis stops is not known", describe_request(s.message), s.tries),
@@ -189,11 +190,11 @@ void Node::stop_silent(Stop& s, Turn& t) {
     count_silence(t);
 }
 
-/// The way by DC did not work: ST.
-void Node::harden(Stop& s, std::string_view why, Turn& t) {
+/// The way by DC did not work: ST. `late_begin`: its BG was not answered and may still come.
+void Node::harden(Stop& s, std::string_view why, bool late_begin, Turn& t) {
     notice(Severity::warning, "stop", 0, fmt::format("halt: {}; ST is sent instead", why), t);
     s.soft = false;
-    if (s.step == 1) confirm_ = StopKind::quick;  // its BG may come late
+    if (late_begin) confirm_ = StopKind::quick;
     send_stop(s, msg_act(cw::ST), static_cast<std::uint8_t>(bus_.manners.retries), t);
 }
 

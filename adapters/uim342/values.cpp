@@ -148,7 +148,7 @@ void Node::plan_messages(const std::vector<Message>& messages, Turn& t) {
         }
     }
     if (blind && !(job_.kind == JobKind::system && job_.wanted == 1)) {
-        job_.add(msg_get(cw::MO));
+        job_.add(messages.back().function() == cw::MS ? msg_get(cw::MO) : msg_get(cw::MS, 1));
         job_.steps[job_.count - 1u].check = true;
     }
 }

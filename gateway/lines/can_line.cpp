@@ -133,7 +133,7 @@ CanLine::After CanLine::read_batch() {
     const std::int64_t unix_now_ns = clock().unix_ns();
     for (int i = 0; i < n; ++i) {
         const mmsghdr& m = batch_->messages[static_cast<std::size_t>(i)];
-        if (m.msg_len != sizeof(::can_frame)) {
+        if (m.msg_len != sizeof(::can_frame) || (m.msg_hdr.msg_flags & MSG_TRUNC) != 0) {
             ++status_.errors;
             continue;
         }

@@ -36,6 +36,15 @@ bool is_worth_reading(int master) noexcept {
     return ::poll(&p, 1, 0) >= 0 && ((p.revents & POLLHUP) == 0 || (p.revents & POLLIN) != 0);
 }
 
+/// What a program left unread is partly on its way and partly in its terminal's own buffer, which only its own side can empty.
+void throw_away_unread(int master, const std::string& slave) noexcept {
+    (void)::tcflush(master, TCOFLUSH);
+    const int fd = ::open(slave.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+    if (fd < 0) return;
+    (void)::tcflush(fd, TCIFLUSH);
+    ::close(fd);
+}
+
 std::string target_of(const std::string& path) {
     std::array<char, PATH_MAX> buffer{};
     const ssize_t n = ::readlink(path.c_str(), buffer.data(), buffer.size());
@@ -109,7 +118,7 @@ void PtyLine::on_gone(int error) {
     // The program has closed its side. What it did not read and what it changed must not meet the next one.
     somebody_ = false;
     drop_partial();
-    (void)::tcflush(fd(), TCIOFLUSH);
+    throw_away_unread(fd(), slave_);
     (void)make_raw(fd());
     watch_for_somebody();
 }

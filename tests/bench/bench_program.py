@@ -28,7 +28,8 @@ class Program:
     def __init__(self, program, folder, *more):
         arguments = [program, "serve", "--data", str(folder / "data"), "--set", "http.bind=127.0.0.1:0", "--set", "modbus.bind=127.0.0.1:0", "--set", "log.level=warning", *more]
         begun = time.monotonic()
-        self.process = subprocess.Popen(arguments, stdout=subprocess.PIPE)
+        self.log = tempfile.TemporaryFile()
+        self.process = subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=self.log)
         said = b""
         while not (said.startswith(b"ready") and said.endswith(b"\n")):
             if not select.select([self.process.stdout], [], [], max(0.0, begun + 10 - time.monotonic()))[0]:
@@ -58,10 +59,15 @@ class Program:
             self.process.wait()
             self.process.stdout.close()
 
+    def warnings(self):
+        self.log.seek(0)
+        return self.log.read().decode().splitlines()
+
 
 def say(what, ours, limit, unit):
     kept = ours <= limit
-    print(f"    {what:<34} ratio {ours / limit:10.3f}  limit <= 1  {'kept' if kept else 'NOT KEPT':<8}  axisgate {ours:.1f} {unit}, limit {limit} {unit}", flush=True)
+    ratio = ours / limit if limit else float(ours)
+    print(f"    {what:<36} ratio {ratio:8.3f}  limit <= {1 if limit else 0}  {'kept' if kept else 'NOT KEPT':<8}  axisgate {ours:.1f} {unit}, limit {limit} {unit}", flush=True)
     return kept
 
 
@@ -92,8 +98,10 @@ def main():
         time.sleep(4)
         used = (p.processor_s() - before) / 4
         kept &= say("resident memory", p.memory_mb("VmRSS"), MEMORY_MB, "MB")
-        print(f"    {'highest so far; processor':<34} {p.memory_mb('VmHWM'):.1f} MB; {used * 100:.1f} % of one processor with all axes at rest (no limit)", flush=True)
+        print(f"    {'highest so far; processor':<36} {p.memory_mb('VmHWM'):.1f} MB; {used * 100:.1f} % of one processor with all axes at rest (no limit)", flush=True)
         p.stop()
+        silent = sum(" is silent: " in line for line in p.warnings())
+        kept &= say("drives taken for silent at the start", silent, 0, "")
     print("all limits kept" if kept else "NOT all limits kept")
     return 0 if kept else 1
 

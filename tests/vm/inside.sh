@@ -42,7 +42,7 @@ gateway=$!
 check "the gateway is ready" until_true 90 grep -q '^ready ' gateway.log
 check "the left drive answers over SocketCAN" until_true 30 is axes/left .online true
 check "and is not called simulated: for the gateway this is a real drive" is axes/left .simulated false
-check "the right drive answers too" until_true 30 is drives/right .presence_now device
+check "the right drive answers too" until_true 30 eval 'is axes/right .online true && is axes/right .simulated false'
 check "enable" result_is left '{"command":"enable"}' done
 check "move to 2 mm ends there" result_is left '{"command":"move_absolute","position":2,"velocity":5,"acceleration":50,"deceleration":50}' done
 check "position is 6400 increments" is axes/left .position_increments 6400

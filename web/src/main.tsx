@@ -12,6 +12,7 @@ import './styles/controls.css';
 import './styles/tile.css';
 import './styles/lists.css';
 import './styles/axis.css';
+import './styles/table.css';
 
 applyTheme();
 startClock();

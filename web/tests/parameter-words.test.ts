@@ -1,6 +1,6 @@
 // A parameter's range and what is typed for it: out of range tells the range; nothing is bent to fit.
 import { describe, expect, it } from 'vitest';
-import { rangeText, readValue, sameValue, unitWords, valueText } from '../src/words/parameter';
+import { rangeText, readValue, sameValue, searchRank, unitWords, valueText } from '../src/words/parameter';
 
 const p = (change: object) => ({ type: 'u32', min: null, max: null, unit: null, allowed: null, ...change }) as Parameters<typeof readValue>[1];
 
@@ -49,6 +49,9 @@ it('shows values with their meaning', () => {
   expect(valueText('', { allowed: null })).toBe('(empty)');
   expect(valueText(null, { allowed: null })).toBe('–');
 });
+it('does not say a value twice that its meaning says already', () => expect(valueText(17, { allowed: [{ value: 17, meaning: '17 bits' }] })).toBe('17 bits'));
+it.each([['AC', 0], ['a', 1], ['c', 2], ['profile accel', 3], ['profile_accel', 3], ['ramp', 4], ['zzz', null], ['', 0]])('the search for %j ranks %s', (text, rank) =>
+  expect(searchRank({ id: 'AC', name: 'profile_acceleration', description: 'The ramp' }, text)).toBe(rank));
 it('compares values as the drive means them', () => {
   expect(sameValue(0.1, Math.fround(0.1))).toBe(true);
   expect(sameValue(1, 2)).toBe(false);

@@ -5,7 +5,7 @@
 #include "adapters/uim342/uimessage.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
-namespace axisgate::uim342::fuzz {
+namespace axisgate::uim342::fuzz_frames {
 
 inline std::uint8_t any_function(FuzzedDataProvider& in) {
     static constexpr std::uint8_t known[]{cw::PP, cw::IC, cw::IE, cw::ML, cw::SN, cw::ER, cw::MT, cw::MS, cw::MO, cw::BG,
@@ -41,4 +41,4 @@ inline std::uint8_t any_id(FuzzedDataProvider& in, const std::vector<std::string
     return static_cast<std::uint8_t>(std::stoi(addresses[in.ConsumeIntegralInRange<std::size_t>(0, addresses.size() - 1)]));
 }
 
-}  // namespace axisgate::uim342::fuzz
+}  // namespace axisgate::uim342::fuzz_frames

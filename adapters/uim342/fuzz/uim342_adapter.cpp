@@ -10,7 +10,6 @@ using namespace axisgate;
 
 namespace {
 std::string wrong_frame(const Frame& f, LineKind kind, const std::vector<std::string>&) {
-    uim342::Message m;
     if (kind == LineKind::can) {
         const auto c = uim342::from_can(f);
         if (!c) return "not SimpleCAN";
@@ -27,9 +26,9 @@ std::string wrong_frame(const Frame& f, LineKind kind, const std::vector<std::st
 }
 
 Frame plausible(FuzzedDataProvider& in, LineKind kind, const std::vector<std::string>& addresses) {
-    const auto id = uim342::fuzz::any_id(in, addresses);
-    auto m = uim342::fuzz::any_message(in, kind == LineKind::can ? uim342::host_id : id, false);
-    return uim342::fuzz::on_wire(in, kind, m, id);
+    const auto id = uim342::fuzz_frames::any_id(in, addresses);
+    auto m = uim342::fuzz_frames::any_message(in, kind == LineKind::can ? uim342::host_id : id, false);
+    return uim342::fuzz_frames::on_wire(in, kind, m, id);
 }
 }  // namespace
 

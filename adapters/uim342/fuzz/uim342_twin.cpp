@@ -111,9 +111,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 }
                 break;
             default: {
-                const auto id = uim342::fuzz::any_id(in, addresses);
-                const auto m = uim342::fuzz::any_message(in, id, true);
-                twin->on_frame(uim342::fuzz::on_wire(in, setup.kind, m, uim342::host_id), now, out);
+                const auto id = uim342::fuzz_frames::any_id(in, addresses);
+                const auto m = uim342::fuzz_frames::any_message(in, id, true);
+                twin->on_frame(uim342::fuzz_frames::on_wire(in, setup.kind, m, uim342::host_id), now, out);
             }
         }
         drain(out);

@@ -76,7 +76,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     bool clean = true;
     while (in.remaining_bytes() > 0 && stream.size() < 4096) {
         if (in.ConsumeBool()) {
-            const auto m = uim342::fuzz::any_message(in, in.ConsumeIntegralInRange<std::uint8_t>(0, 127), in.ConsumeBool());
+            const auto m = uim342::fuzz_frames::any_message(in, in.ConsumeIntegralInRange<std::uint8_t>(0, 127), in.ConsumeBool());
             const auto b = to_uimessage(m, mode);
             stream.insert(stream.end(), b.begin(), b.end());
             ++whole;

@@ -18,6 +18,9 @@
 namespace axisgate::uim342::test {
 
 using namespace std::chrono_literals;
+using Bytes = std::initializer_list<std::uint8_t>;
+using Words = std::initializer_list<std::uint16_t>;
+using Methods = std::initializer_list<std::int16_t>;
 
 inline const Catalogue& catalogue() {
     static const Catalogue c = [] {
@@ -67,7 +70,7 @@ struct FakeNode {
                   {0x3D04, le(3200, 2)},   {0x2E00, le(0, 4)},       {0x2E01, le(0, 4)},       {0x2E02, le(0, 4)},  {0x2E03, le(0, 4)},
                   {0x2E04, le(0, 4)},      {0x18FF, le(0, 1)}};
         for (std::uint16_t g = 2; g <= 7; ++g) {
-            for (const std::uint16_t cw : {0x19, 0x1A, 0x1E, 0x1F, 0x20})
+            for (const std::uint16_t cw : Words{0x19, 0x1A, 0x1E, 0x1F, 0x20})
                 group[static_cast<std::uint16_t>(g << 8 | cw)] = le(500u + g, 4);
         }
     }
@@ -96,6 +99,32 @@ struct FakeNode {
         std::optional<Duration> latency;
     };
     std::function<Verdict(const Message&)> script;
+    static Verdict answer_if(bool yes) {
+        Verdict v;
+        v.answer = yes;
+        return v;
+    }
+    static Verdict lost() {
+        Verdict v;
+        v.answer = v.execute = false;
+        return v;
+    }
+    static Verdict refuse(std::uint8_t code) {  ///< 0: does as it is told
+        Verdict v;
+        v.error = code;
+        return v;
+    }
+    static Verdict refuse_if(bool yes, std::uint8_t code) { return refuse(yes ? code : std::uint8_t{0}); }
+    static Verdict late(Duration d) {
+        Verdict v;
+        v.latency = d;
+        return v;
+    }
+    static Verdict say_instead(const Message& m) {
+        Verdict v;
+        v.instead = m;
+        return v;
+    }
 
     std::vector<std::uint8_t> status() const {
         const auto a = static_cast<std::uint8_t>(mode | (on ? 4 : 0) | inputs << 3);
@@ -175,7 +204,8 @@ struct FakeNode {
             case 0x1E:
             case 0x1F:
             case 0x20: {
-                const std::uint8_t g = std::exchange(mf, std::uint8_t{0});
+                const std::uint8_t selected = std::exchange(mf, std::uint8_t{0});
+                const std::uint8_t g = f == 0x1D ? std::uint8_t{0} : selected;  // JV has one value, and uses the selection up
                 if (m.dl == 0) {
                     if (g != 0) return say(f, group[static_cast<std::uint16_t>(g << 8 | f)]);
                     const std::int32_t v = f == 0x1F ? relative : f == 0x20 ? position : speed;
@@ -390,6 +420,7 @@ public:
     CrcMode crc = CrcMode::twelve;                          ///< of the fake gateway on a byte line
     Duration frame_time = 130us;                            ///< one frame at 1 Mbit/s
     std::function<bool(const Frame&, bool to_drive)> lose;  ///< true: the frame is lost
+    std::function<void()> on_sent;                          ///< the adapter gave a frame to the line
     std::map<std::uint8_t, std::unique_ptr<FakeNode>> fakes;
 
     std::map<Ticket, Result> results;
@@ -436,6 +467,7 @@ private:
                 }
                 m = check.message;
             }
+            if (on_sent) on_sent();
             const bool broadcast = !fakes.contains(m.id);
             sent.push_back({now, m, tx.priority, broadcast});
             if (line_up) queue.push_back({m, tx.frame, tx.priority});

@@ -91,7 +91,7 @@ TEST(Uim342Enable, EveryStepMayFail) {
 
 TEST(Uim342Enable, ADriveThatAcknowledgesWithOffIsNotEnabled) {
     Started s(false);
-    s.f.script = at(0x95, {.instead = message(5, 0x15, std::array<std::uint8_t, 1>{0})});
+    s.f.script = at(0x95, FakeNode::say_instead(message(5, 0x15, std::array<std::uint8_t, 1>{0})));
     const Result r = s.b.ask(Enable{});
     EXPECT_EQ(r.outcome, Outcome::failed);
     EXPECT_EQ(s.b.feedback().power, AxisFeedback::Power::off);
@@ -320,7 +320,7 @@ TEST(Uim342Move, EveryStepMayBeRefusedAndNothingStarts) {
     for (const Row& row : {Row{0x9A, 0x3C}, Row{0x99, 0x33}, Row{0xA0, 0x33}, Row{0x9E, 0x32}, Row{0x96, 0x3E}, Row{0x96, 0x3F}}) {
         SCOPED_TRACE(testing::Message() << std::hex << int(row.cw));
         Started s;
-        s.f.script = at(row.cw, {.error = row.code});
+        s.f.script = at(row.cw, FakeNode::refuse(row.code));
         const Result r = s.b.ask(absolute(100, 100, 111, 222));
         EXPECT_EQ(r.outcome, Outcome::refused);
         EXPECT_EQ(r.reason, Reason::drive_refused);
@@ -335,10 +335,10 @@ TEST(Uim342Move, EveryStepMayBeRefusedAndNothingStarts) {
 }
 
 TEST(Uim342Move, EveryStepMayBeSilent) {
-    for (const std::uint8_t cw : {0x9A, 0x99, 0xA0, 0x9E}) {
+    for (const std::uint8_t cw : Bytes{0x9A, 0x99, 0xA0, 0x9E}) {
         SCOPED_TRACE(testing::Message() << std::hex << int(cw));
         Started s;
-        s.f.script = at(cw, {.answer = false});
+        s.f.script = at(cw, FakeNode::answer_if(false));
         const Result r = s.b.ask(absolute(100, 100, 111, 222));
         EXPECT_EQ(r.outcome, Outcome::failed);
         EXPECT_EQ(r.reason, Reason::no_answer);
@@ -352,7 +352,7 @@ TEST(Uim342Move, EveryStepMayBeSilent) {
 TEST(Uim342Move, BeginIsNeverRepeated) {
     for (const bool executed : {true, false}) {
         Started s;
-        s.f.script = at(0x96, {.answer = false, .execute = executed});
+        s.f.script = at(0x96, executed ? FakeNode::answer_if(false) : FakeNode::lost());
         const Result r = s.b.ask(absolute(100, 100));
         EXPECT_EQ(r.outcome, Outcome::failed);
         EXPECT_EQ(r.reason, Reason::no_answer);
@@ -367,7 +367,7 @@ TEST(Uim342Move, BeginIsNeverRepeated) {
 
 TEST(Uim342Move, AnAlteredValueStartsNothing) {
     Started s;
-    s.f.script = at(0xA0, {.instead = message(5, 0x2E, std::array<std::uint8_t, 5>{4, 0x65, 0, 0, 0})});
+    s.f.script = at(0xA0, FakeNode::say_instead(message(5, 0x2E, std::array<std::uint8_t, 5>{4, 0x65, 0, 0, 0})));
     const Result r = s.b.ask(absolute(100, 100));
     EXPECT_EQ(r.outcome, Outcome::failed);
     EXPECT_EQ(r.reason, Reason::drive_refused);
@@ -395,7 +395,7 @@ TEST(Uim342Move, OneLostFrameIsRepeatedAndHeals) {
 
 TEST(Uim342Move, ManyWaitTheSixtyFifthIsRefused) {
     Started s;
-    s.f.script = [](const Message&) { return FakeNode::Verdict{.latency = 40ms}; };
+    s.f.script = [](const Message&) { return FakeNode::late(40ms); };
     std::vector<Ticket> tickets;
     for (int i = 0; i < 80; ++i)
         tickets.push_back(s.b.command(ReadParameter{Bench::point("AC")}));
@@ -428,7 +428,7 @@ TEST(Uim342Move, CommandsKeepTheirOrder) {
 // --- origin and homing -----------------------------------------------------------------------------------------------------------
 
 TEST(Uim342Home, OriginWhereItStands) {
-    for (const std::int16_t method : {0, 35, 37}) {
+    for (const std::int16_t method : Methods{0, 35, 37}) {
         Started s;
         s.f.position = 777;
         s.b.run(200ms);
@@ -464,7 +464,7 @@ TEST(Uim342Home, SetPositionOnlyToZero) {
 
 TEST(Uim342Home, MethodsThatTheDriveCannotFollow) {
     Started s;
-    for (const std::int16_t m : {1, 2, 14, 17, 20, 22, 23, 30, 33, 34, 36, -1, 99}) {
+    for (const std::int16_t m : Methods{1, 2, 14, 17, 20, 22, 23, 30, 33, 34, 36, -1, 99}) {
         const Result r = s.b.ask(Home{m});
         EXPECT_EQ(r.outcome, Outcome::refused) << m;
         EXPECT_EQ(r.reason, Reason::not_supported) << m;
@@ -521,7 +521,7 @@ TEST(Uim342Home, SearchIntoTheSwitch) {
         EXPECT_TRUE(s.b.feedback().homing_attained);
         EXPECT_FALSE(s.b.feedback().homing_error);
         s.b.run(200ms);
-        for (const std::uint16_t key : {0x3401, 0x3501})
+        for (const std::uint16_t key : Words{0x3401, 0x3501})
             EXPECT_EQ(s.f.values[key], before.at(key)) << "put back";
         EXPECT_EQ(s.f.group, groups);
         EXPECT_EQ(s.f.values[0x1AFF], before.at(0x1AFF));

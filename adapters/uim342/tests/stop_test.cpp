@@ -44,7 +44,7 @@ TEST(Uim342Stop, QuickStopIsStUrgentAndAtOnce) {
 
 TEST(Uim342Stop, BesideTheExchangeInProgress) {
     Running r;
-    r.script(0x99, {.answer = false});  // the drive is slow with AC
+    r.script(0x99, FakeNode::answer_if(false));  // the drive is slow with AC
     const Ticket w = r.b.command(WriteParameter{Bench::point("AC"), Value{std::int64_t{5}}});
     r.b.run(1ms);
     const Ticket t = r.b.command(QuickStop{});
@@ -59,7 +59,7 @@ TEST(Uim342Stop, BesideTheExchangeInProgress) {
 
 TEST(Uim342Stop, WaitingMotionsEndInterrupted) {
     Running r(0);
-    r.f.script = [](const Message&) { return FakeNode::Verdict{.latency = 30ms}; };
+    r.f.script = [](const Message&) { return FakeNode::late(30ms); };
     const Ticket a = r.b.command(absolute(1, 1)), p = r.b.command(ReadParameter{Bench::point("AC")}), c = r.b.command(absolute(2, 2)),
                  h = r.b.command(Home{35}), e = r.b.command(Enable{});
     r.b.run(40ms);
@@ -112,7 +112,7 @@ TEST(Uim342Stop, AnEnableThatDisableOvertookIsSwitchedOffAgain) {
 
 TEST(Uim342Stop, ALostStopIsRepeatedThenTheTruthIsTold) {
     Running r;
-    r.script(0x97, {.answer = false, .execute = false});
+    r.script(0x97, FakeNode::lost());
     const Result q = r.b.ask(QuickStop{});
     EXPECT_EQ(q.outcome, Outcome::failed);
     EXPECT_EQ(q.reason, Reason::no_answer);
@@ -201,7 +201,7 @@ TEST(Uim342Halt, AnInPositionFlagSurvivesAHaltAtRest) {
 }
 
 TEST(Uim342Halt, EveryStepMayFailThenStStops) {
-    for (const std::uint8_t cw : {0x9D, 0x96}) {
+    for (const std::uint8_t cw : Bytes{0x9D, 0x96}) {
         for (const bool silent : {false, true}) {
             SCOPED_TRACE(testing::Message() << std::hex << int(cw) << (silent ? " silent" : " refused"));
             Running r;
@@ -242,7 +242,7 @@ TEST(Uim342Halt, WaitsForTheMotionExchangeInProgress) {
 
 TEST(Uim342Halt, NothingGetsBetweenItsTwoInstructions) {
     Running r;
-    r.f.script = [](const Message&) { return FakeNode::Verdict{.latency = 20ms}; };
+    r.f.script = [](const Message&) { return FakeNode::late(20ms); };
     r.b.command(Halt{});
     r.b.command(absolute(100000, 100));
     r.b.run(2s);
@@ -271,8 +271,8 @@ TEST(Uim342Halt, DuringAnEmergencyRampItIsSt) {
 
 TEST(Uim342Halt, AStopBetweenMfAndItsValueBeginsThePairAnew) {
     Running r;
-    // The halt's JV would use the selection up: AC of group 0 would be overwritten.
-    r.f.script = [&](const Message& m) { return FakeNode::Verdict{.latency = m.cw == 0x98 ? 10ms : 200us}; };
+    // What gets in between may use the selection up, and AC of group 0 would be overwritten; and JV could go astray, so it is ST.
+    r.f.script = [&](const Message& m) { return FakeNode::late(m.cw == 0x98 ? 10ms : 200us); };
     const Ticket w = r.b.command(WriteParameter{Bench::point("MF3.AC"), Value{std::int64_t{4711}}});
     r.b.run(3ms);
     r.b.command(Halt{});
@@ -281,13 +281,14 @@ TEST(Uim342Halt, AStopBetweenMfAndItsValueBeginsThePairAnew) {
     EXPECT_EQ(r.f.group[0x0319], le(4711, 4));
     EXPECT_EQ(r.f.values[0x19FF], le(10000, 4)) << "group 0 is untouched";
     EXPECT_TRUE(r.f.stop);
+    EXPECT_EQ(r.b.heard(5), lines({"98 03", "97", "98 03", "99 67 12 00 00"}));
 }
 
 // --- bounds ----------------------------------------------------------------------------------------------------------------------
 
 TEST(Uim342Stop, MoreStopsThanCanBeWatchedAreStillSent) {
     Running r;
-    r.script(0x97, {.answer = false});
+    r.script(0x97, FakeNode::answer_if(false));
     std::vector<Ticket> tickets;
     for (int i = 0; i < 10; ++i)
         tickets.push_back(r.b.command(QuickStop{}));
@@ -436,7 +437,7 @@ TEST(Uim342Together, WaitsForWhatStandsBefore) {
 
 TEST(Uim342Together, ADriveThatRefusesIsNamed) {
     Pair p{{5, 10}, {6, 10}};
-    p.b.fake(6).script = [](const Message& m) { return FakeNode::Verdict{.error = m.cw == 0x16 ? std::uint8_t{0x3F} : std::uint8_t{0}}; };
+    p.b.fake(6).script = [](const Message& m) { return FakeNode::refuse_if(m.cw == 0x16, 0x3F); };
     const Result r = p.b.ask(both());
     EXPECT_EQ(r.outcome, Outcome::failed);
     EXPECT_EQ(r.reason, Reason::drive_refused);
@@ -527,7 +528,7 @@ TEST(Uim342Together, GlobalStop) {
     EXPECT_EQ(r.outcome, Outcome::accepted) << r.text;
     EXPECT_EQ(p.b.sent[p.b.sent_mark].message, message(0, 0x17)) << "first of all, to all, without acknowledgement";
     EXPECT_EQ(p.b.sent[p.b.sent_mark].priority, Priority::urgent);
-    for (const std::uint8_t id : {5, 6, 7}) {
+    for (const std::uint8_t id : Bytes{5, 6, 7}) {
         EXPECT_TRUE(p.b.fake(id).stop);
         EXPECT_EQ(std::ranges::count(p.b.heard(id), "97"), 1) << "and each by itself, acknowledged";
     }

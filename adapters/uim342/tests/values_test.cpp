@@ -190,9 +190,7 @@ TEST(Uim342Values, AlternateRangeOfRampsAsTimes) {
 
 TEST(Uim342Values, TheDrivesRefusalIsPassedOn) {
     Ready r;
-    r.f.script = [](const Message& m) {
-        return FakeNode::Verdict{.error = m.cw == 0x9C && m.dl == 4 ? std::uint8_t{0x3C} : std::uint8_t{0}};
-    };
+    r.f.script = [](const Message& m) { return FakeNode::refuse_if(m.cw == 0x9C && m.dl == 4, 0x3C); };
     const Result x = r.b.write("SD", 5);
     EXPECT_EQ(x.outcome, Outcome::refused);
     EXPECT_EQ(x.reason, Reason::drive_refused);
@@ -229,9 +227,10 @@ TEST(Uim342Values, UnknownAndReadOnlyPoints) {
 TEST(Uim342Late, AnAnswerOfAnEarlierWriteIsNotTakenForThatOfALaterOne) {
     // All three attempts of AC=1000 are answered very late: when AC=2000 waits for its own answer.
     Ready r;
-    r.f.script = [](const Message& m) {
+    const Instant until = r.b.now + 165ms;
+    r.f.script = [&](const Message& m) {
         FakeNode::Verdict v;
-        if (m.cw == 0x99 && m.d[0] == 0xE8) v.latency = 170ms;
+        if (m.cw == 0x99 && m.d[0] == 0xE8) v.latency = std::max<Duration>(until - r.b.now, 200us);
         return v;
     };
     const Result first = r.b.write("AC", 1000);
@@ -291,11 +290,12 @@ TEST(Uim342Late, ARepeatedRequestTakesEitherAnswerOnce) {
 TEST(Uim342Late, ALateRefusalIsNotThatOfTheNextInstruction) {
     Ready r;
     int n = 0;
+    const Instant until = r.b.now + 165ms;
     r.f.script = [&](const Message& m) {
         FakeNode::Verdict v;
         if (m.cw == 0x99 && m.dl == 4 && n++ < 3) {
             v.error = 0x33;
-            v.latency = 160ms;
+            v.latency = std::max<Duration>(until - r.b.now, 200us);
         }
         return v;
     };
@@ -312,9 +312,7 @@ TEST(Uim342Late, AnswersOfBeforeTheSilenceDoNotCountAfterIt) {
     r.b.run(200ms);
     bool stuck = true;
     const Instant release = r.b.now + 3s;
-    r.f.script = [&](const Message&) {
-        return FakeNode::Verdict{.latency = stuck ? std::max<Duration>(release - r.b.now, 0ns) : Duration(200us)};
-    };
+    r.f.script = [&](const Message&) { return FakeNode::late(stuck ? std::max<Duration>(release - r.b.now, 0ns) : Duration(200us)); };
     ASSERT_TRUE(r.b.run_until([&] { return !r.b.link()->online; }, 2s));
     r.f.position = 222;  // moved by hand meanwhile
     stuck = true;
@@ -377,10 +375,10 @@ TEST(Uim342Native, WithoutAcknowledgement) {
     EXPECT_EQ(x.outcome, Outcome::done);
     EXPECT_TRUE(x.bytes.empty());
     EXPECT_TRUE(r.f.on);
-    EXPECT_EQ(r.b.heard(5), lines({"15 01", "95"})) << "a read behind it shows that no refusal came";
+    EXPECT_EQ(r.b.heard(5), lines({"15 01"})) << "and a read behind it shows that no refusal came";
     x = r.b.native_hex({0x15, 1, 7});
     EXPECT_EQ(x.outcome, Outcome::done) << "this fake takes it";
-    r.f.script = [](const Message& m) { return FakeNode::Verdict{.error = m.cw == 0x15 ? std::uint8_t{0x33} : std::uint8_t{0}}; };
+    r.f.script = [](const Message& m) { return FakeNode::refuse_if(m.cw == 0x15, 0x33); };
     x = r.b.native_hex({0x15, 1, 7});
     EXPECT_EQ(x.outcome, Outcome::refused);
     EXPECT_EQ(x.code, 0x33);
@@ -453,7 +451,7 @@ TEST(Uim342Action, FactoryDefaultsAreReadAgain) {
     EXPECT_EQ(r.b.ask(Action{"factory_defaults", ""}).outcome, Outcome::accepted);
     r.b.run(300ms);
     EXPECT_EQ(r.b.sample("AC"), Value{std::int64_t{10000}});
-    r.f.script = [](const Message& m) { return FakeNode::Verdict{.error = m.function() == 0x7E ? std::uint8_t{0x3D} : std::uint8_t{0}}; };
+    r.f.script = [](const Message& m) { return FakeNode::refuse_if(m.function() == 0x7E, 0x3D); };
     const Result x = r.b.ask(Action{"factory_defaults", ""});
     EXPECT_EQ(x.outcome, Outcome::refused) << "silent when it works, but a refusal is reported";
     EXPECT_EQ(x.code, 0x3D);
@@ -499,7 +497,7 @@ TEST(Uim342Weather, EveryTicketHasExactlyOneResult) {
         std::mt19937 random(seed);
         const auto roll = [&](unsigned n) { return static_cast<unsigned>(random() % n); };
         Bench b(seed % 2 ? LineKind::can : LineKind::bytes);
-        for (const std::uint8_t id : {5, 6, 37}) {
+        for (const std::uint8_t id : Bytes{5, 6, 37}) {
             FakeNode& f = b.add(id, {{"home_input", "1"}, {"home_velocity", "100"}, {"home_timeout_s", "1"}});
             f.script = [&](const Message&) {
                 FakeNode::Verdict v;
@@ -610,7 +608,7 @@ TEST(Uim342Weather, EveryTicketHasExactlyOneResult) {
         for (auto& [id, f] : b.fakes)
             EXPECT_TRUE(f->stop);
         for (std::uint16_t d = 0; d < 3; ++d)
-            EXPECT_TRUE(b.link(d)->online);
+            EXPECT_TRUE(b.link(d) && b.link(d)->online);
         EXPECT_EQ(b.read("AC", 2).outcome, Outcome::done);
     }
 }
@@ -619,7 +617,7 @@ TEST(Uim342Weather, TheSameCallsGiveTheSameFrames) {
     std::vector<std::string> runs[2];
     for (auto& list : runs) {
         Bench b;
-        for (const std::uint8_t id : {5, 6, 7})
+        for (const std::uint8_t id : Bytes{5, 6, 7})
             b.add(id);
         b.start(300ms);
         b.ask(Enable{});

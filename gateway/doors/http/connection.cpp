@@ -16,6 +16,7 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace {
 constexpr std::size_t most_buffered = 64 * 1024;     // read ahead of the request that is answered
+constexpr std::size_t least_bytes_per_ms = 16;            // an answer of 1 MiB may take about a minute more than the limit of a step
 constexpr std::size_t most_discarded = 2 * 1024 * 1024;  // read and thrown away so that the last answer arrives
 
 /// RFC 9110 5.6.7: "Sun, 06 Nov 1994 08:49:37 GMT".
@@ -221,12 +222,20 @@ void Connection::write(Response response, bool keep) {
     head_ = response_head(response, keep, now_s);
     const bool upgraded = response.status == 101;
     body_ = response.without_body ? std::string() : std::move(response.body);
-    set_timer(host_->settings.write_limit);
-    const std::array<asio::const_buffer, 2> buffers{asio::buffer(head_), asio::buffer(body_)};
-    asio::async_write(socket_, buffers, [self = shared_from_this(), keep, upgraded](ErrorCode ec, std::size_t bytes) {
+    unsent_.emplace(std::array<asio::const_buffer, 2>{asio::buffer(head_), asio::buffer(body_)});
+    write_end_ = std::chrono::steady_clock::now() + host_->settings.write_limit + std::chrono::milliseconds(body_.size() / least_bytes_per_ms);
+    write_on(keep, upgraded);
+}
+
+void Connection::write_on(bool keep, bool upgraded) {
+    // The limit is for each step, so that a long answer may take its time on a slow link; a reader that only trickles is cut all the same.
+    set_timer(std::min<std::chrono::nanoseconds>(host_->settings.write_limit, write_end_ - std::chrono::steady_clock::now()));
+    socket_.async_write_some(*unsent_, [self = shared_from_this(), keep, upgraded](ErrorCode ec, std::size_t bytes) {
         self->host_->counters.bytes_out += bytes;
         if (self->phase_ != Phase::writing) return;
         if (ec) return self->close();
+        self->unsent_->consume(bytes);
+        if (beast::buffer_bytes(*self->unsent_) > 0) return self->write_on(keep, upgraded);
         self->on_written(keep, upgraded);
     });
 }

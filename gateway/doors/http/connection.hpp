@@ -4,7 +4,9 @@
 // many at once (pipelining) waits in its own socket. A fault is answered once and the connection is closed.
 #pragma once
 
+#include <array>
 #include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core/buffers_suffix.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/string_body.hpp>
@@ -40,6 +42,7 @@ private:
     void answer(std::uint64_t serial, Response response);
     void fail(unsigned status, std::string_view reason, std::string detail);
     void write(Response response, bool keep);
+    void write_on(bool keep, bool upgraded);
     void on_written(bool keep, bool upgraded);
     void upgrade();
     void linger();
@@ -66,6 +69,8 @@ private:
     std::size_t discarded_ = 0;
     std::string head_;          ///< of the answer that is being written
     std::string body_;
+    std::optional<boost::beast::buffers_suffix<std::array<boost::asio::const_buffer, 2>>> unsent_;  ///< what is left of both
+    SteadyTime write_end_{};    ///< when the answer must be out at the latest
 };
 
 /// Status line and headers of a response, up to and with the empty line.

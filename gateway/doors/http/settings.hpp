@@ -30,7 +30,7 @@ struct Settings {
     std::chrono::milliseconds header_limit{10'000};  ///< from the first byte (or the connection) to the end of the headers; then 408
     std::chrono::milliseconds body_limit{30'000};    ///< for the whole body; then 408
     std::chrono::milliseconds idle_limit{60'000};    ///< between two requests of a connection; then it is closed
-    std::chrono::milliseconds write_limit{30'000};   ///< for one response, or one batch of the live feed; then the connection is cut
+    std::chrono::milliseconds write_limit{30'000};   ///< without progress in writing an answer, or for one batch of the live feed; then cut
     std::chrono::milliseconds stop_limit{5'000};     ///< for requests in progress when the door is closed
     std::chrono::milliseconds linger_limit{2'000};   ///< for the client to read a last answer before the connection is cut
 

@@ -87,8 +87,10 @@ void WebSocketSession::begin_close(std::uint16_t code, std::string_view reason) 
 }
 
 void WebSocketSession::pump() {
-    if (writing_ || closed_ || finished_) return;
-    if (client_->closing() && !closing_) return begin_close(client_->closing(), {});  // closed by the hub: over a bound
+    if (closed_ || finished_) return;
+    // Closed by the hub, over a bound: the time for the close runs from now on, also while a write to a client that does not read hangs.
+    if (client_->closing() && !closing_) return begin_close(client_->closing(), {});
+    if (writing_) return;
     batch_ = client_->queue.take(batch_bytes);
     if (batch_.empty()) return;
     writing_ = true;

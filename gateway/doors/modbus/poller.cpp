@@ -17,9 +17,9 @@ struct Poller::State : std::enable_shared_from_this<State> {
 
     struct Ready {
         std::shared_ptr<State> self;
-        void operator()(boost::system::error_code) {
+        void operator()(boost::system::error_code ec) {
             State& s = *self;
-            if (s.ended) return;
+            if (ec || s.ended) return;
             // While several sockets are ready more become so meanwhile: asking again here is cheaper than a turn of the io_context.
             epoll_event events[events_per_turn];
             for (int room = events_per_turn, n = 2; room > 0 && n > 1 && !s.ended; room -= n) {
@@ -39,7 +39,7 @@ struct Poller::State : std::enable_shared_from_this<State> {
 
 Poller::Poller(boost::asio::io_context& io, std::function<void(std::span<const epoll_event>)> on_ready)
     : state_(std::make_shared<State>(io, std::move(on_ready))) {
-    state_->arm(state_);
+    if (good()) state_->arm(state_);
 }
 
 Poller::~Poller() {
@@ -47,6 +47,8 @@ Poller::~Poller() {
     boost::system::error_code ignored;
     state_->descriptor.close(ignored);
 }
+
+bool Poller::good() const noexcept { return state_->fd >= 0; }
 
 bool Poller::add(int fd, std::uint64_t token, std::uint32_t events) noexcept {
     epoll_event e{};

@@ -1,8 +1,8 @@
 // Poller: the readiness of many sockets behind one descriptor of the io_context.
 // In: descriptors with a token each. Out: one call per turn with those that are ready, at most `events_per_turn` of them.
-// Never reads or writes. Why not one asynchronous wait per socket: each of those costs an epoll_ctl and an operation object per request;
-// here both are paid once per turn, however many sockets are ready (measured at 64 connections: 0.87 of a plain epoll server's requests/s
-// before, the figures of tests/bench now).
+// Never reads or writes. Why not one asynchronous wait per socket: that costs an epoll_ctl and an operation object per request; here both
+// are paid once per turn, however many sockets are ready. Measured with tests/bench at 64 connections, processor time per answer against
+// a plain epoll server: 1.20 with a wait per socket, 1.05 with this.
 #pragma once
 
 #include <sys/epoll.h>
@@ -27,6 +27,8 @@ public:
     Poller(const Poller&) = delete;
     Poller& operator=(const Poller&) = delete;
 
+    /// False: the process had no descriptor left when it was made.
+    [[nodiscard]] bool good() const noexcept;
     /// Level-triggered. Errors and hang-ups are always told. False: the kernel refused (out of memory, too many watches).
     [[nodiscard]] bool add(int fd, std::uint64_t token, std::uint32_t events) noexcept;
     void change(int fd, std::uint64_t token, std::uint32_t events) noexcept;

@@ -64,6 +64,7 @@ public:
     }
 
     std::string open(std::span<const std::string> binds) {
+        if (!poller_.good()) return "[modbus] no file descriptor is left: raise the limit (LimitNOFILE= of the unit, ulimit -n)";
         for (const auto& text : binds) {
             std::string fault = listen(text);
             if (fault.empty()) continue;
@@ -309,7 +310,7 @@ Server::~Server() { impl_->close(); }
 std::string Server::open(std::span<const std::string> binds) { return impl_->open(binds); }
 std::vector<std::string> Server::addresses() const { return impl_->addresses(); }
 void Server::close() { impl_->close(); }
-void Server::set_map(std::uint8_t unit, UnitMap* map) { impl_->responder().set_map(unit, map); }
+Responder& Server::responder() noexcept { return impl_->responder(); }
 void Server::sweep() { impl_->sweep(); }
 const Counters& Server::counters() const noexcept { return impl_->counters(); }
 

@@ -35,7 +35,8 @@ struct ServerSettings {
 
 class Server {
 public:
-    /// Attaches itself to the port as the sink of Door::modbus. `io` and `port` outlive it. Everything on the thread that runs `io`.
+    /// Its Responder attaches itself to the port as the sink of Door::modbus. `io` and `port` outlive it. Everything on the thread that
+    /// runs `io`.
     Server(boost::asio::io_context& io, DoorPort& port, ServerSettings settings);
     ~Server();
     Server(const Server&) = delete;
@@ -48,8 +49,8 @@ public:
     /// Closes listeners and connections. Commands on their way go on.
     void close();
 
-    /// Own maps of the site: see Responder::set_map.
-    void set_map(std::uint8_t unit, UnitMap* map);
+    /// For the site's own maps (Responder::set_map), and for another transport of the same registers: there is one Responder per port.
+    [[nodiscard]] Responder& responder() noexcept;
     /// Applies the time-outs as of the port's now(). The server's own timer calls it four times a second while anyone is connected.
     void sweep();
 

@@ -345,7 +345,7 @@ TEST(CanLink, asksAsTheIpProgramDoes) {
     // struct nlmsghdr (length 52, RTM_NEWLINK, REQUEST|ACK, sequence), struct ifinfomsg (index 7), LINKINFO {KIND "can", DATA {RESTART 1}}
     const Bytes restart{0x38, 0, 0,    0, 0x10, 0, 0x05, 0, 0x2A, 0,   0,   0, 0,    0, 0, 0,  //
                         0,    0, 0,    0, 7,    0, 0,    0, 0,    0,   0,   0, 0,    0, 0, 0,  //
-                        0x18, 0, 0x12, 0, 7,    0, 1,    0, 'c',  'a', 'n', 0, 0x0C, 0, 2, 0, 8, 0, 8, 0, 1, 0, 0, 0};
+                        0x18, 0, 0x12, 0, 7,    0, 1,    0, 'c',  'a', 'n', 0, 0x0C, 0, 2, 0, 8, 0, 7, 0, 1, 0, 0, 0};
     EXPECT_EQ(restart_request(7, 42), restart);
     const Bytes question{0x20, 0, 0, 0, 0x12, 0, 0x01, 0, 0x2B, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 7, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
     EXPECT_EQ(link_request(7, 43), question);

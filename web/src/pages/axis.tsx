@@ -50,8 +50,8 @@ export function AxisPage({ name }: { name: string }) {
           <Mark mark={markOf(axis)} />
         </div>
         <p class="where">
-          {axis.family} · line <a href={linePath(axis.line)}>{axis.line}</a> · drive {axis.drive}, channel {axis.channel} · axis {axis.number} · commanded by{' '}
-          {axis.authority.replace('_', '/')}
+          {axis.family} · line <a href={linePath(axis.line)}>{axis.line}</a> · drive {axis.drive}, channel {axis.channel} · axis {axis.number} ·{' '}
+          {axis.authority === 'none' ? 'nobody has commanded it' : `commanded by ${axis.authority.replace('_', '/')}`}
         </p>
         <StopButton axis={name} large urgent={axis.moving} />
       </header>

@@ -47,7 +47,21 @@ export function valueText(value: MaybeValue, p: Pick<Described, 'allowed'>): str
   if (typeof value === 'boolean') return value ? 'on' : 'off';
   if (typeof value === 'string') return value === '' ? '(empty)' : value;
   const meaning = p.allowed?.find((a) => a.value === value)?.meaning;
-  return meaning ? `${formatExact(value)} ${meaning}` : formatExact(value);
+  if (!meaning) return formatExact(value);
+  return meaning.startsWith(String(value)) ? meaning : `${formatExact(value)} ${meaning}`;
+}
+
+/** How well a parameter answers a search: 0 its own id, then the beginning of it, id, name, description; null: not at all. */
+export function searchRank(p: Pick<AxisParameter, 'id' | 'name' | 'description'>, text: string): number | null {
+  const id = p.id.toLowerCase();
+  const name = p.name.toLowerCase().replaceAll('_', ' ');
+  const t = text.trim().toLowerCase();
+  if (t === '') return 0;
+  if (id === t) return 0;
+  if (id.startsWith(t)) return 1;
+  if (id.includes(t)) return 2;
+  if (name.includes(t) || p.name.toLowerCase().includes(t)) return 3;
+  return p.description.toLowerCase().includes(t) ? 4 : null;
 }
 
 /** What a field shows when it is opened for writing. */

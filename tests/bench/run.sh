@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# bench: runs every benchmark of a release build, in less than three minutes. For an idle machine; not a part of the ordinary tests.
+#   tests/bench/run.sh BUILD_DIR [NAME...]      NAME: modbus, round, write, program
+# In: BUILD_DIR/bench_* and BUILD_DIR/axisgate. Out: per figure the ratio, the limit it is measured against, and both figures; at the end
+# "N passed, N failed", where what is beyond its limit has failed.
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+build=${1:?usage: tests/bench/run.sh BUILD_DIR [NAME...]}
+shift
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+passed=0 failed=0
+
+find_program() {
+    local p
+    for p in "$build/$1" "$build/tests/bench/$1"; do
+        if [ -x "$p" ]; then echo "$p"; return; fi
+    done
+    echo "$build/$1"
+}
+# bench NAME SECONDS COMMAND...: counts the lines that have a limit; a program that ends without them has failed
+bench() {
+    local name=$1 limit=$2 status=0 kept broken; shift 2
+    if [ ${#wanted[@]} -gt 0 ] && ! printf '%s\n' "${wanted[@]}" | grep -qx "$name"; then return; fi
+    echo "== $name"
+    timeout "$limit" "$@" >"$work/$name.log" 2>"$work/$name.err" || status=$?
+    cat "$work/$name.log"
+    broken=$(grep -c 'NOT KEPT' "$work/$name.log") || true
+    kept=$(grep -cE ' limit [<>]= *[0-9.e+]+ +kept' "$work/$name.log") || true
+    if [ "$status" -gt 1 ] || { [ "$status" = 1 ] && [ "$broken" = 0 ]; } || [ $((kept + broken)) = 0 ]; then
+        echo "    $name ended with code $status"
+        tail -n 20 "$work/$name.err"
+        broken=$((broken + 1))
+    fi
+    passed=$((passed + kept)); failed=$((failed + broken))
+}
+
+wanted=("$@")
+echo "load of the machine before: $(cut -d' ' -f1-3 /proc/loadavg), processors: $(nproc)"
+bench round 60 "$(find_program bench_round)"
+bench write 60 "$(find_program bench_write)" "$(find_program axisgate)"
+bench program 60 /usr/bin/python3 "$here/bench_program.py" "$(find_program axisgate)"
+bench modbus 100 "$(find_program bench_modbus)" --seconds 1.5
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ] && [ "$passed" -gt 0 ]

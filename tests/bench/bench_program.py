@@ -19,7 +19,7 @@ READY_MS, MEMORY_MB, AXES = 300, 60, 64
 
 def site():
     lines = [{"name": f"can{i}", "uri": "twin", "family": "uim342", "bitrate": 1000000} for i in range(2)]
-    drives = [{"name": f"a{i + 1}", "line": f"can{i // 32}", "address": 5 + i % 32, "presence": "auto"} for i in range(AXES)]
+    drives = [{"name": f"a{i + 1}", "line": f"can{i // 32}", "address": 11 + i % 32, "presence": "auto"} for i in range(AXES)]
     axes = [{"name": f"a{i + 1}", "drive": f"a{i + 1}", "number": i + 1, "unit": "mm", "increments_per_unit": 100} for i in range(AXES)]
     return {"lines": lines, "drives": drives, "axes": axes, "mappings": []}
 

@@ -350,8 +350,8 @@ int run(const std::string& program_path, int count) {
     };
     write(33, {3});  // profile velocity
     write(38, {0, 20000, 0, 20000});
-    for (const std::uint16_t word : {0x06, 0x07, 0x0F})
-        write(32, {word});
+    for (const int word : {0x06, 0x07, 0x0F})
+        write(32, {static_cast<std::uint16_t>(word)});
     write(42, {0, 500});
     // What the gateway asks by itself: anything else is what a write has caused.
     drive.functions.reset();

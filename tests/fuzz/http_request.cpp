@@ -88,7 +88,8 @@ void feed_codec(std::string_view bytes) {
         if (const auto f = pieces.take({data + i, 1}, b)) piece_fault = f;
     }
     check(a.size() == b.size());
-    for (std::size_t i = 0; i < a.size(); ++i) check(a[i].kind == b[i].kind && a[i].payload == b[i].payload && a[i].code == b[i].code);
+    for (std::size_t i = 0; i < a.size(); ++i)
+        check(a[i].kind == b[i].kind && a[i].payload == b[i].payload && a[i].code == b[i].code);
     check(fault.has_value() == piece_fault.has_value());
     if (fault) check(fault->code == piece_fault->code);
 }
@@ -113,9 +114,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (size == 0) return 0;
     const std::string_view rest(reinterpret_cast<const char*>(data) + 1, size - 1);
     switch (data[0] % 3) {
-        case 0: feed_request(rest); break;
-        case 1: feed_codec(rest); break;
-        default: feed_stream(rest); break;
+        case 0:
+            feed_request(rest);
+            break;
+        case 1:
+            feed_codec(rest);
+            break;
+        default:
+            feed_stream(rest);
+            break;
     }
     return 0;
 }

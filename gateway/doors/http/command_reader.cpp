@@ -34,7 +34,8 @@ constexpr std::array shapes{Shape{"enable", {}},
 
 class Reader {
 public:
-    Reader(const json::object& body, double scale, std::string_view unit, ReadCommand& out) : body_(body), scale_(scale), unit_(unit), out_(out) {}
+    Reader(const json::object& body, double scale, std::string_view unit, ReadCommand& out)
+        : body_(body), scale_(scale), unit_(unit), out_(out) {}
 
     void malformed(std::string_view key, std::string text, std::string remedy) {
         out_.faults.push_back({"/" + std::string(key), std::move(text), std::move(remedy)});
@@ -58,7 +59,8 @@ public:
         const double asked = v->to_number<double>();
         const double exact = asked * scale_;
         if (!std::isfinite(exact) || std::fabs(exact) >= largest_increments) {
-            out_of_range(key, fmt::format("{} is too large: {} {}{} are more than 2^53 increments", key, asked, unit(), per), "write a smaller value");
+            out_of_range(key, fmt::format("{} is too large: {} {}{} are more than 2^53 increments", key, asked, unit(), per),
+                         "write a smaller value");
             return std::nullopt;
         }
         const auto n = static_cast<std::int64_t>(std::llround(exact));
@@ -123,7 +125,8 @@ private:
 
 std::string known_commands() {
     std::string s;
-    for (const auto& shape : shapes) s += (s.empty() ? "" : ", ") + std::string(shape.command);
+    for (const auto& shape : shapes)
+        s += (s.empty() ? "" : ", ") + std::string(shape.command);
     return s;
 }
 }  // namespace
@@ -150,7 +153,8 @@ ReadCommand read_command(const json::object& body, double increments_per_unit, s
             if (!f.empty()) list += (list.empty() ? "" : ", ") + std::string(f);
         }
         read.malformed(key, fmt::format("{} does not know {}", out.name, key),
-                       list.empty() ? fmt::format("remove it: {} takes nothing else", out.name) : fmt::format("remove it; {} takes {}", out.name, list));
+                       list.empty() ? fmt::format("remove it: {} takes nothing else", out.name)
+                                    : fmt::format("remove it; {} takes {}", out.name, list));
     }
 
     CommandBody command;

@@ -18,7 +18,7 @@ struct ReadCommand {
     std::optional<CommandBody> body;  ///< only if there are no faults
     std::string name;                 ///< the command's word, as far as it was given
     std::vector<Fault> faults;
-    bool range_only = false;          ///< every fault is a value outside its range
+    bool range_only = false;  ///< every fault is a value outside its range
 };
 
 /// `increments_per_unit` > 0. Positions are in the axis' unit, velocities in unit/s, accelerations in unit/s^2; each becomes the nearest

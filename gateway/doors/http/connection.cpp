@@ -2,9 +2,9 @@
 // In: bytes. Out: bytes.
 #include "gateway/doors/http/connection.hpp"
 
+#include <fmt/format.h>
 #include <boost/asio/write.hpp>
 #include <boost/beast/http/read.hpp>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -15,22 +15,24 @@ namespace axisgate::http {
 namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace {
-constexpr std::size_t most_buffered = 64 * 1024;     // read ahead of the request that is answered
-constexpr std::size_t least_bytes_per_ms = 16;            // an answer of 1 MiB may take about a minute more than the limit of a step
+constexpr std::size_t most_buffered = 64 * 1024;         // read ahead of the request that is answered
+constexpr std::size_t least_bytes_per_ms = 16;           // an answer of 1 MiB may take about a minute more than the limit of a step
 constexpr std::size_t most_discarded = 2 * 1024 * 1024;  // read and thrown away so that the last answer arrives
 
 /// RFC 9110 5.6.7: "Sun, 06 Nov 1994 08:49:37 GMT".
 std::string http_date(std::int64_t unix_s) {
-    using std::chrono::days, std::chrono::floor, std::chrono::hh_mm_ss, std::chrono::sys_seconds, std::chrono::weekday, std::chrono::year_month_day;
+    using std::chrono::days, std::chrono::floor, std::chrono::hh_mm_ss, std::chrono::sys_seconds, std::chrono::weekday,
+        std::chrono::year_month_day;
     static constexpr std::array<std::string_view, 7> weekdays{"Sun", "Mon", "Tue", "Wed", "Thu", "Fri", "Sat"};
-    static constexpr std::array<std::string_view, 12> months{"Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
+    static constexpr std::array<std::string_view, 12> months{"Jan", "Feb", "Mar", "Apr", "May", "Jun",
+                                                             "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
     const sys_seconds t{std::chrono::seconds{unix_s}};
     const auto day = floor<days>(t);
     const year_month_day date{day};
     const hh_mm_ss time{t - day};
     return fmt::format("{}, {:02} {} {:04} {:02}:{:02}:{:02} GMT", weekdays[weekday{day}.c_encoding()], static_cast<unsigned>(date.day()),
-                       months[static_cast<unsigned>(date.month()) - 1], static_cast<int>(date.year()), time.hours().count(), time.minutes().count(),
-                       time.seconds().count());
+                       months[static_cast<unsigned>(date.month()) - 1], static_cast<int>(date.year()), time.hours().count(),
+                       time.minutes().count(), time.seconds().count());
 }
 }  // namespace
 
@@ -40,7 +42,8 @@ std::string response_head(const Response& r, bool keep, std::int64_t now_unix_s)
         s += k;
         s += ": ";
         // A line end in a value would begin a header of its own.
-        for (const char c : v) s += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? ' ' : c;
+        for (const char c : v)
+            s += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? ' ' : c;
         s += "\r\n";
     }
     if (r.status != 101 && r.status != 204 && r.status != 304) s += fmt::format("Content-Length: {}\r\n", r.body.size());
@@ -94,8 +97,11 @@ void Connection::on_timer() {
             ++host_->counters.connections_timed_out;
             close();
             break;
-        case Phase::lingering: close(); break;
-        case Phase::closed: break;
+        case Phase::lingering:
+            close();
+            break;
+        case Phase::closed:
+            break;
     }
 }
 
@@ -164,7 +170,8 @@ void Connection::read_failed(ErrorCode ec) {
     if (timed_out_) return fail(408, "time_out", "the request did not come in time");
     if (ec == error::end_of_stream || ec == asio::error::operation_aborted) return close();
     if (ec == error::header_limit || ec == error::buffer_overflow) {
-        return fail(431, "headers_too_large", fmt::format("request line and headers may have {} bytes together", host_->settings.max_header_bytes));
+        return fail(431, "headers_too_large",
+                    fmt::format("request line and headers may have {} bytes together", host_->settings.max_header_bytes));
     }
     if (ec == error::body_limit) return fail(413, "too_large", fmt::format("a body may have {} bytes", host_->settings.max_body_bytes));
     if (ec == error::bad_version) return fail(505, "bad_request", "this gateway speaks HTTP/1.1");
@@ -191,7 +198,8 @@ void Connection::answer_request() {
     request_.method = method_named(std::string_view(m.method_string()));
     request_.target = std::string(m.target());
     request_.http_1_0 = m.version() < 11;
-    for (const auto& f : m) request_.headers.fields.emplace_back(std::string(f.name_string()), std::string(f.value()));
+    for (const auto& f : m)
+        request_.headers.fields.emplace_back(std::string(f.name_string()), std::string(f.value()));
     request_.body = std::move(m.body());
     request_.peer = peer_;
     phase_ = Phase::answering;
@@ -223,7 +231,8 @@ void Connection::write(Response response, bool keep) {
     const bool upgraded = response.status == 101;
     body_ = response.without_body ? std::string() : std::move(response.body);
     unsent_.emplace(std::array<asio::const_buffer, 2>{asio::buffer(head_), asio::buffer(body_)});
-    write_end_ = std::chrono::steady_clock::now() + host_->settings.write_limit + std::chrono::milliseconds(body_.size() / least_bytes_per_ms);
+    write_end_ =
+        std::chrono::steady_clock::now() + host_->settings.write_limit + std::chrono::milliseconds(body_.size() / least_bytes_per_ms);
     write_on(keep, upgraded);
 }
 

@@ -63,14 +63,14 @@ private:
     std::uint64_t serial_ = 0;  ///< of the request that is answered; a late answer to another one is ignored
     SteadyTime since_{};        ///< phase idle: when it began; later: when the request was whole
     Phase phase_ = Phase::idle;
-    bool first_ = true;         ///< no request yet on this connection
+    bool first_ = true;  ///< no request yet on this connection
     bool timed_out_ = false;
     bool stopping_ = false;
     std::size_t discarded_ = 0;
-    std::string head_;          ///< of the answer that is being written
+    std::string head_;  ///< of the answer that is being written
     std::string body_;
     std::optional<boost::beast::buffers_suffix<std::array<boost::asio::const_buffer, 2>>> unsent_;  ///< what is left of both
-    SteadyTime write_end_{};    ///< when the answer must be out at the latest
+    SteadyTime write_end_{};  ///< when the answer must be out at the latest
 };
 
 /// Status line and headers of a response, up to and with the empty line.

@@ -9,7 +9,8 @@ namespace axisgate::http {
 void Counters::answered(std::string_view route, std::string_view method, unsigned status, double duration_s) {
     ++requests[{std::string(route), std::string(method), status}];
     std::size_t i = 0;
-    while (i < bucket_limits.size() && duration_s > bucket_limits[i]) ++i;
+    while (i < bucket_limits.size() && duration_s > bucket_limits[i])
+        ++i;
     ++buckets[i];
     duration_sum_s += duration_s;
 }
@@ -35,7 +36,8 @@ std::string Counters::text() const {
         s += fmt::format("axisgate_http_request_duration_seconds_bucket{{le=\"{}\"}} {}\n",
                          i < bucket_limits.size() ? fmt::format("{}", bucket_limits[i]) : std::string("+Inf"), sum);
     }
-    s += fmt::format("axisgate_http_request_duration_seconds_sum {}\naxisgate_http_request_duration_seconds_count {}\n", duration_sum_s, sum);
+    s += fmt::format("axisgate_http_request_duration_seconds_sum {}\naxisgate_http_request_duration_seconds_count {}\n", duration_sum_s,
+                     sum);
     plain("connections", "gauge", "Open connections, live-feed clients included.", connections);
     plain("connections_accepted_total", "counter", "Connections accepted.", connections_accepted);
     plain("connections_refused_total", "counter", "Connections refused because too many were open.", connections_refused);
@@ -45,10 +47,12 @@ std::string Counters::text() const {
     plain("sent_bytes_total", "counter", "Bytes sent.", bytes_out);
     plain("stream_clients", "gauge", "Live-feed clients.", stream_clients);
     plain("stream_frames_sent_total", "counter", "Messages sent to live-feed clients.", stream_frames_sent);
-    plain("stream_states_replaced_total", "counter", "States that were replaced by a newer one before a slow client took them.", stream_states_replaced);
+    plain("stream_states_replaced_total", "counter", "States that were replaced by a newer one before a slow client took them.",
+          stream_states_replaced);
     plain("stream_requests_wrong_total", "counter", "Live-feed requests answered with an error.", stream_requests_wrong);
     head("stream_closed_total", "counter", "Live-feed clients closed, by close code.");
-    for (const auto& [code, n] : stream_closed) s += fmt::format("axisgate_http_stream_closed_total{{code=\"{}\"}} {}\n", code, n);
+    for (const auto& [code, n] : stream_closed)
+        s += fmt::format("axisgate_http_stream_closed_total{{code=\"{}\"}} {}\n", code, n);
     return s;
 }
 

@@ -21,12 +21,12 @@ struct Counters {
     double duration_sum_s = 0;
 
     std::uint64_t connections_accepted = 0, connections_refused = 0, connections_timed_out = 0;
-    std::uint64_t malformed = 0;                  ///< requests that were not HTTP, or over a bound
+    std::uint64_t malformed = 0;  ///< requests that were not HTTP, or over a bound
     std::uint64_t bytes_in = 0, bytes_out = 0;
-    std::uint64_t connections = 0;                ///< open now, live-feed clients included
-    std::uint64_t stream_clients = 0;             ///< open now
+    std::uint64_t connections = 0;     ///< open now, live-feed clients included
+    std::uint64_t stream_clients = 0;  ///< open now
     std::uint64_t stream_frames_sent = 0;
-    std::uint64_t stream_states_replaced = 0;     ///< a newer state took the place of one that waited
+    std::uint64_t stream_states_replaced = 0;  ///< a newer state took the place of one that waited
     std::uint64_t stream_requests_wrong = 0;
     std::map<std::uint16_t, std::uint64_t> stream_closed;  ///< by close code sent
 

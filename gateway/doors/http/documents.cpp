@@ -12,18 +12,45 @@ namespace axisgate::http {
 namespace json = boost::json;
 namespace {
 
-constexpr std::array<std::string_view, 32> axis_live_members{
-    "line", "family", "online", "simulated", "stale", "presence", "state", "statusword", "controlword", "mode", "mode_number", "moving",
-    "target_reached", "referenced", "fault", "warning", "internal_limit", "position", "position_demand", "velocity", "target_position",
-    "target_velocity", "position_increments", "position_demand_increments", "velocity_increments", "target_position_increments", "error",
-    "native", "authority", "setpoints_accepted", "at", "age_ms"};
+constexpr std::array<std::string_view, 32> axis_live_members{"line",
+                                                             "family",
+                                                             "online",
+                                                             "simulated",
+                                                             "stale",
+                                                             "presence",
+                                                             "state",
+                                                             "statusword",
+                                                             "controlword",
+                                                             "mode",
+                                                             "mode_number",
+                                                             "moving",
+                                                             "target_reached",
+                                                             "referenced",
+                                                             "fault",
+                                                             "warning",
+                                                             "internal_limit",
+                                                             "position",
+                                                             "position_demand",
+                                                             "velocity",
+                                                             "target_position",
+                                                             "target_velocity",
+                                                             "position_increments",
+                                                             "position_demand_increments",
+                                                             "velocity_increments",
+                                                             "target_position_increments",
+                                                             "error",
+                                                             "native",
+                                                             "authority",
+                                                             "setpoints_accepted",
+                                                             "at",
+                                                             "age_ms"};
 constexpr std::array<std::string_view, 3> drive_live_members{"family", "axes", "status"};
 constexpr std::array<std::string_view, 2> line_live_members{"drives", "status"};
 
 json::object status_document(const LineStatus& s) {
-    return {{"state", name_of(s.state)}, {"text", s.text},         {"frames_in", s.frames_in}, {"frames_out", s.frames_out},
-            {"bytes_in", s.bytes_in},    {"bytes_out", s.bytes_out}, {"dropped", s.dropped},   {"errors", s.errors},
-            {"reopened", s.reopened},    {"queued", s.queued},     {"load", number(s.load)},   {"tx_errors", s.tx_errors},
+    return {{"state", name_of(s.state)}, {"text", s.text},           {"frames_in", s.frames_in}, {"frames_out", s.frames_out},
+            {"bytes_in", s.bytes_in},    {"bytes_out", s.bytes_out}, {"dropped", s.dropped},     {"errors", s.errors},
+            {"reopened", s.reopened},    {"queued", s.queued},       {"load", number(s.load)},   {"tx_errors", s.tx_errors},
             {"rx_errors", s.rx_errors}};
 }
 
@@ -32,37 +59,51 @@ json::value bound(const std::optional<double>& v) { return v ? number(*v) : json
 
 std::string_view mode_name(std::int16_t mode) noexcept {
     switch (mode) {
-        case cia402::mode_none: return "none";
-        case cia402::mode_profile_position: return "profile_position";
-        case cia402::mode_profile_velocity: return "profile_velocity";
-        case cia402::mode_homing: return "homing";
-        default: return "other";
+        case cia402::mode_none:
+            return "none";
+        case cia402::mode_profile_position:
+            return "profile_position";
+        case cia402::mode_profile_velocity:
+            return "profile_velocity";
+        case cia402::mode_homing:
+            return "homing";
+        default:
+            return "other";
     }
 }
 
 std::string_view name_of(Presence presence) noexcept {
     switch (presence) {
-        case Presence::offline: return "offline";
-        case Presence::device: return "device";
-        case Presence::twin: return "twin";
+        case Presence::offline:
+            return "offline";
+        case Presence::device:
+            return "device";
+        case Presence::twin:
+            return "twin";
     }
     return "offline";
 }
 
 std::string_view name_of(Quality quality) noexcept {
     switch (quality) {
-        case Quality::unknown: return "unknown";
-        case Quality::good: return "good";
-        case Quality::stale: return "stale";
+        case Quality::unknown:
+            return "unknown";
+        case Quality::good:
+            return "good";
+        case Quality::stale:
+            return "stale";
     }
     return "unknown";
 }
 
 std::string_view name_of(Access access) noexcept {
     switch (access) {
-        case Access::read: return "R";
-        case Access::write: return "W";
-        case Access::read_write: return "RW";
+        case Access::read:
+            return "R";
+        case Access::write:
+            return "W";
+        case Access::read_write:
+            return "RW";
     }
     return "R";
 }
@@ -80,7 +121,9 @@ json::object axis_document(const AxisView& v) {
     const double scale = v.spec.increments_per_unit;
     const auto flag = [&p](std::uint16_t bit) { return (p.flags & bit) != 0; };
     const auto increments = [&p](std::int64_t n) { return p.ever_seen ? json::value(n) : json::value(nullptr); };
-    const auto in_unit = [&p, scale](std::int64_t n) { return p.ever_seen ? number(static_cast<double>(n) / scale) : json::value(nullptr); };
+    const auto in_unit = [&p, scale](std::int64_t n) {
+        return p.ever_seen ? number(static_cast<double>(n) / scale) : json::value(nullptr);
+    };
 
     json::object o = to_json(v.spec);
     o["line"] = v.line;
@@ -121,7 +164,8 @@ json::object axis_document(const AxisView& v) {
     o["setpoints_accepted"] = p.setpoints_accepted;
     o["at"] = p.ever_seen ? json::value(format_time(v.at_unix_ns)) : json::value(nullptr);
     if (v.now_unix_ns) {
-        o["age_ms"] = p.ever_seen ? json::value(std::max<std::int64_t>(0, (*v.now_unix_ns - v.at_unix_ns) / 1'000'000)) : json::value(nullptr);
+        o["age_ms"] =
+            p.ever_seen ? json::value(std::max<std::int64_t>(0, (*v.now_unix_ns - v.at_unix_ns) / 1'000'000)) : json::value(nullptr);
     }
     return o;
 }
@@ -188,7 +232,9 @@ json::object frame_document(const TraceEntry& e) {
             {"at", format_time(e.at_unix_ns)},
             {"to_drive", e.to_drive},
             {"simulated", e.simulated},
-            {"kind", bytes ? "bytes" : f.kind == Frame::Kind::can ? "can" : "can_error"},
+            {"kind", bytes                        ? "bytes"
+                     : f.kind == Frame::Kind::can ? "can"
+                                                  : "can_error"},
             {"id", bytes ? json::value(nullptr) : json::value(f.id)},
             {"extended", f.extended},
             {"remote", f.remote},
@@ -212,7 +258,8 @@ json::object parameter_document(const Parameter& p, std::string_view id) {
         o["allowed"] = nullptr;
     } else {
         json::array list;
-        for (const auto& [value, meaning] : p.allowed) list.push_back(json::object{{"value", value}, {"meaning", meaning}});
+        for (const auto& [value, meaning] : p.allowed)
+            list.push_back(json::object{{"value", value}, {"meaning", meaning}});
         o["allowed"] = std::move(list);
     }
     o["first"] = p.count == 0 ? json::value(nullptr) : json::value(p.first);
@@ -220,11 +267,17 @@ json::object parameter_document(const Parameter& p, std::string_view id) {
     return o;
 }
 
-json::object command_document(const CatalogueCommand& c) { return {{"id", c.id}, {"name", c.name}, {"description", text_or_null(c.description)}}; }
+json::object command_document(const CatalogueCommand& c) {
+    return {{"id", c.id}, {"name", c.name}, {"description", text_or_null(c.description)}};
+}
 
 json::object error_document(const ErrorCode& e) {
-    return {{"code", e.code},  {"kind", text_or_null(e.kind)},   {"name", text_or_null(e.name)},
-            {"text", text_or_null(e.text)}, {"cause", text_or_null(e.cause)}, {"remedy", text_or_null(e.remedy)}};
+    return {{"code", e.code},
+            {"kind", text_or_null(e.kind)},
+            {"name", text_or_null(e.name)},
+            {"text", text_or_null(e.text)},
+            {"cause", text_or_null(e.cause)},
+            {"remedy", text_or_null(e.remedy)}};
 }
 
 json::object family_document(const FamilyEntry& entry) {
@@ -244,9 +297,15 @@ json::object family_document(const FamilyEntry& entry) {
     return o;
 }
 
-bool is_read_only_axis_member(std::string_view name) noexcept { return std::ranges::find(axis_live_members, name) != axis_live_members.end(); }
-bool is_read_only_drive_member(std::string_view name) noexcept { return std::ranges::find(drive_live_members, name) != drive_live_members.end(); }
-bool is_read_only_line_member(std::string_view name) noexcept { return std::ranges::find(line_live_members, name) != line_live_members.end(); }
+bool is_read_only_axis_member(std::string_view name) noexcept {
+    return std::ranges::find(axis_live_members, name) != axis_live_members.end();
+}
+bool is_read_only_drive_member(std::string_view name) noexcept {
+    return std::ranges::find(drive_live_members, name) != drive_live_members.end();
+}
+bool is_read_only_line_member(std::string_view name) noexcept {
+    return std::ranges::find(line_live_members, name) != line_live_members.end();
+}
 
 json::object axis_parameter_document(const Parameter& p, std::string_view id, const LiveParameter& live, const StoredParameter* stored,
                                      std::string_view text) {

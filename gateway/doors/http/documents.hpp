@@ -31,8 +31,8 @@ struct AxisView {
     std::string_view line, family;
     const Catalogue* catalogue = nullptr;  ///< for the text of an error; may be missing
     const AxisPicture& picture;
-    std::int64_t at_unix_ns = 0;                 ///< of picture.at
-    std::optional<std::int64_t> now_unix_ns{};   ///< for age_ms; without it that member is left out (the live feed)
+    std::int64_t at_unix_ns = 0;                ///< of picture.at
+    std::optional<std::int64_t> now_unix_ns{};  ///< for age_ms; without it that member is left out (the live feed)
 };
 [[nodiscard]] boost::json::object axis_document(const AxisView& view);
 

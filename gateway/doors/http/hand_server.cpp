@@ -29,12 +29,17 @@ struct Answer {
 };
 
 Answer fault(bhttp::status status, std::string detail) {
-    return {status, {{"type", "about:blank"}, {"title", std::string(bhttp::obsolete_reason(status))}, {"status", static_cast<unsigned>(status)}, {"detail", std::move(detail)}}};
+    return {status,
+            {{"type", "about:blank"},
+             {"title", std::string(bhttp::obsolete_reason(status))},
+             {"status", static_cast<unsigned>(status)},
+             {"detail", std::move(detail)}}};
 }
 
 Answer show(const HandServer::Drive& drive) {
     Answer a;
-    for (const auto& i : drive.items()) a.body[i.name] = to_json(i.value);
+    for (const auto& i : drive.items())
+        a.body[i.name] = to_json(i.value);
     return a;
 }
 
@@ -51,11 +56,13 @@ Answer handle(const Drives& drives, const bhttp::request<bhttp::string_body>& re
     }
     if (!drive) {
         std::string list;
-        for (const auto& d : drives) list += (list.empty() ? "" : ", ") + d.address;
+        for (const auto& d : drives)
+            list += (list.empty() ? "" : ", ") + d.address;
         return fault(bhttp::status::not_found, fmt::format("use /hand, or /hand/ADDRESS with one of: {}", list));
     }
     if (request.method() == bhttp::verb::get) return show(*drive);
-    if (request.method() != bhttp::verb::patch && request.method() != bhttp::verb::put) return fault(bhttp::status::method_not_allowed, "use GET, PATCH or PUT");
+    if (request.method() != bhttp::verb::patch && request.method() != bhttp::verb::put)
+        return fault(bhttp::status::method_not_allowed, "use GET, PATCH or PUT");
     boost::system::error_code ec;
     const auto parsed = json::parse(request.body(), ec);
     if (ec || !parsed.is_object()) return fault(bhttp::status::bad_request, "the body must be a JSON object such as {\"stall\": true}");
@@ -66,7 +73,9 @@ Answer handle(const Drives& drives, const bhttp::request<bhttp::string_body>& re
         if (v.is_int64()) value = v.get_int64();
         if (v.is_double()) value = v.get_double();
         if (v.is_string()) value = std::string(v.get_string());
-        if (!known(value)) return fault(bhttp::status::unprocessable_entity, fmt::format("{}: write true, false, a number or a text", std::string_view(name)));
+        if (!known(value))
+            return fault(bhttp::status::unprocessable_entity,
+                         fmt::format("{}: write true, false, a number or a text", std::string_view(name)));
         items.emplace_back(std::string(name), std::move(value));
     }
     const auto offered = drive->items();
@@ -85,7 +94,10 @@ Answer handle(const Drives& drives, const bhttp::request<bhttp::string_body>& re
 
 class Session : public std::enable_shared_from_this<Session> {
 public:
-    Session(asio::ip::tcp::socket socket, const Drives& drives, std::shared_ptr<std::size_t> count) : stream_(std::move(socket)), drives_(drives), count_(std::move(count)) { ++*count_; }
+    Session(asio::ip::tcp::socket socket, const Drives& drives, std::shared_ptr<std::size_t> count)
+        : stream_(std::move(socket)), drives_(drives), count_(std::move(count)) {
+        ++*count_;
+    }
     ~Session() { --*count_; }
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
@@ -141,7 +153,8 @@ struct HandServer::Parts : std::enable_shared_from_this<HandServer::Parts> {
     }
 };
 
-HandServer::HandServer(asio::io_context& io, std::string bind, Drives drives) : parts_(std::make_shared<Parts>(io, std::move(bind), std::move(drives))) {}
+HandServer::HandServer(asio::io_context& io, std::string bind, Drives drives)
+    : parts_(std::make_shared<Parts>(io, std::move(bind), std::move(drives))) {}
 HandServer::~HandServer() {
     boost::system::error_code ignored;
     parts_->acceptor.close(ignored);

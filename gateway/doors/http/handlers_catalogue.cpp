@@ -12,14 +12,16 @@ Handled list_of(Call& c, List list, Show show) {
     const auto entry = c.gateway().families().find(c.names[0]);
     if (!entry.family || !entry.catalogue) return nothing_named("family", c.names[0]);
     json::array out;
-    for (const auto& x : list(*entry.catalogue)) out.push_back(show(x));
+    for (const auto& x : list(*entry.catalogue))
+        out.push_back(show(x));
     return json_response(out);
 }
 }  // namespace
 
 Handled list_families(Call& c) {
     json::array out;
-    for (const auto& e : c.gateway().families().entries) out.push_back(family_document(e));
+    for (const auto& e : c.gateway().families().entries)
+        out.push_back(family_document(e));
     return json_response(out);
 }
 
@@ -30,15 +32,18 @@ Handled get_family(Call& c) {
 }
 
 Handled list_family_parameters(Call& c) {
-    return list_of(c, [](const Catalogue& k) { return k.parameters(); }, [](const Parameter& p) { return parameter_document(p, p.id); });
+    return list_of(
+        c, [](const Catalogue& k) { return k.parameters(); }, [](const Parameter& p) { return parameter_document(p, p.id); });
 }
 
 Handled list_family_commands(Call& c) {
-    return list_of(c, [](const Catalogue& k) { return k.commands(); }, [](const CatalogueCommand& x) { return command_document(x); });
+    return list_of(
+        c, [](const Catalogue& k) { return k.commands(); }, [](const CatalogueCommand& x) { return command_document(x); });
 }
 
 Handled list_family_errors(Call& c) {
-    return list_of(c, [](const Catalogue& k) { return k.errors(); }, [](const ErrorCode& e) { return error_document(e); });
+    return list_of(
+        c, [](const Catalogue& k) { return k.errors(); }, [](const ErrorCode& e) { return error_document(e); });
 }
 
 }  // namespace axisgate::http

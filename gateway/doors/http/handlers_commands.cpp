@@ -32,8 +32,10 @@ void unknown_members(const json::object& body, std::initializer_list<std::string
     for (const auto& [k, v] : body) {
         if (std::ranges::find(known, std::string_view(k)) != known.end()) continue;
         std::string list;
-        for (const auto w : known) list += (list.empty() ? "" : ", ") + std::string(w);
-        faults.push_back({"/" + std::string(k), fmt::format("{} is not known here", std::string_view(k)), "remove it, or use one of: " + list});
+        for (const auto w : known)
+            list += (list.empty() ? "" : ", ") + std::string(w);
+        faults.push_back(
+            {"/" + std::string(k), fmt::format("{} is not known here", std::string_view(k)), "remove it, or use one of: " + list});
     }
 }
 }  // namespace
@@ -105,7 +107,8 @@ Handled start_moves(Call& c) {
     std::string first, line;
     const auto* axes = body.if_contains("axes");
     if (!axes || !axes->is_array() || axes->get_array().empty() || axes->get_array().size() > most_axes_together) {
-        faults.push_back({"/axes", fmt::format("axes must be a list of 1 to {} names", most_axes_together), "write \"axes\": [\"left\", \"right\"]"});
+        faults.push_back(
+            {"/axes", fmt::format("axes must be a list of 1 to {} names", most_axes_together), "write \"axes\": [\"left\", \"right\"]"});
     } else {
         for (std::size_t i = 0; i < axes->get_array().size(); ++i) {
             const auto& v = axes->get_array()[i];
@@ -138,7 +141,8 @@ Handled start_moves(Call& c) {
     Command command;
     command.axis = start.axes.front();
     command.body = std::move(start);
-    return submit_command(c, std::move(command), first, std::string(word), wait_s, [first](const Result& r) { return answer_of(r, first, word); });
+    return submit_command(c, std::move(command), first, std::string(word), wait_s,
+                          [first](const Result& r) { return answer_of(r, first, word); });
 }
 
 }  // namespace axisgate::http

@@ -35,7 +35,8 @@ Response not_simulated(Gateway& gateway, DriveId id, std::string_view name) {
 
 json::object flat(const std::vector<HandItem>& items) {
     json::object o;
-    for (const auto& i : items) o[i.name] = to_json(i.value);
+    for (const auto& i : items)
+        o[i.name] = to_json(i.value);
     return o;
 }
 
@@ -43,13 +44,15 @@ json::object flat(const std::vector<HandItem>& items) {
 std::optional<Native> read_native(const json::object& body, std::vector<Fault>& faults) {
     for (const auto& [k, v] : body) {
         if (k != "send" && k != "send_hex") {
-            faults.push_back({"/" + std::string(k), fmt::format("{} is not known here", std::string_view(k)), "write {\"send\": \"...\"} or {\"send_hex\": \"...\"}"});
+            faults.push_back({"/" + std::string(k), fmt::format("{} is not known here", std::string_view(k)),
+                              "write {\"send\": \"...\"} or {\"send_hex\": \"...\"}"});
         }
     }
     const auto* text = body.if_contains("send");
     const auto* hex = body.if_contains("send_hex");
     if ((text != nullptr) == (hex != nullptr)) {
-        faults.push_back({"", text ? "send and send_hex are both there" : "send is missing", "write {\"send\": \"...\"} or {\"send_hex\": \"...\"}"});
+        faults.push_back(
+            {"", text ? "send and send_hex are both there" : "send is missing", "write {\"send\": \"...\"} or {\"send_hex\": \"...\"}"});
         return std::nullopt;
     }
     Native native;
@@ -70,7 +73,8 @@ std::optional<Native> read_native(const json::object& body, std::vector<Fault>& 
         return std::nullopt;
     }
     if (native.send.empty() || native.send.size() > most_native_bytes) {
-        faults.push_back({"/" + std::string(key), fmt::format("{} bytes cannot be sent at once", native.send.size()), fmt::format("send 1 to {} bytes", most_native_bytes)});
+        faults.push_back({"/" + std::string(key), fmt::format("{} bytes cannot be sent at once", native.send.size()),
+                          fmt::format("send 1 to {} bytes", most_native_bytes)});
         return std::nullopt;
     }
     return native;
@@ -110,12 +114,14 @@ Handled get_hand(Call& c) {
     const bool describe = query_flag(c, "describe", fault);
     if (fault) return *fault;
     Gateway& gateway = c.gateway();
-    gateway.hand(drive->id(), [&gateway, id = drive->id(), name = c.names[0], describe, respond = c.respond](std::optional<std::vector<HandItem>> items) {
+    gateway.hand(drive->id(), [&gateway, id = drive->id(), name = c.names[0], describe,
+                               respond = c.respond](std::optional<std::vector<HandItem>> items) {
         if (!items) return respond(not_simulated(gateway, id, name));
         if (!describe) return respond(json_response(flat(*items)));
         json::array list;
         for (const auto& i : *items) {
-            list.push_back(json::object{{"name", i.name}, {"value", to_json(i.value)}, {"writable", i.writable}, {"description", i.description}});
+            list.push_back(
+                json::object{{"name", i.name}, {"value", to_json(i.value)}, {"writable", i.writable}, {"description", i.description}});
         }
         respond(json_response(list));
     });
@@ -134,7 +140,8 @@ Handled set_hand(Call& c) {
         if (v.is_double()) value = v.get_double();
         if (v.is_string()) value = std::string(v.get_string());
         if (!known(value)) {
-            faults.push_back({"/" + std::string(k), fmt::format("{} must be a number, a text, true or false", std::string_view(k)), "see GET with ?describe=1"});
+            faults.push_back({"/" + std::string(k), fmt::format("{} must be a number, a text, true or false", std::string_view(k)),
+                              "see GET with ?describe=1"});
         }
         wanted.emplace_back(std::string(k), std::move(value));
     }
@@ -166,7 +173,8 @@ Handled set_hand(Call& c) {
             });
         });
     });
-    return {gateway_limit, problem(504, "time_out", fmt::format("the hand of {} did not answer in time; look again whether it was set", c.names[0]))};
+    return {gateway_limit,
+            problem(504, "time_out", fmt::format("the hand of {} did not answer in time; look again whether it was set", c.names[0]))};
 }
 
 }  // namespace axisgate::http

@@ -48,8 +48,10 @@ Handled get_description(Call& c) {
 Handled get_about(Call& c) {
     const auto site = c.gateway().site();
     json::array families, doors;
-    for (const auto& e : c.gateway().families().entries) families.emplace_back(e.family->name);
-    for (const auto& d : c.gateway().doors()) doors.push_back(json::object{{"name", d.name}, {"address", d.address}});
+    for (const auto& e : c.gateway().families().entries)
+        families.emplace_back(e.family->name);
+    for (const auto& d : c.gateway().doors())
+        doors.push_back(json::object{{"name", d.name}, {"address", d.address}});
     return json_response(json::object{{"name", "axisgate"},
                                       {"version", c.context.settings.version},
                                       {"api", "/api/v1"},
@@ -80,7 +82,8 @@ Handled open_stream(Call& c) {
         r.headers.set("Sec-WebSocket-Version", "13");
         return r;
     };
-    if (c.request.method != Method::get || c.request.http_1_0 || !names(h.get("Upgrade"), "websocket") || !names(h.get("Connection"), "upgrade")) {
+    if (c.request.method != Method::get || c.request.http_1_0 || !names(h.get("Upgrade"), "websocket") ||
+        !names(h.get("Connection"), "upgrade")) {
         return upgrade_needed("this is a WebSocket: open it with a WebSocket client");
     }
     if (trimmed(h.get("Sec-WebSocket-Version")) != "13") return upgrade_needed("this gateway speaks version 13 of the WebSocket protocol");
@@ -119,9 +122,13 @@ std::optional<AxisPlace> find_axis(const Gateway& gateway, std::string_view name
     return axis_at(gateway, std::move(site), *index);
 }
 
-Response nothing_named(std::string_view what, std::string_view name) { return problem(404, "not_found", fmt::format("there is no {} {}", what, name)); }
+Response nothing_named(std::string_view what, std::string_view name) {
+    return problem(404, "not_found", fmt::format("there is no {} {}", what, name));
+}
 
-Response bad_query(std::string_view name, std::string_view must) { return problem(400, "bad_request", fmt::format("{} must be {}", name, must)); }
+Response bad_query(std::string_view name, std::string_view must) {
+    return problem(400, "bad_request", fmt::format("{} must be {}", name, must));
+}
 
 bool query_flag(const Call& call, std::string_view name, std::optional<Response>& fault) {
     const auto text = call.target.query.get(name);
@@ -149,17 +156,20 @@ double query_wait(const Call& call, std::optional<Response>& fault) {
     return 0;
 }
 
-json::object command_answer(Ticket ticket, std::string_view result, std::string_view reason, std::string_view axis, std::string_view command) {
+json::object command_answer(Ticket ticket, std::string_view result, std::string_view reason, std::string_view axis,
+                            std::string_view command) {
     return {{"ticket", shown(ticket)}, {"result", result}, {"reason", reason}, {"axis", axis},
             {"command", command},      {"code", nullptr},  {"text", ""},       {"value", nullptr}};
 }
 
-Handled submit_command(Call& call, Command command, std::string axis, std::string name, double wait_s, std::function<Response(const Result&)> show) {
+Handled submit_command(Call& call, Command command, std::string axis, std::string name, double wait_s,
+                       std::function<Response(const Result&)> show) {
     command.origin = call.origin();
     command.until_done = wait_s > 0;
-    const Ticket ticket = call.gateway().submit(std::move(command), [respond = call.respond, axis, name, show = std::move(show)](const Result& r) {
-        respond(good(r) ? show(r) : problem_of(r, axis, name));
-    });
+    const Ticket ticket =
+        call.gateway().submit(std::move(command), [respond = call.respond, axis, name, show = std::move(show)](const Result& r) {
+            respond(good(r) ? show(r) : problem_of(r, axis, name));
+        });
     if (wait_s > 0) {
         const auto limit = std::chrono::nanoseconds(std::llround(wait_s * 1e9));
         return {limit, json_response(command_answer(ticket, "accepted", fmt::format("not done after {} s", wait_s), axis, name))};

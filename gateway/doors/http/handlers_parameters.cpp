@@ -91,7 +91,8 @@ Handled list_parameters(Call& c) {
     if (fault) return *fault;
     const auto stored = c.gateway().stored(c.names[0]);
     std::unordered_map<std::string_view, const StoredParameter*> by_id;
-    for (const auto& s : stored) by_id.emplace(s.parameter, &s);
+    for (const auto& s : stored)
+        by_id.emplace(s.parameter, &s);
 
     const auto put = [&](std::uint16_t index, std::uint16_t element) {
         const Point point{index, element};
@@ -111,17 +112,23 @@ Handled list_parameters(Call& c) {
             if ((p.id != *array && p.name != *array) || p.count == 0) continue;
             array_found = true;
             const std::uint32_t from = std::max<std::uint32_t>(p.first, static_cast<std::uint32_t>(first));
-            for (std::uint32_t e = from; e < std::uint32_t{p.first} + p.count && out.size() < most_elements; ++e) put(index, static_cast<std::uint16_t>(e));
+            for (std::uint32_t e = from; e < std::uint32_t{p.first} + p.count && out.size() < most_elements; ++e)
+                put(index, static_cast<std::uint16_t>(e));
         } else if (p.count == 0) {
             put(index, 0);
         } else if (p.count <= listed_elements) {
-            for (std::uint32_t e = p.first; e < std::uint32_t{p.first} + p.count; ++e) put(index, static_cast<std::uint16_t>(e));
+            for (std::uint32_t e = p.first; e < std::uint32_t{p.first} + p.count; ++e)
+                put(index, static_cast<std::uint16_t>(e));
         } else {
-            out.push_back(axis_parameter_document(p, p.id, {}, nullptr, fmt::format("{} elements: list them with ?array={}", p.count, p.id)));
+            out.push_back(
+                axis_parameter_document(p, p.id, {}, nullptr, fmt::format("{} elements: list them with ?array={}", p.count, p.id)));
         }
     }
     if (array && !array_found) {
-        return to_response(Problem{.status = 404, .reason = "unknown_point", .detail = fmt::format("a {} has no array {}", axis->family, *array), .axis = c.names[0]});
+        return to_response(Problem{.status = 404,
+                                   .reason = "unknown_point",
+                                   .detail = fmt::format("a {} has no array {}", axis->family, *array),
+                                   .axis = c.names[0]});
     }
     return json_response(out);
 }
@@ -177,18 +184,22 @@ Handled write_parameter(Call& c) {
     const json::object& body = c.body.get_object();
     std::vector<Fault> faults;
     for (const auto& [k, v] : body) {
-        if (k != "value") faults.push_back({"/" + std::string(k), fmt::format("{} is not known here", std::string_view(k)), "write {\"value\": ...} alone"});
+        if (k != "value")
+            faults.push_back(
+                {"/" + std::string(k), fmt::format("{} is not known here", std::string_view(k)), "write {\"value\": ...} alone"});
     }
     const auto* given = body.if_contains("value");
     const auto value = given ? value_from(*given) : std::nullopt;
     if (!value) {
-        faults.push_back({"/value", given ? "value must be a number, a text, true or false" : "value is missing", "write {\"value\": ...}"});
+        faults.push_back(
+            {"/value", given ? "value must be a number, a text, true or false" : "value is missing", "write {\"value\": ...}"});
     }
     if (!faults.empty()) return invalid(std::move(faults), c.names[0]);
     const Parameter& parameter = place->parameter();
     const std::string& id = place->id;
     if (!parameter.writable()) {
-        return to_response(Problem{.status = 409, .reason = "not_writable", .detail = fmt::format("{} can only be read", id), .axis = c.names[0]});
+        return to_response(
+            Problem{.status = 409, .reason = "not_writable", .detail = fmt::format("{} can only be read", id), .axis = c.names[0]});
     }
     auto checked = place->axis.catalogue->check_write(place->point, *value);
     if (!checked.fault.empty()) {

@@ -27,7 +27,8 @@ std::optional<Format> format_of(const Call& c, std::optional<Response>& fault) {
         fault = bad_query("format", "json, candump, pcapng or text");
         return std::nullopt;
     }
-    static constexpr std::array<std::string_view, 4> media{"application/json", "text/plain", "application/x-pcapng", "application/vnd.tcpdump.pcap"};
+    static constexpr std::array<std::string_view, 4> media{"application/json", "text/plain", "application/x-pcapng",
+                                                           "application/vnd.tcpdump.pcap"};
     const auto best = best_accepted(c.request.headers.get("Accept"), media);
     if (!best) {
         fault = problem(406, "not_acceptable", "this can be given as application/json, text/plain (candump) or application/x-pcapng");
@@ -67,17 +68,22 @@ Handled get_trace(Call& c) {
         }
     }
     switch (*format) {
-        case Format::json: break;
+        case Format::json:
+            break;
         case Format::candump: {
             // A run of bytes has no candump form; the text form is what comes nearest.
             const bool bytes = std::ranges::any_of(trace.entries, [](const TraceEntry& e) { return e.frame.kind == Frame::Kind::bytes; });
-            return file("text/plain; charset=utf-8", c.names[0] + ".log", bytes ? trace_text(trace.entries, c.names[0]) : candump_text(trace.entries, c.names[0]));
+            return file("text/plain; charset=utf-8", c.names[0] + ".log",
+                        bytes ? trace_text(trace.entries, c.names[0]) : candump_text(trace.entries, c.names[0]));
         }
-        case Format::pcapng: return file("application/x-pcapng", c.names[0] + ".pcapng", pcapng(trace.entries, c.names[0]));
-        case Format::text: return file("text/plain; charset=utf-8", c.names[0] + ".txt", trace_text(trace.entries, c.names[0]));
+        case Format::pcapng:
+            return file("application/x-pcapng", c.names[0] + ".pcapng", pcapng(trace.entries, c.names[0]));
+        case Format::text:
+            return file("text/plain; charset=utf-8", c.names[0] + ".txt", trace_text(trace.entries, c.names[0]));
     }
     json::array frames;
-    for (const auto& e : trace.entries) frames.push_back(frame_document(e));
+    for (const auto& e : trace.entries)
+        frames.push_back(frame_document(e));
     return json_response(json::object{{"line", c.names[0]}, {"missed", trace.missed}, {"next", trace.next}, {"frames", std::move(frames)}});
 }
 
@@ -105,7 +111,8 @@ Handled list_events(Call& c) {
     auto events = c.gateway().events(query);
     std::ranges::sort(events, {}, &Event::id);
     json::array out;
-    for (const auto& e : events) out.push_back(event_document(e));
+    for (const auto& e : events)
+        out.push_back(event_document(e));
     return json_response(out);
 }
 

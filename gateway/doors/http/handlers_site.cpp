@@ -18,29 +18,39 @@ void put_revision(Response& r, const SiteState& site) { r.headers.set("Site-Revi
 
 json::object document_of(Gateway& gateway, const std::shared_ptr<const SiteState>& site, Collection collection, std::size_t i) {
     switch (collection) {
-        case Collection::lines: return line_document(*site, i, i < site->line_ids.size() ? gateway.line_report(site->line_ids[i]) : LineReport{});
-        case Collection::drives: return drive_document(*site, i, i < site->drive_ids.size() ? gateway.drive_status(site->drive_ids[i]) : DriveStatus{});
-        case Collection::axes: break;
+        case Collection::lines:
+            return line_document(*site, i, i < site->line_ids.size() ? gateway.line_report(site->line_ids[i]) : LineReport{});
+        case Collection::drives:
+            return drive_document(*site, i, i < site->drive_ids.size() ? gateway.drive_status(site->drive_ids[i]) : DriveStatus{});
+        case Collection::axes:
+            break;
     }
     const AxisPlace place = axis_at(gateway, site, i);
     const AxisPicture picture = place.id() == no_axis ? AxisPicture{} : gateway.picture(place.id());
-    return axis_document({place.spec(), place.line, place.family, place.catalogue, picture, gateway.to_unix_ns(picture.at), gateway.now_unix_ns()});
+    return axis_document(
+        {place.spec(), place.line, place.family, place.catalogue, picture, gateway.to_unix_ns(picture.at), gateway.now_unix_ns()});
 }
 
 std::size_t size_of(const Site& site, Collection collection) {
     switch (collection) {
-        case Collection::lines: return site.lines.size();
-        case Collection::drives: return site.drives.size();
-        case Collection::axes: return site.axes.size();
+        case Collection::lines:
+            return site.lines.size();
+        case Collection::drives:
+            return site.drives.size();
+        case Collection::axes:
+            return site.axes.size();
     }
     return 0;
 }
 
 std::optional<std::size_t> find_in(const Site& site, Collection collection, std::string_view name) {
     switch (collection) {
-        case Collection::lines: return index_of_name(site.lines, name);
-        case Collection::drives: return index_of_name(site.drives, name);
-        case Collection::axes: return index_of_name(site.axes, name);
+        case Collection::lines:
+            return index_of_name(site.lines, name);
+        case Collection::drives:
+            return index_of_name(site.drives, name);
+        case Collection::axes:
+            return index_of_name(site.axes, name);
     }
     return std::nullopt;
 }
@@ -48,7 +58,8 @@ std::optional<std::size_t> find_in(const Site& site, Collection collection, std:
 Handled list(Call& c, Collection collection) {
     const auto site = c.gateway().site();
     json::array out;
-    for (std::size_t i = 0; i < size_of(site->site, collection); ++i) out.push_back(document_of(c.gateway(), site, collection, i));
+    for (std::size_t i = 0; i < size_of(site->site, collection); ++i)
+        out.push_back(document_of(c.gateway(), site, collection, i));
     Response r = json_response(out);
     put_revision(r, *site);
     return r;
@@ -71,7 +82,8 @@ std::optional<Response> precondition(const Call& c, const SiteState& site, bool 
         return problem(428, "precondition_required", "say with If-Match which revision of the site you change: its ETag");
     }
     if (tag_listed(header, tag_of(site.revision), false)) return std::nullopt;
-    Response r = problem(412, "precondition_failed", fmt::format("the site has the revision {} by now, not {}: read it again", tag_of(site.revision), header));
+    Response r = problem(412, "precondition_failed",
+                         fmt::format("the site has the revision {} by now, not {}: read it again", tag_of(site.revision), header));
     r.headers.set("ETag", tag_of(site.revision));
     put_revision(r, site);
     return r;
@@ -81,7 +93,8 @@ std::optional<Response> precondition(const Call& c, const SiteState& site, bool 
 std::vector<Fault> faults_for(const std::vector<SiteFault>& faults, std::string_view entry, bool whole_document) {
     std::vector<Fault> out;
     for (const auto& f : faults) {
-        const bool inside = !entry.empty() && f.pointer.starts_with(entry) && (f.pointer.size() == entry.size() || f.pointer[entry.size()] == '/');
+        const bool inside =
+            !entry.empty() && f.pointer.starts_with(entry) && (f.pointer.size() == entry.size() || f.pointer[entry.size()] == '/');
         out.push_back({inside ? f.pointer.substr(entry.size()) : f.pointer, f.text, f.remedy, whole_document || inside});
     }
     return out;
@@ -113,15 +126,19 @@ struct Change : std::enable_shared_from_this<Change> {
         gateway.apply_site(std::move(*site), before->revision, origin, [self, before, kept = std::move(edit)](Gateway::SiteAnswer answer) {
             if (answer.good) return self->respond(self->show(answer.now, kept));
             const bool overtaken = answer.now && answer.now->revision != before->revision;
-            if (!overtaken) return self->respond(problem(507, "not_stored", answer.fault.empty() ? "the site could not be stored" : answer.fault));
-            if (self->bound_to_revision) return self->respond(problem(412, "precondition_failed", "the site was changed by another client meanwhile: read it again"));
+            if (!overtaken)
+                return self->respond(problem(507, "not_stored", answer.fault.empty() ? "the site could not be stored" : answer.fault));
+            if (self->bound_to_revision)
+                return self->respond(
+                    problem(412, "precondition_failed", "the site was changed by another client meanwhile: read it again"));
             if (self->attempts < most_attempts) return self->attempt();
             self->respond(problem(503, "busy", "other clients keep changing the site: try again"));
         });
     }
 };
 
-Handled change(Call& c, std::function<Edited(json::object)> make, std::function<Response(const std::shared_ptr<const SiteState>&, const Edit&)> show) {
+Handled change(Call& c, std::function<Edited(json::object)> make,
+               std::function<Response(const std::shared_ptr<const SiteState>&, const Edit&)> show) {
     if (auto refusal = precondition(c, *c.gateway().site(), false)) return *refusal;
     auto order = std::make_shared<Change>(c.gateway(), c.origin());
     order->bound_to_revision = !c.request.headers.get("If-Match").empty();
@@ -136,7 +153,8 @@ Handled change(Call& c, std::function<Edited(json::object)> make, std::function<
 auto show_entry(Gateway& gateway, Collection collection, bool created) {
     return [&gateway, collection, created](const std::shared_ptr<const SiteState>& now, const Edit& edit) {
         const auto i = find_in(now->site, collection, edit.name);
-        if (!i) return problem(409, "conflict", fmt::format("{} {} was removed by another client meanwhile", item_name(collection), edit.name));
+        if (!i)
+            return problem(409, "conflict", fmt::format("{} {} was removed by another client meanwhile", item_name(collection), edit.name));
         Response r = json_response(document_of(gateway, now, collection, *i), created ? 201 : 200);
         if (created) r.headers.set("Location", fmt::format("/api/v1/{}/{}", list_name(collection), percent_encode(edit.name)));
         put_revision(r, *now);
@@ -145,36 +163,51 @@ auto show_entry(Gateway& gateway, Collection collection, bool created) {
 }
 
 Handled add(Call& c, Collection collection) {
-    return change(c, [collection, entry = c.body.get_object()](json::object d) { return add_entry(std::move(d), collection, entry); },
-                  show_entry(c.gateway(), collection, true));
+    return change(
+        c, [collection, entry = c.body.get_object()](json::object d) { return add_entry(std::move(d), collection, entry); },
+        show_entry(c.gateway(), collection, true));
 }
 Handled replace(Call& c, Collection collection) {
-    return change(c, [collection, name = c.names[0], entry = c.body.get_object()](json::object d) { return replace_entry(std::move(d), collection, name, entry); },
-                  show_entry(c.gateway(), collection, false));
+    return change(
+        c,
+        [collection, name = c.names[0], entry = c.body.get_object()](json::object d) {
+            return replace_entry(std::move(d), collection, name, entry);
+        },
+        show_entry(c.gateway(), collection, false));
 }
 Handled patch(Call& c, Collection collection) {
-    return change(c, [collection, name = c.names[0], entry = c.body.get_object()](json::object d) { return patch_entry(std::move(d), collection, name, entry); },
-                  show_entry(c.gateway(), collection, false));
+    return change(
+        c,
+        [collection, name = c.names[0], entry = c.body.get_object()](json::object d) {
+            return patch_entry(std::move(d), collection, name, entry);
+        },
+        show_entry(c.gateway(), collection, false));
 }
 Handled remove(Call& c, Collection collection) {
     std::optional<Response> fault;
     const bool cascade = query_flag(c, "cascade", fault);
     if (fault) return *fault;
-    return change(c, [collection, name = c.names[0], cascade](json::object d) { return remove_entry(std::move(d), collection, name, cascade); },
-                  [](const std::shared_ptr<const SiteState>& now, const Edit&) {
-                      Response r;
-                      r.status = 204;
-                      put_revision(r, *now);
-                      return r;
-                  });
+    return change(
+        c, [collection, name = c.names[0], cascade](json::object d) { return remove_entry(std::move(d), collection, name, cascade); },
+        [](const std::shared_ptr<const SiteState>& now, const Edit&) {
+            Response r;
+            r.status = 204;
+            put_revision(r, *now);
+            return r;
+        });
 }
 
 Response site_change(const SiteState& now, bool dry_run, const std::vector<std::string>& differences, const std::vector<Fault>& faults) {
     json::array d, f;
-    for (const auto& x : differences) d.emplace_back(x);
-    for (const auto& x : faults) f.push_back(to_json(x));
-    Response r = json_response(json::object{{"dry_run", dry_run}, {"valid", faults.empty()}, {"revision", now.revision},
-                                            {"differences", std::move(d)}, {"faults", std::move(f)}});
+    for (const auto& x : differences)
+        d.emplace_back(x);
+    for (const auto& x : faults)
+        f.push_back(to_json(x));
+    Response r = json_response(json::object{{"dry_run", dry_run},
+                                            {"valid", faults.empty()},
+                                            {"revision", now.revision},
+                                            {"differences", std::move(d)},
+                                            {"faults", std::move(f)}});
     r.headers.set("ETag", tag_of(now.revision));
     put_revision(r, now);
     return r;
@@ -229,14 +262,15 @@ Handled replace_site(Call& c) {
     auto changes = differences(before->site, *site);
     if (to_json(*site) == to_json(before->site)) return site_change(*before, false, changes, {});
     const bool bound = !c.request.headers.get("If-Match").empty();
-    gateway.apply_site(std::move(*site), bound ? before->revision : 0, c.origin(),
-                       [respond = c.respond, before, bound, changes = std::move(changes)](Gateway::SiteAnswer answer) {
-                           if (answer.good) return respond(site_change(*answer.now, false, changes, {}));
-                           if (bound && answer.now && answer.now->revision != before->revision) {
-                               return respond(problem(412, "precondition_failed", "the site was changed by another client meanwhile: read it again"));
-                           }
-                           respond(problem(507, "not_stored", answer.fault.empty() ? "the site could not be stored" : answer.fault));
-                       });
+    gateway.apply_site(
+        std::move(*site), bound ? before->revision : 0, c.origin(),
+        [respond = c.respond, before, bound, changes = std::move(changes)](Gateway::SiteAnswer answer) {
+            if (answer.good) return respond(site_change(*answer.now, false, changes, {}));
+            if (bound && answer.now && answer.now->revision != before->revision) {
+                return respond(problem(412, "precondition_failed", "the site was changed by another client meanwhile: read it again"));
+            }
+            respond(problem(507, "not_stored", answer.fault.empty() ? "the site could not be stored" : answer.fault));
+        });
     return {gateway_limit, problem(504, "time_out", "the site was not applied in time: look at it before trying again")};
 }
 

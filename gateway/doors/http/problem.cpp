@@ -15,7 +15,8 @@ json::object to_json(const Fault& f) {
 
 Response to_response(const Problem& p) {
     std::string title = p.reason;
-    for (auto& c : title) c = c == '_' ? ' ' : c;
+    for (auto& c : title)
+        c = c == '_' ? ' ' : c;
     if (!title.empty() && title[0] >= 'a' && title[0] <= 'z') title[0] = static_cast<char>(title[0] - 'a' + 'A');
     json::object o{{"type", "urn:axisgate:problem:" + p.reason}, {"title", title}, {"status", p.status}, {"detail", p.detail}};
     o["code"] = p.code == 0 ? json::value(nullptr) : json::value(p.code);
@@ -23,10 +24,12 @@ Response to_response(const Problem& p) {
     if (!p.axis.empty()) o["axis"] = p.axis;
     if (!p.faults.empty()) {
         json::array list;
-        for (const auto& f : p.faults) list.push_back(to_json(f));
+        for (const auto& f : p.faults)
+            list.push_back(to_json(f));
         o["faults"] = std::move(list);
     }
-    for (const auto& [k, v] : p.more) o[k] = v;
+    for (const auto& [k, v] : p.more)
+        o[k] = v;
     Response r;
     r.status = p.status;
     r.headers.set("Content-Type", "application/problem+json");
@@ -42,25 +45,33 @@ Response problem(unsigned status, std::string_view reason, std::string detail) {
 Response invalid(std::vector<Fault> faults, std::string_view axis, std::string_view reason) {
     std::string detail = faults.empty() ? std::string("the document is not right") : faults.front().text;
     if (faults.size() > 1) detail += fmt::format(" (and {} more)", faults.size() - 1);
-    return to_response(Problem{.status = 422, .reason = std::string(reason), .detail = std::move(detail), .axis = std::string(axis), .faults = std::move(faults)});
+    return to_response(Problem{
+        .status = 422, .reason = std::string(reason), .detail = std::move(detail), .axis = std::string(axis), .faults = std::move(faults)});
 }
 
 unsigned status_of(Reason reason) noexcept {
     switch (reason) {
-        case Reason::out_of_range: return 422;
-        case Reason::unknown_point: return 404;
+        case Reason::out_of_range:
+            return 422;
+        case Reason::unknown_point:
+            return 404;
         case Reason::not_writable:
         case Reason::wrong_state:
         case Reason::not_supported:
         case Reason::drive_refused:
         case Reason::interrupted:
-        case Reason::authority: return 409;
+        case Reason::authority:
+            return 409;
         case Reason::busy:
-        case Reason::line_down: return 503;
-        case Reason::no_answer: return 504;
-        case Reason::not_stored: return 507;
+        case Reason::line_down:
+            return 503;
+        case Reason::no_answer:
+            return 504;
+        case Reason::not_stored:
+            return 507;
         case Reason::none:  // a refusal without a reason is a fault of ours
-        case Reason::internal: return 500;
+        case Reason::internal:
+            return 500;
     }
     return 500;
 }
@@ -85,34 +96,62 @@ Response problem_of(const Result& result, std::string_view axis, std::string_vie
 
 std::string_view phrase_of(unsigned status) noexcept {
     switch (status) {
-        case 101: return "Switching Protocols";
-        case 200: return "OK";
-        case 201: return "Created";
-        case 204: return "No Content";
-        case 304: return "Not Modified";
-        case 400: return "Bad Request";
-        case 403: return "Forbidden";
-        case 404: return "Not Found";
-        case 405: return "Method Not Allowed";
-        case 406: return "Not Acceptable";
-        case 408: return "Request Timeout";
-        case 409: return "Conflict";
-        case 412: return "Precondition Failed";
-        case 413: return "Content Too Large";
-        case 415: return "Unsupported Media Type";
-        case 417: return "Expectation Failed";
-        case 421: return "Misdirected Request";
-        case 422: return "Unprocessable Content";
-        case 426: return "Upgrade Required";
-        case 428: return "Precondition Required";
-        case 431: return "Request Header Fields Too Large";
-        case 500: return "Internal Server Error";
-        case 501: return "Not Implemented";
-        case 503: return "Service Unavailable";
-        case 504: return "Gateway Timeout";
-        case 505: return "HTTP Version Not Supported";
-        case 507: return "Insufficient Storage";
-        default: return "Status";
+        case 101:
+            return "Switching Protocols";
+        case 200:
+            return "OK";
+        case 201:
+            return "Created";
+        case 204:
+            return "No Content";
+        case 304:
+            return "Not Modified";
+        case 400:
+            return "Bad Request";
+        case 403:
+            return "Forbidden";
+        case 404:
+            return "Not Found";
+        case 405:
+            return "Method Not Allowed";
+        case 406:
+            return "Not Acceptable";
+        case 408:
+            return "Request Timeout";
+        case 409:
+            return "Conflict";
+        case 412:
+            return "Precondition Failed";
+        case 413:
+            return "Content Too Large";
+        case 415:
+            return "Unsupported Media Type";
+        case 417:
+            return "Expectation Failed";
+        case 421:
+            return "Misdirected Request";
+        case 422:
+            return "Unprocessable Content";
+        case 426:
+            return "Upgrade Required";
+        case 428:
+            return "Precondition Required";
+        case 431:
+            return "Request Header Fields Too Large";
+        case 500:
+            return "Internal Server Error";
+        case 501:
+            return "Not Implemented";
+        case 503:
+            return "Service Unavailable";
+        case 504:
+            return "Gateway Timeout";
+        case 505:
+            return "HTTP Version Not Supported";
+        case 507:
+            return "Insufficient Storage";
+        default:
+            return "Status";
     }
 }
 

@@ -18,18 +18,18 @@ namespace axisgate::http {
 
 /// One wrong place of a document.
 struct Fault {
-    std::string pointer;      ///< JSON pointer
-    std::string text;         ///< what is wrong
-    std::string remedy;       ///< what to do
-    bool in_body = true;      ///< the pointer points into the request's body; false: into the site that would result
+    std::string pointer;  ///< JSON pointer
+    std::string text;     ///< what is wrong
+    std::string remedy;   ///< what to do
+    bool in_body = true;  ///< the pointer points into the request's body; false: into the site that would result
 };
 [[nodiscard]] boost::json::object to_json(const Fault& fault);
 
 struct Problem {
     unsigned status = 500;
-    std::string reason;       ///< stable word: "not_found", "wrong_state"
+    std::string reason;  ///< stable word: "not_found", "wrong_state"
     std::string detail;
-    std::int32_t code = 0;    ///< the drive's own; 0 is shown as null
+    std::int32_t code = 0;  ///< the drive's own; 0 is shown as null
     std::string axis{};
     std::vector<Fault> faults{};
     boost::json::object more{};  ///< further members

@@ -2,8 +2,8 @@
 // In: requests. Out: answers.
 #include "gateway/doors/http/router.hpp"
 
-#include <boost/json/parse.hpp>
 #include <fmt/format.h>
+#include <boost/json/parse.hpp>
 
 #include <algorithm>
 #include <array>
@@ -85,11 +85,15 @@ std::optional<std::vector<std::string>> match(std::string_view path, const std::
 
 std::string_view media_given(Gives gives) {
     switch (gives) {
-        case Gives::json: return "application/json";
-        case Gives::text: return "text/plain";
-        case Gives::yaml: return "application/yaml";
+        case Gives::json:
+            return "application/json";
+        case Gives::text:
+            return "text/plain";
+        case Gives::yaml:
+            return "application/yaml";
         case Gives::nothing:
-        case Gives::own: return {};
+        case Gives::own:
+            return {};
     }
     return {};
 }
@@ -99,9 +103,11 @@ std::optional<Response> read_body(const Request& request, Takes takes, json::val
     const auto media = media_of(request.headers.get("Content-Type"));
     const bool good = media == "application/json" || (takes == Takes::patch && media == "application/merge-patch+json");
     if (!good) {
-        Response r = problem(415, "unsupported_media_type", fmt::format("send {} with Content-Type: application/json in UTF-8, not \"{}\"",
-                                                                      request.body.empty() ? "a JSON object" : "the body", request.headers.get("Content-Type")));
-        r.headers.set(takes == Takes::patch ? "Accept-Patch" : "Accept-Post", takes == Takes::patch ? "application/merge-patch+json, application/json" : "application/json");
+        Response r = problem(415, "unsupported_media_type",
+                             fmt::format("send {} with Content-Type: application/json in UTF-8, not \"{}\"",
+                                         request.body.empty() ? "a JSON object" : "the body", request.headers.get("Content-Type")));
+        r.headers.set(takes == Takes::patch ? "Accept-Patch" : "Accept-Post",
+                      takes == Takes::patch ? "application/merge-patch+json, application/json" : "application/json");
         return r;
     }
     boost::system::error_code ec;
@@ -134,7 +140,9 @@ bool is_ip_address(std::string_view name) {
     return parts == 4;
 }
 
-bool is_loopback(std::string_view name) { return name == "localhost" || name.ends_with(".localhost") || name == "[::1]" || (name.starts_with("127.") && is_ip_address(name)); }
+bool is_loopback(std::string_view name) {
+    return name == "localhost" || name.ends_with(".localhost") || name == "[::1]" || (name.starts_with("127.") && is_ip_address(name));
+}
 }  // namespace
 
 std::span<const Route> all_routes() noexcept { return routes; }
@@ -169,14 +177,17 @@ std::optional<Response> Router::check_host(const Request& request) const {
     if (count != 1) return problem(400, "bad_request", count == 0 ? "the Host header is missing" : "there are several Host headers");
     const auto host = request.headers.get("Host");
     if (host_allowed(host, context_.settings)) return std::nullopt;
-    return problem(421, "misdirected", fmt::format("this gateway is not called {}: use its IP address or localhost, or add the name to the allowed hosts", host));
+    return problem(
+        421, "misdirected",
+        fmt::format("this gateway is not called {}: use its IP address or localhost, or add the name to the allowed hosts", host));
 }
 
 std::optional<Response> Router::check_origin(const Request& request) {
     const auto origin = request.headers.get("Origin");
     const bool cross_site = request.headers.get("Sec-Fetch-Site") == "cross-site";
     if (!cross_site && (request.headers.count("Origin") == 0 || same_host(origin, request.headers.get("Host")))) return std::nullopt;
-    return problem(403, "forbidden", fmt::format("the request comes from a page of another host ({})", origin.empty() ? "cross-site" : origin));
+    return problem(403, "forbidden",
+                   fmt::format("the request comes from a page of another host ({})", origin.empty() ? "cross-site" : origin));
 }
 
 Handled Router::dispatch(const Request& request, const Respond& respond) const {
@@ -207,7 +218,8 @@ Handled Router::dispatch(const Request& request, const Respond& respond) const {
     }
     const bool is_api = !target->segments.empty() && target->segments[0] == "api";
     const bool is_file = allow.empty() && !is_api;
-    if (allow.empty() && is_api) return problem(404, "not_found", fmt::format("there is nothing at {}: see /api/v1/openapi.yaml", request.target));
+    if (allow.empty() && is_api)
+        return problem(404, "not_found", fmt::format("there is nothing at {}: see /api/v1/openapi.yaml", request.target));
     if (is_file) allow = "GET, HEAD";
     if (request.method == Method::options) {
         Response r;
@@ -241,7 +253,8 @@ void Router::finish(Response& r, bool is_head) {
     r.headers.set("Referrer-Policy", "no-referrer");
     r.headers.set("X-Frame-Options", "DENY");
     r.headers.set("Cross-Origin-Resource-Policy", "same-origin");
-    r.headers.set("Content-Security-Policy", "default-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'; object-src 'none'");
+    r.headers.set("Content-Security-Policy",
+                  "default-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'; object-src 'none'");
     if (r.headers.get("Cache-Control").empty()) r.headers.set("Cache-Control", "no-store");
 }
 

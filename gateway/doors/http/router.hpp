@@ -12,8 +12,8 @@
 namespace axisgate::http {
 
 struct Route {
-    enum class Takes : std::uint8_t { nothing, json, patch };                ///< patch: also application/merge-patch+json
-    enum class Gives : std::uint8_t { json, text, yaml, nothing, own };      ///< own: the handler looks at Accept itself
+    enum class Takes : std::uint8_t { nothing, json, patch };            ///< patch: also application/merge-patch+json
+    enum class Gives : std::uint8_t { json, text, yaml, nothing, own };  ///< own: the handler looks at Accept itself
 
     std::string_view path;  ///< as the description writes it: "/api/v1/axes/{axis}/commands"
     Method method = Method::get;

@@ -16,7 +16,8 @@ using ErrorCode = boost::system::error_code;
 
 namespace {
 std::string text_of(const tcp::endpoint& e) {
-    return e.address().is_v6() ? fmt::format("[{}]:{}", e.address().to_string(), e.port()) : fmt::format("{}:{}", e.address().to_string(), e.port());
+    return e.address().is_v6() ? fmt::format("[{}]:{}", e.address().to_string(), e.port())
+                               : fmt::format("{}:{}", e.address().to_string(), e.port());
 }
 }  // namespace
 
@@ -121,7 +122,8 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
             hub_timer.cancel();
             return;
         }
-        hub_timer.expires_at(std::chrono::steady_clock::time_point(std::chrono::duration_cast<std::chrono::steady_clock::duration>(due.time_since_epoch())));
+        hub_timer.expires_at(
+            std::chrono::steady_clock::time_point(std::chrono::duration_cast<std::chrono::steady_clock::duration>(due.time_since_epoch())));
         hub_timer.async_wait([self = weak_from_this()](ErrorCode ec) {
             const auto me = self.lock();
             if (ec || !me || !me->own_hub.attached()) return;
@@ -139,8 +141,10 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
         acceptor.close(ignored);
         pause_timer.cancel();
         std::vector<std::shared_ptr<Session>> all;
-        for (const auto& [key, session] : sessions) all.push_back(session);
-        for (const auto& session : all) session->stop();
+        for (const auto& [key, session] : sessions)
+            all.push_back(session);
+        for (const auto& session : all)
+            session->stop();
         if (sessions.empty()) return stopped();
         stop_timer.expires_after(own_settings.stop_limit);
         stop_timer.async_wait([self = weak_from_this()](ErrorCode ec) {
@@ -149,8 +153,10 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
     }
     void abort_all() {
         std::vector<std::shared_ptr<Session>> all;
-        for (const auto& [key, session] : sessions) all.push_back(session);
-        for (const auto& session : all) session->abort();
+        for (const auto& [key, session] : sessions)
+            all.push_back(session);
+        for (const auto& session : all)
+            session->abort();
     }
     void stopped() {
         stop_timer.cancel();
@@ -207,7 +213,8 @@ std::string Server::start() {
     if (ec) {
         ErrorCode ignored;
         acceptor.close(ignored);
-        return fmt::format("HTTP: cannot listen on {}: {}; choose another [http] bind, or end what listens there", parts_->own_settings.bind, ec.message());
+        return fmt::format("HTTP: cannot listen on {}: {}; choose another [http] bind, or end what listens there",
+                           parts_->own_settings.bind, ec.message());
     }
     parts_->accept();
     return {};

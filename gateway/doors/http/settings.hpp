@@ -16,17 +16,17 @@ namespace axisgate::http {
 using AssetLookup = std::function<std::string_view(std::string_view path)>;
 
 struct Settings {
-    std::string bind = "127.0.0.1:8080";      ///< ADDRESS:PORT; "[::1]:8080", "localhost:8080"; port 0: any free one
-    std::string version = "0";                ///< of the program, for /about
+    std::string bind = "127.0.0.1:8080";  ///< ADDRESS:PORT; "[::1]:8080", "localhost:8080"; port 0: any free one
+    std::string version = "0";            ///< of the program, for /about
     /// Names (without port) by which clients may call this gateway beside IP addresses and localhost. With a loopback `bind` all other
     /// names are refused with 421, so that a page of another site cannot reach the gateway by re-binding its own name. With another
     /// `bind` and an empty list every name is taken.
     std::vector<std::string> allowed_hosts;
-    bool require_if_match = false;            ///< true: PUT /site without If-Match is refused with 428
+    bool require_if_match = false;  ///< true: PUT /site without If-Match is refused with 428
 
-    std::size_t max_connections = 512;        ///< beyond: the longest idle one is closed; if none is idle, 503
-    std::size_t max_header_bytes = 8 * 1024;  ///< request line and headers; beyond: 431
-    std::size_t max_body_bytes = 1024 * 1024; ///< beyond: 413
+    std::size_t max_connections = 512;               ///< beyond: the longest idle one is closed; if none is idle, 503
+    std::size_t max_header_bytes = 8 * 1024;         ///< request line and headers; beyond: 431
+    std::size_t max_body_bytes = 1024 * 1024;        ///< beyond: 413
     std::chrono::milliseconds header_limit{10'000};  ///< from the first byte (or the connection) to the end of the headers; then 408
     std::chrono::milliseconds body_limit{30'000};    ///< for the whole body; then 408
     std::chrono::milliseconds idle_limit{60'000};    ///< between two requests of a connection; then it is closed
@@ -34,10 +34,10 @@ struct Settings {
     std::chrono::milliseconds stop_limit{5'000};     ///< for requests in progress when the door is closed
     std::chrono::milliseconds linger_limit{2'000};   ///< for the client to read a last answer before the connection is cut
 
-    std::chrono::milliseconds ping_period{20'000};   ///< of the live feed
-    std::chrono::milliseconds silence_limit{60'000}; ///< live feed: no byte from the client for so long closes it with 1008
-    std::size_t max_message_bytes = 64 * 1024;       ///< one message from a live-feed client; beyond: 1009
-    std::size_t max_events_waiting = 4096;           ///< events that wait for one live-feed client; beyond: 1013
+    std::chrono::milliseconds ping_period{20'000};    ///< of the live feed
+    std::chrono::milliseconds silence_limit{60'000};  ///< live feed: no byte from the client for so long closes it with 1008
+    std::size_t max_message_bytes = 64 * 1024;        ///< one message from a live-feed client; beyond: 1009
+    std::size_t max_events_waiting = 4096;            ///< events that wait for one live-feed client; beyond: 1013
 };
 
 }  // namespace axisgate::http

@@ -15,9 +15,12 @@ namespace {
 
 bool is_read_only(Collection collection, std::string_view name) {
     switch (collection) {
-        case Collection::lines: return is_read_only_line_member(name);
-        case Collection::drives: return is_read_only_drive_member(name);
-        case Collection::axes: return is_read_only_axis_member(name);
+        case Collection::lines:
+            return is_read_only_line_member(name);
+        case Collection::drives:
+            return is_read_only_drive_member(name);
+        case Collection::axes:
+            return is_read_only_axis_member(name);
     }
     return false;
 }
@@ -55,9 +58,12 @@ struct Hanging {
 };
 std::optional<Hanging> hanging(Collection collection) {
     switch (collection) {
-        case Collection::lines: return Hanging{"drives", "line"};
-        case Collection::drives: return Hanging{"axes", "drive"};
-        case Collection::axes: return std::nullopt;
+        case Collection::lines:
+            return Hanging{"drives", "line"};
+        case Collection::drives:
+            return Hanging{"axes", "drive"};
+        case Collection::axes:
+            return std::nullopt;
     }
     return std::nullopt;
 }
@@ -71,10 +77,13 @@ std::vector<std::size_t> mappings_of(json::object& document, std::string_view ax
     return out;
 }
 
-Response absent(Collection collection, std::string_view name) { return problem(404, "not_found", fmt::format("there is no {} {}", item_name(collection), name)); }
+Response absent(Collection collection, std::string_view name) {
+    return problem(404, "not_found", fmt::format("there is no {} {}", item_name(collection), name));
+}
 
 Response taken(Collection collection, std::string_view name) {
-    return problem(409, "conflict", fmt::format("there is a {} {} already: choose another name, or change that one", item_name(collection), name));
+    return problem(409, "conflict",
+                   fmt::format("there is a {} {} already: choose another name, or change that one", item_name(collection), name));
 }
 
 /// Puts `entry` in the place `i`, whose name was `old_name`, and lets what hangs on it follow to the new name.
@@ -87,7 +96,8 @@ Edited put_entry(json::object document, Collection collection, std::size_t i, st
                 if (text_of(x, h->key) == old_name) x.get_object()[h->key] = new_name;
             }
         } else if (const auto m = mappings_of(document, old_name); !m.empty()) {
-            return problem(409, "conflict", fmt::format("mapping {} names the axis {}: change it before the axis gets another name", m.front(), old_name));
+            return problem(409, "conflict",
+                           fmt::format("mapping {} names the axis {}: change it before the axis gets another name", m.front(), old_name));
         }
     }
     list_of(document, list_name(collection))[i] = std::move(entry);
@@ -106,11 +116,13 @@ void erase_entry(json::object& document, Collection collection, std::string_view
         for (const auto& x : list_of(document, h->list)) {
             if (text_of(x, h->key) == name) dependents.emplace_back(text_of(x, "name"));
         }
-        for (const auto& d : dependents) erase_entry(document, collection == Collection::lines ? Collection::drives : Collection::axes, d);
+        for (const auto& d : dependents)
+            erase_entry(document, collection == Collection::lines ? Collection::drives : Collection::axes, d);
     } else {
         const auto doomed = mappings_of(document, name);
         json::array& mappings = list_of(document, "mappings");
-        for (auto it = doomed.rbegin(); it != doomed.rend(); ++it) mappings.erase(mappings.begin() + static_cast<std::ptrdiff_t>(*it));
+        for (auto it = doomed.rbegin(); it != doomed.rend(); ++it)
+            mappings.erase(mappings.begin() + static_cast<std::ptrdiff_t>(*it));
     }
     json::array& list = list_of(document, list_name(collection));
     if (const auto i = position_of(list, name)) list.erase(list.begin() + static_cast<std::ptrdiff_t>(*i));
@@ -119,18 +131,24 @@ void erase_entry(json::object& document, Collection collection, std::string_view
 
 std::string_view list_name(Collection collection) noexcept {
     switch (collection) {
-        case Collection::lines: return "lines";
-        case Collection::drives: return "drives";
-        case Collection::axes: return "axes";
+        case Collection::lines:
+            return "lines";
+        case Collection::drives:
+            return "drives";
+        case Collection::axes:
+            return "axes";
     }
     return "axes";
 }
 
 std::string_view item_name(Collection collection) noexcept {
     switch (collection) {
-        case Collection::lines: return "line";
-        case Collection::drives: return "drive";
-        case Collection::axes: return "axis";
+        case Collection::lines:
+            return "line";
+        case Collection::drives:
+            return "drive";
+        case Collection::axes:
+            return "axis";
     }
     return "axis";
 }
@@ -167,12 +185,17 @@ Edited remove_entry(json::object document, Collection collection, std::string_vi
                 if (text_of(x, h->key) == name) holders += (holders.empty() ? "" : ", ") + std::string(text_of(x, "name"));
             }
             if (!holders.empty()) {
-                return problem(409, "conflict", fmt::format("{} {} is still used by {}: {}; remove them first, or add ?cascade=1", item_name(collection), name, h->list, holders));
+                return problem(409, "conflict",
+                               fmt::format("{} {} is still used by {}: {}; remove them first, or add ?cascade=1", item_name(collection),
+                                           name, h->list, holders));
             }
         } else {
-            for (const auto m : mappings_of(document, name)) holders += (holders.empty() ? "" : ", ") + std::to_string(m);
+            for (const auto m : mappings_of(document, name))
+                holders += (holders.empty() ? "" : ", ") + std::to_string(m);
             if (!holders.empty()) {
-                return problem(409, "conflict", fmt::format("axis {} is still named by the mappings {}; remove them first, or add ?cascade=1", name, holders));
+                return problem(
+                    409, "conflict",
+                    fmt::format("axis {} is still named by the mappings {}; remove them first, or add ?cascade=1", name, holders));
             }
         }
     }
@@ -198,7 +221,8 @@ void merge_patch(json::value& target, const json::value& patch) {
 bool mapping_names(const json::value& mapping, std::string_view axis) {
     if (text_of(mapping, "axis") == axis) return true;
     const auto point = text_of(mapping, "point");
-    return point.size() > axis.size() && point.starts_with(axis) && std::string_view("./:").find(point[axis.size()]) != std::string_view::npos;
+    return point.size() > axis.size() && point.starts_with(axis) &&
+           std::string_view("./:").find(point[axis.size()]) != std::string_view::npos;
 }
 
 }  // namespace axisgate::http

@@ -15,14 +15,16 @@ namespace {
 /// FNV-1a, 64 bits: names the content, nothing depends on it being hard to forge.
 std::uint64_t hash_of(std::string_view bytes) noexcept {
     std::uint64_t h = 14695981039346656037ull;
-    for (const unsigned char c : bytes) h = (h ^ c) * 1099511628211ull;
+    for (const unsigned char c : bytes)
+        h = (h ^ c) * 1099511628211ull;
     return h;
 }
 
 bool is_hidden_or_upward(const Target& target) {
     if (target.path.empty()) return true;
     return std::ranges::any_of(target.segments, [](const std::string& s) {
-        return s.starts_with('.') || s.find('\\') != std::string::npos || std::ranges::any_of(s, [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+        return s.starts_with('.') || s.find('\\') != std::string::npos ||
+               std::ranges::any_of(s, [](char c) { return static_cast<unsigned char>(c) < 0x20; });
     });
 }
 }  // namespace
@@ -58,7 +60,9 @@ Response static_file(const AssetLookup& asset, const Target& target, const Heade
         bytes = asset ? asset("web/dist/index.html") : std::string_view();
     }
     if (bytes.data() == nullptr) {
-        return problem(404, "not_found", target.path == "/" ? "this build holds no page; the interface is described at /api/v1/openapi.yaml" : "there is no such file");
+        return problem(
+            404, "not_found",
+            target.path == "/" ? "this build holds no page; the interface is described at /api/v1/openapi.yaml" : "there is no such file");
     }
     Response r;
     const std::string tag = fmt::format("\"{:016x}\"", hash_of(bytes));

@@ -26,7 +26,8 @@ std::string_view line_of_frames(std::string_view topic) {
 
 json::object frames_document(const std::vector<TraceEntry>& entries, std::size_t from, std::uint64_t missed) {
     json::array list;
-    for (std::size_t i = from; i < entries.size(); ++i) list.push_back(frame_document(entries[i]));
+    for (std::size_t i = from; i < entries.size(); ++i)
+        list.push_back(frame_document(entries[i]));
     return {{"missed", missed}, {"frames", std::move(list)}};
 }
 }  // namespace
@@ -68,7 +69,8 @@ void StreamHub::remove(const std::shared_ptr<StreamClient>& client) {
 Instant StreamHub::deadline() const {
     if (new_site_) return time_zero;
     Instant next = never;
-    for (const auto& [period, at] : groups_) next = std::min(next, at);
+    for (const auto& [period, at] : groups_)
+        next = std::min(next, at);
     return next;
 }
 
@@ -84,8 +86,10 @@ void StreamHub::on_text(StreamClient& c, std::string_view text, Instant now) {
         return;
     }
     c.wrong_in_a_row_ = 0;
-    for (const auto& topic : request->unsubscribe) unsubscribe(c, topic);
-    for (const auto& topic : request->subscribe) subscribe(c, topic, request->period_ms);
+    for (const auto& topic : request->unsubscribe)
+        unsubscribe(c, topic);
+    for (const auto& topic : request->subscribe)
+        subscribe(c, topic, request->period_ms);
     resolve(c, now, &request->subscribe);
     keep_groups(now);
     wake(c);
@@ -93,7 +97,8 @@ void StreamHub::on_text(StreamClient& c, std::string_view text, Instant now) {
 }
 
 void StreamHub::subscribe(StreamClient& c, const std::string& topic, std::int64_t period_ms) {
-    if (c.topics_.size() >= most_topics && !c.topics_.contains(topic)) return tell_error(c, fmt::format("at most {} topics", most_topics), topic);
+    if (c.topics_.size() >= most_topics && !c.topics_.contains(topic))
+        return tell_error(c, fmt::format("at most {} topics", most_topics), topic);
     if (topic == "events") {
         c.events_ = true;
     } else if (topic == "site") {
@@ -108,7 +113,9 @@ void StreamHub::subscribe(StreamClient& c, const std::string& topic, std::int64_
         it->period_ms = period_ms;
         begin_frames(c, *it);
     } else if (topic != "axes/*" && topic != "drives/*" && topic != "lines/*" && !sources_.find(topic)) {
-        return tell_error(c, "there is no such topic: use axes/*, axes/NAME, drives/*, drives/NAME, lines/*, lines/NAME, lines/NAME/frames, events, site", topic);
+        return tell_error(
+            c, "there is no such topic: use axes/*, axes/NAME, drives/*, drives/NAME, lines/*, lines/NAME, lines/NAME/frames, events, site",
+            topic);
     }
     c.topics_.insert_or_assign(topic, period_ms);
 }
@@ -123,12 +130,16 @@ void StreamHub::unsubscribe(StreamClient& c, const std::string& topic) {
 void StreamHub::resolve(StreamClient& c, Instant now, const std::vector<std::string>* snapshots_of) {
     std::map<std::uint32_t, std::uint64_t> sent;
     for (const auto& [period, list] : c.watches_) {
-        for (const auto& w : list) sent.emplace(w.source->number, w.sent_version);
+        for (const auto& w : list)
+            sent.emplace(w.source->number, w.sent_version);
     }
     c.watches_.clear();
-    const auto asked_now = [&](const std::string& topic) { return snapshots_of && std::ranges::find(*snapshots_of, topic) != snapshots_of->end(); };
+    const auto asked_now = [&](const std::string& topic) {
+        return snapshots_of && std::ranges::find(*snapshots_of, topic) != snapshots_of->end();
+    };
     std::map<std::string_view, bool> wildcard_now;
-    for (const std::string_view w : {"axes/*", "drives/*", "lines/*"}) wildcard_now[w] = asked_now(std::string(w));
+    for (const std::string_view w : {"axes/*", "drives/*", "lines/*"})
+        wildcard_now[w] = asked_now(std::string(w));
     for (const auto& [topic, source] : sources_.all()) {
         auto subscription = c.topics_.find(topic);
         const std::string wildcard = wildcard_of(topic);
@@ -152,8 +163,10 @@ void StreamHub::resolve(StreamClient& c, Instant now, const std::vector<std::str
 std::set<std::int64_t> StreamHub::periods() const {
     std::set<std::int64_t> out;
     for (const auto& c : clients_) {
-        for (const auto& [period, list] : c->watches_) out.insert(period);
-        for (const auto& f : c->frames_) out.insert(f.period_ms);
+        for (const auto& [period, list] : c->watches_)
+            out.insert(period);
+        for (const auto& f : c->frames_)
+            out.insert(f.period_ms);
     }
     return out;
 }
@@ -161,7 +174,8 @@ std::set<std::int64_t> StreamHub::periods() const {
 void StreamHub::keep_groups(Instant now) {
     const auto used = periods();
     std::erase_if(groups_, [&](const auto& g) { return !used.contains(g.first); });
-    for (const auto period : used) groups_.emplace(period, now + std::chrono::milliseconds(period));
+    for (const auto period : used)
+        groups_.emplace(period, now + std::chrono::milliseconds(period));
 }
 
 LineId StreamHub::line_id(std::string_view line) const {
@@ -246,7 +260,8 @@ void StreamHub::tell_error(StreamClient& c, std::string_view text, std::string_v
 void StreamHub::put_event(StreamClient& c, SharedFrame frame) {
     if (c.closing_) return;
     if (!c.queue.push_event(std::move(frame))) {
-        c.close(close_try_later, fmt::format("more than {} events wait: read faster, and ask /api/v1/events for what is missing", settings_.max_events_waiting));
+        c.close(close_try_later, fmt::format("more than {} events wait: read faster, and ask /api/v1/events for what is missing",
+                                             settings_.max_events_waiting));
     }
     c.has_work_ = true;
 }

@@ -1,7 +1,7 @@
 // Stream hub: the live feed without sockets: who subscribed to what, what changed since, and what waits for whom.
 // In: requests of clients, events, the passing of time, the Gateway's pictures. Out: frames in each client's queue, and a wake-up.
-// Bounds: topics per client; the queue's (states newest wins, events refused over the bound: the client is closed with 1013 and the reason).
-// Never reads a clock and never sends: the WebSocket session does.
+// Bounds: topics per client; the queue's (states newest wins, events refused over the bound: the client is closed with 1013 and the
+// reason). Never reads a clock and never sends: the WebSocket session does.
 #pragma once
 
 #include <cstdint>
@@ -50,8 +50,8 @@ private:
         std::uint64_t since = 0;  ///< next sequence number wanted
     };
     std::function<void()> wake_;
-    std::map<std::string, std::int64_t, std::less<>> topics_;    ///< as subscribed, with the period in ms
-    std::map<std::int64_t, std::vector<Watch>> watches_;         ///< by period
+    std::map<std::string, std::int64_t, std::less<>> topics_;  ///< as subscribed, with the period in ms
+    std::map<std::int64_t, std::vector<Watch>> watches_;       ///< by period
     std::vector<FrameWatch> frames_;
     bool events_ = false;
     bool site_ = false;
@@ -86,10 +86,10 @@ public:
     void on_site(const std::shared_ptr<const SiteState>& site) override;
 
 private:
-    static constexpr std::size_t most_topics = 4096;       ///< subscribed by one client
-    static constexpr std::size_t first_frames = 200;       ///< of a line, told at once
-    static constexpr std::size_t most_frames = 4096;       ///< in one message
-    static constexpr int wrong_requests = 3;               ///< in a row, then the client is closed
+    static constexpr std::size_t most_topics = 4096;  ///< subscribed by one client
+    static constexpr std::size_t first_frames = 200;  ///< of a line, told at once
+    static constexpr std::size_t most_frames = 4096;  ///< in one message
+    static constexpr int wrong_requests = 3;          ///< in a row, then the client is closed
 
     void subscribe(StreamClient& c, const std::string& topic, std::int64_t period_ms);
     void unsubscribe(StreamClient& c, const std::string& topic);
@@ -112,8 +112,8 @@ private:
     std::function<void()> rearm_;
     StreamSources sources_;
     std::list<std::shared_ptr<StreamClient>> clients_;
-    std::map<std::int64_t, Instant> groups_;               ///< next scan by period in ms
-    std::shared_ptr<const SiteState> new_site_;            ///< told, but not taken yet
+    std::map<std::int64_t, Instant> groups_;     ///< next scan by period in ms
+    std::shared_ptr<const SiteState> new_site_;  ///< told, but not taken yet
     bool attached_ = true;
 
     /// The last stretch of frames that was made, for clients that want the same one.

@@ -2,8 +2,8 @@
 // In: text. Out: a request or a fault.
 #include "gateway/doors/http/stream_request.hpp"
 
-#include <boost/json/parse.hpp>
 #include <fmt/format.h>
+#include <boost/json/parse.hpp>
 
 #include <cmath>
 

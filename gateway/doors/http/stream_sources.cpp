@@ -26,12 +26,14 @@ SharedFrame stream_message(std::string_view topic, std::int64_t at_unix_ns, cons
 }
 
 bool same_but_time(const AxisPicture& a, const AxisPicture& b) noexcept {
-    return a.number == b.number && a.family_number == b.family_number && a.position == b.position && a.position_demand == b.position_demand &&
-           a.velocity == b.velocity && a.native_status == b.native_status && a.error_code == b.error_code && a.statusword == b.statusword &&
-           a.mode_display == b.mode_display && a.flags == b.flags && a.controlword == b.controlword && a.mode == b.mode &&
-           a.target_position == b.target_position && a.profile_velocity == b.profile_velocity && a.profile_acceleration == b.profile_acceleration &&
-           a.profile_deceleration == b.profile_deceleration && a.target_velocity == b.target_velocity && a.homing_method == b.homing_method &&
-           a.setpoints_accepted == b.setpoints_accepted && a.authority == b.authority && a.presence == b.presence && a.ever_seen == b.ever_seen;
+    return a.number == b.number && a.family_number == b.family_number && a.position == b.position &&
+           a.position_demand == b.position_demand && a.velocity == b.velocity && a.native_status == b.native_status &&
+           a.error_code == b.error_code && a.statusword == b.statusword && a.mode_display == b.mode_display && a.flags == b.flags &&
+           a.controlword == b.controlword && a.mode == b.mode && a.target_position == b.target_position &&
+           a.profile_velocity == b.profile_velocity && a.profile_acceleration == b.profile_acceleration &&
+           a.profile_deceleration == b.profile_deceleration && a.target_velocity == b.target_velocity &&
+           a.homing_method == b.homing_method && a.setpoints_accepted == b.setpoints_accepted && a.authority == b.authority &&
+           a.presence == b.presence && a.ever_seen == b.ever_seen;
 }
 
 void StreamSources::take_site(std::shared_ptr<const SiteState> site) {
@@ -51,9 +53,12 @@ void StreamSources::take_site(std::shared_ptr<const SiteState> site) {
         source->fresh = true;
         next.emplace(std::move(topic), std::move(source));
     };
-    for (std::size_t i = 0; i < site_->site.axes.size(); ++i) put(Source::Kind::axis, "axes/" + site_->site.axes[i].name, i);
-    for (std::size_t i = 0; i < site_->site.drives.size(); ++i) put(Source::Kind::drive, "drives/" + site_->site.drives[i].name, i);
-    for (std::size_t i = 0; i < site_->site.lines.size(); ++i) put(Source::Kind::line, "lines/" + site_->site.lines[i].name, i);
+    for (std::size_t i = 0; i < site_->site.axes.size(); ++i)
+        put(Source::Kind::axis, "axes/" + site_->site.axes[i].name, i);
+    for (std::size_t i = 0; i < site_->site.drives.size(); ++i)
+        put(Source::Kind::drive, "drives/" + site_->site.drives[i].name, i);
+    for (std::size_t i = 0; i < site_->site.lines.size(); ++i)
+        put(Source::Kind::line, "lines/" + site_->site.lines[i].name, i);
     by_topic_ = std::move(next);
 }
 
@@ -89,7 +94,8 @@ void StreamSources::look_axis(Source& s, Instant now, bool force) {
         return;
     }
     const AxisPlace place = axis_at(gateway_, site_, s.index);
-    std::string data = json_text(axis_document({place.spec(), place.line, place.family, place.catalogue, picture, gateway_.to_unix_ns(picture.at)}));
+    std::string data =
+        json_text(axis_document({place.spec(), place.line, place.family, place.catalogue, picture, gateway_.to_unix_ns(picture.at)}));
     const bool differs = changed ? data != s.text : moved_on;
     s.picture = picture;
     s.fresh = false;
@@ -104,9 +110,11 @@ void StreamSources::look_slow(Source& s, Instant now, bool force) {
     if (s.frame && !s.fresh && !force && now - s.built < slow_period) return;
     std::string data;
     if (s.kind == Source::Kind::drive) {
-        data = json_text(drive_document(*site_, s.index, s.index < site_->drive_ids.size() ? gateway_.drive_status(site_->drive_ids[s.index]) : DriveStatus{}));
+        data = json_text(drive_document(
+            *site_, s.index, s.index < site_->drive_ids.size() ? gateway_.drive_status(site_->drive_ids[s.index]) : DriveStatus{}));
     } else {
-        data = json_text(line_document(*site_, s.index, s.index < site_->line_ids.size() ? gateway_.line_report(site_->line_ids[s.index]) : LineReport{}));
+        data = json_text(line_document(*site_, s.index,
+                                       s.index < site_->line_ids.size() ? gateway_.line_report(site_->line_ids[s.index]) : LineReport{}));
     }
     s.built = now;
     s.fresh = false;

@@ -30,9 +30,9 @@ struct Source {
     // what the frame was made from
     std::uint64_t picture_revision = 0;
     AxisPicture picture{};
-    std::string text;           ///< of drives and lines: the serialised data
+    std::string text;  ///< of drives and lines: the serialised data
     Instant built{}, looked{};
-    bool fresh = true;          ///< nothing was built since the site was put in force
+    bool fresh = true;  ///< nothing was built since the site was put in force
 };
 
 /// Same for a client, the instant of the data apart.

@@ -21,9 +21,7 @@ int hex_digit(char c) noexcept {
 
 char lower_char(char c) noexcept { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-bool same_word(std::string_view a, std::string_view b) noexcept {
-    return std::ranges::equal(a, b, {}, lower_char, lower_char);
-}
+bool same_word(std::string_view a, std::string_view b) noexcept { return std::ranges::equal(a, b, {}, lower_char, lower_char); }
 
 /// Length of the valid UTF-8 sequence at the beginning of `s` (no surrogates, no overlong forms); 0 if there is none.
 std::size_t sequence_length(std::string_view s) noexcept {
@@ -55,10 +53,18 @@ void put_string(std::string_view s, std::string& out) {
             out += c;
         } else if (static_cast<unsigned char>(c) < 0x20) {
             switch (c) {
-                case '\n': out += "\\n"; break;
-                case '\r': out += "\\r"; break;
-                case '\t': out += "\\t"; break;
-                default: out += fmt::format("\\u{:04x}", static_cast<unsigned>(c)); break;
+                case '\n':
+                    out += "\\n";
+                    break;
+                case '\r':
+                    out += "\\r";
+                    break;
+                case '\t':
+                    out += "\\t";
+                    break;
+                default:
+                    out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+                    break;
             }
         } else if (n = sequence_length(s); n > 0) {
             out += s.substr(0, n);
@@ -152,7 +158,8 @@ std::optional<std::string> percent_decode(std::string_view text, bool plus_is_sp
 std::string percent_encode(std::string_view text) {
     std::string out;
     for (const char c : text) {
-        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '.' || c == '_' || c == '~';
+        const bool plain =
+            (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '.' || c == '_' || c == '~';
         if (plain) {
             out += c;
         } else {
@@ -180,7 +187,8 @@ std::optional<Target> parse_target(std::string_view target) {
         }
     }
     if (!bare_query && (target.empty() || target.front() != '/')) return std::nullopt;
-    if (!std::ranges::all_of(target, [](char c) { return static_cast<unsigned char>(c) > 0x20 && c != 0x7F && c != '#'; })) return std::nullopt;
+    if (!std::ranges::all_of(target, [](char c) { return static_cast<unsigned char>(c) > 0x20 && c != 0x7F && c != '#'; }))
+        return std::nullopt;
     Target t;
     const auto mark = target.find('?');
     std::string_view path = bare_query ? std::string_view() : target.substr(1, mark == std::string_view::npos ? mark : mark - 1);
@@ -195,7 +203,8 @@ std::optional<Target> parse_target(std::string_view target) {
         path.remove_prefix(slash + 1);
     }
     if (!slashes) {
-        for (const auto& s : t.segments) t.path += "/" + s;
+        for (const auto& s : t.segments)
+            t.path += "/" + s;
     }
     std::string_view query = mark == std::string_view::npos ? std::string_view() : target.substr(mark + 1);
     while (!query.empty()) {
@@ -239,7 +248,8 @@ std::string format_time(std::int64_t unix_ns) {
     const year_month_day date{day};
     const hh_mm_ss time{floor<microseconds>(t - day)};
     return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:06}Z", static_cast<int>(date.year()), static_cast<unsigned>(date.month()),
-                       static_cast<unsigned>(date.day()), time.hours().count(), time.minutes().count(), time.seconds().count(), time.subseconds().count());
+                       static_cast<unsigned>(date.day()), time.hours().count(), time.minutes().count(), time.seconds().count(),
+                       time.subseconds().count());
 }
 
 std::optional<std::int64_t> parse_time(std::string_view s) noexcept {
@@ -377,19 +387,33 @@ std::string lower(std::string_view text) {
 }
 
 std::string_view trimmed(std::string_view text) noexcept {
-    while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-    while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
+    while (!text.empty() && (text.front() == ' ' || text.front() == '\t'))
+        text.remove_prefix(1);
+    while (!text.empty() && (text.back() == ' ' || text.back() == '\t'))
+        text.remove_suffix(1);
     return text;
 }
 
 void json_text(const json::value& value, std::string& out) {
     switch (value.kind()) {
-        case json::kind::null: out += "null"; break;
-        case json::kind::bool_: out += value.get_bool() ? "true" : "false"; break;
-        case json::kind::int64: fmt::format_to(std::back_inserter(out), "{}", value.get_int64()); break;
-        case json::kind::uint64: fmt::format_to(std::back_inserter(out), "{}", value.get_uint64()); break;
-        case json::kind::double_: put_double(value.get_double(), out); break;
-        case json::kind::string: put_string(std::string_view(value.get_string()), out); break;
+        case json::kind::null:
+            out += "null";
+            break;
+        case json::kind::bool_:
+            out += value.get_bool() ? "true" : "false";
+            break;
+        case json::kind::int64:
+            fmt::format_to(std::back_inserter(out), "{}", value.get_int64());
+            break;
+        case json::kind::uint64:
+            fmt::format_to(std::back_inserter(out), "{}", value.get_uint64());
+            break;
+        case json::kind::double_:
+            put_double(value.get_double(), out);
+            break;
+        case json::kind::string:
+            put_string(std::string_view(value.get_string()), out);
+            break;
         case json::kind::array: {
             out += '[';
             bool first = true;

@@ -32,8 +32,10 @@ std::array<std::uint8_t, 20> sha1(std::string_view text) {
     std::vector<std::uint8_t> m(text.begin(), text.end());
     const std::uint64_t bits = std::uint64_t{m.size()} * 8;
     m.push_back(0x80);
-    while (m.size() % 64 != 56) m.push_back(0);
-    for (int shift = 56; shift >= 0; shift -= 8) m.push_back(static_cast<std::uint8_t>(bits >> shift));
+    while (m.size() % 64 != 56)
+        m.push_back(0);
+    for (int shift = 56; shift >= 0; shift -= 8)
+        m.push_back(static_cast<std::uint8_t>(bits >> shift));
     std::array<std::uint32_t, 5> h{0x67452301, 0xEFCDAB89, 0x98BADCFE, 0x10325476, 0xC3D2E1F0};
     for (std::size_t block = 0; block < m.size(); block += 64) {
         std::array<std::uint32_t, 80> w{};
@@ -41,7 +43,8 @@ std::array<std::uint8_t, 20> sha1(std::string_view text) {
             const std::size_t at = block + i * 4;
             w[i] = std::uint32_t{m[at]} << 24 | std::uint32_t{m[at + 1]} << 16 | std::uint32_t{m[at + 2]} << 8 | m[at + 3];
         }
-        for (std::size_t i = 16; i < 80; ++i) w[i] = std::rotl(w[i - 3] ^ w[i - 8] ^ w[i - 14] ^ w[i - 16], 1);
+        for (std::size_t i = 16; i < 80; ++i)
+            w[i] = std::rotl(w[i - 3] ^ w[i - 8] ^ w[i - 14] ^ w[i - 16], 1);
         auto [a, b, c, d, e] = h;
         for (std::size_t i = 0; i < 80; ++i) {
             std::uint32_t f = b ^ c ^ d, k = i < 40 ? 0x6ED9EBA1u : 0xCA62C1D6u;
@@ -62,7 +65,8 @@ std::array<std::uint8_t, 20> sha1(std::string_view text) {
         h = {h[0] + a, h[1] + b, h[2] + c, h[3] + d, h[4] + e};
     }
     std::array<std::uint8_t, 20> out{};
-    for (std::size_t i = 0; i < 20; ++i) out[i] = static_cast<std::uint8_t>(h[i / 4] >> (24 - 8 * (i % 4)));
+    for (std::size_t i = 0; i < 20; ++i)
+        out[i] = static_cast<std::uint8_t>(h[i / 4] >> (24 - 8 * (i % 4)));
     return out;
 }
 
@@ -89,10 +93,12 @@ std::string server_frame(Opcode opcode, std::string_view payload) {
         out += static_cast<char>(payload.size());
     } else if (payload.size() <= 0xFFFF) {
         out += static_cast<char>(126);
-        for (int shift = 8; shift >= 0; shift -= 8) out += static_cast<char>((payload.size() >> shift) & 0xFF);
+        for (int shift = 8; shift >= 0; shift -= 8)
+            out += static_cast<char>((payload.size() >> shift) & 0xFF);
     } else {
         out += static_cast<char>(127);
-        for (int shift = 56; shift >= 0; shift -= 8) out += static_cast<char>((std::uint64_t{payload.size()} >> shift) & 0xFF);
+        for (int shift = 56; shift >= 0; shift -= 8)
+            out += static_cast<char>((std::uint64_t{payload.size()} >> shift) & 0xFF);
     }
     out += payload;
     return out;
@@ -100,7 +106,8 @@ std::string server_frame(Opcode opcode, std::string_view payload) {
 
 std::string close_frame(std::uint16_t code, std::string_view reason) {
     if (code == close_no_status) return server_frame(Opcode::close, {});
-    while (reason.size() > 123 || !is_utf8(reason)) reason.remove_suffix(1);
+    while (reason.size() > 123 || !is_utf8(reason))
+        reason.remove_suffix(1);
     std::string payload;
     payload += static_cast<char>(code >> 8);
     payload += static_cast<char>(code & 0xFF);
@@ -131,7 +138,8 @@ std::optional<WebSocketFault> WebSocketParser::take(std::span<const std::uint8_t
         }
         const auto n = static_cast<std::size_t>(std::min<std::uint64_t>(payload_left_, bytes.size()));
         std::string& into = is_control(opcode_) ? control_ : message_;
-        for (std::size_t i = 0; i < n; ++i) into += static_cast<char>(bytes[i] ^ mask_[(payload_at_ + i) % 4]);
+        for (std::size_t i = 0; i < n; ++i)
+            into += static_cast<char>(bytes[i] ^ mask_[(payload_at_ + i) % 4]);
         payload_at_ += n;
         payload_left_ -= n;
         bytes = bytes.subspan(n);
@@ -159,7 +167,8 @@ std::optional<WebSocketFault> WebSocketParser::header_done() {
         const std::size_t n = length == 126 ? 2 : 8;
         const std::uint64_t smallest = length == 126 ? 126 : 0x10000;
         length = 0;
-        for (std::size_t i = 0; i < n; ++i) length = length << 8 | header_[at + i];
+        for (std::size_t i = 0; i < n; ++i)
+            length = length << 8 | header_[at + i];
         at += n;
         if (length < smallest) return WebSocketFault{close_protocol_error, "the length is not in its shortest form"};
         if (length >> 63) return WebSocketFault{close_protocol_error, "the length's top bit is set"};
@@ -171,8 +180,10 @@ std::optional<WebSocketFault> WebSocketParser::header_done() {
         if (length > 125) return WebSocketFault{close_protocol_error, "a control frame has at most 125 bytes"};
         control_.clear();
     } else {
-        if (opcode_ == Opcode::continuation && !in_message_) return WebSocketFault{close_protocol_error, "a continuation without a beginning"};
-        if (opcode_ != Opcode::continuation && in_message_) return WebSocketFault{close_protocol_error, "a message begins inside another one"};
+        if (opcode_ == Opcode::continuation && !in_message_)
+            return WebSocketFault{close_protocol_error, "a continuation without a beginning"};
+        if (opcode_ != Opcode::continuation && in_message_)
+            return WebSocketFault{close_protocol_error, "a message begins inside another one"};
         if (opcode_ == Opcode::binary) return WebSocketFault{close_unsupported, "send text: this feed speaks JSON"};
         if (opcode_ == Opcode::text) message_.clear();
         if (length > max_message_ - message_.size()) return WebSocketFault{close_too_big, "the message is too long"};
@@ -188,13 +199,18 @@ std::optional<WebSocketFault> WebSocketParser::header_done() {
 std::optional<WebSocketFault> WebSocketParser::frame_done(std::vector<WebSocketMessage>& out) {
     in_payload_ = false;
     switch (opcode_) {
-        case Opcode::ping: out.push_back({WebSocketMessage::Kind::ping, control_, 0}); return std::nullopt;
-        case Opcode::pong: out.push_back({WebSocketMessage::Kind::pong, control_, 0}); return std::nullopt;
+        case Opcode::ping:
+            out.push_back({WebSocketMessage::Kind::ping, control_, 0});
+            return std::nullopt;
+        case Opcode::pong:
+            out.push_back({WebSocketMessage::Kind::pong, control_, 0});
+            return std::nullopt;
         case Opcode::close: {
             WebSocketMessage m{WebSocketMessage::Kind::close, {}, close_no_status};
             if (control_.size() == 1) return WebSocketFault{close_protocol_error, "a close code has two bytes"};
             if (control_.size() >= 2) {
-                const unsigned code = static_cast<unsigned>(static_cast<std::uint8_t>(control_[0])) << 8 | static_cast<std::uint8_t>(control_[1]);
+                const unsigned code =
+                    static_cast<unsigned>(static_cast<std::uint8_t>(control_[0])) << 8 | static_cast<std::uint8_t>(control_[1]);
                 if (!is_close_code(code)) return WebSocketFault{close_protocol_error, "this close code cannot be sent"};
                 m.code = static_cast<std::uint16_t>(code);
                 m.payload = control_.substr(2);
@@ -206,7 +222,8 @@ std::optional<WebSocketFault> WebSocketParser::frame_done(std::vector<WebSocketM
         }
         case Opcode::continuation:
         case Opcode::text:
-        case Opcode::binary: break;
+        case Opcode::binary:
+            break;
     }
     if (!final_) return std::nullopt;
     if (!is_utf8(message_)) return WebSocketFault{close_not_utf8, "the message is not UTF-8"};

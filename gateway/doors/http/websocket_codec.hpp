@@ -15,7 +15,8 @@ namespace axisgate::http {
 
 /// Close codes of RFC 6455 7.4.1 that this door uses.
 inline constexpr std::uint16_t close_normal = 1000, close_going_away = 1001, close_protocol_error = 1002, close_unsupported = 1003,
-                               close_no_status = 1005, close_not_utf8 = 1007, close_policy = 1008, close_too_big = 1009, close_try_later = 1013;
+                               close_no_status = 1005, close_not_utf8 = 1007, close_policy = 1008, close_too_big = 1009,
+                               close_try_later = 1013;
 
 /// Whether this is base64 of 16 bytes, as Sec-WebSocket-Key must be.
 [[nodiscard]] bool is_handshake_key(std::string_view key) noexcept;
@@ -55,15 +56,15 @@ private:
     [[nodiscard]] std::optional<WebSocketFault> frame_done(std::vector<WebSocketMessage>& out);
 
     std::size_t max_message_;
-    std::vector<std::uint8_t> header_;    // of the frame that is being read, at most 14 bytes
+    std::vector<std::uint8_t> header_;  // of the frame that is being read, at most 14 bytes
     std::uint64_t payload_left_ = 0;
-    std::size_t payload_at_ = 0;          // position within the mask
-    std::string control_;                 // payload of a control frame
-    std::string message_;                 // payload of a data message, over its fragments
+    std::size_t payload_at_ = 0;  // position within the mask
+    std::string control_;         // payload of a control frame
+    std::string message_;         // payload of a data message, over its fragments
     Opcode opcode_ = Opcode::text;
     bool in_payload_ = false;
     bool final_ = false;
-    bool in_message_ = false;             // a message was begun and is not finished
+    bool in_message_ = false;  // a message was begun and is not finished
     bool ended_ = false;
     std::uint8_t mask_[4] = {};
 };

@@ -64,7 +64,8 @@ void WebSocketSession::take(std::span<const std::uint8_t> bytes) {
                 client_->queue.push_control(std::make_shared<const std::string>(server_frame(Opcode::pong, m.payload)));
                 pump();
                 break;
-            case WebSocketMessage::Kind::pong: break;
+            case WebSocketMessage::Kind::pong:
+                break;
             case WebSocketMessage::Kind::close:
                 close_heard_ = true;
                 begin_close(m.code, {});
@@ -97,7 +98,8 @@ void WebSocketSession::pump() {
     write_began_ = std::chrono::steady_clock::now();
     std::vector<asio::const_buffer> buffers;
     buffers.reserve(batch_.size());
-    for (const auto& f : batch_) buffers.push_back(asio::buffer(*f));
+    for (const auto& f : batch_)
+        buffers.push_back(asio::buffer(*f));
     asio::async_write(socket_, buffers, [self = shared_from_this()](ErrorCode ec, std::size_t bytes) { self->on_written(ec, bytes); });
 }
 
@@ -137,7 +139,8 @@ void WebSocketSession::arm() {
 
 void WebSocketSession::on_timer() {
     const auto now = std::chrono::steady_clock::now();
-    if ((closing_ && now >= close_began_ + host_->settings.linger_limit) || (writing_ && now >= write_began_ + host_->settings.write_limit)) {
+    if ((closing_ && now >= close_began_ + host_->settings.linger_limit) ||
+        (writing_ && now >= write_began_ + host_->settings.write_limit)) {
         ++host_->counters.connections_timed_out;
         return close();
     }

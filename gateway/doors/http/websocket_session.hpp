@@ -3,8 +3,8 @@
 // Bounds: message size, time for a write, silence, time for the closing handshake (see Settings); the queue's own.
 #pragma once
 
-#include <boost/asio/steady_timer.hpp>
 #include <array>
+#include <boost/asio/steady_timer.hpp>
 #include <memory>
 #include <span>
 #include <string>
@@ -45,12 +45,12 @@ private:
     std::shared_ptr<StreamClient> client_;
     WebSocketParser parser_;
     std::array<std::uint8_t, 8192> buffer_{};
-    std::vector<SharedFrame> batch_;       ///< being written
+    std::vector<SharedFrame> batch_;  ///< being written
     SteadyTime heard_{}, pinged_{}, write_began_{}, close_began_{};
     bool writing_ = false;
-    bool closing_ = false;        ///< a close frame is in the queue or was sent
+    bool closing_ = false;  ///< a close frame is in the queue or was sent
     bool close_heard_ = false;
-    bool finished_ = false;       ///< our side of the stream is shut
+    bool finished_ = false;  ///< our side of the stream is shut
     bool closed_ = false;
 };
 

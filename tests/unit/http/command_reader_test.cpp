@@ -1,8 +1,8 @@
 // Command bodies: units into whole increments, and every way to be refused.
 #include "gateway/doors/http/command_reader.hpp"
 
-#include <boost/json/parse.hpp>
 #include <gtest/gtest.h>
+#include <boost/json/parse.hpp>
 
 namespace axisgate::http {
 namespace {
@@ -51,8 +51,10 @@ TEST(CommandReader, Refuses) {
         bool range;
     };
     for (const auto& [body, pointer, says, range] :
-         {Row{R"({})", "/command", "command is missing", false}, Row{R"({"command":5})", "/command", "must be a text", false},
-          Row{R"({"command":"fly"})", "/command", "there is no command fly", false}, Row{R"({"command":"move_absolute"})", "/position", "needs position", false},
+         {Row{R"({})", "/command", "command is missing", false},
+          Row{R"({"command":5})", "/command", "must be a text", false},
+          Row{R"({"command":"fly"})", "/command", "there is no command fly", false},
+          Row{R"({"command":"move_absolute"})", "/position", "needs position", false},
           Row{R"({"command":"move_absolute","position":null})", "/position", "needs position", false},
           Row{R"({"command":"move_absolute","position":"1"})", "/position", "must be a number, not \"1\"", false},
           Row{R"({"command":"move_absolute","position":true})", "/position", "must be a number", false},
@@ -62,11 +64,15 @@ TEST(CommandReader, Refuses) {
           Row{R"({"command":"move_absolute","position":1,"velocity":0.0001})", "/velocity", "less than 1 increment/s", true},
           Row{R"({"command":"move_absolute","position":1,"acceleration":0})", "/acceleration", "above 0", true},
           Row{R"({"command":"move_velocity","velocity":1,"deceleration":-1})", "/deceleration", "above 0", true},
-          Row{R"({"command":"move_absolute","position":1e13})", "/position", "too large", true}, Row{R"({"command":"move_absolute","position":-1e300})", "/position", "too large", true},
+          Row{R"({"command":"move_absolute","position":1e13})", "/position", "too large", true},
+          Row{R"({"command":"move_absolute","position":-1e300})", "/position", "too large", true},
           Row{R"({"command":"move_absolute","position":18446744073709551615})", "/position", "too large", true},
-          Row{R"({"command":"move_velocity"})", "/velocity", "needs velocity", false}, Row{R"({"command":"move_velocity","velocity":1,"position":2})", "/position", "does not know", false},
-          Row{R"({"command":"set_position"})", "/position", "needs position", false}, Row{R"({"command":"home","method":1.5})", "/method", "whole number", false},
-          Row{R"({"command":"home","method":"1"})", "/method", "whole number", false}, Row{R"({"command":"home","method":40000})", "/method", "outside", true},
+          Row{R"({"command":"move_velocity"})", "/velocity", "needs velocity", false},
+          Row{R"({"command":"move_velocity","velocity":1,"position":2})", "/position", "does not know", false},
+          Row{R"({"command":"set_position"})", "/position", "needs position", false},
+          Row{R"({"command":"home","method":1.5})", "/method", "whole number", false},
+          Row{R"({"command":"home","method":"1"})", "/method", "whole number", false},
+          Row{R"({"command":"home","method":40000})", "/method", "outside", true},
           Row{R"({"command":"move_relative","position":1,"prepare":1})", "/prepare", "true or false", false}}) {
         const auto r = read(body);
         EXPECT_FALSE(r.body) << body;

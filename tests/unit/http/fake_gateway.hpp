@@ -68,13 +68,17 @@ public:
     void put_site(Site site) {
         auto state = std::make_shared<SiteState>();
         state->revision = site_ ? site_->revision + 1 : 1;
-        for (const auto& l : site.lines) state->line_ids.push_back(LineId{id_of("line " + l.name)});
-        for (const auto& d : site.drives) state->drive_ids.push_back(DriveId{id_of("drive " + d.name)});
-        for (const auto& a : site.axes) state->axis_ids.push_back(AxisId{id_of("axis " + a.name)});
+        for (const auto& l : site.lines)
+            state->line_ids.push_back(LineId{id_of("line " + l.name)});
+        for (const auto& d : site.drives)
+            state->drive_ids.push_back(DriveId{id_of("drive " + d.name)});
+        for (const auto& a : site.axes)
+            state->axis_ids.push_back(AxisId{id_of("axis " + a.name)});
         state->site = std::move(site);
         site_ = state;
         const auto all = listeners;
-        for (auto* l : all) l->on_site(site_);
+        for (auto* l : all)
+            l->on_site(site_);
     }
     [[nodiscard]] AxisId axis(const std::string& name) { return AxisId{id_of("axis " + name)}; }
     [[nodiscard]] DriveId drive(const std::string& name) { return DriveId{id_of("drive " + name)}; }
@@ -89,7 +93,8 @@ public:
         if (e.at_unix_ns == 0) e.at_unix_ns = now_ns;
         events_.push_back(e);
         const auto all = listeners;
-        for (auto* l : all) l->on_event(e);
+        for (auto* l : all)
+            l->on_event(e);
     }
     /// Answers the oldest command that waits.
     void finish(Result r) {

@@ -1,4 +1,4 @@
-// Handlers with a made-up Gateway: the program itself, catalogue, axes' documents, commands, native, hand, trace, events.
+// Handlers with a made-up Gateway: the program itself, catalogue, axes' documents, commands, the live feed's handshake.
 #include "gateway/doors/http/documents.hpp"
 #include "tests/unit/http/harness.hpp"
 
@@ -49,15 +49,21 @@ TEST_F(HttpTest, Catalogue) {
     EXPECT_EQ(f.at("default_bit_rate"), "57600");
     const auto p = call("GET", "/api/v1/families/demo/parameters").array();
     ASSERT_EQ(p.size(), 6u);
-    EXPECT_EQ(json_text(p[0]), R"({"id":"AC","name":"acceleration","group":"motion","type":"u32","unit":"pulse/s^2","min":1,"max":65000000,"default":20000,"access":"RW",)"
-                               R"("storage":"eeprom","description":"Acceleration of motions.","allowed":null,"first":null,"count":null})");
-    EXPECT_EQ(json_text(p[1]), R"({"id":"ML","name":"model","group":"identity","type":"text","unit":null,"min":null,"max":null,"default":null,"access":"R",)"
-                               R"("storage":null,"description":"Model name.","allowed":null,"first":null,"count":null})");
+    EXPECT_EQ(
+        json_text(p[0]),
+        R"({"id":"AC","name":"acceleration","group":"motion","type":"u32","unit":"pulse/s^2","min":1,"max":65000000,"default":20000,"access":"RW",)"
+        R"("storage":"eeprom","description":"Acceleration of motions.","allowed":null,"first":null,"count":null})");
+    EXPECT_EQ(json_text(p[1]),
+              R"({"id":"ML","name":"model","group":"identity","type":"text","unit":null,"min":null,"max":null,"default":null,"access":"R",)"
+              R"("storage":null,"description":"Model name.","allowed":null,"first":null,"count":null})");
     EXPECT_EQ(json_text(p[3].at("allowed")), R"([{"value":1,"meaning":"full"},{"value":16,"meaning":"sixteenth"}])");
     EXPECT_EQ(json_text(p[4].at("first")) + json_text(p[4].at("count")), "18");
     EXPECT_EQ(call("GET", "/api/v1/families/demo/commands").text, R"([{"id":"BG","name":"begin","description":"Starts."}])");
-    EXPECT_EQ(call("GET", "/api/v1/families/demo/errors").text, R"([{"code":49,"kind":"error","name":"overcurrent","text":"too much current","cause":"short","remedy":"look"}])");
-    for (const auto* path : {"/api/v1/families/x", "/api/v1/families/x/parameters", "/api/v1/families/x/commands", "/api/v1/families/x/errors"}) EXPECT_EQ(call("GET", path).status, 404u);
+    EXPECT_EQ(call("GET", "/api/v1/families/demo/errors").text,
+              R"([{"code":49,"kind":"error","name":"overcurrent","text":"too much current","cause":"short","remedy":"look"}])");
+    for (const auto* path :
+         {"/api/v1/families/x", "/api/v1/families/x/parameters", "/api/v1/families/x/commands", "/api/v1/families/x/errors"})
+        EXPECT_EQ(call("GET", path).status, 404u);
 }
 
 // --- axes -------------------------------------------------------------------------------------------------------------
@@ -110,7 +116,9 @@ TEST_F(HttpTest, AxisDocument) {
 
 TEST_F(HttpTest, WhatADriveNeverSaidIsNull) {
     const auto a = call("GET", "/api/v1/axes/slide");
-    for (const auto* key : {"position", "velocity", "position_demand", "target_position", "position_increments", "velocity_increments", "at", "age_ms"}) EXPECT_EQ(a.at(key), "null") << key;
+    for (const auto* key :
+         {"position", "velocity", "position_demand", "target_position", "position_increments", "velocity_increments", "at", "age_ms"})
+        EXPECT_EQ(a.at(key), "null") << key;
     EXPECT_EQ(a.at("online"), "false");
     EXPECT_EQ(a.at("state"), "not_ready_to_switch_on");
     EXPECT_EQ(a.at("mode"), "none");
@@ -138,8 +146,9 @@ TEST(HttpDocuments, StatesAndModes) {
     };
     FakeGateway gateway;
     const auto place = axis_at(gateway, gateway.site(), 0);
-    for (const auto& [word, state] : {Row{0x0000, "not_ready_to_switch_on"}, Row{0x0040, "switch_on_disabled"}, Row{0x0021, "ready_to_switch_on"}, Row{0x0023, "switched_on"},
-                                      Row{0x0027, "operation_enabled"}, Row{0x0007, "quick_stop_active"}, Row{0x000F, "fault_reaction_active"}, Row{0x0008, "fault"},
+    for (const auto& [word, state] : {Row{0x0000, "not_ready_to_switch_on"}, Row{0x0040, "switch_on_disabled"},
+                                      Row{0x0021, "ready_to_switch_on"}, Row{0x0023, "switched_on"}, Row{0x0027, "operation_enabled"},
+                                      Row{0x0007, "quick_stop_active"}, Row{0x000F, "fault_reaction_active"}, Row{0x0008, "fault"},
                                       Row{0xC1B7, "operation_enabled"}, Row{0x0950, "switch_on_disabled"}}) {
         AxisPicture p;
         p.statusword = word;
@@ -154,7 +163,8 @@ TEST(HttpDocuments, StatesAndModes) {
 // --- commands ---------------------------------------------------------------------------------------------------------
 
 TEST_F(HttpTest, ACommandIsAnsweredWhenTheDriveAcknowledges) {
-    EXPECT_EQ(call("POST", "/api/v1/axes/feeder/commands", R"({"command":"move_absolute","position":100,"velocity":50})").status, 0u) << "still to come";
+    EXPECT_EQ(call("POST", "/api/v1/axes/feeder/commands", R"({"command":"move_absolute","position":100,"velocity":50})").status, 0u)
+        << "still to come";
     EXPECT_TRUE(promised);
     EXPECT_EQ(limit, std::chrono::seconds(30));
     EXPECT_EQ(at_limit.status, 504u);
@@ -168,7 +178,9 @@ TEST_F(HttpTest, ACommandIsAnsweredWhenTheDriveAcknowledges) {
     gateway.finish(good_result());
     const auto a = answered();
     EXPECT_EQ(a.status, 200u);
-    EXPECT_EQ(a.text, R"({"ticket":17,"result":"accepted","reason":"","axis":"feeder","command":"move_absolute","code":null,"text":"","value":null})");
+    EXPECT_EQ(
+        a.text,
+        R"({"ticket":17,"result":"accepted","reason":"","axis":"feeder","command":"move_absolute","code":null,"text":"","value":null})");
     EXPECT_EQ(a.headers.get("X-Content-Type-Options"), "nosniff") << "late answers are finished too";
 }
 
@@ -177,7 +189,9 @@ TEST_F(HttpTest, WaitingForTheEnd) {
     EXPECT_TRUE(gateway.submitted[0].until_done);
     EXPECT_EQ(limit, std::chrono::milliseconds(2500));
     EXPECT_EQ(at_limit.status, 200u);
-    EXPECT_EQ(at_limit.body, R"({"ticket":17,"result":"accepted","reason":"not done after 2.5 s","axis":"feeder","command":"home","code":null,"text":"","value":null})");
+    EXPECT_EQ(
+        at_limit.body,
+        R"({"ticket":17,"result":"accepted","reason":"not done after 2.5 s","axis":"feeder","command":"home","code":null,"text":"","value":null})");
     gateway.finish(good_result(Outcome::done));
     EXPECT_EQ(answered().at("result"), "done");
     call("POST", "/api/v1/axes/feeder/commands?wait=0", R"({"command":"enable"})");
@@ -193,10 +207,11 @@ TEST_F(HttpTest, ReasonsBecomeStatusCodes) {
         Reason reason;
         unsigned status;
     };
-    for (const auto& [reason, status] : {Row{Reason::out_of_range, 422}, Row{Reason::unknown_point, 404}, Row{Reason::not_writable, 409}, Row{Reason::wrong_state, 409},
-                                         Row{Reason::not_supported, 409}, Row{Reason::drive_refused, 409}, Row{Reason::busy, 503}, Row{Reason::line_down, 503},
-                                         Row{Reason::no_answer, 504}, Row{Reason::interrupted, 409}, Row{Reason::authority, 409}, Row{Reason::not_stored, 507},
-                                         Row{Reason::internal, 500}, Row{Reason::none, 500}}) {
+    for (const auto& [reason, status] :
+         {Row{Reason::out_of_range, 422}, Row{Reason::unknown_point, 404}, Row{Reason::not_writable, 409}, Row{Reason::wrong_state, 409},
+          Row{Reason::not_supported, 409}, Row{Reason::drive_refused, 409}, Row{Reason::busy, 503}, Row{Reason::line_down, 503},
+          Row{Reason::no_answer, 504}, Row{Reason::interrupted, 409}, Row{Reason::authority, 409}, Row{Reason::not_stored, 507},
+          Row{Reason::internal, 500}, Row{Reason::none, 500}}) {
         gateway.at_once = [reason = reason](const Command&) { return bad_result(reason, "because", 49); };
         const auto a = call("POST", "/api/v1/axes/feeder/commands", R"({"command":"enable"})");
         EXPECT_EQ(a.status, status) << name_of(reason);
@@ -247,7 +262,8 @@ TEST_F(HttpTest, AResultCarriesTextCodeAndValue) {
 
 TEST_F(HttpTest, Actions) {
     gateway.at_once = [](const Command&) { return good_result(Outcome::done); };
-    EXPECT_EQ(call("POST", "/api/v1/axes/feeder/actions?wait=1", R"({"name":"program.start","argument":"1"})").at("command"), "program.start");
+    EXPECT_EQ(call("POST", "/api/v1/axes/feeder/actions?wait=1", R"({"name":"program.start","argument":"1"})").at("command"),
+              "program.start");
     const auto& action = std::get<Action>(gateway.submitted[0].body);
     EXPECT_EQ(action.name, "program.start");
     EXPECT_EQ(action.argument, "1");
@@ -267,13 +283,15 @@ TEST_F(HttpTest, StartingTogether) {
     EXPECT_EQ(a.status, 200u);
     EXPECT_EQ(a.at("axis"), "slide");
     EXPECT_EQ(gateway.submitted[0].axis, gateway.axis("slide"));
-    EXPECT_EQ(std::get<StartTogether>(gateway.submitted[0].body).axes, (std::vector<AxisId>{gateway.axis("slide"), gateway.axis("feeder")}));
+    EXPECT_EQ(std::get<StartTogether>(gateway.submitted[0].body).axes,
+              (std::vector<AxisId>{gateway.axis("slide"), gateway.axis("feeder")}));
     struct Row {
         const char* body;
         const char* pointer;
     };
-    for (const auto& [body, pointer] : {Row{R"({})", "/axes"}, Row{R"({"axes":[]})", "/axes"}, Row{R"({"axes":"slide"})", "/axes"}, Row{R"({"axes":["slide",5]})", "/axes/1"},
-                                        Row{R"({"axes":["none"]})", "/axes/0"}, Row{R"({"axes":["slide","slide"]})", "/axes/1"}, Row{R"({"axes":["slide"],"x":1})", "/x"}}) {
+    for (const auto& [body, pointer] : {Row{R"({})", "/axes"}, Row{R"({"axes":[]})", "/axes"}, Row{R"({"axes":"slide"})", "/axes"},
+                                        Row{R"({"axes":["slide",5]})", "/axes/1"}, Row{R"({"axes":["none"]})", "/axes/0"},
+                                        Row{R"({"axes":["slide","slide"]})", "/axes/1"}, Row{R"({"axes":["slide"],"x":1})", "/x"}}) {
         const auto r = call("POST", "/api/v1/moves/start", body);
         EXPECT_EQ(r.status, 422u) << body;
         EXPECT_EQ(r.fault().at("pointer"), pointer) << body;
@@ -287,194 +305,17 @@ TEST_F(HttpTest, StartingTogether) {
     EXPECT_EQ(gateway.submitted.size(), 1u);
 }
 
-// --- drives -----------------------------------------------------------------------------------------------------------
-
-TEST_F(HttpTest, DriveAndLineDocuments) {
-    gateway.drive_states[gateway.drive("feeder")] = {Presence::twin, false, "the device does not answer", 4, 800};
-    const auto d = call("GET", "/api/v1/drives/feeder");
-    EXPECT_EQ(d.at("presence"), "auto") << "the rule";
-    EXPECT_EQ(d.at("family"), "demo");
-    EXPECT_EQ(d.at("axes"), R"(["feeder"])");
-    EXPECT_EQ(d.at("status"),
-              R"({"presence":"twin","online":true,"simulated":true,"device_online":false,"text":"the device does not answer","silent_exchanges":4,"retry_pause_ms":800})");
-    auto& l = gateway.line_states[gateway.line("can0")];
-    l.status.state = LineStatus::State::up;
-    l.status.load = 0.25;
-    l.counters.timeouts = 3;
-    const auto a = call("GET", "/api/v1/lines/can0");
-    EXPECT_EQ(a.at("drives"), R"(["feeder","slide"])");
-    EXPECT_EQ(a.json.at("status").at("state"), "up");
-    EXPECT_EQ(json_text(a.json.at("status").at("load")), "0.25");
-    EXPECT_EQ(json_text(a.json.at("status").at("counters").at("timeouts")), "3");
-    EXPECT_TRUE(a.json.at("status").at("twin").is_null());
-    EXPECT_EQ(call("GET", "/api/v1/lines").array().size(), 2u);
-    EXPECT_EQ(call("GET", "/api/v1/drives").array().size(), 3u);
-}
-
-TEST_F(HttpTest, Native) {
-    call("POST", "/api/v1/drives/feeder/native", R"({"send":"PR P"})");
-    ASSERT_EQ(gateway.submitted.size(), 1u);
-    EXPECT_EQ(gateway.submitted[0].axis, gateway.axis("feeder"));
-    const auto& native = std::get<Native>(gateway.submitted[0].body);
-    EXPECT_TRUE(native.is_text);
-    EXPECT_EQ(std::string(native.send.begin(), native.send.end()), "PR P");
-    gateway.now_ns += 7'900'000;
-    Result r = good_result(Outcome::done);
-    r.text = "51200";
-    r.bytes = {0x35, 0x0D};
-    gateway.finish(r);
-    EXPECT_EQ(answered().text, R"({"reply":"51200","reply_hex":"350D","took_ms":7})");
-
-    call("POST", "/api/v1/drives/feeder/native", R"({"send_hex":"95 00"})");
-    const auto& hex = std::get<Native>(gateway.submitted[1].body);
-    EXPECT_FALSE(hex.is_text);
-    EXPECT_EQ(hex.send, (std::vector<std::uint8_t>{0x95, 0x00}));
-    gateway.finish(bad_result(Reason::no_answer, "drive feeder did not answer within 100 ms"));
-    EXPECT_EQ(answered().status, 504u);
-
-    for (const auto* bad : {R"({})", R"({"send":"a","send_hex":"00"})", R"({"send":""})", R"({"send":5})", R"({"send_hex":"0"})", R"({"send_hex":"zz"})", R"({"send_hex":""})",
-                            R"({"send":"a","x":1})"}) {
-        EXPECT_EQ(call("POST", "/api/v1/drives/feeder/native", bad).status, 422u) << bad;
-    }
-    EXPECT_EQ(call("POST", "/api/v1/drives/feeder/native", R"({"send":")" + std::string(1025, 'x') + R"("})").status, 422u);
-    EXPECT_EQ(call("POST", "/api/v1/drives/none/native", R"({"send":"x"})").status, 404u);
-    const auto bare = call("POST", "/api/v1/drives/bare/native", R"({"send":"x"})");
-    EXPECT_EQ(bare.status, 409u) << "no axis can name it";
-    EXPECT_EQ(gateway.submitted.size(), 2u);
-}
-
-TEST_F(HttpTest, NativeGoesToTheLowestChannel) {
-    auto site = gateway.site()->site;
-    site.axes[0].channel = 2;
-    site.axes.push_back(axis_spec("first", "feeder", 3));
-    gateway.put_site(site);
-    call("POST", "/api/v1/drives/feeder/native", R"({"send":"x"})");
-    EXPECT_EQ(gateway.submitted.at(0).axis, gateway.axis("first"));
-}
-
-TEST_F(HttpTest, Hand) {
-    gateway.hands[gateway.drive("feeder")] = {{"stall", false, true, "the shaft is held"}, {"temperature", 25.0, true, "deg C"}, {"position", std::int64_t{5}, false, "true position"}};
-    EXPECT_EQ(call("GET", "/api/v1/drives/feeder/hand").text, R"({"stall":false,"temperature":25,"position":5})");
-    EXPECT_EQ(call("GET", "/api/v1/drives/feeder/hand?describe=1").text,
-              R"([{"name":"stall","value":false,"writable":true,"description":"the shaft is held"},{"name":"temperature","value":25,"writable":true,"description":"deg C"},)"
-              R"({"name":"position","value":5,"writable":false,"description":"true position"}])");
-    EXPECT_EQ(call("PATCH", "/api/v1/drives/feeder/hand", R"({"stall":true})").text, R"({"stall":true,"temperature":25,"position":5})");
-    EXPECT_EQ(call("PUT", "/api/v1/drives/feeder/hand", R"({"temperature":80.5,"stall":false})").text, R"({"stall":false,"temperature":80.5,"position":5})");
-    EXPECT_EQ(call("PATCH", "/api/v1/drives/feeder/hand", "{}").status, 200u);
-    const auto unknown = call("PATCH", "/api/v1/drives/feeder/hand", R"({"stall":true,"fly":1,"position":3})");
-    EXPECT_EQ(unknown.status, 422u);
-    EXPECT_EQ(unknown.object().at("faults").get_array().size(), 2u);
-    EXPECT_EQ(unknown.fault().at("remedy"), "use one of: stall, temperature");
-    EXPECT_EQ(call("GET", "/api/v1/drives/feeder/hand").json.at("stall"), false) << "all or none";
-    EXPECT_EQ(call("PATCH", "/api/v1/drives/feeder/hand", R"({"stall":null})").status, 422u);
-    EXPECT_EQ(call("PATCH", "/api/v1/drives/feeder/hand", R"({"stall":[1]})").status, 422u);
-    gateway.hand_fault = "temperature takes -40..200";
-    const auto wrong = call("PATCH", "/api/v1/drives/feeder/hand", R"({"temperature":900})");
-    EXPECT_EQ(wrong.status, 422u);
-    EXPECT_EQ(wrong.at("detail"), "temperature takes -40..200");
-    EXPECT_EQ(call("GET", "/api/v1/drives/feeder/hand?describe=x").status, 400u);
-}
-
-TEST_F(HttpTest, NoHandForRealDrives) {
-    gateway.drive_states[gateway.drive("feeder")] = {Presence::device, true, "answers", 0, 0};
-    for (const auto& a : {call("GET", "/api/v1/drives/feeder/hand"), call("PATCH", "/api/v1/drives/feeder/hand", R"({"stall":true})")}) {
-        EXPECT_EQ(a.status, 409u);
-        EXPECT_EQ(a.at("reason"), "not_simulated");
-        EXPECT_NE(a.at("detail").find("real drive"), std::string::npos) << a.at("detail");
-    }
-    EXPECT_NE(call("GET", "/api/v1/drives/slide/hand").at("detail").find("offline"), std::string::npos);
-    EXPECT_EQ(call("GET", "/api/v1/drives/none/hand").status, 404u);
-    EXPECT_EQ(call("PATCH", "/api/v1/drives/none/hand", "{}").status, 404u);
-}
-
-// --- records ----------------------------------------------------------------------------------------------------------
-
-TraceEntry can_entry(std::uint64_t sequence) {
-    TraceEntry e;
-    e.sequence = sequence;
-    e.at_unix_ns = 1'700'000'000'123'456'789;
-    e.to_drive = true;
-    const std::uint8_t data[] = {0x01, 0xAB};
-    e.frame = Frame::can_extended(0x04280095, data);
-    return e;
-}
-
-TEST_F(HttpTest, Trace) {
-    auto& trace = gateway.traces[gateway.line("can0")];
-    for (std::uint64_t i = 11; i <= 20; ++i) trace.push_back(can_entry(i));
-    const auto a = call("GET", "/api/v1/lines/can0/trace?limit=2");
-    EXPECT_EQ(a.text, R"({"line":"can0","missed":0,"next":21,"frames":[)"
-                      R"({"sequence":19,"at":"2023-11-14T22:13:20.123456Z","to_drive":true,"simulated":false,"kind":"can","id":69730453,"extended":true,"remote":false,"data":"01AB","text":"04280095#01AB"},)"
-                      R"({"sequence":20,"at":"2023-11-14T22:13:20.123456Z","to_drive":true,"simulated":false,"kind":"can","id":69730453,"extended":true,"remote":false,"data":"01AB","text":"04280095#01AB"}]})")
-        << "without since: the newest";
-    const auto since = call("GET", "/api/v1/lines/can0/trace?since=5&limit=3");
-    EXPECT_EQ(since.at("missed"), "6");
-    EXPECT_EQ(since.at("next"), "14");
-    EXPECT_EQ(call("GET", "/api/v1/lines/can0/trace?since=21").json.at("frames").get_array().size(), 0u);
-    EXPECT_EQ(call("GET", "/api/v1/lines/can1/trace").at("frames"), "[]");
-    EXPECT_EQ(call("GET", "/api/v1/lines/none/trace").status, 404u);
-    for (const auto* bad : {"?limit=0", "?limit=65537", "?limit=x", "?since=-1", "?since=x", "?format=xml"}) EXPECT_EQ(call("GET", "/api/v1/lines/can0/trace" + std::string(bad)).status, 400u) << bad;
-}
-
-TEST_F(HttpTest, TraceFormats) {
-    gateway.traces[gateway.line("can0")] = {can_entry(1)};
-    const auto dump = call("GET", "/api/v1/lines/can0/trace?format=candump");
-    EXPECT_EQ(dump.headers.get("Content-Type"), "text/plain; charset=utf-8");
-    EXPECT_EQ(dump.headers.get("Content-Disposition"), "attachment; filename=\"can0.log\"");
-    EXPECT_NE(dump.text.find("can0 04280095#01AB"), std::string::npos) << dump.text;
-    EXPECT_EQ(call("GET", "/api/v1/lines/can0/trace", "", {{"Accept", "text/plain"}}).text, dump.text);
-    const auto pcap = call("GET", "/api/v1/lines/can0/trace?format=pcapng");
-    EXPECT_EQ(pcap.headers.get("Content-Type"), "application/x-pcapng");
-    EXPECT_EQ(pcap.text.substr(0, 4), "\x0A\x0D\x0D\x0A") << "a section header block";
-    EXPECT_EQ(call("GET", "/api/v1/lines/can0/trace", "", {{"Accept", "application/x-pcapng"}}).text, pcap.text);
-    EXPECT_EQ(call("GET", "/api/v1/lines/can0/trace", "", {{"Accept", "image/png"}}).status, 406u);
-    EXPECT_EQ(call("GET", "/api/v1/lines/can0/trace?format=candump", "", {{"Accept", "image/png"}}).status, 200u) << "the query decides";
-    EXPECT_EQ(call("GET", "/api/v1/lines/can0/trace").headers.get("Content-Type"), "application/json");
-    TraceEntry bytes;
-    bytes.sequence = 2;
-    const std::uint8_t run[] = {0x50, 0x52};
-    bytes.frame = Frame::run(run);
-    gateway.traces[gateway.line("can1")] = {bytes};
-    EXPECT_NE(call("GET", "/api/v1/lines/can1/trace?format=candump").text.find("50 52"), std::string::npos) << "a byte line has its text form";
-    EXPECT_EQ(call("GET", "/api/v1/lines/can1/trace").json.at("frames").get_array()[0].at("id"), nullptr);
-}
-
-TEST_F(HttpTest, Events) {
-    Event write = event("AC written", "feeder", Severity::info, "write");
-    write.who = "127.0.0.1";
-    write.door = "http";
-    write.parameter = "AC";
-    write.old_value = "1";
-    write.new_value = "2";
-    gateway.tell(write);
-    Event alarm = event("too much current", "slide", Severity::alarm, "alarm");
-    alarm.drive = "slide";
-    alarm.line = "can0";
-    alarm.code = 49;
-    gateway.tell(alarm);
-    const auto all = call("GET", "/api/v1/events").array();
-    ASSERT_EQ(all.size(), 2u);
-    EXPECT_EQ(json_text(all[0]), R"({"id":1,"at":"2026-01-02T03:04:05.678901Z","severity":"info","kind":"write","axis":"feeder","drive":null,"line":null,"code":null,"text":"AC written",)"
-                                 R"("who":"127.0.0.1","door":"http","parameter":"AC","old":"1","new":"2"})");
-    EXPECT_EQ(json_text(all[1].at("code")), "49");
-    EXPECT_EQ(call("GET", "/api/v1/events?since=1").array().size(), 1u);
-    EXPECT_EQ(call("GET", "/api/v1/events?since=2026-01-02T03:04:05.678901Z").array().size(), 2u);
-    EXPECT_EQ(call("GET", "/api/v1/events?since=2026-01-02T03:04:06%2B00:00").array().size(), 0u);
-    EXPECT_EQ(call("GET", "/api/v1/events?axis=slide").array().size(), 1u);
-    EXPECT_EQ(call("GET", "/api/v1/events?severity=warning").array().size(), 1u);
-    EXPECT_EQ(call("GET", "/api/v1/events?limit=1").array()[0].at("id"), 2) << "the newest if there are more";
-    EXPECT_EQ(gateway.event_queries.back().limit, 1u);
-    EXPECT_EQ(gateway.event_queries.front().limit, 200u);
-    for (const auto* bad : {"since=x", "since=-1", "severity=loud", "limit=0", "limit=1001"}) EXPECT_EQ(call("GET", "/api/v1/events?" + std::string(bad)).status, 400u) << bad;
-}
-
 // --- the handshake of the live feed -----------------------------------------------------------------------------------
 
 TEST_F(HttpTest, StreamHandshake) {
     const auto with = [this](std::vector<std::pair<std::string, std::string>> changes) {
-        std::map<std::string, std::string> h{{"Host", "127.0.0.1:8080"}, {"Upgrade", "websocket"}, {"Connection", "keep-alive, Upgrade"}, {"Sec-WebSocket-Version", "13"},
+        std::map<std::string, std::string> h{{"Host", "127.0.0.1:8080"},
+                                             {"Upgrade", "websocket"},
+                                             {"Connection", "keep-alive, Upgrade"},
+                                             {"Sec-WebSocket-Version", "13"},
                                              {"Sec-WebSocket-Key", "dGhlIHNhbXBsZSBub25jZQ=="}};
-        for (auto& [k, v] : changes) h[k] = v;
+        for (auto& [k, v] : changes)
+            h[k] = v;
         std::erase_if(h, [](const auto& x) { return x.second.empty(); });
         return call("GET", "/api/v1/stream", "", {h.begin(), h.end()});
     };

@@ -2,8 +2,8 @@
 // In: method, target, body, headers. Out: the answer with its body parsed.
 #pragma once
 
-#include <boost/json/parse.hpp>
 #include <gtest/gtest.h>
+#include <boost/json/parse.hpp>
 
 #include <string>
 
@@ -26,7 +26,9 @@ struct Answer {
         if (!v) return "(missing)";
         return v->is_string() ? std::string(v->get_string()) : json_text(*v);
     }
-    [[nodiscard]] const boost::json::object& fault(std::size_t i = 0) const { return json.get_object().at("faults").get_array().at(i).get_object(); }
+    [[nodiscard]] const boost::json::object& fault(std::size_t i = 0) const {
+        return json.get_object().at("faults").get_array().at(i).get_object();
+    }
 };
 
 inline Answer answer_from(Response r) {
@@ -48,17 +50,21 @@ struct Harness {
                                                           {"web/dist/empty.txt", ""},
                                                           {"web/secret.txt", "not for the page"},
                                                           {"schema/openapi.yaml", "openapi: 3.0.3\n"}};
-    Router router{Context{gateway, settings, [this](std::string_view path) {
+    Router router{Context{gateway, settings,
+                          [this](std::string_view path) {
                               const auto it = files.find(path);
-                              return it == files.end() ? std::string_view() : it->second.empty() ? std::string_view("", 0) : std::string_view(it->second);
+                              return it == files.end()    ? std::string_view()
+                                     : it->second.empty() ? std::string_view("", 0)
+                                                          : std::string_view(it->second);
                           },
                           [] { return std::string("axisgate_http_own 1\n"); }}};
-    std::vector<Response> later;           ///< answers that came through Respond
-    std::chrono::nanoseconds limit{};      ///< of the last promise
+    std::vector<Response> later;       ///< answers that came through Respond
+    std::chrono::nanoseconds limit{};  ///< of the last promise
     Response at_limit;
     bool promised = false;
 
-    static Request request(std::string_view method, std::string target, std::string body = {}, std::vector<std::pair<std::string, std::string>> headers = {}) {
+    static Request request(std::string_view method, std::string target, std::string body = {},
+                           std::vector<std::pair<std::string, std::string>> headers = {}) {
         Request r;
         r.method = method_named(method);
         r.target = std::move(target);
@@ -70,7 +76,8 @@ struct Harness {
         return r;
     }
     /// The answer, be it at once or (if the FakeGateway gave one inside the call) through the callback; status 0 if it is still to come.
-    Answer call(std::string_view method, std::string target, std::string body = {}, std::vector<std::pair<std::string, std::string>> headers = {}) {
+    Answer call(std::string_view method, std::string target, std::string body = {},
+                std::vector<std::pair<std::string, std::string>> headers = {}) {
         return send(request(method, std::move(target), std::move(body), std::move(headers)));
     }
     Answer send(const Request& r) {

@@ -15,7 +15,8 @@ std::vector<std::string> lines_of_description() {
     std::ifstream file(AXISGATE_SOURCE_DIR "/schema/openapi.yaml");
     EXPECT_TRUE(file) << "schema/openapi.yaml cannot be read";
     std::vector<std::string> out;
-    for (std::string line; std::getline(file, line);) out.push_back(line);
+    for (std::string line; std::getline(file, line);)
+        out.push_back(line);
     return out;
 }
 
@@ -36,7 +37,8 @@ Operations described() {
         if (indent == 2) path = key;
         if (indent == 4 && key != "parameters") {
             std::string method = key;
-            for (auto& c : method) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+            for (auto& c : method)
+                c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
             out.emplace(path, method);
         }
     }
@@ -81,11 +83,14 @@ void required_of(const std::string& schema, std::set<std::string>& out) {
 
 TEST(OpenApi, RoutesAreThoseOfTheDescriptionInBothDirections) {
     Operations registered;
-    for (const auto& r : all_routes()) EXPECT_TRUE(registered.emplace(std::string(r.path), std::string(name_of(r.method))).second) << r.path << " is registered twice";
+    for (const auto& r : all_routes())
+        EXPECT_TRUE(registered.emplace(std::string(r.path), std::string(name_of(r.method))).second) << r.path << " is registered twice";
     const auto told = described();
     EXPECT_GE(told.size(), 40u) << "the description was read";
-    for (const auto& [path, method] : registered) EXPECT_TRUE(told.contains({path, method})) << method << " " << path << " is not described";
-    for (const auto& [path, method] : told) EXPECT_TRUE(registered.contains({path, method})) << method << " " << path << " is described but not served";
+    for (const auto& [path, method] : registered)
+        EXPECT_TRUE(told.contains({path, method})) << method << " " << path << " is not described";
+    for (const auto& [path, method] : told)
+        EXPECT_TRUE(registered.contains({path, method})) << method << " " << path << " is described but not served";
 }
 
 TEST(OpenApi, RoutesThatTakeABodyAreDescribedSo) {
@@ -100,7 +105,8 @@ TEST(OpenApi, RoutesThatTakeABodyAreDescribedSo) {
     }
     for (const auto& r : all_routes()) {
         std::string low(name_of(r.method));
-        for (auto& c : low) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        for (auto& c : low)
+            c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
         EXPECT_EQ(with_body.contains({std::string(r.path), low}), r.takes != Route::Takes::nothing) << low << " " << r.path;
     }
 }
@@ -117,7 +123,8 @@ protected:
         required_of(schema, required);
         EXPECT_FALSE(required.empty()) << schema;
         ASSERT_TRUE(document.is_object()) << schema;
-        for (const auto& member : required) EXPECT_TRUE(document.get_object().contains(member)) << schema << "." << member << " is required but not there";
+        for (const auto& member : required)
+            EXPECT_TRUE(document.get_object().contains(member)) << schema << "." << member << " is required but not there";
     }
 };
 
@@ -165,8 +172,10 @@ TEST_F(OpenApiDocuments, ReadOnlyAxisMembersAreThoseOfTheDescription) {
     std::set<std::string> required;
     required_of("AxisState", required);
     required.insert("age_ms");
-    for (const auto& member : required) EXPECT_TRUE(is_read_only_axis_member(member)) << member;
-    for (const auto* member : {"name", "drive", "channel", "number", "unit", "increments_per_unit", "position_min", "position_max", "velocity_max", "acceleration_max"}) {
+    for (const auto& member : required)
+        EXPECT_TRUE(is_read_only_axis_member(member)) << member;
+    for (const auto* member : {"name", "drive", "channel", "number", "unit", "increments_per_unit", "position_min", "position_max",
+                               "velocity_max", "acceleration_max"}) {
         EXPECT_FALSE(is_read_only_axis_member(member)) << member;
     }
 }

@@ -8,7 +8,9 @@ namespace json = boost::json;
 class HttpParameters : public HttpTest {
 protected:
     Point point(std::string_view id) { return *gateway.catalogue.find(id); }
-    void know(std::string_view id, Value v) { gateway.live_values[{gateway.axis("feeder"), point(id)}] = {std::move(v), 1'767'323'045'000'000'000, Quality::good}; }
+    void know(std::string_view id, Value v) {
+        gateway.live_values[{gateway.axis("feeder"), point(id)}] = {std::move(v), 1'767'323'045'000'000'000, Quality::good};
+    }
     const std::string base = "/api/v1/axes/feeder/parameters";
 };
 
@@ -17,10 +19,12 @@ TEST_F(HttpParameters, ListHasLiveAndStoredValues) {
     gateway.stored_values["feeder"] = {{"AC", std::int64_t{25000}, std::int64_t{20000}, "127.0.0.1:5", "http", 1'700'000'000'000'000'000}};
     const auto a = call("GET", base).array();
     ASSERT_EQ(a.size(), 4u + 8u + 1u) << "4 plain ones, 8 elements of PP, and one entry for the long array";
-    EXPECT_EQ(json_text(a[0]), R"({"id":"AC","name":"acceleration","group":"motion","type":"u32","unit":"pulse/s^2","min":1,"max":65000000,"default":20000,"access":"RW",)"
-                               R"("storage":"eeprom","description":"Acceleration of motions.","allowed":null,"first":null,"count":null,"value":30000,"quality":"good",)"
-                               R"("at":"2026-01-02T03:04:05.000000Z","stored":25000,"previous":20000,"written_at":"2023-11-14T22:13:20.000000Z","written_by":"127.0.0.1:5",)"
-                               R"("written_through":"http","text":""})");
+    EXPECT_EQ(
+        json_text(a[0]),
+        R"({"id":"AC","name":"acceleration","group":"motion","type":"u32","unit":"pulse/s^2","min":1,"max":65000000,"default":20000,"access":"RW",)"
+        R"("storage":"eeprom","description":"Acceleration of motions.","allowed":null,"first":null,"count":null,"value":30000,"quality":"good",)"
+        R"("at":"2026-01-02T03:04:05.000000Z","stored":25000,"previous":20000,"written_at":"2023-11-14T22:13:20.000000Z","written_by":"127.0.0.1:5",)"
+        R"("written_through":"http","text":""})");
     EXPECT_EQ(a[1].at("value"), nullptr);
     EXPECT_EQ(a[1].at("quality"), "unknown");
     EXPECT_EQ(a[1].at("stored"), nullptr);
@@ -95,10 +99,12 @@ TEST_F(HttpParameters, CachedAndWriteOnlyNeedNoExchange) {
 }
 
 TEST_F(HttpParameters, History) {
-    gateway.stored_values["feeder"] = {{"AC", std::int64_t{3}, std::int64_t{2}, "a", "http", 2'000'000'000}, {"AC", std::int64_t{2}, Value{}, "b", "modbus", 1'000'000'000}};
+    gateway.stored_values["feeder"] = {{"AC", std::int64_t{3}, std::int64_t{2}, "a", "http", 2'000'000'000},
+                                       {"AC", std::int64_t{2}, Value{}, "b", "modbus", 1'000'000'000}};
     const auto a = call("GET", base + "/AC?cached=1&history=5");
-    EXPECT_EQ(a.at("history"), R"([{"value":3,"previous":2,"written_at":"1970-01-01T00:00:02.000000Z","written_by":"a","written_through":"http"},)"
-                               R"({"value":2,"previous":null,"written_at":"1970-01-01T00:00:01.000000Z","written_by":"b","written_through":"modbus"}])");
+    EXPECT_EQ(a.at("history"),
+              R"([{"value":3,"previous":2,"written_at":"1970-01-01T00:00:02.000000Z","written_by":"a","written_through":"http"},)"
+              R"({"value":2,"previous":null,"written_at":"1970-01-01T00:00:01.000000Z","written_by":"b","written_through":"modbus"}])");
     EXPECT_EQ(call("GET", base + "/AC?cached=1").at("history"), "(missing)");
     EXPECT_EQ(call("GET", base + "/AC?cached=1&history=1001").status, 400u);
 }
@@ -147,8 +153,10 @@ TEST_F(HttpParameters, TheCatalogueIsAskedFirst) {
     EXPECT_EQ(range.at("detail"), "AC: 0 is outside 1..65000000 pulse/s^2");
     EXPECT_EQ(range.fault().at("pointer"), "/value");
     EXPECT_NE(call("PUT", base + "/MT", R"({"value":3})").at("detail").find("allowed: 1 (full), 16 (sixteenth)"), std::string::npos);
-    for (const auto* bad : {R"({"value":1.5})", R"({"value":"20000"})", R"({"value":1e30})"}) EXPECT_EQ(call("PUT", base + "/AC", bad).status, 422u) << bad;
-    for (const auto* bad : {R"({})", R"({"value":null})", R"({"value":[1]})", R"({"value":18446744073709551615})", R"({"value":1,"x":2})"}) {
+    for (const auto* bad : {R"({"value":1.5})", R"({"value":"20000"})", R"({"value":1e30})"})
+        EXPECT_EQ(call("PUT", base + "/AC", bad).status, 422u) << bad;
+    for (const auto* bad :
+         {R"({})", R"({"value":null})", R"({"value":[1]})", R"({"value":18446744073709551615})", R"({"value":1,"x":2})"}) {
         const auto a = call("PUT", base + "/AC", bad);
         EXPECT_EQ(a.status, 422u) << bad;
         EXPECT_EQ(a.at("reason"), "invalid") << bad;
@@ -160,7 +168,9 @@ TEST_F(HttpParameters, TheCatalogueIsAskedFirst) {
 }
 
 TEST_F(HttpParameters, AWriteThatCouldNotBeStored) {
-    gateway.at_once = [](const Command&) { return bad_result(Reason::not_stored, "the drive took it, the disk is full", 0, Outcome::failed); };
+    gateway.at_once = [](const Command&) {
+        return bad_result(Reason::not_stored, "the drive took it, the disk is full", 0, Outcome::failed);
+    };
     const auto a = call("PUT", base + "/AC", R"({"value":25000})");
     EXPECT_EQ(a.status, 507u);
     EXPECT_EQ(a.at("result"), "failed");

@@ -18,8 +18,9 @@ TEST_F(HttpTest, ProblemsHaveTheMembersOfRfc9457) {
 }
 
 TEST_F(HttpTest, UnknownPathsAreProblems) {
-    for (const auto* path : {"/api", "/api/", "/api/v1", "/api/v1/", "/api/v2/axes", "/api/v1/mappings", "/api/v1/recipes", "/api/v1/axes/feeder/snapshots", "/api/v1/axes/",
-                             "/api/v1/axes/feeder/", "/api/v1//axes", "/api/v1/axes/feeder/commands/1", "/api/v1/Axes"}) {
+    for (const auto* path :
+         {"/api", "/api/", "/api/v1", "/api/v1/", "/api/v2/axes", "/api/v1/mappings", "/api/v1/recipes", "/api/v1/axes/feeder/snapshots",
+          "/api/v1/axes/", "/api/v1/axes/feeder/", "/api/v1//axes", "/api/v1/axes/feeder/commands/1", "/api/v1/Axes"}) {
         for (const auto* method : {"GET", "POST", "OPTIONS"}) {
             const auto a = call(method, path, method == std::string_view("POST") ? "{}" : "");
             EXPECT_EQ(a.status, 404u) << method << " " << path;
@@ -69,8 +70,11 @@ TEST_F(HttpTest, SecurityHeadersEverywhere) {
 
 TEST_F(HttpTest, HostsOnALoopbackBind) {
     const auto with = [this](std::string host) { return call("GET", "/healthz", "", {{"Host", std::move(host)}}).status; };
-    for (const auto* good : {"127.0.0.1:8080", "127.0.0.1", "localhost", "LOCALHOST:1", "page.localhost", "[::1]:8080", "192.0.2.7", "[2001:db8::1]", "localhost."}) EXPECT_EQ(with(good), 200u) << good;
-    for (const auto* bad : {"evil.example", "evil.example:8080", "", "127.0.0.1.evil.example", "localhost.evil.example", "1.2.3", "1.2.3.4.5", "256.1.1.1", "[x]", "gateway"}) {
+    for (const auto* good : {"127.0.0.1:8080", "127.0.0.1", "localhost", "LOCALHOST:1", "page.localhost", "[::1]:8080", "192.0.2.7",
+                             "[2001:db8::1]", "localhost."})
+        EXPECT_EQ(with(good), 200u) << good;
+    for (const auto* bad : {"evil.example", "evil.example:8080", "", "127.0.0.1.evil.example", "localhost.evil.example", "1.2.3",
+                            "1.2.3.4.5", "256.1.1.1", "[x]", "gateway"}) {
         EXPECT_EQ(with(bad), 421u) << bad;
     }
     settings.allowed_hosts = {"Gateway.example"};
@@ -103,13 +107,17 @@ TEST_F(HttpTest, HostHeaderItself) {
 TEST_F(HttpTest, RequestsOfOtherSitesCannotChangeAnything) {
     gateway.at_once = [](const Command&) { return good_result(); };
     const auto with = [this](std::string origin, std::string host = "127.0.0.1:8080") {
-        return call("POST", "/api/v1/axes/feeder/commands", R"({"command":"enable"})", {{"Host", std::move(host)}, {"Origin", std::move(origin)}}).status;
+        return call("POST", "/api/v1/axes/feeder/commands", R"({"command":"enable"})",
+                    {{"Host", std::move(host)}, {"Origin", std::move(origin)}})
+            .status;
     };
-    for (const auto* good : {"http://127.0.0.1:8080", "https://127.0.0.1:8080", "HTTP://127.0.0.1:8080"}) EXPECT_EQ(with(good), 200u) << good;
+    for (const auto* good : {"http://127.0.0.1:8080", "https://127.0.0.1:8080", "HTTP://127.0.0.1:8080"})
+        EXPECT_EQ(with(good), 200u) << good;
     EXPECT_EQ(with("http://localhost", "localhost"), 200u);
     EXPECT_EQ(with("http://localhost:80", "localhost"), 200u) << "the port that goes without saying";
     const auto commands = gateway.submitted.size();
-    for (const auto* bad : {"http://evil.example", "http://127.0.0.1:8081", "http://127.0.0.1", "null", "", "ftp://127.0.0.1:8080", "127.0.0.1:8080", "http://127.0.0.1:8080.evil.example"}) {
+    for (const auto* bad : {"http://evil.example", "http://127.0.0.1:8081", "http://127.0.0.1", "null", "", "ftp://127.0.0.1:8080",
+                            "127.0.0.1:8080", "http://127.0.0.1:8080.evil.example"}) {
         EXPECT_EQ(with(bad), 403u) << bad;
     }
     EXPECT_EQ(gateway.submitted.size(), commands) << "nothing got through";
@@ -124,10 +132,12 @@ TEST_F(HttpTest, Bodies) {
     EXPECT_EQ(call("POST", path, R"({"command":"enable"})", {{"Content-Type", "text/plain"}}).status, 415u);
     EXPECT_EQ(call("POST", path, "command=enable", {{"Content-Type", "application/x-www-form-urlencoded"}}).status, 415u);
     EXPECT_EQ(call("POST", path, R"({"command":"enable"})", {{"Content-Type", "application/json; charset=iso-8859-1"}}).status, 415u);
-    EXPECT_EQ(call("POST", path, R"({"command":"enable"})", {{"Content-Type", "application/merge-patch+json"}}).status, 415u) << "that is for PATCH";
+    EXPECT_EQ(call("POST", path, R"({"command":"enable"})", {{"Content-Type", "application/merge-patch+json"}}).status, 415u)
+        << "that is for PATCH";
     EXPECT_EQ(call("POST", path).status, 415u) << "no body at all";
     EXPECT_EQ(call("POST", path, R"({"command":"enable"})", {{"Content-Type", "application/json;charset=utf-8"}}).status, 0u);
-    for (const auto* bad : {"{", "[]", "5", "null", "\"x\"", "{\"command\":\"enable\"} x", "{\"command\":\"\xFF\"}", "{'command':'enable'}"}) {
+    for (const auto* bad :
+         {"{", "[]", "5", "null", "\"x\"", "{\"command\":\"enable\"} x", "{\"command\":\"\xFF\"}", "{'command':'enable'}"}) {
         const auto a = call("POST", path, bad);
         EXPECT_EQ(a.status, 400u) << bad;
         EXPECT_EQ(a.at("reason"), "bad_request");
@@ -142,11 +152,13 @@ TEST_F(HttpTest, Accept) {
     EXPECT_EQ(call("GET", "/api/v1/about", "", {{"Accept", "text/html, */*;q=0.1"}}).status, 200u);
     EXPECT_EQ(call("GET", "/metrics", "", {{"Accept", "application/json"}}).status, 406u);
     EXPECT_EQ(call("GET", "/api/v1/openapi.yaml", "", {{"Accept", "application/yaml"}}).status, 200u);
-    EXPECT_EQ(call("DELETE", "/api/v1/drives/bare", "", {{"Accept", "text/html"}}).status, 204u) << "it gives nothing that could be refused";
+    EXPECT_EQ(call("DELETE", "/api/v1/drives/bare", "", {{"Accept", "text/html"}}).status, 204u)
+        << "it gives nothing that could be refused";
 }
 
 TEST_F(HttpTest, BadTargets) {
-    for (const auto* target : {"", "api/v1/about", "/api/v1/axes/%zz", "/api/v1/axes/%00", "/a b", "//x:y z", "/api/v1/axes/%ff"}) EXPECT_EQ(call("GET", target).status, 400u) << target;
+    for (const auto* target : {"", "api/v1/about", "/api/v1/axes/%zz", "/api/v1/axes/%00", "/a b", "//x:y z", "/api/v1/axes/%ff"})
+        EXPECT_EQ(call("GET", target).status, 400u) << target;
     EXPECT_EQ(call("GET", "http://127.0.0.1:8080/healthz").status, 200u) << "absolute form";
 }
 
@@ -171,7 +183,8 @@ TEST_F(HttpTest, StaticFiles) {
     EXPECT_EQ(page.headers.get("Content-Type"), "text/html; charset=utf-8");
     const std::string tag(page.headers.get("ETag"));
     EXPECT_EQ(tag.size(), 18u);
-    for (const auto* route : {"/axes", "/axes/feeder", "/a/b/c", "/index.html", "/assets"}) EXPECT_EQ(call("GET", route).text, page.text) << route;
+    for (const auto* route : {"/axes", "/axes/feeder", "/a/b/c", "/index.html", "/assets"})
+        EXPECT_EQ(call("GET", route).text, page.text) << route;
     const auto js = call("GET", "/assets/main.js");
     EXPECT_EQ(js.text, "let a = 1;");
     EXPECT_EQ(js.headers.get("Content-Type"), "text/javascript; charset=utf-8");
@@ -188,8 +201,9 @@ TEST_F(HttpTest, StaticFiles) {
 }
 
 TEST_F(HttpTest, PathsThatWantToLeadOut) {
-    for (const auto* path : {"/../secret.txt", "/%2e%2e/secret.txt", "/..%2fsecret.txt", "/assets/..%2f..%2f..%2fsecret.txt", "/assets/../../secret.txt", "/.git/config", "/..\\secret.txt",
-                             "/%2e%2e%5csecret.txt", "/a%0Ab", "//etc/passwd.txt", "/web/dist/index.html"}) {
+    for (const auto* path :
+         {"/../secret.txt", "/%2e%2e/secret.txt", "/..%2fsecret.txt", "/assets/..%2f..%2f..%2fsecret.txt", "/assets/../../secret.txt",
+          "/.git/config", "/..\\secret.txt", "/%2e%2e%5csecret.txt", "/a%0Ab", "//etc/passwd.txt", "/web/dist/index.html"}) {
         const auto a = call("GET", path);
         EXPECT_EQ(a.status, 404u) << path;
         EXPECT_EQ(a.text.find("not for the page"), std::string::npos) << path;

@@ -42,22 +42,27 @@ TEST_F(HttpServer, PipelinedAnswersKeepTheirOrder) {
     door.open();
     Client c(door.port);
     std::string all = Client::post_text("/api/v1/axes/feeder/commands", R"({"command":"enable"})");
-    for (int i = 0; i < 20; ++i) all += "GET /api/v1/axes/n" + std::to_string(i) + " HTTP/1.1\r\nHost: localhost\r\n\r\n";
+    for (int i = 0; i < 20; ++i)
+        all += "GET /api/v1/axes/n" + std::to_string(i) + " HTTP/1.1\r\nHost: localhost\r\n\r\n";
     ASSERT_TRUE(c.send(all));
     ASSERT_TRUE(door.until([&] { return door.gateway.waiting.size() == 1; }));
     door.on([&] { door.gateway.finish(good_result()); });
     EXPECT_EQ(c.receive().json().at("result"), "accepted") << "the one that took long comes first all the same";
-    for (int i = 0; i < 20; ++i) EXPECT_EQ(c.receive().json().at("detail"), boost::json::value("there is no axis n" + std::to_string(i)));
+    for (int i = 0; i < 20; ++i)
+        EXPECT_EQ(c.receive().json().at("detail"), boost::json::value("there is no axis n" + std::to_string(i)));
 }
 
 TEST_F(HttpServer, RequestsInSinglePieces) {
     door.open();
     door.on([&] { door.gateway.at_once = [](const Command&) { return good_result(); }; });
     Client c(door.port);
-    for (const char byte : Client::post_text("/api/v1/axes/feeder/commands", R"({"command":"halt"})")) ASSERT_TRUE(c.send(std::string_view(&byte, 1)));
+    for (const char byte : Client::post_text("/api/v1/axes/feeder/commands", R"({"command":"halt"})"))
+        ASSERT_TRUE(c.send(std::string_view(&byte, 1)));
     EXPECT_EQ(c.receive().status(), 200u);
-    c.send("PUT /api/v1/axes/feeder/parameters/AC HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nTransfer-Encoding: chunked\r\n\r\n"
-           "5\r\n{\"val\r\n8\r\nue\": 25}\r\n0\r\n\r\n");
+    c.send(
+        "PUT /api/v1/axes/feeder/parameters/AC HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nTransfer-Encoding: "
+        "chunked\r\n\r\n"
+        "5\r\n{\"val\r\n8\r\nue\": 25}\r\n0\r\n\r\n");
     EXPECT_EQ(c.receive().status(), 200u);
     EXPECT_EQ(door.on([&] { return std::get<WriteParameter>(door.gateway.submitted.back().body).value; }), Value{std::int64_t{25}});
 }
@@ -99,7 +104,8 @@ TEST_F(HttpServer, Bounds) {
     {
         Client c(door.port);
         std::string many = "GET /healthz HTTP/1.1\r\nHost: localhost\r\n";
-        for (int i = 0; i < 1000; ++i) many += "A: b\r\n";
+        for (int i = 0; i < 1000; ++i)
+            many += "A: b\r\n";
         c.send(many + "\r\n");
         EXPECT_EQ(c.receive().status(), 200u) << "6 KiB of small headers are within the bound";
     }
@@ -121,7 +127,8 @@ TEST_F(HttpServer, Bounds) {
     }
     {
         Client c(door.port);
-        EXPECT_EQ(c.post("/api/v1/moves/start", R"({"axes":[]})" + std::string(1048576 - 11, ' ')).status(), 422u) << "exactly the bound is read";
+        EXPECT_EQ(c.post("/api/v1/moves/start", R"({"axes":[]})" + std::string(1048576 - 11, ' ')).status(), 422u)
+            << "exactly the bound is read";
     }
 }
 
@@ -132,19 +139,22 @@ TEST_F(HttpServer, WhatIsNotHttp) {
         std::string bytes;
         unsigned status;
     };
-    for (const auto& [what, bytes, status] :
-         std::vector<Row>{{"garbage", "\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03\r\n\r\n", 400},
-                          {"version", "GET / HTTP/2.0\r\nHost: a\r\n\r\n", 505},
-                          {"no version", "GET /\r\n\r\n", 400},
-                          {"preface of HTTP/2", "PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n", 505},
-                          {"space in a name", "GET / HTTP/1.1\r\nHo st: a\r\n\r\n", 400},
-                          {"two lengths", "POST /api/v1/moves/start HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1\r\nContent-Length: 2\r\n\r\n{}", 400},
-                          {"length and chunks", "POST /api/v1/moves/start HTTP/1.1\r\nHost: localhost\r\nContent-Length: 5\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\n", 400},
-                          {"negative length", "POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: -1\r\n\r\n", 400},
-                          {"length that is none", "POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1x\r\n\r\n", 400},
-                          {"bad chunk", "PUT /api/v1/site HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\nzz\r\n", 400},
-                          {"NUL in a header", std::string("GET / HTTP/1.1\r\nHost: a\0b\r\n\r\n", 30), 400},
-                          {"other expectation", "POST / HTTP/1.1\r\nHost: localhost\r\nExpect: magic\r\nContent-Length: 2\r\n\r\n{}", 417}}) {
+    for (const auto& [what, bytes, status] : std::vector<Row>{
+             {"garbage", "\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03\r\n\r\n", 400},
+             {"version", "GET / HTTP/2.0\r\nHost: a\r\n\r\n", 505},
+             {"no version", "GET /\r\n\r\n", 400},
+             {"preface of HTTP/2", "PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n", 505},
+             {"space in a name", "GET / HTTP/1.1\r\nHo st: a\r\n\r\n", 400},
+             {"two lengths", "POST /api/v1/moves/start HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1\r\nContent-Length: 2\r\n\r\n{}",
+              400},
+             {"length and chunks",
+              "POST /api/v1/moves/start HTTP/1.1\r\nHost: localhost\r\nContent-Length: 5\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\n",
+              400},
+             {"negative length", "POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: -1\r\n\r\n", 400},
+             {"length that is none", "POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1x\r\n\r\n", 400},
+             {"bad chunk", "PUT /api/v1/site HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\nzz\r\n", 400},
+             {"NUL in a header", std::string("GET / HTTP/1.1\r\nHost: a\0b\r\n\r\n", 30), 400},
+             {"other expectation", "POST / HTTP/1.1\r\nHost: localhost\r\nExpect: magic\r\nContent-Length: 2\r\n\r\n{}", 417}}) {
         Client c(door.port);
         ASSERT_TRUE(c.send(bytes)) << what;
         const auto a = c.receive();
@@ -159,7 +169,9 @@ TEST_F(HttpServer, WhatIsNotHttp) {
 
 TEST_F(HttpServer, ClientsThatGoAwayInTheMiddle) {
     door.open();
-    for (const auto* part : {"", "G", "GET / HT", "GET / HTTP/1.1\r\nHost: loc", "PUT /api/v1/site HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 100\r\n\r\n{"}) {
+    for (const auto* part :
+         {"", "G", "GET / HT", "GET / HTTP/1.1\r\nHost: loc",
+          "PUT /api/v1/site HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 100\r\n\r\n{"}) {
         Client c(door.port);
         c.send(part);
         c.close();
@@ -238,7 +250,9 @@ TEST_F(HttpServer, AClientThatDoesNotReadItsAnswer) {
 TEST_F(HttpServer, ContinueIsSaidBeforeABody) {
     door.open();
     Client c(door.port);
-    c.send("POST /api/v1/moves/start HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 2\r\nExpect: 100-continue\r\n\r\n");
+    c.send(
+        "POST /api/v1/moves/start HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 2\r\nExpect: "
+        "100-continue\r\n\r\n");
     EXPECT_EQ(c.receive().status(), 100u);
     c.send("{}");
     EXPECT_EQ(c.receive().status(), 422u);
@@ -259,8 +273,10 @@ TEST_F(HttpServer, TheWaitEndsAtTheSocketToo) {
 TEST_F(HttpServer, ManyConnections) {
     door.open();
     std::vector<std::unique_ptr<Client>> clients;
-    for (int i = 0; i < 200; ++i) clients.push_back(std::make_unique<Client>(door.port));
-    for (auto& c : clients) EXPECT_EQ(c->get("/healthz").status(), 200u);
+    for (int i = 0; i < 200; ++i)
+        clients.push_back(std::make_unique<Client>(door.port));
+    for (auto& c : clients)
+        EXPECT_EQ(c->get("/healthz").status(), 200u);
     EXPECT_EQ(door.on([&] { return door.server().counters().connections; }), 200u);
     clients.clear();
     EXPECT_TRUE(door.until([&] { return door.server().counters().connections == 0; }));
@@ -270,7 +286,8 @@ TEST_F(HttpServer, OverTheNumberTheLongestIdleOneGoes) {
     door.settings.max_connections = 3;
     door.open();
     Client a(door.port), b(door.port), c(door.port);
-    for (auto* x : {&a, &b, &c}) EXPECT_EQ(x->get("/healthz").status(), 200u);
+    for (auto* x : {&a, &b, &c})
+        EXPECT_EQ(x->get("/healthz").status(), 200u);
     EXPECT_EQ(a.get("/healthz").status(), 200u);  // now b is idle for the longest
     Client d(door.port);
     EXPECT_EQ(d.get("/healthz").status(), 200u);
@@ -283,7 +300,8 @@ TEST_F(HttpServer, WithoutAnIdleOneTheNewOneIsRefused) {
     door.settings.max_connections = 2;
     door.open();
     Client a(door.port), b(door.port);
-    for (auto* x : {&a, &b}) x->send(Client::post_text("/api/v1/axes/feeder/commands", R"({"command":"enable"})"));
+    for (auto* x : {&a, &b})
+        x->send(Client::post_text("/api/v1/axes/feeder/commands", R"({"command":"enable"})"));
     ASSERT_TRUE(door.until([&] { return door.gateway.waiting.size() == 2; }));
     Client c(door.port);
     const auto refused = c.receive();
@@ -305,7 +323,8 @@ TEST_F(HttpServer, Metrics) {
     c.get("/api/v1/axes/none");
     const std::string text = c.get("/metrics").message.body();
     EXPECT_NE(text.find("axisgate_up 1\n"), std::string::npos) << "the gateway's";
-    EXPECT_NE(text.find("axisgate_http_requests_total{route=\"/api/v1/axes/{axis}\",method=\"GET\",status=\"200\"} 1\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("axisgate_http_requests_total{route=\"/api/v1/axes/{axis}\",method=\"GET\",status=\"200\"} 1\n"), std::string::npos)
+        << text;
     EXPECT_NE(text.find("status=\"404\"} 1\n"), std::string::npos);
     EXPECT_NE(text.find("axisgate_http_request_duration_seconds_bucket{le=\"+Inf\"} 2\n"), std::string::npos) << text;
     EXPECT_NE(text.find("axisgate_http_connections 1\n"), std::string::npos);
@@ -318,7 +337,8 @@ TEST_F(HttpServer, Metrics) {
         } else if (!line.starts_with('#')) {
             std::string name = line.substr(0, line.find_first_of("{ "));
             for (const std::string_view tail : {"_bucket", "_sum", "_count"}) {
-                if (name.ends_with(tail) && typed.contains(name.substr(0, name.size() - tail.size()))) name.resize(name.size() - tail.size());
+                if (name.ends_with(tail) && typed.contains(name.substr(0, name.size() - tail.size())))
+                    name.resize(name.size() - tail.size());
             }
             EXPECT_TRUE(typed.contains(name)) << line;
         }

@@ -12,11 +12,14 @@ TEST(MergePatch, ExamplesOfRfc7396) {
         const char *original, *patch, *result;
     };
     for (const auto& [original, patch, result] :
-         {Row{R"({"a":"b"})", R"({"a":"c"})", R"({"a":"c"})"}, Row{R"({"a":"b"})", R"({"b":"c"})", R"({"a":"b","b":"c"})"}, Row{R"({"a":"b"})", R"({"a":null})", R"({})"},
-          Row{R"({"a":"b","b":"c"})", R"({"a":null})", R"({"b":"c"})"}, Row{R"({"a":["b"]})", R"({"a":"c"})", R"({"a":"c"})"}, Row{R"({"a":"c"})", R"({"a":["b"]})", R"({"a":["b"]})"},
-          Row{R"({"a":{"b":"c"}})", R"({"a":{"b":"d","c":null}})", R"({"a":{"b":"d"}})"}, Row{R"({"a":[{"b":"c"}]})", R"({"a":[1]})", R"({"a":[1]})"},
-          Row{R"(["a","b"])", R"(["c","d"])", R"(["c","d"])"}, Row{R"({"a":"b"})", R"(["c"])", R"(["c"])"}, Row{R"({"a":"foo"})", "null", "null"},
-          Row{R"({"e":null})", R"({"a":1})", R"({"e":null,"a":1})"}, Row{R"([1,2])", R"({"a":"b","c":null})", R"({"a":"b"})"}, Row{"{}", R"({"a":{"bb":{"ccc":null}}})", R"({"a":{"bb":{}}})"}}) {
+         {Row{R"({"a":"b"})", R"({"a":"c"})", R"({"a":"c"})"}, Row{R"({"a":"b"})", R"({"b":"c"})", R"({"a":"b","b":"c"})"},
+          Row{R"({"a":"b"})", R"({"a":null})", R"({})"}, Row{R"({"a":"b","b":"c"})", R"({"a":null})", R"({"b":"c"})"},
+          Row{R"({"a":["b"]})", R"({"a":"c"})", R"({"a":"c"})"}, Row{R"({"a":"c"})", R"({"a":["b"]})", R"({"a":["b"]})"},
+          Row{R"({"a":{"b":"c"}})", R"({"a":{"b":"d","c":null}})", R"({"a":{"b":"d"}})"},
+          Row{R"({"a":[{"b":"c"}]})", R"({"a":[1]})", R"({"a":[1]})"}, Row{R"(["a","b"])", R"(["c","d"])", R"(["c","d"])"},
+          Row{R"({"a":"b"})", R"(["c"])", R"(["c"])"}, Row{R"({"a":"foo"})", "null", "null"},
+          Row{R"({"e":null})", R"({"a":1})", R"({"e":null,"a":1})"}, Row{R"([1,2])", R"({"a":"b","c":null})", R"({"a":"b"})"},
+          Row{"{}", R"({"a":{"bb":{"ccc":null}}})", R"({"a":{"bb":{}}})"}}) {
         auto v = json::parse(original);
         merge_patch(v, json::parse(patch));
         EXPECT_EQ(v, json::parse(result)) << original << " with " << patch;
@@ -54,7 +57,8 @@ TEST_F(HttpTest, FaultsPointIntoTheBodyWhereTheyAreThere) {
     EXPECT_EQ(a.status, 422u);
     EXPECT_EQ(a.at("reason"), "invalid");
     std::string pointers;
-    for (const auto& f : a.object().at("faults").get_array()) pointers += std::string(f.at("pointer").get_string()) + " ";
+    for (const auto& f : a.object().at("faults").get_array())
+        pointers += std::string(f.at("pointer").get_string()) + " ";
     EXPECT_EQ(pointers, "/name /number /speed /drive ");
     for (const auto& f : a.object().at("faults").get_array()) {
         EXPECT_EQ(f.at("document"), "body");
@@ -124,7 +128,8 @@ TEST_F(HttpTest, Removing) {
     const auto used = call("DELETE", "/api/v1/lines/can0");
     EXPECT_EQ(used.status, 409u);
     EXPECT_EQ(used.at("detail"), "line can0 is still used by drives: feeder, slide; remove them first, or add ?cascade=1");
-    EXPECT_EQ(call("DELETE", "/api/v1/drives/feeder").at("detail"), "drive feeder is still used by axes: feeder; remove them first, or add ?cascade=1");
+    EXPECT_EQ(call("DELETE", "/api/v1/drives/feeder").at("detail"),
+              "drive feeder is still used by axes: feeder; remove them first, or add ?cascade=1");
     EXPECT_EQ(call("DELETE", "/api/v1/axes/slide").status, 409u) << "a mapping names it";
     EXPECT_TRUE(gateway.applied.empty());
     const auto a = call("DELETE", "/api/v1/axes/feeder");
@@ -176,7 +181,8 @@ TEST_F(HttpTest, AChangeThatLostARaceIsMadeAgain) {
     EXPECT_EQ(gateway.applied.size(), 5u);
     gateway.apply = FakeGateway::Apply::overtake_once;
     const std::string tag = "\"" + std::to_string(gateway.site()->revision) + "\"";
-    EXPECT_EQ(call("PATCH", "/api/v1/axes/feeder", R"({"unit":"km"})", {{"If-Match", tag}}).status, 412u) << "with If-Match it is for that revision alone";
+    EXPECT_EQ(call("PATCH", "/api/v1/axes/feeder", R"({"unit":"km"})", {{"If-Match", tag}}).status, 412u)
+        << "with If-Match it is for that revision alone";
 }
 
 TEST_F(HttpTest, ASiteThatCannotBeStored) {
@@ -206,7 +212,9 @@ TEST_F(HttpTest, WholeSite) {
     changed.at("drives").get_array().erase(changed.at("drives").get_array().begin() + 2);
     const auto dry = call("PUT", "/api/v1/site?dry_run=1", json_text(changed));
     EXPECT_EQ(dry.status, 200u);
-    EXPECT_EQ(dry.text, R"({"dry_run":true,"valid":true,"revision":1,"differences":["drive bare: removed","axis feeder: unit \"mm\" -> \"deg\""],"faults":[]})");
+    EXPECT_EQ(
+        dry.text,
+        R"({"dry_run":true,"valid":true,"revision":1,"differences":["drive bare: removed","axis feeder: unit \"mm\" -> \"deg\""],"faults":[]})");
     EXPECT_TRUE(gateway.applied.empty());
     const auto put = call("PUT", "/api/v1/site", json_text(changed));
     EXPECT_EQ(put.status, 200u);

@@ -40,7 +40,9 @@ public:
     }
     void open() {
         server_ = std::make_unique<Server>(context_, gateway, settings, [this](std::string_view path) {
-            return path == "web/dist/index.html" ? std::string_view("<html>page</html>") : path == "web/dist/big.txt" ? std::string_view(big_file) : std::string_view();
+            return path == "web/dist/index.html" ? std::string_view("<html>page</html>")
+                   : path == "web/dist/big.txt"  ? std::string_view(big_file)
+                                                 : std::string_view();
         });
         ASSERT_EQ(server_->start(), "");
         const std::string address = server_->address();
@@ -96,7 +98,8 @@ public:
     }
     /// False if the door closed the connection before everything was sent.
     bool send(std::string_view bytes) {
-        ErrorCode ec = wait([&](auto done) { asio::async_write(socket_, asio::buffer(bytes), [done](ErrorCode e, std::size_t) { done(e); }); });
+        ErrorCode ec =
+            wait([&](auto done) { asio::async_write(socket_, asio::buffer(bytes), [done](ErrorCode e, std::size_t) { done(e); }); });
         return !ec;
     }
     HttpAnswer receive(bool to_head = false) {
@@ -104,7 +107,8 @@ public:
         beast::http::response_parser<beast::http::string_body> parser;
         parser.body_limit(64 * 1024 * 1024);
         parser.skip(to_head);
-        answer.error = wait([&](auto done) { beast::http::async_read(socket_, buffer_, parser, [done](ErrorCode e, std::size_t) { done(e); }); });
+        answer.error =
+            wait([&](auto done) { beast::http::async_read(socket_, buffer_, parser, [done](ErrorCode e, std::size_t) { done(e); }); });
         if (!answer.error) answer.message = parser.release();
         return answer;
     }
@@ -117,7 +121,8 @@ public:
         return receive();
     }
     static std::string post_text(std::string_view target, std::string_view body, std::string_view method = "POST") {
-        return std::string(method) + " " + std::string(target) + " HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\nContent-Length: " + std::to_string(body.size()) +
+        return std::string(method) + " " + std::string(target) +
+               " HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\nContent-Length: " + std::to_string(body.size()) +
                "\r\n\r\n" + std::string(body);
     }
     /// Everything up to the end of the connection; the test fails if the end does not come.

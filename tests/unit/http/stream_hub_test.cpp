@@ -22,7 +22,8 @@ TEST(StreamQueue, NewestStateWinsInThePlaceOfTheOlder) {
     EXPECT_FALSE(q.push_event(frame("e3"))) << "over the bound: refused, not dropped";
     q.push_control(frame("pong"));
     std::string all;
-    for (const auto& f : q.take(1000)) all += *f + " ";
+    for (const auto& f : q.take(1000))
+        all += *f + " ";
     EXPECT_EQ(all, "pong a2 e1 b1 e2 ");
     EXPECT_TRUE(q.empty());
     EXPECT_TRUE(q.push_event(frame("e4"))) << "room again";
@@ -30,13 +31,15 @@ TEST(StreamQueue, NewestStateWinsInThePlaceOfTheOlder) {
 
 TEST(StreamQueue, BatchesAreBounded) {
     StreamQueue q(10);
-    for (int i = 0; i < 5; ++i) ASSERT_TRUE(q.push_event(std::make_shared<const std::string>(40, 'x')));
+    for (int i = 0; i < 5; ++i)
+        ASSERT_TRUE(q.push_event(std::make_shared<const std::string>(40, 'x')));
     EXPECT_EQ(q.take(100).size(), 2u);
     EXPECT_EQ(q.take(1).size(), 1u) << "at least one";
     EXPECT_EQ(q.events_waiting(), 2u);
     q.clear();
     EXPECT_TRUE(q.empty());
-    for (int i = 0; i < 100; ++i) q.push_control(std::make_shared<const std::string>(std::to_string(i)));
+    for (int i = 0; i < 100; ++i)
+        q.push_control(std::make_shared<const std::string>(std::to_string(i)));
     const auto control = q.take(1000);
     EXPECT_EQ(control.size(), 16u);
     EXPECT_EQ(*control.back(), "99") << "a flood of pings is answered by its newest";
@@ -50,9 +53,10 @@ TEST(StreamRequest, ReadsAndRefuses) {
     EXPECT_EQ(r->unsubscribe.size(), 1u);
     EXPECT_EQ(r->period_ms, 60) << "rounded up, so that clients share their scans";
     EXPECT_EQ(read_stream_request(R"({"subscribe":[]})", fault)->period_ms, 100);
-    for (const auto* bad : {"", "{", "[]", "5", R"({"subscribe":"axes/*"})", R"({"subscribe":[1]})", R"({"period_ms":50})", R"({"subscribe":[],"period_ms":9})",
-                            R"({"subscribe":[],"period_ms":10001})", R"({"subscribe":[],"period_ms":"50"})", R"({"subscribe":[],"period_ms":10.5})",
-                            R"({"subscribe":[],"what":1})"}) {
+    for (const auto* bad :
+         {"", "{", "[]", "5", R"({"subscribe":"axes/*"})", R"({"subscribe":[1]})", R"({"period_ms":50})",
+          R"({"subscribe":[],"period_ms":9})", R"({"subscribe":[],"period_ms":10001})", R"({"subscribe":[],"period_ms":"50"})",
+          R"({"subscribe":[],"period_ms":10.5})", R"({"subscribe":[],"what":1})"}) {
         fault.clear();
         EXPECT_FALSE(read_stream_request(bad, fault)) << bad;
         EXPECT_FALSE(fault.empty()) << bad;
@@ -84,13 +88,18 @@ protected:
             if (n >= 126) {
                 const std::size_t bytes = n == 126 ? 2 : 8;
                 n = 0;
-                for (std::size_t i = 0; i < bytes; ++i) n = n << 8 | static_cast<std::uint8_t>(f->at(2 + i));
+                for (std::size_t i = 0; i < bytes; ++i)
+                    n = n << 8 | static_cast<std::uint8_t>(f->at(2 + i));
                 at += bytes;
             }
             EXPECT_EQ(f->size(), at + n);
             const std::string payload = f->substr(at);
             if (first == 0x88) {
-                out.push_back({"close " + std::to_string(static_cast<std::uint8_t>(payload.at(0)) * 256 + static_cast<std::uint8_t>(payload.at(1))) + " " + payload.substr(2), {}, 0});
+                out.push_back(
+                    {"close " + std::to_string(static_cast<std::uint8_t>(payload.at(0)) * 256 + static_cast<std::uint8_t>(payload.at(1))) +
+                         " " + payload.substr(2),
+                     {},
+                     0});
                 continue;
             }
             EXPECT_EQ(first, 0x81);
@@ -102,7 +111,8 @@ protected:
     std::vector<Message> taken() { return taken(*client); }
     static std::string topics(const std::vector<Message>& list) {
         std::string s;
-        for (const auto& m : list) s += (s.empty() ? "" : " ") + m.topic;
+        for (const auto& m : list)
+            s += (s.empty() ? "" : " ") + m.topic;
         return s;
     }
     void say(std::string_view text) { hub.on_text(*client, text, now); }
@@ -234,7 +244,8 @@ TEST_F(StreamHubTest, EventsAreNeverDroppedOverTheBoundTheClientIsClosed) {
     auto slow = hub.add({});
     hub.on_text(*slow, R"({"subscribe":["events"]})", now);
     say(R"({"subscribe":["events"]})");
-    for (int i = 0; i < 3; ++i) gateway.tell(event("n" + std::to_string(i), "slide", Severity::alarm, "alarm"));
+    for (int i = 0; i < 3; ++i)
+        gateway.tell(event("n" + std::to_string(i), "slide", Severity::alarm, "alarm"));
     EXPECT_EQ(slow->closing(), 0);
     EXPECT_EQ(taken().size(), 3u);
     gateway.tell(event("one more"));
@@ -270,7 +281,8 @@ TEST_F(StreamHubTest, SiteChanges) {
     say(R"({"subscribe":["axes/*","site","drives/slide","lines/can0/frames"],"period_ms":50})");
     EXPECT_EQ(topics(taken()), "site lines/can0/frames axes/feeder axes/slide drives/slide");
     const int before = rearmed;
-    gateway.put_site(R"({"lines":[{"name":"can0","uri":"twin","family":"demo"}],"drives":[{"name":"feeder","line":"can0","address":5},{"name":"new","line":"can0","address":9}],
+    gateway.put_site(
+        R"({"lines":[{"name":"can0","uri":"twin","family":"demo"}],"drives":[{"name":"feeder","line":"can0","address":5},{"name":"new","line":"can0","address":9}],
                          "axes":[{"name":"feeder","drive":"feeder","number":1,"unit":"deg","increments_per_unit":10},{"name":"new","drive":"new","number":3}],"mappings":[]})");
     EXPECT_GT(rearmed, before);
     EXPECT_EQ(hub.deadline(), time_zero) << "due at once";
@@ -319,7 +331,8 @@ TraceEntry entry(std::uint64_t sequence) {
 
 TEST_F(StreamHubTest, FramesComeInListsWithACountOfTheMissed) {
     auto& trace = gateway.traces[gateway.line("can0")];
-    for (std::uint64_t i = 1; i <= 300; ++i) trace.push_back(entry(i));
+    for (std::uint64_t i = 1; i <= 300; ++i)
+        trace.push_back(entry(i));
     say(R"({"subscribe":["lines/can0/frames"],"period_ms":50})");
     auto got = taken();
     ASSERT_EQ(topics(got), "lines/can0/frames");
@@ -328,7 +341,8 @@ TEST_F(StreamHubTest, FramesComeInListsWithACountOfTheMissed) {
     EXPECT_EQ(got[0].data.at("missed").to_number<int>(), 0);
     pass(500);
     EXPECT_TRUE(taken().empty()) << "no frames, no message";
-    for (std::uint64_t i = 301; i <= 303; ++i) trace.push_back(entry(i));
+    for (std::uint64_t i = 301; i <= 303; ++i)
+        trace.push_back(entry(i));
     pass(50);
     got = taken();
     ASSERT_EQ(got.size(), 1u);
@@ -338,7 +352,8 @@ TEST_F(StreamHubTest, FramesComeInListsWithACountOfTheMissed) {
     trace.push_back(entry(304));
     pass(50);
     trace.clear();
-    for (std::uint64_t i = 400; i <= 401; ++i) trace.push_back(entry(i));
+    for (std::uint64_t i = 400; i <= 401; ++i)
+        trace.push_back(entry(i));
     pass(200);
     got = taken();
     ASSERT_EQ(got.size(), 1u);
@@ -371,10 +386,12 @@ TEST_F(StreamHubTest, RemovedClientsCostNothing) {
 
 TEST_F(StreamHubTest, TopicsPerClientAreBounded) {
     // 1024 axes can exist; here the bound is met with the same few topics counted once each.
-    for (int i = 0; i < 10; ++i) say(R"({"subscribe":["axes/slide","axes/feeder","events","site"]})");
+    for (int i = 0; i < 10; ++i)
+        say(R"({"subscribe":["axes/slide","axes/feeder","events","site"]})");
     taken();
     std::string many = R"({"subscribe":[)";
-    for (int i = 0; i < 1101; ++i) many += (i ? ",\"axes/*\"" : "\"axes/*\"");
+    for (int i = 0; i < 1101; ++i)
+        many += (i ? ",\"axes/*\"" : "\"axes/*\"");
     say(many + "]}");
     EXPECT_EQ(topics(taken()), "error") << "too many topics in one request";
 }

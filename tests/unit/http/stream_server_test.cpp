@@ -45,7 +45,8 @@ TEST_F(StreamServer, ManyMessagesAtOnceArriveWhole) {
     ASSERT_FALSE(judge.say(R"({"subscribe":["site"]})"));
     EXPECT_EQ(judge.hear().at("topic"), "site");
     door.on([&] {
-        for (int i = 0; i < 500; ++i) door.gateway.tell(event(std::string(static_cast<std::size_t>(i) * 10, 'e')));
+        for (int i = 0; i < 500; ++i)
+            door.gateway.tell(event(std::string(static_cast<std::size_t>(i) * 10, 'e')));
     });
     for (int i = 0; i < 500; ++i) {
         const auto m = judge.hear();
@@ -72,7 +73,10 @@ TEST_F(StreamServer, BytesThatComeWithTheHandshake) {
     std::string frame("\x81");
     frame += static_cast<char>(0x80 | body.size());
     frame += std::string(4, '\0') + body;
-    c.send("GET /api/v1/stream HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n" + frame);
+    c.send(
+        "GET /api/v1/stream HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: "
+        "13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n" +
+        frame);
     EXPECT_EQ(c.receive().status(), 101u);
     ASSERT_TRUE(door.until([&] { return door.server().counters().stream_frames_sent == 1; }));
     bool stopped = false;
@@ -105,7 +109,9 @@ TEST_F(StreamServer, AClientThatIsSilentIsClosed) {
     door.settings.linger_limit = milliseconds(100);
     open();
     Client c(door.port);
-    c.send("GET /api/v1/stream HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
+    c.send(
+        "GET /api/v1/stream HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: "
+        "13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
     EXPECT_EQ(c.receive().status(), 101u);
     const std::string all = c.rest();  // it answers no ping
     EXPECT_EQ(all.substr(0, 2), std::string("\x89\x00", 2)) << "it was asked";
@@ -120,7 +126,8 @@ TEST_F(StreamServer, ClosesThatClientsBegin) {
         EXPECT_FALSE(judge.close(code));
     }
     EXPECT_TRUE(door.until([&] { return door.server().counters().connections == 0; }));
-    EXPECT_EQ(door.on([&] { return door.server().counters().stream_closed; }), (std::map<std::uint16_t, std::uint64_t>{{1000, 1}, {1001, 1}, {4000, 1}}));
+    EXPECT_EQ(door.on([&] { return door.server().counters().stream_closed; }),
+              (std::map<std::uint16_t, std::uint64_t>{{1000, 1}, {1001, 1}, {4000, 1}}));
 }
 
 TEST_F(StreamServer, FaultsAreClosedWithTheirCode) {
@@ -131,14 +138,18 @@ TEST_F(StreamServer, FaultsAreClosedWithTheirCode) {
         std::uint16_t code;
     };
     const std::string mask(4, '\0');
-    for (const auto& [what, bytes, code] : std::vector<Row>{{"invalid UTF-8", std::string("\x81\x82", 2) + mask + "a\xFF", 1007},
-                                                            {"binary", std::string("\x82\x81", 2) + mask + "a", 1003},
-                                                            {"not masked", std::string("\x81\x01x", 3), 1002},
-                                                            {"too long", std::string("\x81\xff\x00\x00\x00\x00\x00\x01\x00\x01", 10) + mask, 1009},
-                                                            {"three times nonsense", std::string("\x81\x81", 2) + mask + "x" + std::string("\x81\x81", 2) + mask + "y" + std::string("\x81\x81", 2) + mask + "z", 1003}}) {
+    for (const auto& [what, bytes, code] : std::vector<Row>{
+             {"invalid UTF-8", std::string("\x81\x82", 2) + mask + "a\xFF", 1007},
+             {"binary", std::string("\x82\x81", 2) + mask + "a", 1003},
+             {"not masked", std::string("\x81\x01x", 3), 1002},
+             {"too long", std::string("\x81\xff\x00\x00\x00\x00\x00\x01\x00\x01", 10) + mask, 1009},
+             {"three times nonsense",
+              std::string("\x81\x81", 2) + mask + "x" + std::string("\x81\x81", 2) + mask + "y" + std::string("\x81\x81", 2) + mask + "z",
+              1003}}) {
         StreamJudge judge(door.port);
         judge.raw(bytes);
-        for (int i = 0; i < 5 && !judge.ended; ++i) judge.hear();
+        for (int i = 0; i < 5 && !judge.ended; ++i)
+            judge.hear();
         EXPECT_EQ(judge.ended, beast::websocket::error::closed) << what << ": " << judge.ended.message();
         EXPECT_EQ(judge.close_code(), code) << what;
         EXPECT_FALSE(judge.close_reason().empty()) << what;
@@ -227,7 +238,8 @@ TEST_F(StreamServer, ManyClientsShareOneFeed) {
     }
     EXPECT_EQ(door.on([&] { return door.server().counters().stream_clients; }), 50u);
     door.on([&] { gateway_picture("slide", 99); });
-    for (auto& j : judges) EXPECT_EQ(j->hear().at("data").at("position").to_number<int>(), 99);
+    for (auto& j : judges)
+        EXPECT_EQ(j->hear().at("data").at("position").to_number<int>(), 99);
 }
 
 TEST_F(StreamServer, TheEndIsToldWithAReason) {

@@ -19,11 +19,14 @@ std::string masked(std::uint8_t first, std::string_view payload, std::size_t cla
         s += static_cast<char>(n & 0xFF);
     } else {
         s += static_cast<char>(0x80 | 127);
-        for (int shift = 56; shift >= 0; shift -= 8) s += static_cast<char>((std::uint64_t{n} >> shift) & 0xFF);
+        for (int shift = 56; shift >= 0; shift -= 8)
+            s += static_cast<char>((std::uint64_t{n} >> shift) & 0xFF);
     }
     const unsigned char mask[4] = {0x37, 0xFA, 0x21, 0x3D};
-    for (const auto m : mask) s += static_cast<char>(m);
-    for (std::size_t i = 0; i < payload.size(); ++i) s += static_cast<char>(static_cast<unsigned char>(payload[i]) ^ mask[i % 4]);
+    for (const auto m : mask)
+        s += static_cast<char>(m);
+    for (std::size_t i = 0; i < payload.size(); ++i)
+        s += static_cast<char>(static_cast<unsigned char>(payload[i]) ^ mask[i % 4]);
     return s;
 }
 
@@ -49,7 +52,8 @@ Taken take(std::string_view bytes, std::size_t piece = SIZE_MAX, std::size_t max
 TEST(WebSocketCodec, HandshakeOfTheStandard) {
     EXPECT_EQ(handshake_accept("dGhlIHNhbXBsZSBub25jZQ=="), "s3pPLMBiTxaQ9kYGzzhZRbK+xOo=");  // RFC 6455 1.3
     EXPECT_TRUE(is_handshake_key("dGhlIHNhbXBsZSBub25jZQ=="));
-    for (const auto* bad : {"", "dGhlIHNhbXBsZSBub25jZQ", "dGhlIHNhbXBsZSBub25jZQ==x", "dGhl HNhbXBsZSBub25jZQ==", "dGhlIHNhbXBsZSBub25jZQ=A"}) {
+    for (const auto* bad :
+         {"", "dGhlIHNhbXBsZSBub25jZQ", "dGhlIHNhbXBsZSBub25jZQ==x", "dGhl HNhbXBsZSBub25jZQ==", "dGhlIHNhbXBsZSBub25jZQ=A"}) {
         EXPECT_FALSE(is_handshake_key(bad)) << bad;
     }
 }
@@ -66,7 +70,8 @@ TEST(WebSocketCodec, GoldenFramesOfTheStandard) {
     EXPECT_EQ(server_frame(Opcode::text, "Hello"), std::string("\x81\x05Hello", 7));
     EXPECT_EQ(server_frame(Opcode::pong, "Hello"), std::string("\x8a\x05Hello", 7));
     EXPECT_EQ(server_frame(Opcode::text, std::string(256, 'x')).substr(0, 4), std::string("\x81\x7e\x01\x00", 4));
-    EXPECT_EQ(server_frame(Opcode::text, std::string(65536, 'x')).substr(0, 10), std::string("\x81\x7f\x00\x00\x00\x00\x00\x01\x00\x00", 10));
+    EXPECT_EQ(server_frame(Opcode::text, std::string(65536, 'x')).substr(0, 10),
+              std::string("\x81\x7f\x00\x00\x00\x00\x00\x01\x00\x00", 10));
 }
 
 TEST(WebSocketCodec, CloseFrames) {
@@ -93,10 +98,21 @@ TEST(WebSocketCodec, FragmentsWithAPingBetween) {
 TEST(WebSocketCodec, CloseCodesOfClients) {
     const auto closed = [](std::string_view payload) { return take(masked(0x88, payload)); };
     EXPECT_EQ(closed("").messages.at(0).code, close_no_status);
-    EXPECT_EQ(closed(std::string("\x03\xe8""bye", 5)).messages.at(0).code, 1000);
-    EXPECT_EQ(closed(std::string("\x03\xe8""bye", 5)).messages.at(0).payload, "bye");
+    EXPECT_EQ(closed(std::string("\x03\xe8"
+                                 "bye",
+                                 5))
+                  .messages.at(0)
+                  .code,
+              1000);
+    EXPECT_EQ(closed(std::string("\x03\xe8"
+                                 "bye",
+                                 5))
+                  .messages.at(0)
+                  .payload,
+              "bye");
     EXPECT_EQ(closed(std::string("\x0f\xa0", 2)).messages.at(0).code, 4000);
-    for (const auto& bad : {std::string("\x03", 1), std::string("\x03\xed", 2), std::string("\x03\xee", 2), std::string("\x03\xe7", 2), std::string("\x07\xd0", 2), std::string("\x13\x88", 2)}) {
+    for (const auto& bad : {std::string("\x03", 1), std::string("\x03\xed", 2), std::string("\x03\xee", 2), std::string("\x03\xe7", 2),
+                            std::string("\x07\xd0", 2), std::string("\x13\x88", 2)}) {
         ASSERT_TRUE(closed(bad).fault);
         EXPECT_EQ(closed(bad).fault->code, close_protocol_error);
     }
@@ -114,22 +130,23 @@ TEST(WebSocketCodec, Faults) {
     std::string long_form = masked(0x81, "abc");
     long_form = std::string("\x81\xfe\x00\x03", 4) + long_form.substr(2);
     std::string top_bit("\x81\xff\x80\x00\x00\x00\x00\x00\x00\x00\x01\x02\x03\x04", 14);
-    for (const auto& [what, bytes, code] : std::vector<Row>{{"not masked", unmasked, 1002},
-                                                            {"reserved bit", masked(0xC1, "x"), 1002},
-                                                            {"unknown opcode 3", masked(0x83, "x"), 1002},
-                                                            {"unknown opcode 11", masked(0x8B, "x"), 1002},
-                                                            {"binary", masked(0x82, "x"), 1003},
-                                                            {"fragmented ping", masked(0x09, "x"), 1002},
-                                                            {"ping of 126 bytes", masked(0x89, std::string(126, 'x')), 1002},
-                                                            {"continuation first", masked(0x80, "x"), 1002},
-                                                            {"message in message", masked(0x01, "x") + masked(0x81, "y"), 1002},
-                                                            {"long form of a short length", long_form, 1002},
-                                                            {"top bit of the length", top_bit, 1002},
-                                                            {"too long", masked(0x81, "", 1001), 1009},
-                                                            {"too long in pieces", masked(0x01, std::string(600, 'x')) + masked(0x80, "", 401), 1009},
-                                                            {"far too long", masked(0x81, "", 0x7FFFFFFFFFFF), 1009},
-                                                            {"not UTF-8", masked(0x81, "a\xFF"), 1007},
-                                                            {"half a character", masked(0x01, "\xC3") + masked(0x80, ""), 1007}}) {
+    for (const auto& [what, bytes, code] :
+         std::vector<Row>{{"not masked", unmasked, 1002},
+                          {"reserved bit", masked(0xC1, "x"), 1002},
+                          {"unknown opcode 3", masked(0x83, "x"), 1002},
+                          {"unknown opcode 11", masked(0x8B, "x"), 1002},
+                          {"binary", masked(0x82, "x"), 1003},
+                          {"fragmented ping", masked(0x09, "x"), 1002},
+                          {"ping of 126 bytes", masked(0x89, std::string(126, 'x')), 1002},
+                          {"continuation first", masked(0x80, "x"), 1002},
+                          {"message in message", masked(0x01, "x") + masked(0x81, "y"), 1002},
+                          {"long form of a short length", long_form, 1002},
+                          {"top bit of the length", top_bit, 1002},
+                          {"too long", masked(0x81, "", 1001), 1009},
+                          {"too long in pieces", masked(0x01, std::string(600, 'x')) + masked(0x80, "", 401), 1009},
+                          {"far too long", masked(0x81, "", 0x7FFFFFFFFFFF), 1009},
+                          {"not UTF-8", masked(0x81, "a\xFF"), 1007},
+                          {"half a character", masked(0x01, "\xC3") + masked(0x80, ""), 1007}}) {
         for (const std::size_t piece : {SIZE_MAX, std::size_t{1}}) {
             const auto t = take(bytes, piece);
             ASSERT_TRUE(t.fault) << what;

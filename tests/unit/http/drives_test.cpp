@@ -1,0 +1,201 @@
+// Handlers with a made-up Gateway: drives and lines, native exchanges, the tester's hand, recorded frames, events.
+#include "tests/unit/http/harness.hpp"
+
+namespace axisgate::http::test {
+namespace {
+
+// --- drives -----------------------------------------------------------------------------------------------------------
+
+TEST_F(HttpTest, DriveAndLineDocuments) {
+    gateway.drive_states[gateway.drive("feeder")] = {Presence::twin, false, "the device does not answer", 4, 800};
+    const auto d = call("GET", "/api/v1/drives/feeder");
+    EXPECT_EQ(d.at("presence"), "auto") << "the rule";
+    EXPECT_EQ(d.at("family"), "demo");
+    EXPECT_EQ(d.at("axes"), R"(["feeder"])");
+    EXPECT_EQ(
+        d.at("status"),
+        R"({"presence":"twin","online":true,"simulated":true,"device_online":false,"text":"the device does not answer","silent_exchanges":4,"retry_pause_ms":800})");
+    auto& l = gateway.line_states[gateway.line("can0")];
+    l.status.state = LineStatus::State::up;
+    l.status.load = 0.25;
+    l.counters.timeouts = 3;
+    const auto a = call("GET", "/api/v1/lines/can0");
+    EXPECT_EQ(a.at("drives"), R"(["feeder","slide"])");
+    EXPECT_EQ(a.json.at("status").at("state"), "up");
+    EXPECT_EQ(json_text(a.json.at("status").at("load")), "0.25");
+    EXPECT_EQ(json_text(a.json.at("status").at("counters").at("timeouts")), "3");
+    EXPECT_TRUE(a.json.at("status").at("twin").is_null());
+    EXPECT_EQ(call("GET", "/api/v1/lines").array().size(), 2u);
+    EXPECT_EQ(call("GET", "/api/v1/drives").array().size(), 3u);
+}
+
+TEST_F(HttpTest, Native) {
+    call("POST", "/api/v1/drives/feeder/native", R"({"send":"PR P"})");
+    ASSERT_EQ(gateway.submitted.size(), 1u);
+    EXPECT_EQ(gateway.submitted[0].axis, gateway.axis("feeder"));
+    const auto& native = std::get<Native>(gateway.submitted[0].body);
+    EXPECT_TRUE(native.is_text);
+    EXPECT_EQ(std::string(native.send.begin(), native.send.end()), "PR P");
+    gateway.now_ns += 7'900'000;
+    Result r = good_result(Outcome::done);
+    r.text = "51200";
+    r.bytes = {0x35, 0x0D};
+    gateway.finish(r);
+    EXPECT_EQ(answered().text, R"({"reply":"51200","reply_hex":"350D","took_ms":7})");
+
+    call("POST", "/api/v1/drives/feeder/native", R"({"send_hex":"95 00"})");
+    const auto& hex = std::get<Native>(gateway.submitted[1].body);
+    EXPECT_FALSE(hex.is_text);
+    EXPECT_EQ(hex.send, (std::vector<std::uint8_t>{0x95, 0x00}));
+    gateway.finish(bad_result(Reason::no_answer, "drive feeder did not answer within 100 ms"));
+    EXPECT_EQ(answered().status, 504u);
+
+    for (const auto* bad : {R"({})", R"({"send":"a","send_hex":"00"})", R"({"send":""})", R"({"send":5})", R"({"send_hex":"0"})",
+                            R"({"send_hex":"zz"})", R"({"send_hex":""})", R"({"send":"a","x":1})"}) {
+        EXPECT_EQ(call("POST", "/api/v1/drives/feeder/native", bad).status, 422u) << bad;
+    }
+    EXPECT_EQ(call("POST", "/api/v1/drives/feeder/native", R"({"send":")" + std::string(1025, 'x') + R"("})").status, 422u);
+    EXPECT_EQ(call("POST", "/api/v1/drives/none/native", R"({"send":"x"})").status, 404u);
+    const auto bare = call("POST", "/api/v1/drives/bare/native", R"({"send":"x"})");
+    EXPECT_EQ(bare.status, 409u) << "no axis can name it";
+    EXPECT_EQ(gateway.submitted.size(), 2u);
+}
+
+TEST_F(HttpTest, NativeGoesToTheLowestChannel) {
+    auto site = gateway.site()->site;
+    site.axes[0].channel = 2;
+    site.axes.push_back(axis_spec("first", "feeder", 3));
+    gateway.put_site(site);
+    call("POST", "/api/v1/drives/feeder/native", R"({"send":"x"})");
+    EXPECT_EQ(gateway.submitted.at(0).axis, gateway.axis("first"));
+}
+
+TEST_F(HttpTest, Hand) {
+    gateway.hands[gateway.drive("feeder")] = {{"stall", false, true, "the shaft is held"},
+                                              {"temperature", 25.0, true, "deg C"},
+                                              {"position", std::int64_t{5}, false, "true position"}};
+    EXPECT_EQ(call("GET", "/api/v1/drives/feeder/hand").text, R"({"stall":false,"temperature":25,"position":5})");
+    EXPECT_EQ(
+        call("GET", "/api/v1/drives/feeder/hand?describe=1").text,
+        R"([{"name":"stall","value":false,"writable":true,"description":"the shaft is held"},{"name":"temperature","value":25,"writable":true,"description":"deg C"},)"
+        R"({"name":"position","value":5,"writable":false,"description":"true position"}])");
+    EXPECT_EQ(call("PATCH", "/api/v1/drives/feeder/hand", R"({"stall":true})").text, R"({"stall":true,"temperature":25,"position":5})");
+    EXPECT_EQ(call("PUT", "/api/v1/drives/feeder/hand", R"({"temperature":80.5,"stall":false})").text,
+              R"({"stall":false,"temperature":80.5,"position":5})");
+    EXPECT_EQ(call("PATCH", "/api/v1/drives/feeder/hand", "{}").status, 200u);
+    const auto unknown = call("PATCH", "/api/v1/drives/feeder/hand", R"({"stall":true,"fly":1,"position":3})");
+    EXPECT_EQ(unknown.status, 422u);
+    EXPECT_EQ(unknown.object().at("faults").get_array().size(), 2u);
+    EXPECT_EQ(unknown.fault().at("remedy"), "use one of: stall, temperature");
+    EXPECT_EQ(call("GET", "/api/v1/drives/feeder/hand").json.at("stall"), false) << "all or none";
+    EXPECT_EQ(call("PATCH", "/api/v1/drives/feeder/hand", R"({"stall":null})").status, 422u);
+    EXPECT_EQ(call("PATCH", "/api/v1/drives/feeder/hand", R"({"stall":[1]})").status, 422u);
+    gateway.hand_fault = "temperature takes -40..200";
+    const auto wrong = call("PATCH", "/api/v1/drives/feeder/hand", R"({"temperature":900})");
+    EXPECT_EQ(wrong.status, 422u);
+    EXPECT_EQ(wrong.at("detail"), "temperature takes -40..200");
+    EXPECT_EQ(call("GET", "/api/v1/drives/feeder/hand?describe=x").status, 400u);
+}
+
+TEST_F(HttpTest, NoHandForRealDrives) {
+    gateway.drive_states[gateway.drive("feeder")] = {Presence::device, true, "answers", 0, 0};
+    for (const auto& a : {call("GET", "/api/v1/drives/feeder/hand"), call("PATCH", "/api/v1/drives/feeder/hand", R"({"stall":true})")}) {
+        EXPECT_EQ(a.status, 409u);
+        EXPECT_EQ(a.at("reason"), "not_simulated");
+        EXPECT_NE(a.at("detail").find("real drive"), std::string::npos) << a.at("detail");
+    }
+    EXPECT_NE(call("GET", "/api/v1/drives/slide/hand").at("detail").find("offline"), std::string::npos);
+    EXPECT_EQ(call("GET", "/api/v1/drives/none/hand").status, 404u);
+    EXPECT_EQ(call("PATCH", "/api/v1/drives/none/hand", "{}").status, 404u);
+}
+
+// --- records ----------------------------------------------------------------------------------------------------------
+
+TraceEntry can_entry(std::uint64_t sequence) {
+    TraceEntry e;
+    e.sequence = sequence;
+    e.at_unix_ns = 1'700'000'000'123'456'789;
+    e.to_drive = true;
+    const std::uint8_t data[] = {0x01, 0xAB};
+    e.frame = Frame::can_extended(0x04280095, data);
+    return e;
+}
+
+TEST_F(HttpTest, Trace) {
+    auto& trace = gateway.traces[gateway.line("can0")];
+    for (std::uint64_t i = 11; i <= 20; ++i)
+        trace.push_back(can_entry(i));
+    const auto a = call("GET", "/api/v1/lines/can0/trace?limit=2");
+    EXPECT_EQ(
+        a.text,
+        R"({"line":"can0","missed":0,"next":21,"frames":[)"
+        R"({"sequence":19,"at":"2023-11-14T22:13:20.123456Z","to_drive":true,"simulated":false,"kind":"can","id":69730453,"extended":true,"remote":false,"data":"01AB","text":"04280095#01AB"},)"
+        R"({"sequence":20,"at":"2023-11-14T22:13:20.123456Z","to_drive":true,"simulated":false,"kind":"can","id":69730453,"extended":true,"remote":false,"data":"01AB","text":"04280095#01AB"}]})")
+        << "without since: the newest";
+    const auto since = call("GET", "/api/v1/lines/can0/trace?since=5&limit=3");
+    EXPECT_EQ(since.at("missed"), "6");
+    EXPECT_EQ(since.at("next"), "14");
+    EXPECT_EQ(call("GET", "/api/v1/lines/can0/trace?since=21").json.at("frames").get_array().size(), 0u);
+    EXPECT_EQ(call("GET", "/api/v1/lines/can1/trace").at("frames"), "[]");
+    EXPECT_EQ(call("GET", "/api/v1/lines/none/trace").status, 404u);
+    for (const auto* bad : {"?limit=0", "?limit=65537", "?limit=x", "?since=-1", "?since=x", "?format=xml"})
+        EXPECT_EQ(call("GET", "/api/v1/lines/can0/trace" + std::string(bad)).status, 400u) << bad;
+}
+
+TEST_F(HttpTest, TraceFormats) {
+    gateway.traces[gateway.line("can0")] = {can_entry(1)};
+    const auto dump = call("GET", "/api/v1/lines/can0/trace?format=candump");
+    EXPECT_EQ(dump.headers.get("Content-Type"), "text/plain; charset=utf-8");
+    EXPECT_EQ(dump.headers.get("Content-Disposition"), "attachment; filename=\"can0.log\"");
+    EXPECT_NE(dump.text.find("can0 04280095#01AB"), std::string::npos) << dump.text;
+    EXPECT_EQ(call("GET", "/api/v1/lines/can0/trace", "", {{"Accept", "text/plain"}}).text, dump.text);
+    const auto pcap = call("GET", "/api/v1/lines/can0/trace?format=pcapng");
+    EXPECT_EQ(pcap.headers.get("Content-Type"), "application/x-pcapng");
+    EXPECT_EQ(pcap.text.substr(0, 4), "\x0A\x0D\x0D\x0A") << "a section header block";
+    EXPECT_EQ(call("GET", "/api/v1/lines/can0/trace", "", {{"Accept", "application/x-pcapng"}}).text, pcap.text);
+    EXPECT_EQ(call("GET", "/api/v1/lines/can0/trace", "", {{"Accept", "image/png"}}).status, 406u);
+    EXPECT_EQ(call("GET", "/api/v1/lines/can0/trace?format=candump", "", {{"Accept", "image/png"}}).status, 200u) << "the query decides";
+    EXPECT_EQ(call("GET", "/api/v1/lines/can0/trace").headers.get("Content-Type"), "application/json");
+    TraceEntry bytes;
+    bytes.sequence = 2;
+    const std::uint8_t run[] = {0x50, 0x52};
+    bytes.frame = Frame::run(run);
+    gateway.traces[gateway.line("can1")] = {bytes};
+    EXPECT_NE(call("GET", "/api/v1/lines/can1/trace?format=candump").text.find("50 52"), std::string::npos)
+        << "a byte line has its text form";
+    EXPECT_EQ(call("GET", "/api/v1/lines/can1/trace").json.at("frames").get_array()[0].at("id"), nullptr);
+}
+
+TEST_F(HttpTest, Events) {
+    Event write = event("AC written", "feeder", Severity::info, "write");
+    write.who = "127.0.0.1";
+    write.door = "http";
+    write.parameter = "AC";
+    write.old_value = "1";
+    write.new_value = "2";
+    gateway.tell(write);
+    Event alarm = event("too much current", "slide", Severity::alarm, "alarm");
+    alarm.drive = "slide";
+    alarm.line = "can0";
+    alarm.code = 49;
+    gateway.tell(alarm);
+    const auto all = call("GET", "/api/v1/events").array();
+    ASSERT_EQ(all.size(), 2u);
+    EXPECT_EQ(
+        json_text(all[0]),
+        R"({"id":1,"at":"2026-01-02T03:04:05.678901Z","severity":"info","kind":"write","axis":"feeder","drive":null,"line":null,"code":null,"text":"AC written",)"
+        R"("who":"127.0.0.1","door":"http","parameter":"AC","old":"1","new":"2"})");
+    EXPECT_EQ(json_text(all[1].at("code")), "49");
+    EXPECT_EQ(call("GET", "/api/v1/events?since=1").array().size(), 1u);
+    EXPECT_EQ(call("GET", "/api/v1/events?since=2026-01-02T03:04:05.678901Z").array().size(), 2u);
+    EXPECT_EQ(call("GET", "/api/v1/events?since=2026-01-02T03:04:06%2B00:00").array().size(), 0u);
+    EXPECT_EQ(call("GET", "/api/v1/events?axis=slide").array().size(), 1u);
+    EXPECT_EQ(call("GET", "/api/v1/events?severity=warning").array().size(), 1u);
+    EXPECT_EQ(call("GET", "/api/v1/events?limit=1").array()[0].at("id"), 2) << "the newest if there are more";
+    EXPECT_EQ(gateway.event_queries.back().limit, 1u);
+    EXPECT_EQ(gateway.event_queries.front().limit, 200u);
+    for (const auto* bad : {"since=x", "since=-1", "severity=loud", "limit=0", "limit=1001"})
+        EXPECT_EQ(call("GET", "/api/v1/events?" + std::string(bad)).status, 400u) << bad;
+}
+}  // namespace
+}  // namespace axisgate::http::test

@@ -751,6 +751,7 @@ export interface components {
             reply_timeout_ms?: number;
             poll_period_ms?: number;
             pause_ms?: number;
+            stale_after_ms?: number;
             retries?: number;
             silent_limit?: number;
             retry_pause_min_ms?: number;

@@ -65,7 +65,7 @@ struct Frame {
     [[nodiscard]] std::span<const std::uint8_t> data() const noexcept { return {storage.data(), size}; }
     void assign(std::span<const std::uint8_t> data) noexcept {
         size = static_cast<std::uint16_t>(std::min(data.size(), capacity));
-        std::memcpy(storage.data(), data.data(), size);
+        if (size > 0) std::memcpy(storage.data(), data.data(), size);
     }
 
     /// Same content; the instant does not count.

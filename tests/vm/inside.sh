@@ -2,8 +2,8 @@
 # Runs inside the emulated machine: gateway and twin on a real vcan interface, candump as witness.
 # In: the program. Out: one line per check, "pass: ..." or "FAIL: ...". Never touches a network but this guest's own.
 program=$1
-export PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/tmp
-cd /tmp || exit 1
+export PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/dev/shm TMPDIR=/dev/shm
+cd /dev/shm || exit 1   # the guest's own memory: all else belongs to the machine outside and can only be read
 ip link set lo up
 api=http://127.0.0.1:8080/api/v1
 
@@ -37,7 +37,7 @@ cat >site.json <<'SITE'
  "axes": [{"name": "left", "drive": "left", "number": 1, "unit": "mm", "increments_per_unit": 3200},
           {"name": "right", "drive": "right", "number": 2, "unit": "mm", "increments_per_unit": 3200}], "mappings": []}
 SITE
-"$program" serve --data /tmp/data --site site.json >gateway.log 2>gateway.err &
+"$program" serve --data /dev/shm/data --site site.json >gateway.log 2>gateway.err &
 gateway=$!
 check "the gateway is ready" until_true 90 grep -q '^ready ' gateway.log
 check "the left drive answers over SocketCAN" until_true 30 is axes/left .online true

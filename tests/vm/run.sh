@@ -49,7 +49,7 @@ for m in /modules/*.ko; do /bin/busybox insmod \$m || echo "insmod \$m failed"; 
 for d in proc sys dev; do /bin/busybox mount -o bind /\$d /host/\$d; done
 /bin/busybox mkdir -p /dev/pts /dev/shm
 /bin/busybox mount -t devpts devpts /dev/pts
-/bin/busybox mount -t tmpfs tmpfs /host/tmp
+/bin/busybox mount -t tmpfs tmpfs /host/dev/shm
 /bin/busybox mount -t tmpfs tmpfs /host/run
 echo
 /bin/busybox chroot /host /bin/bash $top/tests/vm/inside.sh $program 2>&1

@@ -132,10 +132,10 @@ void read_file(Config& c, const ConfigSources& sources, std::vector<ConfigFault>
     const auto place = [&](const toml::source_region& r) { return fmt::format("{}:{}", sources.file_name, r.begin.line); };
     // TOML knows no control characters but tab and line ends, and the parser does not take NUL as a fault but as a reason to end.
     for (std::size_t i = 0, line = 1; i < sources.file_text->size(); ++i) {
-        const auto c = static_cast<unsigned char>((*sources.file_text)[i]);
-        line += c == '\n';
-        if ((c >= 0x20 && c != 0x7F) || c == '\t' || c == '\n' || c == '\r') continue;
-        faults.push_back({fmt::format("{}:{}", sources.file_name, line), fmt::format("the line has the control character {:02X} in it", c), "write the line again as plain text"});
+        const auto byte = static_cast<unsigned char>((*sources.file_text)[i]);
+        line += byte == '\n';
+        if ((byte >= 0x20 && byte != 0x7F) || byte == '\t' || byte == '\n' || byte == '\r') continue;
+        faults.push_back({fmt::format("{}:{}", sources.file_name, line), fmt::format("the line has the control character {:02X} in it", byte), "write the line again as plain text"});
         return;
     }
     const toml::parse_result parsed = toml::parse(*sources.file_text, std::string_view(sources.file_name));

@@ -70,6 +70,12 @@ void LineAdapter::configure(const LineSetup& setup, Instant now, Out& out) {
         out.notices.push_back({Severity::warning, no_drive, no_axis, "setup", 0,
                                fmt::format("option crc = {}: write 12, 13, auto or none; 12 is used", crc->second), now});
     }
+    if (const auto n = setup.options.find("in_flight");
+        n != setup.options.end() && std::to_string(window_) != n->second && pause_ <= Duration::zero()) {
+        out.notices.push_back({Severity::warning, no_drive, no_axis, "setup", 0,
+                               fmt::format("option in_flight = {}: write a whole number 1..{}; {} is used", n->second, slot_limit, window_),
+                               now});
+    }
     // Removed and changed ones first, so that their addresses are free.
     for (auto& n : nodes_) {
         if (!n) continue;

@@ -184,10 +184,14 @@ void Node::go(Turn& t) {
         read_error_ = false;
         return send_exchange(m, Purpose::error, 0, 1, Priority::poll, t);
     }
-    if (!poll_speed_ && t.now < next_poll_) {
-        if (startup_pending()) return startup_next(t);
-        if (t.now < next_poll_) return;
+    // The rest of the reading goes between polls; on a line that is too slow for all of them, in turn with them.
+    const bool poll_due = poll_speed_ || t.now >= next_poll_;
+    if (startup_pending() && (!poll_due || startup_turn_)) {
+        startup_turn_ = false;
+        return startup_next(t);
     }
+    startup_turn_ = true;
+    if (!poll_due) return;
     const Message m = msg_get(cw::MS, poll_speed_ ? 1 : 0);
     if (poll_speed_) {
         poll_speed_ = false;
@@ -356,7 +360,9 @@ void Node::exchange_refused(const Message& m, Turn& t) {
     if (e.mf != 0 || e.message.function() == cw::MF) mf_unknown_ = true;
     switch (e.purpose) {
         case Purpose::probe:
-            next_probe_ = t.now + bus_.manners.pause_min;
+            // Whoever refuses ML is no UIM342 as the manual has it, or not ready: what waits is answered now, and it is asked again.
+            silent_ = static_cast<std::uint32_t>(bus_.manners.silent_limit);
+            go_absent(t, fmt::format("ID {} refuses to tell its model", address_), bus_.manners.pause_max);
             break;
         case Purpose::startup:
             startup_step_done(t);
@@ -421,7 +427,7 @@ void Node::count_silence(Turn& t) {
         next_probe_ = t.now + retry_pause_;
         if (retry_pause_ != before) link(false, fmt::format("ID {} does not answer", address_), t);
     } else if (absent_now && phase_ != Phase::down && phase_ != Phase::rebooting) {
-        go_absent(t, fmt::format("ID {} has not answered {} times in a row", address_, silent_));
+        go_absent(t, fmt::format("ID {} has not answered {} times in a row", address_, silent_), bus_.manners.pause_min);
     }
 }
 

@@ -181,7 +181,7 @@ private:
     // startup.cpp: finding and reading
     void begin_probing(Turn& t);
     void probe_answered(const Message& m, Turn& t);
-    void go_absent(Turn& t, std::string why);
+    void go_absent(Turn& t, std::string why, Duration pause);
     void link(bool online, std::string text, Turn& t);
     void startup_next(Turn& t);
     void startup_step_done(Turn& t);
@@ -296,6 +296,7 @@ private:
     std::uint8_t startup_at_ = 0;     ///< next value to read; past the end: all are read
     std::uint8_t startup_tries_ = 0;  ///< times the present one was given up
     std::string identity_;
+    DriveLink told_;  ///< last DriveLink: the same is not said twice
 
     // exchanges
     Exchange exchange_;
@@ -317,8 +318,9 @@ private:
 
     // polls
     Instant next_poll_ = never;
-    bool poll_speed_ = false;  ///< next is MS[1]
-    bool read_error_ = false;  ///< ER[0] is to be read
+    bool poll_speed_ = false;    ///< next is MS[1]
+    bool startup_turn_ = false;  ///< next is a value of the start-up, though a poll is due
+    bool read_error_ = false;    ///< ER[0] is to be read
 
     // what is known
     Status status_;

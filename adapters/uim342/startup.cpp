@@ -31,7 +31,10 @@ bool Node::startup_pending() const noexcept { return startup_at_ < all; }
 bool Node::core_pending() const noexcept { return startup_at_ < core.size(); }
 
 void Node::link(bool is_online, std::string text, Turn& t) {
-    t.out.links.push_back({setup_.id, is_online, silent_, is_online ? Duration{} : retry_pause_, std::move(text)});
+    const Duration pause = is_online ? Duration{} : retry_pause_;
+    if (told_.drive == setup_.id && told_.online == is_online && told_.retry_pause == pause && told_.text == text) return;
+    told_ = {setup_.id, is_online, silent_, pause, std::move(text)};
+    t.out.links.push_back(told_);
 }
 
 void Node::begin_probing(Turn& t) {
@@ -45,10 +48,10 @@ void Node::begin_probing(Turn& t) {
     notice_refilled_ = t.now;
 }
 
-void Node::go_absent(Turn& t, std::string why) {
+void Node::go_absent(Turn& t, std::string why, Duration pause) {
     before_ = {status_known_ && position_known_, status_.on, fb_.referenced, fb_.position};
     phase_ = Phase::absent;
-    retry_pause_ = bus_.manners.pause_min;
+    retry_pause_ = pause;
     next_probe_ = t.now + retry_pause_;
     next_poll_ = never;
     poll_speed_ = false;
@@ -61,10 +64,8 @@ void Node::probe_answered(const Message& m, Turn& t) {
     const Model model = model_of(m);
     if (model.gateway) {
         silent_ = static_cast<std::uint32_t>(bus_.manners.silent_limit);
-        go_absent(t, fmt::format("at ID {} answers a gateway ({}), not a UIM342: correct the drive's address", address_, model.name));
-        retry_pause_ = bus_.manners.pause_max;
-        next_probe_ = t.now + retry_pause_;
-        return;
+        return go_absent(t, fmt::format("at ID {} answers a gateway ({}), not a UIM342: correct the drive's address", address_, model.name),
+                         bus_.manners.pause_max);
     }
     ever_seen_ = true;
     const unsigned firmware = m.dl >= 6 ? get_u16(&m.d[4]) : 0u;

@@ -206,7 +206,8 @@ void Node::on_error_report(const Message& m, Turn& t) {
         ++bus_.counters.garbled;
         return;
     }
-    if (!online()) return;
+    // ER[i] answers that come late, and "no error", are no news.
+    if (!online() || report->slot != 0 || report->code == 0 || late_.has(mark_of(msg_get(cw::ER, 0)))) return;
     const std::uint8_t function = report->cw & 0x7F;
     Message about;
     about.cw = report->cw;

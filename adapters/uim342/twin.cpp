@@ -41,7 +41,10 @@ std::array<std::uint8_t, 3> model_named(std::string_view name) {
 std::unique_ptr<Twin> make_twin(const Catalogue&, const TwinSetup& setup) {
     twin::DeviceSetup d;
     d.kind = setup.kind;
-    d.crc = twin::crc_range_named(option(setup.options, "crc", "12")).value_or(twin::CrcRange::twelve);
+    const std::string crc = option(setup.options, "crc", "12");
+    d.crc = twin::crc_range_named(crc).value_or(twin::CrcRange::twelve);
+    if (d.crc == twin::CrcRange::thirteen) d.form = twin::Form::crc13;
+    if (crc == "none") d.form = twin::Form::plain;
     const auto address = number(setup.address);
     const std::uint8_t node = address && *address >= 5 && *address <= 126 ? static_cast<std::uint8_t>(*address) : factory_node;
     d.factory.node = node;

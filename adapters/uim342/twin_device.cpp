@@ -21,7 +21,7 @@ Device::Device(const DeviceSetup& setup)
       boot_time_(setup.boot_time),
       memory_(setup.factory, setup.identity.serial),
       reader_(setup.crc),
-      form_(setup.crc == CrcRange::thirteen ? Form::crc13 : Form::crc12) {}
+      form_(setup.form) {}
 
 // --- power and boot -----------------------------------------------------------------------------------------------------
 
@@ -40,7 +40,7 @@ void Device::power_on(const NonVolatile& memory, Instant now, Out& out) {
 NonVolatile Device::non_volatile() const {
     NonVolatile all;
     memory_.save(all);
-    if (absolute_encoder_) all[encoder_position_name] = Value{std::int64_t{saved_position_}};
+    if (has_absolute_encoder()) all[encoder_position_name] = Value{std::int64_t{saved_position_}};
     return all;
 }
 
@@ -55,9 +55,8 @@ void Device::boot(Instant now, std::int32_t encoder_position) {
     memory_.reboot();
     node_ = memory_.flash().node;
     group_ = memory_.flash().group;
-    absolute_encoder_ = memory_.ram().ic[5] == 1;
-    axis_.power_up(absolute_encoder_ ? encoder_position : 0);
-    saved_position_ = axis_.position(now);
+    axis_.power_up(has_absolute_encoder() ? encoder_position : 0);
+    keep_position(now);
     configure_loop(now);
     paif_ = tlif_ = err_ = lock_ = output_ = false;
     pending_group_ = 0;
@@ -137,12 +136,16 @@ void Device::settle(Instant now, Out& out) {
     for (next_ = earliest(); next_ <= now; next_ = earliest())
         step(next_, out);
     last_ = now;
-    if (absolute_encoder_ && !axis_.moving()) {
-        if (const std::int32_t there = axis_.position(now); there != saved_position_) {
-            saved_position_ = there;
-            memory_.touch();
-        }
-    }
+    keep_position(now);
+}
+
+/// The absolute encoder's own memory: where the shaft came to rest.
+void Device::keep_position(Instant now) noexcept {
+    if (!has_absolute_encoder() || axis_.moving()) return;
+    const std::int32_t there = axis_.position(now);
+    if (there == saved_position_) return;
+    saved_position_ = there;
+    memory_.touch();
 }
 
 /// One event. At the same instant the end of a motion comes before an input, so that an arrival is never lost to a stop.

@@ -51,6 +51,7 @@ struct Identity {
 struct DeviceSetup {
     LineKind kind = LineKind::can;
     CrcRange crc = CrcRange::twelve;
+    Form form = Form::crc12;  ///< of notifications, before the host has spoken
     Protocol factory;
     Identity identity;
     Duration boot_time{};
@@ -96,6 +97,9 @@ private:
     void configure_loop(Instant now);
     [[nodiscard]] Axis::Values values_of(std::size_t group) const noexcept;
     [[nodiscard]] bool may_start() const noexcept;
+    /// As configured; a change of IC[5] is always kept and acts at the next boot, when the counter begins at the encoder's place or at 0.
+    [[nodiscard]] bool has_absolute_encoder() const noexcept { return memory_.ram().ic[5] == 1; }
+    void keep_position(Instant now) noexcept;
 
     // --- instructions (twin_instructions.cpp, twin_sets.cpp) ---
     [[nodiscard]] bool is_for_me(std::uint8_t id) const noexcept { return id == node_ || id == global_id || id == group_; }
@@ -140,7 +144,6 @@ private:
     bool online_ = false;
     std::uint8_t node_ = 5;
     std::uint8_t group_ = 10;
-    bool absolute_encoder_ = false;
     bool enable_at_boot_ = false;
     bool paif_ = false;
     bool tlif_ = false;

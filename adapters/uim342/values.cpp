@@ -68,6 +68,7 @@ void Node::plan_write(const WriteParameter& write, Turn& t) {
     }
     job_.binding = b;
     job_.wanted = *v;
+    if (i.cw == cw::MO && *v != 0) job_.add(msg_act(cw::ST));  // a residual motion would begin with the driver [L1264]
     if (b->mf != 0) job_.add(msg_set(cw::MF, b->mf), 0, true);
     job_.add(make_set(address_, i, b->index, *v), b->mf);
 }
@@ -77,6 +78,7 @@ void Node::done_write(const Message& m, Turn& t) {
     const Binding& b = *job_.binding;
     const Instruction& i = *b.instruction;
     const Message& request = job_.steps[job_.at - 1u].message;
+    if (request.function() != i.cw) return;  // the ST before MO=1
     const auto told = value_of(request, m);
     if (form_of(request) == Form::get) {  // PP: what is stored
         if (told == job_.wanted) {

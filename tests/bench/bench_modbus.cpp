@@ -206,7 +206,8 @@ int run(const Options& o) {
         if (door) {
             const double own = (door->used_seconds() - used_a) / c.answers_a * 1e6;
             const double other = (plain.used_seconds() - used_b) / c.answers_b * 1e6;
-            std::printf("    %-12s ratio %5.3f  (no limit)  axisgate %.2f us, plain epoll %.2f us per answer\n", "processor", own / other, own, other);
+            std::printf("    %-12s ratio %5.3f  (no limit)  axisgate %.2f us, plain epoll %.2f us per answer\n", "processor", own / other,
+                        own, other);
         }
     }
 

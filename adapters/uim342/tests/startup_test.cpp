@@ -93,6 +93,21 @@ TEST(Uim342Startup, AGatewayAtTheAddressIsNotADrive) {
     EXPECT_EQ(b.ask(ReadParameter{Bench::point("AC")}).reason, Reason::no_answer);
 }
 
+TEST(Uim342Startup, ADriveThatRefusesItsModelIsNoUim342) {
+    Bench b;
+    FakeNode& f = b.add(5);
+    f.script = [](const Message& m) { return FakeNode::refuse_if(m.function() == 0x0B, 0x32); };
+    b.configure();
+    b.line(true);
+    const Ticket t = b.command(ReadParameter{Bench::point("AC")});
+    b.run(500ms);
+    ASSERT_TRUE(b.results.contains(t)) << "nobody waits for ever";
+    EXPECT_FALSE(b.link()->online);
+    f.script = nullptr;
+    b.run(6s);
+    EXPECT_TRUE(b.link()->online);
+}
+
 TEST(Uim342Startup, AnUnknownModelIsUsedAndNamed) {
     Bench b;
     FakeNode& f = b.add(5);
@@ -162,8 +177,9 @@ TEST(Uim342Startup, WrongOptionsAreNamed) {
     Bench b;
     b.add(5, {{"notify", "maybe"}, {"home_input", "4"}});
     b.setup.options["crc"] = "14";
+    b.setup.options["in_flight"] = "many";
     b.start();
-    EXPECT_EQ(b.notices_of("setup"), 3u);
+    EXPECT_EQ(b.notices_of("setup"), 4u);
 }
 
 // --- polls -----------------------------------------------------------------------------------------------------------------------

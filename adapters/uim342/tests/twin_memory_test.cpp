@@ -310,6 +310,25 @@ TEST(TwinMemory, AbsoluteEncoderKeepsThePosition) {
     EXPECT_EQ(b.position(), 1300);
     Bench other(can_setup(), b.drive().non_volatile());
     EXPECT_EQ(other.position(), 1300);
+    // The image is whole as soon as the type is stored, before it acts, and tells of each change by its revision.
+    Bench stored;
+    stored.setup({"95 01", "9F 0A 00 00 00", "9E 10 27 00 00", "96"});
+    stored.pass_ms(1000);
+    EXPECT_FALSE(stored.drive().non_volatile().contains("encoder.position"));
+    const auto before = stored.drive().non_volatile_revision();
+    stored.setup({"86 05 01 00"});
+    EXPECT_GT(stored.drive().non_volatile_revision(), before);
+    EXPECT_EQ(as_integer(stored.drive().non_volatile().at("encoder.position")), 10);
+    const auto image = stored.drive().non_volatile();
+    EXPECT_EQ(Bench(can_setup(), image).drive().non_volatile(), image);
+    const auto revision_before_boot = stored.drive().non_volatile_revision();
+    (void)stored.send("7E 01");
+    EXPECT_EQ(stored.drive().non_volatile(), image);
+    EXPECT_EQ(stored.drive().non_volatile_revision(), revision_before_boot);
+    EXPECT_EQ(stored.position(), 10);
+    (void)stored.send("7E 02");
+    EXPECT_FALSE(stored.drive().non_volatile().contains("encoder.position"));
+    EXPECT_GT(stored.drive().non_volatile_revision(), revision_before_boot);
     // Setting the type back acts at the next boot only.
     b.setup({"86 05 00 00"});
     EXPECT_EQ(b.position(), 1300);

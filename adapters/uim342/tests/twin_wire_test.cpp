@@ -163,6 +163,20 @@ TEST(TwinBytes, NotificationsFollowTheHostsForm) {
     EXPECT_EQ(edge(0), "AD 05 5A 01 01 00 00 00 00 00 00 00 00 00 00 CC");
     (void)b.send("AD 06 95 01 01 00 00 00 00 00 00 00 00 00 00 CC");  // another drive was spoken to: same host
     EXPECT_EQ(edge(1), "AD 05 5A 01 02 00 00 00 00 00 00 00 00 00 00 CC");
+
+    // Before anybody has spoken: as the setting has it.
+    const std::pair<const char*, const char*> first[] = {{"12", "AA 05 5A 01 02 00 00 00 00 00 00 00 00 00 72 CC"},
+                                                         {"auto", "AA 05 5A 01 02 00 00 00 00 00 00 00 00 00 72 CC"},
+                                                         {"13", "AA 05 5A 01 02 00 00 00 00 00 00 00 00 FF 30 CC"},
+                                                         {"none", "AD 05 5A 01 02 00 00 00 00 00 00 00 00 00 00 CC"}};
+    for (const auto& [option, notification] : first) {
+        ByteBench fresh(option);
+        Out out;
+        EXPECT_EQ(fresh.drive->set_hand("inputs", Value{std::int64_t{1}}, fresh.now, out), "");
+        ASSERT_EQ(out.frames.size(), 1u);
+        EXPECT_EQ(text(out.frames[0].frame.data()), notification) << option;
+    }
+    EXPECT_EQ(ByteBench("none").send(mo_on_12), mo_on_12_ack);
 }
 
 TEST(TwinBytes, BadCrcBadEndAndOtherNodesAreIgnored) {

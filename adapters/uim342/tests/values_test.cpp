@@ -188,6 +188,15 @@ TEST(Uim342Values, AlternateRangeOfRampsAsTimes) {
     EXPECT_EQ(r.b.write("AC", 60000).outcome, Outcome::done);
 }
 
+TEST(Uim342Values, MotorOnAsAParameterStopsFirst) {
+    Ready r;
+    EXPECT_EQ(r.b.write("MO", 1).outcome, Outcome::done);
+    EXPECT_EQ(r.b.heard(5), lines({"97", "95 01"}));
+    EXPECT_EQ(r.b.feedback().power, AxisFeedback::Power::on);
+    EXPECT_EQ(r.b.write("MO", 0).value, Value{std::int64_t{0}});
+    EXPECT_EQ(r.b.feedback().power, AxisFeedback::Power::off);
+}
+
 TEST(Uim342Values, TheDrivesRefusalIsPassedOn) {
     Ready r;
     r.f.script = [](const Message& m) { return FakeNode::refuse_if(m.cw == 0x9C && m.dl == 4, 0x3C); };
@@ -285,6 +294,17 @@ TEST(Uim342Late, ARepeatedRequestTakesEitherAnswerOnce) {
     EXPECT_EQ(w.value, Value{std::int64_t{7}}) << w.text;
     EXPECT_EQ(r.b.adapter.counters().retries, before.retries + 1);
     EXPECT_GE(r.b.adapter.counters().unexpected, before.unexpected + 1);
+}
+
+TEST(Uim342Late, ALateErrorSlotIsNoErrorReport) {
+    Ready r;
+    r.f.last_error = {0, 0x33, 0x81, 5, 0, 0};
+    int n = 0;
+    r.f.script = [&](const Message& m) { return m.cw == 0x8F && n++ == 0 ? FakeNode::late(60ms) : FakeNode::Verdict{}; };
+    EXPECT_EQ(r.b.native("ER[0]").outcome, Outcome::done) << "answered after its repeat was sent: a second answer follows";
+    r.b.run(300ms);
+    EXPECT_EQ(r.b.notices_of("error_report"), 0u);
+    EXPECT_FALSE(r.b.feedback().fault);
 }
 
 TEST(Uim342Late, ALateRefusalIsNotThatOfTheNextInstruction) {

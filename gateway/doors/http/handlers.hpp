@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "gateway/core/gateway.hpp"
+#include "gateway/doors/http/change_queue.hpp"
 #include "gateway/doors/http/message.hpp"
 #include "gateway/doors/http/problem.hpp"
 #include "gateway/doors/http/settings.hpp"
@@ -25,7 +26,8 @@ struct Context {
     Gateway& gateway;
     const Settings& settings;
     AssetLookup asset;
-    std::function<std::string()> own_metrics;  ///< the door's own counters as Prometheus text
+    std::function<std::string()> own_metrics;                                ///< the door's own counters as Prometheus text
+    std::shared_ptr<ChangeQueue> changes = std::make_shared<ChangeQueue>();  ///< of the site
 };
 
 /// One request on its way. Lives only as long as the handler's call.

@@ -100,53 +100,80 @@ std::vector<Fault> faults_for(const std::vector<SiteFault>& faults, std::string_
     return out;
 }
 
-/// One change on its way: made on the site in force, checked, applied; and made again if another change came between.
+/// What a change comes to on the site in force, and how its success is shown; or why it cannot be.
+struct Plan {
+    Site site;
+    std::function<Response(const std::shared_ptr<const SiteState>& now)> show;
+};
+using Planned = std::variant<Plan, Response>;
+
+/// One change on its way: planned on the site in force, applied; and planned again if another change came between.
 struct Change : std::enable_shared_from_this<Change> {
     Gateway& gateway;
     Origin origin;
-    bool bound_to_revision = false;  ///< If-Match was given: the change is for this revision alone
-    std::function<Edited(json::object document)> make;
-    std::function<Response(const std::shared_ptr<const SiteState>& now, const Edit& edit)> show;
+    std::optional<std::uint64_t> only_for;  ///< If-Match was given: the change is for this revision alone
+    std::function<Planned(const SiteState& before)> plan;
     Respond respond;
+    std::function<void()> done;
     int attempts = 0;
 
     Change(Gateway& g, Origin o) : gateway(g), origin(std::move(o)) {}
 
+    void end(Response r) {
+        respond(std::move(r));
+        done();
+    }
     void attempt() {
         ++attempts;
         const auto before = gateway.site();
-        auto edited = make(to_json(before->site));
-        if (auto* refusal = std::get_if<Response>(&edited)) return respond(std::move(*refusal));
-        auto& edit = std::get<Edit>(edited);
-        std::vector<SiteFault> faults;
-        auto site = parse_site(edit.document, gateway.families(), faults);
-        if (!site) return respond(invalid(faults_for(faults, edit.pointer, false)));
-        if (to_json(*site) == to_json(before->site)) return respond(show(before, edit));  // nothing changes: nothing is disturbed
-        auto self = shared_from_this();
-        gateway.apply_site(std::move(*site), before->revision, origin, [self, before, kept = std::move(edit)](Gateway::SiteAnswer answer) {
-            if (answer.good) return self->respond(self->show(answer.now, kept));
-            const bool overtaken = answer.now && answer.now->revision != before->revision;
-            if (!overtaken)
-                return self->respond(problem(507, "not_stored", answer.fault.empty() ? "the site could not be stored" : answer.fault));
-            if (self->bound_to_revision)
-                return self->respond(
-                    problem(412, "precondition_failed", "the site was changed by another client meanwhile: read it again"));
-            if (self->attempts < most_attempts) return self->attempt();
-            self->respond(problem(503, "busy", "other clients keep changing the site: try again"));
-        });
+        if (only_for && *only_for != before->revision) return end(overtaken());
+        auto planned = plan(*before);
+        if (auto* refusal = std::get_if<Response>(&planned)) return end(std::move(*refusal));
+        auto& [site, show] = std::get<Plan>(planned);
+        if (to_json(site) == to_json(before->site)) return end(show(before));  // nothing changes: nothing is disturbed
+        auto then = [self = shared_from_this(), before, show = std::move(show)](Gateway::SiteAnswer answer) {
+            if (answer.good) return self->end(show(answer.now));
+            if (!answer.now || answer.now->revision == before->revision) {
+                return self->end(problem(507, "not_stored", answer.fault.empty() ? "the site could not be stored" : answer.fault));
+            }
+            if (!self->only_for && self->attempts < most_attempts) return self->attempt();
+            self->end(self->only_for ? overtaken() : problem(503, "busy", "other clients keep changing the site: try again"));
+        };
+        gateway.apply_site(std::move(site), before->revision, origin, std::move(then));
+    }
+    static Response overtaken() {
+        return problem(412, "precondition_failed", "the site was changed by another client meanwhile: read it again");
     }
 };
 
-Handled change(Call& c, std::function<Edited(json::object)> make,
-               std::function<Response(const std::shared_ptr<const SiteState>&, const Edit&)> show) {
-    if (auto refusal = precondition(c, *c.gateway().site(), false)) return *refusal;
+Handled change(Call& c, bool if_match_demanded, std::function<Planned(const SiteState& before)> plan) {
+    const auto site = c.gateway().site();
+    if (auto refusal = precondition(c, *site, if_match_demanded)) return *refusal;
     auto order = std::make_shared<Change>(c.gateway(), c.origin());
-    order->bound_to_revision = !c.request.headers.get("If-Match").empty();
-    order->make = std::move(make);
-    order->show = std::move(show);
+    if (!c.request.headers.get("If-Match").empty()) order->only_for = site->revision;
+    order->plan = std::move(plan);
     order->respond = c.respond;
-    order->attempt();
+    const bool taken = c.context.changes->run([order](std::function<void()> done) {
+        order->done = std::move(done);
+        order->attempt();
+    });
+    if (!taken) return problem(503, "busy", "too many changes of the site wait already: try again");
     return {gateway_limit, problem(504, "time_out", "the change was not applied in time: look at the site before trying again")};
+}
+
+/// A change of one entry: made on the document, checked as a whole, shown by its entry.
+Handled change_entry(Call& c, std::function<Edited(json::object document)> make,
+                     std::function<Response(const std::shared_ptr<const SiteState>& now, const Edit& edit)> show) {
+    return change(c, false, [&gateway = c.gateway(), make = std::move(make), show = std::move(show)](const SiteState& before) -> Planned {
+        auto edited = make(to_json(before.site));
+        if (auto* refusal = std::get_if<Response>(&edited)) return std::move(*refusal);
+        auto& edit = std::get<Edit>(edited);
+        std::vector<SiteFault> faults;
+        auto site = parse_site(edit.document, gateway.families(), faults);
+        if (!site) return invalid(faults_for(faults, edit.pointer, false));
+        return Plan{std::move(*site),
+                    [show, edit = std::move(edit)](const std::shared_ptr<const SiteState>& now) { return show(now, edit); }};
+    });
 }
 
 /// 200, or 201 with its place, with the entry as it is now.
@@ -163,12 +190,12 @@ auto show_entry(Gateway& gateway, Collection collection, bool created) {
 }
 
 Handled add(Call& c, Collection collection) {
-    return change(
+    return change_entry(
         c, [collection, entry = c.body.get_object()](json::object d) { return add_entry(std::move(d), collection, entry); },
         show_entry(c.gateway(), collection, true));
 }
 Handled replace(Call& c, Collection collection) {
-    return change(
+    return change_entry(
         c,
         [collection, name = c.names[0], entry = c.body.get_object()](json::object d) {
             return replace_entry(std::move(d), collection, name, entry);
@@ -176,7 +203,7 @@ Handled replace(Call& c, Collection collection) {
         show_entry(c.gateway(), collection, false));
 }
 Handled patch(Call& c, Collection collection) {
-    return change(
+    return change_entry(
         c,
         [collection, name = c.names[0], entry = c.body.get_object()](json::object d) {
             return patch_entry(std::move(d), collection, name, entry);
@@ -187,7 +214,7 @@ Handled remove(Call& c, Collection collection) {
     std::optional<Response> fault;
     const bool cascade = query_flag(c, "cascade", fault);
     if (fault) return *fault;
-    return change(
+    return change_entry(
         c, [collection, name = c.names[0], cascade](json::object d) { return remove_entry(std::move(d), collection, name, cascade); },
         [](const std::shared_ptr<const SiteState>& now, const Edit&) {
             Response r;
@@ -251,27 +278,21 @@ Handled replace_site(Call& c) {
     std::optional<Response> fault;
     const bool dry_run = query_flag(c, "dry_run", fault);
     if (fault) return *fault;
-    Gateway& gateway = c.gateway();
-    const auto before = gateway.site();
-    if (auto refusal = precondition(c, *before, c.context.settings.require_if_match && !dry_run)) return *refusal;
+    const auto before = c.gateway().site();
     std::vector<SiteFault> site_faults;
-    auto site = parse_site(c.body, gateway.families(), site_faults);
+    auto site = parse_site(c.body, c.gateway().families(), site_faults);
     const auto faults = faults_for(site_faults, "", true);
-    if (dry_run) return site_change(*before, true, site ? differences(before->site, *site) : std::vector<std::string>{}, faults);
-    if (!site) return invalid(faults);
-    auto changes = differences(before->site, *site);
-    if (to_json(*site) == to_json(before->site)) return site_change(*before, false, changes, {});
-    const bool bound = !c.request.headers.get("If-Match").empty();
-    gateway.apply_site(
-        std::move(*site), bound ? before->revision : 0, c.origin(),
-        [respond = c.respond, before, bound, changes = std::move(changes)](Gateway::SiteAnswer answer) {
-            if (answer.good) return respond(site_change(*answer.now, false, changes, {}));
-            if (bound && answer.now && answer.now->revision != before->revision) {
-                return respond(problem(412, "precondition_failed", "the site was changed by another client meanwhile: read it again"));
-            }
-            respond(problem(507, "not_stored", answer.fault.empty() ? "the site could not be stored" : answer.fault));
-        });
-    return {gateway_limit, problem(504, "time_out", "the site was not applied in time: look at it before trying again")};
+    const bool demanded = c.context.settings.require_if_match && !dry_run;
+    if (dry_run || !site) {
+        if (auto refusal = precondition(c, *before, demanded)) return *refusal;
+        if (!dry_run) return invalid(faults);
+        return site_change(*before, true, site ? differences(before->site, *site) : std::vector<std::string>{}, faults);
+    }
+    return change(c, demanded, [site = std::move(*site)](const SiteState& now) -> Planned {
+        return Plan{site, [changes = differences(now.site, site)](const std::shared_ptr<const SiteState>& after) {
+                        return site_change(*after, false, changes, {});
+                    }};
+    });
 }
 
 }  // namespace axisgate::http

@@ -282,8 +282,8 @@ private:
             const auto self = weak.lock();
             if (!self) return;
             self->timing_ = false;
-            if (ec) return;
-            self->sweep();
+            if (!ec) self->sweep();
+            // After close() the wait ends early, and clients of a new open() may be there already.
             const bool paused = std::any_of(self->listeners_.begin(), self->listeners_.end(), [](const auto& l) { return l->paused; });
             if (paused || self->free_.size() < self->places_.size() || self->responder_.waiting() > 0) self->watch_time();
         });

@@ -185,6 +185,38 @@ TEST_F(HttpTest, AChangeThatLostARaceIsMadeAgain) {
         << "with If-Match it is for that revision alone";
 }
 
+TEST_F(HttpTest, ChangesAtTheSameTimeGoOneAfterTheOther) {
+    gateway.apply = FakeGateway::Apply::later;
+    EXPECT_EQ(call("PATCH", "/api/v1/axes/feeder", R"({"unit":"m"})").status, 0u);
+    EXPECT_EQ(call("PATCH", "/api/v1/axes/feeder", R"({"position_max":5})", {{"If-Match", "\"1\""}}).status, 0u);
+    EXPECT_EQ(call("PATCH", "/api/v1/axes/feeder", R"({"number":9})").status, 0u);
+    EXPECT_EQ(gateway.applied.size(), 1u) << "the others wait";
+    gateway.apply_waiting();
+    ASSERT_EQ(later.size(), 2u);
+    EXPECT_EQ(later[0].status, 200u);
+    EXPECT_EQ(later[1].status, 412u) << "it was for the revision before";
+    ASSERT_EQ(gateway.applied.size(), 2u);
+    EXPECT_EQ(gateway.applied[1].second, 2u) << "made on what the first one left";
+    gateway.apply_waiting();
+    EXPECT_EQ(later.size(), 3u);
+    EXPECT_EQ(gateway.site()->site.axes[0].unit, "m");
+    EXPECT_EQ(gateway.site()->site.axes[0].number, 9);
+}
+
+TEST_F(HttpTest, ChangesThatWaitAreBounded) {
+    gateway.apply = FakeGateway::Apply::later;
+    for (std::size_t i = 0; i <= ChangeQueue::most_waiting; ++i)
+        EXPECT_EQ(call("PATCH", "/api/v1/axes/feeder", R"({"unit":"m"})").status, 0u) << i;
+    const auto a = call("PATCH", "/api/v1/axes/feeder", R"({"unit":"m"})");
+    EXPECT_EQ(a.status, 503u);
+    EXPECT_EQ(a.at("reason"), "busy");
+    EXPECT_EQ(call("GET", "/api/v1/axes/feeder").status, 200u) << "reading does not wait";
+    gateway.apply = FakeGateway::Apply::now;
+    gateway.apply_waiting();  // the rest changes nothing any more and is answered in one go
+    EXPECT_EQ(gateway.applied.size(), 1u);
+    EXPECT_EQ(call("PATCH", "/api/v1/axes/feeder", R"({"unit":"km"})").status, 200u) << "room again";
+}
+
 TEST_F(HttpTest, ASiteThatCannotBeStored) {
     gateway.apply = FakeGateway::Apply::fail;
     const auto a = call("PATCH", "/api/v1/axes/feeder", R"({"unit":"m"})");

@@ -1,8 +1,8 @@
 // Fake port: the gateway as the Modbus door sees it, without an engine: axes that a test sets up, commands kept for the test to answer.
-// In: pictures, results. Out: what the door submitted. Time stands still until the test moves it. Also used by the fuzz target and the
-// benchmark.
+// In: pictures, results. Out: what the door submitted. Time stands still until the test moves it. Also used by the fuzz target.
 #pragma once
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <deque>

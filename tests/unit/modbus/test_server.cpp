@@ -471,6 +471,23 @@ TEST(Server, CanBeOpenedAgain) {
     EXPECT_TRUE(serves(c.connect()));
 }
 
+TEST(Server, LooksAtTheTimeByItself) {
+    Net net;
+    TcpClient first(net), second(net);
+    first.connect();
+    net.server->close();  // and opened again, with a client, before the old timer's handler has run
+    const std::vector<std::string> bind{"127.0.0.1:0"};
+    ASSERT_EQ(net.server->open(bind), "");
+    second.connect(Net::port_of(net.server->addresses()[0]));
+    net.port.time += 61s;
+    const auto limit = std::chrono::steady_clock::now() + 5s;
+    while (net.server->counters().closed_idle.value() == 0 && std::chrono::steady_clock::now() < limit) {
+        net.io.restart();
+        net.io.run_one_for(1s);
+    }
+    EXPECT_TRUE(second.closed());
+}
+
 TEST(Endpoint, Texts) {
     EXPECT_EQ(to_text(parse_endpoint("127.0.0.1:1502").endpoint), "127.0.0.1:1502");
     EXPECT_EQ(to_text(parse_endpoint("localhost:0").endpoint), "127.0.0.1:0");

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "gateway/core/wire_time.hpp"
+
 namespace axisgate::uim342 {
 namespace {
 constexpr std::uint8_t in_commands = 1, in_polls = 2, in_probes = 4;
@@ -49,12 +51,19 @@ void LineAdapter::take_manners(const LineSetup& setup) {
     pause_ = std::max(m.pause, Duration::zero());
     bit_rate = setup.bit_rate;
 
-    const std::string wanted = option(setup.options, "in_flight", can ? "16" : "4");
+    // On a slow line fewer exchanges fit into the time that each may take: no more are begun than half of it holds.
+    const Duration exchange = can ? wire_time(2 * 160, bit_rate) : wire_time(32u * setup.bits_per_byte, bit_rate);
+    const auto fitting = [&](Duration time, std::int64_t least, std::int64_t most) {
+        return exchange > Duration::zero() ? std::clamp(time / exchange, least, most) : most;
+    };
+    const std::string wanted = option(setup.options, "in_flight", "");
     std::size_t n = 0;
     std::from_chars(wanted.data(), wanted.data() + wanted.size(), n);
-    window_ = std::clamp<std::size_t>(n == 0 ? (can ? 16 : 4) : n, 1, slot_limit);
+    window_ = n == 0 ? static_cast<std::size_t>(fitting(manners.reply_timeout / 2, 1, can ? 16 : 4)) : std::min<std::size_t>(n, slot_limit);
     if (pause_ > Duration::zero() && !can) window_ = 1;  // silence between an answer and the next request: one at a time
     probe_window_ = std::max<std::size_t>(1, window_ / 4);
+    // Grace: a drive's own time to answer, and two exchanges.
+    overtaken.set(static_cast<std::uint32_t>(fitting(manners.reply_timeout / 4, 2, 16)), milliseconds(2) + 2 * exchange);
 
     const CrcMode crc = crc_mode_named(option(setup.options, "crc", "12")).value_or(CrcMode::twelve);
     if (crc != crc_ || setup_.id == no_line) {
@@ -273,7 +282,7 @@ void LineAdapter::pump(Turn& t) {
             probed_last_ = true;
             commands_in_a_row_ = 0;
             serve(probes_, in_probes);
-        } else if (!polls_.empty()) {
+        } else if (!polls_.empty() && overtaken.may_begin(t.now)) {
             probed_last_ = false;
             commands_in_a_row_ = 0;
             serve(polls_, in_polls);
@@ -316,8 +325,11 @@ void LineAdapter::on_deadline(Instant now, Out& out) {
 Instant LineAdapter::deadline() const {
     const Instant due = heap_.earliest();
     const bool waiting = !commands_.empty() || !polls_.empty() || !probes_.empty();
-    // Somebody waits for the silence after an answer to end; without that, places become free only by calls.
-    return waiting && pause_ > Duration::zero() && in_flight < window_ ? std::min(due, quiet_until_) : due;
+    if (!waiting || in_flight >= window_) return due;
+    // Somebody waits for the silence after an answer to end, or for overtaken ones to have had their chance; else places become free
+    // only by calls.
+    const Instant chance = polls_.empty() ? never : overtaken.deadline();
+    return std::min({due, chance, pause_ > Duration::zero() ? quiet_until_ : never});
 }
 
 // --- questions of nodes ----------------------------------------------------------------------------------------------------------

@@ -21,6 +21,7 @@ const Family& family_uim342() {
         "8N1",
         true,
         true,
+        500'000,  // what the twin's factory setting says; the manual is silent
     };
     return family;
 }

@@ -169,13 +169,16 @@ void Node::go(Turn& t) {
     const bool may_command = !stopping();
     if (may_command && job_.active && !job_.waiting) return run_job(t);
     if (core_pending()) return startup_next(t);
-    // Commands go before polls, but a poll that is a whole period late goes between two commands: the picture stays alive.
-    const bool overdue = next_poll_ != never && t.now >= next_poll_ + bus_.manners.poll_period;
+    // Commands go before polls, but a poll that is a whole period late goes between two commands: the picture stays alive. One poll; on a
+    // line that cannot carry all of them every poll is late, and commands would never have their turn.
+    const bool overdue = commanded_last_ && next_poll_ != never && t.now >= next_poll_ + bus_.manners.poll_period;
     if (may_command && !job_.active && !overdue) {
         if (restore_due()) return plan_restore(t);
         if (search_.check_due) return search_check(t);
-        while (!exchange_.active && queue_ready())
+        while (!exchange_.active && queue_ready()) {
+            commanded_last_ = true;
             take_next(t);
+        }
         if (exchange_.active || job_.active) return;
     }
     if (read_error_) {
@@ -192,6 +195,7 @@ void Node::go(Turn& t) {
     }
     startup_turn_ = true;
     if (!poll_due) return;
+    commanded_last_ = false;
     const Message m = msg_get(cw::MS, poll_speed_ ? 1 : 0);
     if (poll_speed_) {
         poll_speed_ = false;
@@ -236,6 +240,7 @@ void Node::send_exchange(const Message& m, Purpose p, std::uint8_t mf, std::uint
     exchange_.deadline = t.now + bus_.manners.reply_timeout;
     exchange_.probe_place = p == Purpose::probe;
     ++bus_.in_flight;
+    bus_.overtaken.began(static_cast<std::uint8_t>(slot_));
     if (exchange_.probe_place) ++bus_.probes_in_flight;
     bus_.transmit(m, priority, t);
 }
@@ -243,6 +248,7 @@ void Node::send_exchange(const Message& m, Purpose p, std::uint8_t mf, std::uint
 void Node::end_exchange() noexcept {
     exchange_.active = false;
     --bus_.in_flight;
+    bus_.overtaken.ended(static_cast<std::uint8_t>(slot_));
     if (exchange_.probe_place) --bus_.probes_in_flight;
 }
 

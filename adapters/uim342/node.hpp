@@ -319,6 +319,7 @@ private:
     // polls
     Instant next_poll_ = never;
     bool poll_speed_ = false;    ///< next is MS[1]
+    bool commanded_last_ = false;  ///< a command has begun since the last poll
     bool startup_turn_ = false;  ///< next is a value of the start-up, though a poll is due
     bool read_error_ = false;    ///< ER[0] is to be read
 

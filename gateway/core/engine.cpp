@@ -58,6 +58,7 @@ void Engine::Side::on_line_state(bool now_up, const std::string& text) { engine.
 
 /// Hands on what one call to an adapter gave back. Feedback goes before results: a client that hears "accepted" finds the image ready.
 void Engine::drain(Side& side, Out& out, Instant now) {
+    side.touched();
     for (const auto& tx : out.frames) (void)side.line->send(tx.frame, tx.priority, now);  // a full queue is counted there
     for (const auto& l : out.links) link(side, l, now);
     for (const auto& f : out.feedback) feedback(side, f.axis, f.value, now);

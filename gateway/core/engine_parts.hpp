@@ -19,6 +19,18 @@ struct Engine::Side final : LineEvents {
     std::unique_ptr<Line> line;
     TwinBus* bus = nullptr;  ///< `line` seen as what it is, on the twin's side
     AdapterCounters counters_shown;
+    /// The earlier deadline of adapter and line, kept so that a turn of the engine need not ask all lines. Whoever calls one of the two
+    /// says touched(); drain() does it for most.
+    Instant due = never;
+    bool asked = false;
+    void touched() noexcept { asked = false; }
+    [[nodiscard]] Instant deadline() {
+        if (!asked) {
+            asked = true;
+            due = std::min(adapter->deadline(), line->deadline());
+        }
+        return due;
+    }
 
     void on_frame(const Frame& frame) override;
     void on_line_state(bool now_up, const std::string& text) override;

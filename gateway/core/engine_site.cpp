@@ -32,8 +32,9 @@ LineSetup Engine::setup_for(const LineUnit& unit, const Side& side) const {
         if (uri.uri.kind == LineUri::Kind::serial) {
             s.bit_rate = uri.uri.serial.baud;
             s.bits_per_byte = static_cast<std::uint8_t>(uri.uri.serial.format.bits_per_byte());
-        } else if (s.bit_rate == 0 && uri.uri.kind == LineUri::Kind::twin) {
-            s.bit_rate = family.default_bit_rate;
+        } else if (uri.uri.kind == LineUri::Kind::twin) {
+            if (const auto format = parse_serial_format(family.default_format)) s.bits_per_byte = format->bits_per_byte();
+            if (s.bit_rate == 0) s.bit_rate = unit.kind == LineKind::can ? family.default_can_bit_rate : family.default_bit_rate;
         }
     }
     for (const DriveId id : unit.drives) {
@@ -75,6 +76,7 @@ void Engine::build_line(LineUnit& unit, Instant now) {
     sides_.push_back(unit.real.get());
     configure_side(*unit.real, now);
     unit.real->line->open(*unit.real, now);
+    unit.real->touched();
 }
 
 void Engine::drop_axis(Axis& a, std::string_view why, Instant now) {
@@ -364,6 +366,7 @@ void Engine::serve(Drive& d, Presence by, std::string why, Instant now) {
         t.bit_rate = unit.spec.bitrate;
         t.options = d.spec.options;
         for (const auto& [k, v] : unit.spec.options) t.options.emplace(k, v);
+        unit.twins->touched();
         unit.twins->bus->add(d.id, unit.family.family->make_twin(*unit.family.catalogue, t), d.memory, now);
         d.memory_revision = unit.twins->bus->twin(d.id)->non_volatile_revision();
     } else if (before == Presence::twin && unit.twins) {
@@ -456,10 +459,8 @@ bool Engine::handback_result(const Result& r, Instant) {
 
 Instant Engine::deadline() const {
     Instant t = lines_.empty() ? never : next_housekeeping_;
-    for (const Side* s : sides_) {
-        t = std::min(t, s->adapter->deadline());
-        t = std::min(t, s->line->deadline());
-    }
+    for (Side* s : sides_)
+        t = std::min(t, s->deadline());
     return t;
 }
 
@@ -468,6 +469,8 @@ void Engine::on_deadline(Instant now) {
     // Bounded: a side that is due again at once gets its next turn with the next call.
     for (std::size_t i = 0; i < sides_.size(); ++i) {
         Side& s = *sides_[i];
+        if (s.deadline() > now) continue;
+        s.touched();
         if (s.line->deadline() <= now) s.line->on_deadline(now);
         if (s.adapter->deadline() <= now) {
             Out out = take_out();
@@ -479,6 +482,8 @@ void Engine::on_deadline(Instant now) {
     if (now >= next_housekeeping_) {
         next_housekeeping_ = now + housekeeping_period;
         housekeeping(now);
+        for (Side* s : sides_)
+            s->touched();
     }
 }
 
@@ -593,6 +598,7 @@ std::string Engine::set_hand(DriveId id, const std::vector<std::pair<std::string
     }
     for (const auto& [name, value] : items) {
         const std::string wrong = d.line->twins->bus->set_hand(id, name, value, now);
+        d.line->twins->touched();
         if (!wrong.empty()) return wrong;
         Event e;
         e.kind = "hand";

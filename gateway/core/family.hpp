@@ -43,6 +43,8 @@ struct Family {
     std::string_view default_format;
     bool uses_can;    ///< speaks CAN frames
     bool uses_bytes;  ///< speaks on a byte line
+    /// Bit rate of an embedded CAN bus whose site does not say; a real one is set outside.
+    std::uint32_t default_can_bit_rate = 0;
 };
 
 /// Every family that was found at configure time, in order of name. (Generated.)

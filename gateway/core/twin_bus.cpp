@@ -53,7 +53,7 @@ void TwinBus::remove(DriveId key) {
     const Number number = find(key);
     if (number == gone) return;
     place(number, never);
-    std::erase(senders_, number);
+    drop_sender(number);
     std::erase_if(ears_, [number](const Ear& e) { return e.number == number; });
     for (Transmission& t : wire_) {
         if (t.sender == number) t.sender = gone;
@@ -88,7 +88,7 @@ void TwinBus::restart(DriveId key, const NonVolatile& memory, Instant now) {
     if (number == gone) return;
     processed_ = std::max(processed_, now);
     nodes_[number]->queue.clear();
-    std::erase(senders_, number);
+    drop_sender(number);
     nodes_[number]->twin->power_on(memory, processed_, scratch_);
     take(number, processed_);
 }
@@ -96,7 +96,7 @@ void TwinBus::restart(DriveId key, const NonVolatile& memory, Instant now) {
 /// After every call to a twin: its frames go into its queue, its deadline into the heap.
 void TwinBus::take(Number number, Instant t, Duration at_least) {
     Node& node = *nodes_[number];
-    const bool was_empty = node.queue.empty();
+    const bool said = !scratch_.frames.empty();
     for (const auto& tx : scratch_.frames) {
         if ((tx.frame.kind == Frame::Kind::can) != (options_.kind == LineKind::can) || tx.frame.kind == Frame::Kind::can_error) {
             ++counters_.foreign;
@@ -105,9 +105,27 @@ void TwinBus::take(Number number, Instant t, Duration at_least) {
         }
     }
     scratch_.clear();
-    if (was_empty && !node.queue.empty()) senders_.push_back(number);
+    if (said) note_sender(number);
     const Instant due = node.twin->deadline();
     place(number, due == never ? never : std::max(due, t + at_least));
+}
+
+/// After a change of a node's queue.
+void TwinBus::note_sender(Number number) {
+    const SendQueue& queue = nodes_[number]->queue;
+    const SendQueue::Entry* e = queue.front();
+    if (e == nullptr) return drop_sender(number);
+    const Sender now{number, options_.kind == LineKind::can ? can_arbitration(e->frame) : 0, queue.earliest()};
+    const auto known = std::ranges::find(senders_, number, &Sender::number);
+    if (known == senders_.end()) {
+        senders_.push_back(now);
+    } else {
+        *known = now;
+    }
+}
+
+void TwinBus::drop_sender(Number number) noexcept {
+    std::erase_if(senders_, [number](const Sender& s) { return s.number == number; });
 }
 
 // --- deadlines: a binary heap in which every node knows its place ----------------------------------------------------
@@ -182,8 +200,8 @@ void TwinBus::close() {
     status_.state = LineStatus::State::closed;
     host_queue_.clear();
     wire_.clear();
-    for (const Number n : senders_)
-        nodes_[n]->queue.clear();
+    for (const Sender& s : senders_)
+        nodes_[s.number]->queue.clear();
     senders_.clear();
 }
 
@@ -213,8 +231,8 @@ Instant TwinBus::next_start() const noexcept {
     if (can && !wire_.empty()) return never;
     Instant t = never;
     if (can || !sending(host)) t = host_queue_.earliest();
-    for (const Number n : senders_) {
-        if (can || !sending(n)) t = std::min(t, nodes_[n]->queue.earliest());
+    for (const Sender& s : senders_) {
+        if (can || !sending(s.number)) t = std::min(t, s.since);
     }
     if (t == never) return never;
     return std::max({t, processed_, can ? bus_free_ : Instant{}});
@@ -270,26 +288,24 @@ void TwinBus::start(Instant t) {
     // All that are ready now begin now: nobody listens before talking on a byte line.
     if (host_queue_.front(t) != nullptr && !sending(host)) begin(host, host_queue_, t);
     for (std::size_t i = 0; i < senders_.size();) {
-        const Number n = senders_[i];
+        const Number n = senders_[i].number;
         if (!sending(n)) begin(n, nodes_[n]->queue, t);
-        if (i < senders_.size() && senders_[i] == n) ++i;  // else it has nothing more to send and has left the list
+        if (i < senders_.size() && senders_[i].number == n) ++i;  // else it has nothing more to send and has left the list
     }
 }
 
 void TwinBus::start_can(Instant t) {
     Number winner = gone;
     std::uint32_t best = 0xFFFFFFFF;
-    const auto offer = [&](Number sender, const SendQueue& queue) {
-        const SendQueue::Entry* e = queue.front(t);
-        if (e == nullptr) return;
-        const std::uint32_t key = can_arbitration(e->frame);
-        if (winner != gone && key >= best) return;
-        winner = sender;
-        best = key;
-    };
-    offer(host, host_queue_);
-    for (const Number n : senders_)
-        offer(n, nodes_[n]->queue);
+    if (const SendQueue::Entry* e = host_queue_.front(t); e != nullptr) {
+        winner = host;
+        best = can_arbitration(e->frame);
+    }
+    for (const Sender& s : senders_) {  // what a twin has said, it has said by now
+        if (winner != gone && s.arbitration >= best) continue;
+        winner = s.number;
+        best = s.arbitration;
+    }
     if (winner != gone) begin(winner, winner == host ? host_queue_ : nodes_[winner]->queue, t);
 }
 
@@ -302,7 +318,7 @@ void TwinBus::begin(Number sender, SendQueue& queue, Instant t) {
     const bool can = options_.kind == LineKind::can;
     const std::uint64_t bits = can ? can_bits(x.frame) : std::uint64_t{x.frame.size} * options_.bits_per_byte;
     x.end = t + wire_time(bits, options_.bit_rate);
-    if (sender != host && queue.empty()) std::erase(senders_, sender);
+    if (sender != host) note_sender(sender);
     if (can || x.end == t) return;
     for (Transmission& other : wire_) {
         const bool same_wire = !options_.full_duplex || (other.sender != host && sender != host);

@@ -99,6 +99,13 @@ private:
         Hearing hearing;
         Number number;
     };
+    /// A node whose queue is not empty, with what is asked of it at every event: when its oldest frame came, and how that one is
+    /// arbitrated.
+    struct Sender {
+        Number number;
+        std::uint32_t arbitration;
+        Instant since;
+    };
 
     [[nodiscard]] Number find(DriveId key) const noexcept;
     [[nodiscard]] bool sending(Number sender) const noexcept;
@@ -108,6 +115,8 @@ private:
     void start(Instant t);
     void start_can(Instant t);
     void begin(Number sender, SendQueue& queue, Instant t);
+    void note_sender(Number number);
+    void drop_sender(Number number) noexcept;
     void garble_overlap(Transmission& a, Transmission& b) noexcept;
     void finish_one();
     void deliver_to_twins(Instant t);
@@ -126,7 +135,7 @@ private:
     std::vector<std::unique_ptr<Node>> nodes_;  // by number; null: free
     std::vector<Ear> ears_;                     // what is scanned for each frame, kept apart from the nodes so that it is dense
     std::vector<Due> heap_;                     // twins by deadline, earliest first; nodes know their place in it
-    std::vector<Number> senders_;               // nodes whose queue is not empty
+    std::vector<Sender> senders_;               // dense, for the same reason
     SendQueue host_queue_;
     std::vector<Transmission> wire_;  // CAN: at most one; bytes: at most one per sender
     Transmission done_;               // the one that is being delivered

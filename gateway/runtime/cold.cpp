@@ -2,9 +2,9 @@
 // In and out: see the header. Never holds more than its mailboxes' bounds plus one batch.
 #include "gateway/runtime/cold.hpp"
 
-#include <pthread.h>
 
 #include "gateway/runtime/clock.hpp"
+#include "gateway/runtime/threads.hpp"
 
 namespace axisgate {
 namespace {
@@ -21,7 +21,7 @@ Cold::~Cold() { stop(); }
 
 void Cold::start() {
     thread_ = std::thread([this] {
-        pthread_setname_np(pthread_self(), "axisgate-cold");
+        enter_thread("axisgate-cold", cold_stands_back);
         io_.run();
     });
 }

@@ -56,6 +56,9 @@ public:
     [[nodiscard]] std::shared_ptr<const Reports> reports() const { return reports_.load(std::memory_order_acquire); }
     [[nodiscard]] Engine& engine() noexcept { return engine_; }  ///< before start(), or on the hot thread
 
+    /// Asked again and again while the loop polls instead of sleeping (spin_us): true if it found something to do. Before start().
+    void look_here_while_spinning(std::function<bool()> look) { look_ = std::move(look); }
+
     void start();
     /// Stops moving axes, gives them a moment, closes the lines, ends the thread.
     void stop();
@@ -108,6 +111,7 @@ private:
     std::uint64_t lost_told_ = 0;
     std::atomic<bool> stopping_{false};
     bool finished_ = false;
+    std::function<bool()> look_;
     bool settled_ = false;
     std::thread thread_;
 };

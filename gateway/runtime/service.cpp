@@ -1,7 +1,6 @@
 // Service: `axisgate serve`: assembles store, hot, cold and warm threads and doors, says `ready`, and takes it all down again in order.
 // In: the configuration, a site. Out: the running gateway; an exit code. Never starts a door before what it shows is there.
 #include <fmt/format.h>
-#include <pthread.h>
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
@@ -25,6 +24,7 @@
 #include "gateway/runtime/hot.hpp"
 #include "gateway/runtime/site_file.hpp"
 #include "gateway/runtime/systemd.hpp"
+#include "gateway/runtime/threads.hpp"
 #include "gateway/runtime/warm_gateway.hpp"
 
 namespace axisgate {
@@ -209,6 +209,7 @@ int Service::open_doors() {
             complain(fault);
             return exit_failed;
         }
+        hot->look_here_while_spinning([this] { return modbus->serve_now(); });
         for (const auto& a : modbus->addresses()) doors.push_back({"modbus", a});
     }
     if (!options.config.http_bind.empty()) {
@@ -298,7 +299,7 @@ int command_serve(const ServeOptions& options) {
     s.cold->start();
     s.hot->start();
     s.watch();
-    pthread_setname_np(pthread_self(), "axisgate-warm");
+    enter_thread("axisgate-warm", warm_stands_back);  // after the others have been started: a new thread begins with its maker's rank
     s.warm.run();
     s.warm.restart();
     s.take_down();

@@ -207,7 +207,7 @@ int command_twin(const TwinOptions& o) {
     LineSetup setup;
     setup.name = o.line_uri;
     setup.kind = kind;
-    setup.bit_rate = family.default_bit_rate;
+    setup.bit_rate = kind == LineKind::can ? family.default_can_bit_rate : family.default_bit_rate;
     host.line = make_real_line(o.line_uri, setup, io, family.default_format);
     host.line->open(host, monotonic_now());
     host.power_on(memories);

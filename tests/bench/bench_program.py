@@ -38,6 +38,7 @@ class Program:
             if not part:
                 raise SystemExit(f"bench_program: the program ended: {said.decode()}")
             said += part
+        self.said = said.decode()
         self.took_ms = (time.monotonic() - begun) * 1000
 
     def memory_mb(self, key):

@@ -128,8 +128,9 @@ bool run_thousand(const FamilyEntry& e) {
     constexpr std::size_t axes = 1000;
     constexpr double rate = 100;
     std::printf("%zu moving axes of %s, polled at %.0f Hz, engine, adapters and twins\n", axes, std::string(e.family->name).c_str(), rate);
-    // As many drives on a line as its bit rate can carry at that rate: 40 * 100 * (question + answer) fills 1 Mbit/s to about four fifths.
-    Plant p(e, axes, 40, static_cast<int>(1000 / rate));
+    // As many drives on a line as its bit rate can carry: 40 * 100 * (question + answer) fills 1 Mbit/s to about four fifths. A moving
+    // drive is asked two things in turn in each poll period, and each answer brings its position: 100 a second are a period of 20 ms.
+    Plant p(e, axes, 40, static_cast<int>(2000 / rate));
     p.run_for(2s);
     for (const auto a : p.site->axis_ids)
         p.command(a, Enable{});

@@ -24,6 +24,8 @@ class Load {
 public:
     Load(Address address, int connections, int in_flight, std::uint16_t registers);
     ~Load();
+    /// It looks for answers without ever sleeping: what is measured is then the server's wake-ups alone, and not the generator's own.
+    void never_sleep() noexcept { never_sleeps_ = true; }
     Load(const Load&) = delete;
     Load& operator=(const Load&) = delete;
 
@@ -49,6 +51,7 @@ private:
     std::size_t answer_size_;
     std::vector<Connection> connections_;
     std::vector<std::uint32_t> latencies_ns_;
+    bool never_sleeps_ = false;
     std::string fault_;
 };
 

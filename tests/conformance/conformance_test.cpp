@@ -258,6 +258,31 @@ TEST_P(EveryFamily, ASilentDriveCostsOnlyItself) {
     EXPECT_TRUE(w.run_until_true([&] { return online(a2) && !(w.picture(a2).flags & flag_stale); }, 8s)) << "it heals by itself";
 }
 
+TEST_P(EveryFamily, AFullLineServesEverybody) {
+    // Polls are asked for far more often than the line can carry them: each drive still gets its share, and commands go before polls.
+    Site wanted = w.make_site(e, "twin", 30);
+    wanted.lines.at(0).manners.poll_period = 1ms;
+    site = w.apply(std::move(wanted));
+    const auto all = [&](std::uint16_t flag, bool on) {
+        return std::ranges::all_of(site->axis_ids, [&](AxisId a) { return ((w.picture(a).flags & flag) != 0) == on; });
+    };
+    ASSERT_TRUE(w.run_until_true([&] { return all(flag_online, true); }, 30s)) << "not all twins come up";
+    w.run_for(3s);
+    std::vector<Ticket> tickets;
+    for (const AxisId a : site->axis_ids)
+        tickets.push_back(w.command(a, Enable{}, true));
+    for (const Ticket t : tickets) {
+        const Result* r = w.wait(t, 60s);
+        ASSERT_TRUE(r && good(*r)) << (r ? r->text : "no result");
+    }
+    for (int i = 0; i < 20; ++i) {
+        w.run_for(500ms);
+        EXPECT_TRUE(all(flag_stale, false));
+    }
+    for (const Event& event : w.events)
+        EXPECT_FALSE(event.kind == "drive" && event.severity == Severity::warning) << event.text;
+}
+
 TEST_P(EveryFamily, PowerCycleIsSurvived) {
     start();
     enable();

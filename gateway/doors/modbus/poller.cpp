@@ -20,15 +20,21 @@ struct Poller::State : std::enable_shared_from_this<State> {
         void operator()(boost::system::error_code ec) {
             State& s = *self;
             if (ec || s.ended) return;
-            // While several sockets are ready more become so meanwhile: asking again here is cheaper than a turn of the io_context.
-            epoll_event events[events_per_turn];
-            for (int room = events_per_turn, n = 2; room > 0 && n > 1 && !s.ended; room -= n) {
-                n = ::epoll_wait(s.fd, events, room, 0);
-                if (n > 0) s.on_ready({events, static_cast<std::size_t>(n)});
-            }
+            (void)s.serve();
             if (!s.ended) s.arm(std::move(self));
         }
     };
+    bool serve() {
+        // While several sockets are ready more become so meanwhile: asking again here is cheaper than a turn of the io_context.
+        epoll_event events[events_per_turn];
+        bool any = false;
+        for (int room = events_per_turn, n = 2; room > 0 && n > 1 && !ended; room -= n) {
+            n = ::epoll_wait(fd, events, room, 0);
+            if (n > 0) on_ready({events, static_cast<std::size_t>(n)});
+            any = any || n > 0;
+        }
+        return any;
+    }
     void arm(std::shared_ptr<State> self) { descriptor.async_wait(boost::asio::posix::descriptor_base::wait_read, Ready{std::move(self)}); }
 
     boost::asio::posix::basic_stream_descriptor<boost::asio::io_context::executor_type> descriptor;
@@ -49,6 +55,11 @@ Poller::~Poller() {
 }
 
 bool Poller::good() const noexcept { return state_->fd >= 0; }
+
+bool Poller::serve_now() {
+    const auto kept = state_;  // what it serves may end the server
+    return kept->fd >= 0 && !kept->ended && kept->serve();
+}
 
 bool Poller::add(int fd, std::uint64_t token, std::uint32_t events) noexcept {
     epoll_event e{};

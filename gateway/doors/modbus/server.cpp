@@ -115,6 +115,7 @@ public:
         }
     }
 
+    bool serve_now() { return poller_.serve_now(); }
     [[nodiscard]] Counters& counters() noexcept { return responder_.counters(); }
     [[nodiscard]] Responder& responder() noexcept { return responder_; }
 
@@ -310,6 +311,7 @@ Server::~Server() { impl_->close(); }
 std::string Server::open(std::span<const std::string> binds) { return impl_->open(binds); }
 std::vector<std::string> Server::addresses() const { return impl_->addresses(); }
 void Server::close() { impl_->close(); }
+bool Server::serve_now() { return impl_->serve_now(); }
 Responder& Server::responder() noexcept { return impl_->responder(); }
 void Server::sweep() { impl_->sweep(); }
 const Counters& Server::counters() const noexcept { return impl_->counters(); }

@@ -54,6 +54,9 @@ public:
     /// Applies the time-outs as of the port's now(). The server's own timer calls it four times a second while anyone is connected.
     void sweep();
 
+    /// Serves the requests that are there at this moment; false: there was none. For a loop that polls instead of sleeping.
+    bool serve_now();
+
     /// May be read on any thread while the server lives.
     [[nodiscard]] const Counters& counters() const noexcept;
 

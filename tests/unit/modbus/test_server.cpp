@@ -471,6 +471,21 @@ TEST(Server, CanBeOpenedAgain) {
     EXPECT_TRUE(serves(c.connect()));
 }
 
+TEST(Server, ServesAtOnceWhenItIsAsked) {
+    Net net;
+    EXPECT_FALSE(net.server->serve_now()) << "nobody has asked anything";
+    TcpClient c(net);
+    EXPECT_TRUE(serves(c.connect()));
+    const auto answers = [&] { return net.server->counters().requests.value(); };
+    const auto before = answers();
+    c.send(adu(1, control));
+    const auto limit = std::chrono::steady_clock::now() + 5s;
+    while (!net.server->serve_now() && std::chrono::steady_clock::now() < limit) {
+    }
+    EXPECT_EQ(answers(), before + 1) << "the io_context has not run";
+    EXPECT_FALSE(net.server->serve_now());
+}
+
 TEST(Server, LooksAtTheTimeByItself) {
     Net net;
     TcpClient first(net), second(net);

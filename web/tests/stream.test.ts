@@ -76,6 +76,21 @@ describe('going live', () => {
     FalseSocket.last.says(site);
     expect(state()).toMatchObject({ phase: 'live', epoch: 1 });
   });
+  it('asks for a topic that is wanted between the opening and the first word', () => {
+    const s = make();
+    s.start();
+    s.subscribe({ 'axes/*': 100 });
+    expect(FalseSocket.last.sent).toEqual([]);
+    FalseSocket.last.opens();
+    s.subscribe({ 'lines/can0/frames': 200 });
+    s.unsubscribe('axes/*');
+    expect(FalseSocket.last.sent.map((t) => JSON.parse(t))).toEqual([
+      { subscribe: ['site'], period_ms: 1000 },
+      { subscribe: ['axes/*'], period_ms: 100 },
+      { subscribe: ['lines/can0/frames'], period_ms: 200 },
+      { unsubscribe: ['axes/*'] },
+    ]);
+  });
   it('asks for its topics, by period, and for the site that answers at once', () => {
     const s = make();
     s.subscribe({ 'axes/*': 100, events: 1000, 'lines/*': 1000 });

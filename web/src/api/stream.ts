@@ -95,11 +95,12 @@ export class Stream {
 
   subscribe(topics: Record<string, number>): void {
     for (const [topic, period_ms] of Object.entries(topics)) this.wanted.set(topic, period_ms);
-    if (this.state.phase === 'live') this.ask(Object.entries(topics));
+    // As soon as the socket is open, also before the first answer: what was wanted at its opening has been asked for by then, this has not.
+    this.ask(Object.entries(topics));
   }
 
   unsubscribe(topic: string): void {
-    if (this.wanted.delete(topic) && this.state.phase === 'live') this.send(JSON.stringify({ unsubscribe: [topic] }));
+    if (this.wanted.delete(topic)) this.send(JSON.stringify({ unsubscribe: [topic] }));
   }
 
   private tell(change: Partial<StreamState>): void {
@@ -171,6 +172,7 @@ export class Stream {
     for (const [period_ms, subscribe] of byPeriod) this.send(JSON.stringify({ subscribe, period_ms }));
   }
 
+  /** Nothing while the socket is not open: its opening asks for all that is wanted. */
   private send(text: string): void {
     if (this.socket?.readyState === 1 /* OPEN */) this.socket.send(text);
   }

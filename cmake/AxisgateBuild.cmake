@@ -13,6 +13,10 @@ target_compile_definitions(axisgate_flags INTERFACE AXISGATE_VERSION="${PROJECT_
 if(AXISGATE_SANITIZE)
   add_compile_options(-fsanitize=${AXISGATE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${AXISGATE_SANITIZE})
+  if(AXISGATE_SANITIZE MATCHES undefined)
+    # That check opens a pipe to see whether memory is readable: in a test that has used up all descriptors it sees faults that are none.
+    add_compile_options(-fno-sanitize=vptr)
+  endif()
 endif()
 if(AXISGATE_FUZZ)
   add_compile_options(-fsanitize=fuzzer-no-link)

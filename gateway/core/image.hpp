@@ -60,18 +60,18 @@ public:
     void write(const AxisPicture& p) noexcept {
         std::uint64_t words[word_count] = {};
         std::memcpy(words, &p, sizeof p);
+        // Without fences, which ThreadSanitizer does not know: whoever sees a new word sees that the sequence is odd, because each word is
+        // released after it; and no word is read after the sequence is looked at again, because each is acquired.
         const auto s = sequence_.load(std::memory_order_relaxed);
         sequence_.store(s + 1, std::memory_order_relaxed);
-        std::atomic_thread_fence(std::memory_order_release);
-        for (std::size_t i = 0; i < word_count; ++i) words_[i].store(words[i], std::memory_order_relaxed);
+        for (std::size_t i = 0; i < word_count; ++i) words_[i].store(words[i], std::memory_order_release);
         sequence_.store(s + 2, std::memory_order_release);
     }
     [[nodiscard]] AxisPicture read() const noexcept {
         std::uint64_t words[word_count];
         for (;;) {
             const auto before = sequence_.load(std::memory_order_acquire);
-            for (std::size_t i = 0; i < word_count; ++i) words[i] = words_[i].load(std::memory_order_relaxed);
-            std::atomic_thread_fence(std::memory_order_acquire);
+            for (std::size_t i = 0; i < word_count; ++i) words[i] = words_[i].load(std::memory_order_acquire);
             if ((before & 1u) == 0 && sequence_.load(std::memory_order_relaxed) == before) break;
         }
         AxisPicture p;

@@ -16,8 +16,6 @@ constexpr std::size_t max_length = 1024;
 
 constexpr std::string_view can_example = "can:can0";
 constexpr std::string_view serial_example = "serial:/dev/ttyUSB0?baud=9600&format=8N1";
-constexpr std::string_view tcp_example = "tcp:192.168.1.50:503";
-constexpr std::string_view tcp_listen_example = "tcp-listen:127.0.0.1:4001";
 constexpr std::string_view pty_example = "pty:/tmp/drive";
 
 LineUriResult fault(std::string what, std::string_view example) {
@@ -48,16 +46,17 @@ std::string host_fault(std::string_view host, bool bracketed) {
     return {};
 }
 
-LineUriResult parse_endpoint(std::string_view rest, LineUri::Kind kind) {
-    const bool listen = kind == LineUri::Kind::tcp_listen;
-    const std::string_view example = listen ? tcp_listen_example : tcp_example;
-    if (rest.find('?') != std::string_view::npos) return fault("a TCP line takes no options", example);
+LineUriResult parse_endpoint(std::string_view scheme, std::string_view rest, LineUri::Kind kind) {
+    const bool listen = kind == LineUri::Kind::tcp_listen || kind == LineUri::Kind::udp_listen;
+    const std::string example = fmt::format("{}:{}", scheme, listen ? "127.0.0.1:4001" : "192.168.1.50:503");
+    const std::string v6_example = fmt::format("{}:{}", scheme, listen ? "[::1]:4001" : "[::1]:503");
+    if (rest.find('?') != std::string_view::npos) return fault("a TCP or UDP line takes no options", example);
     std::string_view host, port;
     const bool bracketed = rest.starts_with('[');
     if (bracketed) {
         const auto close = rest.find(']');
         if (close == std::string_view::npos || close + 1 >= rest.size() || rest[close + 1] != ':') {
-            return fault("an IPv6 address is written [ADDRESS]:PORT", listen ? "tcp-listen:[::1]:4001" : "tcp:[::1]:503");
+            return fault("an IPv6 address is written [ADDRESS]:PORT", v6_example);
         }
         host = rest.substr(1, close - 1);
         port = rest.substr(close + 2);
@@ -67,7 +66,7 @@ LineUriResult parse_endpoint(std::string_view rest, LineUri::Kind kind) {
         host = rest.substr(0, colon);
         port = rest.substr(colon + 1);
         if (host.find(':') != std::string_view::npos) {
-            return fault("an IPv6 address is written in square brackets", listen ? "tcp-listen:[::1]:4001" : "tcp:[::1]:503");
+            return fault("an IPv6 address is written in square brackets", v6_example);
         }
     }
     if (const std::string wrong = host_fault(host, bracketed); !wrong.empty()) return fault(wrong, example);
@@ -217,7 +216,8 @@ std::string to_text(const SerialFormat& f) {
 
 LineUriResult parse_line_uri(std::string_view text, std::uint32_t default_baud, std::string_view default_format) {
     constexpr std::string_view any_example =
-        "can:can0, serial:/dev/ttyUSB0?baud=9600&format=8N1, tcp:HOST:PORT, tcp-listen:HOST:PORT, pty:PATH or twin";
+        "can:can0, serial:/dev/ttyUSB0?baud=9600&format=8N1, tcp:HOST:PORT, tcp-listen:HOST:PORT, udp:HOST:PORT, "
+        "udp-listen:HOST:PORT, pty:PATH or twin";
     if (text.empty()) return fault("the line URI is empty", any_example);
     if (text.size() > max_length) return fault(fmt::format("the line URI is longer than {} characters", max_length), any_example);
     if (std::ranges::any_of(text, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; })) {
@@ -230,8 +230,10 @@ LineUriResult parse_line_uri(std::string_view text, std::uint32_t default_baud, 
         const std::string_view rest = text.substr(colon + 1);
         if (scheme == "can") return parse_can(rest);
         if (scheme == "serial") return parse_serial(rest, default_baud, default_format);
-        if (scheme == "tcp") return parse_endpoint(rest, LineUri::Kind::tcp);
-        if (scheme == "tcp-listen") return parse_endpoint(rest, LineUri::Kind::tcp_listen);
+        if (scheme == "tcp") return parse_endpoint(scheme, rest, LineUri::Kind::tcp);
+        if (scheme == "tcp-listen") return parse_endpoint(scheme, rest, LineUri::Kind::tcp_listen);
+        if (scheme == "udp") return parse_endpoint(scheme, rest, LineUri::Kind::udp);
+        if (scheme == "udp-listen") return parse_endpoint(scheme, rest, LineUri::Kind::udp_listen);
         if (scheme == "pty") return parse_pty(rest);
         if (scheme == "twin") return fault("twin stands alone", "twin");
     }
@@ -248,6 +250,10 @@ std::string to_text(const LineUri& u) {
             return "tcp:" + endpoint;
         case LineUri::Kind::tcp_listen:
             return "tcp-listen:" + endpoint;
+        case LineUri::Kind::udp:
+            return "udp:" + endpoint;
+        case LineUri::Kind::udp_listen:
+            return "udp-listen:" + endpoint;
         case LineUri::Kind::pty:
             return "pty:" + u.path;
         case LineUri::Kind::twin:

@@ -50,12 +50,12 @@ struct SerialSettings {
 };
 
 struct LineUri {
-    enum class Kind : std::uint8_t { can, serial, tcp, tcp_listen, pty, twin };
+    enum class Kind : std::uint8_t { can, serial, tcp, tcp_listen, udp, udp_listen, pty, twin };
     Kind kind = Kind::twin;
     std::string interface;   ///< can: 1..15 characters, a network interface's name
     std::string path;        ///< serial, pty
-    std::string host;        ///< tcp, tcp_listen: name or address, without brackets
-    std::uint16_t port = 0;  ///< tcp: 1..65535; tcp_listen: 0 lets the system choose
+    std::string host;        ///< tcp, udp and their listening kinds: name or address, without brackets
+    std::uint16_t port = 0;  ///< 1..65535; listening: 0 lets the system choose
     SerialSettings serial;   ///< serial alone
     bool operator==(const LineUri&) const = default;
 };

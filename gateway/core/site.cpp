@@ -11,6 +11,7 @@
 
 #include "gateway/core/image.hpp"
 #include "gateway/core/line_uri.hpp"
+#include "gateway/core/mapping.hpp"
 
 namespace axisgate {
 namespace {
@@ -401,14 +402,16 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
     if (const auto* m = o.if_contains("mappings"); m && !m->is_null()) {
         if (m->is_array()) {
             site.mappings = m->get_array();
-            for (std::size_t i = 0; i < site.mappings.size(); ++i) {
-                if (!site.mappings[i].is_object()) faults.push_back({fmt::format("/mappings/{}", i), "a mapping is an object", "write {...}"});
-            }
         } else {
             faults.push_back({"/mappings", "mappings must be a list", "write []"});
         }
     }
     check_relations(site, families, faults);
+    // In their full form from here on: ids that were given, defaults that were chosen.
+    if (const auto mappings = parse_mappings(site.mappings, site, families, faults)) {
+        site.mappings.clear();
+        for (const auto& mapping : *mappings) site.mappings.push_back(to_json(mapping));
+    }
     if (faults.size() != before) return std::nullopt;
     return site;
 }

@@ -74,6 +74,7 @@ struct SiteFault {
     std::string pointer;  ///< JSON pointer into the document: "/axes/2/number"
     std::string text;     ///< what is wrong
     std::string remedy;   ///< what to do
+    bool conflict = false;  ///< a place is taken: either of two entries must give way
 };
 
 struct FamilyEntry {

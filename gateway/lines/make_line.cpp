@@ -6,6 +6,7 @@
 #include "gateway/lines/serial_line.hpp"
 #include "gateway/lines/tcp_line.hpp"
 #include "gateway/lines/tcp_listen_line.hpp"
+#include "gateway/lines/udp_line.hpp"
 
 namespace axisgate {
 namespace {
@@ -35,6 +36,10 @@ std::unique_ptr<Line> make_line(const LineUri& uri, const LineBase& base, const 
             return std::make_unique<TcpLine>(base, uri.host, uri.port);
         case LineUri::Kind::tcp_listen:
             return std::make_unique<TcpListenLine>(base, uri.host, uri.port);
+        case LineUri::Kind::udp:
+            return std::make_unique<UdpLine>(base, uri.host, uri.port, UdpLine::Role::connects);
+        case LineUri::Kind::udp_listen:
+            return std::make_unique<UdpLine>(base, uri.host, uri.port, UdpLine::Role::listens);
         case LineUri::Kind::pty:
             return std::make_unique<PtyLine>(base, uri.path);
         case LineUri::Kind::twin:

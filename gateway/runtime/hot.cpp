@@ -149,6 +149,7 @@ void Hot::on_event(Event event, Instant at) {
 }
 
 void Hot::on_sample(const Sample& sample) {
+    if (tap_) tap_(sample);
     if (out_.samples) (void)out_.samples->push(Sample(sample));  // a state: the next reading replaces one that was not taken
 }
 

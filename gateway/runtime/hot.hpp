@@ -14,6 +14,7 @@
 
 #include "gateway/core/door.hpp"
 #include "gateway/core/engine.hpp"
+#include "gateway/core/mapping.hpp"
 #include "gateway/runtime/cold.hpp"
 #include "gateway/runtime/mailbox.hpp"
 
@@ -58,6 +59,15 @@ public:
 
     /// Asked again and again while the loop polls instead of sleeping (spin_us): true if it found something to do. Before start().
     void look_here_while_spinning(std::function<bool()> look) { look_ = std::move(look); }
+
+    /// Called on the hot thread for every parameter value that a drive reported. Before start().
+    void tap_samples(std::function<void(const Sample&)> tap) { tap_ = std::move(tap); }
+    /// Called on the hot thread when a site is in force, with its checked mappings. Before start().
+    void on_mappings(std::function<void(const SiteState&, std::vector<Mapping>)> take) { take_mappings_ = std::move(take); }
+    /// Hot thread, or before start().
+    void mappings_changed(const SiteState& site, std::vector<Mapping> mappings) {
+        if (take_mappings_) take_mappings_(site, std::move(mappings));
+    }
 
     void start();
     /// Stops moving axes, gives them a moment, closes the lines, ends the thread.
@@ -112,6 +122,8 @@ private:
     std::atomic<bool> stopping_{false};
     bool finished_ = false;
     std::function<bool()> look_;
+    std::function<void(const Sample&)> tap_;
+    std::function<void(const SiteState&, std::vector<Mapping>)> take_mappings_;
     bool settled_ = false;
     std::thread thread_;
 };

@@ -51,8 +51,8 @@ public:
 
 private:
     void empty() {
-        on_its_way_.store(false, std::memory_order_release);
-        std::atomic_thread_fence(std::memory_order_seq_cst);
+        // An exchange, not a store: a sender that found it true has pushed before, and its item is seen below.
+        (void)on_its_way_.exchange(false, std::memory_order_acq_rel);
         T* item = nullptr;
         // Bounded: what arrives meanwhile is announced anew.
         for (std::size_t n = ring_.read_available(); n > 0 && ring_.pop(item); --n) {

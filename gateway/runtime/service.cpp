@@ -13,6 +13,7 @@
 #include <csignal>
 #include <cstdio>
 #include <future>
+#include <map>
 
 #include "gateway/core/assets.hpp"
 #include "gateway/doors/http/server.hpp"
@@ -87,6 +88,21 @@ std::string modbus_metrics(const modbus::Counters& c) {
 }
 
 /// Everything that lives while the service runs; destroyed from the last to the first.
+/// Mappings with the ids of their axes in the running engine.
+std::vector<modbus::PlacedMapping> placed(const SiteState& site, std::vector<Mapping> mappings) {
+    std::map<std::string_view, std::size_t> index;
+    for (std::size_t i = 0; i < site.site.axes.size(); ++i) index.emplace(site.site.axes[i].name, i);
+    std::vector<modbus::PlacedMapping> out;
+    out.reserve(mappings.size());
+    for (auto& m : mappings) {
+        const auto it = index.find(m.axis);
+        if (it == index.end() || it->second >= site.axis_ids.size()) continue;
+        const AxisId id = site.axis_ids[it->second];
+        out.push_back({std::move(m), id, site.site.axes[it->second].increments_per_unit});
+    }
+    return out;
+}
+
 struct Service {
     const ServeOptions& options;
     Families families;
@@ -209,6 +225,8 @@ int Service::open_doors() {
             complain(fault);
             return exit_failed;
         }
+        hot->tap_samples([this](const Sample& sample) { modbus->on_sample(sample); });
+        hot->on_mappings([this](const SiteState& site, std::vector<Mapping> mappings) { modbus->set_mappings(placed(site, std::move(mappings))); });
         hot->look_here_while_spinning([this] { return modbus->serve_now(); });
         for (const auto& a : modbus->addresses()) doors.push_back({"modbus", a});
     }
@@ -290,6 +308,8 @@ int command_serve(const ServeOptions& options) {
     auto state = s.hot->engine().apply_site(std::move(site), std::move(memory), revision, monotonic_now());
     s.gateway->set_site(state);
     if (const int code = s.open_doors(); code != exit_good) return code;
+    std::vector<SiteFault> none;  // the site has been checked
+    s.hot->mappings_changed(*state, parse_mappings(state->site.mappings, state->site, s.families, none).value_or(std::vector<Mapping>()));
 
     s.signals.add(SIGINT);
     s.signals.add(SIGTERM);

@@ -206,10 +206,13 @@ void WarmGateway::apply_site(Site site, std::uint64_t expected_revision, Origin 
             return;
         }
         auto memory = read_site_memory(store, site);
-        boost::asio::post(io_, [this, site = std::move(site), memory = std::move(memory), revision = *saved, e = std::move(e), then = std::move(then)]() mutable {
-            auto job = [this, site = std::move(site), memory = std::move(memory), revision, e = std::move(e), then](Engine& engine, Instant now) mutable {
+        std::vector<SiteFault> none;  // the site has been checked
+        auto mappings = parse_mappings(site.mappings, site, families_, none).value_or(std::vector<Mapping>());
+        boost::asio::post(io_, [this, site = std::move(site), memory = std::move(memory), mappings = std::move(mappings), revision = *saved, e = std::move(e), then = std::move(then)]() mutable {
+            auto job = [this, site = std::move(site), memory = std::move(memory), mappings = std::move(mappings), revision, e = std::move(e), then](Engine& engine, Instant now) mutable {
                 hot_.on_event(std::move(e), now);
                 auto state = engine.apply_site(std::move(site), std::move(memory), revision, now);
+                hot_.mappings_changed(*state, std::move(mappings));
                 boost::asio::post(io_, [this, state = std::move(state), then = std::move(then)]() mutable { finish_site(true, {}, std::move(state), then); });
             };
             if (!hot_.jobs().push(Hot::Job(std::move(job)))) {

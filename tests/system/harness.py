@@ -20,7 +20,7 @@ DEMO = {
     "drives": [{"name": "feeder", "line": "can0", "address": 5, "presence": "auto"}, {"name": "slide", "line": "can0", "address": 6, "presence": "twin"}],
     "axes": [{"name": "feeder", "drive": "feeder", "channel": 1, "number": 1, "unit": "mm", "increments_per_unit": 3200},
              {"name": "slide", "drive": "slide", "channel": 1, "number": 2, "unit": "mm", "increments_per_unit": 100, "position_min": -50, "position_max": 50}],
-    "mappings": [],
+    "mappings": [{"id": "m1", "unit": 2, "table": "holding_registers", "address": 0, "axis": "feeder", "point": "position", "type": "i32"}],
 }
 
 

@@ -79,6 +79,16 @@ Handled remove_drive(Call&);
 Handled remove_axis(Call&);
 Handled get_site(Call&);
 Handled replace_site(Call&);
+// --- handlers_mappings.cpp --------------------------------------------------------------------------------------------
+Handled list_mappings(Call&);
+Handled get_mapping(Call&);
+Handled add_mapping(Call&);
+Handled replace_mapping(Call&);
+Handled remove_mapping(Call&);
+Handled get_mappings_csv(Call&);
+Handled replace_mappings_csv(Call&);
+Handled add_mappings_csv(Call&);
+Handled list_mapping_points(Call&);
 // --- handlers_commands.cpp --------------------------------------------------------------------------------------------
 Handled command_axis(Call&);
 Handled act_on_axis(Call&);

@@ -4,17 +4,13 @@
 
 #include "gateway/doors/http/documents.hpp"
 #include "gateway/doors/http/handlers.hpp"
+#include "gateway/doors/http/site_change.hpp"
 #include "gateway/doors/http/site_edit.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
 namespace {
-/// A change that lost a race against another one is made again on the newer site, so often.
-constexpr int most_attempts = 3;
-
 std::string tag_of(std::uint64_t revision) { return fmt::format("\"{}\"", revision); }
-
-void put_revision(Response& r, const SiteState& site) { r.headers.set("Site-Revision", std::to_string(site.revision)); }
 
 json::object document_of(Gateway& gateway, const std::shared_ptr<const SiteState>& site, Collection collection, std::size_t i) {
     switch (collection) {
@@ -74,103 +70,16 @@ Handled get(Call& c, Collection collection) {
     return r;
 }
 
-/// 412 or 428 where If-Match says so.
-std::optional<Response> precondition(const Call& c, const SiteState& site, bool demanded) {
-    const auto header = c.request.headers.get("If-Match");
-    if (header.empty()) {
-        if (!demanded) return std::nullopt;
-        return problem(428, "precondition_required", "say with If-Match which revision of the site you change: its ETag");
-    }
-    if (tag_listed(header, tag_of(site.revision), false)) return std::nullopt;
-    Response r = problem(412, "precondition_failed",
-                         fmt::format("the site has the revision {} by now, not {}: read it again", tag_of(site.revision), header));
-    r.headers.set("ETag", tag_of(site.revision));
-    put_revision(r, site);
-    return r;
-}
-
-/// Pointers into the site become pointers into the request's body where they point into the changed entry.
-std::vector<Fault> faults_for(const std::vector<SiteFault>& faults, std::string_view entry, bool whole_document) {
-    std::vector<Fault> out;
-    for (const auto& f : faults) {
-        const bool inside =
-            !entry.empty() && f.pointer.starts_with(entry) && (f.pointer.size() == entry.size() || f.pointer[entry.size()] == '/');
-        out.push_back({inside ? f.pointer.substr(entry.size()) : f.pointer, f.text, f.remedy, whole_document || inside});
-    }
-    return out;
-}
-
-/// What a change comes to on the site in force, and how its success is shown; or why it cannot be.
-struct Plan {
-    Site site;
-    std::function<Response(const std::shared_ptr<const SiteState>& now)> show;
-};
-using Planned = std::variant<Plan, Response>;
-
-/// One change on its way: planned on the site in force, applied; and planned again if another change came between.
-struct Change : std::enable_shared_from_this<Change> {
-    Gateway& gateway;
-    Origin origin;
-    std::optional<std::uint64_t> only_for;  ///< If-Match was given: the change is for this revision alone
-    std::function<Planned(const SiteState& before)> plan;
-    Respond respond;
-    std::function<void()> done;
-    int attempts = 0;
-
-    Change(Gateway& g, Origin o) : gateway(g), origin(std::move(o)) {}
-
-    void end(Response r) {
-        respond(std::move(r));
-        done();
-    }
-    void attempt() {
-        ++attempts;
-        const auto before = gateway.site();
-        if (only_for && *only_for != before->revision) return end(overtaken());
-        auto planned = plan(*before);
-        if (auto* refusal = std::get_if<Response>(&planned)) return end(std::move(*refusal));
-        auto& [site, show] = std::get<Plan>(planned);
-        if (to_json(site) == to_json(before->site)) return end(show(before));  // nothing changes: nothing is disturbed
-        auto then = [self = shared_from_this(), before, show = std::move(show)](Gateway::SiteAnswer answer) {
-            if (answer.good) return self->end(show(answer.now));
-            if (!answer.now || answer.now->revision == before->revision) {
-                return self->end(problem(507, "not_stored", answer.fault.empty() ? "the site could not be stored" : answer.fault));
-            }
-            if (!self->only_for && self->attempts < most_attempts) return self->attempt();
-            self->end(self->only_for ? overtaken() : problem(503, "busy", "other clients keep changing the site: try again"));
-        };
-        gateway.apply_site(std::move(site), before->revision, origin, std::move(then));
-    }
-    static Response overtaken() {
-        return problem(412, "precondition_failed", "the site was changed by another client meanwhile: read it again");
-    }
-};
-
-Handled change(Call& c, bool if_match_demanded, std::function<Planned(const SiteState& before)> plan) {
-    const auto site = c.gateway().site();
-    if (auto refusal = precondition(c, *site, if_match_demanded)) return *refusal;
-    auto order = std::make_shared<Change>(c.gateway(), c.origin());
-    if (!c.request.headers.get("If-Match").empty()) order->only_for = site->revision;
-    order->plan = std::move(plan);
-    order->respond = c.respond;
-    const bool taken = c.context.changes->run([order](std::function<void()> done) {
-        order->done = std::move(done);
-        order->attempt();
-    });
-    if (!taken) return problem(503, "busy", "too many changes of the site wait already: try again");
-    return {gateway_limit, problem(504, "time_out", "the change was not applied in time: look at the site before trying again")};
-}
-
 /// A change of one entry: made on the document, checked as a whole, shown by its entry.
 Handled change_entry(Call& c, std::function<Edited(json::object document)> make,
                      std::function<Response(const std::shared_ptr<const SiteState>& now, const Edit& edit)> show) {
-    return change(c, false, [&gateway = c.gateway(), make = std::move(make), show = std::move(show)](const SiteState& before) -> Planned {
+    return change_site(c, false, [&gateway = c.gateway(), make = std::move(make), show = std::move(show)](const SiteState& before) -> Planned {
         auto edited = make(to_json(before.site));
         if (auto* refusal = std::get_if<Response>(&edited)) return std::move(*refusal);
         auto& edit = std::get<Edit>(edited);
         std::vector<SiteFault> faults;
         auto site = parse_site(edit.document, gateway.families(), faults);
-        if (!site) return invalid(faults_for(faults, edit.pointer, false));
+        if (!site) return refusal_for(faults, edit.pointer, false);
         return Plan{std::move(*site),
                     [show, edit = std::move(edit)](const std::shared_ptr<const SiteState>& now) { return show(now, edit); }};
     });
@@ -288,7 +197,7 @@ Handled replace_site(Call& c) {
         if (!dry_run) return invalid(faults);
         return site_change(*before, true, site ? differences(before->site, *site) : std::vector<std::string>{}, faults);
     }
-    return change(c, demanded, [site = std::move(*site)](const SiteState& now) -> Planned {
+    return change_site(c, demanded, [site = std::move(*site)](const SiteState& now) -> Planned {
         return Plan{site, [changes = differences(now.site, site)](const std::shared_ptr<const SiteState>& after) {
                         return site_change(*after, false, changes, {});
                     }};

@@ -58,6 +58,15 @@ constexpr std::array routes{
     Route{"/api/v1/moves/start", Method::post, start_moves, Takes::json},
     Route{"/api/v1/site", Method::get, get_site},
     Route{"/api/v1/site", Method::put, replace_site, Takes::json},
+    Route{"/api/v1/mappings", Method::get, list_mappings},
+    Route{"/api/v1/mappings", Method::post, add_mapping, Takes::json},
+    Route{"/api/v1/mappings.csv", Method::get, get_mappings_csv, Takes::nothing, Gives::own},
+    Route{"/api/v1/mappings.csv", Method::post, add_mappings_csv, Takes::csv},
+    Route{"/api/v1/mappings.csv", Method::put, replace_mappings_csv, Takes::csv},
+    Route{"/api/v1/mapping-points", Method::get, list_mapping_points},
+    Route{"/api/v1/mappings/{mapping}", Method::get, get_mapping},
+    Route{"/api/v1/mappings/{mapping}", Method::put, replace_mapping, Takes::json},
+    Route{"/api/v1/mappings/{mapping}", Method::remove, remove_mapping, Takes::nothing, Gives::nothing},
     Route{"/api/v1/events", Method::get, list_events},
     Route{"/api/v1/stream", Method::get, open_stream, Takes::nothing, Gives::own, true},
 };
@@ -101,6 +110,13 @@ std::string_view media_given(Gives gives) {
 /// Reads the body where the route takes one; what is wrong with it otherwise.
 std::optional<Response> read_body(const Request& request, Takes takes, json::value& into) {
     const auto media = media_of(request.headers.get("Content-Type"));
+    if (takes == Takes::csv) {
+        if (media == "text/csv") return std::nullopt;
+        Response r = problem(415, "unsupported_media_type",
+                             fmt::format("send a table with Content-Type: text/csv in UTF-8, not \"{}\"", request.headers.get("Content-Type")));
+        r.headers.set("Accept-Post", "text/csv");
+        return r;
+    }
     const bool good = media == "application/json" || (takes == Takes::patch && media == "application/merge-patch+json");
     if (!good) {
         Response r = problem(415, "unsupported_media_type",

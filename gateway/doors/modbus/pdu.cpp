@@ -263,6 +263,22 @@ Responder::Answer Responder::carry_out(Request& r, Table table, std::uint16_t ad
     return {Exception::none, finish(late, r.now, r.out)};
 }
 
+bool Responder::ask_for(UnitMap& map, PlannedCommand planned) {
+    // Clients' writes need the places: what only refreshes a value leaves half of them free.
+    if (tickets_.free() <= settings_.max_commands / 2) return false;
+    TicketTable::Waiting waiting;
+    waiting.axis = planned.axis;
+    waiting.map = &map;
+    waiting.note = planned.note;
+    Command command;
+    command.ticket = tickets_.open(waiting, port_.now() + settings_.result_timeout);
+    command.axis = planned.axis;
+    command.body = std::move(planned.body);
+    command.origin.door = Door::modbus;
+    port_.submit(std::move(command));
+    return true;
+}
+
 void Responder::on_result(const Result& result) {
     const auto waiting = tickets_.close(result.ticket);
     if (!waiting || (!waiting->owner && !waiting->map)) {

@@ -70,6 +70,9 @@ public:
     /// Puts a map behind a unit id (2..254), or takes it away (nullptr). The map outlives its being there.
     void set_map(std::uint8_t unit, UnitMap* map);
 
+    /// A command that a map gives by itself, not for a client; its result comes to map.on_own_result(note). False: no place is free.
+    [[nodiscard]] bool ask_for(UnitMap& map, PlannedCommand command);
+
     /// Ends what has waited longer than the result time-out. To be called now and then.
     void expire(Instant now);
 

@@ -116,6 +116,26 @@ public:
     }
 
     bool serve_now() { return poller_.serve_now(); }
+    void set_mappings(std::vector<PlacedMapping> mappings) {
+        std::map<std::uint8_t, std::vector<PlacedMapping>> by_unit;
+        for (auto& m : mappings)
+            by_unit[m.mapping.unit].push_back(std::move(m));
+        for (const auto& [unit, map] : own_maps_) {
+            if (!by_unit.contains(unit)) responder_.set_map(unit, nullptr);
+        }
+        std::map<std::uint8_t, std::unique_ptr<OwnMap>> made;
+        for (auto& [unit, list] : by_unit) {
+            auto map = std::make_unique<OwnMap>(port_, std::move(list), [this](UnitMap& asking, PlannedCommand c) { return responder_.ask_for(asking, std::move(c)); });
+            responder_.set_map(unit, map.get());
+            map->begin(port_.now());
+            made.emplace(unit, std::move(map));
+        }
+        own_maps_ = std::move(made);  // those of before stand behind no unit any more
+    }
+    void on_sample(const Sample& sample) {
+        for (const auto& [unit, map] : own_maps_)
+            map->on_sample(sample);
+    }
     [[nodiscard]] Counters& counters() noexcept { return responder_.counters(); }
     [[nodiscard]] Responder& responder() noexcept { return responder_; }
 
@@ -295,6 +315,7 @@ private:
     ServerSettings settings_;
     Responder responder_;
     Poller poller_;
+    std::map<std::uint8_t, std::unique_ptr<OwnMap>> own_maps_;
     asio::steady_timer timer_;
     bool timing_ = false;
     std::vector<std::shared_ptr<Listener>> listeners_;
@@ -311,6 +332,8 @@ Server::~Server() { impl_->close(); }
 std::string Server::open(std::span<const std::string> binds) { return impl_->open(binds); }
 std::vector<std::string> Server::addresses() const { return impl_->addresses(); }
 void Server::close() { impl_->close(); }
+void Server::set_mappings(std::vector<PlacedMapping> mappings) { impl_->set_mappings(std::move(mappings)); }
+void Server::on_sample(const Sample& sample) { impl_->on_sample(sample); }
 bool Server::serve_now() { return impl_->serve_now(); }
 Responder& Server::responder() noexcept { return impl_->responder(); }
 void Server::sweep() { impl_->sweep(); }

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "gateway/core/door.hpp"
+#include "gateway/doors/modbus/own_map.hpp"
 #include "gateway/doors/modbus/pdu.hpp"
 
 namespace axisgate::modbus {
@@ -49,7 +50,12 @@ public:
     /// Closes listeners and connections. Commands on their way go on.
     void close();
 
-    /// For the site's own maps (Responder::set_map), and for another transport of the same registers: there is one Responder per port.
+    /// Puts the site's own maps behind their units, and takes away those of before. What is on its way for them is answered to nobody.
+    void set_mappings(std::vector<PlacedMapping> mappings);
+    /// A parameter value that a drive reported: own maps show it.
+    void on_sample(const Sample& sample);
+
+    /// For another transport of the same registers: there is one Responder per port.
     [[nodiscard]] Responder& responder() noexcept;
     /// Applies the time-outs as of the port's now(). The server's own timer calls it four times a second while anyone is connected.
     void sweep();

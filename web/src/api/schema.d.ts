@@ -509,6 +509,85 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/mappings": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The site's own register maps */
+        get: operations["listMappings"];
+        put?: never;
+        /** Adds a mapping; 409 names the one whose place it would take */
+        post: operations["addMapping"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/mappings.csv": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** All mappings as a table for a spreadsheet */
+        get: operations["exportMappings"];
+        /** Replaces all mappings by the rows of a table, or none */
+        put: operations["replaceMappings"];
+        /**
+         * Adds the rows of a table, all or none; a row with a known id takes that mapping's place
+         * @description Columns in any order, by the names of the first line; `;` is taken as separator too. Faults name the line.
+         */
+        post: operations["addMappings"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/mappings/{mapping}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description id of the mapping */
+                mapping: string;
+            };
+            cookie?: never;
+        };
+        /** One mapping */
+        get: operations["getMapping"];
+        /** Replaces a mapping */
+        put: operations["replaceMapping"];
+        post?: never;
+        /** Removes a mapping */
+        delete: operations["removeMapping"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/mapping-points": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** What every axis has to map beside the parameters of its family */
+        get: operations["listMappingPoints"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/events": {
         parameters: {
             query?: never;
@@ -759,7 +838,7 @@ export interface components {
         };
         LineFields: {
             name?: components["schemas"]["Name"];
-            /** @description can:can0, serial:/dev/ttyUSB0?baud=9600&format=7N1&rs485=1, tcp:HOST:PORT, tcp-listen:HOST:PORT, pty:PATH, twin */
+            /** @description can:can0, serial:/dev/ttyUSB0?baud=9600&format=7N1&rs485=1, tcp:HOST:PORT, tcp-listen:HOST:PORT, udp:HOST:PORT, udp-listen:HOST:PORT, pty:PATH, twin */
             uri?: string;
             family?: string;
             /** @description bit/s; left out or 0 - from the URI or the family's default */
@@ -1133,7 +1212,88 @@ export interface components {
             lines?: components["schemas"]["LineSpec"][];
             drives?: components["schemas"]["DriveSpec"][];
             axes?: components["schemas"]["AxisSpec"][];
-            mappings?: Record<string, never>[];
+            mappings?: components["schemas"]["MappingSpec"][];
+        };
+        /**
+         * @description Puts a point of an axis at an address of a Modbus unit. Register value = point value * scale + offset, and back when it is written.
+         *     Positions and velocities are in the axis' increments, as in the standard map, unless the point's name ends in `_units`.
+         */
+        MappingSpec: {
+            /** @description given by the gateway if it is left out */
+            id?: string;
+            unit: number;
+            /**
+             * @default holding_registers
+             * @enum {string}
+             */
+            table?: "coils" | "discrete_inputs" | "holding_registers" | "input_registers";
+            /** @description counted from 0 */
+            address: number;
+            /** @description name of the axis; may also stand before the point, as in `feeder.position` */
+            axis?: string;
+            /** @description a name of /mapping-points, or a parameter's id or name, also with its element: `N[17]` */
+            point: string;
+            /**
+             * @description left out: i32; bool for bits, string for texts
+             * @enum {string}
+             */
+            type?: "bool" | "u16" | "i16" | "u32" | "i32" | "f32" | "u64" | "i64" | "f64" | "string";
+            /**
+             * @default high_first
+             * @enum {string}
+             */
+            word_order?: "high_first" | "low_first";
+            /**
+             * @description not 0
+             * @default 1
+             */
+            scale?: number;
+            /** @default 0 */
+            offset?: number;
+            /**
+             * @description left out: all that table and point allow
+             * @enum {string}
+             */
+            access?: "R" | "W" | "RW";
+            /**
+             * @description registers of a string
+             * @default 16
+             */
+            length?: number;
+            comment?: string;
+        };
+        Mapping: {
+            id: string;
+            unit: number;
+            /** @enum {string} */
+            table: "coils" | "discrete_inputs" | "holding_registers" | "input_registers";
+            address: number;
+            axis: string;
+            point: string;
+            /** @enum {string} */
+            type: "bool" | "u16" | "i16" | "u32" | "i32" | "f32" | "u64" | "i64" | "f64" | "string";
+            /** @enum {string} */
+            word_order: "high_first" | "low_first";
+            scale: number;
+            offset: number;
+            /** @enum {string} */
+            access: "R" | "W" | "RW";
+            length?: number;
+            comment?: string;
+        };
+        MappingImport: {
+            dry_run: boolean;
+            /** @description rows of the table */
+            rows: number;
+            /** @description mappings of the site afterwards */
+            mappings: number;
+            differences: string[];
+        };
+        MappingPoint: {
+            point: string;
+            /** @enum {string} */
+            access: "R" | "RW";
+            description: string;
         };
         SiteChange: {
             dry_run: boolean;
@@ -2916,6 +3076,309 @@ export interface operations {
             422: components["responses"]["Unprocessable"];
             428: components["responses"]["PreconditionRequired"];
             507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    listMappings: {
+        parameters: {
+            query?: {
+                /** @description of this Modbus unit alone */
+                unit?: number;
+                /** @description of this axis alone */
+                axis?: string;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the mappings, in the order of the site */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Mapping"][];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    addMapping: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
+                "If-Match"?: components["parameters"]["ifMatch"];
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "unit": 2,
+                 *       "table": "holding_registers",
+                 *       "address": 0,
+                 *       "axis": "feeder",
+                 *       "point": "position_units",
+                 *       "type": "f32"
+                 *     }
+                 */
+                "application/json": components["schemas"]["MappingSpec"];
+            };
+        };
+        responses: {
+            /** @description added and in force */
+            201: {
+                headers: {
+                    Location?: string;
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Mapping"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            409: components["responses"]["Conflict"];
+            412: components["responses"]["PreconditionFailed"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    exportMappings: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description one line per mapping below a line of column names */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/csv": string;
+                };
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    replaceMappings: {
+        parameters: {
+            query?: {
+                /** @description 1 answers what would change, and changes nothing */
+                dry_run?: components["schemas"]["Flag"];
+            };
+            header?: {
+                /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
+                "If-Match"?: components["parameters"]["ifMatch"];
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example unit,address,axis,point,type
+                 *     2,0,feeder,position,i32
+                 */
+                "text/csv": string;
+            };
+        };
+        responses: {
+            /** @description taken; with `dry_run` what would be */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MappingImport"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            412: components["responses"]["PreconditionFailed"];
+            413: components["responses"]["TooLarge"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    addMappings: {
+        parameters: {
+            query?: {
+                /** @description 1 answers what would change, and changes nothing */
+                dry_run?: components["schemas"]["Flag"];
+            };
+            header?: {
+                /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
+                "If-Match"?: components["parameters"]["ifMatch"];
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example unit,address,axis,point,type
+                 *     2,0,feeder,position,i32
+                 */
+                "text/csv": string;
+            };
+        };
+        responses: {
+            /** @description taken; with `dry_run` what would be */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MappingImport"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            412: components["responses"]["PreconditionFailed"];
+            413: components["responses"]["TooLarge"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getMapping: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description id of the mapping */
+                mapping: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the mapping */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Mapping"];
+                };
+            };
+            404: components["responses"]["NotFound"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    replaceMapping: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
+                "If-Match"?: components["parameters"]["ifMatch"];
+            };
+            path: {
+                /** @description id of the mapping */
+                mapping: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "unit": 2,
+                 *       "table": "holding_registers",
+                 *       "address": 0,
+                 *       "axis": "feeder",
+                 *       "point": "position_units",
+                 *       "type": "f32"
+                 *     }
+                 */
+                "application/json": components["schemas"]["MappingSpec"];
+            };
+        };
+        responses: {
+            /** @description replaced and in force */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Mapping"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            412: components["responses"]["PreconditionFailed"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    removeMapping: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
+                "If-Match"?: components["parameters"]["ifMatch"];
+            };
+            path: {
+                /** @description id of the mapping */
+                mapping: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            204: components["responses"]["Removed"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            412: components["responses"]["PreconditionFailed"];
+            507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    listMappingPoints: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the points */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MappingPoint"][];
+                };
+            };
             default: components["responses"]["Problem"];
         };
     };

@@ -1,0 +1,218 @@
+// Handlers of the site's own register maps: the list, one entry, the whole as CSV, and the points that can be mapped.
+// In: calls. Out: entries in their full form; changes go through parse_site as a whole, like every change of the site.
+// Never reads a register: what an address shows is the Modbus door's.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "gateway/core/mapping.hpp"
+#include "gateway/doors/http/site_change.hpp"
+
+namespace axisgate::http {
+namespace json = boost::json;
+namespace {
+
+std::string_view id_of(const json::value& mapping) {
+    const auto* id = mapping.get_object().if_contains("id");
+    return id && id->is_string() ? std::string_view(id->get_string()) : std::string_view();
+}
+std::optional<std::size_t> place_of(const json::array& mappings, std::string_view id) {
+    const auto it = std::ranges::find(mappings, id, id_of);
+    return it == mappings.end() ? std::nullopt : std::optional(static_cast<std::size_t>(it - mappings.begin()));
+}
+std::string pointer_of(std::size_t i) { return fmt::format("/mappings/{}", i); }
+
+Response shown(const SiteState& now, const json::value& body, unsigned status = 200) {
+    Response r = json_response(body, status);
+    put_revision(r, now);
+    return r;
+}
+
+using Edit = std::function<std::optional<Response>(json::array& mappings, std::string& id, std::size_t& place)>;
+/// Changes the list, checks the site as a whole, and shows the entry `id`, or nothing if `id` is left empty.
+Handled change_mappings(Call& c, Edit edit, bool created) {
+    return change_site(c, false, [&gateway = c.gateway(), edit = std::move(edit), created](const SiteState& before) -> Planned {
+        json::object document = to_json(before.site);
+        json::array& list = document["mappings"].get_array();
+        std::string id;
+        std::size_t place = list.size();
+        if (auto refusal = edit(list, id, place)) return std::move(*refusal);
+        std::vector<SiteFault> faults;
+        auto site = parse_site(document, gateway.families(), faults);
+        if (!site) return refusal_for(faults, pointer_of(place), false);
+        if (id.empty() && place < site->mappings.size() && created) id = std::string(id_of(site->mappings[place]));
+        return Plan{std::move(*site), [id, created](const std::shared_ptr<const SiteState>& now) {
+                        const auto i = place_of(now->site.mappings, id);
+                        if (!i) {
+                            Response r;
+                            r.status = 204;
+                            put_revision(r, *now);
+                            return r;
+                        }
+                        Response r = shown(*now, now->site.mappings[*i], created ? 201 : 200);
+                        if (created) r.headers.set("Location", "/api/v1/mappings/" + percent_encode(id));
+                        return r;
+                    }};
+    });
+}
+
+Response csv_faults(const std::vector<CsvFault>& faults) {
+    Problem p;
+    p.status = 422;
+    p.reason = "invalid";
+    p.detail = fmt::format("line {}: {}{}", faults.front().line, faults.front().text,
+                           faults.size() > 1 ? fmt::format(" (and {} more)", faults.size() - 1) : std::string());
+    for (const auto& f : faults)
+        p.faults.push_back({fmt::format("/{}", f.line), f.text, "mend the line: nothing has been taken from the file", true});
+    return to_response(p);
+}
+
+/// Rows as entries of the site: the whole list, or added to what is there, where a row with a known id takes that entry's place.
+Handled import_csv(Call& c, bool whole) {
+    std::optional<Response> fault;
+    const bool dry_run = query_flag(c, "dry_run", fault);
+    if (fault) return *fault;
+    std::vector<CsvFault> csv;
+    std::vector<std::size_t> lines;
+    auto rows = mappings_from_csv(c.request.body, lines, csv);
+    if (!rows) return csv_faults(csv);
+    auto plan = [&gateway = c.gateway(), rows = std::move(*rows), lines = std::move(lines), whole](const SiteState& before) -> Planned {
+        json::object document = to_json(before.site);
+        json::array& list = document["mappings"].get_array();
+        if (whole) list.clear();
+        std::vector<std::size_t> line_of(list.size(), 0);
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            const auto known = id_of(rows[i]).empty() ? std::nullopt : place_of(list, id_of(rows[i]));
+            if (known && line_of[*known] == 0 && !whole) {
+                list[*known] = rows[i];
+                line_of[*known] = lines[i];
+            } else {
+                list.push_back(rows[i]);
+                line_of.push_back(lines[i]);
+            }
+        }
+        std::vector<SiteFault> faults;
+        auto site = parse_site(document, gateway.families(), faults);
+        if (!site) {
+            std::vector<CsvFault> told;
+            for (const auto& f : faults) {
+                std::size_t index = line_of.size();
+                if (constexpr std::string_view head = "/mappings/"; f.pointer.starts_with(head))
+                    std::from_chars(f.pointer.data() + head.size(), f.pointer.data() + f.pointer.size(), index);
+                told.push_back({index < line_of.size() ? line_of[index] : 0, fmt::format("{}; {}", f.text, f.remedy)});
+            }
+            return csv_faults(told);
+        }
+        const auto changes = differences(before.site, *site);
+        return Plan{
+            std::move(*site), [changes, count = rows.size()](const std::shared_ptr<const SiteState>& now) {
+                json::array d;
+                for (const auto& x : changes)
+                    d.emplace_back(x);
+                return shown(
+                    *now, json::object{
+                              {"dry_run", false}, {"rows", count}, {"mappings", now->site.mappings.size()}, {"differences", std::move(d)}});
+            }};
+    };
+    if (!dry_run) return change_site(c, false, std::move(plan));
+    const auto now = c.gateway().site();
+    auto planned = plan(*now);
+    if (auto* refusal = std::get_if<Response>(&planned)) return std::move(*refusal);
+    json::array d;
+    for (const auto& x : differences(now->site, std::get<Plan>(planned).site))
+        d.emplace_back(x);
+    return shown(*now, json::object{{"dry_run", true},
+                                    {"rows", lines.size()},
+                                    {"mappings", std::get<Plan>(planned).site.mappings.size()},
+                                    {"differences", std::move(d)}});
+}
+
+}  // namespace
+
+Handled list_mappings(Call& c) {
+    std::optional<Response> fault;
+    const std::int64_t unit = query_whole(c, "unit", 2, 254, 0, fault);
+    if (fault) return *fault;
+    const auto axis = c.target.query.get("axis");
+    const auto site = c.gateway().site();
+    json::array out;
+    for (const auto& m : site->site.mappings) {
+        const auto& o = m.get_object();
+        if (unit != 0 && o.at("unit") != unit) continue;
+        if (axis && o.at("axis").get_string() != *axis) continue;
+        out.push_back(m);
+    }
+    return shown(*site, out);
+}
+
+Handled get_mapping(Call& c) {
+    const auto site = c.gateway().site();
+    const auto i = place_of(site->site.mappings, c.names[0]);
+    if (!i) return nothing_named("mapping", c.names[0]);
+    return shown(*site, site->site.mappings[*i]);
+}
+
+Handled add_mapping(Call& c) {
+    return change_mappings(
+        c,
+        [entry = c.body.get_object()](json::array& list, std::string&, std::size_t& place) -> std::optional<Response> {
+            place = list.size();
+            list.push_back(entry);
+            return std::nullopt;
+        },
+        true);
+}
+
+Handled replace_mapping(Call& c) {
+    return change_mappings(
+        c,
+        [name = c.names[0], entry = c.body.get_object()](json::array& list, std::string& id,
+                                                         std::size_t& place) -> std::optional<Response> {
+            const auto i = place_of(list, name);
+            if (!i) return nothing_named("mapping", name);
+            place = *i;
+            list[place] = entry;
+            auto& o = list[place].get_object();
+            if (!o.contains("id")) o["id"] = name;
+            id = id_of(list[place]);
+            return std::nullopt;
+        },
+        false);
+}
+
+Handled remove_mapping(Call& c) {
+    return change_mappings(
+        c,
+        [name = c.names[0]](json::array& list, std::string&, std::size_t&) -> std::optional<Response> {
+            const auto i = place_of(list, name);
+            if (!i) return nothing_named("mapping", name);
+            list.erase(list.begin() + static_cast<std::ptrdiff_t>(*i));
+            return std::nullopt;
+        },
+        false);
+}
+
+Handled get_mappings_csv(Call& c) {
+    const auto site = c.gateway().site();
+    std::vector<SiteFault> none;  // the site has been checked
+    const auto mappings = parse_mappings(site->site.mappings, site->site, c.gateway().families(), none).value_or(std::vector<Mapping>());
+    Response r;
+    r.headers.set("Content-Type", "text/csv; charset=utf-8");
+    r.headers.set("Content-Disposition", "attachment; filename=\"mappings.csv\"");
+    r.body = mappings_to_csv(mappings);
+    put_revision(r, *site);
+    return r;
+}
+
+Handled replace_mappings_csv(Call& c) { return import_csv(c, true); }
+Handled add_mappings_csv(Call& c) { return import_csv(c, false); }
+
+Handled list_mapping_points(Call&) {
+    json::array out;
+    for (const auto& p : axis_points())
+        out.push_back({{"point", p.name}, {"access", p.writable ? "RW" : "R"}, {"description", p.description}});
+    return json_response(out);
+}
+
+}  // namespace axisgate::http

@@ -1,0 +1,109 @@
+// Site change: see the header. In: plans. Out: answers, through the Gateway.
+// Never runs two changes at a time: the queue of the door gives each its turn.
+#include "gateway/doors/http/site_change.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace axisgate::http {
+namespace {
+/// A change that lost a race against another one is made again on the newer site, so often.
+constexpr int most_attempts = 3;
+
+std::string tag_of(std::uint64_t revision) { return fmt::format("\"{}\"", revision); }
+
+/// One change on its way: planned on the site in force, applied; and planned again if another change came between.
+struct Change : std::enable_shared_from_this<Change> {
+    Gateway& gateway;
+    Origin origin;
+    std::optional<std::uint64_t> only_for;  ///< If-Match was given: the change is for this revision alone
+    std::function<Planned(const SiteState& before)> plan;
+    Respond respond;
+    std::function<void()> done;
+    int attempts = 0;
+
+    Change(Gateway& g, Origin o) : gateway(g), origin(std::move(o)) {}
+
+    void end(Response r) {
+        respond(std::move(r));
+        done();
+    }
+    void attempt() {
+        ++attempts;
+        const auto before = gateway.site();
+        if (only_for && *only_for != before->revision) return end(overtaken());
+        auto planned = plan(*before);
+        if (auto* refusal = std::get_if<Response>(&planned)) return end(std::move(*refusal));
+        auto& [site, show] = std::get<Plan>(planned);
+        if (to_json(site) == to_json(before->site)) return end(show(before));  // nothing changes: nothing is disturbed
+        auto then = [self = shared_from_this(), before, show = std::move(show)](Gateway::SiteAnswer answer) {
+            if (answer.good) return self->end(show(answer.now));
+            if (!answer.now || answer.now->revision == before->revision) {
+                return self->end(problem(507, "not_stored", answer.fault.empty() ? "the site could not be stored" : answer.fault));
+            }
+            if (!self->only_for && self->attempts < most_attempts) return self->attempt();
+            self->end(self->only_for ? overtaken() : problem(503, "busy", "other clients keep changing the site: try again"));
+        };
+        gateway.apply_site(std::move(site), before->revision, origin, std::move(then));
+    }
+    static Response overtaken() {
+        return problem(412, "precondition_failed", "the site was changed by another client meanwhile: read it again");
+    }
+};
+
+}  // namespace
+
+void put_revision(Response& r, const SiteState& site) { r.headers.set("Site-Revision", std::to_string(site.revision)); }
+
+std::optional<Response> precondition(const Call& c, const SiteState& site, bool demanded) {
+    const auto header = c.request.headers.get("If-Match");
+    if (header.empty()) {
+        if (!demanded) return std::nullopt;
+        return problem(428, "precondition_required", "say with If-Match which revision of the site you change: its ETag");
+    }
+    if (tag_listed(header, tag_of(site.revision), false)) return std::nullopt;
+    Response r = problem(412, "precondition_failed",
+                         fmt::format("the site has the revision {} by now, not {}: read it again", tag_of(site.revision), header));
+    r.headers.set("ETag", tag_of(site.revision));
+    put_revision(r, site);
+    return r;
+}
+
+std::vector<Fault> faults_for(const std::vector<SiteFault>& faults, std::string_view entry, bool whole_document) {
+    std::vector<Fault> out;
+    for (const auto& f : faults) {
+        const bool inside =
+            !entry.empty() && f.pointer.starts_with(entry) && (f.pointer.size() == entry.size() || f.pointer[entry.size()] == '/');
+        out.push_back({inside ? f.pointer.substr(entry.size()) : f.pointer, f.text, f.remedy, whole_document || inside});
+    }
+    return out;
+}
+
+Response refusal_for(const std::vector<SiteFault>& faults, std::string_view entry, bool whole_document) {
+    auto list = faults_for(faults, entry, whole_document);
+    if (faults.empty() || !std::ranges::all_of(faults, &SiteFault::conflict)) return invalid(std::move(list));
+    Problem p;
+    p.status = 409;
+    p.reason = "conflict";
+    p.detail = fmt::format("{}; {}", list.front().text, list.front().remedy);
+    p.faults = std::move(list);
+    return to_response(p);
+}
+
+Handled change_site(Call& c, bool if_match_demanded, std::function<Planned(const SiteState& before)> plan) {
+    const auto site = c.gateway().site();
+    if (auto refusal = precondition(c, *site, if_match_demanded)) return *refusal;
+    auto order = std::make_shared<Change>(c.gateway(), c.origin());
+    if (!c.request.headers.get("If-Match").empty()) order->only_for = site->revision;
+    order->plan = std::move(plan);
+    order->respond = c.respond;
+    const bool taken = c.context.changes->run([order](std::function<void()> done) {
+        order->done = std::move(done);
+        order->attempt();
+    });
+    if (!taken) return problem(503, "busy", "too many changes of the site wait already: try again");
+    return {gateway_limit, problem(504, "time_out", "the change was not applied in time: look at the site before trying again")};
+}
+
+}  // namespace axisgate::http

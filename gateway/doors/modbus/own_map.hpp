@@ -1,0 +1,81 @@
+// Own map: the registers and bits of one unit id 2..254 as the site's mappings have them.
+// In: checked mappings with their axes; requests; results of its own readings. Out: register bytes, bits, the commands of a write.
+// Parameters are read from the drive when a client asks for them: what is answered is the last value known, at most one reading old, and a
+// new reading is asked for. Never holds up a request for a drive, and never shows a parameter of an axis that does not answer.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "gateway/core/door.hpp"
+#include "gateway/core/mapping.hpp"
+#include "gateway/doors/modbus/unit_map.hpp"
+
+namespace axisgate::modbus {
+
+/// A mapping whose axis has been found in the running site.
+struct PlacedMapping {
+    Mapping mapping;
+    AxisId axis = no_axis;
+    double increments_per_unit = 1;
+};
+
+class OwnMap final : public UnitMap {
+public:
+    /// Gives a command of the map's own to the gateway; false: too many wait. Its result comes to on_own_result.
+    using Ask = std::function<bool(UnitMap&, PlannedCommand)>;
+    /// A parameter is asked for again when a client wants it and the value is this old.
+    static constexpr Duration fresh_for = std::chrono::milliseconds(250);
+    /// Readings on their way at once, per unit.
+    static constexpr std::size_t most_readings = 16;
+
+    OwnMap(const DoorPort& port, std::vector<PlacedMapping> mappings, Ask ask);
+
+    Exception check_read(Table table, std::uint16_t address, std::uint16_t count) override;
+    Exception read_registers(Table table, std::uint16_t address, std::uint16_t count, Instant now, std::uint8_t* out) override;
+    Exception read_bits(Table table, std::uint16_t address, std::uint16_t count, std::uint8_t* out) override;
+    Exception check_write(Table table, std::uint16_t address, std::uint16_t count) override;
+    Exception write(Table table, std::uint16_t address, std::uint16_t count, const std::uint8_t* data, WritePlan& plan) override;
+    void on_own_result(std::uint32_t note, const Result& result) override;
+    /// A value that a drive reported, whoever had asked: a write of another door is seen here at once.
+    void on_sample(const Sample& sample);
+    /// Asks for every parameter that has not been read yet, so that the first client finds values.
+    void begin(Instant now);
+
+private:
+    struct Place {
+        PlacedMapping at;
+        std::uint32_t value = 0;  ///< index in values_, for parameters
+    };
+    struct ParameterValue {
+        AxisId axis = no_axis;
+        Point point;
+        Value value;
+        Instant at{};
+        bool asked = false;
+    };
+    using Places = std::vector<Place>;
+
+    [[nodiscard]] const Places& places(Table table) const noexcept { return tables_[static_cast<std::size_t>(table)]; }
+    /// First entry that ends behind `address`.
+    [[nodiscard]] Places::const_iterator first_at(const Places& list, std::uint32_t address) const noexcept;
+    /// Calls `f` for each entry of the range in order; illegal_address if an address of it belongs to none.
+    template <class F>
+    [[nodiscard]] Exception each(Table table, std::uint16_t address, std::uint16_t count, F&& f) const;
+    [[nodiscard]] Exception value_of(const Place& place, Instant now, Value& value);
+    [[nodiscard]] Exception plan_value(const Place& place, const Value& value, WritePlan& plan) const;
+    void want(std::uint32_t index, Instant now);
+
+    const DoorPort& port_;
+    Ask ask_;
+    std::array<Places, 4> tables_;
+    std::vector<ParameterValue> values_;
+    std::map<std::pair<AxisId, Point>, std::uint32_t> index_;  ///< of values_
+    std::size_t readings_ = 0;
+};
+
+}  // namespace axisgate::modbus

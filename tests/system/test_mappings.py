@@ -1,0 +1,88 @@
+"""Own maps: what the page or a script puts at an address, a Modbus client reads there, in every type and word order; and writes it."""
+import struct
+
+from harness import ModbusException, until
+
+
+def registers(data):
+    return list(struct.unpack(f">{len(data) // 2}H", data))
+
+
+def swapped(words):
+    return list(reversed(words))
+
+
+def add(gateway, **entry):
+    return gateway.send("POST", "/mappings", entry, 201)
+
+
+def test_every_type_and_word_order_shows_what_was_promised(gateway):
+    gateway.command("feeder", {"command": "enable"})
+    gateway.command("feeder", {"command": "move_absolute", "position": 3, "velocity": 20, "acceleration": 100, "deceleration": 100})
+    position = gateway.axis()["position_increments"]
+    assert position == 9600
+    forms = {"i16": ">h", "u16": ">H", "i32": ">i", "u32": ">I", "i64": ">q", "u64": ">Q", "f32": ">f", "f64": ">d"}
+    address, expected = 0, {}
+    for kind, form in forms.items():
+        for order in ("high_first", "low_first"):
+            add(gateway, unit=7, table="holding_registers", address=address, axis="feeder", point="position", type=kind, word_order=order)
+            words = registers(struct.pack(form, position))
+            expected[address] = words if order == "high_first" else swapped(words)
+            address += len(words)
+    add(gateway, unit=7, table="input_registers", address=5, axis="feeder", point="position_units", type="f32")
+    add(gateway, unit=7, table="input_registers", address=7, axis="feeder", point="position", type="i16", scale=0.1, offset=-60)
+    add(gateway, unit=7, table="discrete_inputs", address=9, axis="feeder", point="online")
+    add(gateway, unit=7, table="discrete_inputs", address=10, axis="feeder", point="fault")
+    with gateway.modbus() as m:
+        for at, words in expected.items():
+            assert m.read(at, len(words), unit=7) == words, at
+        assert m.read(0, address, unit=7) == [w for words in expected.values() for w in words], "all in one request"
+        assert m.read(5, 3, unit=7, function=4) == registers(struct.pack(">f", 3.0)) + [900]
+        assert m.pdu(struct.pack(">BHH", 2, 9, 2), unit=7) == b"\x02\x01\x01"
+    code, text = gateway.mbpoll("-a", "7", "-t", "4:int", "-B", "-0", "-r", "4", "-c", "1")
+    assert code == 0 and "9600" in text, text
+
+
+def test_a_parameter_is_read_and_written_behind_an_address(gateway):
+    add(gateway, id="acceleration", unit=8, address=100, axis="feeder", point="AC", type="u32", word_order="low_first")
+    with gateway.modbus() as m:
+        def value():
+            try:
+                low, high = m.read(100, 2, unit=8)
+                return high << 16 | low
+            except ModbusException as e:
+                assert e.code == 6, "not known yet"
+                return None
+        until(lambda: value() == gateway.get("/axes/feeder/parameters/AC")["value"], 5, "the parameter's value")
+        m.write(100, [34567, 0], unit=8)
+        assert gateway.get("/axes/feeder/parameters/AC")["value"] == 34567, "answered when the drive has it"
+        until(lambda: value() == 34567, 5, "read back")
+        gateway.send("PUT", "/axes/feeder/parameters/AC", {"value": 45678})
+        until(lambda: value() == 45678, 5, "what another door wrote")
+        try:
+            m.write(100, [0, 0], unit=8)
+            assert False, "0 is out of range"
+        except ModbusException as e:
+            assert e.code == 3
+        try:
+            m.write(100, [1], unit=8)
+            assert False, "half of a value"
+        except ModbusException as e:
+            assert e.code == 3
+
+
+def test_the_map_is_the_sites_and_its_revision_is_shown(gateway):
+    with gateway.modbus() as m:
+        before = m.read32(18, signed=False)
+        entry = add(gateway, unit=9, address=0, axis="feeder", point="statusword", type="u16")
+        assert m.read32(18, signed=False) != before
+        assert m.read(0, 1, unit=9) == m.read(0, 1)
+        refused = gateway.send("POST", "/mappings", {"unit": 9, "address": 0, "axis": "feeder", "point": "flags", "type": "u16"}, 409)
+        assert entry["id"] in refused["detail"]
+        gateway.request("DELETE", f"/api/v1/mappings/{entry['id']}")
+        try:
+            m.read(0, 1, unit=9)
+            assert False, "the unit is gone"
+        except ModbusException as e:
+            assert e.code == 0x0A
+        assert m.read32(18, signed=False) == before

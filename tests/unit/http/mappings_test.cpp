@@ -1,0 +1,79 @@
+// Mappings by REST: entries one by one, conflicts that name the other, CSV as a whole or not at all.
+#include "tests/unit/http/harness.hpp"
+
+namespace axisgate::http::test {
+namespace {
+
+TEST_F(HttpTest, MappingsOneByOne) {
+    const auto list = call("GET", "/api/v1/mappings");
+    ASSERT_EQ(list.array().size(), 1u);
+    EXPECT_EQ(list.array()[0].at("id"), "m1") << "ids are given";
+    EXPECT_EQ(list.array()[0].at("axis"), "slide");
+    EXPECT_EQ(list.array()[0].at("table"), "holding_registers");
+    const auto added = call("POST", "/api/v1/mappings", R"({"unit": 2, "address": 2, "axis": "feeder", "point": "AC", "type": "u32"})");
+    EXPECT_EQ(added.status, 201u) << added.text;
+    EXPECT_EQ(added.at("id"), "m2");
+    EXPECT_EQ(added.at("access"), "RW");
+    EXPECT_EQ(added.headers.get("Location"), "/api/v1/mappings/m2");
+    EXPECT_EQ(call("GET", "/api/v1/mappings/m2").at("point"), "AC");
+    EXPECT_EQ(call("GET", "/api/v1/mappings?axis=feeder").array().size(), 1u);
+    EXPECT_EQ(call("GET", "/api/v1/mappings?unit=3").array().size(), 0u);
+    EXPECT_EQ(call("GET", "/api/v1/mappings?unit=1").status, 400u);
+    const auto put =
+        call("PUT", "/api/v1/mappings/m2", R"({"unit": 2, "address": 10, "axis": "feeder", "point": "AC", "type": "f64", "scale": 2})");
+    EXPECT_EQ(put.status, 200u) << put.text;
+    EXPECT_EQ(put.at("id"), "m2");
+    EXPECT_EQ(put.at("type"), "f64");
+    EXPECT_EQ(call("DELETE", "/api/v1/mappings/m2").status, 204u);
+    EXPECT_EQ(call("GET", "/api/v1/mappings/m2").status, 404u);
+    EXPECT_EQ(call("DELETE", "/api/v1/mappings/m2").status, 404u);
+    EXPECT_EQ(call("PUT", "/api/v1/mappings/m2", R"({"unit": 2, "address": 10, "point": "feeder.AC"})").status, 404u);
+}
+
+TEST_F(HttpTest, AMappingConflictNamesTheOther) {
+    const auto a = call("POST", "/api/v1/mappings", R"({"unit": 2, "address": 1, "point": "feeder.position"})");
+    EXPECT_EQ(a.status, 409u) << a.text;
+    EXPECT_NE(a.at("detail").find("m1"), std::string::npos) << a.text;
+    EXPECT_EQ(a.fault().at("pointer"), "/address");
+    EXPECT_TRUE(gateway.applied.empty());
+    const auto wrong = call("POST", "/api/v1/mappings", R"({"unit": 2, "address": 1, "point": "feeder.nothing"})");
+    EXPECT_EQ(wrong.status, 422u);
+    EXPECT_EQ(wrong.fault().at("pointer"), "/point");
+}
+
+TEST_F(HttpTest, MappingsAsCsv) {
+    const auto csv = call("GET", "/api/v1/mappings.csv");
+    EXPECT_EQ(csv.status, 200u);
+    EXPECT_TRUE(csv.headers.get("Content-Type").starts_with("text/csv"));
+    EXPECT_TRUE(csv.text.starts_with("id,unit,table,address,axis,point,")) << csv.text;
+    const std::vector<std::pair<std::string, std::string>> type{{"Content-Type", "text/csv"}};
+    const std::string two = "unit,address,axis,point\r\n2,0,feeder,position\r\n2,2,slide,velocity\r\n";
+    const auto dry = call("PUT", "/api/v1/mappings.csv?dry_run=1", two, type);
+    EXPECT_EQ(dry.status, 200u) << dry.text;
+    EXPECT_EQ(dry.at("mappings"), "2");
+    EXPECT_TRUE(gateway.applied.empty());
+    EXPECT_EQ(call("PUT", "/api/v1/mappings.csv", two, type).status, 200u);
+    EXPECT_EQ(gateway.site()->site.mappings.size(), 2u);
+    const auto more =
+        call("POST", "/api/v1/mappings.csv", "id,unit,address,axis,point\nm1,2,100,feeder,position\n,2,4,slide,flags\n", type);
+    EXPECT_EQ(more.status, 200u) << more.text;
+    ASSERT_EQ(gateway.site()->site.mappings.size(), 3u) << "m1 was replaced, one was added";
+    EXPECT_EQ(call("GET", "/api/v1/mappings/m1").at("address"), "100");
+    const auto faulty = call("POST", "/api/v1/mappings.csv",
+                             "unit,address,axis,point\n2,200,feeder,position\n2,200,nobody,position\n2,4,slide,flags\n", type);
+    EXPECT_EQ(faulty.status, 422u);
+    EXPECT_EQ(faulty.object().at("faults").get_array().size(), 2u) << faulty.text;
+    EXPECT_EQ(faulty.fault(0).at("pointer"), "/3");
+    EXPECT_EQ(faulty.fault(1).at("pointer"), "/4");
+    EXPECT_EQ(gateway.site()->site.mappings.size(), 3u) << "all or nothing";
+    EXPECT_EQ(call("POST", "/api/v1/mappings.csv", "{}").status, 415u);
+}
+
+TEST_F(HttpTest, PointsThatCanBeMapped) {
+    const auto a = call("GET", "/api/v1/mapping-points");
+    ASSERT_GT(a.array().size(), 20u);
+    EXPECT_EQ(a.array()[0].at("point"), "statusword");
+}
+
+}  // namespace
+}  // namespace axisgate::http::test

@@ -1,0 +1,164 @@
+// Own maps: registers and bits of units 2 and up as mappings place them; parameters that are read behind the client's back; writes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "gateway/doors/modbus/own_map.hpp"
+#include "tests/unit/modbus/desk.hpp"
+
+namespace axisgate::modbus {
+namespace {
+using test::Desk;
+using namespace std::chrono_literals;
+
+Mapping mapping(std::uint16_t address, std::variant<AxisPoint, Point> what, MapType type, MapAccess access = MapAccess::read,
+                MapTable table = MapTable::holding_registers) {
+    Mapping m;
+    m.unit = 2;
+    m.address = address;
+    m.what = what;
+    m.type = type;
+    m.access = access;
+    m.table = table;
+    return m;
+}
+
+struct OwnMapTest : testing::Test, Desk {
+    AxisId x = port.add_axis(1, &test::catalogue());
+    std::unique_ptr<OwnMap> map;
+
+    static Point parameter(std::string_view id) { return *test::catalogue().find(id); }
+    void put(std::vector<Mapping> list) {
+        std::vector<PlacedMapping> placed;
+        for (auto& m : list)
+            placed.push_back({std::move(m), x, 100});
+        map = std::make_unique<OwnMap>(port, std::move(placed),
+                                       [this](UnitMap& asking, PlannedCommand c) { return responder.ask_for(asking, std::move(c)); });
+        responder.set_map(2, map.get());
+    }
+    void SetUp() override {
+        port.edit(x, [](AxisPicture& p) {
+            p.position = 0x01020304;
+            p.velocity = -250;
+            p.flags = flag_online | flag_moving;
+            p.ever_seen = true;
+        });
+    }
+    std::string read(std::string_view pdu) { return ask(pdu, 2); }
+};
+
+TEST_F(OwnMapTest, ReadsPointsOfTheAxis) {
+    auto scaled = mapping(4, AxisPoint::velocity, MapType::i16);
+    scaled.scale = 0.1;
+    auto low = mapping(5, AxisPoint::position, MapType::i32);
+    low.word_order = MapWordOrder::low_first;
+    put({mapping(0, AxisPoint::position, MapType::i32), mapping(2, AxisPoint::position_units, MapType::f32), scaled, low,
+         mapping(9, AxisPoint::moving, MapType::boolean),
+         mapping(3, AxisPoint::online, MapType::boolean, MapAccess::read, MapTable::discrete_inputs),
+         mapping(4, AxisPoint::fault, MapType::boolean, MapAccess::read, MapTable::discrete_inputs)});
+    EXPECT_EQ(read("03 00 00 00 02"), "03 04 01 02 03 04");
+    EXPECT_EQ(read("03 00 00 00 07"), "03 0E 01 02 03 04 48 25 20 A6 FF E7 03 04 01 02");
+    EXPECT_EQ(read("03 00 01 00 01"), "03 02 03 04") << "half of a value may be read";
+    EXPECT_EQ(read("03 00 09 00 01"), "03 02 00 01");
+    EXPECT_EQ(read("02 00 03 00 02"), "02 01 01");
+    EXPECT_EQ(read("03 00 06 00 02"), "83 02") << "7 is a gap";
+    EXPECT_EQ(read("03 00 0A 00 01"), "83 02");
+    EXPECT_EQ(read("04 00 00 00 02"), "84 02") << "another table";
+    EXPECT_EQ(ask("03 00 00 00 02", 3), "83 0A") << "another unit";
+}
+
+TEST_F(OwnMapTest, AValueThatDoesNotFitIsNoWrongNumber) {
+    put({mapping(0, AxisPoint::position, MapType::i16)});
+    EXPECT_EQ(read("03 00 00 00 01"), "83 04");
+}
+
+TEST_F(OwnMapTest, ParametersAreReadWhenTheyAreWanted) {
+    put({mapping(0, parameter("A"), MapType::i32, MapAccess::read_write), mapping(2, parameter("E"), MapType::string)});
+    map->begin(port.now());
+    EXPECT_EQ(port.commands.size(), 2u);
+    EXPECT_EQ(read("03 00 00 00 02"), "83 06") << "not known yet";
+    EXPECT_EQ(port.commands.size(), 2u) << "it is being asked for";
+    port.answer(Outcome::done, Reason::none, 0, Value{std::int64_t{-5}});
+    port.answer(Outcome::done, Reason::none, 0, Value{std::string("hello")});
+    EXPECT_EQ(read("03 00 00 00 02"), "03 04 FF FF FF FB");
+    EXPECT_EQ(read("03 00 02 00 03"), "03 06 68 65 6C 6C 6F 00");
+    EXPECT_TRUE(port.commands.empty()) << "fresh enough";
+    port.time += 300ms;
+    EXPECT_EQ(read("03 00 00 00 02"), "03 04 FF FF FF FB");
+    ASSERT_EQ(port.commands.size(), 1u) << "and asked for again";
+    EXPECT_EQ(std::get<ReadParameter>(port.commands[0].body).point, parameter("A"));
+    port.refuse(Reason::no_answer);
+    EXPECT_EQ(read("03 00 00 00 02"), "03 04 FF FF FF FB") << "the last one known";
+    map->on_sample({x, parameter("A"), Value{std::int64_t{9}}, Quality::good, port.time});
+    EXPECT_EQ(read("03 00 00 00 02"), "03 04 00 00 00 09") << "what another door wrote";
+    port.edit(x, [](AxisPicture& p) { p.flags = 0; });
+    EXPECT_EQ(read("03 00 00 00 02"), "83 0B") << "nothing is shown of a drive that does not answer";
+}
+
+TEST_F(OwnMapTest, ReadingsAreBounded) {
+    std::vector<Mapping> list;
+    for (const auto* id : {"A", "B", "C", "E", "F", "N[3]", "N[4]", "N[5]", "N[6]", "G", "I", "H", "M"})
+        list.push_back(mapping(static_cast<std::uint16_t>(64 * list.size()), parameter(id), MapType::string));
+    put(list);
+    for (int i = 0; i < 10; ++i)
+        map->begin(port.now());
+    EXPECT_EQ(port.commands.size(), list.size()) << "each once";
+    EXPECT_LE(port.commands.size(), OwnMap::most_readings);
+}
+
+TEST_F(OwnMapTest, WritesGoToTheDriveAndAreAnsweredByIt) {
+    auto scaled = mapping(0, parameter("A"), MapType::i16, MapAccess::read_write);
+    scaled.scale = 10;
+    put({scaled, mapping(1, parameter("B"), MapType::u32, MapAccess::write),
+         mapping(3, AxisPoint::target_position, MapType::i32, MapAccess::read_write),
+         mapping(5, AxisPoint::controlword, MapType::u16, MapAccess::read_write), mapping(6, AxisPoint::position, MapType::i32),
+         mapping(0, parameter("G"), MapType::boolean, MapAccess::read_write, MapTable::coils)});
+    std::vector<Command> seen;
+    result = [&] {
+        seen.push_back(port.commands.front());
+        port.answer(Outcome::done);
+    };
+    EXPECT_EQ(ask("06 00 00 00 64", 2), "06 00 00 00 64");
+    ASSERT_EQ(seen.size(), 1u);
+    EXPECT_EQ(std::get<WriteParameter>(seen[0].body).value, Value{std::int64_t{10}});
+    EXPECT_EQ(ask("10 00 01 00 02 04 FF FF FF FF", 2), "10 00 01 00 02");
+    EXPECT_EQ(std::get<WriteParameter>(seen[1].body).value, Value{std::int64_t{0xFFFFFFFF}});
+    EXPECT_EQ(read("03 00 01 00 02"), "83 02") << "write only";
+    EXPECT_EQ(ask("10 00 03 00 03 06 00 00 00 05 00 1F", 2), "10 00 03 00 03");
+    ASSERT_EQ(seen.size(), 3u) << "one command for both";
+    EXPECT_EQ(std::get<ProcessData>(seen[2].body).target_position, 5);
+    EXPECT_EQ(std::get<ProcessData>(seen[2].body).controlword, 0x1F);
+    EXPECT_EQ(ask("05 00 00 FF 00", 2), "05 00 00 FF 00");
+    EXPECT_EQ(std::get<WriteParameter>(seen[3].body).value, Value{true});
+    EXPECT_EQ(ask("06 00 00 27 11", 2), "86 03") << "1000.1 is above 1000";
+    EXPECT_EQ(ask("06 00 03 00 00", 2), "86 03") << "half of a value";
+    EXPECT_EQ(ask("06 00 06 00 00", 2), "86 02") << "read only";
+    EXPECT_EQ(ask("06 00 63 00 00", 2), "86 02") << "not mapped";
+    result = [&] { port.refuse(Reason::drive_refused, 51); };
+    EXPECT_EQ(ask("06 00 00 00 64", 2), "86 04");
+    EXPECT_EQ(seen.size(), 4u);
+}
+
+TEST_F(OwnMapTest, AllOrNothing) {
+    put({mapping(0, parameter("A"), MapType::i16, MapAccess::read_write), mapping(1, parameter("M"), MapType::u16, MapAccess::read_write)});
+    EXPECT_EQ(ask("10 00 00 00 02 04 00 01 00 05", 2), "90 03") << "5 is none of the allowed values of M";
+    EXPECT_TRUE(port.commands.empty()) << "A was not written either";
+}
+
+TEST_F(OwnMapTest, AMapThatGoesTakesItsReadingsWithIt) {
+    put({mapping(0, parameter("A"), MapType::i32)});
+    map->begin(port.now());
+    responder.set_map(2, nullptr);
+    map.reset();
+    EXPECT_TRUE(port.answer(Outcome::done, Reason::none, 0, Value{std::int64_t{1}}));
+    EXPECT_EQ(read("03 00 00 00 02"), "83 0A");
+    EXPECT_EQ(responder.waiting(), 0u);
+}
+
+TEST_F(OwnMapTest, AnAxisThatIsGone) {
+    put({mapping(0, AxisPoint::position, MapType::i32, MapAccess::read)});
+    port.edit(x, [](AxisPicture& p) { p.number = 0; });
+    EXPECT_EQ(read("03 00 00 00 02"), "83 0A");
+}
+
+}  // namespace
+}  // namespace axisgate::modbus

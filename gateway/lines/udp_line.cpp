@@ -51,7 +51,7 @@ void UdpLine::use(const udp::endpoint& where) {
     socket_->open(where.protocol(), error);
     if (!error && role_ == Role::listens) socket_->bind(where, error);
     if (!error && role_ == Role::connects) socket_->connect(where, error);
-    if (!error) socket_->native_non_blocking(true, error);
+    if (!error) socket_->non_blocking(true, error);  // not native_non_blocking: then Asio itself would wait
     if (error) {
         return went_down(role_ == Role::listens ? fmt::format("cannot listen on {}: {}", name(), error.message())
                                                 : fmt::format("cannot send to {}: {}", name(), error.message()));

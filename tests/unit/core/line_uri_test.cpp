@@ -47,6 +47,12 @@ TEST(LineUri, readsEveryForm) {
     EXPECT_EQ(listen.uri.host, "::1");
     EXPECT_EQ(listen.uri.port, 0);
 
+    const auto udp = parse_line_uri("udp:192.0.2.7:503");
+    ASSERT_TRUE(udp.good()) << udp.fault;
+    EXPECT_EQ(udp.uri.kind, Kind::udp);
+    EXPECT_EQ(udp.uri.port, 503);
+    EXPECT_EQ(parse_line_uri("udp-listen:[::1]:0").uri.kind, Kind::udp_listen);
+
     const auto pty = parse_line_uri("pty:/tmp/drive");
     ASSERT_TRUE(pty.good()) << pty.fault;
     EXPECT_EQ(pty.uri.kind, Kind::pty);
@@ -92,7 +98,7 @@ TEST(LineUri, comesBackFromItsText) {
          {"can:can0", "can:vcan12", "serial:/dev/ttyS1?baud=9600&format=8N1",
           "serial:/dev/ttyS1?baud=1000000&format=7O2&rs485=1&rts_after_ms=3",
           "serial:/dev/ttyS1?baud=9600&format=8N1&rs485=auto&rts_before_ms=2", "serial:/dev/ttyS1?baud=9600&format=8N1&rtscts=1",
-          "tcp:192.168.1.50:503", "tcp:[::1]:1", "tcp-listen:0.0.0.0:0", "tcp-listen:[::]:65535", "pty:/tmp/x", "pty:x", "twin"}) {
+          "tcp:192.168.1.50:503", "tcp:[::1]:1", "tcp-listen:0.0.0.0:0", "tcp-listen:[::]:65535", "udp:192.168.1.50:503", "udp-listen:[::1]:0", "pty:/tmp/x", "pty:x", "twin"}) {
         const auto u = parse_line_uri(text);
         ASSERT_TRUE(u.good()) << text << ": " << u.fault;
         EXPECT_EQ(to_text(u.uri), text);
@@ -151,6 +157,8 @@ TEST(LineUri, saysWhatIsWrongAndShowsWhatIsRight) {
         {"tcp:[host]:503", "IPv6", "tcp:"},
         {"tcp:[]:503", "host is missing", "tcp:"},
         {"tcp:" + std::string(254, 'a') + ":503", "253", "tcp:"},
+        {"udp:host:0", "not a port (1..65535)", "udp:192.168.1.50:503"},
+        {"udp-listen:127.0.0.1:1?x=1", "no options", "udp-listen:"},
         {"tcp-listen:0.0.0.0", "port is missing", "tcp-listen:127.0.0.1:4001"},
         {"tcp-listen:0.0.0.0:-1", "not a port (0..65535)", "tcp-listen:"},
         {"pty:", "path", "pty:/tmp/drive"},

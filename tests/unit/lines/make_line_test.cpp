@@ -10,6 +10,7 @@
 #include "gateway/lines/serial_line.hpp"
 #include "gateway/lines/tcp_line.hpp"
 #include "gateway/lines/tcp_listen_line.hpp"
+#include "gateway/lines/udp_line.hpp"
 #include "tests/unit/lines/fixture.hpp"
 
 namespace axisgate {
@@ -26,6 +27,8 @@ TEST_F(MakeLineTest, givesTheKindOfTheUri) {
     EXPECT_NE(dynamic_cast<SerialLine*>(make("serial:/dev/ttyS0").get()), nullptr);
     EXPECT_NE(dynamic_cast<TcpLine*>(make("tcp:127.0.0.1:1").get()), nullptr);
     EXPECT_NE(dynamic_cast<TcpListenLine*>(make("tcp-listen:127.0.0.1:0").get()), nullptr);
+    EXPECT_NE(dynamic_cast<UdpLine*>(make("udp:127.0.0.1:1").get()), nullptr);
+    EXPECT_NE(dynamic_cast<UdpLine*>(make("udp-listen:127.0.0.1:0").get()), nullptr);
     EXPECT_NE(dynamic_cast<PtyLine*>(make("pty:/tmp/never-opened").get()), nullptr);
     const auto line = make("can:can0");
     EXPECT_EQ(line->status(clock.now()).state, LineStatus::State::closed);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <span>
 #include <utility>
 
@@ -27,6 +28,7 @@ std::uint16_t UdpLine::port() const {
 void UdpLine::start() {
     boost::system::error_code error;
     if (const auto address = asio::ip::make_address(host_, error); !error) return use({address, port_number_});
+    awaits_name_ = true;
     if (resolving_) return;  // the system's resolver cannot be called back; its answer serves this attempt too
     resolving_ = true;
     resolver_.async_resolve(
@@ -39,10 +41,11 @@ void UdpLine::start() {
 }
 
 void UdpLine::resolved(const boost::system::error_code& error, const udp::resolver::results_type& found) {
-    if (socket_ || (state() != State::opening && state() != State::down)) return;
-    if (error || found.empty())
-        return went_down(fmt::format("cannot reach {}: the name {} is not known: {}", name(), host_, error.message()));
-    use(found.begin()->endpoint());
+    if (!awaits_name_) return;  // closed meanwhile: the next attempt asks again
+    awaits_name_ = false;
+    if (error) return went_down(fmt::format("cannot reach {}: the name {} is not known: {}", name(), host_, error.message()));
+    if (found.empty()) return went_down(fmt::format("cannot reach {}: the name {} has no address", name(), host_));
+    use(std::next(found.begin(), static_cast<std::ptrdiff_t>(address_turn_ % found.size()))->endpoint());
 }
 
 void UdpLine::use(const udp::endpoint& where) {
@@ -52,16 +55,24 @@ void UdpLine::use(const udp::endpoint& where) {
     if (!error && role_ == Role::listens) socket_->bind(where, error);
     if (!error && role_ == Role::connects) socket_->connect(where, error);
     if (!error) socket_->non_blocking(true, error);  // not native_non_blocking: then Asio itself would wait
-    if (error) {
-        return went_down(role_ == Role::listens ? fmt::format("cannot listen on {}: {}", name(), error.message())
-                                                : fmt::format("cannot send to {}: {}", name(), error.message()));
-    }
+    if (error && role_ == Role::listens) return went_down(fmt::format("cannot listen on {}: {}", name(), error.message()));
+    if (error) return lost(error);
+    // A port of our own machine in the range of outgoing ones can meet itself when nobody listens.
+    if (role_ == Role::connects && socket_->local_endpoint(error) == where) return lost(asio::error::connection_refused);
     const std::string text = role_ == Role::listens ? fmt::format("up, listening on UDP port {}", socket_->local_endpoint(error).port())
                                                     : fmt::format("up, UDP to {}", name());
     if (came_up(text)) wait_readable();
 }
 
+void UdpLine::lost(const boost::system::error_code& error) {
+    ++address_turn_;  // a name may have several addresses, and the drive only one of them
+    went_down(error == asio::error::connection_refused
+                  ? fmt::format("nobody listens at {}: is it switched on, and is the port right?", name())
+                  : fmt::format("cannot reach {}: {}", name(), error.message()));
+}
+
 void UdpLine::stop() {
+    awaits_name_ = false;
     socket_.reset();
     last_speaker_.reset();
     write_waits_ = false;
@@ -79,9 +90,7 @@ void UdpLine::on_readable() {
         udp::endpoint from;
         const std::size_t n = socket_->receive_from(asio::buffer(buffer_), from, 0, error);
         if (error == asio::error::would_block) break;
-        if (error == asio::error::connection_refused)
-            return went_down(fmt::format("nobody listens at {}: is it switched on, and is the port right?", name()));
-        if (error) return went_down(fmt::format("lost {}: {}", name(), error.message()));
+        if (error) return lost(error);
         if (role_ == Role::listens) last_speaker_ = from;
         const Instant now = clock().now();
         auto rest = std::span(buffer_).first(n);
@@ -122,7 +131,7 @@ void UdpLine::flush() {
         queue_.pop();
         if (error) {
             ++status_.errors;
-            if (role_ == Role::connects) return went_down(fmt::format("cannot send to {}: {}", name(), error.message()));
+            if (role_ == Role::connects) return lost(error);
             continue;
         }
         if (!tell_sent(sent)) return;

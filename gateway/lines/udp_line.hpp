@@ -33,6 +33,7 @@ private:
     void flush() override;
     void resolved(const boost::system::error_code& error, const udp::resolver::results_type& found);
     void use(const udp::endpoint& where);
+    void lost(const boost::system::error_code& error);
     void wait_readable();
     void on_readable();
     [[nodiscard]] std::string name() const;
@@ -46,6 +47,8 @@ private:
     std::array<std::uint8_t, 65536> buffer_{};
     bool write_waits_ = false;
     bool resolving_ = false;
+    bool awaits_name_ = false;  ///< the present attempt waits for the resolver
+    std::size_t address_turn_ = 0;
     std::shared_ptr<char> alive_ = std::make_shared<char>();
 };
 

@@ -134,6 +134,41 @@ std::optional<std::string> text_of(const toml::node& node) {
     return std::nullopt;
 }
 
+/// Line of the first byte above ASCII that stands neither in a string nor in a comment; 0: there is none. No key has such a letter, and the
+/// TOML library's look-up of white space is not defined for some of them.
+std::size_t line_of_foreign_letter(std::string_view text) {
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    std::size_t line = 1;
+    std::string_view quote;  // what ends the string that we are in
+    bool comment = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char ch = text[i];
+        if (ch == '\n') {
+            ++line;
+            comment = false;
+            if (quote.size() == 1) quote = {};  // a string of one line that is not closed: the parser says so
+        } else if (comment) {
+            continue;
+        } else if (!quote.empty()) {
+            if (quote.front() == '"' && ch == '\\') {
+                ++i;
+            } else if (text.substr(i).starts_with(quote)) {
+                i += quote.size() - 1;
+                quote = {};
+            }
+        } else if (ch == '#') {
+            comment = true;
+        } else if (ch == '"' || ch == '\'') {
+            const bool three = text.substr(i).starts_with(ch == '"' ? "\"\"\"" : "'''");
+            quote = ch == '"' ? (three ? "\"\"\"" : "\"") : (three ? "'''" : "'");
+            i += quote.size() - 1;
+        } else if (static_cast<unsigned char>(ch) >= 0x80) {
+            return line;
+        }
+    }
+    return 0;
+}
+
 void read_file(Config& c, const ConfigSources& sources, std::vector<ConfigFault>& faults) {
     const auto place = [&](const toml::source_region& r) { return fmt::format("{}:{}", sources.file_name, r.begin.line); };
     // TOML knows no control characters but tab and line ends, and the parser does not take NUL as a fault but as a reason to end.
@@ -142,6 +177,10 @@ void read_file(Config& c, const ConfigSources& sources, std::vector<ConfigFault>
         line += byte == '\n';
         if ((byte >= 0x20 && byte != 0x7F) || byte == '\t' || byte == '\n' || byte == '\r') continue;
         faults.push_back({fmt::format("{}:{}", sources.file_name, line), fmt::format("the line has the control character {:02X} in it", byte), "write the line again as plain text"});
+        return;
+    }
+    if (const std::size_t line = line_of_foreign_letter(*sources.file_text)) {
+        faults.push_back({fmt::format("{}:{}", sources.file_name, line), "the line has a letter beyond ASCII outside of quotes", "keys are plain ASCII; put texts in double quotes"});
         return;
     }
     const toml::parse_result parsed = toml::parse(*sources.file_text, std::string_view(sources.file_name));

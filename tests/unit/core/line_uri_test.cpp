@@ -50,8 +50,17 @@ TEST(LineUri, readsEveryForm) {
     const auto udp = parse_line_uri("udp:192.0.2.7:503");
     ASSERT_TRUE(udp.good()) << udp.fault;
     EXPECT_EQ(udp.uri.kind, Kind::udp);
+    EXPECT_EQ(udp.uri.host, "192.0.2.7");
     EXPECT_EQ(udp.uri.port, 503);
-    EXPECT_EQ(parse_line_uri("udp-listen:[::1]:0").uri.kind, Kind::udp_listen);
+    const auto udp_six = parse_line_uri("udp:[fe80::1%eth0]:4001");
+    ASSERT_TRUE(udp_six.good()) << udp_six.fault;
+    EXPECT_EQ(udp_six.uri.host, "fe80::1%eth0");
+    EXPECT_EQ(udp_six.uri.port, 4001);
+    const auto udp_listen = parse_line_uri("udp-listen:[::1]:0");
+    ASSERT_TRUE(udp_listen.good()) << udp_listen.fault;
+    EXPECT_EQ(udp_listen.uri.kind, Kind::udp_listen);
+    EXPECT_EQ(udp_listen.uri.host, "::1");
+    EXPECT_EQ(udp_listen.uri.port, 0);
 
     const auto pty = parse_line_uri("pty:/tmp/drive");
     ASSERT_TRUE(pty.good()) << pty.fault;
@@ -98,7 +107,8 @@ TEST(LineUri, comesBackFromItsText) {
          {"can:can0", "can:vcan12", "serial:/dev/ttyS1?baud=9600&format=8N1",
           "serial:/dev/ttyS1?baud=1000000&format=7O2&rs485=1&rts_after_ms=3",
           "serial:/dev/ttyS1?baud=9600&format=8N1&rs485=auto&rts_before_ms=2", "serial:/dev/ttyS1?baud=9600&format=8N1&rtscts=1",
-          "tcp:192.168.1.50:503", "tcp:[::1]:1", "tcp-listen:0.0.0.0:0", "tcp-listen:[::]:65535", "udp:192.168.1.50:503", "udp-listen:[::1]:0", "pty:/tmp/x", "pty:x", "twin"}) {
+          "tcp:192.168.1.50:503", "tcp:[::1]:1", "tcp-listen:0.0.0.0:0", "tcp-listen:[::]:65535", "udp:192.168.1.50:503",
+          "udp:[::1]:1", "udp-listen:0.0.0.0:0", "udp-listen:[::1]:0", "udp-listen:[::]:65535", "pty:/tmp/x", "pty:x", "twin"}) {
         const auto u = parse_line_uri(text);
         ASSERT_TRUE(u.good()) << text << ": " << u.fault;
         EXPECT_EQ(to_text(u.uri), text);
@@ -157,8 +167,21 @@ TEST(LineUri, saysWhatIsWrongAndShowsWhatIsRight) {
         {"tcp:[host]:503", "IPv6", "tcp:"},
         {"tcp:[]:503", "host is missing", "tcp:"},
         {"tcp:" + std::string(254, 'a') + ":503", "253", "tcp:"},
+        {"UDP:host:503", "is not a kind", "udp:HOST:PORT"},
+        {"udp", "\"udp\" is not a kind of line", "udp:HOST:PORT"},
+        {"udp:", "port is missing", "udp:192.168.1.50:503"},
+        {"udp:host", "port is missing", "udp:192.168.1.50:503"},
         {"udp:host:0", "not a port (1..65535)", "udp:192.168.1.50:503"},
-        {"udp-listen:127.0.0.1:1?x=1", "no options", "udp-listen:"},
+        {"udp:host:65536", "not a port", "udp:192.168.1.50:503"},
+        {"udp:host:5o3", "not a port", "udp:192.168.1.50:503"},
+        {"udp::503", "host is missing", "udp:192.168.1.50:503"},
+        {"udp:host:503?broadcast=1", "no options", "udp:192.168.1.50:503"},
+        {"udp:::1:503", "square brackets", "udp:[::1]:503"},
+        {"udp:[::1]503", "[ADDRESS]:PORT", "udp:[::1]:503"},
+        {"udp-listen:127.0.0.1:1?x=1", "no options", "udp-listen:127.0.0.1:4001"},
+        {"udp-listen:0.0.0.0", "port is missing", "udp-listen:127.0.0.1:4001"},
+        {"udp-listen:0.0.0.0:-1", "not a port (0..65535)", "udp-listen:"},
+        {"udp-listen:::1:0", "square brackets", "udp-listen:[::1]:4001"},
         {"tcp-listen:0.0.0.0", "port is missing", "tcp-listen:127.0.0.1:4001"},
         {"tcp-listen:0.0.0.0:-1", "not a port (0..65535)", "tcp-listen:"},
         {"pty:", "path", "pty:/tmp/drive"},
@@ -179,7 +202,7 @@ TEST(LineUri, saysWhatIsWrongAndShowsWhatIsRight) {
 TEST(LineUri, survivesAnyBytes) {
     // Every prefix and every single changed byte of good URIs: a fault or a value, and never anything else.
     for (const std::string good :
-         {"serial:/dev/ttyS1?baud=9600&format=8N1&rs485=1&rts_after_ms=3", "tcp:[fe80::1%eth0]:4001", "can:can0"}) {
+         {"serial:/dev/ttyS1?baud=9600&format=8N1&rs485=1&rts_after_ms=3", "tcp:[fe80::1%eth0]:4001", "udp-listen:[::1]:0", "can:can0"}) {
         for (std::size_t n = 0; n < good.size(); ++n) {
             const auto u = parse_line_uri(good.substr(0, n));
             EXPECT_EQ(u.good(), u.fault.empty());

@@ -42,7 +42,7 @@ TEST_F(MakeLineTest, whatCannotBeSaysSo) {
     const struct {
         const char* uri;
         const char* says;
-    } rows[] = {{"twin", "no real side"}, {"nonsense", "is not a kind of line"}, {"tcp:host", "port is missing"}};
+    } rows[] = {{"twin", "no real side"}, {"nonsense", "is not a kind of line"}, {"tcp:host", "port is missing"}, {"udp:host:0", "not a port"}};
     for (const auto& r : rows) {
         Owner o;
         const auto line = make_real_line(r.uri, {}, io);
@@ -62,6 +62,26 @@ TEST_F(MakeLineTest, twoEndsOfOneCable) {
     const auto gateway_end = make_real_line("tcp:" + address, {}, io);
     ASSERT_TRUE(comes_up(*gateway_end));
     // Question and answer a thousand times, each from inside the event of the other.
+    int rounds = 0;
+    twin.hears = [&](const Frame& f) { EXPECT_TRUE(twin_end->send(f, Priority::command, clock.now())); };
+    owner.hears = [&](const Frame& f) {
+        if (++rounds < 1000) EXPECT_TRUE(gateway_end->send(f, Priority::command, clock.now()));
+    };
+    EXPECT_TRUE(gateway_end->send(text("PR P\r"), Priority::command, clock.now()));
+    EXPECT_TRUE(until([&] { return rounds == 1000; }));
+    EXPECT_EQ(as_text(owner.frames.back()), "PR P\r");
+    EXPECT_EQ(gateway_end->status(clock.now()).frames_out, 1000u);
+}
+
+TEST_F(MakeLineTest, twoEndsThatSpeakInDatagrams) {
+    const auto twin_end = make_real_line("udp-listen:127.0.0.1:0", {}, io);
+    Owner twin;
+    twin_end->open(twin, clock.now());
+    ASSERT_TRUE(until([&] { return twin.up(); }));
+    const auto port = dynamic_cast<UdpLine&>(*twin_end).port();
+    EXPECT_THAT(twin.states[0].second, HasSubstr("listening on UDP port " + std::to_string(port)));
+    const auto gateway_end = make_real_line("udp:127.0.0.1:" + std::to_string(port), {}, io);
+    ASSERT_TRUE(comes_up(*gateway_end));
     int rounds = 0;
     twin.hears = [&](const Frame& f) { EXPECT_TRUE(twin_end->send(f, Priority::command, clock.now())); };
     owner.hears = [&](const Frame& f) {

@@ -4,6 +4,7 @@
 
 #include <arpa/inet.h>
 #include <gmock/gmock.h>
+#include <netdb.h>
 
 #include "tests/unit/lines/fixture.hpp"
 
@@ -56,8 +57,8 @@ protected:
     std::optional<Socket> drive{std::in_place};
     std::unique_ptr<UdpLine> line;
 
-    void connect() {
-        line = std::make_unique<UdpLine>(base(), "127.0.0.1", drive->port, UdpLine::Role::connects);
+    void connect(const std::string& host = "127.0.0.1") {
+        line = std::make_unique<UdpLine>(base(), host, drive->port, UdpLine::Role::connects);
         ASSERT_TRUE(comes_up(*line));
     }
     void listen() {
@@ -83,13 +84,57 @@ TEST_F(UdpLineTest, eachFrameIsOneDatagram) {
     EXPECT_EQ(receive(*drive), "PR P\r");
     EXPECT_EQ(receive(*drive), "PR V\r");
     EXPECT_EQ(owner.sent.size(), 2u);
+    EXPECT_TRUE(send(every_byte()));
+    EXPECT_EQ(receive(*drive), every_byte());
     drive->to(drive->speaker, every_byte());
     ASSERT_TRUE(until([&] { return owner.heard().size() >= 256; }));
     EXPECT_EQ(owner.heard(), every_byte());
+    EXPECT_EQ(owner.frames.size(), 1u);
     const LineStatus s = status();
-    EXPECT_EQ(s.bytes_out, 10u);
-    EXPECT_EQ(s.frames_out, 2u);
+    EXPECT_EQ(s.bytes_out, 266u);
+    EXPECT_EQ(s.frames_out, 3u);
+    EXPECT_EQ(s.frames_in, 1u);
     EXPECT_EQ(s.bytes_in, 256u);
+    EXPECT_EQ(s.load, 0.0);
+}
+
+TEST_F(UdpLineTest, moreThanOneTurnsWorthIsCarriedInOrder) {
+    connect();
+    constexpr int many = 3 * UdpLine::datagrams_per_turn + 1;
+    std::string wanted;
+    for (int i = 0; i < many; ++i) {
+        wanted += std::to_string(i) + "\n";
+        EXPECT_TRUE(send(std::to_string(i) + "\n"));
+    }
+    std::string got;
+    for (int i = 0; i < many; ++i)
+        got += receive(*drive);
+    EXPECT_EQ(got, wanted);
+    EXPECT_EQ(owner.sent.size(), static_cast<std::size_t>(many));
+    for (int i = 0; i < many; ++i)
+        drive->to(drive->speaker, std::to_string(i) + "\n");
+    ASSERT_TRUE(until([&] { return owner.frames.size() >= static_cast<std::size_t>(many); }));
+    EXPECT_EQ(owner.heard(), wanted);
+}
+
+TEST_F(UdpLineTest, sizesRoundAFramesCapacity) {
+    connect();
+    EXPECT_TRUE(send("x"));
+    (void)receive(*drive);
+    const struct {
+        std::size_t size;
+        std::size_t frames;
+    } rows[] = {{1, 1}, {255, 1}, {256, 1}, {257, 2}, {512, 2}, {60'000, 235}};
+    for (const auto& r : rows) {
+        owner.frames.clear();
+        std::string datagram;
+        for (std::size_t i = 0; i < r.size; ++i)
+            datagram += static_cast<char>('a' + i % 26);
+        drive->to(drive->speaker, datagram);
+        ASSERT_TRUE(until([&] { return owner.heard().size() >= r.size; })) << r.size;
+        EXPECT_EQ(owner.heard(), datagram);
+        EXPECT_EQ(owner.frames.size(), r.frames) << r.size;
+    }
 }
 
 TEST_F(UdpLineTest, aLongDatagramArrivesInPiecesAndAnEmptyOneNotAtAll) {
@@ -129,6 +174,84 @@ TEST_F(UdpLineTest, aPortWhereNobodyListensEndsTheLineUntilSomebodyDoes) {
     EXPECT_EQ(status().reopened, 1u);
 }
 
+TEST_F(UdpLineTest, aRefusalIsSaidTheSameWhereverItIsNoticed) {
+    const std::uint16_t port = drive->port;
+    connect();
+    drive.reset();
+    for (const char* s : {"one ", "two ", "three "})  // the answer to the first comes back when the second is sent
+        EXPECT_TRUE(send(s));
+    ASSERT_TRUE(until([&] { return !owner.up(); }));
+    EXPECT_THAT(owner.states.back().second, HasSubstr("nobody listens at 127.0.0.1:" + std::to_string(port)));
+    EXPECT_FALSE(send("nobody there"));
+    drive.emplace(port);
+    ASSERT_TRUE(until([&] { return owner.up(); }));
+    EXPECT_TRUE(send("new"));
+    EXPECT_EQ(receive(*drive), "new") << "the drive does not get a command from another time";
+}
+
+TEST_F(UdpLineTest, resolvesNames) {
+    connect("localhost");
+    EXPECT_THAT(owner.states.back().second, HasSubstr("localhost:"));
+    // The name may have ::1 first, where nobody listens: then the line goes down, and takes the other address.
+    ASSERT_TRUE(until([&] {
+        (void)send("x");
+        return drive->take().has_value();
+    }));
+    drive->to(drive->speaker, "answer");
+    EXPECT_TRUE(until([&] { return owner.heard() == "answer"; }));
+}
+
+TEST_F(UdpLineTest, anUnknownNameIsSaid) {
+    const std::string never_a_name(64, 'a');  // longer than a label may be: nobody outside is asked
+    line = std::make_unique<UdpLine>(base(), never_a_name, std::uint16_t{503}, UdpLine::Role::connects);
+    line->open(owner, clock.now());
+    ASSERT_TRUE(until([&] { return !owner.states.empty(); }));
+    EXPECT_FALSE(owner.up());
+    EXPECT_THAT(status().text, HasSubstr("cannot reach " + never_a_name + ":503: the name " + never_a_name + " is not known"));
+}
+
+TEST_F(UdpLineTest, hearsAfterBeingOpenedAgainWhileItsNameIsLookedUp) {
+    for (int turns = 0; turns < 20; ++turns) {
+        owner.states.clear();
+        line = std::make_unique<UdpLine>(base(), "localhost", drive->port, UdpLine::Role::connects);
+        line->open(owner, clock.now());
+        if (io.stopped()) io.restart();
+        io.poll_one();                     // it asks for the name
+        for (int i = 0; i < turns; ++i) {  // takes as long as the answer that nobody wants any more
+            addrinfo* found = nullptr;
+            (void)::getaddrinfo("localhost", "1", nullptr, &found);
+            if (found != nullptr) ::freeaddrinfo(found);
+        }
+        line->close();
+        line->open(owner, clock.now());
+        ASSERT_TRUE(until([&] {
+            (void)send("x");
+            return drive->take().has_value();
+        })) << turns;
+        settle();
+        while (drive->take()) {
+        }
+        owner.frames.clear();
+        drive->to(line->port(), "answer");
+        ASSERT_TRUE(until([&] { return owner.heard() == "answer"; })) << turns;
+    }
+}
+
+TEST_F(UdpLineTest, mayBeDestroyedAtAnyMoment) {
+    for (int turns = 0; turns < 12; ++turns) {
+        auto l = std::make_unique<UdpLine>(base(), turns % 2 == 0 ? "127.0.0.1" : "localhost", drive->port,
+                                           turns % 3 == 0 ? UdpLine::Role::listens : UdpLine::Role::connects);
+        l->open(owner, clock.now());
+        for (int i = 0; i < turns; ++i)
+            io.poll_one();
+        l.reset();
+        settle();
+    }
+    const auto before = owner.states.size();
+    settle();
+    EXPECT_EQ(owner.states.size(), before);
+}
+
 TEST_F(UdpLineTest, listeningAnswersTheLastSpeaker) {
     listen();
     EXPECT_TRUE(send("nobody is there"));
@@ -145,6 +268,51 @@ TEST_F(UdpLineTest, listeningAnswersTheLastSpeaker) {
     EXPECT_TRUE(send("to b"));
     EXPECT_EQ(receive(b), "to b");
     EXPECT_FALSE(a.take());
+    a.to(line->port(), "");  // says nothing, but has spoken
+    ASSERT_TRUE(until([&] {
+        (void)send("back to a");
+        settle();
+        while (b.take()) {
+        }
+        return a.take() == "back to a";
+    }));
+    EXPECT_EQ(owner.heard(), "ab");
+    EXPECT_TRUE(owner.up());
+    EXPECT_EQ(owner.states.size(), 1u);
+}
+
+TEST_F(UdpLineTest, listeningOutlivesASpeakerThatIsGone) {
+    listen();
+    {
+        Socket gone;
+        gone.to(line->port(), "a");
+        ASSERT_TRUE(until([&] { return owner.heard() == "a"; }));
+    }
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_TRUE(send("nobody is there any more"));
+        settle();
+    }
+    EXPECT_TRUE(owner.up());
+    EXPECT_EQ(owner.states.size(), 1u);
+    Socket b;
+    b.to(line->port(), "b");
+    ASSERT_TRUE(until([&] { return owner.heard() == "ab"; }));
+    EXPECT_TRUE(send("to b"));
+    EXPECT_EQ(receive(b), "to b");
+}
+
+TEST_F(UdpLineTest, whoSpokeBeforeItWasClosedIsForgotten) {
+    listen();
+    Socket a;
+    a.to(line->port(), "a");
+    ASSERT_TRUE(until([&] { return owner.heard() == "a"; }));
+    line->close();
+    owner.states.clear();
+    ASSERT_TRUE(comes_up(*line));
+    EXPECT_TRUE(send("not for a"));
+    settle();
+    EXPECT_FALSE(a.take());
+    EXPECT_EQ(status().dropped, 1u);
 }
 
 TEST_F(UdpLineTest, urgentGoesFirst) {
@@ -180,6 +348,26 @@ TEST_F(UdpLineTest, mayBeClosedFromInsideItsOwnEvents) {
     EXPECT_EQ(owner.heard(), "one");
     EXPECT_EQ(status().state, LineStatus::State::closed);
     EXPECT_FALSE(send("y"));
+}
+
+TEST_F(UdpLineTest, mayBeDestroyedFromInsideItsOwnEvents) {
+    connect();
+    EXPECT_TRUE(send("x"));
+    (void)receive(*drive);
+    owner.hears = [this](const Frame&) { line.reset(); };
+    drive->to(drive->speaker, std::string(1000, 'b'));  // four frames, of which only the first arrives
+    ASSERT_TRUE(until([&] { return line == nullptr; }));
+    settle();
+    EXPECT_EQ(owner.frames.size(), 1u);
+
+    owner.changes = [this](bool up) {
+        if (up) line->close();
+    };
+    line = std::make_unique<UdpLine>(base(), "127.0.0.1", drive->port, UdpLine::Role::connects);
+    owner.states.clear();
+    ASSERT_TRUE(comes_up(*line));
+    settle();
+    EXPECT_EQ(status().state, LineStatus::State::closed);
 }
 
 }  // namespace

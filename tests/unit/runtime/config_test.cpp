@@ -75,5 +75,23 @@ TEST(MemoryFile, KeepsTypes) {
     EXPECT_EQ(memories_from_json(" \n", back), "");
 }
 
+TEST(Config, LettersBeyondAsciiStandInQuotesAndCommentsAlone) {
+    const auto faults_of = [](std::string text) {
+        ConfigSources s;
+        s.file_name = "f.toml";
+        s.file_text = std::move(text);
+        std::vector<ConfigFault> faults;
+        (void)read_config(s, faults);
+        return faults;
+    };
+    EXPECT_TRUE(faults_of("# schön\n[data]\ndir = \"/tmp/möbel \\\" ä\"\n[log]\nfile = '/tmp/ü'  # é\n").empty());
+    EXPECT_TRUE(faults_of("\xEF\xBB\xBF[data]\ndir = \"x\"\n").empty());
+    for (const char* text : {"[data]\nd\xC3\xA4r = \"x\"\n", "[data]\ndir = \"x\" \xEF\xBB\xAF\n", "[data]\n\xEF\xBB\xAF", "[data]\ndir = \"open\n\xEF\xBB\xAF"}) {
+        const auto faults = faults_of(text);
+        ASSERT_EQ(faults.size(), 1u) << text;
+        EXPECT_NE(faults[0].text.find("ASCII"), std::string::npos) << faults[0].text;
+    }
+}
+
 }  // namespace
 }  // namespace axisgate

@@ -1,0 +1,28 @@
+// Family pacontrol: the table of its makers.
+// In and out: see the header.
+// Never decides anything: that is for the files beside it.
+#include "adapters/pacontrol/family.hpp"
+
+#include "adapters/pacontrol/adapter.hpp"
+#include "adapters/pacontrol/decoder.hpp"
+#include "adapters/pacontrol/twin.hpp"
+
+namespace axisgate {
+
+const Family& family_pacontrol() {
+    static const Family family{
+        "pacontrol",
+        [](const Catalogue& c, LineKind kind) -> std::unique_ptr<Adapter> { return std::make_unique<pacontrol::LineAdapter>(c, kind); },
+        [](const Catalogue& c, const TwinSetup& setup) -> std::unique_ptr<Twin> { return pacontrol::twin::make_twin(c, setup); },
+        [](const Catalogue&, LineKind) -> std::unique_ptr<Decoder> { return std::make_unique<pacontrol::LineDecoder>(); },
+        pacontrol::check_address,
+        "com1",  // the port is point to point and has no address
+        9600,    // [L1041]
+        "7N1",
+        false,
+        true,
+    };
+    return family;
+}
+
+}  // namespace axisgate

@@ -1,0 +1,159 @@
+// Fuzz: the PA-CONTROL twin: any memory, bytes, frames, times and hand.
+// In: the fuzzer's bytes. Out: nothing; laws: deadlines move on, the mechanics stay numbers, what it sends is one whole acknowledgement
+// with the right check, its memory survives power-off, and its revision tells of every change of it.
+#include <cmath>
+
+#include "adapters/pacontrol/twin.hpp"
+#include "gateway/core/family.hpp"
+#include "gateway/core/twin.hpp"
+#include "tests/fuzz/fuzz.hpp"
+
+using namespace axisgate;
+using fuzz::require;
+
+namespace {
+
+/// SOH STX six fields ETX check EOT, and nothing else.
+bool acknowledgement(std::span<const std::uint8_t> b) {
+    if (b.size() < 8 || b[0] != 1 || b[1] != 2 || b.back() != 4) return false;
+    std::size_t i = 2;
+    int semicolons = 0;
+    int x = 3;
+    for (; i < b.size() && b[i] != 3; ++i) {
+        if (b[i] < 0x20 || b[i] > 0x7F) return false;
+        semicolons += b[i] == ';';
+        x ^= b[i];
+    }
+    std::string check;
+    for (++i; i + 1 < b.size(); ++i)
+        check.push_back(static_cast<char>(b[i]));
+    return semicolons == 5 && check == std::to_string(x);
+}
+
+std::vector<std::uint8_t> request(FuzzedDataProvider& in) {
+    constexpr std::array<const char*, 30> codes{"0600", "0602", "0603", "0700", "0800", "1800", "1900", "0903", "0905", "0906",
+                                                "0907", "0909", "190C", "1921", "0A41", "0A81", "0A83", "0A84", "0A85", "0A86",
+                                                "0A87", "0A89", "0A8D", "0A90", "0A92", "0A93", "0A94", "0A98", "0AA0", "0AA3"};
+    const bool real = in.ConsumeBool();
+    std::string text =
+        std::string(in.PickValueInArray(codes)) + ";" + std::to_string(in.ConsumeIntegralInRange<int>(0, 1030)) + (real ? ";1;" : ";0;");
+    text +=
+        real ? std::to_string(in.ConsumeFloatingPointInRange<double>(-20'000, 20'000)) : std::to_string(in.ConsumeIntegral<std::int32_t>());
+    std::vector<std::uint8_t> b{1, 2};
+    b.insert(b.end(), text.begin(), text.end());
+    b.insert(b.end(), {3, '0', 4});
+    return b;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    if (size < 4 || size > 16 * 1024) return 0;
+    FuzzedDataProvider in(data, size);
+    static const FamilyEntry entry = fuzz::families().find("pacontrol");
+    TwinSetup setup;
+    setup.address = "com1";
+    setup.axes = in.ConsumeIntegralInRange<int>(1, 4);
+    if (in.ConsumeBool()) setup.options["absolute"] = "off";
+    if (in.ConsumeBool()) setup.options["switch_on_mode"] = std::to_string(in.ConsumeIntegralInRange<int>(0, 4));
+    if (in.ConsumeBool()) setup.options["reply_ms"] = std::to_string(in.ConsumeIntegral<std::uint8_t>());
+    if (in.ConsumeBool()) setup.options["axis_modules"] = "on";
+    if (in.ConsumeBool()) setup.options["programs"] = in.ConsumeRandomLengthString(40);
+    const auto twin = entry.family->make_twin(*entry.catalogue, setup);
+    Instant now = at_ns(1'000'000'000);
+    Out out;
+    std::uint64_t revision = 0;
+    NonVolatile memory;
+
+    const auto drain = [&] {
+        require(out.results.empty() && out.feedback.empty() && out.samples.empty(), "a twin gives frames alone");
+        require(out.frames.size() <= 1024, "one call gives a bounded amount");
+        for (const auto& tx : out.frames)
+            require(tx.frame.kind == Frame::Kind::bytes && acknowledgement(tx.frame.data()), "a twin sends whole acknowledgements");
+        out.clear();
+    };
+    const auto look = [&] {
+        for (int channel = 0; channel <= setup.axes + 1; ++channel) {
+            const auto m = twin->mechanics(channel, now);
+            require(std::isfinite(m.position) && std::isfinite(m.velocity), "the mechanics stay numbers");
+        }
+        require(twin->deadline() >= now, "a deadline is not past");
+        if (twin->non_volatile_revision() == revision) {
+            require(twin->non_volatile() == memory, "a changed memory has another revision");
+        } else {
+            require(twin->non_volatile_revision() > revision, "a revision grows");
+            revision = twin->non_volatile_revision();
+            memory = twin->non_volatile();
+        }
+    };
+    const auto pass = [&](Duration step) {
+        const Instant end = now + step;
+        int met = 0, standing = 0;
+        while (twin->deadline() <= end && met < 2000) {
+            const Instant due = std::max(now, twin->deadline());
+            standing = due == now ? standing + 1 : 0;
+            require(standing < 1000, "a deadline moves on");
+            now = due;
+            twin->on_deadline(now, out);
+            drain();
+            ++met;
+        }
+        now = end;
+        twin->on_deadline(now, out);
+        drain();
+    };
+    const auto restart = [&] {
+        const NonVolatile before = memory;
+        twin->power_on(before, now, out);
+        drain();
+        require(twin->non_volatile() == before, "a memory is kept over power-off as it is");
+        revision = twin->non_volatile_revision();
+        memory = twin->non_volatile();
+    };
+
+    constexpr std::array<const char*, 8> names{"N5",          "R7",     "M1024", "system.3", "axis1.parameter.6", "axis1.position",
+                                               "axis2.shaft", "program"};
+    NonVolatile first;
+    for (int n = in.ConsumeIntegralInRange<int>(0, 8); n > 0; --n)
+        first[in.ConsumeBool() ? in.PickValueInArray(names) : in.ConsumeRandomLengthString(12)] = fuzz::any_value(in);
+    twin->power_on(first, now, out);
+    drain();
+    revision = twin->non_volatile_revision();
+    memory = twin->non_volatile();
+
+    for (int step = 0; step < 400 && in.remaining_bytes() > 0; ++step) {
+        switch (in.ConsumeIntegralInRange<int>(0, 7)) {
+            case 0: {
+                const auto bytes = in.ConsumeBytes<std::uint8_t>(in.ConsumeIntegralInRange<std::size_t>(1, 60));
+                twin->on_frame(Frame::run(bytes), now, out);
+                break;
+            }
+            case 1:
+            case 2:
+            case 3:
+                twin->on_frame(Frame::run(request(in)), now, out);
+                break;
+            case 4:
+                pass(fuzz::any_step(in));
+                break;
+            case 5: {
+                const auto items = twin->hand();
+                const auto& item = items[in.ConsumeIntegralInRange<std::size_t>(0, items.size() - 1)];
+                const std::string name = in.ConsumeIntegralInRange<int>(0, 15) ? item.name : in.ConsumeRandomLengthString(12);
+                (void)twin->set_hand(name, fuzz::any_value(in), now, out);
+                break;
+            }
+            case 6:
+                if (in.ConsumeIntegralInRange<int>(0, 7) == 0) restart();
+                break;
+            default: {
+                const std::array<std::uint8_t, 1> eot{4};
+                twin->on_frame(Frame::run(eot), now, out);
+                break;
+            }
+        }
+        drain();
+        look();
+    }
+    return 0;
+}

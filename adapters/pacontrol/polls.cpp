@@ -1,0 +1,164 @@
+// Control, part polls: what is asked again and again, in which order, and what the answers say.
+// In: turns on the line. Out: 1911 (who runs), positions, speeds of those that run, and one slow thing per cycle.
+// Never asks for what the control has said it does not have.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "adapters/pacontrol/control.hpp"
+#include "adapters/pacontrol/number.hpp"
+
+namespace axisgate::pacontrol {
+namespace {
+constexpr std::uint32_t referenced_flag = 50;  // SM51 is "axis 1 is referenced" [L3935]
+}
+
+bool Control::poll_wanted(Instant now) const noexcept { return !polls_.empty() || cycle_at_ <= now; }
+
+void Control::plan_cycle(Turn& t) {
+    cycle_at_ = t.now + manners_.poll_period;
+    const auto here = [&](std::size_t i) { return axes_[i].id != no_axis && !axes_[i].missing; };
+    const std::size_t n = axes_.size();
+    polls_.push_back({PollKind::running, 0});
+    bool idle_done = false;
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!here(i)) continue;
+        Axis& a = axes_[i];
+        if (first_cycle_) {
+            polls_.push_back({PollKind::position, i});
+            if (!system_flags_missing_) polls_.push_back({PollKind::referenced, i});
+            polls_.push_back({a.extended_missing ? PollKind::status : PollKind::extended, i});
+        } else if (a.motion.final_due) {
+            polls_.push_back({PollKind::status, i});
+            polls_.push_back({PollKind::position, i});
+        } else if (a.running || a.motion.active() || !a.position_known) {
+            polls_.push_back({PollKind::position, i});
+            polls_.push_back({PollKind::speed, i});
+        }
+    }
+    if (!first_cycle_) {
+        // One axis that stands, in turn: it may be pushed, or its position be set at the control.
+        for (std::size_t k = 0; k < n && !idle_done; ++k) {
+            idle_at_ = (idle_at_ + 1) % n;
+            if (!here(idle_at_) || axes_[idle_at_].running) continue;
+            polls_.push_back({PollKind::position, idle_at_});
+            idle_done = true;
+        }
+        for (std::size_t k = 0; k < 2 * n; ++k) {
+            slow_at_ = (slow_at_ + 1) % (2 * n);
+            const std::size_t i = slow_at_ / 2;
+            if (!here(i) || (slow_at_ % 2 == 1 && system_flags_missing_)) continue;
+            polls_.push_back({slow_at_ % 2 == 1           ? PollKind::referenced
+                              : axes_[i].extended_missing ? PollKind::status
+                                                          : PollKind::extended,
+                              i});
+            break;
+        }
+    }
+    first_cycle_ = false;
+}
+
+void Control::send_next_poll(Turn& t) {
+    if (polls_.empty()) plan_cycle(t);
+    const Poll p = polls_.front();
+    polls_.pop_front();
+    const auto axis = static_cast<std::uint32_t>(p.axis) + 1;
+    Request r;
+    switch (p.kind) {
+        case PollKind::running:
+            r = {code::running_axes, 0, false, "0"};
+            break;
+        case PollKind::position:
+            r = {code::position, axis, true, "0"};
+            break;
+        case PollKind::speed:
+            r = {code::speed, axis, true, "0"};
+            break;
+        case PollKind::status:
+            r = {code::status_axis, axis, false, "0"};
+            break;
+        case PollKind::extended:
+            r = {code::extended_status, axis, false, "0"};
+            break;
+        case PollKind::referenced:
+            r = {code::system_flag, referenced_flag + axis, false, "0"};
+            break;
+    }
+    send(Purpose::poll, r, p.axis, Priority::poll, t);
+    exchange_.poll = p;
+}
+
+void Control::poll_answered(const Poll& p, const Reply& reply, Turn& t) {
+    Axis& a = axes_[p.axis];
+    if (reply.quit != 0) {
+        ++counters_.refused;
+        if (reply.quit == quit::axis_unknown && !a.missing) {
+            a.missing = true;
+            notice(Severity::alarm, "setup", reply.quit,
+                   fmt::format("the control has no axis {} ({}): take it out of the site, or raise system parameter 2 (number of axes)",
+                               a.channel, describe_quit(reply.quit)),
+                   t, a.id);
+        } else if (reply.quit != quit::inadmissible) {
+            if (p.kind == PollKind::extended) a.extended_missing = true;
+            if (p.kind == PollKind::referenced) system_flags_missing_ = true;
+        }
+        return;
+    }
+    const double v = number_of(reply).value_or(0);
+    const auto n = std::fabs(v) < 4e9 ? static_cast<std::uint32_t>(std::llround(std::fabs(v))) : 0u;
+    switch (p.kind) {
+        case PollKind::running:
+            return learn_running(n, t);
+        case PollKind::speed:
+            a.fb.velocity = increments_of(v);
+            if (a.motion.kind == Motion::Kind::velocity || a.motion.kind == Motion::Kind::position) {
+                // Whether the control gives the speed a sign is not said [L2885]: the direction of a commanded motion is known.
+                const bool down = a.motion.kind == Motion::Kind::velocity ? a.motion.target < 0 : a.motion.target < a.fb.position;
+                a.fb.velocity = down ? -std::llabs(a.fb.velocity) : std::llabs(a.fb.velocity);
+            }
+            return emit(a, t);
+        case PollKind::referenced:
+            a.fb.referenced = n != 0;
+            return;
+        case PollKind::status:
+            return learn_status(a, static_cast<int>(n), t);
+        case PollKind::extended:
+            // Byte 0, the highest: power pack ready; 1 positive and 2 negative limit switch (1: free); 3 axis status [L3164-L3194].
+            a.limits = static_cast<int>((n >> 24 & 1u) | (n >> 16 & 1u) << 1 | (n >> 8 & 1u) << 2);
+            learn_status(a, static_cast<int>(n & 0xFFu), t);
+            return;
+        case PollKind::position:
+            break;
+    }
+    const bool ends = a.motion.final_due && a.status >= 0 && a.status != 1;
+    if (!ends) return learn_position(a, v, t);
+    const std::int64_t position = increments_of(v);
+    const Motion m = a.motion;
+    std::string why;
+    bool reached = m.kind == Motion::Kind::position || m.kind == Motion::Kind::manual;
+    const std::int64_t slack = std::max<std::int64_t>(50, std::llabs(m.target) / 100'000);  // 7 digits, and the step of a gear
+    if (a.status == 4) {
+        reached = false;
+        why = "axis status 4, malfunction";
+    } else if (a.status == 2) {
+        reached = false;
+        why = "axis status 2, stopped";
+    } else if (a.status == 8) {
+        reached = false;
+        why = "axis status 8, measuring mode";
+    } else if (m.kind == Motion::Kind::velocity) {
+        why = "the end of the traverse area is reached";
+    } else if ((m.conditional || m.kind == Motion::Kind::manual) && std::llabs(position - m.target) > slack) {
+        reached = false;
+        why = m.conditional ? "the condition has ended it" : "the manual move was not renewed in time, or was stopped";
+    }
+    a.fb.position = position;
+    a.running = false;
+    end_motion(a, reached, a.status == 4 && error_ != 0 ? Reason::drive_refused : Reason::interrupted,
+               fmt::format("axis {} has stopped at {}, target {}: {}", a.channel, axis_text(position), axis_text(m.target), why), t);
+    if (!reached)
+        notice(Severity::info, "motion", a.status, fmt::format("axis {}: {}, at {}", a.channel, why, axis_text(position)), t, a.id);
+}
+
+}  // namespace axisgate::pacontrol

@@ -1,0 +1,255 @@
+// Control, part status: what the control says of itself and of its axes, and what follows from it.
+// In: acknowledgements. Out: feedback, notices, the ends of motions and of waits.
+// Never mixes three different things: the command error (QUIT, of one command), the operating status, and the PA-CONTROL error (Exxx).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "adapters/pacontrol/control.hpp"
+#include "adapters/pacontrol/number.hpp"
+
+namespace axisgate::pacontrol {
+
+void Control::result(Axis& a, Ticket ticket, Outcome outcome, Reason reason, std::string text, Turn& t, std::int32_t code, Value value,
+                     std::vector<std::uint8_t> bytes) {
+    if (ticket == no_ticket) return;
+    t.out.results.push_back({ticket, a.id, outcome, reason, code, std::move(text), std::move(value), std::move(bytes)});
+}
+
+void Control::notice(Severity severity, std::string_view kind, std::int32_t code, std::string text, Turn& t, AxisId axis) {
+    t.out.notices.push_back({severity, setup_.id, axis, std::string(kind), code, std::move(text), t.now});
+}
+
+void Control::sample(const Axis& a, Point point, const Value& value, Turn& t) {
+    const Binding* b = elements_.binding(point);
+    if (!b || !known(value)) return;
+    if (!b->drive) {
+        t.out.samples.push_back({a.id, point, value, Quality::good, t.now});
+        return;
+    }
+    for (const Axis& x : axes_) {  // same point, same value, whichever axis one looks through
+        if (x.id != no_axis) t.out.samples.push_back({x.id, point, value, Quality::good, t.now});
+    }
+}
+
+/// STATUS and ERROR of any acknowledgement.
+void Control::learn(const Reply& reply, Turn& t) {
+    const int before = mode_;
+    mode_ = reply.status;
+    mode_at_ = t.now;
+    const bool error_changed = error_ != reply.error;
+    if (error_changed) {
+        error_ = reply.error;
+        if (error_ != 0) {
+            const ErrorCode* known_error = catalogue_.error(error_, "system");
+            notice(Severity::alarm, "alarm", error_,
+                   fmt::format("PA-CONTROL error E{}{}{}", error_, known_error ? ": " : "", known_error ? known_error->text : ""), t);
+        } else {
+            notice(Severity::info, "alarm", 0, "no PA-CONTROL error any more", t);
+        }
+        wake_ = true;
+    }
+    if (before != mode_) mode_changed(before, t);
+    if (error_changed || before != mode_) emit_all(t);
+}
+
+void Control::mode_changed(int before, Turn& t) {
+    wake_ = true;
+    cycle_at_ = std::min(cycle_at_, t.now);
+    if (before < 0) return;  // just found
+    if (is_online(before) && !is_online(mode_)) return left_online(before, t);
+    if (is_malfunction(mode_) && !is_malfunction(before)) {
+        notice(Severity::alarm, "mode", mode_, fmt::format("operating status is now {}", status_text(mode_)), t);
+    } else if (mode_ == status::online_stop || (mode_ == status::online_stopped && before == status::online)) {
+        const std::string text = fmt::format("operating status is now {}: stopped at the control or by its stop input", status_text(mode_));
+        notice(Severity::warning, "mode", mode_, text, t);
+        for (Axis& a : axes_) {
+            if (a.motion.active()) end_motion(a, false, Reason::interrupted, text, t);
+        }
+    } else if (is_manual(mode_) || is_automatic(mode_) || is_home(mode_)) {
+        if (is_manual(mode_) != is_manual(before) || is_automatic(mode_) != is_automatic(before)) {
+            notice(Severity::info, "mode", mode_, fmt::format("operating status is now {}", status_text(mode_)), t);
+        }
+    }
+}
+
+/// ONLINE has ended: overrides are dropped [L3496], commanded motions are over [L3253], and no axis is on for the gateway.
+void Control::left_online(int before, Turn& t) {
+    const bool expected = leaving_;
+    const std::string text = fmt::format("operating status changed from {} to {}{}", status_text(before), status_text(mode_),
+                                         expected ? "" : ", not by this gateway: switched at the control, or by an error");
+    bool any = false;
+    for (Axis& a : axes_) {
+        any = any || a.on;
+        if (a.motion.active()) end_motion(a, false, Reason::interrupted, text, t);
+        end_waits(a, Reason::interrupted, text, t);
+        a.on = a.quick_stopped = a.prepared = a.condition_set = false;
+        a.speed.reset();
+        a.acceleration.reset();
+        a.renew_at = never;
+    }
+    if (!expected || is_malfunction(mode_)) {
+        notice(any ? Severity::warning : Severity::info, "mode", mode_, text, t);
+    }
+    started_by_us_ = leaving_ = give_back_due_ = false;
+}
+
+// --- axes ------------------------------------------------------------------------------------------------------------------------
+
+void Control::derive(Axis& a) {
+    AxisFeedback& f = a.fb;
+    f.power = mode_ < 0 ? AxisFeedback::Power::unknown : a.on && is_online(mode_) ? AxisFeedback::Power::on : AxisFeedback::Power::off;
+    f.fault = error_ != 0 || is_malfunction(mode_) || a.status == 4;
+    f.error_code = error_;
+    f.moving = a.running || a.motion.active();
+    if (f.moving) f.target_reached = false;
+    if (!f.moving) f.velocity = 0;  // it stands: 1910 or 1911 has said so
+    f.internal_limit = a.limits >= 0 && (a.limits & 6) != 6;
+    f.quick_stopping = a.on && (mode_ == status::online_stop || mode_ == status::online_stopped);
+    f.warning = a.limits >= 0 && a.on && !(a.limits & 1);
+    f.position_demand = f.position;  // the control does not say where it wants to be
+    f.native_status = static_cast<std::uint32_t>(mode_ & 0xFF) | static_cast<std::uint32_t>(a.status & 0xFF) << 8 |
+                      static_cast<std::uint32_t>(a.limits & 0xFF) << 16;
+}
+
+void Control::emit(Axis& a, Turn& t) {
+    if (a.id == no_axis || !a.position_known || phase_ != Phase::ready) return;
+    derive(a);
+    a.fb.at = t.now;
+    t.out.feedback.push_back({a.id, a.fb});
+    check_waits(a, t);
+}
+
+void Control::emit_all(Turn& t) {
+    for (Axis& a : axes_)
+        emit(a, t);
+}
+
+void Control::learn_position(Axis& a, double units, Turn& t) {
+    a.fb.position = increments_of(units);
+    const bool first = !a.position_known;
+    a.position_known = true;
+    if (first && !a.lost.empty()) {
+        notice(Severity::warning, "motion", 0, fmt::format("{}; the position read back is {}", a.lost, axis_text(a.fb.position)), t, a.id);
+        a.lost.clear();
+    }
+    emit(a, t);
+}
+
+void Control::learn_running(std::uint32_t mask, Turn& t) {
+    for (Axis& a : axes_) {
+        if (a.id == no_axis || a.missing) continue;
+        const bool was = a.running;
+        a.running = mask >> (a.channel - 1) & 1u;
+        const bool motion_seen = a.motion.active() && a.motion.kind != Motion::Kind::reference;
+        if (a.running != was) wake_ = true;
+        if (a.running) {
+            a.motion.final_due = false;
+        } else if (motion_seen && a.motion.begun < exchanges_ && !a.motion.final_due) {
+            // It stands, and was asked after the motion had begun. Status and position first, then everybody hears of its end.
+            a.motion.final_due = true;
+            a.status = -1;
+            polls_.push_front({PollKind::position, place(a)});
+            polls_.push_front({PollKind::status, place(a)});
+        } else if (was && !motion_seen) {
+            polls_.push_front({PollKind::position, place(a)});
+        }
+        emit(a, t);
+    }
+}
+
+void Control::learn_status(Axis& a, int s, Turn& t) {
+    const int before = a.status;
+    a.status = s;
+    if (s == 1) {
+        a.running = true;
+        a.motion.final_due = false;
+    }
+    if (s == 4 && before != 4) {
+        notice(Severity::alarm, "axis", 4, fmt::format("axis {}: axis status 4, malfunction", a.channel), t, a.id);
+        wake_ = true;
+    }
+}
+
+void Control::begin_motion(Axis& a, Motion motion, Turn& t) {
+    a.motion = motion;
+    a.motion.begun = exchanges_;
+    a.running = true;
+    a.status = -1;
+    a.fb.target_reached = a.fb.homing_attained = false;
+    a.fb.homing_error = false;
+    a.quick_stopped = false;
+    cycle_at_ = std::min(cycle_at_, t.now);
+    emit(a, t);
+}
+
+/// The motion is over, reached or not. The position must have been read before.
+void Control::end_motion(Axis& a, bool reached, Reason reason, const std::string& text, Turn& t) {
+    const Motion was = a.motion;
+    a.motion = {};
+    a.renew_at = never;
+    a.condition_set = false;
+    wake_ = true;
+    if (reached) a.running = false;
+    a.fb.target_reached = reached;
+    if (was.kind == Motion::Kind::reference) {
+        a.fb.homing_attained = reached;
+        a.fb.homing_error = !reached && reason != Reason::interrupted;
+        if (reached) a.fb.referenced = a.referenced_own = true;
+    }
+    if (!reached) end_waits(a, reason, text, t);
+    emit(a, t);
+}
+
+// --- waits -----------------------------------------------------------------------------------------------------------------------
+
+void Control::add_wait(Axis& a, Wait w) { a.waits.push_back(w); }
+
+void Control::accepted(Axis& a, const Command& c, Wait::For what, std::int64_t value, std::string text, Turn& t) {
+    if (c.ticket == no_ticket) return;
+    if (!c.until_done || a.waits.size() >= Axis::wait_limit) {
+        return result(a, c.ticket, Outcome::accepted, Reason::none, std::move(text), t);
+    }
+    add_wait(a, {what, c.ticket, value});
+    check_waits(a, t);
+}
+
+void Control::check_waits(Axis& a, Turn& t) {
+    for (std::size_t i = 0; i < a.waits.size();) {
+        const Wait w = a.waits[i];
+        const AxisFeedback& f = a.fb;
+        bool done = false;
+        switch (w.what) {
+            case Wait::For::target:
+                done = f.target_reached && !f.moving;
+                break;
+            case Wait::For::standstill:
+                done = !f.moving;
+                break;
+            case Wait::For::speed:
+                done = std::llabs(f.velocity - w.value) * 100 <= std::llabs(w.value);
+                break;
+        }
+        if (!done) {
+            ++i;
+            continue;
+        }
+        a.waits.erase(a.waits.begin() + static_cast<std::ptrdiff_t>(i));
+        result(a, w.ticket, Outcome::done, Reason::none, "", t);
+    }
+}
+
+void Control::end_waits(Axis& a, Reason reason, const std::string& text, Turn& t, bool motions_only) {
+    auto waits = std::move(a.waits);
+    a.waits.clear();
+    for (const Wait& w : waits) {
+        if (motions_only && w.what == Wait::For::standstill) {
+            a.waits.push_back(w);
+        } else {
+            result(a, w.ticket, Outcome::failed, reason, text, t, error_);
+        }
+    }
+}
+
+}  // namespace axisgate::pacontrol

@@ -24,8 +24,8 @@ std::string Control::why_not_online() const {
     return fmt::format("operating status {}", status_text(mode_));
 }
 
-/// To ONLINE (if it is not), then 0A97. Nothing moves: a stopped ONLINE is left and begun anew, since 0603 from there would let
-/// interrupted motions go on.
+/// To ONLINE (if it is not), then 0A9A and 0A97. Nothing moves: a stopped ONLINE is left and begun anew, since 0603 from there would let
+/// interrupted motions go on, and so would 0A97 with one of this axis.
 void Control::run_enable(Axis& a, const Reply* reply, Turn& t) {
     Job& j = a.job;
     const auto ch = static_cast<std::uint32_t>(a.channel);
@@ -48,6 +48,9 @@ void Control::run_enable(Axis& a, const Reply* reply, Turn& t) {
                 return;
             }
             j.step = 1;
+        } else if (asked == code::stop_axis) {
+            // Whatever was interrupted counts as finished now; a refusal means that there was nothing.
+            if (mode_ == status::online && error_ == 0) return ask(a, code::axis_on, ch, t);
         } else if (asked == code::axis_on) {
             // 15h: this axis has no switch; it is on with ONLINE.
             if (reply->quit != 0 && reply->quit != quit::not_executable) {
@@ -75,7 +78,7 @@ void Control::run_enable(Axis& a, const Reply* reply, Turn& t) {
         if (a.status == 8) {
             return refuse(a, Reason::wrong_state, fmt::format("axis {} is in measuring mode: leave it with measure off", a.channel), t);
         }
-        return ask(a, code::axis_on, ch, t);
+        return ask(a, code::stop_axis, ch, t);
     }
     if (mode_ == status::home && error_ == 0) {
         if (!options_.online_auto && !started_by_us_) {

@@ -89,7 +89,8 @@ void Control::send_stop(Turn& t) {
         r = {code::get_state, 0, false, "0"};  // nothing that was commanded moves there: the control is asked whether that is so
     } else if (processing_.active) {
         r.code = code::abort_move;  // 0A93 passes while a command is being processed, 0A9A and 0A98 do not
-    } else if (s.kind == Stop::Kind::off) {
+    } else if (s.kind == Stop::Kind::off && s.stopped) {
+        // 0A9A first: a motion that is only switched off counts as interrupted, and the next 0A97 would let it go on.
         r = {code::axis_off, static_cast<std::uint32_t>(s.axis) + 1, false, "0"};
     }
     ++s.tries;
@@ -120,6 +121,13 @@ void Control::stop_answered(const Reply& reply, Turn& t) {
         return;
     }
     const std::uint16_t sent = exchange_.request.code;
+    if (s.kind == Stop::Kind::off && sent == code::stop_axis) {
+        if (reply.quit == 0 && reply.real && number_of(reply)) learn_position(a, *number_of(reply), t);
+        if (reply.quit != 0) ++counters_.refused;  // it is switched off all the same
+        s.stopped = true;
+        s.tries = 0;
+        return;
+    }
     if (reply.quit != 0) {
         ++counters_.refused;
         if (is_online(mode_) || is_automatic(mode_)) {

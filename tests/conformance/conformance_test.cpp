@@ -137,6 +137,30 @@ TEST_P(EveryFamily, VelocityHaltAndQuickStop) {
     EXPECT_EQ(power_state_of(w.picture(a1).statusword), PowerState::quick_stop_active);
 }
 
+TEST_P(EveryFamily, NothingGoesOnBecauseItIsEnabledAgain) {
+    start();
+    for (const bool quick : {false, true}) {
+        enable();
+        Move far = move_to(100000);
+        far.kind = Move::Kind::relative;
+        const Ticket go = w.command(a1, far, true);
+        ASSERT_TRUE(w.run_until_true([&] { return w.picture(a1).flags & flag_moving; }, 5s));
+        w.run_for(500ms);
+        const Result* r = quick ? w.wait(w.command(a1, QuickStop{}, true), 10s) : w.wait(w.command(a1, Disable{}, true), 10s);
+        ASSERT_TRUE(r && good(*r)) << (r ? r->text : "none");
+        ASSERT_TRUE(w.wait(go, 2s));
+        ASSERT_TRUE(w.run_until_true([&] { return !(w.picture(a1).flags & flag_moving); }, 10s));
+        w.run_for(500ms);
+        const auto here = w.picture(a1).position;
+        enable();
+        for (int i = 0; i < 20; ++i) {
+            w.run_for(100ms);
+            EXPECT_EQ(w.picture(a1).flags & flag_moving, 0) << "an interrupted motion goes on";
+        }
+        EXPECT_EQ(w.picture(a1).position, here);
+    }
+}
+
 TEST_P(EveryFamily, StopInterruptsAWatchedMotionWithOneResultEach) {
     start();
     enable();

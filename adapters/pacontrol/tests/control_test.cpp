@@ -140,19 +140,19 @@ TEST(PacontrolOnline, EnableStartsItOnceAndDisableGivesItBack) {
     b.start();
     b.mark();
     EXPECT_EQ(b.ask(Enable{}, true, 0).outcome, Outcome::done);
-    EXPECT_EQ(b.said(), (Lines{"0603;0;0;0", "0A97;1;0;0"}));
+    EXPECT_EQ(b.said(), (Lines{"0603;0;0;0", "0A9A;1;1;0", "0A97;1;0;0"}));
     EXPECT_EQ(b.feedback(0).power, AxisFeedback::Power::on);
     EXPECT_EQ(b.feedback(1).power, AxisFeedback::Power::off) << "only the axis that was enabled";
     b.mark();
     EXPECT_EQ(b.enable(1).outcome, Outcome::accepted);
-    EXPECT_EQ(b.said(), (Lines{"0A97;2;0;0"}));
+    EXPECT_EQ(b.said(), (Lines{"0A9A;2;1;0", "0A97;2;0;0"}));
     b.mark();
     EXPECT_EQ(b.ask(Disable{}, false, 0).outcome, Outcome::accepted);
     b.run(1s);
-    EXPECT_EQ(b.said(), (Lines{"0A98;1;0;0"})) << "the other axis still needs ONLINE";
+    EXPECT_EQ(b.said(), (Lines{"0A9A;1;1;0", "0A98;1;0;0"})) << "the other axis still needs ONLINE";
     EXPECT_EQ(b.ask(Disable{}, true, 1).outcome, Outcome::done);
     b.run(1s);
-    EXPECT_EQ(b.said(), (Lines{"0A98;1;0;0", "0A98;2;0;0", "0A81;0;0;0"}));
+    EXPECT_EQ(b.said(), (Lines{"0A9A;1;1;0", "0A98;1;0;0", "0A9A;2;1;0", "0A98;2;0;0", "0A81;0;0;0"}));
     EXPECT_EQ(b.control.mode, 1);
     EXPECT_EQ(b.notices_of("mode"), 0u) << "what the gateway did itself is no surprise";
 }
@@ -192,7 +192,7 @@ TEST(PacontrolOnline, GivingBackAndReleasingAreChosenByOptions) {
     EXPECT_TRUE(b.feedback().referenced);
     EXPECT_EQ(b.ask(Disable{}).outcome, Outcome::accepted);
     b.run(2s);
-    EXPECT_EQ(b.said(), (Lines{"0603;0;0;0", "0A97;1;0;0", "0A83;1;0;0", "0A98;1;0;0"}));
+    EXPECT_EQ(b.said(), (Lines{"0603;0;0;0", "0A9A;1;1;0", "0A97;1;0;0", "0A83;1;0;0", "0A9A;1;1;0", "0A98;1;0;0"}));
     EXPECT_EQ(b.control.mode, 31);
     Bench keep(1);
     keep.control.axes[0].referenced = false;
@@ -249,7 +249,7 @@ TEST(PacontrolOnline, EnableFromAStoppedOnlineLetsNoInterruptedMotionGoOn) {
     b.start();
     b.mark();
     EXPECT_EQ(b.enable().outcome, Outcome::accepted);
-    EXPECT_EQ(b.said(), (Lines{"0A81;0;0;0", "0603;0;0;0", "0A97;1;0;0"})) << "0603 from 35 would resume";
+    EXPECT_EQ(b.said(), (Lines{"0A81;0;0;0", "0603;0;0;0", "0A9A;1;1;0", "0A97;1;0;0"})) << "0603 from 35 would resume";
 }
 
 TEST(PacontrolOnline, ResetGoesTheWayOfTheErrorsClass) {

@@ -212,6 +212,8 @@ TEST_F(UdpLineTest, anUnknownNameIsSaid) {
 
 TEST_F(UdpLineTest, hearsAfterBeingOpenedAgainWhileItsNameIsLookedUp) {
     for (int turns = 0; turns < 20; ++turns) {
+        line.reset();
+        settle();
         owner.states.clear();
         line = std::make_unique<UdpLine>(base(), "localhost", drive->port, UdpLine::Role::connects);
         line->open(owner, clock.now());

@@ -203,7 +203,11 @@ endfunction()
 
 # tests/fuzz/*.cpp and adapters/<family>/fuzz/*.cpp: one libFuzzer program each, named fuzz_<file>.
 function(axisgate_fuzz_targets)
-  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/fuzz/*.cpp ${PROJECT_SOURCE_DIR}/adapters/*/fuzz/*.cpp)
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/fuzz/*.cpp)
+  foreach(f ${AXISGATE_FAMILY_NAMES})
+    file(GLOB own CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/adapters/${f}/fuzz/*.cpp)
+    list(APPEND sources ${own})
+  endforeach()
   foreach(s ${sources})
     get_filename_component(n ${s} NAME_WE)
     add_executable(fuzz_${n} ${s})

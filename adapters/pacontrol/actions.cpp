@@ -193,8 +193,14 @@ void Control::run_single(Axis& a, const Reply* reply, Turn& t) {
             a.on = true;
             break;
         case code::axis_off:
+            a.on = false;
+            break;
         case code::measuring_on:
             a.on = false;
+            a.status = 8;
+            break;
+        case code::measuring_off:
+            a.status = -1;  // read anew with the next poll; nothing is refused for what was
             break;
         case code::set_speed:
             a.speed = increments_of(real_of(j.request.data).value_or(0));
@@ -206,6 +212,8 @@ void Control::run_single(Axis& a, const Reply* reply, Turn& t) {
         case code::position_null:
         case code::reference_here:
             a.fb.referenced = a.referenced_own = true;
+            if (sent == code::position_null) learn_position(a, 0, t);
+            if (sent == code::reference_here && reply->real && number_of(*reply)) learn_position(a, *number_of(*reply), t);
             break;
         case code::condition:
             a.condition_set = true;

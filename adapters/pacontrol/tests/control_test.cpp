@@ -555,6 +555,10 @@ TEST(PacontrolMotion, OverridesAndMeasuring) {
     EXPECT_EQ(b.ask(absolute(0)).reason, Reason::wrong_state);
     EXPECT_NE(b.enable().text.find("measuring"), std::string::npos);
     EXPECT_TRUE(good(b.action("measure", "off")));
+    EXPECT_EQ(b.enable().outcome, Outcome::accepted) << "at once: what the status was does not count any more";
+    EXPECT_TRUE(good(b.action("measure", "on")));
+    EXPECT_EQ(b.ask(absolute(0)).reason, Reason::wrong_state) << "at once, too";
+    EXPECT_TRUE(good(b.action("measure", "off")));
     b.run(1s);
     EXPECT_EQ(b.enable().outcome, Outcome::accepted);
     EXPECT_EQ(b.action("delete_g29").reason, Reason::not_supported);

@@ -1,0 +1,250 @@
+// Node: parameters, native lines, and the actions of the family: programs, saving, setting up.
+// In: commands, data of the drive. Out: steps, values, texts.
+// Never sends program text that has not been checked as a whole.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "adapters/mcode/node.hpp"
+#include "adapters/mcode/program.hpp"
+
+namespace axisgate::mcode {
+namespace {
+std::string_view form_of(const Parameter& p) {
+    const auto* f = p.wire.if_contains("form");
+    return f && f->is_string() ? std::string_view(f->get_string()) : std::string_view("value");
+}
+bool is_link_word(std::string_view w) { return w == "PY" || w == "DN" || w == "CK" || w == "EM" || w == "ES"; }
+}  // namespace
+
+std::string Node::word(const Parameter& p) const {
+    const auto* w = p.wire.if_contains("word");
+    return w && w->is_string() ? std::string(w->get_string()) : p.id;
+}
+
+std::optional<Value> Node::value_of(const Parameter& p, std::string_view text) const {
+    while (!text.empty() && text.front() == ' ')
+        text.remove_prefix(1);
+    while (!text.empty() && (text.back() == ' ' || text.back() == '\r' || text.back() == '\n'))
+        text.remove_suffix(1);
+    if (p.type == ValueType::text || p.type == ValueType::bytes) return Value{std::string(text)};
+    double v = 0;
+    const auto [end, ec] = std::from_chars(text.data(), text.data() + text.size(), v);
+    if (ec != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    if (p.type == ValueType::boolean) return Value{v != 0};
+    if (p.type == ValueType::f32 || p.type == ValueType::f64) return Value{v};
+    return Value{static_cast<std::int64_t>(std::llround(v))};
+}
+
+void Node::plan_read(const ReadParameter& read, Turn& t) {
+    const Parameter* p = catalogue_.parameter(read.point);
+    if (!p) return job_over(Outcome::refused, Reason::unknown_point, "there is no such parameter", t);
+    if (!p->readable()) return job_over(Outcome::refused, Reason::not_supported, fmt::format("{} can only be written", p->id), t);
+    Step s;
+    s.what = Step::What::query;
+    s.text = word(*p);
+    s.end_mark = true;
+    job_.steps.push_back(std::move(s));
+}
+
+void Node::plan_write(const WriteParameter& write, Turn& t) {
+    const Parameter* p = catalogue_.parameter(write.point);
+    if (!p) return job_over(Outcome::refused, Reason::unknown_point, "there is no such parameter", t);
+    const std::string w = word(*p);
+    if (is_link_word(w)) {
+        return job_over(Outcome::refused, Reason::not_supported,
+                        fmt::format("{} belongs to the line: set it with the line's options, or with line.setup", w), t);
+    }
+    const bool quoted = form_of(*p) == "text";
+    std::string text = to_text(write.value);
+    if (const auto* b = std::get_if<bool>(&write.value)) text = *b ? "1" : "0";
+    std::string line = quoted ? fmt::format("{}=\"{}\"", w, text) : fmt::format("{}={}", w, text);
+    if (auto why = check_line(line); !why.empty())
+        return job_over(Outcome::refused, Reason::out_of_range, fmt::format("{}: {}", w, why), t);
+    job_.add(Step::What::send, std::move(line));
+    if (p->readable() && !quoted) {
+        Step s;
+        s.what = Step::What::query;
+        s.text = w;
+        s.end_mark = true;
+        job_.steps.push_back(std::move(s));
+    }
+}
+
+void Node::query_answered(const std::string& data, Turn& t) {
+    const CommandBody& b = job_.command.body;
+    const auto* read = std::get_if<ReadParameter>(&b);
+    const auto* write = std::get_if<WriteParameter>(&b);
+    const Parameter* p = catalogue_.parameter(read ? read->point : write ? write->point : Point{0xFFFF, 0});
+    if (!p) return step_done(t);
+    const auto v = value_of(*p, data);
+    if (!v) {
+        if (write) return job_over(Outcome::done, Reason::none, data, t, 0, write->value);
+        return job_over(Outcome::failed, Reason::not_supported,
+                        fmt::format("{} answered {} with \"{}\", which is no {}", name(), p->id, data, name_of(p->type)), t);
+    }
+    const Point point = read ? read->point : write->point;
+    t.out.samples.push_back({axis_, point, *v, Quality::good, t.now});
+    const std::string w = word(*p);
+    const auto number = as_integer(*v);
+    if (number && w == "VI") vi_ = user_vi_ = *number;
+    if (number && w == "VM") vm_ = *number;
+    if (number && w == "A") a_ = *number;
+    if (number && w == "D") d_ = *number;
+    if (number && w == "EE") encoder_mode_ = *number == 1;
+    if (write && (w == "MS" || w == "EE" || w == "AS")) vi_ = user_vi_ = vm_ = a_ = d_ = 0;  // the drive has scaled them [L4293]
+    if (w == "ER" && number && *number == 0 && last_error_ != 0) {
+        // The gateway has read the code already, and reading clears it in the drive.
+        return job_over(Outcome::done, Reason::none, {}, t, 0, Value{static_cast<std::int64_t>(last_error_)});
+    }
+    job_over(Outcome::done, Reason::none, {}, t, 0, *v);
+}
+
+void Node::plan_native(const Native& native, Turn& t) {
+    const std::string line(native.send.begin(), native.send.end());
+    if (!native.is_text) return job_over(Outcome::refused, Reason::not_supported, "MCode is text: use send", t);
+    if (auto why = check_line(line); !why.empty()) return job_over(Outcome::refused, Reason::out_of_range, why, t);
+    const std::string w = word_of(line);
+    if (w == "PG")
+        return job_over(Outcome::refused, Reason::not_supported,
+                        "PG would take the polls into the program: use the action program.download", t);
+    if (is_link_word(w) && line.find('=') != std::string::npos) {
+        return job_over(Outcome::refused, Reason::not_supported,
+                        fmt::format("{} belongs to the line: set it with the line's options, or with line.setup", w), t);
+    }
+    const bool output = w == "PR" || w == "L";
+    job_.add(output ? Step::What::block : Step::What::send, line, false);
+}
+
+void Node::block_ended(const ReplyReader& r, Turn& t) {
+    const std::string sent = request(link(), job_.steps[job_.at].text);
+    const std::string text = plain_text(r.raw(), std::string_view(sent).substr(0, sent.size() - 1), sums_);
+    if (r.raw().empty()) {
+        count_silence(t);
+        if (job_.kind == JobKind::none) return;
+        return job_over(Outcome::failed, Reason::no_answer, fmt::format("{} did not answer {}", name(), job_.steps[job_.at].text), t);
+    }
+    if (sums_ && r.raw().find(nak) != std::string::npos && text.empty()) {
+        return job_over(Outcome::refused, Reason::drive_refused, fmt::format("{} refused {}", name(), job_.steps[job_.at].text), t);
+    }
+    if (job_.kind == JobKind::upload) {
+        std::string program;
+        for (const auto& l : listed_lines(text))
+            program += l + '\n';
+        return job_over(Outcome::done, Reason::none, program, t, 0, Value{program});
+    }
+    if (job_.kind == JobKind::download) {
+        const auto have = listed_lines(text);
+        std::vector<std::string> want, got;
+        for (const auto& l : job_.program) {
+            const auto w = word_of(l);
+            if (w != "PG" && w != "VA") want.push_back(normal_form(l));
+        }
+        for (const auto& l : have) {
+            const auto w = word_of(l);
+            if (w != "PG" && w != "VA") got.push_back(normal_form(l));
+        }
+        for (std::size_t i = 0; i < want.size(); ++i) {
+            if (i < got.size() && got[i] == want[i]) continue;
+            return job_over(
+                Outcome::failed, Reason::drive_refused,
+                fmt::format("{}: statement {} is {} in the drive, not {}: the program memory holds an incomplete program, download again",
+                            name(), i + 1, i < got.size() ? got[i] : "missing", want[i]),
+                t);
+        }
+        return job_over(Outcome::done, Reason::none, fmt::format("{} statements stored and verified; program.save keeps them", want.size()),
+                        t);
+    }
+    job_over(Outcome::done, Reason::none, text, t, 0, Value{text});
+}
+
+void Node::download_failed(std::string why, Turn& t) {
+    const bool touched = job_.memory_touched || job_.kind == JobKind::download;
+    job_over(Outcome::failed, Reason::interrupted,
+             fmt::format("{}: {}{}", name(), why, touched ? "; the program memory is cleared or incomplete: download again" : ""), t);
+    if (stops_.size() < urgent_limit && phase_ == Phase::ready) {
+        // Out of program mode, whatever became of the line; CP then removes the half.
+        Stop leave;
+        leave.command.axis = axis_;
+        leave.command.body = Halt{};
+        leave.lines = {"PG", "CP"};
+        stops_.push_back(std::move(leave));
+    }
+}
+
+void Node::plan_action(const Action& a, Turn& t) {
+    const auto refuse = [&](Reason r, std::string why) { job_over(Outcome::refused, r, std::move(why), t); };
+    const auto line = [&](std::string text, bool repeatable = true) { job_.add(Step::What::send, std::move(text), repeatable); };
+    if (a.name == "program.list") {
+        job_.kind = JobKind::list;
+        job_.add(Step::What::block, a.argument.empty() ? "L" : fmt::format("L {}", a.argument));
+    } else if (a.name == "program.upload") {
+        job_.kind = JobKind::upload;
+        job_.add(Step::What::block, "L");
+    } else if (a.name == "program.download") {
+        if (fb_.moving || mv_) return refuse(Reason::wrong_state, fmt::format("{} moves: stop it first", name()));
+        if (running_) return refuse(Reason::wrong_state, fmt::format("a program runs in {}: end it first (program.end)", name()));
+        auto checked = check_program(a.argument, [&](const std::string& w) {
+            return std::ranges::any_of(catalogue_.commands(), [&](const CatalogueCommand& c) { return c.id == w; }) ||
+                   catalogue_.find(w).has_value();
+        });
+        if (!checked.fault.empty()) return refuse(Reason::out_of_range, fmt::format("the program was not sent; {}", checked.fault));
+        job_.kind = JobKind::download;
+        job_.program = checked.lines;
+        job_.add(Step::What::send, "CP 1");
+        for (auto& l : checked.lines)
+            job_.add(Step::What::bare, std::move(l), false);
+        job_.add(Step::What::block, "L");
+    } else if (a.name == "program.start") {
+        line(fmt::format("EX {}", a.argument.empty() ? "1" : a.argument), false);
+    } else if (a.name == "program.pause") {
+        line("PS");
+    } else if (a.name == "program.resume") {
+        line("RS");
+    } else if (a.name == "program.end") {
+        line("E");
+    } else if (a.name == "program.clear") {
+        line(a.argument.empty() ? "CP" : fmt::format("CP {}", a.argument));
+    } else if (a.name == "program.save") {
+        line("S");
+    } else if (a.name == "restore") {
+        line("IP");
+    } else if (a.name == "clear_locked_rotor") {
+        line("CF");
+    } else if (a.name == "calibrate") {
+        line("SC 1", false);
+    } else if (a.name == "factory_defaults") {
+        if (link().party()) {
+            return refuse(
+                Reason::not_supported,
+                fmt::format("FD takes the name {} away and the drive leaves the party line: do it in single mode", setup_.address));
+        }
+        line("FD", false);
+    } else if (a.name == "line.setup") {
+        if (!link().party()) return refuse(Reason::not_supported, "a drive at address ! stays in single mode and needs no setting up");
+        job_.kind = JobKind::setup;
+        job_.add(Step::What::bare, fmt::format("DN=\"{}\"\r", setup_.address));
+        job_.add(Step::What::bare, "PY=1\r");
+        job_.text = "the drive that was in single mode has its name now; program.save keeps it";
+    } else if (a.name == "reset") {
+        return refuse(Reason::not_supported,
+                      "CTRL+C reaches every drive of a party line; use the drive's own reset input, or CE=2 by hand");
+    } else {
+        const std::string w = word_of(a.name);
+        const bool known = w == a.name && std::ranges::any_of(catalogue_.commands(), [&](const CatalogueCommand& c) { return c.id == w; });
+        if (!known || w == "PG" || w == "PR" || w == "L" || w == "FD" || w == "UG") {
+            return refuse(Reason::unknown_point, fmt::format("there is no action {}; see the family's commands", a.name));
+        }
+        std::string text = a.argument.empty() ? w : fmt::format("{} {}", w, a.argument);
+        if (auto why = check_line(text); !why.empty()) return refuse(Reason::out_of_range, why);
+        line(std::move(text), false);
+    }
+    for (const auto& s : job_.steps) {
+        if (job_.kind == JobKind::setup) break;
+        if (auto why = check_line(s.text); !why.empty()) return refuse(Reason::out_of_range, fmt::format("{}: {}", a.name, why));
+    }
+}
+
+}  // namespace axisgate::mcode

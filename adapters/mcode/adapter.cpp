@@ -1,0 +1,270 @@
+// Adapter of MCode: see the header.
+// In and out: see the header. Every call ends with pump(): a free line is given away at once.
+// Never takes a late ACK for a new one: after a time-out, lines whose answer has no mark wait until late answers are over.
+#include "adapters/mcode/adapter.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "gateway/core/wire_time.hpp"
+
+namespace axisgate::mcode {
+using namespace std::chrono_literals;
+
+namespace {
+bool same(const DriveSetup& a, const DriveSetup& b) {
+    if (a.id != b.id || a.name != b.name || a.address != b.address || a.options != b.options || a.axes.size() != b.axes.size())
+        return false;
+    return std::ranges::equal(a.axes, b.axes,
+                              [](const AxisSetup& x, const AxisSetup& y) { return x.id == y.id && x.channel == y.channel; });
+}
+constexpr std::string_view marks = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
+}  // namespace
+
+Duration LineAdapter::wire(std::size_t bytes) const noexcept {
+    return wire_time(std::uint64_t{bytes} * setup_.bits_per_byte, setup_.bit_rate);
+}
+
+void LineAdapter::take_manners(const LineSetup& setup, Turn& t) {
+    const LineManners& m = setup.manners;
+    const auto or_else = [](Duration d, Duration otherwise) { return d > Duration::zero() ? d : otherwise; };
+    manners_ = Manners{};
+    manners_.reply_timeout = or_else(m.reply_timeout, 120ms);
+    manners_.poll_period = or_else(m.poll_period, 20ms);
+    manners_.pause = std::max(m.pause, Duration::zero());
+    manners_.retries = m.retries < 0 ? 2 : std::min(m.retries, 10);
+    manners_.silent_limit = std::clamp(m.silent_limit, 1, 1000);
+    manners_.pause_min = or_else(m.retry_pause_min, 200ms);
+    manners_.pause_max = std::max(manners_.pause_min, m.retry_pause_max);
+    manners_.ethernet = option(setup.options, "ethernet", "off") == "on";
+    const auto digit = [&](const char* name, int most, int otherwise) {
+        const std::string text = option(setup.options, name, "");
+        if (text.empty()) return otherwise;
+        if (text.size() == 1 && text[0] >= '0' && text[0] <= '0' + most) return text[0] - '0';
+        t.out.notices.push_back({Severity::warning, no_drive, no_axis, "setup", 0,
+                                 fmt::format("option {} = {}: write 0..{}; {} is used", name, text, most, otherwise), t.now});
+        return otherwise;
+    };
+    manners_.em = digit("em", 3, 1);
+    manners_.ck = manners_.ethernet ? 0 : digit("ck", 2, 1);
+}
+
+void LineAdapter::configure(const LineSetup& setup, Instant now, Out& out) {
+    Turn t{now, out};
+    take_manners(setup, t);
+    std::vector<std::unique_ptr<Node>> kept;
+    for (auto& n : nodes_) {
+        if (std::ranges::any_of(setup.drives, [&](const DriveSetup& d) { return same(d, n->setup()); })) {
+            kept.push_back(std::move(n));
+            continue;
+        }
+        n->remove(t, fmt::format("drive {} was removed or changed", n->name()));
+        if (flight_.node == n.get()) {
+            // Its answer may still be on its way.
+            dirty_until_ = std::max(flight_.deadline, now);
+            flight_ = {};
+        }
+        if (dirty_ == n.get()) dirty_ = nullptr;
+    }
+    nodes_ = std::move(kept);
+    const bool alone = setup.drives.size() == 1;
+    for (const DriveSetup& d : setup.drives) {
+        if (std::ranges::any_of(nodes_, [&](const auto& n) { return same(d, n->setup()); })) continue;
+        std::string why = check_address(d.address);
+        if (why.empty() && d.address == "!" && !alone)
+            why = "a drive in single mode (address !) must be alone on its line: give every drive a name";
+        for (const auto& n : nodes_) {
+            if (why.empty() && n->setup().address == d.address)
+                why = fmt::format("the name {} belongs to drive {} already", d.address, n->name());
+        }
+        if (!why.empty()) {
+            out.links.push_back({d.id, false, 0, Duration{}, std::move(why)});
+            continue;
+        }
+        nodes_.push_back(std::make_unique<Node>(catalogue_, manners_, counters_, d));
+        if (up_) nodes_.back()->line_up(t);
+    }
+    setup_ = setup;
+    turn_ = 0;
+    pump(t);
+}
+
+void LineAdapter::on_line(bool up, Instant now, Out& out) {
+    if (up == up_) return;
+    Turn t{now, out};
+    up_ = up;
+    flight_ = {};
+    stray_.clear();
+    dirty_ = nullptr;
+    dirty_until_ = quiet_until_ = now;
+    for (auto& n : nodes_)
+        up ? n->line_up(t) : n->line_down(t, "the line went down");
+    pump(t);
+}
+
+void LineAdapter::on_command(const Command& c, Instant now, Out& out) {
+    Turn t{now, out};
+    for (auto& n : nodes_) {
+        if (n->axis() == c.axis && c.axis != no_axis) {
+            n->submit(c, t);
+            return pump(t);
+        }
+    }
+    if (c.ticket != no_ticket) {
+        out.results.push_back({c.ticket,
+                               c.axis,
+                               Outcome::refused,
+                               Reason::line_down,
+                               0,
+                               "this axis is not on the line, or its drive's address or channel is wrong (an MCode drive has one axis)",
+                               {},
+                               {}});
+    }
+}
+
+void LineAdapter::stray(std::string_view bytes, Turn& t) {
+    for (const char c : bytes) {
+        if (c != lf && stray_.size() < 256) {
+            stray_ += c;
+            continue;
+        }
+        // Whole lines that nobody asked for: output of a program, or an answer that came too late.
+        Node* from = nullptr;
+        for (auto& n : nodes_) {
+            if (n->runs_program() || nodes_.size() == 1) from = from ? from : n.get();
+        }
+        ++counters_.unexpected;
+        if (!stray_.empty() && stray_.front() == '#') {
+            if (!last_mark_.empty() && stray_.starts_with(last_mark_) && from) {
+                from->note(Severity::warning, "protocol", 0, "the same question was answered twice: two drives may have the same name", t);
+            }
+        } else if (from) {
+            from->foreign(stray_, t);
+        }
+        stray_.clear();
+    }
+}
+
+void LineAdapter::on_frame(const Frame& frame, Instant now, Out& out) {
+    if (!up_) return;
+    Turn t{now, out};
+    if (frame.kind != Frame::Kind::bytes) {
+        ++counters_.garbled;
+        return;
+    }
+    const std::string_view bytes(reinterpret_cast<const char*>(frame.data().data()), frame.size);
+    if (!flight_.node) {
+        stray(bytes, t);
+        return pump(t);
+    }
+    const Verdict v = reader_.push(bytes);
+    if (flight_.kind == Expect::Kind::block) {
+        flight_.deadline = std::min(flight_.latest, now + manners_.reply_timeout / 2 + wire(24));
+    } else if (v == Verdict::waiting) {
+        // Half an answer: the rest is on its way, but noise must not hold the line for ever.
+        flight_.deadline = std::min(flight_.latest, std::max(flight_.deadline, now + 10ms + wire(16)));
+    } else {
+        finish(v, t);
+    }
+    pump(t);
+}
+
+void LineAdapter::start(Node& node, Turn& t) {
+    Request r = node.next(t);
+    Expect e;
+    e.kind = r.kind;
+    e.checksum = node.sums();
+    e.prompt = node.prompts();
+    e.end_mark = r.end_mark;
+    std::string bytes;
+    if (!r.raw.empty()) {
+        bytes = r.raw;
+    } else if (r.kind == Expect::Kind::query) {
+        mark_ = (mark_ + 1) % static_cast<unsigned>(marks.size());
+        e.mark = last_mark_ = fmt::format("#{}", marks[mark_]);
+        bytes = request(node.link(), fmt::format("PR \"{}\",{}{}", e.mark, r.text, r.end_mark ? ",\"~\"" : ""));
+    } else {
+        bytes = request(node.link(), r.text);
+    }
+    if (r.kind == Expect::Kind::command && node.quiet()) e.kind = Expect::Kind::nothing;
+    if (r.wake && node.link().party()) bytes.insert(bytes.begin(), lf);
+    flight_.node = &node;
+    flight_.purpose = r.purpose;
+    flight_.kind = e.kind;
+    const Duration expected = e.kind == Expect::Kind::nothing ? Duration{20ms} : manners_.reply_timeout + wire(64) + r.patience;
+    flight_.deadline = t.now + wire(bytes.size()) + expected;
+    flight_.latest = flight_.deadline + (e.kind == Expect::Kind::block ? Duration{60s} : Duration{wire(512) + 200ms});
+    reader_.begin(std::move(e));
+    for_each_run({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, [&](const Frame& f) {
+        t.out.send(f, r.urgent ? Priority::urgent : r.purpose == Request::Purpose::poll ? Priority::poll : Priority::command);
+    });
+}
+
+void LineAdapter::finish(Verdict v, Turn& t) {
+    Node& node = *flight_.node;
+    const Flight f = flight_;
+    flight_ = {};
+    if (v == Verdict::waiting) {
+        dirty_ = &node;
+        dirty_until_ = t.now + 2 * manners_.reply_timeout;
+    } else if (f.kind == Expect::Kind::query && v == Verdict::answered && dirty_ == &node) {
+        dirty_ = nullptr;  // a drive answers in order: nothing older can come any more
+        dirty_until_ = t.now;
+    }
+    quiet_until_ = t.now + manners_.pause;
+    if (v == Verdict::answered && f.kind == Expect::Kind::query && !reader_.before().empty()) {
+        const std::string& before = reader_.before();
+        if (before.find("\r\n") != std::string::npos && before.size() > 3 && node.runs_program()) node.foreign(before, t);
+    }
+    node.ended(v, reader_, t);
+}
+
+void LineAdapter::pump(Turn& t) {
+    if (!up_) return;
+    // Each round starts an exchange or ends the loop; a node that only gives results does so a bounded number of times (its queue).
+    for (std::size_t guard = 0; guard < 4 && !flight_.node && t.now >= quiet_until_; ++guard) {
+        Node* next = nullptr;
+        for (std::size_t i = 0; i < nodes_.size() && !next; ++i) {
+            Node& n = *nodes_[(turn_ + i) % nodes_.size()];
+            if (n.wants(t.now) == Node::Want::urgent) next = &n;
+        }
+        for (std::size_t i = 0; i < nodes_.size() && !next; ++i) {
+            Node& n = *nodes_[(turn_ + i) % nodes_.size()];
+            if (n.wants(t.now) != Node::Want::other) continue;
+            if (held(n, t.now)) continue;
+            next = &n;
+            turn_ = (turn_ + i + 1) % nodes_.size();
+        }
+        if (!next) return;
+        start(*next, t);
+    }
+}
+
+void LineAdapter::on_deadline(Instant now, Out& out) {
+    Turn t{now, out};
+    if (flight_.node && now >= flight_.deadline) finish(reader_.give_up(), t);
+    pump(t);
+}
+
+/// After a time-out: lines wait until late answers are over, and the drive that was late is not asked again while one waits for that.
+bool LineAdapter::held(const Node& n, Instant now) const noexcept {
+    if (n.wants_unmarked()) return now < dirty_until_;
+    return &n == dirty_ && std::ranges::any_of(nodes_, [](const auto& o) { return o->wants_unmarked(); });
+}
+
+Instant LineAdapter::deadline() const {
+    if (!up_) return never;
+    if (flight_.node) return flight_.deadline;
+    Instant due = never;
+    for (const auto& n : nodes_) {
+        const Node::Want want = n->wants(quiet_until_);
+        Instant at = want == Node::Want::nothing ? n->due() : quiet_until_;
+        if (want != Node::Want::urgent && held(*n, quiet_until_)) at = std::max(at, dirty_until_);
+        due = std::min(due, at);
+    }
+    return std::max(due, quiet_until_);
+}
+
+}  // namespace axisgate::mcode

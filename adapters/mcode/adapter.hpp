@@ -1,0 +1,59 @@
+// Adapter of MCode: one line, single mode or party mode: whose turn it is, one exchange at a time, and what comes back.
+// In: setup, line state, commands, bytes, time. Out: bytes; feedback, samples, results, links, notices.
+// Stops go before everything that waits; drives take turns; a silent drive has the line once per growing pause.
+// Never sends while an answer is waited for.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "adapters/mcode/node.hpp"
+
+namespace axisgate::mcode {
+
+class LineAdapter final : public Adapter {
+public:
+    explicit LineAdapter(const Catalogue& catalogue) : catalogue_(catalogue) {}
+
+    void configure(const LineSetup& setup, Instant now, Out& out) override;
+    void on_line(bool up, Instant now, Out& out) override;
+    void on_command(const Command& command, Instant now, Out& out) override;
+    void on_frame(const Frame& frame, Instant now, Out& out) override;
+    void on_deadline(Instant now, Out& out) override;
+    [[nodiscard]] Instant deadline() const override;
+    [[nodiscard]] AdapterCounters counters() const override { return counters_; }
+
+private:
+    void take_manners(const LineSetup& setup, Turn& t);
+    [[nodiscard]] Duration wire(std::size_t bytes) const noexcept;
+    void pump(Turn& t);
+    void start(Node& node, Turn& t);
+    void finish(Verdict v, Turn& t);
+    void stray(std::string_view bytes, Turn& t);
+    [[nodiscard]] bool held(const Node& n, Instant now) const noexcept;
+
+    const Catalogue& catalogue_;
+    LineSetup setup_;
+    Manners manners_;
+    AdapterCounters counters_;
+    bool up_ = false;
+    std::vector<std::unique_ptr<Node>> nodes_;
+    std::size_t turn_ = 0;  ///< whose turn is next
+
+    struct Flight {
+        Node* node = nullptr;  ///< null: the line is free
+        Request::Purpose purpose = Request::Purpose::poll;
+        Expect::Kind kind = Expect::Kind::query;
+        Instant deadline = never;
+        Instant latest = never;
+    } flight_;
+    ReplyReader reader_;
+    unsigned mark_ = 0;
+    std::string last_mark_;
+    Instant quiet_until_{};  ///< LineManners::pause
+    Instant dirty_until_{};  ///< answers of an exchange that was given up may come until then
+    const Node* dirty_ = nullptr;
+    std::string stray_;  ///< bytes while nobody was asked, at most 256
+};
+
+}  // namespace axisgate::mcode

@@ -1,0 +1,13 @@
+// Family mcode: what this folder gives to the rest of the gateway.
+// In: nothing. Out: the makers of its adapter, twin and decoder, and its manners.
+// Never holds data about parameters: that is schema/families/mcode.json.
+#pragma once
+
+#include "gateway/core/family.hpp"
+
+namespace axisgate {
+
+/// Lexium MDrive and Lexium Motion Module (MCode) on RS-422, RS-485, UART or Ethernet (port 503).
+[[nodiscard]] const Family& family_mcode();
+
+}  // namespace axisgate

@@ -1,0 +1,111 @@
+// Framing: see the header.
+// In and out: see the header.
+// Never looks further than the present question.
+#include "adapters/mcode/framing.hpp"
+
+#include <algorithm>
+
+#include "adapters/mcode/wire.hpp"
+
+namespace axisgate::mcode {
+namespace {
+bool is_prompt(char c) noexcept { return c == '>' || c == '?'; }
+}  // namespace
+
+void ReplyReader::begin(Expect expect) {
+    expect_ = std::move(expect);
+    raw_.clear();
+    data_.clear();
+    before_.clear();
+}
+
+Verdict ReplyReader::push(std::string_view bytes) {
+    raw_ += bytes;
+    if (raw_.size() > limit) raw_.erase(0, raw_.size() - limit);
+    return look(false);
+}
+
+Verdict ReplyReader::give_up() { return look(true); }
+
+Verdict ReplyReader::look(bool over) {
+    const std::string_view all = raw_;
+    switch (expect_.kind) {
+        case Expect::Kind::nothing:
+        case Expect::Kind::block:
+            return over ? Verdict::answered : Verdict::waiting;
+        case Expect::Kind::command: {
+            if (expect_.checksum) {
+                const auto at = all.find_first_of("\x06\x15");
+                if (at == std::string_view::npos) return Verdict::waiting;
+                if (expect_.prompt && !over && (at + 1 >= all.size() || !is_prompt(all.back()))) return Verdict::waiting;
+                before_ = all.substr(0, at);
+                return all[at] == ack ? Verdict::acknowledged : Verdict::refused;
+            }
+            const auto at = all.find("\r\n");
+            if (at == std::string_view::npos) return Verdict::waiting;
+            if (expect_.prompt && !over && !is_prompt(all.back())) return Verdict::waiting;
+            before_ = all.substr(0, at);
+            return expect_.prompt && all.back() == '?' ? Verdict::refused : Verdict::acknowledged;
+        }
+        case Expect::Kind::query:
+            break;
+    }
+    // An echo of the request holds the mark too, but closed by its quote.
+    std::size_t at = all.find(expect_.mark);
+    while (at != std::string_view::npos && at + expect_.mark.size() < all.size() && all[at + expect_.mark.size()] == '"') {
+        at = all.find(expect_.mark, at + 1);
+    }
+    if (at == std::string_view::npos || at + expect_.mark.size() >= all.size()) {
+        if (all.find(nak) != std::string_view::npos && expect_.checksum) return Verdict::refused;
+        const bool told = all.find("\r\n") != std::string_view::npos;
+        if (told && expect_.prompt && all.back() == '?') return Verdict::refused;
+        if (over && (all.find(nak) != std::string_view::npos || (told && !expect_.checksum))) return Verdict::refused;
+        return Verdict::waiting;
+    }
+    std::size_t end = std::string_view::npos;
+    if (expect_.end_mark) {
+        for (auto e = all.find(end_of_data, at); e != std::string_view::npos; e = all.find(end_of_data, e + 1)) {
+            const auto line_end = all.find("\r\n", e);
+            if (line_end != std::string_view::npos && line_end - e <= 2) {
+                end = line_end;
+                break;
+            }
+        }
+    } else {
+        end = all.find("\r\n", at);
+    }
+    if (end == std::string_view::npos) return Verdict::waiting;
+    if (expect_.prompt && !over && !is_prompt(all.back())) return Verdict::waiting;
+    std::string_view part = all.substr(at, end - at);
+    const bool summed = static_cast<std::uint8_t>(part.back()) >= 0x80 && checksum_good(part);
+    if (expect_.checksum && !summed) return Verdict::garbled;
+    if (summed) part.remove_suffix(1);
+    part.remove_prefix(expect_.mark.size());
+    if (expect_.end_mark) {
+        if (part.empty() || part.back() != end_of_data) return Verdict::garbled;
+        part.remove_suffix(1);
+    }
+    if (std::ranges::any_of(part,
+                            [](char c) { return (c < 0x20 && c != cr && c != lf && c != '\t') || static_cast<std::uint8_t>(c) > 0x7E; })) {
+        return Verdict::garbled;
+    }
+    data_ = part;
+    before_ = all.substr(0, at);
+    return Verdict::answered;
+}
+
+std::string plain_text(std::string_view raw, std::string_view sent, bool with_checksum) {
+    std::string s(raw);
+    if (const auto at = s.find(sent); !sent.empty() && at != std::string::npos) s.erase(at, sent.size());
+    std::erase_if(s, [&](char c) { return c == ack || c == nak || c == '\0' || (with_checksum && static_cast<std::uint8_t>(c) >= 0x80); });
+    const auto outer = [](char c) { return c == cr || c == lf; };
+    while (!s.empty() && is_prompt(s.back()) && (s.size() == 1 || outer(s[s.size() - 2])))
+        s.pop_back();
+    while (!s.empty() && outer(s.back()))
+        s.pop_back();
+    while (!s.empty() && outer(s.front()))
+        s.erase(0, 1);
+    return s;
+}
+
+}  // namespace axisgate::mcode

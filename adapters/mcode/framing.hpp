@@ -1,0 +1,60 @@
+// Framing: finds the answer to one request in the bytes that come back: echo, ACK and NAK, prompts, data with its mark.
+// In: what was asked, bytes. Out: whether it is answered, and the data.
+// Never takes foreign text for an answer: data count only behind the mark of the very question, and with their checksum where it is on.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace axisgate::mcode {
+
+/// What is waited for.
+struct Expect {
+    enum class Kind : std::uint8_t {
+        nothing,  ///< EM = 2: the drive says nothing [L2664]
+        command,  ///< ACK, NAK, CR LF or a prompt, as EM and CK have it
+        query,    ///< PR with a mark in quotes as its first item
+        block     ///< text of unknown length: everything until the line falls silent
+    };
+    Kind kind = Kind::query;
+    std::string mark;       ///< query: what the data begin with
+    bool end_mark = false;  ///< query: the data end with `end_of_data` and may have several lines
+    bool checksum = false;  ///< CK is on
+    bool prompt = false;    ///< EM = 0: a prompt is the last character
+};
+inline constexpr char end_of_data = '~';
+
+enum class Verdict : std::uint8_t {
+    waiting,
+    answered,      ///< query: `data()` holds it
+    acknowledged,  ///< command: the drive took the line
+    refused,       ///< NAK, or the prompt `?`: a wrong checksum or an error of the drive
+    garbled        ///< the answer, but spoiled
+};
+
+class ReplyReader {
+public:
+    /// Bytes kept for one answer. More is dropped from the front; a listing of the whole program memory fits.
+    static constexpr std::size_t limit = 64 * 1024;
+
+    void begin(Expect expect);
+    [[nodiscard]] Verdict push(std::string_view bytes);
+    /// The time is over, or the line has fallen silent: what can be said of what there is.
+    [[nodiscard]] Verdict give_up();
+    [[nodiscard]] const std::string& data() const noexcept { return data_; }
+    /// Everything that came, for native exchanges.
+    [[nodiscard]] const std::string& raw() const noexcept { return raw_; }
+    /// What came before the answer and is none: output of programs, noise.
+    [[nodiscard]] const std::string& before() const noexcept { return before_; }
+
+private:
+    [[nodiscard]] Verdict look(bool over);
+    Expect expect_;
+    std::string raw_, data_, before_;
+};
+
+/// Text of a native answer: without echo of the request, ACK, NAK, checksum, prompt and outer line ends.
+[[nodiscard]] std::string plain_text(std::string_view raw, std::string_view sent, bool checksum);
+
+}  // namespace axisgate::mcode

@@ -1,0 +1,646 @@
+// Node: exchanges, presence, polls, stops.
+// In: the end of each exchange, time. Out: the next request, feedback, links.
+// Never asks ER but when EF says that there is one: reading clears it [L2587].
+#include "adapters/mcode/node.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+namespace axisgate::mcode {
+using namespace std::chrono_literals;
+using What = Request::Purpose;
+
+namespace {
+/// Read one after the other when a drive was found; what it refuses is left unknown.
+constexpr std::array<std::string_view, 5> startup_items{"ER", "PN", "VR", "AS", "VI,\",\",VM,\",\",A,\",\",D,\",\",EE"};
+
+std::optional<std::int64_t> whole(std::string_view s) {
+    double v = 0;
+    const auto [p, ec] = std::from_chars(s.data(), s.data() + s.size(), v);
+    if (ec != std::errc{} || p != s.data() + s.size() || !(std::fabs(v) < 9e15)) return std::nullopt;
+    return std::llround(v);
+}
+std::vector<std::string_view> split(std::string_view s) {
+    std::vector<std::string_view> parts;
+    for (;;) {
+        const auto at = s.find(',');
+        parts.push_back(s.substr(0, at));
+        if (at == std::string_view::npos) return parts;
+        s.remove_prefix(at + 1);
+    }
+}
+}  // namespace
+
+bool is_fault_code(int code) noexcept {
+    switch (code) {
+        case 13:
+        case 14:
+        case 70:
+        case 72:
+        case 75:
+        case 78:
+        case 79:
+        case 82:
+        case 86:
+        case 92:
+        case 96:
+        case 98:
+        case 99:
+        case 104:
+        case 105:
+        case 111:
+            return true;
+        default:
+            return false;
+    }
+}
+
+Node::Node(const Catalogue& catalogue, const Manners& manners, AdapterCounters& counters, const DriveSetup& setup)
+    : catalogue_(catalogue), manners_(manners), counters_(counters), setup_(setup) {
+    for (const auto& a : setup.axes) {
+        if (a.channel == 1) axis_ = a.id;
+    }
+}
+
+// --- presence --------------------------------------------------------------------------------------------------------------------
+
+void Node::line_up(Turn& t) { begin_probing(t); }
+
+void Node::line_down(Turn& t, std::string_view why) {
+    fail_all(Reason::line_down, std::string(why), t);
+    phase_ = Phase::down;
+    if (shown_online_) link_state(false, std::string(why), t);
+    seen_ = enabled_ = false;
+}
+
+void Node::remove(Turn& t, std::string_view why) { fail_all(Reason::line_down, std::string(why), t); }
+
+void Node::begin_probing(Turn& t) {
+    phase_ = Phase::probing;
+    silent_ = 0;
+    retry_pause_ = {};
+    next_probe_ = t.now;
+    next_poll_ = never;
+    link_rounds_ = 0;
+    sums_ = false;
+    em_ = 1;
+    need_error_ = false;
+}
+
+void Node::go_absent(Turn& t, std::string why) {
+    phase_ = Phase::absent;
+    if (retry_pause_ == Duration{}) retry_pause_ = manners_.pause_min;
+    next_probe_ = t.now + retry_pause_;
+    next_poll_ = never;
+    need_error_ = false;
+    enabled_ = false;
+    fb_.referenced = fb_.homing_attained = false;
+    motion_ = {};
+    zero_after_home_ = false;
+    fail_all(Reason::no_answer, why, t);
+    link_state(false, std::move(why), t);
+}
+
+void Node::link_state(bool is_online, std::string text, Turn& t) {
+    shown_online_ = is_online;
+    t.out.links.push_back({setup_.id, is_online, silent_, is_online ? Duration{} : retry_pause_, std::move(text)});
+}
+
+void Node::came(Turn& t) {
+    phase_ = Phase::ready;
+    enabled_ = false;
+    retry_pause_ = {};
+    motion_ = {};
+    fault_ = 0;
+    fb_.target_reached = fb_.homing_error = false;
+    seen_ = false;
+    link_state(true, identity_.empty() ? fmt::format("answers to {}", setup_.address) : identity_, t);
+    next_poll_ = t.now;
+}
+
+void Node::count_silence(Turn& t) {
+    ++silent_;
+    ++counters_.timeouts;
+    const bool gone = silent_ >= static_cast<std::uint32_t>(manners_.silent_limit);
+    if (phase_ == Phase::absent) {
+        retry_pause_ = std::min(2 * retry_pause_, manners_.pause_max);
+        next_probe_ = t.now + retry_pause_;
+        link_state(false, fmt::format("{} does not answer to {}", name(), setup_.address), t);
+    } else if (gone) {
+        go_absent(t, fmt::format("{} has not answered to {} {} times in a row", name(), setup_.address, silent_));
+    } else if (phase_ == Phase::probing) {
+        next_probe_ = t.now;
+    }
+}
+
+// --- what is sent next -----------------------------------------------------------------------------------------------------------
+
+Node::Want Node::wants(Instant now) const noexcept {
+    switch (phase_) {
+        case Phase::down:
+            return Want::nothing;
+        case Phase::probing:
+        case Phase::absent:
+            if (job_.kind == JobKind::setup) return Want::other;
+            return now >= next_probe_ ? Want::other : Want::nothing;
+        case Phase::linking:
+        case Phase::starting:
+            return Want::other;
+        case Phase::ready:
+            break;
+    }
+    if (!stops_.empty()) return Want::urgent;
+    if (need_error_ || now >= next_poll_) return Want::other;
+    if (job_.kind != JobKind::none) {
+        return job_.at < job_.steps.size() && job_.steps[job_.at].what == Step::What::standstill ? Want::nothing : Want::other;
+    }
+    return queue_.empty() ? Want::nothing : Want::other;
+}
+
+bool Node::wants_unmarked() const noexcept {
+    if (phase_ == Phase::linking) return true;
+    if (phase_ != Phase::ready || !stops_.empty() || need_error_) return false;
+    if (job_.kind == JobKind::none) return !queue_.empty();
+    if (job_.confirming || job_.at >= job_.steps.size()) return false;
+    const auto what = job_.steps[job_.at].what;
+    return what == Step::What::send || what == Step::What::bare || what == Step::What::block;
+}
+
+Instant Node::due() const noexcept {
+    switch (phase_) {
+        case Phase::down:
+            return never;
+        case Phase::probing:
+        case Phase::absent:
+            return next_probe_;
+        default:
+            return next_poll_;
+    }
+}
+
+std::string Node::poll_text() const {
+    std::string s = R"(P,",",V,",",MV,MP,VC,DE,EF,BY)";
+    if (encoder_) s += ",ST";
+    if (hmt_) s += ",LR";
+    return s;
+}
+
+Request Node::next(Turn& t) {
+    Request r;
+    const auto ask = [&](What purpose, std::string items) {
+        r.purpose = purpose_ = purpose;
+        r.text = std::move(items);
+        return r;
+    };
+    const auto say = [&](What purpose, std::string line) {
+        r.purpose = purpose_ = purpose;
+        r.text = std::move(line);
+        r.kind = Expect::Kind::command;
+        r.urgent = purpose == What::stop;
+        if (word_of(r.text) == "S" || word_of(r.text) == "FD" || word_of(r.text) == "CP" || word_of(r.text) == "IP") r.patience = 2s;
+        return r;
+    };
+    if (job_.kind == JobKind::setup && phase_ != Phase::ready) {
+        const Step& step = job_.steps[job_.at];
+        r = say(What::step, {});
+        r.raw = step.text;
+        return r;
+    }
+    switch (phase_) {
+        case Phase::probing:
+        case Phase::absent:
+            r.wake = true;
+            return ask(What::probe, manners_.ethernet ? "EM" : "EM,CK,ES");
+        case Phase::linking:
+            return say(What::link, link_line_);
+        case Phase::starting:
+            return ask(What::startup, std::string(startup_items[startup_at_]));
+        default:
+            break;
+    }
+    if (!stops_.empty()) {
+        Stop& s = stops_.front();
+        if (s.confirming) {
+            if (need_error_) return ask(What::error, "ER");
+            return ask(What::confirm, poll_text());
+        }
+        r = say(What::stop, s.lines[s.at]);
+        if (r.text == "ESC") {
+            r.raw = escape(link());
+            r.kind = Expect::Kind::nothing;
+        }
+        return r;
+    }
+    if (need_error_) return ask(What::error, "ER");
+    if (job_.kind == JobKind::none && !queue_.empty()) take_next(t);
+    if (job_.kind != JobKind::none && job_.at < job_.steps.size()) {
+        const Step& step = job_.steps[job_.at];
+        if (job_.confirming) return ask(What::confirm, poll_text());
+        switch (step.what) {
+            case Step::What::send:
+            case Step::What::bare:
+                return say(What::step, step.text);
+            case Step::What::query:
+                r.end_mark = step.end_mark;
+                return ask(What::step, step.text);
+            case Step::What::block:
+                r = say(What::step, step.text);
+                r.kind = Expect::Kind::block;
+                return r;
+            case Step::What::standstill:
+                break;
+        }
+    }
+    next_poll_ = t.now + manners_.poll_period;
+    return ask(What::poll, poll_text());
+}
+
+// --- how it ended ----------------------------------------------------------------------------------------------------------------
+
+void Node::ended(Verdict v, const ReplyReader& reader, Turn& t) {
+    if (v == Verdict::garbled) ++counters_.garbled;
+    if (v == Verdict::refused) ++counters_.refused;
+    const bool heard = v != Verdict::waiting;
+    if (heard && v != Verdict::garbled) {
+        if (v != Verdict::refused) ++counters_.exchanges;
+        silent_ = 0;
+    }
+    switch (purpose_) {
+        case What::probe:
+            return probe_ended(v, reader.data(), t);
+        case What::link:
+            if (!heard) {
+                phase_ = Phase::probing;
+                next_probe_ = t.now;
+                return count_silence(t);
+            }
+            // A probe says what it has become. After CK = 1 the first probe without a checksum is answered with NAK.
+            phase_ = Phase::probing;
+            next_probe_ = t.now;
+            return;
+        case What::startup:
+            return startup_ended(v, reader.data(), t);
+        case What::stop:
+            return stop_ended(v, reader, t);
+        case What::error:
+            return error_read(v, reader.data(), t);
+        case What::confirm: {
+            const bool good = v == Verdict::answered && learn_poll(reader.data(), t);
+            if (good) {
+                if (ef_) {
+                    need_error_ = true;
+                    const Verdict said = !stops_.empty() && stops_.front().confirming ? stops_.front().said : job_.said;
+                    error_is_ours_ = said == Verdict::refused || !sums_ || quiet();  // an ACK means: no error [L2081]
+                    return;
+                }
+                last_error_ = 0;
+                return confirmed(t);
+            }
+            if (!heard) count_silence(t);
+            if (phase_ != Phase::ready) return;
+            int& tries = !stops_.empty() && stops_.front().confirming ? stops_.front().tries : job_.tries;
+            if (++tries > manners_.retries + 3) {
+                if (!stops_.empty() && stops_.front().confirming) {
+                    return stop_over(Outcome::failed, Reason::no_answer, fmt::format("{} did not confirm the stop", name()), t);
+                }
+                job_over(Outcome::failed, Reason::no_answer,
+                         fmt::format("{} did not say whether it took {}", name(), job_.steps[job_.at].text), t);
+            }
+            return;
+        }
+        case What::step:
+            return step_ended(v, reader, t);
+        case What::poll:
+            if (v == Verdict::answered && learn_poll(reader.data(), t)) {
+                if (ef_) {
+                    need_error_ = true;
+                    error_is_ours_ = false;
+                }
+            } else if (v == Verdict::refused) {
+                // Its link may have changed: a restart has brought back EM and CK of its memory.
+                phase_ = Phase::probing;
+                next_probe_ = t.now;
+                ++silent_;
+                if (silent_ >= static_cast<std::uint32_t>(manners_.silent_limit))
+                    go_absent(t, fmt::format("{} refuses every question", name()));
+            } else if (!heard) {
+                count_silence(t);
+            }
+            return;
+    }
+}
+
+void Node::probe_ended(Verdict v, const std::string& data, Turn& t) {
+    if (v == Verdict::answered && data.size() == (manners_.ethernet ? 1U : 3U)) {
+        em_ = data[0] - '0';
+        ck_ = manners_.ethernet ? 0 : data[1] - '0';
+        es_ = manners_.ethernet ? 1 : data[2] - '0';
+        sums_ = ck_ > 0;
+        const bool again = ++link_rounds_ < 5;
+        if (em_ != manners_.em && again) {
+            link_line_ = fmt::format("EM={}", manners_.em);
+            phase_ = Phase::linking;
+        } else if (!manners_.ethernet && ck_ != manners_.ck && again) {
+            link_line_ = fmt::format("CK={}", manners_.ck);
+            phase_ = Phase::linking;
+        } else if (link().party() && es_ != 3 && again) {
+            // With ES = 1 an ESC meant for one drive would stop them all [L2742-2744].
+            link_line_ = "ES=3";
+            phase_ = Phase::linking;
+        } else {
+            if (em_ != manners_.em || (!manners_.ethernet && ck_ != manners_.ck)) {
+                note(Severity::warning, "link", 0, fmt::format("{} keeps EM={} and CK={}; it is used as it is", name(), em_, ck_), t);
+            }
+            phase_ = Phase::starting;
+            startup_at_ = 0;
+            identity_.clear();
+        }
+        return;
+    }
+    // A drive with CK on ignores a line without checksum, one with CK off does not know the extra byte: the other way next time.
+    sums_ = !sums_;
+    if (manners_.ethernet) sums_ = false;
+    if (v == Verdict::waiting) return count_silence(t);
+    ++silent_;
+    next_probe_ = t.now;
+    if (silent_ > 2U * static_cast<std::uint32_t>(manners_.silent_limit) || phase_ == Phase::absent) {
+        if (phase_ == Phase::absent) retry_pause_ = std::min(2 * retry_pause_, manners_.pause_max);
+        go_absent(t,
+                  fmt::format("what answers to {} is not understood: noise, another rate, or two drives with this name", setup_.address));
+        // NAK is a drive that is there: the other way is tried soon.
+        if (v == Verdict::refused) next_probe_ = t.now + manners_.pause_min;
+    }
+}
+
+void Node::startup_ended(Verdict v, const std::string& data, Turn& t) {
+    if (v == Verdict::waiting || v == Verdict::garbled) {
+        if (v == Verdict::waiting)
+            count_silence(t);
+        else if (++silent_ >= 2U * static_cast<std::uint32_t>(manners_.silent_limit))
+            go_absent(t, fmt::format("the answers of {} are spoiled", name()));
+        return;
+    }
+    const bool good = v == Verdict::answered;
+    switch (startup_at_) {
+        case 1:
+            if (good) identity_ = data;
+            break;
+        case 2:
+            if (good && !data.empty()) identity_ += fmt::format("{}firmware {}", identity_.empty() ? "" : ", ", data);
+            break;
+        case 3:
+            hmt_ = good;
+            break;
+        case 4:
+            if (const auto f = split(data); good && f.size() == 5) {
+                vi_ = user_vi_ = whole(f[0]).value_or(0);
+                vm_ = whole(f[1]).value_or(0);
+                a_ = whole(f[2]).value_or(0);
+                d_ = whole(f[3]).value_or(0);
+                encoder_mode_ = whole(f[4]).value_or(0) == 1;
+            }
+            break;
+        default:
+            break;
+    }
+    if (++startup_at_ == startup_items.size()) came(t);
+}
+
+bool Node::learn_poll(const std::string& data, Turn& t) {
+    const auto f = split(data);
+    const std::size_t flags = 6U + (encoder_ ? 1U : 0U) + (hmt_ ? 1U : 0U);
+    if (f.size() != 3 || f[2].size() != flags || f[2].find_first_not_of("01") != std::string_view::npos) {
+        ++counters_.garbled;
+        return false;
+    }
+    const auto p = whole(f[0]), v = whole(f[1]);
+    if (!p || !v) {
+        ++counters_.garbled;
+        return false;
+    }
+    const auto flag = [&](std::size_t i) { return f[2][i] == '1'; };
+    fb_.position = *p;
+    fb_.position_demand = *p;
+    fb_.velocity = *v;
+    mv_ = flag(0);
+    mp_ = flag(1);
+    vc_ = flag(2);
+    de_ = flag(3);
+    ef_ = flag(4);
+    running_ = flag(5);
+    stalled_ = encoder_ && flag(6);
+    locked_ = hmt_ && flag(flags - 1);
+    seen_ = true;
+    next_poll_ = t.now + manners_.poll_period;
+    derive(t);
+    emit(t);
+    if (job_.kind != JobKind::none && !job_.confirming && job_.at < job_.steps.size() &&
+        job_.steps[job_.at].what == Step::What::standstill) {
+        if (!mv_) {
+            step_done(t);
+        } else if (t.now >= job_.give_up) {
+            job_over(Outcome::failed, Reason::wrong_state, fmt::format("{} does not come to a standstill", name()), t);
+        }
+    }
+    return true;
+}
+
+void Node::derive(Turn& t) {
+    if (!de_) enabled_ = false;
+    fb_.power = de_ && enabled_ ? AxisFeedback::Power::on : AxisFeedback::Power::off;
+    fb_.moving = mv_ && (fb_.velocity != 0 || vc_ || encoder_mode_ || motion_.kind == Motion::Kind::home);
+    fb_.fault = fault_ != 0 || stalled_ || locked_;
+    fb_.error_code = static_cast<std::uint16_t>(fault_ != 0 ? fault_ : stalled_ ? 86 : locked_ ? 104 : last_error_);
+    fb_.internal_limit = last_error_ == 83 || last_error_ == 84;
+    fb_.warning = last_error_ == 71 || fb_.internal_limit;
+    fb_.native_status = (mv_ ? 1U : 0U) | (mp_ ? 2U : 0U) | (vc_ ? 4U : 0U) | (de_ ? 8U : 0U) | (ef_ ? 16U : 0U) | (running_ ? 32U : 0U) |
+                        (stalled_ ? 64U : 0U) | (locked_ ? 128U : 0U);
+    if (motion_.ended) {
+        if (fb_.moving) fb_.target_reached = false;  // a program, or somebody else, moves it
+        return;
+    }
+    if (motion_.kind == Motion::Kind::position && !fb_.moving && (!encoder_mode_ || !mv_)) {
+        if (fb_.position == motion_.target ||
+            (encoder_mode_ && !fb_.fault && std::llabs(fb_.position - motion_.target) <= 65000 && !mv_ && !ef_)) {
+            fb_.target_reached = true;
+            motion_.ended = true;
+        } else if (!mv_) {
+            motion_.ended = true;
+        }
+    } else if (motion_.kind == Motion::Kind::home && !mv_) {
+        motion_.ended = true;
+        if (ef_ || fb_.fault) {
+            fb_.homing_error = true;
+        } else {
+            zero_after_home_ = true;
+            Command c;
+            c.axis = axis_;
+            c.body = SetPosition{0};
+            queue_.push_front(std::move(c));
+        }
+    }
+    (void)t;
+}
+
+void Node::emit(Turn& t) {
+    if (axis_ == no_axis || !seen_) return;
+    fb_.at = t.now;
+    t.out.feedback.push_back({axis_, fb_});
+}
+
+void Node::learn_error(int code, bool ours, Turn& t) {
+    const ErrorCode* e = catalogue_.error(code);
+    const std::string text = e ? e->text : std::string("a code that the catalogue does not have");
+    last_error_ = code;
+    if (is_fault_code(code)) fault_ = code;
+    if (!ours && code != 0) {
+        note(is_fault_code(code) ? Severity::alarm : Severity::warning, "error", code, fmt::format("{}: error {}, {}", name(), code, text),
+             t);
+    }
+    derive(t);
+    emit(t);
+}
+
+void Node::error_read(Verdict v, const std::string& data, Turn& t) {
+    const auto code = v == Verdict::answered ? whole(data) : std::nullopt;
+    if (!code) {
+        if (v == Verdict::waiting) count_silence(t);
+        if (v == Verdict::refused) need_error_ = false;
+        return;  // asked again
+    }
+    need_error_ = false;
+    ef_ = false;
+    const bool waits = (!stops_.empty() && stops_.front().confirming) || (job_.kind != JobKind::none && job_.confirming);
+    const bool ours = waits && error_is_ours_;
+    learn_error(static_cast<int>(*code), ours, t);
+    if (!waits) return;
+    if (!ours) last_error_ = is_fault_code(last_error_) ? last_error_ : last_error_;
+    const int keep = last_error_;
+    if (!ours) last_error_ = 0;
+    confirmed(t);
+    if (last_error_ == 0) last_error_ = keep;
+}
+
+// --- stops -----------------------------------------------------------------------------------------------------------------------
+
+void Node::stop_ended(Verdict v, const ReplyReader&, Turn& t) {
+    if (stops_.empty()) return;
+    Stop& s = stops_.front();
+    s.said = v == Verdict::answered ? Verdict::acknowledged : v;
+    s.confirming = true;
+    if (v == Verdict::waiting) count_silence(t);
+}
+
+void Node::stop_over(Outcome o, Reason r, std::string text, Turn& t, std::int32_t code) {
+    const Command c = stops_.front().command;
+    stops_.pop_front();
+    result(c, o, r, std::move(text), t, code);
+}
+
+void Node::confirmed(Turn& t) {
+    if (!stops_.empty() && stops_.front().confirming) {
+        Stop& s = stops_.front();
+        const std::string line = s.lines[s.at];
+        if (last_error_ == 85 && line == "SL 0") {
+            // During a homing only the escape character stops [L4106].
+            s.lines[s.at] = link().party() && es_ != 3 ? "DE=0" : "ESC";
+            s.confirming = false;
+            return;
+        }
+        const bool off = line == "DE=0" && !de_;
+        const bool harmless = last_error_ == 40 || last_error_ == 94;  // no program ran; nothing can move with the drive off
+        const bool taken = s.said == Verdict::acknowledged && last_error_ == 0 && (line != "DE=0" || off);
+        if (taken || off || harmless) {
+            s.tries = 0;
+            s.confirming = false;
+            if (++s.at < s.lines.size()) return;
+            fb_.target_reached = false;
+            motion_.ended = true;
+            if (line == "DE=0") enabled_ = false;
+            derive(t);
+            emit(t);
+            return stop_over(std::holds_alternative<Disable>(s.command.body) ? Outcome::done : Outcome::accepted, Reason::none, {}, t);
+        }
+        if (last_error_ != 0 && s.tries >= manners_.retries) {
+            return stop_over(Outcome::refused, Reason::drive_refused,
+                             fmt::format("{}: {} was refused with error {}", name(), line, last_error_), t, last_error_);
+        }
+        if (++s.tries > manners_.retries) {
+            return stop_over(Outcome::failed, Reason::no_answer, fmt::format("{} did not take {}", name(), line), t);
+        }
+        ++counters_.retries;
+        s.confirming = false;
+        return;
+    }
+    if (job_.kind == JobKind::none || !job_.confirming) return;
+    job_.confirming = false;
+    const std::string& line = job_.steps[job_.at].text;
+    if (last_error_ != 0) {
+        const ErrorCode* e = catalogue_.error(last_error_);
+        const bool changed = job_.at > 0 && job_.kind == JobKind::move;
+        return job_over(Outcome::refused, Reason::drive_refused,
+                        fmt::format("{}: {} was refused with error {}{}{}", name(), line, last_error_, e ? ", " + e->text : std::string(),
+                                    changed ? "; values set before it stay" : ""),
+                        t, last_error_);
+    }
+    if (job_.said == Verdict::acknowledged || job_.said == Verdict::answered) return step_done(t);
+    if (job_.steps[job_.at].repeatable && ++job_.tries <= manners_.retries) {
+        ++counters_.retries;
+        return;
+    }
+    job_over(Outcome::failed, Reason::no_answer, fmt::format("{} did not acknowledge {}", name(), line), t);
+}
+
+// --- results and notices ---------------------------------------------------------------------------------------------------------
+
+void Node::result(const Command& c, Outcome o, Reason r, std::string text, Turn& t, std::int32_t code, Value value) {
+    if (c.ticket == no_ticket) return;
+    t.out.results.push_back({c.ticket, axis_, o, r, code, std::move(text), std::move(value), {}});
+}
+
+void Node::fail_all(Reason reason, const std::string& text, Turn& t) {
+    while (!stops_.empty()) {
+        const Command c = std::move(stops_.front().command);
+        stops_.pop_front();
+        result(c, Outcome::failed, reason, text, t);
+    }
+    if (job_.kind != JobKind::none) {
+        const bool touched = job_.memory_touched;
+        const Command c = job_.command;
+        job_ = {};
+        result(c, Outcome::failed, reason, touched ? text + "; the program memory is cleared or incomplete: download again" : text, t);
+    }
+    while (!queue_.empty()) {
+        const Command c = std::move(queue_.front());
+        queue_.pop_front();
+        result(c, Outcome::failed, reason, text, t);
+    }
+}
+
+/// At most 20 at once and 10 in a second, alarms excepted.
+void Node::note(Severity severity, std::string_view kind, std::int32_t code, std::string text, Turn& t) {
+    if (severity != Severity::alarm) {
+        const auto earned = (t.now - notice_refilled_) / 100ms;
+        if (earned > 0) {
+            notice_tokens_ = static_cast<int>(std::min<std::int64_t>(20, notice_tokens_ + earned));
+            notice_refilled_ = t.now;
+        }
+        if (notice_tokens_ == 0) return;
+        --notice_tokens_;
+    }
+    t.out.notices.push_back({severity, setup_.id, axis_, std::string(kind), code, std::move(text), t.now});
+}
+
+void Node::foreign(std::string_view text, Turn& t) {
+    ++counters_.unexpected;
+    std::string shown;
+    for (const char c : text) {
+        if (c >= 0x20 && c <= 0x7E) shown += c;
+    }
+    if (shown.size() < 2 || shown.find("PR \"#") != std::string::npos || shown.size() > 200) return;
+    note(Severity::info, "output", 0, fmt::format("{}: {}", name(), shown), t);
+}
+
+}  // namespace axisgate::mcode

@@ -1,0 +1,233 @@
+// Node: one drive: finding it, setting its link, its polls, its queue of commands and their steps, and what is known of its axis.
+// In: commands, the outcome of its exchanges, time. Out: the next request when it has the line; feedback, results, links, notices.
+// Never sends by itself: the line asks it, and gives it one exchange at a time.
+// Written in: node.cpp (exchanges, presence, polls), jobs.cpp (commands as steps), actions.cpp (parameters, native, programs).
+#pragma once
+
+#include <array>
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "adapters/mcode/framing.hpp"
+#include "adapters/mcode/wire.hpp"
+#include "gateway/core/adapter.hpp"
+#include "gateway/core/catalogue.hpp"
+
+namespace axisgate::mcode {
+
+/// One call of the adapter from outside.
+struct Turn {
+    Instant now;
+    Out& out;
+};
+
+/// LineManners and line options with this family's own defaults filled in.
+struct Manners {
+    Duration reply_timeout = std::chrono::milliseconds(120);
+    Duration poll_period = std::chrono::milliseconds(20);
+    Duration pause{};
+    int retries = 2;
+    int silent_limit = 3;
+    Duration pause_min = std::chrono::milliseconds(200);
+    Duration pause_max = std::chrono::seconds(5);
+    int em = 1;             ///< echo mode wanted
+    int ck = 1;             ///< checksum mode wanted
+    bool ethernet = false;  ///< MCode/TCP: no CK, no names [L1173-1191]
+};
+
+/// What a node wants to send.
+struct Request {
+    enum class Purpose : std::uint8_t { probe, link, startup, stop, confirm, error, step, poll };
+    Purpose purpose = Purpose::poll;
+    std::string text;  ///< without address, checksum, terminator; query: without the mark
+    std::string raw;   ///< bytes as they are, instead of text
+    Expect::Kind kind = Expect::Kind::query;
+    bool end_mark = false;
+    bool urgent = false;
+    bool wake = false;    ///< a LF goes before: wakes a party line, ends half a line [L5002]
+    Duration patience{};  ///< beyond the reply time-out
+};
+
+class Node {
+public:
+    static constexpr std::size_t queue_limit = 64;   ///< waiting commands; one more is refused as busy
+    static constexpr std::size_t urgent_limit = 16;  ///< waiting stops; one more is refused as busy
+
+    Node(const Catalogue& catalogue, const Manners& manners, AdapterCounters& counters, const DriveSetup& setup);
+
+    void line_up(Turn& t);
+    void line_down(Turn& t, std::string_view why);
+    void remove(Turn& t, std::string_view why);
+    void submit(const Command& command, Turn& t);
+
+    enum class Want : std::uint8_t { nothing, urgent, other };
+    [[nodiscard]] Want wants(Instant now) const noexcept;
+    /// What it would send next is answered without a mark (a line, not a question), and is no stop.
+    [[nodiscard]] bool wants_unmarked() const noexcept;
+    /// When it will want something without being asked again.
+    [[nodiscard]] Instant due() const noexcept;
+    [[nodiscard]] Request next(Turn& t);
+    /// How the exchange ended. `waiting` as verdict: nobody answered.
+    void ended(Verdict verdict, const ReplyReader& reader, Turn& t);
+    /// Text that nobody asked for while this drive had the line.
+    void foreign(std::string_view text, Turn& t);
+
+    [[nodiscard]] const DriveSetup& setup() const noexcept { return setup_; }
+    [[nodiscard]] const std::string& name() const noexcept { return setup_.name; }
+    [[nodiscard]] AxisId axis() const noexcept { return axis_; }
+    [[nodiscard]] bool runs_program() const noexcept { return running_; }
+    [[nodiscard]] bool prompts() const noexcept { return em_ == 0; }
+    [[nodiscard]] bool sums() const noexcept { return sums_; }
+    /// It takes lines without a word: EM = 2, or CK = 2 while a program runs [L2082, L2664].
+    [[nodiscard]] bool quiet() const noexcept { return em_ == 2 || (ck_ == 2 && running_); }
+    [[nodiscard]] Link link() const noexcept { return {setup_.address[0], sums_}; }
+    void note(Severity severity, std::string_view kind, std::int32_t code, std::string text, Turn& t);
+
+private:
+    enum class Phase : std::uint8_t { down, probing, absent, linking, starting, ready };
+    enum class JobKind : std::uint8_t {
+        none,
+        enable,
+        reset,
+        home,
+        set_position,
+        move,
+        read,
+        write,
+        native,
+        plain,
+        list,
+        upload,
+        download,
+        setup
+    };
+    struct Step {
+        enum class What : std::uint8_t {
+            send,   ///< a line; then a confirming poll says whether the drive complained
+            bare,   ///< a line, its ACK alone (program mode, where a poll would become part of the program)
+            query,  ///< PR with a mark
+            block,  ///< text of unknown length
+            standstill
+        };
+        What what = What::send;
+        std::string text;
+        bool repeatable = true;
+        bool end_mark = false;
+    };
+    struct Job {
+        JobKind kind = JobKind::none;
+        Command command;
+        std::vector<Step> steps;
+        std::size_t at = 0;
+        int tries = 0;
+        bool confirming = false;
+        Verdict said = Verdict::waiting;
+        bool memory_touched = false;  ///< download: the program memory has been cleared
+        std::vector<std::string> program;
+        std::string text;
+        Instant give_up = never;
+        void add(Step::What what, std::string line, bool repeatable = true) { steps.push_back({what, std::move(line), repeatable, false}); }
+    };
+    struct Stop {
+        Command command;
+        std::vector<std::string> lines;
+        std::size_t at = 0;
+        int tries = 0;
+        bool confirming = false;
+        Verdict said = Verdict::waiting;
+    };
+
+    // node.cpp
+    void begin_probing(Turn& t);
+    void go_absent(Turn& t, std::string why);
+    void came(Turn& t);
+    void count_silence(Turn& t);
+    void probe_ended(Verdict v, const std::string& data, Turn& t);
+    void startup_ended(Verdict v, const std::string& data, Turn& t);
+    void stop_ended(Verdict v, const ReplyReader& r, Turn& t);
+    void error_read(Verdict v, const std::string& data, Turn& t);
+    [[nodiscard]] bool learn_poll(const std::string& data, Turn& t);
+    [[nodiscard]] std::string poll_text() const;
+    void learn_error(int code, bool ours, Turn& t);
+    void emit(Turn& t);
+    void derive(Turn& t);
+    void result(const Command& c, Outcome o, Reason r, std::string text, Turn& t, std::int32_t code = 0, Value value = {});
+    void fail_all(Reason reason, const std::string& text, Turn& t);
+    void link_state(bool online, std::string text, Turn& t);
+    void stop_over(Outcome o, Reason r, std::string text, Turn& t, std::int32_t code = 0);
+    // jobs.cpp
+    void cancel_motions(std::string_view by, Turn& t);
+    [[nodiscard]] static bool is_motion(const CommandBody& b) noexcept;
+    void take_next(Turn& t);
+    void plan(const Command& c, Turn& t);
+    void plan_move(const Move& m, Turn& t);
+    void plan_home(const Home& h, Turn& t);
+    void step_ended(Verdict v, const ReplyReader& r, Turn& t);
+    void confirmed(Turn& t);
+    void step_done(Turn& t);
+    void job_over(Outcome o, Reason r, std::string text, Turn& t, std::int32_t code = 0, Value value = {});
+    void began_motion(Turn& t);
+    // actions.cpp
+    void plan_read(const ReadParameter& r, Turn& t);
+    void plan_write(const WriteParameter& w, Turn& t);
+    void plan_native(const Native& n, Turn& t);
+    void plan_action(const Action& a, Turn& t);
+    void query_answered(const std::string& data, Turn& t);
+    void block_ended(const ReplyReader& r, Turn& t);
+    void download_failed(std::string why, Turn& t);
+    [[nodiscard]] std::string word(const Parameter& p) const;
+    [[nodiscard]] std::optional<Value> value_of(const Parameter& p, std::string_view text) const;
+
+    const Catalogue& catalogue_;
+    const Manners& manners_;
+    AdapterCounters& counters_;
+    DriveSetup setup_;
+    AxisId axis_ = no_axis;
+
+    Phase phase_ = Phase::down;
+    std::uint32_t silent_ = 0;
+    Duration retry_pause_{};
+    Instant next_probe_ = never, next_poll_ = never;
+    bool shown_online_ = false;
+    bool sums_ = false;  ///< requests carry a checksum
+    int em_ = 1, ck_ = 0, es_ = 1;
+    int link_rounds_ = 0;
+    std::string link_line_;  ///< EM=, CK= to be sent next
+    std::size_t startup_at_ = 0;
+    bool hmt_ = false;     ///< LMD closed loop: LR is there
+    bool encoder_ = true;  ///< ST can be read
+    std::string identity_;
+    Request::Purpose purpose_ = Request::Purpose::poll;
+
+    std::deque<Command> queue_;
+    std::deque<Stop> stops_;
+    Job job_;
+    bool need_error_ = false;
+    bool error_is_ours_ = false;
+
+    // what is known
+    AxisFeedback fb_;
+    bool seen_ = false;
+    bool enabled_ = false;  ///< by this gateway, since the drive was found
+    bool de_ = false, mv_ = false, mp_ = false, vc_ = false, ef_ = false, running_ = false, stalled_ = false, locked_ = false;
+    int fault_ = 0;  ///< code that must be reset
+    int last_error_ = 0;
+    std::int64_t vi_ = 0, user_vi_ = 0, vm_ = 0, a_ = 0, d_ = 0;
+    bool encoder_mode_ = false;
+    struct Motion {
+        enum class Kind : std::uint8_t { none, position, velocity, home, foreign };
+        Kind kind = Kind::none;
+        std::int64_t target = 0;
+        bool ended = true;
+    } motion_;
+    bool zero_after_home_ = false;
+    int notice_tokens_ = 20;
+    Instant notice_refilled_{};
+};
+
+/// Codes of ER that stop an axis until they are reset; the others say that a line was refused.
+[[nodiscard]] bool is_fault_code(int code) noexcept;
+
+}  // namespace axisgate::mcode

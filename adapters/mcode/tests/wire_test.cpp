@@ -1,0 +1,176 @@
+// Wire, framing, program check and decoder: golden bytes.
+#include <gtest/gtest.h>
+
+#include "adapters/mcode/decoder.hpp"
+#include "adapters/mcode/framing.hpp"
+#include "adapters/mcode/program.hpp"
+#include "adapters/mcode/wire.hpp"
+
+namespace axisgate::mcode {
+namespace {
+
+TEST(Wire, ChecksumTable) {
+    struct Row {
+        const char* text;
+        int sum;
+    };
+    for (const Row& r : {Row{"MR 51200", 0xC9}, Row{"MR 1", 0x90}, Row{"mr 1", 0xD0}, Row{"PR P", 0xEE}, Row{"aPR P", 0x8D},
+                         Row{"!MR 512000", 0xF8}, Row{"*MR 10000", 0xA6}}) {
+        EXPECT_EQ(static_cast<std::uint8_t>(checksum(r.text)), r.sum) << r.text;
+        EXPECT_TRUE(checksum_good(r.text + std::string(1, checksum(r.text))));
+        EXPECT_FALSE(checksum_good(r.text + std::string(1, static_cast<char>(checksum(r.text) ^ 1))));
+    }
+}
+TEST(Wire, RequestsInAllFourForms) {
+    EXPECT_EQ(request({'!', false}, "PR P"), "PR P\r");
+    EXPECT_EQ(request({'!', true}, "PR P"), "PR P\xEE\r");
+    EXPECT_EQ(request({'a', false}, "PR P"), "aPR P\n");
+    EXPECT_EQ(request({'a', true}, "PR P"), "aPR P\x8D\n");
+    EXPECT_EQ(escape({'!', false}), "\x1B");
+    EXPECT_EQ(escape({'b', true}), "b\x1B");
+}
+TEST(Wire, LinesAndAddresses) {
+    EXPECT_EQ(check_line(std::string(64, 'x')), "");
+    for (const auto& bad : {std::string(), std::string(65, 'x'), std::string("MA 1\r"), std::string("MA 1\n"), std::string("MA \x1B"),
+                            std::string("\xC3\xA4")})
+        EXPECT_NE(check_line(bad), "");
+    for (const char* good : {"!", "a", "Z", "0"})
+        EXPECT_EQ(check_address(good), "");
+    for (const char* bad : {"", "ab", "*", "^", "\n", " "})
+        EXPECT_NE(check_address(bad), "");
+}
+
+/// The sixteen rows: what comes back for PR with data `#a7`, and for a command.
+TEST(Framing, EveryEchoPartyAndChecksumMode) {
+    for (int em = 0; em < 4; ++em) {
+        for (int ck = 0; ck < 2; ++ck) {
+            for (const bool party : {false, true}) {
+                const auto shape = [&](const std::string& line, const std::string& data) {
+                    std::string sent = request({party ? 'a' : '!', ck > 0}, line);
+                    sent.pop_back();
+                    std::string s;
+                    if (em == 0 || em == 3) s += sent;
+                    if (em != 2) s += ck ? "\x06" : "\r\n";
+                    if (!data.empty()) s += data + (ck ? std::string(1, checksum(data)) : "") + "\r\n";
+                    if (em == 0) s += '>';
+                    return s;
+                };
+                Expect e;
+                e.mark = "#a";
+                e.checksum = ck > 0;
+                e.prompt = em == 0;
+                const std::string reply = shape("PR \"#a\",P", "#a7");
+                ReplyReader r;
+                r.begin(e);
+                for (std::size_t i = 0; i + 1 < reply.size(); ++i)
+                    ASSERT_EQ(r.push(reply.substr(i, 1)), Verdict::waiting) << em << ck << party << " at " << i;
+                EXPECT_EQ(r.push(reply.substr(reply.size() - 1)), Verdict::answered) << em << ck << party;
+                EXPECT_EQ(r.data(), "7");
+                e.kind = em == 2 ? Expect::Kind::nothing : Expect::Kind::command;
+                r.begin(e);
+                const Verdict v = r.push(shape("A=1000", ""));
+                if (em == 2) {
+                    EXPECT_EQ(v, Verdict::waiting);
+                    EXPECT_EQ(r.give_up(), Verdict::answered);
+                } else {
+                    EXPECT_EQ(v, Verdict::acknowledged) << em << ck << party;
+                }
+            }
+        }
+    }
+}
+TEST(Framing, ForeignAndLateTextIsNoAnswer) {
+    Expect e;
+    e.mark = "#b";
+    ReplyReader r;
+    r.begin(e);
+    EXPECT_EQ(r.push("\r\n#a42\r\n"), Verdict::waiting) << "the answer to the question before";
+    EXPECT_EQ(r.push("count 17\r\n"), Verdict::waiting) << "output of a program";
+    EXPECT_EQ(r.push("aPR \"#b\",P\n"), Verdict::waiting) << "an echo of our own bytes";
+    EXPECT_EQ(r.push("\r\n#b43\r\n"), Verdict::answered);
+    EXPECT_EQ(r.data(), "43");
+    EXPECT_NE(r.before().find("count 17"), std::string::npos);
+}
+TEST(Framing, SpoiledHalfAndRefused) {
+    Expect e;
+    e.mark = "#b";
+    e.checksum = true;
+    ReplyReader r;
+    const std::string good = "\x06#b43" + std::string(1, checksum("#b43")) + "\r\n";
+    std::string bad = good;
+    bad[3] = '5';
+    r.begin(e);
+    EXPECT_EQ(r.push(bad), Verdict::garbled);
+    r.begin(e);
+    EXPECT_EQ(r.push(good.substr(0, 4)), Verdict::waiting);
+    EXPECT_EQ(r.give_up(), Verdict::waiting) << "cut in the middle";
+    r.begin(e);
+    EXPECT_EQ(r.push("\x15"), Verdict::refused);
+    e.checksum = false;
+    r.begin(e);
+    EXPECT_EQ(r.push("\r\n"), Verdict::waiting);
+    EXPECT_EQ(r.give_up(), Verdict::refused) << "the line was obeyed, and nothing printed";
+}
+TEST(Framing, SeveralLinesUpToTheEndMark) {
+    Expect e;
+    e.mark = "#c";
+    e.end_mark = true;
+    ReplyReader r;
+    r.begin(e);
+    EXPECT_EQ(r.push("\r\n#cIS = 1, 0, 0\r\n"), Verdict::waiting);
+    EXPECT_EQ(r.push("IS = 2, 1, 1~\r\n"), Verdict::answered);
+    EXPECT_EQ(r.data(), "IS = 1, 0, 0\r\nIS = 2, 1, 1");
+}
+TEST(Framing, PlainText) {
+    EXPECT_EQ(plain_text("aPR P\r\n42\r\n>", "aPR P", false), "42");
+    EXPECT_EQ(plain_text("\x06"
+                         "42\x9A\r\n",
+                         "aPR P\x8D", true),
+              "42");
+}
+
+TEST(Program, FaultsHaveTheirLine) {
+    const auto known = [](const std::string& w) {
+        return w == "MA" || w == "H" || w == "BR" || w == "E" || w == "P" || w == "A" || w == "R1";
+    };
+    struct Row {
+        const char* text;
+        const char* fault;
+    };
+    for (const Row& r : {Row{"PG 1\nLB AA\nMX 1\nPG", "line 3"}, Row{"PG 1\nLB AA\nMA 1\nLB aa\nPG", "line 4: label AA stands in line 2"},
+                         Row{"PG 1\nMA 1\nE", "line 1: PG opens"}, Row{"PG 1\nBR ZZ\nPG", "line 2: there is no label ZZ"},
+                         Row{"PG 1\nMA 1        ' a comment that is far too long for the sixty-four characters of a line\nPG", "line 2"},
+                         Row{"PG 1\nMA \x01\nPG", "line 2"}, Row{"PG 1\nLB MA\nPG", "line 2: MA is a word"}, Row{"", "line 1"},
+                         Row{"PG 1\n7\nPG", "line 2"}}) {
+        const auto p = check_program(r.text, known);
+        EXPECT_NE(p.fault.find(r.fault), std::string::npos) << r.text << ": " << p.fault;
+        EXPECT_TRUE(p.lines.empty());
+    }
+}
+TEST(Program, GoodTextIsSentAsItStands) {
+    const auto known = [](const std::string& w) { return w == "MA" || w == "H"; };
+    const auto p = check_program("VA Q1=25\r\nLB K1\nMA Q1 'go\nH\nQ1=3\nBR k1,Q1<5\n\n' only a comment\n", known);
+    EXPECT_EQ(p.fault, "");
+    EXPECT_EQ(p.lines, (std::vector<std::string>{"PG 1", "VA Q1=25", "LB K1", "MA Q1 'go", "H", "Q1=3", "BR k1,Q1<5", "PG"}));
+    EXPECT_EQ(normal_form("ma  q1 'x"), normal_form("MA Q1"));
+    EXPECT_NE(normal_form("PR \"a b\""), normal_form("PR \"ab\""));
+}
+
+std::vector<std::string> decode(LineDecoder& d, std::string_view s, std::optional<bool> down) {
+    return d.on_frame(Frame::run({reinterpret_cast<const std::uint8_t*>(s.data()), s.size()}), down);
+}
+TEST(Decoder, Lines) {
+    LineDecoder d;
+    EXPECT_EQ(decode(d, "\n", true), std::vector<std::string>{"-> wakes the party line"});
+    EXPECT_EQ(decode(d, "aPR P\x8D\n", true), std::vector<std::string>{"-> to a: PR P [checksum 8D good]"});
+    EXPECT_EQ(decode(d, "aPR P\x8C\n", true), std::vector<std::string>{"-> to a: PR P [checksum 8C wrong]"});
+    EXPECT_EQ(decode(d, "*SL 0\n", true), std::vector<std::string>{"-> to all: SL 0"});
+    EXPECT_EQ(decode(d, "b\x1B", true), std::vector<std::string>{"-> ESC: stop at once for b"});
+    EXPECT_EQ(decode(d, "\x06", false), std::vector<std::string>{"<- ACK"});
+    EXPECT_EQ(decode(d, "\r\n42\r\n>", false), (std::vector<std::string>{"<- 42", "<- prompt"}));
+    EXPECT_TRUE(decode(d, "ha", false).empty());
+    EXPECT_EQ(d.finish(), std::vector<std::string>{"<- ha  (not ended)"});
+}
+
+}  // namespace
+}  // namespace axisgate::mcode

@@ -1,0 +1,89 @@
+// Tokens; see the header.
+// In: a line. Out: its tokens.
+// Never reads past the line or the limit: what is longer is cut, and the line's length is checked before.
+#include "adapters/mcode/twin_token.hpp"
+
+#include <charconv>
+
+namespace axisgate::mcode::twin {
+namespace {
+
+constexpr bool letter(char c) noexcept { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+constexpr bool digit(char c) noexcept { return c >= '0' && c <= '9'; }
+
+/// End of the number that begins at `at`.
+std::size_t number_end(std::string_view s, std::size_t at) noexcept {
+    while (at < s.size() && digit(s[at]))
+        ++at;
+    if (at < s.size() && s[at] == '.') {
+        ++at;
+        while (at < s.size() && digit(s[at]))
+            ++at;
+    }
+    if (at < s.size() && (s[at] == 'e' || s[at] == 'E')) {
+        std::size_t e = at + 1;
+        if (e < s.size() && (s[e] == '+' || s[e] == '-')) ++e;
+        if (e < s.size() && digit(s[e])) {
+            while (e < s.size() && digit(s[e]))
+                ++e;
+            at = e;
+        }
+    }
+    return at;
+}
+
+Number number_of(std::string_view s) noexcept {
+    std::int64_t i = 0;
+    const char* const last = s.data() + s.size();
+    if (const auto [end, fault] = std::from_chars(s.data(), last, i); fault == std::errc{} && end == last) return Number::of(i);
+    double d = 0;
+    if (const auto [end, fault] = std::from_chars(s.data(), last, d); fault == std::errc{} && end == last) return Number::of_real(d);
+    return Number::of_real(1e300);  // too large for a double; every range refuses it
+}
+
+}  // namespace
+
+Tokens::Tokens(std::string_view line) noexcept {
+    if (line.size() > line_limit) line = line.substr(0, line_limit);
+    std::size_t at = 0;
+    while (at < line.size() && size_ < line_limit) {
+        const char c = line[at];
+        if (c == ' ' || c == '\t') {
+            ++at;
+            continue;
+        }
+        if (c == '\'') break;
+        Token& t = tokens_[size_++];
+        const std::size_t begin = at;
+        if (letter(c)) {
+            while (at < line.size() && (letter(line[at]) || digit(line[at]) || line[at] == '_'))
+                ++at;
+            t.kind = Token::Kind::name;
+        } else if (digit(c) || (c == '.' && at + 1 < line.size() && digit(line[at + 1]))) {
+            at = number_end(line, at);
+            t.kind = Token::Kind::number;
+            t.number = number_of(line.substr(begin, at - begin));
+        } else if (c == '"') {
+            const std::size_t close = line.find('"', at + 1);
+            t.kind = close == std::string_view::npos ? Token::Kind::other : Token::Kind::text;
+            t.text = line.substr(at + 1, close == std::string_view::npos ? close : close - at - 1);
+            at = close == std::string_view::npos ? line.size() : close + 1;
+            continue;
+        } else {
+            const char d = at + 1 < line.size() ? line[at + 1] : '\0';
+            t.kind = Token::Kind::sign;
+            t.sign = c;
+            ++at;
+            if ((c == '<' && d == '>') || (c == '<' && d == '=') || (c == '>' && d == '=') || (c == '=' && d == '<')) {
+                t.sign = d == '>' ? 'n' : c == '>' ? 'g' : 'l';
+                ++at;
+            } else if (std::string_view("=+-*/&|^!,;<>").find(c) == std::string_view::npos) {
+                t.kind = Token::Kind::other;
+            }
+        }
+        t.text = line.substr(begin, at - begin);
+    }
+    tokens_[size_] = Token{};
+}
+
+}  // namespace axisgate::mcode::twin

@@ -134,37 +134,48 @@ std::optional<std::string> text_of(const toml::node& node) {
     return std::nullopt;
 }
 
-/// Line of the first byte above ASCII that stands neither in a string nor in a comment; 0: there is none. No key has such a letter, and the
-/// TOML library's look-up of white space is not defined for some of them.
+bool has_foreign(std::string_view text) {
+    return std::ranges::any_of(text, [](char c) { return static_cast<unsigned char>(c) >= 0x80; });
+}
+
+/// Whether a line with letters beyond ASCII is one that the TOML library reads without looking such a letter up as white space or as a part
+/// of a key, which it does not do safely: a comment, or `key = "..."` or `key = ["...", "..."]` with all of them inside the quotes.
+bool foreign_letters_are_quoted(std::string_view line) {
+    const auto skip = [&](auto&& wanted) {
+        while (!line.empty() && wanted(line.front())) line.remove_prefix(1);
+    };
+    const auto blank = [](char c) { return c == ' ' || c == '\t'; };
+    skip(blank);
+    if (!line.starts_with('#')) {
+        const std::size_t before = line.size();
+        skip([](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-'; });
+        if (line.size() == before) return false;
+        skip(blank);
+        if (!line.starts_with('=')) return false;
+        line.remove_prefix(1);
+        while (!line.empty() && line.front() != '#') {
+            const char quote = line.front();
+            line.remove_prefix(1);
+            if (quote == '"' || quote == '\'') {
+                while (!line.empty() && line.front() != quote) line.remove_prefix(quote == '"' && line.front() == '\\' && line.size() > 1 ? 2 : 1);
+                if (line.empty()) return false;
+                line.remove_prefix(1);
+            } else if (static_cast<unsigned char>(quote) >= 0x80) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/// Line of the first letter beyond ASCII that stands where it must not; 0: there is none.
 std::size_t line_of_foreign_letter(std::string_view text) {
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-    std::size_t line = 1;
-    std::string_view quote;  // what ends the string that we are in
-    bool comment = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char ch = text[i];
-        if (ch == '\n') {
-            ++line;
-            comment = false;
-            if (quote.size() == 1) quote = {};  // a string of one line that is not closed: the parser says so
-        } else if (comment) {
-            continue;
-        } else if (!quote.empty()) {
-            if (quote.front() == '"' && ch == '\\') {
-                ++i;
-            } else if (text.substr(i).starts_with(quote)) {
-                i += quote.size() - 1;
-                quote = {};
-            }
-        } else if (ch == '#') {
-            comment = true;
-        } else if (ch == '"' || ch == '\'') {
-            const bool three = text.substr(i).starts_with(ch == '"' ? "\"\"\"" : "'''");
-            quote = ch == '"' ? (three ? "\"\"\"" : "\"") : (three ? "'''" : "'");
-            i += quote.size() - 1;
-        } else if (static_cast<unsigned char>(ch) >= 0x80) {
-            return line;
-        }
+    for (std::size_t number = 1; !text.empty(); ++number) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        const std::string_view line = text.substr(0, end);
+        if (has_foreign(line) && !foreign_letters_are_quoted(line)) return number;
+        text.remove_prefix(std::min(end + 1, text.size()));
     }
     return 0;
 }

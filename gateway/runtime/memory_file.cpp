@@ -6,6 +6,7 @@
 
 #include <boost/json/parse.hpp>
 #include <boost/json/serialize.hpp>
+#include <cmath>
 
 namespace axisgate {
 namespace json = boost::json;
@@ -40,6 +41,7 @@ std::string memories_from_json(std::string_view text, std::map<std::string, NonV
             if (v.is_bool()) value = v.get_bool();
             if (v.is_int64()) value = v.get_int64();
             if (v.is_uint64()) return fmt::format("{} of {} is too large", std::string_view(name), std::string_view(address));
+            if (v.is_double() && !std::isfinite(v.get_double())) return fmt::format("{} of {} is too large", std::string_view(name), std::string_view(address));
             if (v.is_double()) value = v.get_double();
             if (v.is_string()) value = std::string(v.get_string());
             m[std::string(name)] = std::move(value);

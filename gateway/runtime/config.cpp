@@ -145,6 +145,8 @@ bool foreign_letters_are_quoted(std::string_view line) {
         while (!line.empty() && wanted(line.front())) line.remove_prefix(1);
     };
     const auto blank = [](char c) { return c == ' ' || c == '\t'; };
+    // Strings of several lines begin so, and an empty string beside another would be taken for them.
+    if (line.find("'''") != std::string_view::npos || line.find("\"\"\"") != std::string_view::npos) return false;
     skip(blank);
     if (!line.starts_with('#')) {
         const std::size_t before = line.size();
@@ -160,7 +162,7 @@ bool foreign_letters_are_quoted(std::string_view line) {
                 while (!line.empty() && line.front() != quote) line.remove_prefix(quote == '"' && line.front() == '\\' && line.size() > 1 ? 2 : 1);
                 if (line.empty()) return false;
                 line.remove_prefix(1);
-            } else if (static_cast<unsigned char>(quote) >= 0x80) {
+            } else if (!blank(quote) && quote != '[' && quote != ',' && quote != ']' && quote != '\r') {
                 return false;
             }
         }

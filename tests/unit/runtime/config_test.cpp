@@ -87,7 +87,7 @@ TEST(Config, LettersBeyondAsciiStandInQuotesAndCommentsAlone) {
     EXPECT_TRUE(faults_of("# schön\n[data]\ndir = \"/tmp/möbel \\\" ä\"\n[log]\nfile = '/tmp/ü'  # é\n").empty());
     EXPECT_TRUE(faults_of("\xEF\xBB\xBF[data]\ndir = \"x\"\n").empty());
     for (const char* text : {"[data]\nd\xC3\xA4r = \"x\"\n", "[data]\ndir = \"x\" \xEF\xBB\xAF\n", "[data]\n\xEF\xBB\xAF", "[data]\ndir = \"open\n\xEF\xBB\xAF",
-                             "[data]\ner r = 0.0v.[*:10\"1\xEF\xBB\xBD\n", "[data]\ndir = \"open \xEF\xBB\xBD\n"}) {
+                             "[data]\ner r = 0.0v.[*:10\"1\xEF\xBB\xBD\n", "[data]\ndir = \"open \xEF\xBB\xBD\n", "[data]\ndir = 2.~8{''''{''\xEF\xBB\xAF''\n"}) {
         const auto faults = faults_of(text);
         ASSERT_EQ(faults.size(), 1u) << text;
         EXPECT_NE(faults[0].text.find("ASCII"), std::string::npos) << faults[0].text;

@@ -2,6 +2,8 @@
 
 In: the program's path. Out: Gateway and Twin objects, an API client, a Modbus client of plain sockets. Never leaves a process behind.
 """
+import termios
+import select
 import http.client
 import json
 import os
@@ -207,3 +209,29 @@ class Modbus:
 
     def write32(self, address, value):
         self.write(address, [(value >> 16) & 0xFFFF, value & 0xFFFF])
+
+class Port:
+    """A pseudo-terminal as a terminal program opens it: raw, 9600 bit/s."""
+
+    def __init__(self, path, character_size=termios.CS8):
+        self.fd = os.open(path, os.O_RDWR | os.O_NOCTTY)
+        mode = termios.tcgetattr(self.fd)
+        mode[0] = mode[1] = mode[3] = 0
+        mode[2] = character_size | termios.CREAD | termios.CLOCAL
+        mode[4] = mode[5] = termios.B9600
+        termios.tcsetattr(self.fd, termios.TCSANOW, mode)
+
+    def ask(self, data, enough=None, seconds=5.0):
+        """What comes until `enough` holds for it; without it, what comes in a third of a second."""
+        os.write(self.fd, data)
+        got, end = b"", time.monotonic() + (seconds if enough else 0.35)
+        while time.monotonic() < end and not (enough and enough(got)):
+            if select.select([self.fd], [], [], 0.05)[0]:
+                got += os.read(self.fd, 256)
+        return got
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        os.close(self.fd)

@@ -1,39 +1,11 @@
 """MCode from outside: a party line on a pseudo-terminal, driven as by hand; a program that curl stores and starts on the demo's drives."""
 import json
-import os
 import pathlib
-import select
-import termios
 import time
 
-from harness import Gateway, Process, run, until
+from harness import Gateway, Port, Process, run, until
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
-
-
-class Port:
-    def __init__(self, path):
-        self.fd = os.open(path, os.O_RDWR | os.O_NOCTTY)
-        mode = termios.tcgetattr(self.fd)
-        mode[0] = mode[1] = mode[3] = 0
-        mode[2] = termios.CS8 | termios.CREAD | termios.CLOCAL
-        mode[4] = mode[5] = termios.B9600
-        termios.tcsetattr(self.fd, termios.TCSANOW, mode)
-
-    def ask(self, data, enough=None, seconds=3.0):
-        """What comes until `enough` holds for it; without it, what comes in a third of a second."""
-        os.write(self.fd, data)
-        got, end = b"", time.monotonic() + (seconds if enough else 0.35)
-        while time.monotonic() < end and not (enough and enough(got)):
-            if select.select([self.fd], [], [], 0.05)[0]:
-                got += os.read(self.fd, 256)
-        return got
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        os.close(self.fd)
 
 
 def test_a_party_line_driven_by_hand(folder):

@@ -1,13 +1,11 @@
 """PA-CONTROL from outside: the manual's frames over a pseudo-terminal, byte for byte; four axes of the demo site; decoding a recording."""
 import json
-import os
 import pathlib
-import select
 import struct
 import termios
 import time
 
-from harness import Gateway, Process, run, until
+from harness import Gateway, Port, Process, run, until
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 
@@ -41,28 +39,8 @@ def printed_frames():
     return pairs
 
 
-class Port:
-    def __init__(self, path):
-        self.fd = os.open(path, os.O_RDWR | os.O_NOCTTY)
-        mode = termios.tcgetattr(self.fd)
-        mode[0] = mode[1] = mode[3] = 0
-        mode[2] = termios.CS7 | termios.CREAD | termios.CLOCAL
-        mode[4] = mode[5] = termios.B9600
-        termios.tcsetattr(self.fd, termios.TCSANOW, mode)
-
-    def ask(self, data, seconds=5):
-        os.write(self.fd, data)
-        got, end = b"", time.monotonic() + seconds
-        while not got.endswith(b"\x04") and time.monotonic() < end:
-            if select.select([self.fd], [], [], 0.1)[0]:
-                got += os.read(self.fd, 256)
-        return got
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        os.close(self.fd)
+def whole(got):
+    return got.endswith(b"\x04")
 
 
 def framed(text):
@@ -87,24 +65,24 @@ def test_the_manuals_frames_over_a_pseudo_terminal(folder):
     pairs = printed_frames()
     assert len(pairs) >= 2, pairs
     with Process("twin", "pacontrol", "--line", f"pty:{folder / 'com1'}"):
-        with Port(folder / "com1") as port:
+        with Port(folder / "com1", termios.CS7) as port:
             for name, request, reply in pairs:
-                assert port.ask(request) == reply, name
+                assert port.ask(request, whole) == reply, name
             # the sequence of chapter 3.4: into ONLINE, move axis 2, poll until the end of processing
-            assert text_of(port.ask(framed("0603;0;0;0"))) == "0;1;31;0;0;0"
-            first = text_of(port.ask(framed("0A87;2;1;552.0"))).split(";")
+            assert text_of(port.ask(framed("0603;0;0;0"), whole)) == "0;1;31;0;0;0"
+            first = text_of(port.ask(framed("0A87;2;1;552.0"), whole)).split(";")
             assert first[:5] == ["0", "0", "31", "0", "1"], first
             positions = [float(first[5])]
             for _ in range(200):
-                answer = text_of(port.ask(b"\x04")).split(";")
+                answer = text_of(port.ask(b"\x04", whole)).split(";")
                 positions.append(float(answer[5]))
                 if answer[1] == "1":
                     break
                 time.sleep(0.05)
             assert answer[1] == "1" and answer[5] == "552.0000", answer
             assert positions == sorted(positions) and len(set(positions)) > 5, positions
-            assert text_of(port.ask(framed("1900;5;0;0").replace(b"\x036\x04", b"\x039\x04"))).startswith("16;"), "a wrong check is told"
-            assert text_of(port.ask(b"\x01\x02190" + framed("1906;5;0;0"))) == "0;1;31;0;0;12345", "a frame inside a frame begins anew"
+            assert text_of(port.ask(framed("1900;5;0;0").replace(b"\x036\x04", b"\x039\x04"), whole)).startswith("16;"), "a wrong check is told"
+            assert text_of(port.ask(b"\x01\x02190" + framed("1906;5;0;0"), whole)) == "0;1;31;0;0;12345", "a frame inside a frame begins anew"
 
 
 def test_four_axes_of_the_demo_site(folder):

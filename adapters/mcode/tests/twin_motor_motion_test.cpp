@@ -183,7 +183,7 @@ TEST(McodeMotion, MaWithThirdFieldNeverStops) {  // trap 13
     EXPECT_EQ(b.get("P"), 0);
     EXPECT_EQ(b.start("MA", {1, 2}), 21);
     EXPECT_EQ(b.start("MA", {1, 0, 2}), 21);
-    EXPECT_EQ(b.start("MA", {2147483648.0}), 21);
+    EXPECT_EQ(b.start("MA", 2147483648.0), 21);
 }
 
 TEST(McodeMotion, BacklashMathematicalAndMechanical) {  // trap 19

@@ -125,7 +125,7 @@ void Device::settle(Out& out) {
                 break;
             }
             run_slice(slice_due_);
-            slice_due_ += slice_time;
+            if (slice_due_ != never) slice_due_ += slice_time;  // never: the slice ended the program
             if (mode_ == Mode::step) break;
         }
         if (run_.idle()) slice_due_ = never;

@@ -60,7 +60,8 @@ std::unique_ptr<Twin> make_twin(const Catalogue&, const TwinSetup& setup) {
     if (auto programs = programs_of(text("programs")); !programs.empty()) d.control.programs = std::move(programs);
     if (setup.options.contains("lasting_errors")) {
         d.control.lasting.clear();
-        for (const auto item : split(text("lasting_errors"), ',')) {
+        const std::string list = text("lasting_errors");
+        for (const auto item : split(list, ',')) {
             if (const auto n = number(item, 1, 999)) d.control.lasting.insert(static_cast<std::uint16_t>(*n));
         }
     }

@@ -23,6 +23,12 @@ enum class Door : std::uint8_t { none = 0, modbus = 1, ethernet_ip = 2, http = 3
 struct Origin {
     Door door = Door::internal;
     std::shared_ptr<const std::string> who;
+    /// The part that stays the same when a client connects anew for each request: without the port.
+    [[nodiscard]] std::string client() const {
+        if (!who) return std::string(name_of(door));
+        const auto colon = who->rfind(':');
+        return std::string(name_of(door)) + " " + (door == Door::http ? who->substr(0, colon) : *who);
+    }
     [[nodiscard]] std::string text() const { return std::string(name_of(door)) + (who ? " " + *who : std::string()); }
 };
 
@@ -48,6 +54,12 @@ struct Move {
     std::optional<std::int64_t> acceleration;   ///< increments/s^2, > 0
     std::optional<std::int64_t> deceleration;   ///< increments/s^2, > 0
     bool prepare_only = false;                  ///< load, but start only with StartTogether
+    /// Dead-man time-out of a velocity move, ms (100..10000): the axis is halted when this has passed without the same command again.
+    /// The same command again costs no exchange with the drive.
+    std::optional<std::int64_t> hold_ms;
+    /// With hold_ms: only that, never a motion of its own; refused if the axis does not move by this held move any more. A renewal that
+    /// comes after the stop that was sent after it then starts nothing.
+    bool renew_only = false;
 };
 /// Starts several prepared axes of one line at the same instant. Command::axis is the first of them.
 struct StartTogether {

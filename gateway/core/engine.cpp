@@ -214,6 +214,7 @@ void Engine::on_command(Command c, Instant now) {
             no = guard_move(probe, AxisLimits{}, 0);
         }
         if (no) return refuse(c, no->reason, fmt::format("axis {}: {}", name, no->text));
+        if (hold_on(*a, c, now)) return;
         auto before = a->profile;
         auto decision = data ? a->profile.on_process_data(*data) : a->profile.on_command(c.body);
         if (decision.refused) return refuse(c, decision.reason, fmt::format("axis {}: {}", name, decision.text));
@@ -276,6 +277,9 @@ void Engine::on_command(Command c, Instant now) {
 void Engine::give_order(Axis& a, Client* client, CommandBody body, Origin origin, Instant now) {
     if (std::holds_alternative<Move>(body) || std::holds_alternative<Home>(body) || is_urgent(body)) {
         supersede(a, client ? client->number : 0, name_of(body), now);
+        a.held = {};  // another motion, or a stop: nobody's finger holds this one
+        const auto* move = client ? std::get_if<Move>(&client->body) : nullptr;
+        if (move && move->hold_ms) begin_hold(a, *move, client->origin);
     }
     const Ticket ticket = make_ticket(Door::internal, next_++);
     OrderRecord record;
@@ -344,6 +348,12 @@ void Engine::order_result(const Result& given, Instant now) {
         }
     }
     a->profile.on_order_result(body, is_good, now);
+    if (std::holds_alternative<Move>(body)) {
+        if (!is_good)
+            a->held = {};
+        else if (a->held.time > Duration::zero())
+            a->held.until = now + a->held.time;
+    }
     publish(*a, now);
     const auto c = clients_.find(number);
     if (c == clients_.end()) {

@@ -105,6 +105,9 @@ private:
     [[nodiscard]] Side* side_of(const Drive& drive) const;
     [[nodiscard]] bool take_authority(Axis& axis, const Origin& origin, Instant now);
     void supersede(Axis& axis, std::uint64_t by, std::string_view what, Instant now);
+    [[nodiscard]] bool hold_on(Axis& axis, const Command& command, Instant now);
+    void begin_hold(Axis& axis, const Move& move, const Origin& origin);
+    void check_hold(Axis& axis, Instant now);
 
     // site and presence (engine_site.cpp)
     void build_line(LineUnit& unit, Instant now);

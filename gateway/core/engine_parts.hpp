@@ -78,6 +78,13 @@ struct Engine::Axis {
     Drive* drive = nullptr;
     AxisLimits limits;
     AxisProfile profile;
+    /// The dead-man time-out of a velocity move under way; `until` is `never` if there is none.
+    struct Held {
+        Instant until = never;      ///< runs from the drive's acknowledgement on
+        Duration time{};            ///< 0: no hold
+        std::int64_t velocity = 0;  ///< increments/s
+        std::string who;
+    } held;
     Door authority = Door::none;
     std::string authority_who;
     bool stale = true;

@@ -497,6 +497,7 @@ void Engine::housekeeping(Instant now) {
             publish(a, now);
         }
         if (!a.clients.empty()) track(a, now);
+        check_hold(a, now);
     }
     for (const auto& slot : drives_) {
         if (!slot) continue;

@@ -150,6 +150,48 @@ void Engine::track(Axis& a, Instant now) {
     }
 }
 
+/// The same velocity move again while it is held: it goes on, and nothing is sent. True: the command has its answer.
+bool Engine::hold_on(Axis& a, const Command& c, Instant now) {
+    const auto* m = std::get_if<Move>(&c.body);
+    if (!m || !m->hold_ms) return false;
+    const bool same = a.held.until != never && a.held.velocity == m->target && a.held.who == c.origin.client() &&
+                      a.profile.state() == PowerState::operation_enabled && !a.profile.feedback().fault;
+    if (!same) {
+        if (!m->renew_only) return false;
+        refuse(c, Reason::wrong_state,
+               fmt::format("axis {}: there is no held velocity move of this client to renew; it has ended", a.spec.name));
+        return true;
+    }
+    a.held.until = now + std::chrono::milliseconds(*m->hold_ms);
+    Result r;
+    r.ticket = c.ticket;
+    r.axis = c.axis;
+    r.outcome = Outcome::accepted;
+    host_.on_result(r);
+    return true;
+}
+
+/// Its time begins when the drive has taken the move: a slow line must not end what it has not begun.
+void Engine::begin_hold(Axis& a, const Move& m, const Origin& origin) {
+    a.held = {never, std::chrono::milliseconds(*m.hold_ms), m.target, origin.client()};
+}
+
+/// Looked at with every housekeeping, so a halt comes at most one of its periods late.
+void Engine::check_hold(Axis& a, Instant now) {
+    if (now < a.held.until) return;
+    const std::string who = a.held.who;
+    a.held = {};
+    Event e;
+    e.severity = Severity::warning;
+    e.kind = "hold";
+    e.axis = a.spec.name;
+    e.text = fmt::format("{} has not renewed its velocity move in time: the axis is halted", who.empty() ? "the client" : who);
+    event(std::move(e), now);
+    auto decision = a.profile.on_command(Halt{});
+    for (auto& o : decision.orders)
+        give_order(a, nullptr, std::move(o), {}, now);
+}
+
 void Engine::shut_down(Instant now) {
     now_ = std::max(now_, now);
     if (closing_) return;

@@ -137,6 +137,50 @@ TEST_P(EveryFamily, VelocityHaltAndQuickStop) {
     EXPECT_EQ(power_state_of(w.picture(a1).statusword), PowerState::quick_stop_active);
 }
 
+TEST_P(EveryFamily, AHeldMoveEndsWhenItIsNotRenewed) {
+    start();
+    enable();
+    Move jog;
+    jog.kind = Move::Kind::velocity;
+    jog.target = 2000;
+    jog.acceleration = 20000;
+    jog.deceleration = 20000;
+    jog.hold_ms = 600;
+    const Result* r = w.wait(w.command(a1, jog), 5s);
+    if (r && r->reason == Reason::not_supported) return;
+    ASSERT_TRUE(r && good(*r)) << (r ? r->text : "none");
+    Move renewal = jog;
+    renewal.renew_only = true;
+    for (int i = 0; i < 6; ++i) {  // renewed: it goes on far beyond its time
+        w.run_for(400ms);
+        r = w.wait(w.command(a1, i % 2 ? jog : renewal), 1s);
+        ASSERT_TRUE(r && good(*r)) << (r ? r->text : "none");
+    }
+    EXPECT_TRUE(w.picture(a1).flags & flag_moving);
+    const auto released = w.now;
+    ASSERT_TRUE(w.run_until_true([&] { return (w.picture(a1).flags & flag_moving) == 0; }, 5s)) << "nobody holds it, and it goes on";
+    EXPECT_GE(w.now - released, 550ms) << "it must not end before its time";
+    EXPECT_EQ(std::ranges::count(w.events, std::string("hold"), &Event::kind), 1);
+    EXPECT_EQ(power_state_of(w.picture(a1).statusword), PowerState::operation_enabled) << "halted, not switched off";
+    // A halt, or another motion, ends the hold: nothing is halted later that somebody else moves.
+    r = w.wait(w.command(a1, jog), 5s);
+    ASSERT_TRUE(r && good(*r)) << (r ? r->text : "none");
+    r = w.wait(w.command(a1, Halt{}, true), 5s);
+    ASSERT_TRUE(r && good(*r)) << (r ? r->text : "none");
+    r = w.wait(w.command(a1, renewal), 1s);
+    ASSERT_TRUE(r);
+    EXPECT_EQ(r->reason, Reason::wrong_state) << "a renewal that comes after the halt starts nothing";
+    w.run_for(500ms);
+    EXPECT_FALSE(w.picture(a1).flags & flag_moving);
+    Move on = jog;
+    on.hold_ms.reset();
+    r = w.wait(w.command(a1, on), 5s);
+    ASSERT_TRUE(r && good(*r)) << (r ? r->text : "none");
+    w.run_for(2s);
+    EXPECT_TRUE(w.picture(a1).flags & flag_moving);
+    EXPECT_EQ(std::ranges::count(w.events, std::string("hold"), &Event::kind), 1);
+}
+
 TEST_P(EveryFamily, NothingGoesOnBecauseItIsEnabledAgain) {
     start();
     for (const bool quick : {false, true}) {

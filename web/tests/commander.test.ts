@@ -153,7 +153,7 @@ describe('jog', () => {
   it('moves while held and halts when let go', async () => {
     const { said, jog, names, commander } = jogOf();
     jog.press(-5, 'Jog −5 mm/s');
-    expect(said[0]!.command).toEqual({ command: 'move_velocity', velocity: -5 });
+    expect(said[0]!.command).toEqual({ command: 'move_velocity', velocity: -5, hold_ms: 1000 });
     said[0]!.good();
     await settle();
     jog.release();
@@ -163,6 +163,24 @@ describe('jog', () => {
     await settle();
     expect(commander.note('a').value.text).toBe('Jog: ended, halt accepted');
     expect(jog.active).toBe(false);
+  });
+  it('says while it is held that the hand is still there, and never begins a motion by that', async () => {
+    const { said, jog } = jogOf();
+    jog.press(5, 'Jog');
+    said[0]!.good();
+    await settle();
+    await vi.advanceTimersByTimeAsync(250);
+    expect(said[1]!.command).toEqual({ command: 'move_velocity', velocity: 5, hold_ms: 1000, renew: true });
+    said[1]!.bad(new Problem('unreachable', 'the gateway cannot be reached')); // the gateway's own time-out is there for that
+    await settle();
+    await vi.advanceTimersByTimeAsync(250);
+    expect(said).toHaveLength(3);
+    said[2]!.bad(refusal('there is no held velocity move'));
+    await settle();
+    expect(jog.active).toBe(false);
+    expect(said.map((s) => s.command.command)).toEqual(['move_velocity', 'move_velocity', 'move_velocity', 'halt']);
+    await vi.advanceTimersByTimeAsync(2000);
+    expect(said).toHaveLength(4);
   });
   it('halts a second time if it was let go before the move was answered', async () => {
     const { said, jog, names } = jogOf();

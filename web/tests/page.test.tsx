@@ -139,7 +139,7 @@ describe('controls', () => {
     type(field('Speed of feeder'), '3');
     const jog = button('Jog feeder backward while held');
     jog.dispatchEvent(new PointerEvent('pointerdown', { button: 0, bubbles: true }));
-    expect(client.command).toHaveBeenLastCalledWith('feeder', { command: 'move_velocity', velocity: -3 }, false);
+    expect(client.command).toHaveBeenLastCalledWith('feeder', { command: 'move_velocity', velocity: -3, hold_ms: 1000 }, false);
     await tick();
     jog.dispatchEvent(new PointerEvent('pointerup', { bubbles: true }));
     expect(client.command).toHaveBeenLastCalledWith('feeder', { command: 'halt' }, true);

@@ -19,7 +19,7 @@ constexpr double largest_increments = 9007199254740992.0;  // 2^53
 
 struct Shape {
     std::string_view command;
-    std::array<std::string_view, 5> fields;  ///< beside "command"; empty ones are none
+    std::array<std::string_view, 6> fields;  ///< beside "command"; empty ones are none
 };
 constexpr std::array shapes{Shape{"enable", {}},
                             Shape{"disable", {}},
@@ -30,7 +30,7 @@ constexpr std::array shapes{Shape{"enable", {}},
                             Shape{"set_position", {"position"}},
                             Shape{"move_absolute", {"position", "velocity", "acceleration", "deceleration", "prepare"}},
                             Shape{"move_relative", {"position", "velocity", "acceleration", "deceleration", "prepare"}},
-                            Shape{"move_velocity", {"velocity", "acceleration", "deceleration", "prepare"}}};
+                            Shape{"move_velocity", {"velocity", "acceleration", "deceleration", "prepare", "hold_ms", "renew"}}};
 
 class Reader {
 public:
@@ -97,6 +97,21 @@ public:
         }
         return static_cast<std::int16_t>(d);
     }
+    std::optional<std::int64_t> hold() {
+        const auto* v = body_.if_contains("hold_ms");
+        if (!v || v->is_null()) return std::nullopt;
+        const double d = v->is_number() ? v->to_number<double>() : 0.5;
+        if (std::nearbyint(d) != d) {
+            malformed("hold_ms", "hold_ms must be a whole number", "write milliseconds, 100 to 10000, or leave it out");
+            return std::nullopt;
+        }
+        if (d < 100 || d > 10'000) {
+            out_of_range("hold_ms", "hold_ms is outside 100..10000",
+                         "write milliseconds after which the axis is halted unless the command comes again");
+            return std::nullopt;
+        }
+        return static_cast<std::int64_t>(d);
+    }
     Move move(Move::Kind kind) {
         Move m;
         m.kind = kind;
@@ -109,6 +124,11 @@ public:
         m.acceleration = increments("acceleration", false, true, "/s^2");
         m.deceleration = increments("deceleration", false, true, "/s^2");
         m.prepare_only = flag("prepare");
+        if (kind == Move::Kind::velocity) {
+            m.hold_ms = hold();
+            m.renew_only = flag("renew");
+            if (m.renew_only && !m.hold_ms) malformed("renew", "renew needs hold_ms", "add \"hold_ms\", the time until the next renewal");
+        }
         return m;
     }
     [[nodiscard]] bool is_malformed() const noexcept { return malformed_; }

@@ -34,6 +34,21 @@ TEST(CommandReader, Converts) {
     EXPECT_FALSE(std::get<Move>(*read(R"({"command":"move_absolute","position":1,"velocity":null})").body).velocity) << "null is not given";
 }
 
+TEST(CommandReader, DeadManTimeOutOfAVelocityMove) {
+    EXPECT_EQ(std::get<Move>(*read(R"({"command":"move_velocity","velocity":1,"hold_ms":700})").body).hold_ms, 700);
+    EXPECT_FALSE(std::get<Move>(*read(R"({"command":"move_velocity","velocity":1})").body).hold_ms);
+    for (const auto* wrong : {"99", "10001", "0.5", "\"700\"", "-1", "1e30"}) {
+        const auto r = read(R"({"command":"move_velocity","velocity":1,"hold_ms":)" + std::string(wrong) + "}");
+        EXPECT_FALSE(r.body) << wrong;
+        ASSERT_EQ(r.faults.size(), 1u) << wrong;
+        EXPECT_EQ(r.faults[0].pointer, "/hold_ms") << wrong;
+    }
+    EXPECT_TRUE(std::get<Move>(*read(R"({"command":"move_velocity","velocity":1,"hold_ms":700,"renew":true})").body).renew_only);
+    EXPECT_FALSE(read(R"({"command":"move_velocity","velocity":1,"renew":true})").body) << "renew what, for how long?";
+    EXPECT_FALSE(read(R"({"command":"move_absolute","position":1,"hold_ms":700})").body)
+        << "a move that ends by itself needs nobody's hand";
+}
+
 TEST(CommandReader, SimpleCommands) {
     for (const auto* name : {"enable", "disable", "quick_stop", "halt", "reset_fault"}) {
         const auto r = read("{\"command\":\"" + std::string(name) + "\"}");

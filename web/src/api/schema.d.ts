@@ -1083,6 +1083,13 @@ export interface components {
              * @default false
              */
             prepare?: boolean;
+            /** @description dead-man time-out: the axis is halted when this has passed (50 ms more at most) without the same command from the same client again; a renewal costs the drive no exchange */
+            hold_ms?: number;
+            /**
+             * @description with hold_ms: renews a held move and never starts one; 409 if it has ended
+             * @default false
+             */
+            renew?: boolean;
         };
         Action: {
             name: string;

@@ -1,10 +1,13 @@
 // Jog: the axis moves while a button is held, and stops when it is let go, whatever happens first. In: press and release. Out: one
-// move_velocity, then halts. The halt is sent at once, and again when the move has been answered if that came later; if it fails it
+// move_velocity with a dead-man time-out, renewed while held, then halts. The halt is sent at once, and again when the move has been answered if that came later; if it fails it
 // is tried again for three seconds, and then said loudly. Never moves again without a new press.
 import { asProblem } from '../api/problem';
 import type { Client } from '../api/client';
 import type { Commander } from './commander';
 
+/** The gateway halts the axis by itself when it has not heard of the jog for so long: the page may be gone, or its network. */
+const hold_ms = 1000;
+const renew_ms = 250;
 const retry_ms = 300;
 const mostRetries = 10;
 
@@ -24,14 +27,35 @@ export class Jog {
   press(velocity: number, words: string): void {
     if (this.held) return;
     const mine = (this.held = Math.random());
-    void this.commander.send(this.axis, { command: 'move_velocity', velocity }, words).then((answer) => {
+    void this.commander.send(this.axis, { command: 'move_velocity', velocity, hold_ms }, words).then((answer) => {
       const taken = 'result' in answer;
       const certainlyNot = !taken && (answer.kind === 'cancelled' || (answer.kind === 'answered' && answer.status < 500));
       const stillHeld = this.held === mine;
       if (!taken && stillHeld) this.held = 0;
       // Let go before the answer: the first halt may have overtaken the move. No answer: the move may have been taken.
       if (!certainlyNot && !(taken && stillHeld)) void this.halt(false);
+      if (taken && stillHeld) void this.renew(mine, velocity);
     });
+  }
+
+  /** Says again and again that the hand is still there. What fails is not made good here: the gateway's time-out is. */
+  private async renew(mine: number, velocity: number): Promise<void> {
+    for (;;) {
+      await new Promise((r) => setTimeout(r, renew_ms));
+      if (this.held !== mine) return;
+      try {
+        await this.client.command(this.axis, { command: 'move_velocity', velocity, hold_ms, renew: true }, true);
+      } catch (error) {
+        const problem = asProblem(error);
+        if (this.held !== mine) return;
+        if (problem.kind === 'answered' && problem.status < 500) {
+          this.held = 0;
+          this.commander.tell(this.axis, 'refused', `Jog: ended. ${problem.words}`);
+          void this.halt(false);
+          return;
+        }
+      }
+    }
   }
 
   release(): void {

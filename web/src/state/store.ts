@@ -234,7 +234,7 @@ export class Store {
     if (axis === null) {
       this.trails.delete(name);
     } else if (axis.online && !axis.stale) {
-      this.trail(name).add({ at_ms: message.at / 1e6, position: axis.position, velocity: axis.velocity, target: axis.target_position });
+      this.trail(name).add({ at_ms: message.at / 1e6, position: axis.position, velocity: axis.velocity, target: axis.target_position, demand: axis.position_demand });
     } else {
       this.trail(name).gap();
     }

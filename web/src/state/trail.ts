@@ -1,11 +1,13 @@
 // Trail: the last positions and velocities of one axis, for sparkline and scope. In: samples with the gateway's time. Out: columns.
-// Holds at most `capacity` samples (a ring; the oldest give way). A gap in the knowledge is kept as a gap, never bridged by a line.
+// Holds at most `capacity` samples (a ring of flat arrays that grow as they are needed; the oldest give way). A gap in the knowledge is
+// kept as a gap, never bridged by a line.
 
 export interface TrailSample {
   at_ms: number;
   position: number | null;
   velocity: number | null;
   target: number | null;
+  demand?: number | null;
 }
 
 export interface TrailColumns {
@@ -14,36 +16,49 @@ export interface TrailColumns {
   position: (number | null)[];
   velocity: (number | null)[];
   target: (number | null)[];
+  demand: (number | null)[];
 }
 
+const columns = ['position', 'velocity', 'target', 'demand'] as const;
+const known = (v: number): number | null => (Number.isNaN(v) ? null : v);
+const kept = (v: number | null | undefined): number => v ?? NaN;
+
 export class Trail {
-  private readonly ring: TrailSample[] = [];
+  private at_ms = new Float64Array(256);
+  private values = columns.map(() => new Float64Array(256));
   private first = 0;
+  private count = 0;
 
   constructor(
-    private readonly capacity = 4096,
+    private capacity = 4096,
     /** Samples that are further apart than this were not far apart in time by accident: nothing changed in between. */
     private readonly period_ms = 150,
-  ) {}
+  ) {
+    this.resize(Math.min(256, capacity));
+  }
 
   get size(): number {
-    return this.ring.length;
+    return this.count;
   }
 
   get last(): TrailSample | undefined {
-    return this.ring.length === 0 ? undefined : this.ring[(this.first + this.ring.length - 1) % this.ring.length];
+    return this.count === 0 ? undefined : this.sample(this.count - 1);
+  }
+
+  /** Room for more samples from now on, for an axis that is looked at closely. Never less. */
+  keep(capacity: number): void {
+    this.capacity = Math.max(this.capacity, capacity);
   }
 
   add(sample: TrailSample): void {
-    const last = this.last;
-    if (last && sample.at_ms <= last.at_ms) {
-      if (sample.at_ms < last.at_ms - 1000) this.clear(); // the clock was set back: the old trail means nothing
+    const before = this.last;
+    if (before && sample.at_ms <= before.at_ms) {
+      if (sample.at_ms < before.at_ms - 1000) this.clear(); // the clock was set back: the old trail means nothing
       else return;
     }
     // The gateway tells of changes only. After a rest the old value held until just before: without this sample a line from the
     // last one would show a slow drift that never was. What was moving went on moving: there the straight line is the better guess.
-    const before = this.last;
-    if (before && before.position !== null && !before.velocity && sample.position !== null && sample.at_ms - before.at_ms > 2 * this.period_ms && sample.position !== before.position) {
+    if (this.count > 0 && before && before.position !== null && !before.velocity && sample.position !== null && sample.at_ms - before.at_ms > 2 * this.period_ms && sample.position !== before.position) {
       this.push({ ...before, at_ms: sample.at_ms - this.period_ms });
     }
     this.push(sample);
@@ -52,39 +67,112 @@ export class Trail {
   /** From here on nothing is known until the next sample. */
   gap(): void {
     const last = this.last;
-    if (last && last.position !== null) this.push({ at_ms: last.at_ms + 1, position: null, velocity: null, target: null });
+    if (last && last.position !== null) this.push({ at_ms: last.at_ms + 1, position: null, velocity: null, target: null, demand: null });
   }
 
   clear(): void {
-    this.ring.length = 0;
     this.first = 0;
+    this.count = 0;
   }
 
-  since(from_ms: number): TrailColumns {
-    const out: TrailColumns = { at: [], position: [], velocity: [], target: [] };
-    let begin = this.ring.length;
-    while (begin > 0 && this.at(begin - 1).at_ms >= from_ms) begin -= 1;
-    if (begin > 0) begin -= 1; // one before, so that the line enters from the left edge
-    for (let i = begin; i < this.ring.length; i += 1) {
-      const s = this.at(i);
-      out.at.push(s.at_ms / 1000);
-      out.position.push(s.position);
-      out.velocity.push(s.velocity);
-      out.target.push(s.target);
+  /** Everything from that time on (and up to another), with one sample before, so that the line enters from the left edge. */
+  since(from_ms: number, to_ms = Infinity): TrailColumns {
+    const out: TrailColumns = { at: [], position: [], velocity: [], target: [], demand: [] };
+    for (let i = Math.max(0, this.lowerBound(from_ms) - 1); i < this.count; i += 1) {
+      const k = this.place(i);
+      const t = this.at_ms[k] as number;
+      if (t > to_ms) break;
+      out.at.push(t / 1000);
+      columns.forEach((c, n) => out[c].push(known(this.values[n]![k] as number)));
     }
     return out;
   }
 
-  private at(i: number): TrailSample {
-    return this.ring[(this.first + i) % this.ring.length] as TrailSample;
+  /**
+   * The same, for a plot that is `width` points wide: where many samples fall on one point, the least and the greatest of them are given,
+   * in the order in which they came, so that no peak is lost. At most 2 * width + 1 rows, whatever the number of samples.
+   */
+  seen(from_ms: number, to_ms: number, width: number): TrailColumns {
+    const begin = Math.max(0, this.lowerBound(from_ms) - 1);
+    const end = this.lowerBound(to_ms + 1e-6);
+    if (end - begin <= 2 * width) return this.since(from_ms, to_ms);
+    const out: TrailColumns = { at: [], position: [], velocity: [], target: [], demand: [] };
+    const step = (to_ms - from_ms) / width;
+    let i = begin;
+    while (i < end) {
+      const first = i;
+      const limit = from_ms + (Math.floor(((this.at_ms[this.place(i)] as number) - from_ms) / step) + 1) * step;
+      while (i < end && (this.at_ms[this.place(i)] as number) < limit) i += 1;
+      if (i === first) i += 1; // a sample that lies on the limit by rounding
+      const last = i - 1;
+      out.at.push((this.at_ms[this.place(first)] as number) / 1000);
+      if (last > first) out.at.push((this.at_ms[this.place(last)] as number) / 1000);
+      columns.forEach((c, n) => {
+        const v = this.values[n] as Float64Array;
+        let low = NaN;
+        let high = NaN;
+        let lowAt = 0;
+        let highAt = 0;
+        for (let j = first; j <= last; j += 1) {
+          const x = v[this.place(j)] as number;
+          if (Number.isNaN(x)) continue;
+          if (!(x >= low)) [low, lowAt] = [x, j];
+          if (!(x <= high)) [high, highAt] = [x, j];
+        }
+        const [a, b] = lowAt <= highAt ? [low, high] : [high, low];
+        out[c].push(known(a));
+        if (last > first) out[c].push(known(b));
+      });
+    }
+    return out;
   }
 
-  private push(sample: TrailSample): void {
-    if (this.ring.length < this.capacity) {
-      this.ring.push(sample);
-    } else {
-      this.ring[this.first] = sample;
-      this.first = (this.first + 1) % this.capacity;
+  /** Number of samples before that time. */
+  private lowerBound(at_ms: number): number {
+    let low = 0;
+    let high = this.count;
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if ((this.at_ms[this.place(middle)] as number) < at_ms) low = middle + 1;
+      else high = middle;
     }
+    return low;
+  }
+
+  private place(i: number): number {
+    const k = this.first + i;
+    return k < this.at_ms.length ? k : k - this.at_ms.length;
+  }
+
+  private sample(i: number): TrailSample {
+    const k = this.place(i);
+    const [position, velocity, target, demand] = this.values.map((v) => known(v[k] as number)) as [number | null, number | null, number | null, number | null];
+    return { at_ms: this.at_ms[k] as number, position, velocity, target, demand };
+  }
+
+  private push(s: TrailSample): void {
+    if (this.count === this.at_ms.length && this.at_ms.length < this.capacity) this.resize(Math.min(this.capacity, this.at_ms.length * 2));
+    let k: number;
+    if (this.count < this.at_ms.length) {
+      k = this.place(this.count);
+      this.count += 1;
+    } else {
+      k = this.first;
+      this.first = k + 1 === this.at_ms.length ? 0 : k + 1;
+    }
+    this.at_ms[k] = s.at_ms;
+    columns.forEach((c, n) => ((this.values[n] as Float64Array)[k] = kept(s[c])));
+  }
+
+  private resize(room: number): void {
+    const move = (from: Float64Array): Float64Array<ArrayBuffer> => {
+      const to = new Float64Array(room);
+      for (let i = 0; i < this.count; i += 1) to[i] = from[this.place(i)] as number;
+      return to;
+    };
+    const values = this.values.map(move);
+    this.at_ms = move(this.at_ms);
+    this.values = values;
+    this.first = 0;
   }
 }

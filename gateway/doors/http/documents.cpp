@@ -225,7 +225,7 @@ json::object event_document(const Event& e) {
             {"new", text_or_null(e.new_value)}};
 }
 
-json::object frame_document(const TraceEntry& e) {
+json::object frame_document(const TraceEntry& e, const std::vector<std::string>& decoded) {
     const Frame& f = e.frame;
     const bool bytes = f.kind == Frame::Kind::bytes;
     return {{"sequence", e.sequence},
@@ -239,7 +239,8 @@ json::object frame_document(const TraceEntry& e) {
             {"extended", f.extended},
             {"remote", f.remote},
             {"data", to_hex(f.data())},
-            {"text", to_text(f)}};
+            {"text", to_text(f)},
+            {"decoded", json::array(decoded.begin(), decoded.end())}};
 }
 
 json::object parameter_document(const Parameter& p, std::string_view id) {

@@ -39,7 +39,7 @@ struct AxisView {
 [[nodiscard]] boost::json::object drive_document(const SiteState& site, std::size_t index, const DriveStatus& status);
 [[nodiscard]] boost::json::object line_document(const SiteState& site, std::size_t index, const LineReport& report);
 [[nodiscard]] boost::json::object event_document(const Event& event);
-[[nodiscard]] boost::json::object frame_document(const TraceEntry& entry);
+[[nodiscard]] boost::json::object frame_document(const TraceEntry& entry, const std::vector<std::string>& decoded = {});
 
 /// A parameter of the catalogue; `id` is its own or, for one element of an array, `N[17]`.
 [[nodiscard]] boost::json::object parameter_document(const Parameter& parameter, std::string_view id);

@@ -7,6 +7,7 @@
 
 #include "gateway/core/frame_export.hpp"
 #include "gateway/doors/http/documents.hpp"
+#include "gateway/doors/http/frame_decoder.hpp"
 #include "gateway/doors/http/handlers.hpp"
 
 namespace axisgate::http {
@@ -82,8 +83,9 @@ Handled get_trace(Call& c) {
             return file("text/plain; charset=utf-8", c.names[0] + ".txt", trace_text(trace.entries, c.names[0]));
     }
     json::array frames;
+    FrameDecoder decoder(c.gateway().families(), site->site, c.names[0]);
     for (const auto& e : trace.entries)
-        frames.push_back(frame_document(e));
+        frames.push_back(frame_document(e, decoder.read(e)));
     return json_response(json::object{{"line", c.names[0]}, {"missed", trace.missed}, {"next", trace.next}, {"frames", std::move(frames)}});
 }
 

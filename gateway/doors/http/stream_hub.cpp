@@ -24,10 +24,10 @@ std::string_view line_of_frames(std::string_view topic) {
     return topic.substr(head.size(), topic.size() - head.size() - tail.size());
 }
 
-json::object frames_document(const std::vector<TraceEntry>& entries, std::size_t from, std::uint64_t missed) {
+json::object frames_document(FrameDecoder& decoder, const std::vector<TraceEntry>& entries, std::size_t from, std::uint64_t missed) {
     json::array list;
     for (std::size_t i = from; i < entries.size(); ++i)
-        list.push_back(frame_document(entries[i]));
+        list.push_back(frame_document(entries[i], decoder.read(entries[i])));
     return {{"missed", missed}, {"frames", std::move(list)}};
 }
 }  // namespace
@@ -221,7 +221,17 @@ void StreamHub::begin_frames(StreamClient& c, StreamClient::FrameWatch& watch) {
     }
     watch.since = trace.next;
     const std::size_t from = trace.entries.size() > first_frames ? trace.entries.size() - first_frames : 0;
-    put_state(c, watch.number, stream_message(watch.topic, gateway_.now_unix_ns(), frames_document(trace.entries, from, 0)));
+    put_state(c, watch.number, stream_message(watch.topic, gateway_.now_unix_ns(), frames_document(decoder_for(watch.line, 0, trace.next), trace.entries, from, 0)));
+}
+
+/// The reader that has read this line up to `since`, or a new one. At most one per line is kept.
+FrameDecoder& StreamHub::decoder_for(const std::string& line, std::uint64_t since, std::uint64_t next) {
+    auto& kept = decoders_[line];
+    if (!kept.decoder || since == 0 || kept.next != since) {
+        kept.decoder = std::make_unique<FrameDecoder>(gateway_.families(), sources_.site().site, line);
+    }
+    kept.next = next;
+    return *kept.decoder;
 }
 
 void StreamHub::tell_frames(StreamClient& c, StreamClient::FrameWatch& watch, Instant now) {
@@ -240,7 +250,8 @@ void StreamHub::tell_frames(StreamClient& c, StreamClient::FrameWatch& watch, In
         last.missed = trace.missed;
         last.next = trace.next;
         last.frames = trace.entries.size();
-        last.message = stream_message(watch.topic, gateway_.now_unix_ns(), frames_document(trace.entries, 0, trace.missed));
+        last.message = stream_message(watch.topic, gateway_.now_unix_ns(), 
+                                      frames_document(decoder_for(watch.line, trace.missed > 0 ? 0 : watch.since, trace.next), trace.entries, 0, trace.missed));
     }
     watch.since = last.next;
     if (last.frames > 0 || last.missed > 0) put_state(c, watch.number, last.message);
@@ -299,6 +310,7 @@ void StreamHub::take_site(Instant now) {
     const auto before = sources_.all();
     sources_.take_site(std::move(new_site_));
     new_site_.reset();
+    decoders_.clear();
     std::vector<std::shared_ptr<Source>> gone;
     for (const auto& [topic, source] : before) {
         if (!sources_.find(topic)) gone.push_back(source);

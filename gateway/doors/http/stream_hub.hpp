@@ -16,6 +16,7 @@
 
 #include "gateway/core/gateway.hpp"
 #include "gateway/doors/http/counters.hpp"
+#include "gateway/doors/http/frame_decoder.hpp"
 #include "gateway/doors/http/settings.hpp"
 #include "gateway/doors/http/stream_queue.hpp"
 #include "gateway/doors/http/stream_request.hpp"
@@ -95,6 +96,7 @@ private:
     void unsubscribe(StreamClient& c, const std::string& topic);
     void resolve(StreamClient& c, Instant now, const std::vector<std::string>* snapshots_of);
     void begin_frames(StreamClient& c, StreamClient::FrameWatch& watch);
+    [[nodiscard]] FrameDecoder& decoder_for(const std::string& line, std::uint64_t since, std::uint64_t next);
     void tell_frames(StreamClient& c, StreamClient::FrameWatch& watch, Instant now);
     void tell_site(StreamClient& c);
     void tell_error(StreamClient& c, std::string_view text, std::string_view topic = {});
@@ -115,6 +117,12 @@ private:
     std::map<std::int64_t, Instant> groups_;     ///< next scan by period in ms
     std::shared_ptr<const SiteState> new_site_;  ///< told, but not taken yet
     bool attached_ = true;
+
+    struct KeptDecoder {
+        std::unique_ptr<FrameDecoder> decoder;
+        std::uint64_t next = 0;  ///< the first frame that it has not read
+    };
+    std::map<std::string, KeptDecoder, std::less<>> decoders_;  ///< by line of the site in force
 
     /// The last stretch of frames that was made, for clients that want the same one.
     struct {

@@ -129,8 +129,8 @@ TEST_F(HttpTest, Trace) {
     EXPECT_EQ(
         a.text,
         R"({"line":"can0","missed":0,"next":21,"frames":[)"
-        R"({"sequence":19,"at":"2023-11-14T22:13:20.123456Z","to_drive":true,"simulated":false,"kind":"can","id":69730453,"extended":true,"remote":false,"data":"01AB","text":"04280095#01AB"},)"
-        R"({"sequence":20,"at":"2023-11-14T22:13:20.123456Z","to_drive":true,"simulated":false,"kind":"can","id":69730453,"extended":true,"remote":false,"data":"01AB","text":"04280095#01AB"}]})")
+        R"({"sequence":19,"at":"2023-11-14T22:13:20.123456Z","to_drive":true,"simulated":false,"kind":"can","id":69730453,"extended":true,"remote":false,"data":"01AB","text":"04280095#01AB","decoded":["to the drive, frame 1 of 2 bytes"]},)"
+        R"({"sequence":20,"at":"2023-11-14T22:13:20.123456Z","to_drive":true,"simulated":false,"kind":"can","id":69730453,"extended":true,"remote":false,"data":"01AB","text":"04280095#01AB","decoded":["to the drive, frame 2 of 2 bytes"]}]})")
         << "without since: the newest";
     const auto since = call("GET", "/api/v1/lines/can0/trace?since=5&limit=3");
     EXPECT_EQ(since.at("missed"), "6");

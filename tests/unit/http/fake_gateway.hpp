@@ -35,6 +35,16 @@ inline std::string check_demo_address(std::string_view address) {
     return address.find_first_not_of("0123456789") == std::string_view::npos && !address.empty() ? "" : "an address is a number";
 }
 
+/// Reads a frame as its number since the decoder was made, so that a test sees whether it was made anew.
+struct DemoDecoder final : Decoder {
+    int n = 0;
+    std::vector<std::string> on_frame(const Frame& frame, std::optional<bool> to_drive) override {
+        return {std::string(to_drive.value_or(false) ? "to" : "from") + " the drive, frame " + std::to_string(++n) + " of " + std::to_string(frame.data().size()) + " bytes"};
+    }
+    std::vector<std::string> finish() override { return {}; }
+};
+inline std::unique_ptr<Decoder> make_demo_decoder(const Catalogue&, LineKind) { return std::make_unique<DemoDecoder>(); }
+
 class FakeGateway final : public Gateway {
 public:
     explicit FakeGateway(std::string_view site_text = default_site) {
@@ -42,6 +52,7 @@ public:
         catalogue = *Catalogue::parse(catalogue_text, faults);
         family.name = "demo";
         family.check_address = check_demo_address;
+        family.make_decoder = make_demo_decoder;
         family.factory_address = "5";
         family.default_bit_rate = 57600;
         family.default_format = "8N1";

@@ -347,6 +347,7 @@ TEST_F(StreamHubTest, FramesComeInListsWithACountOfTheMissed) {
     got = taken();
     ASSERT_EQ(got.size(), 1u);
     EXPECT_EQ(got[0].data.at("frames").get_array().size(), 3u);
+    EXPECT_EQ(got[0].data.at("frames").get_array()[0].at("decoded").get_array()[0], "from the drive, frame 201 of 1 bytes") << "the reader goes on where it was";
 
     // The client does not read: one list waits, the place in the recording is kept, and what is overwritten meanwhile is counted.
     trace.push_back(entry(304));
@@ -365,6 +366,7 @@ TEST_F(StreamHubTest, FramesComeInListsWithACountOfTheMissed) {
     EXPECT_EQ(got[0].data.at("missed").to_number<int>(), 95) << "305 to 399";
     EXPECT_EQ(got[0].data.at("frames").get_array().size(), 2u);
     EXPECT_EQ(got[0].data.at("frames").get_array()[0].at("text"), "04280095#01");
+    EXPECT_EQ(got[0].data.at("frames").get_array()[0].at("decoded").get_array()[0], "from the drive, frame 1 of 1 bytes") << "after a gap the reader begins anew";
 }
 
 TEST_F(StreamHubTest, ALateScanDoesNotMakeUpForPeriods) {

@@ -1187,6 +1187,8 @@ export interface components {
             data: string;
             /** @example 04280095#01 */
             text: string;
+            /** @description what the frame says in the family's own words; none where a message is not whole yet, several where one run of bytes holds several */
+            decoded: string[];
         };
         Trace: {
             line: string;

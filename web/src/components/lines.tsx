@@ -47,7 +47,7 @@ export function Count({ label, value, bad = false, title }: { label: string; val
   );
 }
 
-function LineCard({ name }: { name: string }) {
+export function LineCard({ name }: { name: string }) {
   const { store } = useGateway();
   const known = store.line(name)?.value;
   if (!known) return null;
@@ -125,8 +125,10 @@ export function LineList() {
   );
 }
 
-export function DriveList() {
-  const names = useGateway().store.driveNames.value;
+/** All drives, or some of them. */
+export function DriveList({ of }: { of?: string[] }) {
+  const all = useGateway().store.driveNames.value;
+  const names = of ?? all;
   if (names.length === 0) return <Empty text="No drive is configured." />;
   return (
     <ul class="rows card">

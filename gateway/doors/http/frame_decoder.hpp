@@ -1,0 +1,28 @@
+// Frame decoder: the frames of one line as sentences, in the order in which they crossed it.
+// In: recorded frames. Out: the family's reading of each (none where a message is not whole yet). Cable and twin bus are kept apart.
+// Never keeps a frame; after a gap in the recording it must be made anew.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gateway/core/family.hpp"
+#include "gateway/core/gateway.hpp"
+
+namespace axisgate::http {
+
+class FrameDecoder {
+public:
+    /// For the line of that name in the site; reads nothing if there is none, or if its family has no reader.
+    FrameDecoder(const Families& families, const Site& site, std::string_view line);
+    [[nodiscard]] std::vector<std::string> read(const TraceEntry& entry);
+
+private:
+    FamilyEntry family_;
+    std::array<std::unique_ptr<Decoder>, 4> decoders_;  ///< cable and twin bus, CAN and bytes; made when they are needed
+};
+
+}  // namespace axisgate::http

@@ -1,0 +1,117 @@
+// The instruments of a commissioning engineer: the scope with its cursors, trigger and recording; the trace of a line, byte by byte; and a
+// jog whose page dies.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { after, before, test } from 'node:test';
+import { launch, open, shot, until } from './lib/browser.mjs';
+import { Program, isMock } from './lib/program.mjs';
+
+let program, browser;
+before(async () => {
+  program = await Program.start();
+  browser = await launch();
+});
+after(async () => {
+  await browser?.close();
+  await program?.end();
+});
+
+const move = { command: 'move_relative', position: 20, velocity: 40, acceleration: 400, deceleration: 400 };
+const arrived = () => until('it has arrived', async () => (await program.axis('feeder')).target_reached === true);
+
+test('the scope: channels, a trigger that holds, cursors that read, a recording as a table', async () => {
+  const page = await open(browser, `${program.url}/axes/feeder`);
+  await page.locator('.scope canvas').waitFor();
+  await program.command('feeder', { command: 'enable' });
+  await until('enabled', async () => (await program.axis('feeder')).state === 'operation_enabled');
+  await page.getByRole('button', { name: 'Following error', exact: true }).click();
+  await page.getByRole('group', { name: 'Time shown' }).getByRole('button', { name: '2 s' }).click();
+
+  const start = (await program.axis('feeder')).position;
+  const trigger = page.locator('.scope-trigger');
+  await trigger.getByLabel('Trigger').selectOption('single');
+  await trigger.locator('input').fill(String(Math.round(start + 10)));
+  await until('it waits', async () => /Waiting/.test(await trigger.innerText()) || (await trigger.innerText()));
+  await program.command('feeder', move);
+  await arrived();
+  await until('it holds', async () => /Held by the trigger/.test(await trigger.innerText()) || (await trigger.innerText()));
+
+  const plot = await page.locator('.scope .u-over').boundingBox();
+  await page.mouse.click(plot.x + plot.width * 0.1, plot.y + 20);
+  await page.getByRole('group', { name: /^Cursor/ }).getByRole('button', { name: 'B', exact: true }).click();
+  await page.mouse.click(plot.x + plot.width * 0.9, plot.y + 20);
+  const table = page.locator('.cursor-table');
+  const difference = async () => Number((await table.locator('tr').last().locator('td').nth(1).innerText()).replace('−', '-'));
+  await until('the cursors have read the move', async () => Math.abs((await difference()) - 20) < 2 || (await difference()));
+  // B by keys: to the very end of the picture and away again
+  await page.locator('.scope-plot').focus();
+  await page.keyboard.press('Home');
+  await until('B is at the left edge', async () => Math.abs(await difference()) < 2 || (await difference()));
+  await page.keyboard.press('End');
+  await until('B is at the right edge', async () => Math.abs((await difference()) - 20) < 2 || (await difference()));
+  await shot(page, 'scope-held', { fullPage: true });
+
+  const [download] = await Promise.all([page.waitForEvent('download'), page.locator('.scope').getByRole('button', { name: 'CSV' }).click()]);
+  const lines = readFileSync(await download.path(), 'utf8').trim().split('\r\n');
+  assert.match(download.suggestedFilename(), /^feeder-.*\.csv$/);
+  assert.match(lines[0], /^time,seconds,feeder\.position \[mm\],/);
+  const positions = lines.slice(1).map((l) => Number(l.split(',')[2]));
+  assert.ok(Math.max(...positions) - Math.min(...positions) > 15, `${positions.length} rows, ${Math.min(...positions)} to ${Math.max(...positions)}`);
+
+  await page.locator('.scope').getByRole('button', { name: 'Velocity' }).click();
+  assert.equal(await page.locator('.scope').getByRole('button', { name: 'Velocity' }).getAttribute('aria-pressed'), 'false');
+  assert.deepEqual(page.faults(), []);
+  await page.context().close();
+});
+
+test('the trace: readings, filter, a frame byte by byte, pause', { skip: isMock && 'the stand-in crosses no line' }, async () => {
+  const page = await open(browser, `${program.url}/lines/can0`);
+  const rows = page.locator('.frame-list li');
+  await rows.first().waitFor();
+  await until('frames have readings', async () => (await page.locator('.frame-list .reading').allInnerTexts()).some((t) => t.length > 3));
+  const filter = page.getByRole('searchbox', { name: /Filter frames/ });
+  await page.getByRole('combobox', { name: 'Direction' }).selectOption('to');
+  assert.equal(await page.locator('.frame-list .from').count(), 0);
+  await filter.fill('no such word');
+  await page.getByText('No frame fits the filter.').waitFor();
+  await filter.fill('');
+  await page.getByRole('button', { name: 'Pause' }).click();
+  const first = await rows.first().getAttribute('data-sequence');
+  await rows.first().getByRole('button').click();
+  const details = page.locator('.frame-details');
+  await details.waitFor();
+  assert.match(await details.innerText(), /Identifier[\s\S]*extended, 29 bits/);
+  assert.ok((await details.locator('.byte-table tbody tr').count()) <= 8);
+  await program.command('feeder', { command: 'halt' });
+  await new Promise((r) => setTimeout(r, 500)); // time for frames to come that must not be shown
+  assert.equal(await rows.first().getAttribute('data-sequence'), first);
+  await shot(page, 'trace-details', { fullPage: true });
+  await page.getByRole('button', { name: 'Paused' }).click();
+  await until('it goes on', async () => (await rows.first().getAttribute('data-sequence')) !== first);
+  await page.getByRole('switch', { name: /stall/i }).first().waitFor(); // the hand of the line's twins
+  assert.deepEqual(page.faults(), []);
+  await page.context().close();
+});
+
+test('a jog ends by itself when its page dies', { skip: isMock && 'the stand-in has no dead-man time-out' }, async () => {
+  const page = await open(browser, `${program.url}/axes/feeder`);
+  await page.getByRole('button', { name: 'Enable', exact: true }).click();
+  await until('enabled', async () => (await program.axis('feeder')).state === 'operation_enabled');
+  await page.getByRole('textbox', { name: 'Speed', exact: true }).fill('5');
+  const jog = page.getByRole('button', { name: 'Jog feeder forward while held' });
+  const box = await jog.boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.mouse.down();
+  await until('it moves', async () => (await program.axis('feeder')).moving);
+  // Longer than the time-out: it is renewed.
+  const begun = Date.now();
+  while (Date.now() - begun < 2000) {
+    assert.equal((await program.axis('feeder')).moving, true, `it stopped ${Date.now() - begun} ms after the button was pressed`);
+    await new Promise((r) => setTimeout(r, 100));
+  }
+  await page.context().setOffline(true); // no word from this page reaches the gateway any more, not even the halt
+  await until('the gateway has halted it', async () => !(await program.axis('feeder')).moving);
+  const events = (await program.call('GET', '/events?axis=feeder&limit=20')).body;
+  assert.ok(events.some((e) => e.kind === 'hold' && /not renewed/.test(e.text)), JSON.stringify(events.map((e) => e.text)));
+  await page.context().close();
+});

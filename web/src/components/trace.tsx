@@ -1,0 +1,163 @@
+// Trace: the frames of a line as they cross it, newest first: bytes, their reading, and one of them byte by byte.
+// In: the stream's frames. Out: a list that can be filtered, paused and saved. Holding still loses nothing that is still recorded.
+import { useComputed, useSignal } from '@preact/signals';
+import { useEffect } from 'preact/hooks';
+import { useGateway } from '../gateway';
+import { bytesOf, idWords, joined, matches, type Frame, type FrameFilter } from '../state/frames';
+import { Empty } from './lines';
+import { Section } from './section';
+
+/** Rows that are drawn; the filter looks at all that are kept. */
+const mostShown = 300;
+
+export function Trace({ line }: { line: string }) {
+  const gateway = useGateway();
+  const frames = useSignal<Frame[]>([]);
+  const held = useSignal<Frame[] | null>(null);
+  const missed = useSignal(0);
+  const filter = useSignal<FrameFilter>({ text: '', direction: 'both' });
+  const open = useSignal<number | null>(null);
+  useEffect(
+    () =>
+      gateway.follow(`lines/${line}/frames`, 200, (m) => {
+        const data = m.data as { missed: number; frames: Frame[] } | null;
+        if (!data) return;
+        missed.value += data.missed;
+        frames.value = joined(frames.peek(), data.frames);
+      }),
+    [gateway, line],
+  );
+  const fitting = useComputed(() => {
+    const source = held.value ?? frames.value;
+    const f = filter.value;
+    return f.text === '' && f.direction === 'both' ? source : source.filter((x) => matches(x, f));
+  });
+  const shown = fitting.value.slice(-mostShown).reverse();
+  const file = (format: string) => `/api/v1/lines/${encodeURIComponent(line)}/trace?format=${format}`;
+  const source = held.value ?? frames.value;
+  return (
+    <Section
+      title="Frames"
+      beside={
+        <>
+          <input
+            class="search"
+            type="search"
+            placeholder="Filter, -without"
+            aria-label="Filter frames by bytes or reading; a minus before a word leaves out what has it"
+            value={filter.value.text}
+            onInput={(e) => (filter.value = { ...filter.peek(), text: e.currentTarget.value })}
+          />
+          <select aria-label="Direction" value={filter.value.direction} onChange={(e) => (filter.value = { ...filter.peek(), direction: e.currentTarget.value as FrameFilter['direction'] })}>
+            <option value="both">both ways</option>
+            <option value="to">to the drive</option>
+            <option value="from">from the drive</option>
+          </select>
+          <button type="button" class="button hold" aria-pressed={held.value !== null} onClick={() => (held.value = held.peek() === null ? frames.peek() : null)}>
+            {held.value === null ? 'Pause' : 'Paused'}
+          </button>
+          <button
+            type="button"
+            class="button"
+            onClick={() => {
+              frames.value = [];
+              held.value = null;
+            }}
+          >
+            Clear
+          </button>
+          <a class="button" href={file('pcapng')} download={`${line}.pcapng`}>
+            pcapng
+          </a>
+          <a class="button" href={file('candump')} download={`${line}.log`}>
+            candump
+          </a>
+        </>
+      }
+    >
+      <p class="where trace-count" role="status">
+        {fitting.value.length === source.length ? `${source.length} frames` : `${fitting.value.length} of ${source.length} frames`}
+        {fitting.value.length > mostShown && `, the newest ${mostShown} are shown`}
+        {missed.value > 0 && `; ${missed.value} were overwritten before they could be shown`}
+      </p>
+      <div class="card scroll frames" tabIndex={0} role="region" aria-label="Frames, newest first">
+        {shown.length === 0 ? (
+          <Empty text={source.length > 0 ? 'No frame fits the filter.' : 'No frame has crossed the line since this page was opened.'} />
+        ) : (
+          <ol class="frame-list mono">
+            {shown.map((f) => (
+              <Row key={f.sequence} frame={f} open={open.value === f.sequence} toggle={() => (open.value = open.peek() === f.sequence ? null : f.sequence)} />
+            ))}
+          </ol>
+        )}
+      </div>
+    </Section>
+  );
+}
+
+function Row({ frame: f, open, toggle }: { frame: Frame; open: boolean; toggle: () => void }) {
+  return (
+    <li class={open ? 'is-open' : undefined} data-sequence={f.sequence}>
+      <button type="button" class="frame-row" aria-expanded={open} onClick={toggle}>
+        <span>{f.at.slice(11, 23)}</span>
+        <span class={f.to_drive ? 'to' : 'from'}>{f.to_drive ? '→ drive' : '← drive'}</span>
+        <span>{f.simulated ? 'simulated' : 'cable'}</span>
+        <span class="bytes">{f.text || f.data}</span>
+        <span class="reading">{f.decoded.join(' · ')}</span>
+      </button>
+      {open && <Details frame={f} />}
+    </li>
+  );
+}
+
+function Details({ frame: f }: { frame: Frame }) {
+  const rows = bytesOf(f.data);
+  return (
+    <div class="frame-details">
+      <dl>
+        <div>
+          <dt>Seen</dt>
+          <dd>{f.at}</dd>
+        </div>
+        {f.id !== null && (
+          <div>
+            <dt>Identifier</dt>
+            <dd>{idWords(f)}</dd>
+          </div>
+        )}
+        {f.decoded.map((d, i) => (
+          <div key={i}>
+            <dt>{i === 0 ? 'Reading' : ''}</dt>
+            <dd>{d}</dd>
+          </div>
+        ))}
+      </dl>
+      {rows.length > 0 && (
+        <div class="scroll">
+          <table class="byte-table">
+            <thead>
+              <tr>
+                <th scope="col">Byte</th>
+                <th scope="col">Hex</th>
+                <th scope="col">Dec</th>
+                <th scope="col">Bits</th>
+                <th scope="col">ASCII</th>
+              </tr>
+            </thead>
+            <tbody>
+              {rows.map((r) => (
+                <tr key={r.at}>
+                  <th scope="row">{r.at}</th>
+                  <td>{r.hex}</td>
+                  <td>{r.decimal}</td>
+                  <td>{r.bits}</td>
+                  <td>{r.letter}</td>
+                </tr>
+              ))}
+            </tbody>
+          </table>
+        </div>
+      )}
+    </div>
+  );
+}

@@ -1,0 +1,54 @@
+// Frames: which of the recorded frames are shown, and one of them byte by byte. In: frames as the stream tells them. Out: values.
+// At most `mostFrames` are kept; the oldest give way.
+import type { components } from '../api/schema';
+
+export type Frame = components['schemas']['Frame'];
+export const mostFrames = 2000;
+
+export interface FrameFilter {
+  /** Words that must all be there, in the bytes, the text or the reading; `-word`: must not be there. */
+  text: string;
+  direction: 'both' | 'to' | 'from';
+}
+
+/** After a reconnection the newest ones come once more: what is known already is left out. */
+export function joined(kept: Frame[], news: Frame[]): Frame[] {
+  const last = kept.at(-1)?.sequence ?? -1;
+  return [...kept, ...news.filter((f) => f.sequence > last)].slice(-mostFrames);
+}
+
+export function matches(f: Frame, filter: FrameFilter): boolean {
+  if (filter.direction !== 'both' && f.to_drive !== (filter.direction === 'to')) return false;
+  const words = filter.text.toLowerCase().split(/\s+/).filter(Boolean);
+  if (words.length === 0) return true;
+  const all = `${f.text} ${f.data} ${f.decoded.join(' ')} ${f.simulated ? 'simulated' : 'cable'} ${f.kind}`.toLowerCase();
+  return words.every((w) => (w.length > 1 && w.startsWith('-') ? !all.includes(w.slice(1)) : all.includes(w)));
+}
+
+export interface ByteRow {
+  at: number;
+  hex: string;
+  decimal: number;
+  bits: string;
+  /** Printable ASCII, the name of a control character, or nothing. */
+  letter: string;
+}
+
+const controls = ['NUL', 'SOH', 'STX', 'ETX', 'EOT', 'ENQ', 'ACK', 'BEL', 'BS', 'HT', 'LF', 'VT', 'FF', 'CR', 'SO', 'SI', 'DLE', 'DC1', 'DC2', 'DC3', 'DC4', 'NAK', 'SYN', 'ETB', 'CAN', 'EM', 'SUB', 'ESC', 'FS', 'GS', 'RS', 'US'];
+
+export function bytesOf(data: string): ByteRow[] {
+  const rows: ByteRow[] = [];
+  for (let i = 0; i + 1 < data.length; i += 2) {
+    const n = parseInt(data.slice(i, i + 2), 16);
+    const letter = n < 32 ? (controls[n] ?? '') : n < 127 ? String.fromCharCode(n) : n === 127 ? 'DEL' : '';
+    rows.push({ at: i / 2, hex: data.slice(i, i + 2), decimal: n, bits: n.toString(2).padStart(8, '0'), letter });
+  }
+  return rows;
+}
+
+/** "04280095 (extended, 29 bits)" */
+export function idWords(f: Frame): string {
+  if (f.id === null) return '';
+  const digits = f.extended ? 8 : 3;
+  return `${f.id.toString(16).toUpperCase().padStart(digits, '0')} (${f.extended ? 'extended, 29 bits' : 'standard, 11 bits'}${f.remote ? ', remote' : ''}), decimal ${f.id}`;
+}

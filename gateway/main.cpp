@@ -69,7 +69,7 @@ int main(int argc, char** argv) {
     TwinOptions twin_options;
     auto* twin = app.add_subcommand("twin", "run embedded drives by themselves on a line that anything can open");
     twin->add_option("family", twin_options.family, "family, see `axisgate families`")->required()->type_name("FAMILY");
-    twin->add_option("--line", twin_options.line_uri, "can:can0, serial:/dev/ttyUSB0?baud=57600, tcp-listen:HOST:PORT, tcp:HOST:PORT, udp-listen:HOST:PORT or pty:PATH")->required()->type_name("URI");
+    twin->add_option("--line", twin_options.line_uri, "can:can0, serial:/dev/ttyUSB0?baud=57600, tcp-listen:HOST:PORT, tcp:HOST:PORT, udp-listen:HOST:PORT or pty:PATH, pty:PATH?baud=9600 at the pace of a serial port")->required()->type_name("URI");
     twin->add_option("--address", twin_options.addresses, "address of a drive; may be repeated")->type_name("A")->allow_extra_args(false);
     twin->add_option("--state", twin_options.state_file, "file of the non-volatile memory: read at the start, written at each change")->type_name("FILE");
     twin->add_option("--hand", twin_options.hand_bind, "serve the tester's hand (inputs, stall, power ...) over HTTP here")->type_name("HOST:PORT");

@@ -29,7 +29,7 @@ LineSetup Engine::setup_for(const LineUnit& unit, const Side& side) const {
     s.bit_rate = unit.spec.bitrate;
     const Family& family = *unit.family.family;
     if (const auto uri = parse_line_uri(unit.spec.uri, family.default_bit_rate, family.default_format); uri.good()) {
-        if (uri.uri.kind == LineUri::Kind::serial) {
+        if (uri.uri.kind == LineUri::Kind::serial || (uri.uri.kind == LineUri::Kind::pty && uri.uri.serial.baud != 0)) {
             s.bit_rate = uri.uri.serial.baud;
             s.bits_per_byte = static_cast<std::uint8_t>(uri.uri.serial.format.bits_per_byte());
         } else if (uri.uri.kind == LineUri::Kind::twin) {

@@ -17,6 +17,7 @@ constexpr std::size_t max_length = 1024;
 constexpr std::string_view can_example = "can:can0";
 constexpr std::string_view serial_example = "serial:/dev/ttyUSB0?baud=9600&format=8N1";
 constexpr std::string_view pty_example = "pty:/tmp/drive";
+constexpr std::string_view paced_example = "pty:/tmp/drive?baud=9600&format=8N1";
 
 LineUriResult fault(std::string what, std::string_view example) {
     LineUriResult r;
@@ -135,6 +136,22 @@ std::string set_serial(SerialSettings& s, std::string_view key, std::string_view
     return fmt::format("a serial line has no option \"{}\" (it has baud, format, rs485, rts_before_ms, rts_after_ms, rtscts)", key);
 }
 
+/// The `key=value&key=value` after the question mark; what is wrong, or nothing.
+template <class Set>
+std::string read_options(std::string_view options, std::set<std::string_view>& seen, const Set& set) {
+    for (;;) {
+        const auto amp = options.find('&');
+        const std::string_view item = options.substr(0, amp);
+        const auto equals = item.find('=');
+        if (equals == std::string_view::npos || equals == 0) return fmt::format("\"{}\" is not of the form option=value", item);
+        const std::string_view key = item.substr(0, equals);
+        if (!seen.insert(key).second) return fmt::format("{} is said twice", key);
+        if (std::string wrong = set(key, item.substr(equals + 1)); !wrong.empty()) return wrong;
+        if (amp == std::string_view::npos) return {};
+        options.remove_prefix(amp + 1);
+    }
+}
+
 LineUriResult parse_serial(std::string_view rest, std::uint32_t default_baud, std::string_view default_format) {
     LineUriResult r;
     r.uri.kind = LineUri::Kind::serial;
@@ -149,20 +166,8 @@ LineUriResult parse_serial(std::string_view rest, std::uint32_t default_baud, st
     if (question == std::string_view::npos) return r;
 
     std::set<std::string_view> seen;
-    std::string_view options = rest.substr(question + 1);
-    for (;;) {
-        const auto amp = options.find('&');
-        const std::string_view item = options.substr(0, amp);
-        const auto equals = item.find('=');
-        if (equals == std::string_view::npos || equals == 0)
-            return fault(fmt::format("\"{}\" is not of the form option=value", item), serial_example);
-        const std::string_view key = item.substr(0, equals);
-        if (!seen.insert(key).second) return fault(fmt::format("{} is said twice", key), serial_example);
-        if (const std::string wrong = set_serial(r.uri.serial, key, item.substr(equals + 1)); !wrong.empty())
-            return fault(wrong, serial_example);
-        if (amp == std::string_view::npos) break;
-        options.remove_prefix(amp + 1);
-    }
+    const auto set = [&](std::string_view key, std::string_view value) { return set_serial(r.uri.serial, key, value); };
+    if (const std::string wrong = read_options(rest.substr(question + 1), seen, set); !wrong.empty()) return fault(wrong, serial_example);
     const SerialSettings& s = r.uri.serial;
     if (s.rs485 == Rs485::off && (seen.contains("rts_before_ms") || seen.contains("rts_after_ms"))) {
         return fault("rts_before_ms and rts_after_ms are for RS-485 alone", "serial:/dev/ttyS1?rs485=1&rts_after_ms=1");
@@ -173,12 +178,24 @@ LineUriResult parse_serial(std::string_view rest, std::uint32_t default_baud, st
     return r;
 }
 
-LineUriResult parse_pty(std::string_view rest) {
-    if (rest.empty() || rest.ends_with('/')) return fault("the path of the link to the pseudo-terminal is missing", pty_example);
-    if (rest.find('?') != std::string_view::npos) return fault("a pseudo-terminal takes no options", pty_example);
+LineUriResult parse_pty(std::string_view rest, std::string_view default_format) {
+    const auto question = rest.find('?');
+    const std::string_view path = rest.substr(0, question);
+    if (path.empty() || path.ends_with('/')) return fault("the path of the link to the pseudo-terminal is missing", pty_example);
     LineUriResult r;
     r.uri.kind = LineUri::Kind::pty;
-    r.uri.path = rest;
+    r.uri.path = path;
+    r.uri.serial.baud = 0;
+    if (question == std::string_view::npos) return r;
+    if (const auto f = parse_serial_format(default_format)) r.uri.serial.format = *f;
+    std::set<std::string_view> seen;
+    const auto set = [&](std::string_view key, std::string_view value) -> std::string {
+        if (key != "baud" && key != "format")
+            return fmt::format("a pseudo-terminal has no option \"{}\" (it has baud and format, the pace of its bytes)", key);
+        return set_serial(r.uri.serial, key, value);
+    };
+    if (const std::string wrong = read_options(rest.substr(question + 1), seen, set); !wrong.empty()) return fault(wrong, paced_example);
+    if (r.uri.serial.baud == 0) return fault("a pseudo-terminal has a format only together with baud", paced_example);
     return r;
 }
 
@@ -234,7 +251,7 @@ LineUriResult parse_line_uri(std::string_view text, std::uint32_t default_baud, 
         if (scheme == "tcp-listen") return parse_endpoint(scheme, rest, LineUri::Kind::tcp_listen);
         if (scheme == "udp") return parse_endpoint(scheme, rest, LineUri::Kind::udp);
         if (scheme == "udp-listen") return parse_endpoint(scheme, rest, LineUri::Kind::udp_listen);
-        if (scheme == "pty") return parse_pty(rest);
+        if (scheme == "pty") return parse_pty(rest, default_format);
         if (scheme == "twin") return fault("twin stands alone", "twin");
     }
     return fault(fmt::format("\"{}\" is not a kind of line", scheme), any_example);
@@ -255,7 +272,8 @@ std::string to_text(const LineUri& u) {
         case LineUri::Kind::udp_listen:
             return "udp-listen:" + endpoint;
         case LineUri::Kind::pty:
-            return "pty:" + u.path;
+            if (u.serial.baud == 0) return "pty:" + u.path;
+            return fmt::format("pty:{}?baud={}&format={}", u.path, u.serial.baud, to_text(u.serial.format));
         case LineUri::Kind::twin:
             return "twin";
         case LineUri::Kind::serial:

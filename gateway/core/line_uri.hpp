@@ -36,7 +36,7 @@ enum class Rs485 : std::uint8_t {
 };
 
 struct SerialSettings {
-    std::uint32_t baud = 9600;  ///< bit/s, min_baud..max_baud; any value, not only the usual ones
+    std::uint32_t baud = 9600;  ///< bit/s, min_baud..max_baud; any value, not only the usual ones; pty: 0, no pace
     SerialFormat format;
     Rs485 rs485 = Rs485::off;
     std::uint8_t rts_before_ms = 0;  ///< RS-485: driver on before the first bit, 0..max_rts_ms
@@ -56,7 +56,7 @@ struct LineUri {
     std::string path;        ///< serial, pty
     std::string host;        ///< tcp, udp and their listening kinds: name or address, without brackets
     std::uint16_t port = 0;  ///< 1..65535; listening: 0 lets the system choose
-    SerialSettings serial;   ///< serial alone
+    SerialSettings serial;   ///< serial; pty: baud and format, the pace that it keeps
     bool operator==(const LineUri&) const = default;
 };
 
@@ -67,11 +67,12 @@ struct LineUriResult {
 };
 
 /// Reads a line URI. `default_baud` and `default_format` hold for a serial line whose URI does not say (Family::default_bit_rate,
-/// Family::default_format). Unknown and repeated options are faults, as is anything longer than 1024 characters.
+/// Family::default_format); the format also for a pseudo-terminal with a pace. Unknown and repeated options are faults, as is anything
+/// longer than 1024 characters.
 [[nodiscard]] LineUriResult parse_line_uri(std::string_view text, std::uint32_t default_baud = 9600,
                                            std::string_view default_format = "8N1");
 
-/// The URI as text, with baud and format always said: parse_line_uri(to_text(u)).uri == u.
+/// The URI as text, with baud and format always said (of a pseudo-terminal, if it has a pace): parse_line_uri(to_text(u)).uri == u.
 [[nodiscard]] std::string to_text(const LineUri& uri);
 
 }  // namespace axisgate

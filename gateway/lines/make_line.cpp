@@ -41,7 +41,7 @@ std::unique_ptr<Line> make_line(const LineUri& uri, const LineBase& base, const 
         case LineUri::Kind::udp_listen:
             return std::make_unique<UdpLine>(base, uri.host, uri.port, UdpLine::Role::listens);
         case LineUri::Kind::pty:
-            return std::make_unique<PtyLine>(base, uri.path);
+            return std::make_unique<PtyLine>(base, uri.path, uri.serial.baud, uri.serial.format);
         case LineUri::Kind::twin:
             break;
     }

@@ -1,6 +1,7 @@
 // PtyLine: see pty_line.hpp. In: readiness of the pseudo-terminal's master. Out: frames.
 // Never goes down because the other side closes: the next program finds the same name.
 #include "gateway/lines/pty_line.hpp"
+#include "gateway/core/wire_time.hpp"
 #include "gateway/lines/error_text.hpp"
 
 #include <fcntl.h>
@@ -66,7 +67,18 @@ std::string put_link(const std::string& target, const std::string& path) {
 
 }  // namespace
 
-PtyLine::PtyLine(const LineBase& base, std::string path) : StreamLine(base), path_(std::move(path)), watch_(base.io) {}
+PtyLine::PtyLine(const LineBase& base, std::string path, std::uint32_t pace_baud, const SerialFormat& pace_format)
+    : StreamLine(base),
+      path_(std::move(path)),
+      pace_baud_(pace_baud),
+      pace_format_(pace_format),
+      out_(wire_time(pace_format.bits_per_byte(), pace_baud)),
+      in_(out_),
+      watch_(base.io) {
+    if (pace_baud == 0) return;
+    set_byte_time(wire_time(pace_format.bits_per_byte(), pace_baud));
+    one_wire_ = false;
+}
 
 void PtyLine::start() {
     const int master = ::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
@@ -94,11 +106,15 @@ void PtyLine::stop() {
     watch_.cancel();
     if (!slave_.empty() && target_of(path_) == slave_) ::unlink(path_.c_str());
     slave_.clear();
+    out_.stop();
+    in_.stop();
     StreamLine::stop();
 }
 
 std::string PtyLine::up_text() const {
-    return fmt::format("up as {} ({}), {}", path_, slave_, somebody_ ? "opened by a program" : "not opened by anybody");
+    const std::string pace =
+        pace_baud_ == 0 ? std::string() : fmt::format(", at the pace of {} baud {}", pace_baud_, to_text(pace_format_));
+    return fmt::format("up as {} ({}){}, {}", path_, slave_, pace, somebody_ ? "opened by a program" : "not opened by anybody");
 }
 
 void PtyLine::watch_for_somebody() {
@@ -118,6 +134,8 @@ void PtyLine::on_gone(int error) {
     // The program has closed its side. What it did not read and what it changed must not meet the next one.
     somebody_ = false;
     drop_partial();
+    out_.stop();
+    in_.stop();
     throw_away_unread(fd(), slave_);
     (void)make_raw(fd());
     watch_for_somebody();

@@ -16,7 +16,7 @@
 
 namespace axisgate {
 
-StreamLine::StreamLine(const LineBase& base) : RealLine(base), write_timer_(base.io) {}
+StreamLine::StreamLine(const LineBase& base) : RealLine(base), write_timer_(base.io), read_timer_(base.io) {}
 
 bool StreamLine::attach(int fd, bool is_socket, std::string& why) {
     is_socket_ = is_socket;
@@ -34,6 +34,7 @@ bool StreamLine::attach(int fd, bool is_socket, std::string& why) {
 void StreamLine::stop() {
     port_.reset();
     write_timer_.cancel();
+    read_timer_.cancel();
     write_waits_ = false;
     partial_done_ = 0;
 }
@@ -46,20 +47,31 @@ void StreamLine::begin_reading() {
 
 void StreamLine::on_readable() {
     for (int i = 0; i < reads_per_turn; ++i) {
-        const ssize_t n = ::read(fd(), buffer_.data(), buffer_.size());
+        const std::size_t room = std::min(room_to_read(), buffer_.size());
+        if (room == 0) {
+            read_timer_.expires_after(std::chrono::duration_cast<std::chrono::steady_clock::duration>(pause_before_read()));
+            read_timer_.async_wait(guarded([this](const boost::system::error_code& error) {
+                if (!error) on_readable();
+            }));
+            return;
+        }
+        const ssize_t n = ::read(fd(), buffer_.data(), room);
+        const int failed = errno;
         if (n > 0) {
             const auto size = static_cast<std::size_t>(n);
+            got(size, size == room);
             if (!hand_up(std::span(buffer_).first(size))) return;
-            if (size < buffer_.size()) break;  // that was all: spares the read that would say so
+            if (size < room) break;  // that was all: spares the read that would say so
             continue;
         }
+        got(0, false);
         if (n == 0) {
             if (nothing_more_will_come()) return on_gone(0);
             break;
         }
-        if (errno == EINTR) continue;
-        if (errno == EAGAIN || errno == EWOULDBLOCK) break;
-        return on_gone(errno);
+        if (failed == EINTR) continue;
+        if (failed == EAGAIN || failed == EWOULDBLOCK) break;
+        return on_gone(failed);
     }
     begin_reading();
 }
@@ -156,11 +168,15 @@ bool StreamLine::account_written(std::size_t bytes, std::size_t frames) {
     const Instant now = clock().now();
     load_out_.add(now, byte_time_ * static_cast<std::int64_t>(bytes));
     sent_.clear();
+    const std::size_t all = bytes;
     if (partial_done_ != 0) {
         const std::size_t n = std::min<std::size_t>(bytes, partial_.size - partial_done_);
         partial_done_ += n;
         bytes -= n;
-        if (partial_done_ < partial_.size) return true;
+        if (partial_done_ < partial_.size) {
+            wrote(all, true);
+            return true;
+        }
         partial_done_ = 0;
         sent_.push_back(partial_);
     }
@@ -178,6 +194,7 @@ bool StreamLine::account_written(std::size_t bytes, std::size_t frames) {
         sent_.push_back(f);
         queue_.pop();
     }
+    wrote(all, partial_done_ != 0 || !queue_.empty());
     for (Frame& f : sent_) {
         f.at = now;
         if (!tell_sent(f)) return false;

@@ -30,9 +30,22 @@ protected:
     void flush() override;
     /// Bytes that were read; may change them, and returns how many of them count.
     [[nodiscard]] virtual std::size_t filter(std::span<std::uint8_t> data) { return data.size(); }
-    /// How many bytes the transport should be given now. 0: ask again after wait_before_write().
+    /// How many bytes the transport should be given now. 0: asked again after pause_before_write().
     [[nodiscard]] virtual std::size_t room_to_write() { return chunk; }
     [[nodiscard]] virtual Duration pause_before_write() const { return std::chrono::milliseconds(1); }
+    /// So many bytes were given to the transport; `more`: others wait behind them.
+    virtual void wrote(std::size_t bytes, bool more) {
+        (void)bytes;
+        (void)more;
+    }
+    /// How many bytes may be read now. 0: asked again after pause_before_read(). What is not read waits in the kernel's buffer.
+    [[nodiscard]] virtual std::size_t room_to_read() { return chunk; }
+    [[nodiscard]] virtual Duration pause_before_read() const { return std::chrono::milliseconds(1); }
+    /// So many bytes were read; `more`: there may be others. 0 bytes: there are none after all.
+    virtual void got(std::size_t bytes, bool more) {
+        (void)bytes;
+        (void)more;
+    }
     /// Reading or writing failed, or (error 0) the other side has ended. Normally the line goes down.
     virtual void on_gone(int error);
 
@@ -53,7 +66,7 @@ private:
     void wait_writable();
 
     std::optional<asio::posix::stream_descriptor> port_;
-    asio::steady_timer write_timer_;
+    asio::steady_timer write_timer_, read_timer_;
     bool is_socket_ = false;
     bool write_waits_ = false;
     Duration byte_time_{};

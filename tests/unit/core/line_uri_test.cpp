@@ -87,6 +87,18 @@ TEST(LineUri, takesTheFamilysDefaultsForASerialLine) {
     EXPECT_EQ(parse_line_uri("serial:/dev/ttyS1?rs485=auto").uri.serial.rs485, Rs485::automatic);
 }
 
+TEST(LineUri, aPseudoTerminalKeepsAPaceOnlyWhenToldTo) {
+    const auto plain = parse_line_uri("pty:/tmp/drive", 57600, "7E1");
+    ASSERT_TRUE(plain.good()) << plain.fault;
+    EXPECT_EQ(plain.uri.serial.baud, 0u) << "the family's rate is no wish for a pace";
+    const auto paced = parse_line_uri("pty:/tmp/drive?baud=9600", 57600, "7N1");
+    ASSERT_TRUE(paced.good()) << paced.fault;
+    EXPECT_EQ(paced.uri.path, "/tmp/drive");
+    EXPECT_EQ(paced.uri.serial.baud, 9600u);
+    EXPECT_EQ(paced.uri.serial.format, (SerialFormat{7, Parity::none, 1}));
+    EXPECT_EQ(parse_line_uri("pty:/tmp/drive?format=8E2&baud=9600").uri.serial.format, (SerialFormat{8, Parity::even, 2}));
+}
+
 TEST(LineUri, countsTheBitsOfAByte) {
     const struct {
         const char* format;
@@ -107,8 +119,9 @@ TEST(LineUri, comesBackFromItsText) {
          {"can:can0", "can:vcan12", "serial:/dev/ttyS1?baud=9600&format=8N1",
           "serial:/dev/ttyS1?baud=1000000&format=7O2&rs485=1&rts_after_ms=3",
           "serial:/dev/ttyS1?baud=9600&format=8N1&rs485=auto&rts_before_ms=2", "serial:/dev/ttyS1?baud=9600&format=8N1&rtscts=1",
-          "tcp:192.168.1.50:503", "tcp:[::1]:1", "tcp-listen:0.0.0.0:0", "tcp-listen:[::]:65535", "udp:192.168.1.50:503",
-          "udp:[::1]:1", "udp-listen:0.0.0.0:0", "udp-listen:[::1]:0", "udp-listen:[::]:65535", "pty:/tmp/x", "pty:x", "twin"}) {
+          "tcp:192.168.1.50:503", "tcp:[::1]:1", "tcp-listen:0.0.0.0:0", "tcp-listen:[::]:65535", "udp:192.168.1.50:503", "udp:[::1]:1",
+          "udp-listen:0.0.0.0:0", "udp-listen:[::1]:0", "udp-listen:[::]:65535", "pty:/tmp/x", "pty:x", "pty:/tmp/x?baud=9600&format=7N1",
+          "twin"}) {
         const auto u = parse_line_uri(text);
         ASSERT_TRUE(u.good()) << text << ": " << u.fault;
         EXPECT_EQ(to_text(u.uri), text);
@@ -186,7 +199,14 @@ TEST(LineUri, saysWhatIsWrongAndShowsWhatIsRight) {
         {"tcp-listen:0.0.0.0:-1", "not a port (0..65535)", "tcp-listen:"},
         {"pty:", "path", "pty:/tmp/drive"},
         {"pty:/tmp/", "path", "pty:/tmp/drive"},
-        {"pty:/tmp/x?mode=raw", "no options", "pty:/tmp/drive"},
+        {"pty:/tmp/x?mode=raw", "no option \"mode\"", "pty:/tmp/drive?baud=9600"},
+        {"pty:/tmp/x?rtscts=1", "no option \"rtscts\"", "pty:/tmp/drive?baud=9600"},
+        {"pty:/tmp/x?format=7N1", "together with baud", "pty:/tmp/drive?baud=9600"},
+        {"pty:/tmp/x?baud=0", "50..12000000", "pty:/tmp/drive?baud=9600"},
+        {"pty:/tmp/x?baud=9600&format=9N1", "format is", "pty:/tmp/drive?baud=9600"},
+        {"pty:/tmp/x?baud=9600&baud=9600", "said twice", "pty:/tmp/drive?baud=9600"},
+        {"pty:/tmp/x?", "option=value", "pty:/tmp/drive?baud=9600"},
+        {"pty:?baud=9600", "path", "pty:/tmp/drive"},
         {std::string("pty:/tmp/x\0y", 12), "control character", "pty:"},
         {"pty:/tmp/x\n", "control character", "pty:"},
         {"pty:/" + std::string(2000, 'x'), "1024", "pty:"},

@@ -30,6 +30,7 @@ TEST_F(MakeLineTest, givesTheKindOfTheUri) {
     EXPECT_NE(dynamic_cast<UdpLine*>(make("udp:127.0.0.1:1").get()), nullptr);
     EXPECT_NE(dynamic_cast<UdpLine*>(make("udp-listen:127.0.0.1:0").get()), nullptr);
     EXPECT_NE(dynamic_cast<PtyLine*>(make("pty:/tmp/never-opened").get()), nullptr);
+    EXPECT_NE(dynamic_cast<PtyLine*>(make("pty:/tmp/never-opened?baud=9600&format=7N1").get()), nullptr);
     const auto line = make("can:can0");
     EXPECT_EQ(line->status(clock.now()).state, LineStatus::State::closed);
     EXPECT_EQ(line->deadline(), never);

@@ -34,8 +34,8 @@ protected:
         line.reset();
         fs::remove_all(folder);
     }
-    void make() {
-        line = std::make_unique<PtyLine>(base(), path);
+    void make(std::uint32_t baud = 0, const SerialFormat& format = {}) {
+        line = std::make_unique<PtyLine>(base(), path, baud, format);
         ASSERT_TRUE(comes_up(*line));
     }
     /// As a program opens a serial port.
@@ -205,6 +205,85 @@ TEST_F(PtyLineTest, mayBeDestroyedFromItsEvents) {
     ASSERT_TRUE(until([&] { return line == nullptr; }));
     settle();
     EXPECT_FALSE(fs::exists(fs::symlink_status(path)));
+}
+
+/// 48 bytes of 7N1 at 9600 baud: 45 ms.
+constexpr SerialFormat paced{7, Parity::none, 1};
+const std::string paced_text(48, 'x');
+constexpr Duration paced_time = milliseconds(45);
+
+TEST_F(PtyLineTest, withAPaceBytesTakeTheirTimeOut) {
+    make(9600, paced);
+    EXPECT_THAT(status().text, HasSubstr("at the pace of 9600 baud 7N1"));
+    const Fd f = program();
+    const Instant begun = clock.now();
+    ASSERT_TRUE(send(text(paced_text)));
+    ASSERT_TRUE(receives(f, paced_text));
+    EXPECT_GE(clock.now() - begun, paced_time);
+    ASSERT_TRUE(until([&] { return !owner.sent.empty(); }));
+    EXPECT_GE(owner.sent[0].at - begun, paced_time) << "a frame is sent when its last byte is out";
+    EXPECT_GT(status().load, 0.0);
+}
+
+TEST_F(PtyLineTest, withAPaceBytesTakeTheirTimeIn) {
+    make(9600, paced);
+    const Fd f = program();
+    const Instant begun = clock.now();
+    f.write(paced_text);
+    ASSERT_TRUE(until([&] { return owner.heard().size() >= paced_text.size(); }));
+    EXPECT_EQ(owner.heard(), paced_text);
+    EXPECT_GE(owner.frames.back().at - begun, paced_time);
+    EXPECT_EQ(status().bytes_in, paced_text.size());
+    EXPECT_GT(status().load, 0.0);
+}
+
+TEST_F(PtyLineTest, anUrgentFrameOvertakesWhatWaitsBehindThePace) {
+    make(9600, paced);
+    const Fd f = program();
+    ASSERT_TRUE(send(text("aaaaaaaaaa"), Priority::poll));
+    ASSERT_TRUE(send(text("bbbbbbbbbb"), Priority::poll));
+    std::string got;
+    ASSERT_TRUE(until([&] {
+        got += f.read();
+        return !got.empty();
+    }));
+    ASSERT_TRUE(send(text("SSSS"), Priority::urgent));
+    ASSERT_TRUE(until([&] {
+        got += f.read();
+        return got.size() >= 24;
+    }));
+    EXPECT_EQ(got, "aaaaaaaaaaSSSSbbbbbbbbbb") << "the frame that is half out is finished first";
+}
+
+TEST_F(PtyLineTest, whoWritesMoreThanThePaceCarriesIsHeldUpAndLosesNothing) {
+    make(4'000'000);
+    const Fd f = program();
+    const std::string much(20'000, 'y');
+    std::size_t written = 0;
+    bool held = false;
+    ASSERT_TRUE(until([&] {
+        if (written < much.size()) {
+            const ssize_t n = ::write(f.fd, much.data() + written, much.size() - written);
+            if (n > 0) written += static_cast<std::size_t>(n);
+            held = held || n < 0 || written < much.size();
+        }
+        return owner.heard().size() >= much.size();
+    }));
+    EXPECT_TRUE(held);
+    EXPECT_EQ(owner.heard(), much);
+}
+
+TEST_F(PtyLineTest, aProgramThatLeavesTakesAlongWhatWasStillOnItsWay) {
+    make(9600, paced);
+    {
+        const Fd f = program();
+        ASSERT_TRUE(send(text(paced_text)));
+        ASSERT_TRUE(until([&] { return !f.read().empty(); }));
+    }
+    ASSERT_TRUE(until([&] { return status().text.find("not opened") != std::string::npos; }));
+    const Fd f = program();
+    ASSERT_TRUE(send(text("new")));
+    EXPECT_TRUE(receives(f, "new"));
 }
 
 }  // namespace

@@ -838,7 +838,7 @@ export interface components {
         };
         LineFields: {
             name?: components["schemas"]["Name"];
-            /** @description can:can0, serial:/dev/ttyUSB0?baud=9600&format=7N1&rs485=1, tcp:HOST:PORT, tcp-listen:HOST:PORT, udp:HOST:PORT, udp-listen:HOST:PORT, pty:PATH, twin */
+            /** @description can:can0, serial:/dev/ttyUSB0?baud=9600&format=7N1&rs485=1, tcp:HOST:PORT, tcp-listen:HOST:PORT, udp:HOST:PORT, udp-listen:HOST:PORT, pty:PATH, pty:PATH?baud=9600&format=7N1, twin */
             uri?: string;
             family?: string;
             /** @description bit/s; left out or 0 - from the URI or the family's default */

@@ -190,7 +190,7 @@ def test_gateway_and_twin_over_a_serial_line_of_9600_baud(folder):
     site["axes"] = [a for a in site["axes"] if a["drive"] == "portal"]
     site.pop("mappings", None)
     with Process("twin", "pacontrol", "--line", f"pty:{folder / 'port'}{PACE}"), Gateway(folder, site) as g:
-        until(lambda: g.axis("portal.x")["online"] and g.axis("portal.y")["online"], 15, "the control is found")
+        until(lambda: all(g.axis(x)["position"] is not None and not g.axis(x)["stale"] for x in ("portal.x", "portal.y")), 15, "the control is found")
         for axis in ("portal.x", "portal.y"):
             assert g.command(axis, {"command": "enable"})["result"] == "done"
             assert g.command(axis, {"command": "home"}, wait=60)["result"] == "done"

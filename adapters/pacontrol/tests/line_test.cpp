@@ -1,0 +1,194 @@
+// The adapter against the embedded control on a line with honest wire time (9600 baud 7N1), both as they are, in virtual time.
+// In: commands, instants. Out: how much of the line is used, and how soon a stop is on it.
+// Never looks inside either of them: what counts is what crosses the line, and when.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <set>
+
+#include "adapters/pacontrol/adapter.hpp"
+#include "adapters/pacontrol/twin.hpp"
+#include "gateway/core/twin_bus.hpp"
+#include "gateway/core/wire_time.hpp"
+
+namespace axisgate::pacontrol {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::uint32_t baud = 9600;
+constexpr std::uint8_t bits = 9;
+constexpr Instant start = time_zero + 1s;
+
+/// One axisgate side of the line, one control at the other end.
+class Rig final : public LineEvents {
+public:
+    explicit Rig(int axes) : bus_({LineKind::bytes, baud, bits, true}) {
+        LineSetup line;
+        line.id = LineId{0};
+        line.name = "com1";
+        line.bit_rate = baud;
+        line.bits_per_byte = bits;
+        DriveSetup d;
+        d.id = DriveId{0};
+        d.name = "portal";
+        d.address = "com1";
+        for (int i = 0; i < axes; ++i)
+            d.axes.push_back({AxisId{static_cast<std::uint16_t>(i)}, i + 1});
+        line.drives.push_back(d);
+        TwinSetup t;
+        t.address = "com1";
+        t.axes = axes;
+        t.bit_rate = baud;
+        bus_.add(DriveId{0}, twin::make_twin(catalogue_, t), {}, now);
+        call([&](Out& out) { adapter_.configure(line, now, out); });
+        bus_.open(*this, now);
+        run(2s);
+    }
+    void on_frame(const Frame& f) override {
+        now = std::max(now, f.at);
+        received += f.size;
+        if (f.data().back() == 0x04) answers.push_back(f.at);
+        call([&](Out& out) { adapter_.on_frame(f, now, out); });
+    }
+    void on_line_state(bool up, const std::string&) override {
+        call([&](Out& out) { adapter_.on_line(up, now, out); });
+    }
+    void on_sent(const Frame& f) override { transmitted += f.size; }
+
+    Ticket command(CommandBody body, int axis) {
+        Command c;
+        c.ticket = ++tickets_;
+        c.axis = AxisId{static_cast<std::uint16_t>(axis)};
+        c.body = std::move(body);
+        call([&](Out& out) { adapter_.on_command(c, now, out); });
+        return c.ticket;
+    }
+    Outcome ask(CommandBody body, int axis) {
+        const Ticket t = command(std::move(body), axis);
+        for (const Instant end = now + 30s; !results.contains(t) && now < end;)
+            step(end);
+        EXPECT_TRUE(results.contains(t));
+        if (results.contains(t) && results[t].outcome != Outcome::accepted) ADD_FAILURE() << results[t].text;
+        return results.contains(t) ? results[t].outcome : Outcome::failed;
+    }
+    void run(Duration d) {
+        for (const Instant end = now + d; now < end;)
+            step(end);
+    }
+    /// Enabled, and all axes under way for the next half minute.
+    void move_all(int axes) {
+        for (int i = 0; i < axes; ++i)
+            ASSERT_EQ(ask(Enable{}, i), Outcome::accepted);
+        for (int i = 0; i < axes; ++i) {
+            Move m;
+            m.target = 400'000;
+            m.velocity = 10'000;
+            ASSERT_EQ(ask(m, i), Outcome::accepted);
+        }
+    }
+
+    struct Handed {
+        Instant at;
+        std::string text;
+    };
+    Instant now = start;
+    std::vector<Handed> handed;  ///< what the adapter gave to the line, as text without SOH STX
+    std::map<Ticket, Result> results;
+    std::map<AxisId, std::set<std::int64_t>> positions;
+    std::size_t transmitted = 0, received = 0;
+    std::vector<Instant> answers;  ///< when the last byte of each acknowledgement came
+
+private:
+    template <class F>
+    void call(F&& f) {
+        Out out;
+        f(out);
+        for (const auto& tx : out.frames) {
+            const auto b = tx.frame.data();
+            handed.push_back({now, b.size() > 2 ? std::string(b.begin() + 2, b.end()) : "EOT"});
+            EXPECT_TRUE(bus_.send(tx.frame, tx.priority, now));
+        }
+        for (const auto& r : out.results)
+            results[r.ticket] = r;
+        for (const auto& x : out.feedback)
+            positions[x.axis].insert(x.value.position);
+    }
+    void step(Instant end) {
+        const Instant next = std::min({end, adapter_.deadline(), bus_.deadline()});
+        now = std::max(now, next);
+        if (bus_.deadline() <= now) {
+            bus_.on_deadline(now);
+        } else if (adapter_.deadline() <= now) {
+            call([&](Out& out) { adapter_.on_deadline(now, out); });
+        }
+    }
+
+    static const Catalogue& empty() {
+        static const Catalogue c;
+        return c;
+    }
+    const Catalogue& catalogue_ = empty();
+    LineAdapter adapter_{catalogue_, LineKind::bytes};
+    TwinBus bus_;
+    Ticket tickets_ = 0;
+};
+
+TEST(PacontrolLine, PollsOfEightMovingAxesUseWhatTheirBytesAllow) {
+    constexpr int axes = 8;
+    Rig r(axes);
+    r.move_all(axes);
+    r.run(1s);
+    const Instant begun = r.now;
+    const std::size_t before = r.transmitted + r.received;
+    r.positions.clear();
+    r.run(15s);
+    const double bytes = static_cast<double>(r.transmitted + r.received - before);
+    const double share = bytes * seconds(wire_time(bits, baud)) / seconds(r.now - begun);
+    RecordProperty("share_of_the_line_percent", std::to_string(100 * share));
+    std::printf("the polls of %d axes use %.2f %% of what their bytes allow\n", axes, 100 * share);
+    EXPECT_GE(share, 0.95);
+    EXPECT_LE(share, 1.001) << "one exchange at a time cannot use more";
+    for (int i = 0; i < axes; ++i)
+        EXPECT_GE(r.positions[AxisId{static_cast<std::uint16_t>(i)}].size(), 12u) << "axis " << i + 1 << " is heard of";
+}
+
+TEST(PacontrolLine, AStopIsOnTheWireAfterAtMostTheExchangeInProgress) {
+    constexpr int axes = 8;
+    Duration longest{};
+    for (int k = 0; k < 40; ++k) {
+        SCOPED_TRACE(k);
+        Rig r(axes);
+        r.move_all(axes);
+        r.run(500ms + k * 1700us);
+        for (int i = 0; i < axes; ++i)  // and commands that wait, beside the polls
+            r.command(Action{"override.speed", "5"}, i);
+        const Instant asked = r.now;
+        const std::size_t mark = r.handed.size();
+        // Handed over already and not answered yet: the exchange in progress.
+        const bool in_progress =
+            !r.handed.empty() && r.handed.back().at >= r.answers.back();  // the next one leaves at the instant of an answer
+        const Ticket stop = r.command(QuickStop{}, 5);
+        const Ticket other = r.command(Halt{}, 2);
+        r.run(300ms);
+        ASSERT_GE(r.handed.size(), mark + 2);
+        EXPECT_EQ(r.handed[mark].text.substr(0, 6), "0A9A;6") << "nothing overtakes it";
+        EXPECT_EQ(r.handed[mark + 1].text.substr(0, 6), "0A9A;3") << "the next one right behind it";
+        const Duration waited = r.handed[mark].at - asked;
+        const auto answer = std::ranges::lower_bound(r.answers, asked);
+        ASSERT_NE(answer, r.answers.end());
+        EXPECT_EQ(r.handed[mark].at, in_progress ? *answer : asked);
+        longest = std::max(longest, waited);
+        ASSERT_TRUE(r.results.contains(stop) && r.results.contains(other));
+        EXPECT_TRUE(good(r.results[stop])) << r.results[stop].text;
+    }
+    std::printf("longest wait of a stop for the line: %.1f ms\n", 1e3 * seconds(longest));
+    // The longest exchange of these: 0A8D;8;1;10.0 or a poll, and its acknowledgement of up to 25 bytes.
+    EXPECT_LE(longest, wire_time(std::uint64_t{bits} * 48, baud));
+    EXPECT_GT(longest, Duration::zero()) << "some came while an exchange was in progress";
+}
+
+}  // namespace
+}  // namespace axisgate::pacontrol

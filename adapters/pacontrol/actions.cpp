@@ -143,7 +143,7 @@ void Control::start_single(Axis& a, const CommandInfo& c, std::string_view argum
             needs_data ? std::string(data) : std::string("0")});
 }
 
-/// Steps: 1 the command itself; 10 a condition, then a start; 20 a manual move; 30 one reference run after the other.
+/// Steps: 1 the command itself; 10 a condition, then a start; 20 a manual move; 30 one reference run after the other, 31 its position.
 void Control::run_single(Axis& a, const Reply* reply, Turn& t) {
     Job& j = a.job;
     const auto ch = static_cast<std::uint32_t>(a.channel);
@@ -156,7 +156,6 @@ void Control::run_single(Axis& a, const Reply* reply, Turn& t) {
         if (x.motion.kind != Motion::Kind::reference && good) begin_motion(x, {Motion::Kind::reference, 0, false, false, exchanges_}, t);
         x.running = false;
         end_motion(x, good, Reason::drive_refused, "the reference run did not end well", t);
-        first_cycle_ = true;  // the position has a new zero
         if (reply->quit != 0) {
             (void)ended_by_quit(a, *reply, t, fmt::format("axes before it in the order are referenced, {} of {}", j.at, j.places.size()));
             return;
@@ -167,6 +166,12 @@ void Control::run_single(Axis& a, const Reply* reply, Turn& t) {
                                         status_text(mode_), error_),
                             t, error_);
         }
+        j.step = 31;  // the position has a new zero: known before anybody hears of the end
+        return ask(a, code::position, static_cast<std::uint32_t>(x.channel), t);
+    }
+    if (j.step == 31) {
+        if (reply->quit == 0) learn_position(axes_[j.places[j.at]], number_of(*reply).value_or(0), t);
+        j.step = 30;
         if (++j.at < j.places.size()) return ask(a, code::reference, static_cast<std::uint32_t>(j.places[j.at]) + 1, t);
         return job_over(a, Outcome::done, Reason::none, fmt::format("{} axes referenced", j.places.size()), t);
     }
@@ -198,9 +203,11 @@ void Control::run_single(Axis& a, const Reply* reply, Turn& t) {
         case code::measuring_on:
             a.on = false;
             a.status = 8;
+            poll_soon(PollKind::status, a);
             break;
         case code::measuring_off:
-            a.status = -1;  // read anew with the next poll; nothing is refused for what was
+            a.status = -1;  // read anew at once; nothing is refused for what was
+            poll_soon(PollKind::status, a);
             break;
         case code::set_speed:
             a.speed = increments_of(real_of(j.request.data).value_or(0));
@@ -240,8 +247,7 @@ void Control::run_single(Axis& a, const Reply* reply, Turn& t) {
         default:
             break;
     }
-    if (sent == code::set_position || sent == code::position_null || sent == code::reference_here)
-        polls_.push_front({PollKind::position, place(a)});
+    if (sent == code::set_position || sent == code::position_null || sent == code::reference_here) poll_soon(PollKind::position, a);
     emit(a, t);
     const CommandInfo* c = command_info(sent);
     Value v;

@@ -119,7 +119,7 @@ private:
     void answered(const Reply& reply, Turn& t);
     void answered_with_frame_error(const Reply& reply, Turn& t);
     void silent(Turn& t);
-    void in_step(Turn& t);
+    void in_step();
     [[nodiscard]] CheckForm request_form() const noexcept;
     [[nodiscard]] Duration reply_limit(std::size_t bytes) const noexcept;
 
@@ -130,7 +130,7 @@ private:
     void link(bool online, std::string text, Turn& t);
     void fail_all(Reason reason, const std::string& text, Turn& t);
     void fail_axis(Axis& a, Reason reason, const std::string& text, Turn& t);
-    void forget(Turn& t);
+    void forget();
 
     // status.cpp
     void learn(const Reply& reply, Turn& t);
@@ -158,6 +158,9 @@ private:
     [[nodiscard]] bool poll_wanted(Instant now) const noexcept;
     void send_next_poll(Turn& t);
     void poll_answered(const Poll& poll, const Reply& reply, Turn& t);
+    /// Before the cycle's other polls. What waits already moves to the front: the queue never holds more than each poll once besides a
+    /// cycle's.
+    void poll_soon(PollKind kind, const Axis& a);
 
     // control.cpp: queues and turns
     [[nodiscard]] Axis* axis_of(AxisId id) noexcept;

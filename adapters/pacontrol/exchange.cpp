@@ -148,7 +148,7 @@ void Control::answered(const Reply& reply, Turn& t) {
         case Purpose::probe:
             break;
         case Purpose::barrier:
-            if (reply.quit == quit::input_unknown) return in_step(t);
+            if (reply.quit == quit::input_unknown) return in_step();
             look_due_ = true;  // refused as such: something is being processed, or the answer was late; a poll tells
             return;
         case Purpose::look:
@@ -159,7 +159,7 @@ void Control::answered(const Reply& reply, Turn& t) {
                 processing_.next_poll = t.now;
                 processing_.limit = t.now + options_.processing_limit;
             }
-            return in_step(t);
+            return in_step();
         case Purpose::job:
             return job_answered(axes_[x.axis], reply, t);
         case Purpose::processing:
@@ -262,7 +262,7 @@ void Control::silent(Turn& t) {
             break;
         case Purpose::barrier:
             if (heard_in_barrier_) {
-                in_step(t);  // answers came, then silence for a whole time-out: nothing is on its way any more
+                in_step();  // answers came, then silence for a whole time-out: nothing is on its way any more
                 silent_ = 0;
                 return;
             }
@@ -283,7 +283,7 @@ void Control::silent(Turn& t) {
 }
 
 /// Every answer from here on belongs to what asked for it.
-void Control::in_step(Turn&) {
+void Control::in_step() {
     out_of_step_ = false;
     heard_in_barrier_ = false;
     look_due_ = false;

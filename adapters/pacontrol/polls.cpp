@@ -59,6 +59,11 @@ void Control::plan_cycle(Turn& t) {
     first_cycle_ = false;
 }
 
+void Control::poll_soon(PollKind kind, const Axis& a) {
+    std::erase_if(polls_, [&](const Poll& p) { return p.kind == kind && p.axis == place(a); });
+    polls_.push_front({kind, place(a)});
+}
+
 void Control::send_next_poll(Turn& t) {
     if (polls_.empty()) plan_cycle(t);
     const Poll p = polls_.front();

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "adapters/pacontrol/control.hpp"
+#include "adapters/pacontrol/number.hpp"
 
 namespace axisgate::pacontrol {
 
@@ -15,8 +16,7 @@ void Control::link(bool online, std::string text, Turn& t) {
 }
 
 /// Everything that may have changed while nobody listened.
-void Control::forget(Turn& t) {
-    (void)t;
+void Control::forget() {
     exchange_ = {};
     framer_.reset();
     processing_ = {};
@@ -43,7 +43,7 @@ void Control::forget(Turn& t) {
 }
 
 void Control::line_up(Turn& t) {
-    forget(t);
+    forget();
     phase_ = Phase::probing;
     silent_ = 0;
     retry_pause_ = manners_.pause_min;
@@ -55,7 +55,7 @@ void Control::line_up(Turn& t) {
 
 void Control::line_down(Turn& t, std::string_view why) {
     fail_all(Reason::line_down, std::string(why), t);
-    forget(t);
+    forget();
     phase_ = Phase::down;
     next_probe_ = never;
     link(false, std::string(why), t);
@@ -94,7 +94,7 @@ void Control::count_silence(Turn& t) {
 void Control::go_absent(Turn& t, std::string why) {
     const std::string text = fmt::format("the PA-CONTROL {} does not answer: {}", setup_.name, why);
     fail_all(Reason::no_answer, text, t);
-    forget(t);
+    forget();
     phase_ = Phase::absent;
     retry_pause_ = manners_.pause_min;
     next_probe_ = t.now + retry_pause_;
@@ -103,8 +103,10 @@ void Control::go_absent(Turn& t, std::string why) {
 
 void Control::fail_axis(Axis& a, Reason reason, const std::string& text, Turn& t) {
     if (a.motion.active()) {
-        a.lost = fmt::format("the end of a motion to {} was never heard",
-                             a.motion.kind == Motion::Kind::position ? std::to_string(a.motion.target) : "its end");
+        const bool position = a.motion.kind == Motion::Kind::position || a.motion.kind == Motion::Kind::manual;
+        a.lost = a.motion.kind == Motion::Kind::reference ? std::string("the end of a reference run was never heard")
+                 : position ? fmt::format("the end of a motion to {} was never heard", axis_text(a.motion.target))
+                            : std::string("the end of a motion was never heard");
     }
     job_over(a, Outcome::failed, reason, a.motion.active() ? text + "; whether the motion has ended is not known" : text, t);
     end_waits(a, reason, text + "; the end of the motion was never heard: whether it was reached is not known", t, false);

@@ -108,8 +108,9 @@ void Control::derive(Axis& a) {
     f.internal_limit = a.limits >= 0 && (a.limits & 6) != 6;
     f.quick_stopping = a.on && (mode_ == status::online_stop || mode_ == status::online_stopped);
     f.warning = a.limits >= 0 && a.on && !(a.limits & 1);
-    f.position_demand = f.position;  // the control does not say where it wants to be
-    f.native_status = static_cast<std::uint32_t>(mode_ & 0xFF) | static_cast<std::uint32_t>(a.status & 0xFF) << 8 |
+    f.position_demand = f.position;                               // the control does not say where it wants to be
+    const int status = a.status < 0 && a.running ? 1 : a.status;  // 1911 says as much as 1910 of an axis that moves
+    f.native_status = static_cast<std::uint32_t>(mode_ & 0xFF) | static_cast<std::uint32_t>(status & 0xFF) << 8 |
                       static_cast<std::uint32_t>(a.limits & 0xFF) << 16;
 }
 
@@ -150,10 +151,10 @@ void Control::learn_running(std::uint32_t mask, Turn& t) {
             // It stands, and was asked after the motion had begun. Status and position first, then everybody hears of its end.
             a.motion.final_due = true;
             a.status = -1;
-            polls_.push_front({PollKind::position, place(a)});
-            polls_.push_front({PollKind::status, place(a)});
+            poll_soon(PollKind::position, a);
+            poll_soon(PollKind::status, a);
         } else if (was && !motion_seen) {
-            polls_.push_front({PollKind::position, place(a)});
+            poll_soon(PollKind::position, a);
         }
         emit(a, t);
     }

@@ -46,7 +46,8 @@ std::vector<HandItem> Device::hand() const {
         mask |= std::int64_t{control_.elements().inputs.get(b + 1)} << b;
     items.push_back({"power", powered_, true, "supply voltage; off loses outputs, overrides and the operating mode"});
     items.push_back({"silent", silent_, true, "the control hears and acts, but nothing that it sends reaches the line"});
-    items.push_back({"inputs", mask, true, "levels of I1 (bit 0) to I32 (bit 31); single ones up to I1024 by their names: I33"});
+    items.push_back({"inputs", mask, true, "levels of I1 (bit 0) to I32 (bit 31)"});
+    items.push_back({"input", std::string(), true, "one input, I1 to I1024, and its level: I33=1"});
     items.push_back({"external_stop", control_.external_stop_wire(), true,
                      "the external-stop contact carries power; without it ONLINE cannot start, and what runs is stopped"});
     items.push_back({"emergency_stop", false, true, "true: all axes stop, AUTOMATIC and ONLINE end in status 19 or 39"});
@@ -116,6 +117,14 @@ std::string Device::set_condition(const std::string& name, const Value& value, I
         for (int b = 0; b < mask_bits; ++b)
             control_.set_input(b + 1, ((*number >> b) & 1) != 0, now);
         return {};
+    }
+    if (name == "input") {
+        if (text && text->empty()) return {};  // as it is listed
+        const auto equals = text ? text->find('=') : std::string::npos;
+        const std::string level = equals == std::string::npos ? "" : text->substr(equals + 1);
+        if (equals == std::string::npos || text->front() != 'I' || (level != "0" && level != "1"))
+            return "input: " + to_text(value) + " is not an input and its level, such as I33=1";
+        return set_condition(text->substr(0, equals), Value{level == "1"}, now);
     }
     if (name.size() > 1 && name.front() == 'I') {
         const auto n = decimal(std::string_view(name).substr(1));
@@ -217,7 +226,8 @@ std::string Device::set_axis_condition(int n, const std::string& name, const Val
         return {};
     }
     return "there is no '" + name +
-           "' here; power, silent, inputs, I1..I1024, external_stop, emergency_stop, inject_error, panel, program, and for each axis "
+           "' here; power, silent, inputs, input, I1..I1024, external_stop, emergency_stop, inject_error, panel, program, and for each "
+           "axis "
            "(plain: "
            "axis 1, else axisN.) stall, limit_positive, limit_negative, home_switch, temperature, load, following_error, power_pack, "
            "encoder_broken, jog, position, inject_error";

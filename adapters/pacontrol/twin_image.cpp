@@ -123,6 +123,7 @@ Image::Image(const ImageShape& shape) : shape_(shape), in_(shape.bytes()), out_(
 
 std::span<const std::uint8_t> Image::exchange(Control& control, std::span<const std::uint8_t> in, Instant now) {
     if (in.size() != in_.size()) return out_;
+    if (!std::ranges::equal(in, in_)) changed_ = now;
     std::ranges::copy(in, in_.begin());
     control.advance(now);
     // In home position the format follows; the value that is there when the control leaves stays [L592].
@@ -138,6 +139,12 @@ std::span<const std::uint8_t> Image::exchange(Control& control, std::span<const 
         }
     }
     return out_;
+}
+
+InterbusDiagnosis Image::diagnosis(Instant now) const noexcept {
+    if (changed_ == never) return {};
+    const bool late = now - changed_ > std::chrono::seconds(10);
+    return {!late, late, commanded_, stopped_by_zeros_};
 }
 
 void Image::command(Control& control, Instant now) {

@@ -25,6 +25,15 @@ struct ImageShape {
     [[nodiscard]] std::size_t bytes() const noexcept;
 };
 
+/// The four states of the Interbus diagnosis [L1773-L1776].
+struct InterbusDiagnosis {
+    bool active = false;        ///< the master transfers new data
+    bool time_out = false;      ///< it has sent none for more than 10 s
+    bool command_data = false;  ///< it has given commands
+    bool emergency_stop = false;
+    bool operator==(const InterbusDiagnosis&) const = default;
+};
+
 /// True if the command carries a real (IEEE 754 single), always so in the CMD interface.
 [[nodiscard]] bool carries_real(std::uint16_t code) noexcept;
 
@@ -35,6 +44,8 @@ public:
     /// One cycle. `in` of another length than shape.bytes() changes nothing: the answer of the cycle before is given again.
     std::span<const std::uint8_t> exchange(Control& control, std::span<const std::uint8_t> in, Instant now);
     [[nodiscard]] bool integers() const noexcept { return integers_; }
+    /// New data are bytes that differ from those of the cycle before; nothing holds before the first of them has come.
+    [[nodiscard]] InterbusDiagnosis diagnosis(Instant now) const noexcept;
 
 private:
     struct Module {
@@ -56,6 +67,7 @@ private:
     std::vector<std::uint8_t> in_, out_;
     std::array<Module, 8> modules_{};
     bool sf_ = false, running_ = false, integers_ = false, commanded_ = false, stopped_by_zeros_ = false;
+    Instant changed_ = never;      ///< when the master's bytes were last new
     std::uint16_t ctrl_ = 0x0007;  ///< the resting image: nothing demanded
 };
 

@@ -11,7 +11,7 @@ TEST(TwinHand, WhatIsListedCanBeWrittenBack) {
         b.online();
         b.good("0A98;1;0;0");
         const auto items = b.twin().hand();
-        EXPECT_EQ(items.size(), 8u + 12u * static_cast<unsigned>(axes));
+        EXPECT_EQ(items.size(), 9u + 12u * static_cast<unsigned>(axes));
         for (const HandItem& item : items) {
             EXPECT_FALSE(item.description.empty()) << item.name;
             const bool holds = item.name.ends_with("position") && item.name != "position";  // those axes are on
@@ -34,6 +34,9 @@ TEST(TwinHand, RefusalsSayWhatWouldBeRight) {
     b.refused("load", 2.0);
     b.refused("I1025", true);
     b.refused("I0", true);
+    for (const char* bad : {"I33", "33=1", "I33=2", "I0=1", "I1025=0", "=1", "O3=1", "I=1"})
+        b.refused("input", std::string(bad));
+    b.refused("input", true);
     b.refused("program", std::string("NONE"));
     b.refused("position", std::int64_t{0});
     b.refused("panel", std::int64_t{1});
@@ -77,6 +80,10 @@ TEST(TwinHand, InputsSurviveAndMasksAreBits) {
     EXPECT_EQ(b.value("1900;2;0;0"), 0);
     b.hand("I33", true);
     EXPECT_EQ(b.value("1901;40;0;0"), 1);
+    b.hand("input", std::string("I1024=1"));
+    EXPECT_EQ(b.value("1900;1024;0;0"), 1);
+    b.hand("input", std::string("I1024=0"));
+    EXPECT_EQ(b.value("1900;1024;0;0"), 0);
     b.hand("power", false);
     b.hand("power", true);
     EXPECT_EQ(b.value("1900;5;0;0"), 1) << "the world outside has not changed";

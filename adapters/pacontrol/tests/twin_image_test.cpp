@@ -346,6 +346,30 @@ TEST(PacontrolImage, InterbusZerosAreAnEmergencyStopOnceCommandsHaveCome) {  // 
     EXPECT_EQ(r.control.status(), 39) << "stopped with malfunction";
 }
 
+TEST(PacontrolImage, InterbusDiagnosisTellsOfDataCommandsAndTheStop) {
+    ImageShape s;
+    s.interbus = true;
+    Rig r(s);
+    const auto is = [&](InterbusDiagnosis d) { EXPECT_EQ(r.image.diagnosis(r.now), d); };
+    r.run(30s);
+    is({});  // zeros from the start: nobody has sent anything
+    r.command(0x1900, 5);
+    is({true, false, true, false});
+    r.run(10s);
+    is({true, false, true, false});
+    r.cycle();
+    is({false, true, true, false});
+    r.put(0, 1, 4);
+    r.cycle();
+    is({true, false, true, false});
+    r.in.assign(8, 0);
+    r.cycle();
+    is({true, false, true, true});
+    r.put(6, 0x1900, 2);
+    r.cycle();
+    is({true, false, true, false});
+}
+
 TEST(PacontrolImage, GoldenImagesOfTheVectors) {
     std::ifstream file(AXISGATE_SOURCE_DIR "/adapters/pacontrol/vectors.txt");
     ASSERT_TRUE(file);

@@ -182,7 +182,7 @@ TEST(TwinTraps, T11_StatusesAreDecimalNineStandsForAnErrorAndTransitionsAreSeen)
     modes.home();
     modes.bytes(frame("0602;0;0;0"));
     EXPECT_EQ(statuses(modes, 500ms), (std::vector<int>{10, 11}));
-    // 12 lasts as long as axes brake: the operator's program moves one no more than this model's does, so 13 follows at once.
+    // 12 lasts as long as axes brake; this model's programs move none, so 13 follows at once.
     modes.bytes(frame("0600;0;0;0"));
     EXPECT_EQ(statuses(modes, 3s), (std::vector<int>{13, 15}));
 }

@@ -32,6 +32,8 @@ double float_of(std::uint32_t v) {
     const double d = static_cast<double>(std::bit_cast<float>(v));
     return std::isfinite(d) ? d : 0;
 }
+/// Bits and words of elements are 16-bit data, in bytes 2 and 3; the upper half is not looked at (E-60).
+bool has_short_data(std::uint16_t code) { return code >= 0x0902 && code <= 0x0905; }
 /// Axis commands belong to the axis interface where there is one [L640].
 bool blocked(std::uint16_t code) {
     const CommandRow* row = find_command(code);
@@ -164,7 +166,7 @@ void Image::command(Control& control, Instant now) {
         sf_ = sf;
         commanded_ = true;
         const auto code = static_cast<std::uint16_t>(w & 0x7FFFu);
-        const std::uint32_t raw = dword(in_, 0);
+        const std::uint32_t raw = has_short_data(code) ? dword(in_, 0) & 0xFFFFu : dword(in_, 0);
         const Datum data =
             carries_real(code) ? Datum::number(float_of(raw)) : Datum::integer(static_cast<double>(static_cast<std::int32_t>(raw)));
         reply = shape_.modules > 0 && blocked(code) ? CommandReply{inadmissible, true, {}, never}  // E-63

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -58,8 +59,9 @@ public:
     }
     void on_sent(const Frame& f) override { transmitted += f.size; }
 
-    Ticket command(CommandBody body, int axis) {
+    Ticket command(CommandBody body, int axis, bool until_done = false) {
         Command c;
+        c.until_done = until_done;
         c.ticket = ++tickets_;
         c.axis = AxisId{static_cast<std::uint16_t>(axis)};
         c.body = std::move(body);
@@ -73,6 +75,19 @@ public:
         EXPECT_TRUE(results.contains(t));
         if (results.contains(t) && results[t].outcome != Outcome::accepted) ADD_FAILURE() << results[t].text;
         return results.contains(t) ? results[t].outcome : Outcome::failed;
+    }
+    Result answer(Ticket t) {
+        for (const Instant end = now + 30s; !results.contains(t) && now < end;)
+            step(end);
+        EXPECT_TRUE(results.contains(t));
+        return results[t];
+    }
+    void hand(const std::string& name, const Value& value) { EXPECT_EQ(bus_.set_hand(DriveId{0}, name, value, now), ""); }
+    [[nodiscard]] std::string notice_of(const std::string& kind) const {
+        for (auto it = notices.rbegin(); it != notices.rend(); ++it) {
+            if (it->kind == kind) return it->text;
+        }
+        return {};
     }
     void run(Duration d) {
         for (const Instant end = now + d; now < end;)
@@ -98,6 +113,8 @@ public:
     std::vector<Handed> handed;  ///< what the adapter gave to the line, as text without SOH STX
     std::map<Ticket, Result> results;
     std::map<AxisId, std::set<std::int64_t>> positions;
+    std::map<AxisId, AxisFeedback> feedback;
+    std::vector<Notice> notices;
     std::size_t transmitted = 0, received = 0;
     std::vector<Instant> answers;  ///< when the last byte of each acknowledgement came
 
@@ -113,8 +130,11 @@ private:
         }
         for (const auto& r : out.results)
             results[r.ticket] = r;
-        for (const auto& x : out.feedback)
+        for (const auto& x : out.feedback) {
             positions[x.axis].insert(x.value.position);
+            feedback[x.axis] = x.value;
+        }
+        notices.insert(notices.end(), out.notices.begin(), out.notices.end());
     }
     void step(Instant end) {
         const Instant next = std::min({end, adapter_.deadline(), bus_.deadline()});
@@ -188,6 +208,58 @@ TEST(PacontrolLine, AStopIsOnTheWireAfterAtMostTheExchangeInProgress) {
     // The longest exchange of these: 0A8D;8;1;10.0 or a poll, and its acknowledgement of up to 25 bytes.
     EXPECT_LE(longest, wire_time(std::uint64_t{bits} * 48, baud));
     EXPECT_GT(longest, Duration::zero()) << "some came while an exchange was in progress";
+}
+
+Move to(std::int64_t target, std::int64_t velocity) {
+    Move m;
+    m.target = target;
+    m.velocity = velocity;
+    return m;
+}
+
+TEST(PacontrolLine, AnOperatorAtThePanelIsToldInTheManualsWordsAndNotFought) {
+    for (const auto& [panel, words] :
+         {std::pair{"manual", "2 (manual by front panel)"}, {"winpac", "20 (manual by WINPAC"}, {"home", "1 (home position)"}}) {
+        SCOPED_TRACE(panel);
+        Rig r(2);
+        ASSERT_EQ(r.ask(Enable{}, 0), Outcome::accepted);
+        const Ticket go = r.command(to(400'000, 10'000), 0, true);
+        r.run(2s);
+        r.hand("panel", std::string(panel));
+        const Result x = r.answer(go);
+        EXPECT_EQ(x.outcome, Outcome::failed);
+        EXPECT_EQ(x.reason, Reason::interrupted);
+        EXPECT_NE(x.text.find(words), std::string::npos) << x.text;
+        EXPECT_NE(r.notice_of("mode").find("not by this gateway"), std::string::npos) << r.notice_of("mode");
+        const std::size_t mark = r.handed.size();
+        r.run(3s);
+        for (std::size_t i = mark; i < r.handed.size(); ++i)
+            EXPECT_EQ(r.handed[i].text[0], '1') << r.handed[i].text << ": nothing but questions";
+        EXPECT_LT(r.feedback[AxisId{0}].position, 400'000);
+        r.hand("panel", std::string("home"));
+        r.run(500ms);
+        EXPECT_EQ(r.ask(Enable{}, 0), Outcome::accepted) << "no restart";
+        EXPECT_EQ(r.answer(r.command(to(1000, 50'000), 0, true)).outcome, Outcome::done);
+    }
+}
+
+TEST(PacontrolLine, AMoveWhoseEndNobodyHeardIsUnknownAndItsPositionIsReadBack) {
+    Rig r(1);
+    ASSERT_EQ(r.ask(Enable{}, 0), Outcome::accepted);
+    const Ticket go = r.command(to(20'000, 10'000), 0, true);
+    r.run(500ms);
+    r.hand("silent", true);
+    const Result x = r.answer(go);
+    EXPECT_EQ(x.outcome, Outcome::failed);
+    EXPECT_EQ(x.reason, Reason::no_answer);
+    EXPECT_NE(x.text.find("not known"), std::string::npos) << x.text;
+    r.run(10s);
+    r.hand("silent", false);
+    r.run(8s);
+    EXPECT_EQ(r.feedback[AxisId{0}].position, 20'000);
+    EXPECT_FALSE(r.feedback[AxisId{0}].target_reached) << "it stands there, and nobody saw it come";
+    EXPECT_NE(r.notice_of("motion").find("the end of a motion to 20.0 was never heard; the position read back is 20.0"), std::string::npos)
+        << r.notice_of("motion");
 }
 
 }  // namespace

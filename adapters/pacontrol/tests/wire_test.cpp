@@ -226,5 +226,18 @@ TEST(PacontrolCommands, ErrorsAndStatusesInTheManualsWords) {
     EXPECT_EQ(describe(Request{0x0A87, 2, true, "5552.0"}), "0A87 cmd_pos_axis_absolut axis 2 = 5552.0");
 }
 
+TEST(PacontrolErrata, E38_E39_TheNumbersOfCommandErrorsAsRepaired) {
+    const std::vector<std::pair<std::uint16_t, const char*>> rows{{30, "erase"},    {37, "flag"},          {46, "not ready"},
+                                                                  {47, "servoTEC"}, {107, "acceleration"}, {109, "31 bits"}};
+    for (const auto& [number, word] : rows)
+        EXPECT_NE(describe_quit(number).find(word), std::string::npos) << describe_quit(number);
+}
+
+TEST(PacontrolErrata, E24_StatusesAreTheUnionOfTheLists) {
+    for (const int s : {0, 1, 2, 3, 9, 10, 11, 12, 13, 15, 16, 17, 18, 19, 20, 30, 31, 32, 35, 37, 39})
+        EXPECT_EQ(status_text(s).find("no meaning given"), std::string::npos) << s;
+    EXPECT_NE(status_text(14).find("no meaning given"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace axisgate::pacontrol

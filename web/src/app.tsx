@@ -6,13 +6,16 @@ import { AxisPage } from './pages/axis';
 import { EventsPage } from './pages/events';
 import { GatewayPage } from './pages/gateway';
 import { LinePage, LinesPage } from './pages/lines';
+import { MappingsPage } from './pages/mappings';
 import { Overview } from './pages/overview';
+import { ParametersPage } from './pages/parameters';
+import { SitePage } from './pages/site';
 
-const titles = { overview: 'Axes', lines: 'Lines and drives', events: 'Events', gateway: 'Gateway', unknown: 'No such page' };
+const titles = { overview: 'Axes', lines: 'Lines and drives', events: 'Events', gateway: 'Gateway', mappings: 'Mappings', site: 'Site', unknown: 'No such page' };
 
 export function App() {
   const r = route.value;
-  const title = r.page === 'axis' || r.page === 'line' ? r.name : titles[r.page];
+  const title = r.page === 'parameters' ? `Parameters of ${r.name}` : r.page === 'axis' || r.page === 'line' ? r.name : titles[r.page];
   useEffect(() => {
     document.title = `${title} · axisgate`;
   }, [title]);
@@ -42,6 +45,9 @@ function Page() {
     case 'line': return <LinePage key={r.name} name={r.name} />;
     case 'events': return <EventsPage />;
     case 'gateway': return <GatewayPage />;
+    case 'mappings': return <MappingsPage />;
+    case 'parameters': return <ParametersPage key={r.name} name={r.name} />;
+    case 'site': return <SitePage />;
     case 'unknown':
       return (
         <main class="page narrow">

@@ -13,6 +13,10 @@ import './styles/tile.css';
 import './styles/lists.css';
 import './styles/axis.css';
 import './styles/table.css';
+import './styles/form.css';
+import './styles/mappings.css';
+import './styles/parameters.css';
+import './styles/site.css';
 
 applyTheme();
 startClock();

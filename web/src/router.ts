@@ -9,6 +9,9 @@ export type Route =
   | { page: 'line'; name: string }
   | { page: 'events' }
   | { page: 'gateway' }
+  | { page: 'mappings' }
+  | { page: 'parameters'; name: string }
+  | { page: 'site' }
   | { page: 'unknown'; path: string };
 
 export function routeOf(path: string): Route {
@@ -19,6 +22,8 @@ export function routeOf(path: string): Route {
     if (first === 'axes') return { page: 'axis', name: second };
     if (first === 'lines') return { page: 'line', name: second };
   }
+  if (first === 'axes' && second !== undefined && rest.length === 1 && rest[0] === 'parameters') return { page: 'parameters', name: second };
+  if (second === undefined && (first === 'mappings' || first === 'site')) return { page: first };
   if (second === undefined && (first === 'lines' || first === 'events' || first === 'gateway')) return { page: first };
   return { page: 'unknown', path };
 }
@@ -26,6 +31,7 @@ export function routeOf(path: string): Route {
 // A last part with a point looks like a file to the gateway, which then has no page to answer; a slash at the end says it is none.
 const pathOf = (kind: string, name: string): string => `/${kind}/${encodeURIComponent(name)}${name.includes('.') ? '/' : ''}`;
 export const axisPath = (name: string): string => pathOf('axes', name);
+export const parametersPath = (name: string): string => `/axes/${encodeURIComponent(name)}/parameters`;
 export const linePath = (name: string): string => pathOf('lines', name);
 
 export const route = signal<Route>({ page: 'overview' });

@@ -13,9 +13,19 @@ const mostWaiting = 200;
 interface Options {
   method?: 'GET' | 'POST' | 'PUT' | 'PATCH' | 'DELETE';
   body?: unknown;
+  /** A body that is no JSON: a table, a copy of the database. */
+  content?: { type: string; data: string | Blob };
+  headers?: Record<string, string>;
   urgent?: boolean;
   timeout_ms?: number;
   signal?: AbortSignal;
+}
+
+/** An answer with its head: for revisions, entity tags, and documents that are no JSON. */
+export interface Reply {
+  status: number;
+  head: Headers;
+  text: string;
 }
 
 interface Waiting {
@@ -89,9 +99,18 @@ export class Client {
   async call<T>(path: string, options: Options = {}): Promise<T> {
     if (!options.urgent) await this.turn((options.method ?? 'GET') === 'GET');
     try {
-      return await this.send<T>(path, options);
+      return await this.send<T>(path, options, async (r) => (r.status === 204 ? undefined : await r.json()) as T);
     } finally {
       if (!options.urgent) this.done();
+    }
+  }
+
+  async whole(path: string, options: Options = {}): Promise<Reply> {
+    await this.turn((options.method ?? 'GET') === 'GET');
+    try {
+      return await this.send(path, options, async (r) => ({ status: r.status, head: r.headers, text: await r.text() }));
+    } finally {
+      this.done();
     }
   }
 
@@ -114,7 +133,7 @@ export class Client {
     else this.running -= 1;
   }
 
-  private async send<T>(path: string, options: Options): Promise<T> {
+  private async send<T>(path: string, options: Options, read: (response: Response) => Promise<T>): Promise<T> {
     const limit = options.timeout_ms ?? 15_000;
     const aborter = new AbortController();
     let timedOut = false;
@@ -131,15 +150,18 @@ export class Client {
       if (options.body !== undefined) {
         headers['content-type'] = 'application/json';
         init.body = JSON.stringify(options.body);
+      } else if (options.content) {
+        headers['content-type'] = options.content.type;
+        init.body = options.content.data;
       }
+      Object.assign(headers, options.headers);
       if (options.urgent) {
         init.keepalive = true; // a stop on its way survives the closing of the page
         init.priority = 'high';
       }
       const response = await this.fetcher(this.base + path, init);
       if (!response.ok) throw await problemOf(response);
-      if (response.status === 204) return undefined as T;
-      return (await response.json()) as T;
+      return await read(response);
     } catch (error) {
       if (error instanceof Problem) throw error;
       if (timedOut) throw new Problem('timed_out', `the gateway did not answer within ${limit / 1000} s`);

@@ -12,8 +12,10 @@ import { lastKnownWords } from './axis-tile';
 import { StopAll } from './stop';
 
 const places: { path: string; text: string; icon: IconName; pages: Route['page'][] }[] = [
-  { path: '/', text: 'Axes', icon: 'axis', pages: ['overview', 'axis'] },
+  { path: '/', text: 'Axes', icon: 'axis', pages: ['overview', 'axis', 'parameters'] },
   { path: '/lines', text: 'Lines', icon: 'lines', pages: ['lines', 'line'] },
+  { path: '/mappings', text: 'Mappings', icon: 'table', pages: ['mappings'] },
+  { path: '/site', text: 'Site', icon: 'site', pages: ['site'] },
   { path: '/events', text: 'Events', icon: 'list', pages: ['events'] },
   { path: '/gateway', text: 'Gateway', icon: 'box', pages: ['gateway'] },
 ];

@@ -38,6 +38,11 @@ const shapes = {
   lines: <path d="M2 8h12M5 8V4.5M11 8v3.5M3.5 2.5h3v2h-3zM9.5 11.5h3v2h-3z" />,
   list: <path d="M5.5 4h8M5.5 8h8M5.5 12h8M2.5 4h.4M2.5 8h.4M2.5 12h.4" />,
   box: <path d="M2.5 4.5h11v7h-11zM5 9h.4M8 9h3" />,
+  table: <path d="M2.5 3.5h11v9h-11zM2.5 6.5h11M2.5 9.5h11M6.5 3.5v9" />,
+  site: <path d="M6 2.5h4v3H6zM2 10.5h4v3H2zM10 10.5h4v3h-4zM8 5.5V8M4 10.5V8h8v2.5" />,
+  pencil: <path d="M3 13l.6-2.8L11 2.8l2.2 2.2-7.4 7.4z" />,
+  bin: <path d="M3 4.5h10M6.5 4.5v-2h3v2M4.5 4.5l.5 9h6l.5-9M7 7v4M9 7v4" />,
+  plus: <path d="M8 3v10M3 8h10" />,
   up: <path d="M8 13V3M3.5 7.5L8 3l4.5 4.5" />,
 } satisfies Record<string, JSX.Element>;
 

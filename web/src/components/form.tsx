@@ -1,0 +1,123 @@
+// Form: labelled fields with their fault in words beneath, and a line that tells how it went. In: text and why it is wrong. Out: what is typed.
+// The fault is bound to its field for screen readers; what was typed is never changed here.
+import type { ComponentChildren } from 'preact';
+import { useId } from 'preact/hooks';
+import type { Outcome } from '../state/mappings';
+
+interface Common {
+  label: string;
+  fault?: string | undefined;
+  hint?: ComponentChildren;
+  class?: string;
+}
+
+export interface TextFieldProps extends Common {
+  value: string;
+  onText: (text: string) => void;
+  onLeave?: () => void;
+  placeholder?: string;
+  number?: boolean;
+  disabled?: boolean;
+  /** Offers while typing. */
+  offers?: readonly { value: string; text?: string }[];
+  mono?: boolean;
+}
+
+export function TextField(p: TextFieldProps) {
+  const id = useId();
+  const told = Boolean(p.fault) || p.hint !== undefined;
+  return (
+    <div class={`form-field ${p.class ?? ''}`}>
+      <label for={id}>{p.label}</label>
+      <input
+        id={id}
+        type="text"
+        class={`${p.fault ? 'is-wrong' : ''}${p.mono ? ' mono' : ''}`}
+        inputMode={p.number ? 'decimal' : 'text'}
+        autocomplete="off"
+        autocapitalize="off"
+        spellcheck={false}
+        value={p.value}
+        placeholder={p.placeholder}
+        disabled={p.disabled}
+        list={p.offers ? `${id}-offers` : undefined}
+        aria-invalid={p.fault ? true : undefined}
+        aria-describedby={told ? `${id}-told` : undefined}
+        onInput={(e) => p.onText(e.currentTarget.value)}
+        onBlur={p.onLeave}
+      />
+      {p.offers && (
+        <datalist id={`${id}-offers`}>
+          {p.offers.map((o) => (
+            <option key={o.value} value={o.value}>
+              {o.text}
+            </option>
+          ))}
+        </datalist>
+      )}
+      <Told id={`${id}-told`} fault={p.fault} hint={p.hint} />
+    </div>
+  );
+}
+
+export interface ChoiceProps extends Common {
+  value: string;
+  onChoice: (value: string) => void;
+  choices: readonly { value: string; text: string }[];
+  disabled?: boolean;
+}
+
+export function Choice(p: ChoiceProps) {
+  const id = useId();
+  const told = Boolean(p.fault) || p.hint !== undefined;
+  const known = p.choices.some((c) => c.value === p.value);
+  return (
+    <div class={`form-field ${p.class ?? ''}`}>
+      <label for={id}>{p.label}</label>
+      <select id={id} class={p.fault ? 'is-wrong' : ''} value={p.value} disabled={p.disabled} aria-invalid={p.fault ? true : undefined} aria-describedby={told ? `${id}-told` : undefined} onChange={(e) => p.onChoice(e.currentTarget.value)}>
+        {!known && <option value={p.value}>{p.value || 'choose'}</option>}
+        {p.choices.map((c) => (
+          <option key={c.value} value={c.value}>
+            {c.text}
+          </option>
+        ))}
+      </select>
+      <Told id={`${id}-told`} fault={p.fault} hint={p.hint} />
+    </div>
+  );
+}
+
+function Told({ id, fault, hint }: { id: string; fault: string | undefined; hint: ComponentChildren }) {
+  if (fault) {
+    return (
+      <p class="form-told is-fault" id={id}>
+        {fault}
+      </p>
+    );
+  }
+  return hint === undefined ? null : (
+    <p class="form-told" id={id}>
+      {hint}
+    </p>
+  );
+}
+
+export interface Told {
+  tone: 'none' | 'busy' | 'good' | 'refused';
+  text: string;
+}
+export const quiet: Told = { tone: 'none', text: '' };
+export const toldOf = (o: Outcome): Told => ({ tone: o.good ? 'good' : 'refused', text: capital(o.text) });
+const capital = (s: string) => s.charAt(0).toUpperCase() + s.slice(1);
+
+/** How it went, spoken when it changes. Keeps its place. */
+export function Tell({ told, field }: { told: Told; field?: string }) {
+  return (
+    <p class={`tell result-${told.tone}`} role="status" data-field={field}>
+      {told.text}
+    </p>
+  );
+}
+
+/** What a gateway that is older than the page does not do. */
+export const notOffered = (what: string): string => `This gateway does not offer ${what}.`;

@@ -1,0 +1,153 @@
+// HMI view: what a Modbus client sees at any address: raw words as the Modbus door answers them, and what they mean. In: unit, table, address.
+// Out: a table. Follows once a second while it is asked to and the page is seen. An exception is shown with its number and words.
+import { signal, useSignal } from '@preact/signals';
+import { useEffect } from 'preact/hooks';
+import type { MappingDoor, Registers } from '../api/mappings';
+import { asProblem } from '../api/problem';
+import { kept } from '../state/kept';
+import { decodeWords, oneBased, tableOf, tables, types, widthOf, type Mapping, type RegisterType, type Table } from '../words/mapping';
+import { formatExact, parseNumber } from '../words/number';
+import { Choice, notOffered, TextField } from './form';
+import { Section } from './section';
+
+const unit = kept('hmi.unit', '1');
+const table = kept('hmi.table', 'holding_registers');
+const address = kept('hmi.address', '0');
+const count = kept('hmi.count', '16');
+const as = kept('hmi.as', 'i32');
+const order = kept('hmi.order', 'high_first');
+const following = signal(false);
+const period_ms = 1000;
+
+const within = (text: string, min: number, max: number): number | null => {
+  const p = parseNumber(text);
+  return p.good && Number.isInteger(p.value) && p.value >= min && p.value <= max ? p.value : null;
+};
+
+export function HmiView({ door }: { door: MappingDoor }) {
+  const answer = useSignal<Registers | null>(null);
+  const why = useSignal('');
+  const waiting = useSignal(false);
+  const at = { unit: within(unit.value, 0, 255), address: within(address.value, 0, 65535), count: within(count.value, 1, 125) };
+
+  const look = async (end?: AbortSignal) => {
+    if (at.unit === null || at.address === null || at.count === null) return;
+    waiting.value = true;
+    try {
+      answer.value = await door.registers({ unit: at.unit, table: table.value as Table, address: at.address, count: at.count }, end);
+      why.value = '';
+    } catch (error) {
+      if (end?.aborted) return;
+      const p = asProblem(error);
+      why.value = p.status === 404 || p.status === 501 ? notOffered('a look at its registers') : p.words;
+      answer.value = null;
+      following.value = false;
+    } finally {
+      waiting.value = false;
+    }
+  };
+  useEffect(() => {
+    if (!following.value) return;
+    const end = new AbortController();
+    let timer: ReturnType<typeof setTimeout>;
+    const again = async () => {
+      if (!document.hidden) await look(end.signal);
+      if (!end.signal.aborted) timer = setTimeout(() => void again(), period_ms);
+    };
+    void again();
+    return () => {
+      end.abort();
+      clearTimeout(timer);
+    };
+  }, [following.value, unit.value, table.value, address.value, count.value]);
+
+  const a = answer.value;
+  return (
+    <Section title="What does the HMI see?" class="hmi">
+      <form
+        class="card form"
+        noValidate
+        aria-label="Read registers"
+        onSubmit={(e) => {
+          e.preventDefault();
+          void look();
+        }}
+      >
+        <div class="form-grid">
+          <TextField label="Unit" number value={unit.value} onText={(t) => (unit.value = t)} fault={at.unit === null ? 'A whole number from 0 to 255.' : undefined} hint="1 is the standard map" />
+          <Choice label="Table" value={table.value} onChoice={(t) => (table.value = t)} choices={tables.map((t) => ({ value: t.id, text: t.name }))} />
+          <TextField label="Address" number value={address.value} onText={(t) => (address.value = t)} fault={at.address === null ? 'A whole number from 0 to 65535.' : undefined} hint={at.address === null ? undefined : `${oneBased(table.value as Table, at.address)} counted from 1`} />
+          <TextField label="Count" number value={count.value} onText={(t) => (count.value = t)} fault={at.count === null ? 'A whole number from 1 to 125.' : undefined} />
+          {!tableOf(table.value as Table).bits && (
+            <>
+              <Choice label="Read as" value={as.value} onChoice={(t) => (as.value = t)} choices={types.filter((t) => t !== 'bool').map((t) => ({ value: t, text: t }))} />
+              <Choice label="Word order" value={order.value} onChoice={(t) => (order.value = t)} choices={[{ value: 'high_first', text: 'high word first' }, { value: 'low_first', text: 'low word first' }]} />
+            </>
+          )}
+        </div>
+        <div class="form-foot">
+          <button type="submit" class="button primary">
+            Look
+          </button>
+          <button type="button" class="button" aria-pressed={following.value} onClick={() => (following.value = !following.value)}>
+            {following.value ? 'Following each second' : 'Follow'}
+          </button>
+          <p class={`tell result-${why.value ? 'refused' : 'none'}`} role="status" data-field="hmi-told">
+            {why.value || (a?.exception ? `The Modbus door answers exception ${a.exception.code}: ${a.exception.text}.` : waiting.value && !a ? 'Asking …' : '')}
+          </p>
+        </div>
+        {a && !a.exception && <Answer a={a} />}
+      </form>
+    </Section>
+  );
+}
+
+function Answer({ a }: { a: Registers }) {
+  const raw = a.words ?? (a.bits ?? []).map(Number);
+  const bits = a.words === undefined;
+  const named = new Map((a.decoded ?? []).map((d) => [d.address, d]));
+  const type = as.value as RegisterType;
+  return (
+    <div class="table-scroll" tabIndex={0} role="region" aria-label="Registers as the Modbus door answers them">
+      <table class="table hmi-table">
+        <thead>
+          <tr>
+            <th scope="col">Address</th>
+            {!bits && <th scope="col">Hex</th>}
+            <th scope="col" class="num">{bits ? 'Bit' : 'u16'}</th>
+            {!bits && <th scope="col" class="num">as {type}</th>}
+            <th scope="col">What it is</th>
+            <th scope="col" class="num">Decoded</th>
+          </tr>
+        </thead>
+        <tbody>
+          {raw.map((w, i) => {
+            const at = a.address + i;
+            const d = named.get(at);
+            return (
+              <tr key={at} data-address={at}>
+                <th scope="row">
+                  <span class="mono id">{at}</span> <span class="where mono">{oneBased(a.table, at)}</span>
+                </th>
+                {!bits && <td data-label="Hex" class="mono">{w.toString(16).toUpperCase().padStart(4, '0')}</td>}
+                <td data-label={bits ? 'Bit' : 'u16'} class="num mono">{w}</td>
+                {!bits && <td data-label={`as ${type}`} class="num mono">{shown(decodeWords(type === 'string' ? raw.slice(i) : raw.slice(i, i + widthOf(type)), type, order.value as Mapping['word_order']))}</td>}
+                <td data-label="What it is">{d ? <>{d.name ?? d.mapping} <span class="where mono">{d.type}</span></> : <span class="where">–</span>}</td>
+                <td data-label="Decoded" class="num">{d ? <><span class="mono">{shown(d.value)}</span> <span class="unit">{d.unit ?? ''}</span> {d.text}</> : ''}</td>
+              </tr>
+            );
+          })}
+        </tbody>
+      </table>
+    </div>
+  );
+}
+
+function shown(v: number | bigint | boolean | string | null): string {
+  if (v === null) return '–';
+  if (typeof v === 'boolean') return v ? 'on' : 'off';
+  if (typeof v === 'bigint') return String(v).replace('-', '\u2212');
+  if (typeof v === 'string') return v === '' ? '(empty)' : v;
+  if (!Number.isFinite(v)) return String(v);
+  return Number.isInteger(v) && Math.abs(v) < 1e15 ? formatExact(v) : Number(v.toPrecision(7)).toString().replace('-', '\u2212');
+}

@@ -1,0 +1,161 @@
+// Mapping form: one mapping, added or changed: axis, point, place, type, scaling. In: the book, the texts. Out: a change, or the fault beside the field.
+// Conflicts, neighbours and the one-based number are shown while typing. If somebody else changed the entry meanwhile, the difference is shown
+// and what was typed stays.
+import { signal, useSignal, type Signal } from '@preact/signals';
+import { useEffect, useRef } from 'preact/hooks';
+import { useGateway } from '../gateway';
+import { kept } from '../state/kept';
+import type { Clash, MappingBook } from '../state/mappings';
+import { checkTexts, conflictsOf, emptyTexts, fields, neighbourText, nextFree, oneBased, placeText, tables, textsOf, types, widthOf, type Field, type Known, type Mapping, type Texts } from '../words/mapping';
+import { Choice, quiet, Tell, TextField, toldOf, type Told } from './form';
+import { Section } from './section';
+
+type Draft = Record<Field, Signal<string>>;
+const keptDraft = (): Draft => Object.fromEntries(fields.map((f) => [f, kept(`mapping.${f}`, emptyTexts[f])])) as Draft;
+const draftOf = (m: Mapping): Draft => Object.fromEntries(Object.entries(textsOf(m)).map(([f, t]) => [f, signal(t)])) as Draft;
+const read = (d: Draft): Texts => Object.fromEntries(fields.map((f) => [f, d[f].value])) as Texts;
+
+const adding = keptDraft();
+/** Puts a free place into the form for adding. */
+export function addAt(unit: number, table: string, address: number): void {
+  adding.unit.value = String(unit);
+  adding.table.value = table;
+  adding.address.value = String(address);
+  document.querySelector<HTMLElement>('#mapping-form')?.scrollIntoView({ block: 'nearest' });
+  document.querySelector<HTMLElement>('#mapping-form select')?.focus({ preventScroll: true });
+}
+
+export interface MappingFormProps {
+  book: MappingBook;
+  known: Known;
+  /** The entry being changed; null: a new one. */
+  editing: Mapping | null;
+  done: () => void;
+}
+
+export function MappingForm({ book, known, editing, done }: MappingFormProps) {
+  const { store } = useGateway();
+  const drafts = useRef(new Map<string, Draft>());
+  if (editing && !drafts.current.has(editing.id)) drafts.current.set(editing.id, draftOf(editing));
+  const d = editing ? (drafts.current.get(editing.id) as Draft) : adding;
+  const touched = useSignal(false);
+  const told = useSignal<Told>(quiet);
+  const clash = useSignal<Clash | null>(null);
+  const form = useRef<HTMLFormElement>(null);
+  useEffect(() => {
+    touched.value = false;
+    clash.value = null;
+    told.value = quiet;
+    if (editing) form.current?.querySelector<HTMLElement>('input, select')?.focus();
+  }, [editing?.id]);
+
+  const texts = read(d);
+  const { spec, faults } = checkTexts(texts, known);
+  // Before the first attempt only what was typed is judged; an empty field is not a fault yet.
+  const shown = (f: Field) => (touched.value || (texts[f].trim() !== '' && texts[f] !== emptyTexts[f]) ? faults[f] : undefined);
+  const bits = texts.table === 'coils' || texts.table === 'discrete_inputs';
+  const width = widthOf((texts.type || 'i32') as Mapping['type'], Number(texts.length) || 16);
+  const place = { unit: Number(texts.unit), table: texts.table as Mapping['table'], address: Number(texts.address), type: texts.type as Mapping['type'], ...(Number(texts.length) ? { length: Number(texts.length) } : {}) };
+  const placed = texts.address.trim() !== '' && !faults.address && !faults.unit && !faults.table && !faults.type;
+  const conflicts = placed ? conflictsOf(place, book.rows.value, editing?.id) : [];
+  const free = faults.unit || faults.table || faults.type ? null : nextFree(book.rows.value.filter((m) => m.id !== editing?.id), place.unit, place.table, width, conflicts.length > 0 ? place.address : 0);
+  const set = (f: Field) => (text: string) => {
+    d[f].value = text;
+    told.value = quiet;
+    if (f === 'table') d.type.value = text === 'coils' || text === 'discrete_inputs' ? 'bool' : d.type.peek() === 'bool' ? 'u16' : d.type.peek();
+  };
+  const taken = conflicts.length > 0 ? `Taken by ${conflicts.slice(0, 3).map((c) => `${c.id} (${c.point} of ${c.axis}, ${placeText(c)})`).join(', ')}${conflicts.length > 3 ? ` and ${conflicts.length - 3} more` : ''}.` : undefined;
+
+  const send = async (opened: Mapping | null) => {
+    touched.value = true;
+    if (!spec || conflicts.length > 0) {
+      told.value = { tone: 'refused', text: taken ?? 'Mend the fields that are marked.' };
+      requestAnimationFrame(() => form.current?.querySelector<HTMLElement>('.is-wrong')?.focus());
+      return;
+    }
+    told.value = { tone: 'busy', text: editing ? 'Changing …' : 'Adding …' };
+    const outcome = editing ? await book.replace(editing.id, spec, opened) : await book.add(spec);
+    told.value = toldOf(outcome);
+    clash.value = outcome.good ? null : (outcome.clash ?? null);
+    if (!outcome.good) return;
+    touched.value = false;
+    if (editing) {
+      drafts.current.delete(editing.id);
+      done();
+    } else {
+      // Ready for the next one: the place behind it.
+      const next = nextFree(book.rows.peek(), spec.unit, place.table, width, spec.address + width);
+      d.address.value = next === null ? '' : String(next);
+      d.point.value = '';
+      d.comment.value = '';
+    }
+  };
+  const names = known.parameters(texts.axis) ?? [];
+  const offers = [...known.points.map((p) => ({ value: p.point, text: p.description })), ...names.map((n) => ({ value: n, text: 'parameter' }))];
+  return (
+    <Section title={editing ? `Change ${editing.id}` : 'Add a mapping'} class="mapping-form">
+      <form
+        id="mapping-form"
+        ref={form}
+        class="card form"
+        noValidate
+        aria-label={editing ? `Change mapping ${editing.id}` : 'Add a mapping'}
+        onSubmit={(e) => {
+          e.preventDefault();
+          void send(editing);
+        }}
+      >
+        <div class="form-grid">
+          <Choice label="Axis" value={texts.axis} onChoice={set('axis')} fault={shown('axis')} choices={[{ value: '', text: 'choose' }, ...store.axisNames.value.map((n) => ({ value: n, text: n }))]} />
+          <TextField label="Point or parameter" class="wide" value={texts.point} onText={set('point')} fault={shown('point')} offers={offers} placeholder="position_units, MT[1] …" hint={known.points.find((p) => p.point === texts.point)?.description} />
+          <TextField label="Unit" number value={texts.unit} onText={set('unit')} fault={shown('unit')} />
+          <Choice label="Table" value={texts.table} onChoice={set('table')} fault={shown('table')} choices={tables.map((t) => ({ value: t.id, text: t.name }))} />
+          <TextField
+            label="Address"
+            number
+            value={texts.address}
+            onText={set('address')}
+            placeholder={free === null ? '' : `free: ${free}`}
+            fault={shown('address') ?? taken}
+            hint={placed ? `${place.address}${width > 1 ? `–${place.address + width - 1}` : ''} is ${oneBased(place.table, place.address)} counted from 1. Free: ${neighbourText(place, book.rows.value, editing?.id)}.` : 'counted from 0'}
+          />
+          <Choice label="Type" value={texts.type} onChoice={set('type')} fault={shown('type')} choices={(bits ? (['bool'] as const) : types).map((t) => ({ value: t, text: t }))} />
+          {texts.type === 'string' && <TextField label="Length" number value={texts.length} onText={set('length')} fault={shown('length')} placeholder="16" hint="registers" />}
+          {width > 1 && texts.type !== 'string' && <Choice label="Word order" value={texts.word_order} onChoice={set('word_order')} choices={[{ value: 'high_first', text: 'high word first' }, { value: 'low_first', text: 'low word first' }]} />}
+          {texts.type !== 'string' && !bits && <TextField label="Scale" number value={texts.scale} onText={set('scale')} fault={shown('scale')} hint="register = value × scale + offset" />}
+          {texts.type !== 'string' && !bits && <TextField label="Offset" number value={texts.offset} onText={set('offset')} fault={shown('offset')} />}
+          <Choice label="Access" value={texts.access} onChoice={set('access')} fault={shown('access')} choices={[{ value: '', text: 'as the point allows' }, { value: 'R', text: 'read' }, { value: 'W', text: 'write' }, { value: 'RW', text: 'read and write' }]} />
+          <TextField label="Comment" class="wide" value={texts.comment} onText={set('comment')} fault={shown('comment')} />
+        </div>
+        <div class="form-foot">
+          <button type="submit" class="button primary">
+            {editing ? 'Save' : 'Add'}
+          </button>
+          {free !== null && (conflicts.length > 0 || texts.address.trim() === '') && (
+            <button type="button" class="button" onClick={() => set('address')(String(free))}>
+              Next free place: {free}
+            </button>
+          )}
+          {clash.value && (
+            <button type="button" class="button" onClick={() => void send(null)} disabled={clash.value.now === null}>
+              Save mine all the same
+            </button>
+          )}
+          {editing && (
+            <button
+              type="button"
+              class="button quiet"
+              onClick={() => {
+                drafts.current.delete(editing.id);
+                done();
+              }}
+            >
+              Leave it as it is
+            </button>
+          )}
+          <Tell told={told.value} field="mapping-told" />
+        </div>
+      </form>
+    </Section>
+  );
+}

@@ -1,0 +1,98 @@
+// Mapping list: everything that is mapped, for paper: one table per unit, with both ways of counting and the revision. In: the mappings.
+// Out: what the printer sees; on the screen it is not drawn. And the links to the lists that the gateway makes itself.
+import { useSignal } from '@preact/signals';
+import { useEffect } from 'preact/hooks';
+import { listAddress, type MappingDoor } from '../api/mappings';
+import { asProblem } from '../api/problem';
+import { endOf, oneBased, tables, type Mapping } from '../words/mapping';
+import { notOffered } from './form';
+import { scaleText } from './mapping-grid';
+
+export function PrintedList({ rows, hash }: { rows: readonly Mapping[]; hash: string }) {
+  const units = [...new Set(rows.map((m) => m.unit))].sort((a, b) => a - b);
+  return (
+    <div class="print-only" data-field="printed">
+      <p>
+        axisgate register list · mapping revision {hash || 'not told by this gateway'} (registers 18 and 19 of each axis) · {rows.length} mappings
+      </p>
+      {units.flatMap((u) =>
+        tables.flatMap((t) => {
+          const own = rows.filter((m) => m.unit === u && m.table === t.id).sort((a, b) => a.address - b.address);
+          if (own.length === 0) return [];
+          return [
+            <table key={`${u}/${t.id}`} class="printed">
+              <caption>
+                Unit {u}, {t.name.toLowerCase()}
+              </caption>
+              <thead>
+                <tr>
+                  <th>From 0</th>
+                  <th>From 1</th>
+                  <th>Axis</th>
+                  <th>Point</th>
+                  <th>Type</th>
+                  <th>Word order</th>
+                  <th>Scaling</th>
+                  <th>Access</th>
+                  <th>Comment</th>
+                </tr>
+              </thead>
+              <tbody>
+                {own.map((m) => (
+                  <tr key={m.id}>
+                    <td>{endOf(m) === m.address ? m.address : `${m.address}–${endOf(m)}`}</td>
+                    <td>{oneBased(m.table, m.address)}</td>
+                    <td>{m.axis}</td>
+                    <td>{m.point}</td>
+                    <td>{m.type}</td>
+                    <td>{endOf(m) === m.address ? '' : m.word_order.replace('_', ' ')}</td>
+                    <td>{scaleText(m)}</td>
+                    <td>{m.access}</td>
+                    <td>{m.comment ?? ''}</td>
+                  </tr>
+                ))}
+              </tbody>
+            </table>,
+          ];
+        }),
+      )}
+    </div>
+  );
+}
+
+export function ListLinks({ door }: { door: MappingDoor }) {
+  const state = useSignal<'asking' | 'there' | string>('asking');
+  useEffect(() => {
+    door.hasLists().then(
+      () => (state.value = 'there'),
+      (error) => {
+        const p = asProblem(error);
+        state.value = p.status === 404 || p.status === 501 ? notOffered('generated lists (HTML, PLC structure)') : p.words;
+      },
+    );
+  }, [door]);
+  return (
+    <div class="list-links" data-field="lists">
+      <a class="button" href="/api/v1/mappings.csv" download="mappings.csv">
+        Export CSV
+      </a>
+      {state.value === 'there' && (
+        <>
+          <a class="button" href={listAddress('csv')} download="registers.csv">
+            Register list, CSV
+          </a>
+          <a class="button" href={listAddress('html')} target="_blank" rel="noopener">
+            Register list, HTML
+          </a>
+          <a class="button" href={listAddress('st')} download="axisgate.st">
+            PLC structure
+          </a>
+        </>
+      )}
+      <button type="button" class="button" onClick={() => print()}>
+        Print
+      </button>
+      {state.value !== 'there' && state.value !== 'asking' && <span class="where">{state.value}</span>}
+    </div>
+  );
+}

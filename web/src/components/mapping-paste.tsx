@@ -1,0 +1,153 @@
+// Mapping paste: many mappings at once, from a spreadsheet's clipboard or a CSV file. In: text. Out: rows, each checked; then a dry run by the
+// gateway; then all of them or none. The text stays until the gateway took it.
+import { useSignal } from '@preact/signals';
+import { useMemo } from 'preact/hooks';
+import { Problem } from '../api/problem';
+import { useGateway } from '../gateway';
+import { kept } from '../state/kept';
+import type { MappingBook } from '../state/mappings';
+import { csvOfSpecs, readTable } from '../words/mapping-table';
+import { placeText, tableOf, type Known } from '../words/mapping';
+import { quiet, Tell, toldOf, type Told } from './form';
+import { Section } from './section';
+
+const text = kept('mapping.table');
+const mostShown = 200;
+const largest = 2_000_000;
+
+export function MappingPaste({ book, known }: { book: MappingBook; known: Known }) {
+  useGateway();
+  const replace = useSignal(false);
+  const told = useSignal<Told>(quiet);
+  const report = useSignal<{ for: string; differences: string[]; lines: Map<number, string> } | null>(null);
+  const rows = book.rows.value;
+  const read = useMemo(() => readTable(text.value, known, replace.value ? [] : rows), [text.value, known, replace.value, rows]);
+  const bad = read.rows.filter((r) => r.faults.length > 0).length;
+  const specs = read.rows.flatMap((r) => (r.spec ? [r.spec] : []));
+  const checked = report.value?.for === text.value && report.value.lines.size === 0;
+
+  const take = async (file: File | undefined) => {
+    if (!file) return;
+    if (file.size > largest) {
+      told.value = { tone: 'refused', text: `${file.name} has ${file.size} bytes; at most ${largest} are read.` };
+      return;
+    }
+    text.value = await file.text();
+    told.value = { tone: 'good', text: `${file.name} is in the field below. Nothing has been sent.` };
+  };
+  const dryRun = async () => {
+    told.value = { tone: 'busy', text: 'The gateway checks …' };
+    const answer = await book.dryRun(csvOfSpecs(specs), replace.value);
+    if (answer instanceof Problem) {
+      report.value = { for: text.value, differences: [], lines: linesOf(answer, specs.length, read.rows.map((r) => r.line)) };
+      told.value = { tone: 'refused', text: answer.words };
+    } else {
+      report.value = { for: text.value, differences: answer.differences, lines: new Map() };
+      told.value = { tone: 'good', text: `The gateway would take ${count(answer.rows, 'row')}; ${count(answer.mappings, 'mapping')} afterwards.` };
+    }
+  };
+  const send = async () => {
+    told.value = { tone: 'busy', text: 'Sending …' };
+    const outcome = await book.table(csvOfSpecs(specs), replace.value);
+    told.value = toldOf(outcome);
+    if (!outcome.good) return;
+    text.value = '';
+    report.value = null;
+  };
+  return (
+    <Section title="Paste or import a table" class="mapping-paste">
+      <div class="card form">
+        <p class="where">
+          Columns in any order, named by the first line: <span class="mono">unit, table, address, axis, point, type, word_order, scale, offset, access, length, comment, id</span>. Without such a line they are taken in
+          the order <span class="mono">unit, table, address, axis, point, type, scale, offset</span>. Separated by tabs, commas or semicolons.
+        </p>
+        <label class="visually-hidden" for="mapping-table">
+          Table of mappings
+        </label>
+        <textarea
+          id="mapping-table"
+          class="mono"
+          rows={6}
+          spellcheck={false}
+          placeholder={'unit\taddress\taxis\tpoint\ttype\n2\t0\tfeeder\tposition_units\tf32'}
+          value={text.value}
+          onInput={(e) => {
+            text.value = e.currentTarget.value;
+            told.value = quiet;
+          }}
+        />
+        <div class="form-foot">
+          <label class="button">
+            <input type="file" class="visually-hidden" accept=".csv,.tsv,.txt,text/csv,text/tab-separated-values" onChange={(e) => void take(e.currentTarget.files?.[0])} />
+            Choose a file
+          </label>
+          <label class="check">
+            <input type="checkbox" checked={replace.value} onChange={(e) => (replace.value = e.currentTarget.checked)} /> in place of all mappings
+          </label>
+          <button type="button" class="button" disabled={specs.length === 0 || bad > 0} onClick={() => void dryRun()}>
+            Check with the gateway
+          </button>
+          <button type="button" class="button primary" disabled={specs.length === 0 || bad > 0 || !checked} onClick={() => void send()}>
+            {replace.value ? `Replace all by ${count(specs.length, 'row')}` : `Add ${count(specs.length, 'row')}`}
+          </button>
+          <Tell told={told.value} field="table-told" />
+        </div>
+        {read.rows.length > 0 && (
+          <p class={`form-told${bad > 0 || read.problem ? ' is-fault' : ''}`} role="status" data-field="table-count">
+            {read.problem || (bad > 0 ? `${bad} of ${count(read.rows.length, 'row')} must be mended before anything is sent.` : `${count(read.rows.length, 'row')}, none of them with a fault that this page can see.`)}
+          </p>
+        )}
+        {report.value && report.value.for === text.value && report.value.differences.length > 0 && (
+          <ul class="differences" aria-label="What would change">
+            {report.value.differences.slice(0, mostShown).map((d) => (
+              <li key={d}>{d}</li>
+            ))}
+          </ul>
+        )}
+        {read.rows.length > 0 && (
+          <div class="table-scroll" tabIndex={0} role="region" aria-label="Rows of the table">
+            <table class="table paste-table">
+              <thead>
+                <tr>
+                  <th scope="col">Line</th>
+                  <th scope="col">Place</th>
+                  <th scope="col">Point</th>
+                  <th scope="col">Verdict</th>
+                </tr>
+              </thead>
+              <tbody>
+                {read.rows.slice(0, mostShown).map((r) => {
+                  const gateway = report.value?.for === text.value ? report.value.lines.get(r.line) : undefined;
+                  const faults = [...r.faults, ...(gateway ? [gateway] : [])];
+                  return (
+                    <tr key={r.line} data-line={r.line} class={faults.length > 0 ? 'is-bad' : ''}>
+                      <th scope="row" class="mono">{r.line}</th>
+                      <td data-label="Place">{r.spec ? `unit ${r.spec.unit}, ${tableOf(r.spec.table ?? 'holding_registers').short.toLowerCase()} ${placeText({ type: 'i32', ...r.spec })}` : <span class="mono">{r.texts.address || '–'}</span>}</td>
+                      <td data-label="Point">{[r.texts.axis, r.texts.point].filter(Boolean).join(' ') || '–'}</td>
+                      <td data-label="Verdict">{faults.length > 0 ? <span class="fault-text">{faults.join(' ')}</span> : <span class="good-text">good</span>}</td>
+                    </tr>
+                  );
+                })}
+              </tbody>
+            </table>
+            {read.rows.length > mostShown && <p class="where">{read.rows.length - mostShown} more rows are checked but not shown.</p>}
+          </div>
+        )}
+      </div>
+    </Section>
+  );
+}
+
+const count = (n: number, word: string) => `${n} ${word}${n === 1 ? '' : 's'}`;
+
+/** The gateway names lines of the table that was sent: a head line and then one per row. */
+function linesOf(problem: Problem, rows: number, lines: readonly number[]): Map<number, string> {
+  const found = new Map<number, string>();
+  for (const f of problem.document.faults ?? []) {
+    const at = Number(/^\/(\d+)/.exec(f.pointer)?.[1] ?? NaN);
+    const line = lines[at - 2];
+    if (Number.isFinite(at) && at >= 2 && at - 2 < rows && line !== undefined) found.set(line, `${f.text}; ${f.remedy}`);
+  }
+  if (found.size === 0) found.set(-1, problem.words);
+  return found;
+}

@@ -1,0 +1,98 @@
+// Mapping templates: a whole block at once: the standard map of an axis at the next free place of a unit of one's own. In: the book.
+// Out: a block of mappings, after a look at what it would be. Can be undone like every other change.
+import { useSignal } from '@preact/signals';
+import { MappingDoor } from '../api/mappings';
+import { asProblem } from '../api/problem';
+import { useGateway } from '../gateway';
+import { kept } from '../state/kept';
+import type { MappingBook } from '../state/mappings';
+import { nextFree } from '../words/mapping';
+import { parseNumber } from '../words/number';
+import { Choice, notOffered, quiet, Tell, TextField, toldOf, type Told } from './form';
+import { Section } from './section';
+
+const axis = kept('template.axis');
+const unit = kept('template.unit', '2');
+const address = kept('template.address');
+/** Registers of the standard map of one axis. */
+const blockWidth = 64;
+
+export function MappingTemplates({ book, door }: { book: MappingBook; door: MappingDoor }) {
+  const { store } = useGateway();
+  const told = useSignal<Told>(quiet);
+  const differences = useSignal<string[]>([]);
+  const whole = (text: string, min: number, max: number) => {
+    const p = parseNumber(text);
+    return p.good && Number.isInteger(p.value) && p.value >= min && p.value <= max ? p.value : null;
+  };
+  const u = whole(unit.value, 2, 254);
+  const free = u === null ? null : nextFree(book.rows.value.map((m) => ({ ...m, table: 'holding_registers' as const })), u, 'holding_registers', blockWidth);
+  const at = address.value.trim() === '' ? free : whole(address.value, 0, 65535);
+
+  const run = async (dry: boolean) => {
+    if (axis.value === '' || u === null || at === null) {
+      told.value = { tone: 'refused', text: axis.value === '' ? 'Choose an axis.' : 'Mend the fields that are marked.' };
+      return;
+    }
+    told.value = { tone: 'busy', text: dry ? 'The gateway checks …' : 'Adding …' };
+    try {
+      if (dry) {
+        const r = await door.template({ template: 'standard_map', axis: axis.value, unit: u, address: at, dry_run: true });
+        differences.value = r.differences ?? [];
+        told.value = { tone: 'good', text: `${differences.value.length} changes at ${at}–${at + blockWidth - 1} of unit ${u}. Nothing has been changed.` };
+        return;
+      }
+    } catch (error) {
+      const p = asProblem(error);
+      told.value = { tone: 'refused', text: p.status === 404 || p.status === 405 || p.status === 501 ? notOffered('templates') : p.words };
+      return;
+    }
+    const outcome = await book.template(axis.value, u, at);
+    differences.value = [];
+    told.value = !outcome.good && (outcome.problem?.status === 404 || outcome.problem?.status === 405) ? { tone: 'refused', text: notOffered('templates') } : toldOf(outcome);
+    if (outcome.good) address.value = '';
+  };
+  return (
+    <Section title="Template: the standard map of an axis" class="mapping-templates">
+      <form
+        class="card form"
+        noValidate
+        aria-label="Template"
+        onSubmit={(e) => {
+          e.preventDefault();
+          void run(false);
+        }}
+      >
+        <div class="form-grid">
+          <Choice label="Axis" value={axis.value} onChoice={(v) => (axis.value = v)} choices={[{ value: '', text: 'choose' }, ...store.axisNames.value.map((n) => ({ value: n, text: n }))]} />
+          <TextField label="Unit" number value={unit.value} onText={(t) => (unit.value = t)} fault={u === null ? 'A whole number from 2 to 254.' : undefined} />
+          <TextField
+            label="Address"
+            number
+            value={address.value}
+            onText={(t) => (address.value = t)}
+            placeholder={free === null ? 'none is free' : `next free block: ${free}`}
+            fault={address.value.trim() !== '' && at === null ? 'A whole number from 0 to 65535.' : undefined}
+            hint={`${blockWidth} registers as in unit 1`}
+          />
+        </div>
+        <div class="form-foot">
+          <button type="button" class="button" onClick={() => void run(true)}>
+            Show what it adds
+          </button>
+          <button type="submit" class="button primary">
+            Add the block
+          </button>
+          <Tell told={told.value} field="template-told" />
+        </div>
+        {differences.value.length > 0 && (
+          <ul class="differences" aria-label="What would be added">
+            {differences.value.slice(0, 200).map((d) => (
+              <li key={d}>{d}</li>
+            ))}
+          </ul>
+        )}
+      </form>
+    </Section>
+  );
+}

@@ -1,0 +1,198 @@
+// Mappings: the registers of one's own: a grid with live values, adding, changing, templates, tables, lists, and what an HMI sees. In: the HTTP
+// door, the axis stream. Out: a page. Registers of the shown table are read once a second where the gateway offers it; at most 8 spans a second.
+import { signal, useSignal, type Signal } from '@preact/signals';
+import { useEffect, useMemo } from 'preact/hooks';
+import { MappingDoor, type Registers } from '../api/mappings';
+import { asProblem } from '../api/problem';
+import { notOffered, quiet, Tell, toldOf, type Told } from '../components/form';
+import { HmiView } from '../components/hmi-view';
+import { Empty } from '../components/lines';
+import { addAt, MappingForm } from '../components/mapping-form';
+import { MappingGrid, type Heard } from '../components/mapping-grid';
+import { ListLinks, PrintedList } from '../components/mapping-list';
+import { MappingPaste } from '../components/mapping-paste';
+import { MappingTemplates } from '../components/mapping-templates';
+import { Section } from '../components/section';
+import { useGateway } from '../gateway';
+import { capital } from '../state/commander';
+import { kept } from '../state/kept';
+import { MappingBook } from '../state/mappings';
+import { spansOf, tables, widthOf, type Known, type Mapping, type Table } from '../words/mapping';
+
+const unitShown = kept('mappings.unit', '2');
+const tableShown = kept('mappings.table', 'holding_registers');
+const poll_ms = 1000;
+const spansAtOnce = 8;
+
+/** What a read said about each mapping in it. */
+function heardOf(r: Registers, rows: readonly Mapping[], into: Map<string, Heard>): void {
+  const raw = r.words ?? (r.bits ?? []).map(Number);
+  for (const m of rows) {
+    const at = m.address - r.address;
+    const width = widthOf(m.type, m.length);
+    if (at < 0 || at >= Math.max(raw.length, 1)) continue;
+    if (r.exception) {
+      into.set(m.id, { words: null, value: undefined, text: `exception ${r.exception.code}: ${r.exception.text}` });
+      continue;
+    }
+    const decoded = r.decoded?.find((d) => d.mapping === m.id || (d.mapping === undefined && d.address === m.address));
+    into.set(m.id, { words: raw.slice(at, at + width), value: decoded?.value, text: '' });
+  }
+}
+
+export function MappingsPage() {
+  const { client, store } = useGateway();
+  const door = useMemo(() => new MappingDoor(client), [client]);
+  const book = useMemo(() => new MappingBook(door), [door]);
+  const editing = useSignal<Mapping | null>(null);
+  const told = useSignal<Told>(quiet);
+  const heard: Signal<ReadonlyMap<string, Heard>> = useMemo(() => signal(new Map()), []);
+  const registers = useSignal<'asking' | 'there' | string>('asking');
+  const parameters: Signal<ReadonlyMap<string, readonly string[]>> = useMemo(() => signal(new Map()), []);
+  const epoch = store.connection.value.epoch;
+  const revision = store.siteRevision.value;
+
+  useEffect(() => void book.load(), [book, epoch, revision]);
+
+  const unit = Number(unitShown.value);
+  const table = tableShown.value as Table;
+  const rows = book.rows.value;
+  const units = [...new Set([...rows.map((m) => m.unit), unit])].sort((a, b) => a - b);
+  const shown = useMemo(() => rows.filter((m) => m.unit === unit && m.table === table), [rows, unit, table]);
+
+  useEffect(() => {
+    if (shown.length === 0 || epoch === 0) return;
+    const end = new AbortController();
+    let timer: ReturnType<typeof setTimeout>;
+    let turn = 0;
+    const spans = spansOf(shown);
+    const again = async () => {
+      let offered = true;
+      if (!document.hidden && store.connected.peek()) {
+        const next = new Map(heard.peek());
+        for (let i = 0; i < Math.min(spans.length, spansAtOnce) && offered && !end.signal.aborted; i += 1) {
+          const s = spans[(turn + i) % spans.length]!;
+          const own = shown.filter((m) => m.address >= s.address && m.address < s.address + s.count);
+          try {
+            heardOf(await door.registers({ unit, table, ...s }, end.signal), own, next);
+            registers.value = 'there';
+          } catch (error) {
+            if (end.signal.aborted) return;
+            const p = asProblem(error);
+            offered = !(p.status === 404 || p.status === 405 || p.status === 501);
+            if (!offered) registers.value = notOffered('a look at its registers: parameters show no live value here');
+            for (const m of own) next.set(m.id, { words: null, value: undefined, text: offered ? p.words : '' });
+          }
+        }
+        turn += spansAtOnce;
+        heard.value = next;
+      }
+      if (offered && !end.signal.aborted) timer = setTimeout(() => void again(), poll_ms);
+    };
+    void again();
+    return () => {
+      end.abort();
+      clearTimeout(timer);
+    };
+  }, [shown, epoch]);
+
+  const asked = useMemo(() => new Set<string>(), []);
+  const known: Known = {
+    axes: store.axisNames.value,
+    points: book.points.value,
+    parameters: (axis) => {
+      if (axis && !asked.has(axis) && store.axisNames.peek().includes(axis)) {
+        asked.add(axis);
+        client.parameters(axis).then(
+          (list) => (parameters.value = new Map([...parameters.peek(), [axis, list.flatMap((p) => (p.name === p.id ? [p.id] : [p.id, p.name]))]])),
+          () => asked.delete(axis),
+        );
+      }
+      return parameters.value.get(axis) ?? null;
+    },
+  };
+
+  const undo = async () => {
+    told.value = { tone: 'busy', text: 'Undoing …' };
+    told.value = toldOf(await book.undo());
+  };
+  const remove = async (m: Mapping) => {
+    told.value = { tone: 'busy', text: `Removing ${m.id} …` };
+    if (editing.peek()?.id === m.id) editing.value = null;
+    told.value = toldOf(await book.remove(m.id));
+  };
+  const last = book.changes.value.at(-1);
+  return (
+    <main
+      class="page mappings-page"
+      onKeyDown={(e) => {
+        const typing = e.target instanceof HTMLElement && /^(INPUT|TEXTAREA|SELECT)$/.test(e.target.tagName);
+        if (e.key.toLowerCase() === 'z' && (e.ctrlKey || e.metaKey) && !e.shiftKey && !typing && last) {
+          e.preventDefault();
+          void undo();
+        }
+      }}
+    >
+      <h1 tabIndex={-1}>Mappings</h1>
+      <p class="where">
+        {book.state.value === 'there' && `${rows.length} of at most 4096. `}Mapping revision <span class="mono" data-field="hash">{book.hash.value || 'not told here by this gateway'}</span>; registers 18 and 19 of each axis show it. Unit 1 is the{' '}
+        standard map and not changed here.
+      </p>
+      <Section
+        title="Register grid"
+        class="register-grid"
+        beside={
+          <>
+            <label class="select">
+              <span>Unit</span>
+              <select value={unitShown.value} onChange={(e) => (unitShown.value = e.currentTarget.value)}>
+                {units.map((u) => (
+                  <option key={u} value={String(u)}>
+                    {u}
+                  </option>
+                ))}
+              </select>
+            </label>
+            <div class="group tables" role="group" aria-label="Table">
+              {tables.map((t) => (
+                <button key={t.id} type="button" class="button" aria-pressed={table === t.id} title={t.name} onClick={() => (tableShown.value = t.id)}>
+                  {t.short} <span class="where">{rows.filter((m) => m.unit === unit && m.table === t.id).length}</span>
+                </button>
+              ))}
+            </div>
+            <button type="button" class="button" disabled={!last} title={last ? `${last.words} (Ctrl Z)` : 'Nothing was changed by this page yet'} onClick={() => void undo()}>
+              Undo{last ? `: ${last.words.toLowerCase()}` : ''}
+            </button>
+          </>
+        }
+      >
+        <Tell told={told.value} field="grid-told" />
+        {book.state.value === 'waiting' ? (
+          <Empty text="Waiting for the gateway." />
+        ) : book.state.value !== 'there' ? (
+          <Empty text={capital(book.state.value)} />
+        ) : (
+          <MappingGrid
+            rows={rows}
+            unit={unit}
+            table={table}
+            heard={heard}
+            edit={(m) => (editing.value = m)}
+            remove={(m) => void remove(m)}
+            addAt={(u, t, a) => {
+              editing.value = null;
+              addAt(u, t, a);
+            }}
+          />
+        )}
+        {registers.value !== 'there' && registers.value !== 'asking' && <p class="where">{registers.value}</p>}
+        <ListLinks door={door} />
+      </Section>
+      <MappingForm book={book} known={known} editing={editing.value} done={() => (editing.value = null)} />
+      <MappingTemplates book={book} door={door} />
+      <MappingPaste book={book} known={known} />
+      <HmiView door={door} />
+      <PrintedList rows={rows} hash={book.hash.value} />
+    </main>
+  );
+}

@@ -1,0 +1,146 @@
+// The book of mappings: what the gateway has, what this page changed in this session, and the way back. In: the HTTP door. Out: signals.
+// Each change is made against the revision that was just read, so that nobody's work is overwritten unseen; undo puts back exactly the entries
+// that the change touched, and refuses in words if somebody else has changed one of them since. At most 50 changes can be undone.
+import { signal, type Signal } from '@preact/signals';
+import type { MappingDoor, MappingImport, MappingList } from '../api/mappings';
+import { asProblem, Problem } from '../api/problem';
+import { cellsOf, columns, differenceText, sameMapping, type Mapping, type MappingPoint, type MappingSpec } from '../words/mapping';
+import { csvOf } from '../words/table-text';
+
+const mostUndo = 50;
+
+/** Entries by id before and after; null: not there. */
+export interface Change {
+  words: string;
+  entries: Map<string, { before: Mapping | null; after: Mapping | null }>;
+}
+
+/** Somebody else was quicker: what it was when it was opened, what it is now. */
+export interface Clash {
+  id: string;
+  text: string;
+  now: Mapping | null;
+}
+
+export type Outcome = { good: true; text: string } | { good: false; text: string; problem?: Problem; clash?: Clash };
+
+export class MappingBook {
+  readonly rows: Signal<Mapping[]> = signal([]);
+  readonly points: Signal<MappingPoint[]> = signal([]);
+  readonly hash = signal('');
+  /** 'waiting', 'there', or why the list is not there. */
+  readonly state = signal<string>('waiting');
+  readonly changes: Signal<Change[]> = signal([]);
+
+  constructor(private readonly door: MappingDoor) {}
+
+  async load(): Promise<void> {
+    try {
+      await this.read();
+      if (this.points.peek().length === 0) this.points.value = await this.door.points();
+      this.state.value = 'there';
+    } catch (error) {
+      if (this.state.peek() !== 'there') this.state.value = asProblem(error).words;
+    }
+  }
+
+  add(spec: MappingSpec): Promise<Outcome> {
+    return this.change(`Added ${spec.point} of ${spec.axis}`, (list) => this.door.add(spec, list.revision));
+  }
+
+  /** `opened`: the entry as it was when the editing began; null: take whatever is there now. */
+  async replace(id: string, spec: MappingSpec, opened: Mapping | null): Promise<Outcome> {
+    return this.change(`Changed ${id}`, (list) => {
+      const now = list.rows.find((m) => m.id === id) ?? null;
+      if (opened && !sameMapping(now, opened)) throw new ClashError({ id, now, text: `Somebody else has changed ${id} meanwhile: ${differenceText(opened, now)}.` });
+      return this.door.replace(id, { ...spec, id }, list.revision);
+    });
+  }
+
+  remove(id: string): Promise<Outcome> {
+    return this.change(`Removed ${id}`, (list) => this.door.remove(id, list.revision));
+  }
+
+  table(csv: string, replace: boolean): Promise<Outcome> {
+    return this.change(replace ? 'Replaced all by a table' : 'Added a table', async (list) => (await this.door.table(csv, { replace, dryRun: false, revision: list.revision })).revision);
+  }
+
+  async dryRun(csv: string, replace: boolean): Promise<MappingImport | Problem> {
+    try {
+      return (await this.door.table(csv, { replace, dryRun: true })).report;
+    } catch (error) {
+      return asProblem(error);
+    }
+  }
+
+  template(axis: string, unit: number, address: number): Promise<Outcome> {
+    return this.change(`Added the standard map of ${axis}`, async () => {
+      await this.door.template({ template: 'standard_map', axis, unit, address, dry_run: false });
+      return '';
+    });
+  }
+
+  async undo(): Promise<Outcome> {
+    const last = this.changes.peek().at(-1);
+    if (!last) return { good: false, text: 'There is nothing to undo.' };
+    try {
+      const now = await this.read();
+      const byId = new Map(now.rows.map((m) => [m.id, m]));
+      for (const [id, e] of last.entries) {
+        if (!sameMapping(byId.get(id) ?? null, e.after)) {
+          return { good: false, text: `Not undone: somebody else has changed ${id} since (${differenceText(e.after, byId.get(id))}). Nothing was touched.` };
+        }
+      }
+      const restored = now.rows.flatMap((m) => {
+        const e = last.entries.get(m.id);
+        return e ? (e.before ? [e.before] : []) : [m];
+      });
+      for (const e of last.entries.values()) if (e.before && !byId.has(e.before.id)) restored.push(e.before);
+      await this.door.table(csvOf([columns, ...restored.map(cellsOf)]), { replace: true, dryRun: false, revision: now.revision });
+      this.changes.value = this.changes.peek().slice(0, -1);
+      await this.read();
+      return { good: true, text: `Undone: ${lower(last.words)}.` };
+    } catch (error) {
+      const problem = asProblem(error);
+      return { good: false, text: `Not undone: ${problem.words}`, problem };
+    }
+  }
+
+  private async change(words: string, act: (list: MappingList) => Promise<string>): Promise<Outcome> {
+    try {
+      const before = await this.read();
+      const revision = await act(before);
+      const after = await this.read().catch(() => null);
+      // Only if nobody came between is the difference of the two lists our own.
+      if (after && (revision === '' || revision === after.revision)) this.remember(words, before.rows, after.rows);
+      return { good: true, text: `${words}.` };
+    } catch (error) {
+      if (error instanceof ClashError) return { good: false, text: error.clash.text, clash: error.clash };
+      const problem = asProblem(error);
+      return { good: false, text: problem.words, problem };
+    }
+  }
+
+  private remember(words: string, before: Mapping[], after: Mapping[]): void {
+    const entries: Change['entries'] = new Map();
+    const old = new Map(before.map((m) => [m.id, m]));
+    for (const m of after) if (!sameMapping(old.get(m.id), m)) entries.set(m.id, { before: old.get(m.id) ?? null, after: m });
+    const left = new Set(after.map((m) => m.id));
+    for (const m of before) if (!left.has(m.id)) entries.set(m.id, { before: m, after: null });
+    if (entries.size > 0) this.changes.value = [...this.changes.peek(), { words, entries }].slice(-mostUndo);
+  }
+
+  private async read(): Promise<MappingList> {
+    const list = await this.door.list();
+    this.rows.value = list.rows;
+    this.hash.value = list.hash;
+    return list;
+  }
+}
+
+class ClashError extends Error {
+  constructor(readonly clash: Clash) {
+    super(clash.text);
+  }
+}
+const lower = (s: string) => s.charAt(0).toLowerCase() + s.slice(1);

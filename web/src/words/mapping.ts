@@ -1,0 +1,280 @@
+// A mapping in words and numbers: how many registers it takes, whom it collides with, what is free, what a person typed for it.
+// In: mappings, text, points. Out: specifications, faults per field, live values. Pure. The gateway checks all of it again.
+import type { components } from '../api/schema';
+import type { Axis } from '../api/types';
+import { parseNumber } from './number';
+
+type Schemas = components['schemas'];
+export type Mapping = Schemas['Mapping'];
+export type MappingSpec = Schemas['MappingSpec'];
+export type MappingPoint = Schemas['MappingPoint'];
+export type Table = Mapping['table'];
+export type RegisterType = Mapping['type'];
+
+export const tables: readonly { id: Table; name: string; short: string; digit: string; bits: boolean; writable: boolean }[] = [
+  { id: 'holding_registers', name: 'Holding registers', short: 'Holding', digit: '4', bits: false, writable: true },
+  { id: 'input_registers', name: 'Input registers', short: 'Input', digit: '3', bits: false, writable: false },
+  { id: 'coils', name: 'Coils', short: 'Coils', digit: '0', bits: true, writable: true },
+  { id: 'discrete_inputs', name: 'Discrete inputs', short: 'Discrete', digit: '1', bits: true, writable: false },
+];
+export const tableOf = (id: Table) => tables.find((t) => t.id === id) ?? tables[0]!;
+export const types: readonly RegisterType[] = ['bool', 'u16', 'i16', 'u32', 'i32', 'f32', 'u64', 'i64', 'f64', 'string'];
+
+const otherNames: Record<string, Table> = {
+  coil: 'coils', discrete: 'discrete_inputs', discrete_input: 'discrete_inputs', holding: 'holding_registers',
+  holding_register: 'holding_registers', input: 'input_registers', input_register: 'input_registers',
+};
+
+/** Registers (or bits) that a type takes. */
+export function widthOf(type: RegisterType, length = 16): number {
+  switch (type) {
+    case 'bool': case 'u16': case 'i16': return 1;
+    case 'u32': case 'i32': case 'f32': return 2;
+    case 'u64': case 'i64': case 'f64': return 4;
+    case 'string': return length;
+  }
+}
+export const endOf = (m: Pick<Mapping, 'address' | 'type' | 'length'>): number => m.address + widthOf(m.type, m.length) - 1;
+
+/** The number that many HMI and PLC editors show for the same place: 40001 is holding register 0. Six digits beyond 9999. */
+export const oneBased = (table: Table, address: number): string => tableOf(table).digit + String(address + 1).padStart(address < 9999 ? 4 : 5, '0');
+
+export const placeText = (m: Pick<Mapping, 'address' | 'type' | 'length'>): string => (endOf(m) === m.address ? `${m.address}` : `${m.address}–${endOf(m)}`);
+
+/** The mappings that have a place in common with this one, itself (by id) left out. */
+export function conflictsOf(m: Pick<Mapping, 'unit' | 'table' | 'address' | 'type' | 'length'>, all: readonly Mapping[], ownId = ''): Mapping[] {
+  return all.filter((o) => o.id !== ownId && o.unit === m.unit && o.table === m.table && o.address <= endOf(m) && endOf(o) >= m.address);
+}
+
+export interface Gap {
+  first: number;
+  last: number;
+}
+
+/** One line of the grid: a mapping, or free places between two. */
+export type GridRow = { kind: 'mapping'; mapping: Mapping } | ({ kind: 'gap' } & Gap);
+
+export function gridOf(all: readonly Mapping[], unit: number, table: Table): GridRow[] {
+  const own = all.filter((m) => m.unit === unit && m.table === table).sort((a, b) => a.address - b.address);
+  const rows: GridRow[] = [];
+  let next = own[0]?.address ?? 0;
+  for (const mapping of own) {
+    if (mapping.address > next) rows.push({ kind: 'gap', first: next, last: mapping.address - 1 });
+    rows.push({ kind: 'mapping', mapping });
+    next = Math.max(next, endOf(mapping) + 1);
+  }
+  return rows;
+}
+
+/** First address from `from` on with so many free places; null: there is none. */
+export function nextFree(all: readonly Mapping[], unit: number, table: Table, width: number, from = 0): number | null {
+  let at = from;
+  for (const m of all.filter((o) => o.unit === unit && o.table === table).sort((a, b) => a.address - b.address)) {
+    if (endOf(m) < at) continue;
+    if (m.address - at >= width) return at;
+    at = endOf(m) + 1;
+  }
+  return at + width <= 65536 ? at : null;
+}
+
+/** What lies before and behind a place: "follows on m1; 4 free up to m2". */
+export function neighbourText(m: Pick<Mapping, 'unit' | 'table' | 'address' | 'type' | 'length'>, all: readonly Mapping[], ownId = ''): string {
+  const own = all.filter((o) => o.id !== ownId && o.unit === m.unit && o.table === m.table);
+  const before = own.filter((o) => endOf(o) < m.address).sort((a, b) => endOf(b) - endOf(a))[0];
+  const behind = own.filter((o) => o.address > endOf(m)).sort((a, b) => a.address - b.address)[0];
+  const free = (n: number) => (n === 1 ? '1 place' : `${n} places`);
+  const first = before ? (m.address - endOf(before) - 1 === 0 ? `follows ${before.id} without a gap` : `${free(m.address - endOf(before) - 1)} free after ${before.id}`) : 'nothing before it';
+  const last = behind ? (behind.address - endOf(m) - 1 === 0 ? `${behind.id} follows without a gap` : `${free(behind.address - endOf(m) - 1)} free up to ${behind.id}`) : 'nothing behind it';
+  return `${first}; ${last}`;
+}
+
+/** Spans without gaps of at most so many places, for reading: a request across an unmapped place is an exception. */
+export function spansOf(own: readonly Mapping[], most = 125): { address: number; count: number }[] {
+  const spans: { address: number; count: number }[] = [];
+  for (const m of [...own].sort((a, b) => a.address - b.address)) {
+    const last = spans.at(-1);
+    const width = widthOf(m.type, m.length);
+    if (last && last.address + last.count === m.address && last.count + width <= most) last.count += width;
+    else spans.push({ address: m.address, count: width });
+  }
+  return spans;
+}
+
+export const fields = ['unit', 'table', 'address', 'axis', 'point', 'type', 'word_order', 'scale', 'offset', 'access', 'length', 'comment'] as const;
+export type Field = (typeof fields)[number];
+export type Texts = Record<Field, string>;
+export const columns = ['id', ...fields] as const;
+export const emptyTexts: Texts = { unit: '2', table: 'holding_registers', address: '', axis: '', point: '', type: 'i32', word_order: 'high_first', scale: '1', offset: '0', access: '', length: '', comment: '' };
+
+export function textsOf(m: Mapping): Texts {
+  return {
+    unit: String(m.unit), table: m.table, address: String(m.address), axis: m.axis, point: m.point, type: m.type, word_order: m.word_order,
+    scale: String(m.scale), offset: String(m.offset), access: m.access, length: m.length ? String(m.length) : '', comment: m.comment ?? '',
+  };
+}
+
+export interface Known {
+  axes: readonly string[];
+  points: readonly MappingPoint[];
+  /** Ids and names of the parameters of an axis; null where they are not known. */
+  parameters: (axis: string) => readonly string[] | null;
+}
+
+export type Checked = { spec: MappingSpec | null; faults: Partial<Record<Field, string>> };
+
+function whole(text: string, what: string, min: number, max: number): { value: number; why: string } {
+  const p = parseNumber(text);
+  if (!p.good) return { value: 0, why: text.trim() === '' ? `Type ${what}.` : p.why };
+  if (!Number.isInteger(p.value) || p.value < min || p.value > max) return { value: 0, why: `${what.charAt(0).toUpperCase()}${what.slice(1)} is a whole number from ${min} to ${max}.` };
+  return { value: p.value, why: '' };
+}
+
+/** From what was typed to a specification, or why not, field by field. Empty optional fields are left to the gateway. */
+export function checkTexts(t: Partial<Texts>, known: Known): Checked {
+  const faults: Checked['faults'] = {};
+  const fault = (f: Field, why: string) => (faults[f] ??= why);
+  const unit = whole(t.unit ?? '', 'the Modbus unit', 2, 254);
+  if (unit.why) fault('unit', unit.why);
+  const given = (t.table || 'holding_registers').toLowerCase();
+  const table = otherNames[given] ?? (tables.find((x) => x.id === given)?.id as Table | undefined);
+  if (!table) fault('table', `“${t.table}” is no table: ${tables.map((x) => x.id).join(', ')}.`);
+  const address = whole(t.address ?? '', 'the address', 0, 65535);
+  if (address.why) fault('address', address.why);
+
+  let axis = t.axis?.trim() ?? '';
+  let point = t.point?.trim() ?? '';
+  if (axis === '' && point.includes('.')) {
+    const owner = known.axes.find((a) => point.startsWith(`${a}.`));
+    if (owner) [axis, point] = [owner, point.slice(owner.length + 1)];
+  }
+  if (axis === '') fault('axis', 'Choose an axis.');
+  else if (!known.axes.includes(axis)) fault('axis', `There is no axis ${axis}.`);
+  if (point === '') fault('point', 'Choose a point or a parameter.');
+  const simple = known.points.find((p) => p.point === point);
+  const parameters = known.parameters(axis);
+  if (point !== '' && !simple && known.points.length > 0 && parameters && !parameters.includes(point) && !parameters.includes(point.replace(/\[\d+\]$/, ''))) {
+    fault('point', `${axis} has neither a point nor a parameter ${point}.`);
+  }
+
+  const kind = table ? tableOf(table) : null;
+  const typeText = (t.type ?? '').trim().toLowerCase().replace(/^boolean$/, 'bool');
+  if (typeText !== '' && !types.includes(typeText as RegisterType)) fault('type', `“${t.type}” is no type: ${types.join(', ')}.`);
+  const type = (typeText || (kind?.bits ? 'bool' : 'i32')) as RegisterType;
+  if (kind?.bits && type !== 'bool') fault('type', `${kind.name} hold bits: the type is bool.`);
+  const order = (t.word_order ?? '').trim() || 'high_first';
+  if (order !== 'high_first' && order !== 'low_first') fault('word_order', 'high_first or low_first.');
+  const number = (f: 'scale' | 'offset', fallback: number) => {
+    if ((t[f] ?? '').trim() === '') return fallback;
+    const p = parseNumber(t[f] as string);
+    if (!p.good) fault(f, p.why);
+    return p.good ? p.value : fallback;
+  };
+  const scale = number('scale', 1);
+  if (scale === 0) fault('scale', 'The scale must not be 0.');
+  const offset = number('offset', 0);
+  const access = (t.access ?? '').trim().toUpperCase();
+  if (access !== '' && !['R', 'W', 'RW'].includes(access)) fault('access', 'R, W or RW.');
+  if (access.includes('W') && kind && !kind.writable) fault('access', `${kind.name} can only be read.`);
+  else if (access.includes('W') && simple?.access === 'R') fault('access', `${point} can only be read.`);
+  let length: number | undefined;
+  if (type === 'string' && (t.length ?? '').trim() !== '') {
+    const n = whole(t.length as string, 'the length', 1, 64);
+    if (n.why) fault('length', n.why);
+    else length = n.value;
+  }
+  if (!address.why && address.value + widthOf(type, length) > 65536) fault('address', 'The value would end beyond address 65535.');
+  const comment = t.comment?.trim() ?? '';
+  if (comment.length > 256) fault('comment', 'At most 256 characters.');
+  if (Object.keys(faults).length > 0 || !table) return { spec: null, faults };
+  const spec: MappingSpec = { unit: unit.value, table, address: address.value, axis, point, type, word_order: order as Mapping['word_order'], scale, offset };
+  if (access) spec.access = access as Mapping['access'];
+  if (length !== undefined) spec.length = length;
+  if (comment) spec.comment = comment;
+  return { spec, faults };
+}
+
+/** The cells of one mapping in the order of `columns`, as the gateway writes them. */
+export function cellsOf(m: Partial<Mapping>): string[] {
+  return columns.map((c) => {
+    const v = m[c];
+    return v === undefined || v === null ? '' : String(v);
+  });
+}
+
+export const sameMapping = (a: Mapping | undefined | null, b: Mapping | undefined | null): boolean =>
+  a === b || (!!a && !!b && cellsOf(a).every((c, i) => c === cellsOf(b)[i]));
+
+/** What differs between two states of one mapping: "address 4 → 6, scale 1 → 0.1". */
+export function differenceText(before: Mapping | null | undefined, after: Mapping | null | undefined): string {
+  if (!before) return after ? 'added' : 'not there';
+  if (!after) return 'removed';
+  const a = cellsOf(before);
+  const b = cellsOf(after);
+  const parts = columns.flatMap((c, i) => (a[i] === b[i] ? [] : [`${c.replace('_', ' ')} ${a[i] || 'empty'} → ${b[i] || 'empty'}`]));
+  return parts.join(', ') || 'the same';
+}
+
+const doors = ['none', 'modbus', 'enip', 'http', 'dds'];
+
+/** The point's value from the axis document; undefined: the document does not have it (a parameter, a set-point register). */
+export function pointValue(axis: Axis, point: string): number | boolean | null | undefined {
+  switch (point) {
+    case 'statusword': return axis.statusword;
+    case 'mode_display': return axis.mode_number;
+    case 'position': return axis.position_increments;
+    case 'velocity': return axis.velocity_increments;
+    case 'position_demand': return axis.position_demand_increments;
+    case 'error_code': return axis.error.code;
+    case 'native_status': return axis.native;
+    case 'setpoints_accepted': return axis.setpoints_accepted;
+    case 'authority': return Math.max(0, doors.indexOf(axis.authority));
+    case 'controlword': return axis.controlword;
+    case 'online': case 'simulated': case 'stale': case 'referenced': case 'moving': case 'target_reached': case 'fault': case 'warning': return axis[point];
+    case 'flags':
+      return [axis.online, axis.simulated, axis.stale, axis.referenced, axis.moving, axis.target_reached, axis.fault, axis.warning].reduce((n, b, i) => n | (b ? 1 << i : 0), 0);
+    case 'position_units': return axis.position;
+    case 'velocity_units': return axis.velocity;
+    default: return undefined;
+  }
+}
+
+export function pointUnit(axis: Pick<Axis, 'unit'>, point: string): string {
+  const unit = axis.unit || 'inc';
+  if (point === 'position_units') return unit;
+  if (point === 'velocity_units') return `${unit}/s`;
+  if (point === 'position' || point === 'position_demand' || point === 'target_position') return 'inc';
+  if (point === 'velocity' || point === 'profile_velocity' || point === 'target_velocity') return 'inc/s';
+  if (point === 'profile_acceleration' || point === 'profile_deceleration') return 'inc/s²';
+  return point === 'age_ms' ? 'ms' : '';
+}
+
+/** What stands in the register for a value of the point: value * scale + offset, cut to the type as the gateway cuts it. */
+export function registerValue(value: number | boolean, m: Pick<Mapping, 'type' | 'scale' | 'offset'>): number {
+  const n = Number(value) * m.scale + m.offset;
+  return m.type === 'f32' ? Math.fround(n) : m.type === 'f64' ? n : m.type === 'bool' ? Number(n !== 0) : Math.round(n);
+}
+
+/** Reads raw words as a type, as an HMI does. */
+export function decodeWords(words: readonly number[], type: RegisterType, order: Mapping['word_order']): number | bigint | boolean | string | null {
+  const width = widthOf(type, words.length);
+  if (words.length < width) return null;
+  const used = words.slice(0, width);
+  if (type === 'string') {
+    const bytes = used.flatMap((w) => [w >> 8, w & 0xff]);
+    const end = bytes.indexOf(0);
+    return new TextDecoder().decode(new Uint8Array(end < 0 ? bytes : bytes.slice(0, end)));
+  }
+  const view = new DataView(new ArrayBuffer(8));
+  (order === 'low_first' ? [...used].reverse() : used).forEach((w, i) => view.setUint16(i * 2, w & 0xffff));
+  switch (type) {
+    case 'bool': return view.getUint16(0) !== 0;
+    case 'u16': return view.getUint16(0);
+    case 'i16': return view.getInt16(0);
+    case 'u32': return view.getUint32(0);
+    case 'i32': return view.getInt32(0);
+    case 'f32': return view.getFloat32(0);
+    case 'u64': return view.getBigUint64(0);
+    case 'i64': return view.getBigInt64(0);
+    case 'f64': return view.getFloat64(0);
+  }
+}

@@ -41,7 +41,7 @@ test('the content security policy is strict and the page keeps it', async () => 
 
 test('every page has an address of its own, with a heading and a title', async () => {
   const page = await open(browser, program.url);
-  const routes = { '/lines': 'Lines and drives', '/lines/can0': 'can0', '/events': 'Events', '/gateway': 'Gateway', '/axes/feeder': 'feeder', '/axes/slide.x/': 'slide.x', '/nonsense': 'There is no such page' };
+  const routes = { '/lines': 'Lines and drives', '/lines/can0': 'can0', '/events': 'Events', '/gateway': 'Gateway', '/mappings': 'Mappings', '/site': 'Site', '/axes/feeder/parameters': 'Parameters of feeder', '/axes/feeder': 'feeder', '/axes/slide.x/': 'slide.x', '/nonsense': 'There is no such page' };
   for (const [path, heading] of Object.entries(routes)) {
     await page.goto(program.url + path);
     await page.getByRole('heading', { level: 1, name: heading }).waitFor();

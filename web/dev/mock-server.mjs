@@ -8,6 +8,7 @@ import { createServer } from 'node:http';
 import { extname, join, normalize } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { WebSocketServer } from 'ws';
+import { Configuration } from './mock/configure.mjs';
 import { catalogue, demoSite, Refusal, World } from './mock/world.mjs';
 
 const dist = fileURLToPath(new URL('../dist', import.meta.url));
@@ -19,6 +20,7 @@ const types = { '.html': 'text/html; charset=utf-8', '.js': 'text/javascript; ch
 
 const o = readArguments(process.argv.slice(2));
 const world = new World(o.site ? JSON.parse(readFileSync(o.site, 'utf8')) : demoSite);
+const configuration = new Configuration(world);
 
 let last = performance.now();
 setInterval(() => {
@@ -45,22 +47,29 @@ async function answer(request, response) {
   const method = request.method ?? 'GET';
   const who = `${request.socket.remoteAddress}:${request.socket.remotePort}`;
   const q = url.searchParams;
+  const text = method === 'GET' ? '' : await textOf(request);
+  const configured = configuration.answer({ method, parts, q, text, who, match: String(request.headers['if-match'] ?? '') });
+  if (configured) {
+    const head = { 'content-type': configured.type ?? 'application/json', 'site-revision': String(world.revision), ...configured.head };
+    response.writeHead(configured.status ?? 200, head);
+    return response.end(configured.status === 204 ? undefined : (configured.text ?? JSON.stringify(configured.body)));
+  }
+  const body = () => readJson(text);
   if (kind === 'about') {
     return json(response, { name: 'axisgate', version: '0.1.0-mock', api: '/api/v1', uptime_s: (Date.now() - world.started) / 1000, now: world.now(), site_revision: world.revision, families: ['mcode', 'pacontrol', 'uim342'], doors: [{ name: 'http', address: address() }], lines: world.site.lines.length, drives: world.drives.size, axes: world.axes.size });
   }
   if (kind === 'events') return json(response, world.events.slice(-Number(q.get('limit') ?? 200)));
-  if (kind === 'site') return json(response, world.site);
   if (kind === 'lines' && !name) return json(response, world.site.lines.map((l) => world.line(l.name)));
   if (kind === 'lines' && name && !what) return json(response, world.line(name));
   if (kind === 'drives' && !name) return json(response, [...world.drives.values()].map((d) => d.document()));
   if (kind === 'drives' && name && what === 'hand') {
     if (method === 'GET') return json(response, q.get('describe') === '1' ? world.handList(name) : world.hand(name));
-    return json(response, world.setHand(name, await body(request)));
+    return json(response, world.setHand(name, body()));
   }
-  if (kind === 'drives' && name && what === 'native') return json(response, world.native(name, await body(request)));
+  if (kind === 'drives' && name && what === 'native') return json(response, world.native(name, body()));
   if (kind === 'axes' && !name) return json(response, [...world.axes.keys()].map((n) => world.axis(n)));
   if (kind === 'axes' && name && !what) return json(response, { ...world.axis(name), age_ms: 3 });
-  if (kind === 'axes' && name && what === 'commands') return json(response, world.command(name, await body(request), who));
+  if (kind === 'axes' && name && what === 'commands') return json(response, world.command(name, body(), who));
   if (kind === 'axes' && name && what === 'parameters') {
     const axis = world.axisOf(name);
     if (!id) {
@@ -73,7 +82,7 @@ async function answer(request, response) {
       return json(response, Array.from({ length: count }, (_, i) => axis.parameter(`${array}[${first + i}]`)));
     }
     if (method === 'GET') return json(response, q.get('cached') ? axis.parameter(id) : axis.read(id));
-    const { value } = await body(request);
+    const { value } = body();
     const old = axis.write(id, value, who);
     world.event('info', 'write', { axis: name, who, door: 'http', parameter: id, old: old === null ? null : String(old), new: String(value) }, '');
     return json(response, { ticket: (world.ticket += 1), result: 'done', reason: '', axis: name, command: 'write_parameter', code: null, text: '', value });
@@ -102,10 +111,15 @@ function isFile(file) {
   }
 }
 
-/** @param {Request} request @returns {Promise<any>} */
-async function body(request) {
+/** @param {Request} request */
+async function textOf(request) {
   let text = '';
   for await (const piece of request) text += piece;
+  return text;
+}
+
+/** @param {string} text @returns {any} */
+function readJson(text) {
   try {
     return JSON.parse(text);
   } catch {
@@ -163,6 +177,10 @@ sockets.on('connection', (socket) => {
     if (topics.has('events')) tell('events', e);
   };
   world.listeners.push(onEvent);
+  const onSite = () => {
+    if (topics.has('site')) tell('site', { revision: world.revision });
+  };
+  world.siteListeners.push(onSite);
   socket.on('message', (raw) => {
     const r = JSON.parse(String(raw));
     for (const t of r.unsubscribe ?? []) topics.delete(t);
@@ -183,6 +201,7 @@ sockets.on('connection', (socket) => {
   socket.on('close', () => {
     clearInterval(timer);
     world.listeners = world.listeners.filter((l) => l !== onEvent);
+    world.siteListeners = world.siteListeners.filter((l) => l !== onSite);
   });
 });
 

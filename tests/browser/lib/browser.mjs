@@ -1,6 +1,7 @@
 // Browser: Debian's Chromium through playwright-core, with a fresh profile, and a watch over everything that a page must not do.
 // In: CHROMIUM (default /usr/bin/chromium). Out: pages that remember console errors, exceptions and requests to other hosts.
-import { mkdirSync } from 'node:fs';
+import { mkdirSync, readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { chromium } from 'playwright-core';
@@ -65,5 +66,34 @@ export async function until(what, condition, limit_ms = 10_000) {
     if (last === true) return;
     if (Date.now() > end) throw new Error(`${what} did not come true within ${limit_ms} ms; last: ${JSON.stringify(last)}`);
     await new Promise((r) => setTimeout(r, 50));
+  }
+}
+
+const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+
+/** What axe-core finds serious or critical on a page that was opened with `bypassCSP`. */
+export async function examine(page) {
+  await page.addScriptTag({ content: axe });
+  return page.evaluate(async () => {
+    const r = await globalThis.axe.run(document, { runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'] });
+    const bad = r.violations.filter((v) => v.impact === 'serious' || v.impact === 'critical');
+    return bad.map((v) => ({ id: v.id, where: v.nodes.slice(0, 4).map((n) => n.target.join(' ')), why: v.nodes[0].failureSummary }));
+  });
+}
+
+/** A page at three widths in light and dark: it must not scroll sideways, axe-core must find nothing serious, and people get pictures. */
+export async function pictures(browser, url, path, name, ready) {
+  for (const colorScheme of ['light', 'dark']) {
+    for (const width of [1440, 1024, 390]) {
+      const page = await open(browser, url + path, { colorScheme, viewport: { width, height: 900 }, bypassCSP: true, hasTouch: width < 500, isMobile: width < 500 });
+      await ready(page);
+      await shot(page, `${name}-${width}-${colorScheme}`, { fullPage: true });
+      const wide = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+      if (wide > 0) throw new Error(`${path} is ${wide} px too wide at ${width} px`);
+      const found = await examine(page);
+      if (found.length > 0) throw new Error(`${path} at ${width} px, ${colorScheme}: ${JSON.stringify(found)}`);
+      if (page.faults().length > 0) throw new Error(`${path}: ${page.faults().join('; ')}`);
+      await page.context().close();
+    }
   }
 }

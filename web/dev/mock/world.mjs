@@ -379,10 +379,23 @@ export class World {
     /** @type {Map<string, MockAxis>} */
     this.axes = new Map();
     /** @type {Map<string, any[]>} */
-    this.frames = new Map(site.lines.map((l) => [l.name, []]));
+    this.frames = new Map();
+    /** @type {(() => void)[]} */
+    this.siteListeners = [];
+    this.catalogue = catalogue;
     this.exchanges = 0;
     this.askedFor = 0;
     this.frameCount = 0;
+    this.reload(site);
+    this.event('info', 'site', {}, 'the site is in force');
+  }
+
+  /** Everything anew from a site; parameters and positions begin again. @param {Site} site */
+  reload(site) {
+    this.site = site;
+    this.drives.clear();
+    this.axes.clear();
+    for (const l of site.lines) if (!this.frames.has(l.name)) this.frames.set(l.name, []);
     for (const d of site.drives) {
       const line = site.lines.find((l) => l.name === d.line);
       if (!line) throw new Error(`drive ${d.name}: there is no line ${d.line}`);
@@ -395,7 +408,6 @@ export class World {
       drive.axes.push(axis);
       this.axes.set(a.name, axis);
     }
-    this.event('info', 'site', {}, 'the site is in force');
   }
 
   now() {

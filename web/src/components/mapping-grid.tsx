@@ -55,8 +55,8 @@ export function MappingGrid({ rows, unit, table, heard, edit, remove, addAt }: G
                 <tr key={`gap-${r.first}`} class="gap">
                   <td colSpan={9}>
                     <span class="mono">{r.first === r.last ? r.first : `${r.first}–${r.last}`}</span> free ({r.last - r.first + 1}){' '}
-                    <button type="button" class="button small quiet" aria-label={`Add at ${r.first}`} onClick={() => addAt(unit, table, r.first)}>
-                      <Icon name="plus" size={14} /> Add here
+                    <button type="button" class="button small quiet" onClick={() => addAt(unit, table, r.first)}>
+                      <Icon name="plus" size={14} /> Add at {r.first}
                     </button>
                   </td>
                 </tr>

@@ -43,7 +43,7 @@ export function MappingPaste({ book, known }: { book: MappingBook; known: Known 
       told.value = { tone: 'refused', text: answer.words };
     } else {
       report.value = { for: text.value, differences: answer.differences, lines: new Map() };
-      told.value = { tone: 'good', text: `The gateway would take ${count(answer.rows, 'row')}; ${count(answer.mappings, 'mapping')} afterwards.` };
+      told.value = { tone: 'good', text: `The gateway would take ${count(specs.length, 'row')}: ${count(answer.mappings, 'mapping')} afterwards.` };
     }
   };
   const send = async () => {

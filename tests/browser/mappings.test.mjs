@@ -1,0 +1,169 @@
+// The page of mappings: entries by hand, conflicts while typing, a spreadsheet's table, changes undone, what an HMI sees, the list for paper.
+// What the program does not offer yet must be said in words; the tests ask the program itself what that is.
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { launch, open, pictures, shot, until } from './lib/browser.mjs';
+import { Program } from './lib/program.mjs';
+
+let program, browser, page, offersRegisters, offersLists;
+const offered = async (path) => ![404, 405, 501].includes((await fetch(`${program.url}/api/v1${path}`)).status);
+before(async () => {
+  program = await Program.start();
+  browser = await launch();
+  offersRegisters = await offered('/registers?unit=1&table=holding_registers&address=0&count=2');
+  offersLists = await offered('/mappings/list?format=csv');
+  page = await open(browser, `${program.url}/mappings`);
+  await page.getByText('Nothing is mapped yet').waitFor();
+});
+after(async () => {
+  await browser?.close();
+  await program?.end();
+});
+const all = async () => (await program.call('GET', '/mappings')).body;
+const form = () => page.getByRole('form', { name: 'Add a mapping' });
+const told = (field) => page.locator(`[data-field="${field}"]`).innerText();
+const place = (m) => `${m.address} ${m.point} ${m.type}`;
+
+test('an entry is added by keyboard, and its value is live', async () => {
+  await form().getByLabel('Axis').selectOption('feeder');
+  await form().getByLabel('Point or parameter').fill('position_units');
+  await form().getByLabel('Type').selectOption('f32');
+  await form().getByLabel('Address').fill('0');
+  await page.keyboard.press('Enter');
+  await until('it is told', async () => /^Added position_units of feeder/.test(await told('mapping-told')) || (await told('mapping-told')));
+  assert.deepEqual((await all()).map(place), ['0 position_units f32']);
+  const cell = page.locator('[data-mapping] [data-field=value]').first();
+  await until('it is live', async () => (await cell.getAttribute('data-live')) === 'true');
+  await program.command('feeder', { command: 'enable' });
+  await program.command('feeder', { command: 'move_absolute', position: 2, velocity: 50 });
+  await until('it follows', async () => Math.abs(Number((await cell.locator('.mono').innerText()).replace('\u2212', '-')) - 2) < 0.01 || (await cell.innerText()));
+});
+
+test('a conflict is named while typing, nothing is sent, and the next free place is offered', async () => {
+  await form().getByLabel('Point or parameter').fill('velocity');
+  await form().getByLabel('Address').fill('1');
+  await form().getByText(/^Taken by .*position_units of feeder, 0–1/).waitFor();
+  assert.equal(await form().getByLabel('Address').getAttribute('aria-invalid'), 'true');
+  await form().getByLabel('Address').press('Enter');
+  assert.equal((await all()).length, 1);
+  await form().getByRole('button', { name: 'Next free place: 2' }).click();
+  assert.equal(await form().getByLabel('Address').inputValue(), '2');
+  await form().getByLabel('Address').fill('6');
+  await form().getByText('4 places free after').waitFor();
+  await form().getByLabel('Type').selectOption('i32');
+  await form().getByRole('button', { name: 'Add', exact: true }).click();
+  await until('it is there', async () => (await all()).length === 2);
+  await page.getByRole('button', { name: 'Add at 2' }).waitFor();
+});
+
+test('a wrong field says so, and what was typed stays', async () => {
+  await form().getByLabel('Unit').fill('1');
+  await form().getByText('The modbus unit is a whole number from 2 to 254.', { exact: false }).or(form().getByText('from 2 to 254')).first().waitFor();
+  await form().getByRole('button', { name: 'Add', exact: true }).click();
+  assert.equal(await form().getByLabel('Unit').inputValue(), '1');
+  await form().getByLabel('Unit').fill('2');
+});
+
+test('an entry is changed; a change of somebody else is shown first, and what was typed stays', async () => {
+  const [m] = await all();
+  await page.getByRole('button', { name: `Change ${m.id}` }).click();
+  const edit = page.getByRole('form', { name: `Change mapping ${m.id}` });
+  await edit.getByLabel('Scale').fill('0.5');
+  const { id, ...rest } = m;
+  await program.call('PUT', `/mappings/${id}`, { ...rest, offset: 3 });
+  await edit.getByRole('button', { name: 'Save', exact: true }).click();
+  await until('the difference is shown', async () => /offset 0 → 3/.test(await told('mapping-told')) || (await told('mapping-told')));
+  assert.equal(await edit.getByLabel('Scale').inputValue(), '0.5');
+  assert.equal((await all())[0].scale, 1);
+  await edit.getByRole('button', { name: 'Save mine all the same' }).click();
+  await until('it is changed', async () => (await all())[0].scale === 0.5);
+});
+
+test('a removal is undone, by the keyboard too', async () => {
+  const before = await all();
+  await page.getByRole('button', { name: `Remove ${before[1].id}` }).click();
+  await until('it is gone', async () => (await all()).length === 1);
+  await page.locator('main h1').focus();
+  await page.keyboard.press('Control+z');
+  await until('it is back', async () => (await all()).length === 2);
+  assert.deepEqual((await all()).map(place).sort(), before.map(place).sort());
+});
+
+test('a table from a spreadsheet is checked row by row, tried, taken as one, and undone as one', async () => {
+  const box = page.getByLabel('Table of mappings');
+  await box.fill('unit\taddress\taxis\tpoint\ttype\n2\t20\tfeeder\tposition\ti32\n2\t21\tfeeder\tvelocity\ti32\n2\t0\tslide.x\tnonsense_type\tq');
+  await until('both faults are counted', async () => /2 of 3 rows/.test(await told('table-count')) || (await told('table-count')));
+  assert.match(await page.locator('[data-line="3"]').innerText(), /taken by line 2/);
+  assert.match(await page.locator('[data-line="4"]').innerText(), /no type/);
+  assert.equal(await page.getByRole('button', { name: 'Check with the gateway' }).isDisabled(), true);
+  await box.fill('unit\taddress\taxis\tpoint\ttype\n2\t20\tfeeder\tposition\ti32\n2\t22\tslide.x\tvelocity\ti32');
+  const count = (await all()).length;
+  await page.getByRole('button', { name: 'Check with the gateway' }).click();
+  await until('the gateway would take it', async () => /would take 2 rows/.test(await told('table-told')) || (await told('table-told')));
+  assert.equal((await all()).length, count);
+  await page.getByRole('button', { name: 'Add 2 rows' }).click();
+  await until('they are there', async () => (await all()).length === count + 2);
+  assert.equal(await box.inputValue(), '');
+  await page.getByRole('button', { name: /^Undo/ }).first().click();
+  await until('both are gone', async () => (await all()).length === count);
+});
+
+test('a row that only the gateway can refuse is marked in its line', async () => {
+  await page.getByLabel('Table of mappings').fill('unit\taddress\taxis\tpoint\ttype\n2\t40\tslide.x\tno_such_parameter\ti32');
+  const verdict = page.locator('[data-line="2"]');
+  await until('it is judged', async () => /neither|good/.test(await verdict.innerText()) || (await verdict.innerText()));
+  if (/good/.test(await verdict.innerText())) {
+    await page.getByRole('button', { name: 'Check with the gateway' }).click();
+    await until('it is told', async () => (await told('table-told')).length > 20 || (await told('table-told')));
+  }
+  await page.getByLabel('Table of mappings').fill('');
+});
+
+test('the export is what the gateway has', async () => {
+  const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('link', { name: 'Export CSV' }).click()]);
+  assert.equal(download.suggestedFilename(), 'mappings.csv');
+});
+
+test('what an HMI sees: words and meaning, or that this gateway does not show it', async () => {
+  const hmi = page.getByRole('form', { name: 'Read registers' });
+  await hmi.getByLabel('Unit').fill('2');
+  await hmi.getByLabel('Address').fill('0');
+  await hmi.getByLabel('Count').fill('2');
+  await hmi.getByRole('button', { name: 'Look' }).click();
+  if (offersRegisters) {
+    await hmi.locator('[data-address="1"]').waitFor();
+    assert.match(await hmi.locator('[data-address="0"]').innerText(), /[0-9A-F]{4}/);
+    await hmi.getByLabel('Address').fill('5000');
+    await hmi.getByRole('button', { name: 'Look' }).click();
+    await until('the exception is told', async () => /exception 2/.test(await told('hmi-told')) || (await told('hmi-told')));
+  } else {
+    await until('it is said', async () => /does not offer/.test(await told('hmi-told')) || (await told('hmi-told')));
+  }
+  await hmi.getByLabel('Count').fill('126');
+  await hmi.getByText('from 1 to 125').waitFor();
+});
+
+test('lists of the gateway are linked, or it is said that there are none', async () => {
+  const lists = page.locator('[data-field=lists]');
+  if (offersLists) {
+    for (const name of ['Register list, CSV', 'Register list, HTML', 'PLC structure']) await lists.getByRole('link', { name }).waitFor();
+    assert.match(await told('hash'), /[0-9A-Fa-f]{4,}/);
+  } else {
+    assert.match(await lists.innerText(), /does not offer/);
+  }
+});
+
+test('paper gets the list and nothing else', async () => {
+  await page.emulateMedia({ media: 'print' });
+  assert.equal(await page.locator('[data-field=printed]').isVisible(), true);
+  assert.equal(await form().isVisible(), false);
+  assert.equal(await page.locator('.head').isVisible(), false);
+  assert.match(await page.locator('[data-field=printed]').innerText(), /Unit 2, holding registers/);
+  await shot(page, 'mappings-paper', { fullPage: true });
+  await page.emulateMedia({ media: 'screen' });
+  assert.deepEqual(page.faults(), []);
+});
+
+test('axe-core finds nothing serious, nothing scrolls sideways, pictures', async () => {
+  await pictures(browser, program.url, '/mappings', 'mappings', (p) => p.locator('[data-mapping]').first().waitFor());
+});

@@ -1,0 +1,320 @@
+// Mock of what is configured: mappings, registers, the staged site, snapshots, scans, backup. In: requests. Out: documents of the HTTP door.
+// A stand-in for the page's author: the shapes of the answers and the refusals that the page must show, not a second gateway.
+import { Refusal } from './world.mjs';
+
+/** @typedef {{status?: number, type?: string, head?: Record<string, string>, body?: any, text?: string}} Answer */
+/** @typedef {{method: string, parts: string[], q: URLSearchParams, text: string, who: string, match: string}} Ask */
+
+const columns = ['id', 'unit', 'table', 'address', 'axis', 'point', 'type', 'word_order', 'scale', 'offset', 'access', 'length', 'comment'];
+const points = [
+  ['statusword', 'R', 'CiA 402 status word'], ['position', 'R', 'position actual value, increments'], ['velocity', 'R', 'velocity actual value, increments/s'],
+  ['target_position', 'RW', 'target position, increments'], ['flags', 'R', 'flags'], ['online', 'R', 'the drive answers'], ['moving', 'R', 'the axis moves'],
+  ['position_units', 'R', "position actual value in the axis' unit"], ['velocity_units', 'R', "velocity actual value in the axis' unit per second"],
+].map(([point, access, description]) => ({ point, access, description }));
+/** @param {any} m */
+const width = (m) => ({ bool: 1, u16: 1, i16: 1, u64: 4, i64: 4, f64: 4, string: m.length ?? 16 })[/** @type {'bool'} */ (m.type)] ?? 2;
+
+export class Configuration {
+  /** @param {import('./world.mjs').World} world */
+  constructor(world) {
+    this.world = world;
+    this.next = 1;
+    /** @type {any} */
+    this.stage = null;
+    /** @type {any} */
+    this.previous = null;
+    /** @type {any[]} */
+    this.history = [];
+    /** @type {Map<string, any[]>} */
+    this.snapshots = new Map();
+    /** @type {Map<string, any>} */
+    this.scans = new Map();
+    world.site.mappings ??= [];
+  }
+  /** @returns {any[]} */
+  get mappings() {
+    return /** @type {any[]} */ (this.world.site.mappings);
+  }
+  changed() {
+    this.world.revision += 1;
+    for (const l of this.world.siteListeners) l();
+  }
+  get hash() {
+    let h = 2166136261;
+    for (const c of JSON.stringify(this.mappings)) h = Math.imul(h ^ c.charCodeAt(0), 16777619) >>> 0;
+    return `0x${h.toString(16).toUpperCase().padStart(8, '0')}`;
+  }
+
+  /** @param {Ask} ask @returns {Answer | null} null: not one of these */
+  answer(ask) {
+    const [kind, name, what] = ask.parts;
+    if (ask.match && ask.method !== 'GET' && ask.match !== `"${this.world.revision}"`) throw new Refusal(412, 'precondition_failed', `the site has the revision "${this.world.revision}" by now, not ${ask.match}: read it again`);
+    if (kind === 'mapping-points') return { body: points };
+    if (kind === 'mappings' || kind === 'mappings.csv') return this.mapping(ask);
+    if (kind === 'registers') return { body: this.registers(ask.q) };
+    if (kind === 'site') return this.site(ask);
+    if (kind === 'backup') return ask.method === 'GET' ? { type: 'application/octet-stream', text: 'SQLite format 3\0' } : { status: 202, body: { text: 'taken; it takes effect now', restart_needed: false } };
+    if (kind === 'families' && name && what === 'parameters') return null;
+    if (kind === 'lines' && name && what === 'scan') return this.scan(ask, name);
+    if (kind === 'axes' && name && what === 'snapshots') return this.snapshot(ask, name);
+    if (kind === 'axes' && name && (what === 'parameters.csv' || ask.parts[4] === 'history')) return this.parameters(ask, name);
+    return null;
+  }
+
+  /** @param {any} given @param {any[]} all */
+  check(given, all) {
+    const m = { table: 'holding_registers', type: 'i32', word_order: 'high_first', scale: 1, offset: 0, access: 'R', ...given };
+    for (const k of Object.keys(m)) if (m[k] === '' || m[k] === undefined) delete m[k];
+    if (!this.world.axes.has(m.axis)) throw new Refusal(422, 'invalid', `axis: there is no axis ${m.axis}`);
+    if (!(m.unit >= 2 && m.unit <= 254)) throw new Refusal(422, 'invalid', 'unit: 2 to 254');
+    const other = all.find((o) => o.id !== m.id && o.unit === m.unit && o.table === m.table && o.address < m.address + width(m) && o.address + width(o) > m.address);
+    if (other) throw new Refusal(409, 'conflict', `unit ${m.unit} ${m.table} ${m.address} is taken by mapping ${other.id}`);
+    if (!m.id) {
+      while (all.some((o) => o.id === `m${this.next}`)) this.next += 1;
+      m.id = `m${this.next}`;
+    }
+    return m;
+  }
+
+  /** @param {Ask} ask @returns {Answer} */
+  mapping({ method, parts, q, text }) {
+    const head = { 'mapping-revision': this.hash };
+    const csv = (/** @type {any[]} */ list) => [columns.join(','), ...list.map((m) => columns.map((c) => m[c] ?? '').join(','))].join('\n') + '\n';
+    if (parts[0] === 'mappings.csv') {
+      if (method === 'GET') return { type: 'text/csv', text: csv(this.mappings) };
+      const [first = '', ...lines] = text.trim().split(/\r?\n/);
+      const heads = first.split(',');
+      const before = this.mappings;
+      let all = method === 'PUT' ? [] : [...before];
+      lines.forEach((l, i) => {
+        const cells = l.split(',');
+        const m = Object.fromEntries(heads.map((h, k) => [h, ['unit', 'address', 'scale', 'offset', 'length'].includes(h) && cells[k] ? Number(cells[k]) : cells[k] || undefined]).filter(([, v]) => v !== undefined));
+        all = all.filter((o) => o.id !== m.id);
+        try {
+          all.push(this.check(m, all));
+        } catch (e) {
+          const why = /** @type {Error} */ (e).message;
+          throw new Refusal(422, 'invalid', `line ${i + 2}: ${why}`, { faults: [{ document: 'body', pointer: `/${i + 2}`, text: why, remedy: 'mend the line: nothing has been taken from the file' }] });
+        }
+      });
+      const differences = all.filter((m) => !before.some((b) => JSON.stringify(b) === JSON.stringify(m))).map((m) => `mapping ${m.id}: ${m.point} of ${m.axis}`);
+      const dry = q.get('dry_run') === '1';
+      if (!dry) {
+        this.world.site.mappings = all;
+        this.changed();
+      }
+      return { body: { dry_run: dry, rows: lines.length, mappings: all.length, differences } };
+    }
+    const id = parts[1];
+    if (id === 'list') return { type: q.get('format') === 'html' ? 'text/html' : 'text/plain', text: `revision ${this.hash}\n${csv(this.mappings)}` };
+    if (id === 'template') {
+      const b = JSON.parse(text);
+      const block = [['statusword', 'u16', 0], ['position', 'i32', 2], ['velocity', 'i32', 4]].map(([point, type, at]) => this.check({ unit: b.unit, axis: b.axis, point, type, address: b.address + at, id: `${b.axis}-${point}-${b.address}` }, this.mappings));
+      if (!b.dry_run) {
+        this.mappings.push(...block);
+        this.changed();
+      }
+      return { body: { dry_run: b.dry_run, rows: block.length, mappings: this.mappings.length, differences: block.map((m) => `mapping ${m.id} is added`) } };
+    }
+    if (method === 'GET') return { head, body: id ? this.mappings.find((m) => m.id === id) : this.mappings };
+    const at = this.mappings.findIndex((m) => m.id === id);
+    if (id && at < 0) throw new Refusal(404, 'not_found', `there is no mapping ${id}`);
+    if (method === 'POST') this.mappings.push(this.check(JSON.parse(text), this.mappings));
+    if (method === 'PUT') this.mappings[at] = this.check({ ...JSON.parse(text), id }, this.mappings);
+    if (method === 'DELETE') this.mappings.splice(at, 1);
+    this.changed();
+    return method === 'DELETE' ? { status: 204 } : { status: method === 'POST' ? 201 : 200, body: this.mappings[at < 0 ? this.mappings.length - 1 : at] };
+  }
+
+  /** @param {URLSearchParams} q */
+  registers(q) {
+    const unit = Number(q.get('unit'));
+    const address = Number(q.get('address'));
+    const count = Number(q.get('count'));
+    const table = q.get('table') ?? 'holding_registers';
+    const words = Array.from({ length: count }, () => 0);
+    const decoded = [];
+    const own = this.mappings.filter((m) => m.unit === unit && m.table === table && m.address >= address && m.address < address + count);
+    if (unit > 1 && own.length === 0) return { unit, table, address, words: [], exception: { code: 2, text: 'illegal data address' }, decoded: [] };
+    for (const m of unit > 1 ? own : []) {
+      const a = this.world.axis(m.axis);
+      const value = m.point === 'position_units' ? a.position : m.point === 'position' ? a.position_increments : 42;
+      const view = new DataView(new ArrayBuffer(8));
+      if (m.type === 'f32') view.setFloat32(0, Number(value));
+      else if (width(m) === 1) view.setInt16(0, Number(value));
+      else view.setInt32(0, Number(value));
+      for (let i = 0; i < Math.min(width(m), 4) && m.address - address + i < count; i += 1) words[m.address - address + i] = view.getUint16(i * 2);
+      decoded.push({ address: m.address, mapping: m.id, type: m.type, value, unit: m.point === 'position_units' ? a.unit : '', text: '' });
+    }
+    if (unit <= 1) decoded.push({ address, name: 'statusword', type: 'u16', value: 0, unit: '', text: 'switch on disabled' });
+    return { unit, table, address, words, exception: null, decoded };
+  }
+
+  /** @param {Ask} ask @returns {Answer} */
+  site({ method, parts, q, text, who }) {
+    const site = this.world.site;
+    const [, what, third, fourth] = parts;
+    const etag = { etag: `"${this.world.revision}"` };
+    this.look();
+    if (!what && method === 'GET') return { head: etag, body: site };
+    if (!what && method === 'PUT') {
+      const next = JSON.parse(text);
+      const faults = this.faults(next);
+      const dry = q.get('dry_run') === '1';
+      if (!dry && faults.length > 0) throw new Refusal(422, 'invalid', faults[0].text, { faults });
+      const differences = differ(site, next).map((d) => `${d.what} ${d.kind}`);
+      if (!dry) this.apply(next, who);
+      return { head: { etag: `"${this.world.revision}"` }, body: { dry_run: dry, valid: faults.length === 0, revision: this.world.revision, differences, faults } };
+    }
+    if (what === 'history') {
+      if (!third) return { body: this.history.map(({ revision, at, who: w, bytes }) => ({ revision, at, who: w, bytes })) };
+      const h = this.history.find((x) => String(x.revision) === third);
+      if (!h) throw new Refusal(404, 'not_found', `there is no revision ${third}`);
+      if (fourth === 'restore') return { body: this.setStage(h.document) };
+      return { body: h.document };
+    }
+    if (what !== 'stage') throw new Refusal(404, 'not_found', 'there is no such thing');
+    if (!third && method === 'GET') return { body: this.stage ?? { state: 'none', id: null, faults: [], diff: [], disturbs: [] } };
+    if (!third && method === 'POST') return { body: this.setStage(JSON.parse(text)) };
+    if (!this.stage) throw new Refusal(409, 'wrong_state', 'nothing is staged');
+    if (!third && method === 'DELETE') {
+      this.stage = null;
+      return { status: 204 };
+    }
+    if (third === 'apply') {
+      if (this.stage.faults.length > 0) throw new Refusal(422, 'invalid', this.stage.faults[0].text, { faults: this.stage.faults });
+      const s = JSON.parse(text).confirm_within_s ?? 60;
+      this.previous = structuredClone(site);
+      this.apply(this.stage.document, who);
+      this.stage = s === 0 ? null : { ...this.stage, state: 'applied', confirm_by: (Date.now() + s * 1000) * 1e6 };
+      return { body: this.stage ?? { state: 'none' } };
+    }
+    if (this.stage.state !== 'applied') throw new Refusal(409, 'wrong_state', 'nothing is applied that waits');
+    if (third === 'roll-back') this.apply(this.previous, who);
+    this.stage = null;
+    return { body: { state: 'none', id: null, faults: [], diff: [], disturbs: [] } };
+  }
+  look() {
+    if (this.stage?.state === 'applied' && Date.now() * 1e6 > this.stage.confirm_by) {
+      this.stage = null;
+      this.apply(this.previous, 'the gateway');
+      this.world.event('warning', 'site', {}, 'the site was rolled back: nobody confirmed it in time');
+    }
+  }
+  /** @param {any} document */
+  setStage(document) {
+    this.stage = { id: 's1', state: 'staged', document, faults: this.faults(document), diff: differ(this.world.site, document), disturbs: differ(this.world.site, document).filter((d) => d.kind !== 'added' && d.what.startsWith('axes/')).map((d) => d.what.slice(5)) };
+    return this.stage;
+  }
+  /** @param {any} d */
+  faults(d) {
+    /** @type {any[]} */
+    const faults = [];
+    const f = (/** @type {string} */ pointer, /** @type {string} */ text, /** @type {string} */ remedy) => faults.push({ document: 'body', pointer, text, remedy });
+    for (const [i, l] of (d.lines ?? []).entries()) if (!l.uri) f(`/lines/${i}/uri`, 'uri is missing', 'write "uri": "twin"');
+    for (const [i, r] of (d.drives ?? []).entries()) if (!(d.lines ?? []).some((/** @type {any} */ l) => l.name === r.line)) f(`/drives/${i}/line`, `there is no line ${r.line}`, 'name a line of the site');
+    for (const [i, a] of (d.axes ?? []).entries()) {
+      if (!(d.drives ?? []).some((/** @type {any} */ r) => r.name === a.drive)) f(`/axes/${i}/drive`, `there is no drive ${a.drive}`, 'name a drive of the site');
+      if (d.axes.findIndex((/** @type {any} */ o) => o.number === a.number) !== i) f(`/axes/${i}/number`, `number ${a.number} is taken`, 'choose another number');
+    }
+    return faults;
+  }
+  /** @param {any} next @param {string} who */
+  apply(next, who) {
+    const text = JSON.stringify(this.world.site);
+    this.history.unshift({ revision: this.world.revision, at: new Date().toISOString(), who, bytes: text.length, document: JSON.parse(text) });
+    this.world.reload(structuredClone(next));
+    this.changed();
+  }
+
+  /** @param {Ask} ask @param {string} line @returns {Answer} */
+  scan({ method, text }, line) {
+    const l = this.world.line(line);
+    if (method === 'POST') {
+      const { from = 1, to = 10 } = text ? JSON.parse(text) : {};
+      this.scans.set(line, { begun: Date.now(), from, to });
+      return { status: 202, head: { location: `/api/v1/lines/${line}/scan` }, body: { state: 'running' } };
+    }
+    const s = this.scans.get(line);
+    if (!s) throw new Refusal(404, 'not_found', `line ${line} was not scanned`);
+    if (method === 'DELETE') this.scans.delete(line);
+    const progress = Math.min(1, (Date.now() - s.begun) / 800);
+    const known = [...this.world.drives.values()].find((d) => d.spec.line === line);
+    const found = progress < 1 ? [] : [{ address: known?.spec.address ?? 5, family: l.family, text: 'answers', known_as: known?.spec.name ?? null }, { address: 9, family: l.family, text: 'answers', known_as: null }];
+    return { body: { state: progress < 1 ? 'running' : 'done', progress, found, asked: Math.round(progress * (s.to - s.from + 1)), text: '' } };
+  }
+
+  /** @param {Ask} ask @param {string} name @returns {Answer} */
+  snapshot({ method, parts, q, text, who }, name) {
+    const axis = this.world.axisOf(name);
+    const list = this.snapshots.get(name) ?? [];
+    this.snapshots.set(name, list);
+    const n = parts[3];
+    if (!n && method === 'GET') return { body: list.map(({ values, ...s }) => ({ ...s, parameters: Object.keys(values).length })) };
+    if (!n) {
+      const b = JSON.parse(text);
+      const values = Object.fromEntries(this.world.catalogue.filter((p) => p.access === 'RW' && !p.count).map((p) => [p.id, axis.read(p.id).value]));
+      const s = { n: (list.at(-1)?.n ?? 0) + 1, name: b.name, comment: b.comment ?? '', at: new Date().toISOString(), who, from: b.from ?? 'device', values };
+      list.push(s);
+      return { status: 201, body: { ...s, parameters: Object.keys(values).length } };
+    }
+    const at = list.findIndex((s) => String(s.n) === n);
+    const s = list[at];
+    if (!s) throw new Refusal(404, 'not_found', `there is no snapshot ${n}`);
+    if (method === 'DELETE') {
+      list.splice(at, 1);
+      return { status: 204 };
+    }
+    if (parts[4] === 'diff') {
+      const other = q.get('with') ?? 'device';
+      const rows = Object.entries(s.values).map(([parameter, snapshot]) => {
+        const p = axis.parameter(parameter);
+        const value = other === 'default' ? p.default : other.startsWith('snapshot:') ? list.find((x) => `snapshot:${x.n}` === other)?.values[parameter] : other.startsWith('axis:') ? this.world.axisOf(other.split(':')[1] ?? '').parameter(parameter).value : axis.read(parameter).value;
+        return { parameter, name: p.name, unit: p.unit, snapshot, other: value ?? null, same: snapshot === value, writable: p.access !== 'R' };
+      });
+      return { body: { with: other, rows } };
+    }
+    if (parts[4] === 'restore') {
+      const b = JSON.parse(text || '{}');
+      const wanted = Object.entries(s.values).filter(([id]) => !b.parameters || b.parameters.includes(id));
+      const changes = wanted.map(([parameter, to]) => ({ parameter, from: axis.read(parameter).value, to })).filter((c) => c.from !== c.to);
+      if (b.dry_run) return { body: { changes, skipped: [] } };
+      if (axis.moving) throw new Refusal(409, 'wrong_state', `axis ${name} is moving: stop it first`);
+      for (const c of changes) axis.write(c.parameter, c.to, who);
+      return { body: { changed: changes, failed: [] } };
+    }
+    return { body: s };
+  }
+
+  /** @param {Ask} ask @param {string} name @returns {Answer} */
+  parameters({ method, parts, q, text, who }, name) {
+    const axis = this.world.axisOf(name);
+    if (parts[4] === 'history') {
+      const p = axis.parameter(parts[3] ?? '');
+      return { body: p.written_at ? [{ at: p.written_at, who: p.written_by, door: 'http', old: p.previous, new: p.stored }] : [] };
+    }
+    if (method === 'GET') return { type: 'text/csv', text: `parameter,value\n${this.world.catalogue.filter((p) => p.access === 'RW' && !p.count).map((p) => `${p.id},${axis.read(p.id).value}`).join('\n')}\n` };
+    const rows = text.trim().split(/\r?\n/).slice(1).map((l) => l.split(','));
+    const changes = rows.map(([parameter = '', to]) => ({ parameter, from: axis.read(parameter).value, to: Number(to) })).filter((c) => c.from !== c.to);
+    const dry = q.get('dry_run') === '1';
+    if (!dry) for (const c of changes) axis.write(c.parameter, c.to, who);
+    return { body: dry ? { dry_run: true, changes, skipped: [] } : { dry_run: false, changed: changes, failed: [] } };
+  }
+}
+
+/** @param {any} a @param {any} b */
+function differ(a, b) {
+  /** @type {{kind: string, what: string, before: any, after: any}[]} */
+  const diff = [];
+  for (const room of ['lines', 'drives', 'axes', 'mappings']) {
+    const key = room === 'mappings' ? 'id' : 'name';
+    const before = new Map((a[room] ?? []).map((/** @type {any} */ x) => [x[key], x]));
+    const after = new Map((b[room] ?? []).map((/** @type {any} */ x) => [x[key], x]));
+    for (const [n, x] of after) {
+      if (!before.has(n)) diff.push({ kind: 'added', what: `${room}/${n}`, before: null, after: x });
+      else if (JSON.stringify(before.get(n)) !== JSON.stringify(x)) diff.push({ kind: 'changed', what: `${room}/${n}`, before: before.get(n), after: x });
+    }
+    for (const [n, x] of before) if (!after.has(n)) diff.push({ kind: 'removed', what: `${room}/${n}`, before: x, after: null });
+  }
+  return diff;
+}

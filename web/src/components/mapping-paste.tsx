@@ -11,7 +11,7 @@ import { placeText, tableOf, type Known } from '../words/mapping';
 import { quiet, Tell, toldOf, type Told } from './form';
 import { Section } from './section';
 
-const text = kept('mapping.table');
+const text = kept('mappings.paste');
 const mostShown = 200;
 const largest = 2_000_000;
 

@@ -7,11 +7,13 @@ import { asProblem } from '../api/problem';
 import type { AxisParameter } from '../api/types';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
+import { isApart, isChanged, isMarked, marks, type Marked } from '../words/transfer';
 import { editText, rangeText, readValue, sameValue, searchRank, unitWords, valueText } from '../words/parameter';
 import { clockTime } from '../words/time';
 import { Icon } from './icon';
 import { Empty } from './lines';
 import { memo } from './memo';
+import { Written } from './parameter-history';
 import { Section } from './section';
 
 const rowsAtOnce = 100;
@@ -31,7 +33,7 @@ export function Parameters({ axis }: { axis: string }) {
   const loaded = useSignal<'waiting' | 'there' | string>('waiting');
   const search = useSignal('');
   const group = useSignal('');
-  const onlyChanged = useSignal(false);
+  const mark = useSignal<Marked>('all');
   const most = useSignal(rowsAtOnce);
   const progress = useSignal<{ done: number; of: number } | null>(null);
   const reading = useRef<AbortController | null>(null);
@@ -76,7 +78,7 @@ export function Parameters({ axis }: { axis: string }) {
     .filter(({ row, rank }) => {
       const p = row.data.peek();
       if (rank === null || (group.value && p.group !== group.value)) return false;
-      return !onlyChanged.value || (row.data.value.value !== null && p.default !== null && !sameValue(row.data.value.value, p.default));
+      return mark.value === 'all' || isMarked(row.data.value, mark.value);
     })
     .sort((x, y) => (x.rank ?? 0) - (y.rank ?? 0)) // stable: equals keep the order of the manual
     .map(({ row }) => row);
@@ -162,9 +164,16 @@ export function Parameters({ axis }: { axis: string }) {
               </select>
             </label>
           )}
-          <button type="button" class="button" aria-pressed={onlyChanged.value} onClick={() => (onlyChanged.value = !onlyChanged.value)}>
-            Not default
-          </button>
+          <label class="select">
+            <span class="visually-hidden">Show</span>
+            <select value={mark.value} onChange={(e) => (mark.value = e.currentTarget.value as Marked)}>
+              {marks.map((m) => (
+                <option key={m.id} value={m.id}>
+                  {m.text}
+                </option>
+              ))}
+            </select>
+          </label>
           {progress.value ? (
             <button type="button" class="button" onClick={() => reading.current?.abort()}>
               Reading {progress.value.done} of {progress.value.of}: end
@@ -199,7 +208,7 @@ export function Parameters({ axis }: { axis: string }) {
             </thead>
             <tbody>
               {shown.map((r) => (
-                <ParameterRow key={r.data.peek().id} row={r} read={read} write={write} open={open} />
+                <ParameterRow key={r.data.peek().id} axis={axis} row={r} read={read} write={write} open={open} />
               ))}
             </tbody>
           </table>
@@ -217,18 +226,19 @@ export function Parameters({ axis }: { axis: string }) {
 const newRow = (p: AxisParameter): Row => ({ data: signal(p), note: signal({ tone: 'none', text: '' }), typed: signal(null) });
 
 interface RowProps {
+  axis: string;
   row: Row;
   read: (row: Row) => void;
   write: (row: Row) => void;
   open: (row: Row) => void;
 }
 
-function RowView({ row, read, write, open }: RowProps) {
+function RowView({ axis, row, read, write, open }: RowProps) {
   const note = useId();
   const p = row.data.value;
   const n = row.note.value;
-  const differs = p.value !== null && p.default !== null && !sameValue(p.value, p.default);
-  const apart = p.value !== null && p.stored !== null && !sameValue(p.value, p.stored);
+  const differs = isChanged(p);
+  const apart = isApart(p);
   const long = isLongArray(p);
   return (
     <tr data-parameter={p.id} class={p.quality === 'good' ? '' : 'is-not-good'}>
@@ -247,6 +257,7 @@ function RowView({ row, read, write, open }: RowProps) {
               {valueText(p.value, p)}
             </span>{' '}
             <span class="unit">{p.value !== null && !p.allowed ? unitWords(p.unit) : ''}</span>
+            {differs && <span class="flag changed" title="Not the default of the family"> changed</span>}
             {p.quality === 'stale' && <span class="flag"> stale</span>}
             {p.quality === 'unknown' && <span class="visually-hidden"> not read yet</span>}
           </>
@@ -283,17 +294,7 @@ function RowView({ row, read, write, open }: RowProps) {
         </p>
       </td>
       <td class="written" data-label="Last written">
-        {p.written_at ? (
-          <>
-            <time dateTime={p.written_at}>{clockTime(p.written_at)}</time>{' '}
-            <span class="where">
-              {p.written_by ?? 'not said by whom'}
-              {p.written_through ? ` (${p.written_through})` : ''}
-            </span>
-          </>
-        ) : (
-          <span class="where">never here</span>
-        )}
+        <Written axis={axis} p={p} />
       </td>
     </tr>
   );

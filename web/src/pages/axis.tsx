@@ -15,7 +15,7 @@ import { Section } from '../components/section';
 import { StateMachine } from '../components/state-machine';
 import { StopButton } from '../components/stop';
 import { useGateway } from '../gateway';
-import { linePath } from '../router';
+import { linePath, parametersPath } from '../router';
 import { markOf, unitOf } from '../words/axis';
 
 const Controls = memo(FullControls, (a, b) => a.axis.name === b.axis.name && a.axis.unit === b.axis.unit);
@@ -76,6 +76,9 @@ export function AxisPage({ name }: { name: string }) {
         </Section>
       </div>
       <Parameters axis={name} />
+      <p class="more-link">
+        <a href={parametersPath(name)}>Snapshots, comparison, export and import of the parameters</a>
+      </p>
       <Section title="Events of this axis">
         <div class="card scroll" tabIndex={0} role="region" aria-label="Events of this axis">
           <AxisEvents name={name} />

@@ -1,15 +1,49 @@
-// Parameters: the catalogue of one axis on a page of its own. In: its name. Out: a page.
+// Parameters: the whole catalogue of one axis on a page of its own: values, snapshots, comparison, export and import. In: its name. Out: a page.
+import { useSignal } from '@preact/signals';
+import type { Snapshot } from '../api/snapshots';
+import { Empty } from '../components/lines';
+import { ParameterCompare } from '../components/parameter-compare';
+import { ParameterTransfer } from '../components/parameter-transfer';
 import { Parameters } from '../components/parameters';
+import { Mark } from '../components/pill';
+import { Snapshots } from '../components/snapshots';
+import { StopButton } from '../components/stop';
+import { useGateway } from '../gateway';
 import { axisPath } from '../router';
+import { markOf } from '../words/axis';
 
 export function ParametersPage({ name }: { name: string }) {
+  const { store } = useGateway();
+  const snapshots = useSignal<Snapshot[]>([]);
+  const entry = store.axis(name);
+  const axis = entry?.value.data;
   return (
-    <main class="page parameters-page" data-axis={name}>
-      <p class="crumbs">
-        <a href={axisPath(name)}>{name}</a>
-      </p>
-      <h1 tabIndex={-1}>Parameters of {name}</h1>
-      <Parameters axis={name} />
+    <main class="page parameters-page">
+      <header class="axis-head">
+        <div>
+          <p class="crumbs">
+            <a href={axisPath(name)}>{name}</a>
+          </p>
+          <h1 tabIndex={-1}>Parameters of {name}</h1>
+          {axis && <Mark mark={markOf(axis)} />}
+        </div>
+        {axis && (
+          <p class="where">
+            {axis.family} · drive {axis.drive}, channel {axis.channel}
+          </p>
+        )}
+        {axis && <StopButton axis={name} large urgent={axis.moving} />}
+      </header>
+      {!axis ? (
+        <Empty text={store.listed.value ? `There is no axis ${name}.` : 'Waiting for the gateway.'} />
+      ) : (
+        <>
+          <Parameters axis={name} />
+          <Snapshots axis={name} onList={(list) => (snapshots.value = list)} />
+          <ParameterCompare axis={name} snapshots={snapshots.value} />
+          <ParameterTransfer axis={name} />
+        </>
+      )}
     </main>
   );
 }

@@ -1,0 +1,120 @@
+// Parameter compare: two sets of values of an axis side by side: what is known now or a snapshot, beside the defaults, what is stored, the drive,
+// another snapshot, another axis. In: the HTTP door. Out: a table of what differs; everything on demand.
+import { useSignal } from '@preact/signals';
+import { useMemo } from 'preact/hooks';
+import { asProblem } from '../api/problem';
+import { SnapshotDoor, type Snapshot } from '../api/snapshots';
+import { useGateway } from '../gateway';
+import { capital } from '../state/commander';
+import { unitWords, valueText } from '../words/parameter';
+import { compareWith, type Compared } from '../words/transfer';
+import { Choice, quiet, Tell, type Told } from './form';
+import { Empty } from './lines';
+import { Section } from './section';
+
+const plain = { allowed: null };
+
+export function ParameterCompare({ axis, snapshots }: { axis: string; snapshots: readonly Snapshot[] }) {
+  const { client, store } = useGateway();
+  const door = useMemo(() => new SnapshotDoor(client, axis), [client, axis]);
+  const base = useSignal('now');
+  const other = useSignal('default');
+  const all = useSignal(false);
+  const told = useSignal<Told>(quiet);
+  const result = useSignal<{ title: string; rows: Compared[] } | null>(null);
+  const others = store.axisNames.value.filter((n) => n !== axis);
+  const fromSnapshot = base.value !== 'now';
+  const choices = [
+    { value: 'default', text: 'the defaults of the family' },
+    { value: 'stored', text: 'what the gateway has stored' },
+    ...(fromSnapshot ? [{ value: 'device', text: 'the drive, read now' }] : []),
+    ...(fromSnapshot ? snapshots.filter((s) => String(s.n) !== base.value).map((s) => ({ value: `snapshot:${s.n}`, text: `snapshot ${s.name}` })) : snapshots.map((s) => ({ value: `snapshot:${s.n}`, text: `snapshot ${s.name}` }))),
+    ...others.map((n) => ({ value: `axis:${n}`, text: `axis ${n}, values known now` })),
+  ];
+
+  const compare = async () => {
+    told.value = { tone: 'busy', text: 'Comparing …' };
+    result.value = null;
+    try {
+      const title = choices.find((c) => c.value === other.value)?.text ?? other.value;
+      let rows: Compared[];
+      if (fromSnapshot || other.value.startsWith('snapshot:')) {
+        // The gateway compares a snapshot with something; with the values known now it is the drive that counts.
+        const n = Number(fromSnapshot ? base.value : other.value.slice('snapshot:'.length));
+        const answer = await door.diff(n, fromSnapshot ? other.value : 'device');
+        rows = answer.rows.map((r) => ({ id: r.parameter, name: r.name, unit: r.unit, mine: fromSnapshot ? r.snapshot : r.other, other: fromSnapshot ? r.other : r.snapshot, same: r.same, writable: r.writable }));
+      } else {
+        const list = await client.parameters(axis);
+        if (other.value.startsWith('axis:')) {
+          const theirs = new Map((await client.parameters(other.value.slice('axis:'.length))).map((p) => [p.id, p.value]));
+          rows = compareWith(list, (p) => theirs.get(p.id) ?? null);
+        } else {
+          rows = compareWith(list, (p) => (other.value === 'stored' ? p.stored : p.default));
+        }
+      }
+      result.value = { title, rows };
+      const differ = rows.filter((r) => !r.same).length;
+      told.value = { tone: 'good', text: rows.length === 0 ? 'There is no value that both sides know. Read the parameters first.' : `${differ} of ${rows.length} values differ.` };
+    } catch (error) {
+      told.value = { tone: 'refused', text: capital(asProblem(error).words) };
+    }
+  };
+  const rows = (result.value?.rows ?? []).filter((r) => all.value || !r.same);
+  return (
+    <Section title="Compare" class="compare">
+      <form
+        class="card form"
+        noValidate
+        aria-label="Compare"
+        onSubmit={(e) => {
+          e.preventDefault();
+          void compare();
+        }}
+      >
+        <div class="form-grid">
+          <Choice label="Compare" value={base.value} onChoice={(v) => { base.value = v; result.value = null; if (v === 'now' && other.value === 'device') other.value = 'default'; }} choices={[{ value: 'now', text: 'the values known now' }, ...snapshots.map((s) => ({ value: String(s.n), text: `snapshot ${s.name}` }))]} />
+          <Choice label="with" value={other.value} onChoice={(v) => { other.value = v; result.value = null; }} choices={choices} />
+        </div>
+        <div class="form-foot">
+          <button type="submit" class="button primary">
+            Compare
+          </button>
+          <label class="check">
+            <input type="checkbox" checked={all.value} onChange={(e) => (all.value = e.currentTarget.checked)} /> equal ones too
+          </label>
+          <Tell told={told.value} field="compare-told" />
+        </div>
+        {result.value && rows.length === 0 && <Empty text="Nothing differs." />}
+        {result.value && rows.length > 0 && (
+          <div class="table-scroll" tabIndex={0} role="region" aria-label="Comparison">
+            <table class="table compare-table">
+              <thead>
+                <tr>
+                  <th scope="col">Parameter</th>
+                  <th scope="col" class="num">{fromSnapshot ? 'Snapshot' : 'Now'}</th>
+                  <th scope="col" class="num">{capital(result.value.title)}</th>
+                  <th scope="col">Verdict</th>
+                </tr>
+              </thead>
+              <tbody>
+                {rows.slice(0, 500).map((r) => (
+                  <tr key={r.id} data-compared={r.id}>
+                    <th scope="row">
+                      <span class="both">
+                        <span class="mono id">{r.id}</span>
+                        <span class="name">{r.name.replaceAll('_', ' ')}</span>
+                      </span>
+                    </th>
+                    <td class="num mono" data-label={fromSnapshot ? 'Snapshot' : 'Now'}>{valueText(r.mine, plain)} <span class="unit">{unitWords(r.unit)}</span></td>
+                    <td class="num mono" data-label={capital(result.value?.title ?? '')}>{valueText(r.other, plain)} <span class="unit">{unitWords(r.unit)}</span></td>
+                    <td data-label="Verdict">{r.same ? 'equal' : <span class="flag">differs{r.writable ? '' : ', read only'}</span>}</td>
+                  </tr>
+                ))}
+              </tbody>
+            </table>
+          </div>
+        )}
+      </form>
+    </Section>
+  );
+}

@@ -1,0 +1,144 @@
+// Parameter transfer: all known values out as CSV or JSON, and in again: each row is checked first, nothing is sent while one is wrong, then they are
+// written one by one. In: the HTTP door, a file or pasted text. Out: files; writes. At the first refusal the rest is held back and said so.
+import { useSignal } from '@preact/signals';
+import { useEffect, useMemo, useRef } from 'preact/hooks';
+import { asProblem } from '../api/problem';
+import type { AxisParameter } from '../api/types';
+import { useGateway } from '../gateway';
+import { capital } from '../state/commander';
+import { kept } from '../state/kept';
+import { editText, valueText } from '../words/parameter';
+import { csvOfParameters, jsonOfParameters, readTransfer } from '../words/transfer';
+import { quiet, Tell, type Told } from './form';
+import { Section } from './section';
+
+const largest = 2_000_000;
+
+/** Hands a text to the browser as a file. */
+export function saveText(name: string, type: string, text: string): void {
+  const link = document.createElement('a');
+  link.href = URL.createObjectURL(new Blob([text], { type }));
+  link.download = name;
+  document.body.append(link);
+  link.click();
+  link.remove();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+}
+
+export function ParameterTransfer({ axis }: { axis: string }) {
+  const { client, store } = useGateway();
+  const text = kept(`transfer.${axis}`);
+  const list = useSignal<AxisParameter[]>([]);
+  const told = useSignal<Told>(quiet);
+  const sending = useRef<{ stop: boolean } | null>(null);
+  const busy = useSignal(false);
+  const epoch = store.connection.value.epoch;
+  const load = () => client.parameters(axis).then((l) => (list.value = l));
+  useEffect(() => {
+    if (epoch > 0) load().catch(() => undefined);
+    return () => {
+      if (sending.current) sending.current.stop = true;
+    };
+  }, [axis, epoch]);
+  const read = useMemo(() => readTransfer(text.value, list.value), [text.value, list.value]);
+  const bad = read.rows.filter((r) => r.fault !== '').length;
+  const wanted = read.rows.filter((r) => r.fault === '' && !r.same);
+  const byId = new Map(list.value.map((p) => [p.id, p]));
+
+  const save = async (kind: 'csv' | 'json') => {
+    try {
+      const all = await load();
+      const known = all.filter((p) => p.value !== null).length;
+      if (kind === 'csv') saveText(`${axis}-parameters.csv`, 'text/csv', csvOfParameters(all));
+      else saveText(`${axis}-parameters.json`, 'application/json', jsonOfParameters(axis, all));
+      told.value = { tone: known === 0 ? 'refused' : 'good', text: `${known} of ${all.length} values are known and in the file.${known < all.length ? ' “Read all” above asks the drive for the others.' : ''}` };
+    } catch (error) {
+      told.value = { tone: 'refused', text: capital(asProblem(error).words) };
+    }
+  };
+  const take = async (file: File | undefined) => {
+    if (!file) return;
+    if (file.size > largest) {
+      told.value = { tone: 'refused', text: `${file.name} has ${file.size} bytes; at most ${largest} are read.` };
+      return;
+    }
+    text.value = await file.text();
+  };
+  const send = async () => {
+    const run: { stop: boolean } = { stop: false };
+    sending.current = run;
+    busy.value = true;
+    let done = 0;
+    for (const row of wanted) {
+      if (run.stop) break;
+      told.value = { tone: 'busy', text: `Writing ${row.id}: ${done + 1} of ${wanted.length} …` };
+      try {
+        await client.writeParameter(axis, row.id, row.value!);
+        done += 1;
+      } catch (error) {
+        told.value = { tone: 'refused', text: `${row.id}: ${asProblem(error).words}. ${done} were written before it; ${wanted.length - done - 1} behind it were not sent.` };
+        run.stop = true;
+      }
+    }
+    if (done === wanted.length) told.value = { tone: 'good', text: `${done} parameters written.` };
+    else if (told.peek().tone === 'busy') told.value = { tone: 'refused', text: `Ended: ${done} of ${wanted.length} were written.` };
+    busy.value = false;
+    sending.current = null;
+    await load().catch(() => undefined);
+    if (done === wanted.length) text.value = '';
+  };
+  return (
+    <Section
+      title="Export and import"
+      class="transfer"
+      beside={
+        <>
+          <button type="button" class="button" onClick={() => void save('csv')}>
+            Export CSV
+          </button>
+          <button type="button" class="button" onClick={() => void save('json')}>
+            Export JSON
+          </button>
+        </>
+      }
+    >
+      <div class="card form">
+        <label class="where" for="transfer-text">
+          CSV with the columns <span class="mono">parameter, value</span>, or JSON as it is exported
+        </label>
+        <textarea id="transfer-text" class="mono" rows={4} spellcheck={false} value={text.value} onInput={(e) => (text.value = e.currentTarget.value)} />
+        <div class="form-foot">
+          <label class="button">
+            <input type="file" class="visually-hidden" accept=".csv,.tsv,.json,.txt,text/csv,application/json" onChange={(e) => void take(e.currentTarget.files?.[0])} />
+            Choose a file
+          </label>
+          {busy.value ? (
+            <button type="button" class="button" onClick={() => sending.current && (sending.current.stop = true)}>
+              End after this one
+            </button>
+          ) : (
+            <button type="button" class="button primary" disabled={wanted.length === 0 || bad > 0} onClick={() => void send()}>
+              Write {wanted.length} to the drive
+            </button>
+          )}
+          <Tell told={told.value} field="transfer-told" />
+        </div>
+        {(read.problem || read.rows.length > 0) && (
+          <p class={`form-told${read.problem || bad > 0 ? ' is-fault' : ''}`} role="status" data-field="transfer-count">
+            {read.problem || (bad > 0 ? `${bad} of ${read.rows.length} rows must be mended before anything is sent.` : `${wanted.length} will be written; ${read.rows.length - wanted.length} are so already.`)}
+          </p>
+        )}
+        {read.rows.length > 0 && (
+          <ul class="differences" aria-label="What would be written">
+            {read.rows.filter((r) => !r.same).slice(0, 300).map((r) => (
+              <li key={r.line} data-line={r.line}>
+                <span class="mono">{r.id}</span>{' '}
+                {r.fault ? <span class="fault-text">{r.fault}</span> : <span class="mono">{valueText(byId.get(r.id)?.value ?? null, byId.get(r.id) ?? { allowed: null })} → {editText(r.value)}</span>}
+              </li>
+            ))}
+          </ul>
+        )}
+      </div>
+    </Section>
+  );
+}

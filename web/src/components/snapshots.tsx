@@ -1,0 +1,199 @@
+// Snapshots of an axis' parameters: saved under a name, compared, restored after a look at what will change. In: the HTTP door. Out: a section.
+// A restore is never sent without the list of its changes on the page; it is refused by the gateway while the axis is commanded.
+import { useSignal } from '@preact/signals';
+import { useEffect, useMemo } from 'preact/hooks';
+import { asProblem } from '../api/problem';
+import { SnapshotDoor, type RestoreReport, type Snapshot } from '../api/snapshots';
+import { useGateway } from '../gateway';
+import { capital } from '../state/commander';
+import { kept } from '../state/kept';
+import { valueText } from '../words/parameter';
+import { clockTime } from '../words/time';
+import { Choice, notOffered, quiet, Tell, TextField, type Told } from './form';
+import { Empty } from './lines';
+import { Section } from './section';
+
+const plain = { allowed: null };
+const gone = (status: number) => status === 404 || status === 405 || status === 501;
+
+export function Snapshots({ axis, onList }: { axis: string; onList: (list: Snapshot[]) => void }) {
+  const { client, store } = useGateway();
+  const door = useMemo(() => new SnapshotDoor(client, axis), [client, axis]);
+  const list = useSignal<Snapshot[]>([]);
+  const state = useSignal<'waiting' | 'there' | string>('waiting');
+  const told = useSignal<Told>(quiet);
+  const name = kept(`snapshot.${axis}.name`);
+  const comment = kept(`snapshot.${axis}.comment`);
+  const from = useSignal('device');
+  const wrong = useSignal(false);
+  const removing = useSignal<number | null>(null);
+  const restoring = useSignal<{ snapshot: Snapshot; report: RestoreReport; chosen: Set<string> } | null>(null);
+  const epoch = store.connection.value.epoch;
+
+  const load = async () => {
+    try {
+      list.value = await door.list();
+      state.value = 'there';
+      onList(list.value);
+    } catch (error) {
+      const p = asProblem(error);
+      state.value = gone(p.status) ? notOffered('snapshots') : capital(p.words);
+    }
+  };
+  useEffect(() => {
+    if (epoch > 0) void load();
+  }, [door, epoch]);
+
+  const tell = async (busy: string, act: () => Promise<string>) => {
+    told.value = { tone: 'busy', text: busy };
+    try {
+      told.value = { tone: 'good', text: await act() };
+    } catch (error) {
+      told.value = { tone: 'refused', text: capital(asProblem(error).words) };
+    }
+  };
+  const save = () => {
+    wrong.value = name.value.trim() === '';
+    if (wrong.value) return;
+    void tell(from.value === 'device' ? 'Reading all parameters from the drive …' : 'Saving …', async () => {
+      const s = await door.save({ name: name.value.trim(), comment: comment.value.trim(), from: from.value });
+      name.value = comment.value = '';
+      await load();
+      return `Saved as ${s.n}.`;
+    });
+  };
+  const look = (s: Snapshot) =>
+    tell('Comparing with the drive …', async () => {
+      const report = await door.restore(s.n, { dry_run: true });
+      restoring.value = { snapshot: s, report, chosen: new Set((report.changes ?? []).map((c) => c.parameter)) };
+      return report.changes?.length ? 'Nothing has been changed yet.' : `The drive has all values of ${s.name} already.`;
+    });
+  const restore = () => {
+    const r = restoring.value;
+    if (!r || r.chosen.size === 0) return;
+    void tell(`Writing ${r.chosen.size} parameters …`, async () => {
+      const done = await door.restore(r.snapshot.n, { parameters: [...r.chosen], dry_run: false });
+      restoring.value = null;
+      const failed = done.failed ?? [];
+      if (failed.length > 0) throw new Error(`${done.changed?.length ?? 0} written; NOT written: ${failed.map((f) => `${f.parameter} (${f.reason})`).join(', ')}`);
+      return `${done.changed?.length ?? r.chosen.size} parameters restored from ${r.snapshot.name}.`;
+    });
+  };
+  const remove = (s: Snapshot) =>
+    tell('Removing …', async () => {
+      await door.remove(s.n);
+      removing.value = null;
+      await load();
+      return `${s.name} is removed.`;
+    });
+
+  if (state.value !== 'there') {
+    return (
+      <Section title="Snapshots">
+        <div class="card" data-field="snapshots">
+          <Empty text={state.value === 'waiting' ? 'Waiting for the list.' : state.value} />
+        </div>
+      </Section>
+    );
+  }
+  const r = restoring.value;
+  return (
+    <Section title="Snapshots" class="snapshots">
+      <form
+        class="card form"
+        noValidate
+        aria-label="Save a snapshot"
+        data-field="snapshots"
+        onSubmit={(e) => {
+          e.preventDefault();
+          save();
+        }}
+      >
+        <div class="form-grid">
+          <TextField label="Name" value={name.value} onText={(t) => (name.value = t)} fault={wrong.value && name.value.trim() === '' ? 'Give it a name.' : undefined} />
+          <TextField label="Comment" class="wide" value={comment.value} onText={(t) => (comment.value = t)} />
+          <Choice label="Values" value={from.value} onChoice={(v) => (from.value = v)} choices={[{ value: 'device', text: 'read from the drive now' }, { value: 'stored', text: 'as the gateway has stored them' }]} />
+        </div>
+        <div class="form-foot">
+          <button type="submit" class="button primary">
+            Save snapshot
+          </button>
+          <Tell told={told.value} field="snapshot-told" />
+        </div>
+        {list.value.length === 0 ? (
+          <p class="where">No snapshot is kept.</p>
+        ) : (
+          <ul class="rows snapshot-list" aria-label="Snapshots">
+            {[...list.value].reverse().map((s) => (
+              <li key={s.n} class="row" data-snapshot={s.n}>
+                <div class="row-head">
+                  <h3>
+                    {s.name} <span class="where">no. {s.n}</span>
+                  </h3>
+                  <button type="button" class="button small" aria-label={`Restore ${s.name}`} onClick={() => void look(s)}>
+                    Restore …
+                  </button>
+                  {removing.value === s.n ? (
+                    <>
+                      <button type="button" class="button small" aria-label={`Remove ${s.name} for good`} onClick={() => void remove(s)}>
+                        Remove for good
+                      </button>
+                      <button type="button" class="button small quiet" onClick={() => (removing.value = null)}>
+                        Keep
+                      </button>
+                    </>
+                  ) : (
+                    <button type="button" class="button small quiet" aria-label={`Remove ${s.name}`} onClick={() => (removing.value = s.n)}>
+                      Remove
+                    </button>
+                  )}
+                </div>
+                <p class="where">
+                  {s.at ? clockTime(s.at) : ''} {s.who ?? ''} {s.from === 'stored' ? '· stored values' : ''} {s.comment ? `· ${s.comment}` : ''}
+                </p>
+              </li>
+            ))}
+          </ul>
+        )}
+        {r && (r.report.changes?.length ?? 0) > 0 && (
+          <fieldset class="changes">
+            <legend>
+              Restoring {r.snapshot.name} changes {r.report.changes?.length} parameters of {axis}
+            </legend>
+            <ul>
+              {r.report.changes?.map((c) => (
+                <li key={c.parameter}>
+                  <label class="check">
+                    <input
+                      type="checkbox"
+                      checked={r.chosen.has(c.parameter)}
+                      onChange={(e) => {
+                        const chosen = new Set(r.chosen);
+                        if (e.currentTarget.checked) chosen.add(c.parameter);
+                        else chosen.delete(c.parameter);
+                        restoring.value = { ...r, chosen };
+                      }}
+                    />
+                    <span class="mono id">{c.parameter}</span>
+                    <span class="mono">
+                      {valueText(c.from, plain)} → {valueText(c.to, plain)}
+                    </span>
+                  </label>
+                </li>
+              ))}
+            </ul>
+            {(r.report.skipped?.length ?? 0) > 0 && <p class="where">Left out: {r.report.skipped?.map((s) => `${s.parameter} (${s.why})`).join(', ')}</p>}
+            <div class="form-foot">
+              <button type="button" class="button primary" disabled={r.chosen.size === 0} onClick={restore}>
+                Write {r.chosen.size} to the drive
+              </button>
+              <button type="button" class="button quiet" onClick={() => (restoring.value = null)}>
+                Change nothing
+              </button>
+            </div>
+          </fieldset>
+        )}
+      </form>
+    </Section>
+  );
+}

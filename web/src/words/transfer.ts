@@ -1,0 +1,126 @@
+// Transfer: parameters out of and into the page as CSV or JSON, and the comparison of two sets of values. In: parameters, text. Out: text, or
+// rows that were checked, each with its fault. Pure. Values are checked as if they were typed; nothing is changed to make it fit.
+import type { AxisParameter, MaybeValue, Value } from '../api/types';
+import { editText, readValue, sameValue } from './parameter';
+import { csvOf, rowsOf } from './table-text';
+
+export interface Wanted {
+  /** Line of the file, or place in the list, from 1. */
+  line: number;
+  id: string;
+  value: Value | null;
+  fault: string;
+  /** The last known value is this one already. */
+  same: boolean;
+}
+
+const known = (list: readonly AxisParameter[]) => list.filter((p) => p.value !== null);
+
+export function csvOfParameters(list: readonly AxisParameter[]): string {
+  return csvOf([['parameter', 'name', 'value', 'unit', 'default', 'stored', 'at'], ...known(list).map((p) => [p.id, p.name, editText(p.value), p.unit ?? '', editText(p.default), editText(p.stored), p.at ?? ''])]);
+}
+
+export function jsonOfParameters(axis: string, list: readonly AxisParameter[]): string {
+  const parameters = known(list).map(({ id, name, value, unit, default: fallback, stored, at }) => ({ parameter: id, name, value, unit, default: fallback, stored, at }));
+  return `${JSON.stringify({ axis, parameters }, null, 2)}\n`;
+}
+
+/** Reads CSV (columns `parameter` or `id`, and `value`), or JSON (that list, or an object of values by parameter). */
+export function readTransfer(text: string, list: readonly AxisParameter[]): { rows: Wanted[]; problem: string } {
+  const t = text.trim();
+  if (t === '') return { rows: [], problem: '' };
+  const pairs = t.startsWith('{') || t.startsWith('[') ? pairsOfJson(t) : pairsOfCsv(t);
+  if (typeof pairs === 'string') return { rows: [], problem: pairs };
+  const byId = new Map(list.map((p) => [p.id, p]));
+  const byName = new Map(list.map((p) => [p.name, p]));
+  const seen = new Map<string, number>();
+  const rows = pairs.map(({ line, id: given, text: typed }): Wanted => {
+    const p = byId.get(given) ?? byName.get(given);
+    const id = p?.id ?? given;
+    const row: Wanted = { line, id, value: null, fault: '', same: false };
+    const before = seen.get(id);
+    seen.set(id, line);
+    if (!p) row.fault = `This axis has no parameter ${given}.`;
+    else if (before !== undefined) row.fault = `Line ${before} has ${id} too.`;
+    else if (p.access === 'R') row.fault = `${id} can only be read.`;
+    else {
+      const read = readValue(typed, p);
+      if (read.good) Object.assign(row, { value: read.value, same: p.value !== null && p.quality === 'good' && sameValue(p.value, read.value) });
+      else row.fault = read.why;
+    }
+    return row;
+  });
+  return { rows, problem: '' };
+}
+
+interface Pair {
+  line: number;
+  id: string;
+  text: string;
+}
+
+function pairsOfCsv(text: string): Pair[] | string {
+  const { rows, tooMany } = rowsOf(text);
+  if (tooMany) return 'There are more than 5000 rows.';
+  const heads = rows[0]?.cells.map((c) => c.toLowerCase()) ?? [];
+  const id = heads.findIndex((h) => h === 'parameter' || h === 'id');
+  const value = heads.indexOf('value');
+  if (id < 0 || value < 0) return 'The first line must name the columns: parameter, value.';
+  return rows.slice(1).map((r) => ({ line: r.line, id: r.cells[id] ?? '', text: r.cells[value] ?? '' }));
+}
+
+function pairsOfJson(text: string): Pair[] | string {
+  let document: unknown;
+  try {
+    document = JSON.parse(text);
+  } catch (error) {
+    return `This is not JSON: ${error instanceof Error ? error.message : 'it cannot be read'}`;
+  }
+  const inner = isObject(document) && 'parameters' in document ? document.parameters : document;
+  if (Array.isArray(inner)) {
+    return inner.map((x, i) => ({ line: i + 1, id: isObject(x) ? String(x.parameter ?? x.id ?? '') : '', text: isObject(x) ? textOf(x.value) : '' }));
+  }
+  if (isObject(inner)) return Object.entries(inner).map(([id, value], i) => ({ line: i + 1, id, text: textOf(value) }));
+  return 'A list of {"parameter", "value"} is expected, or an object of values by parameter.';
+}
+const isObject = (x: unknown): x is Record<string, unknown> => typeof x === 'object' && x !== null && !Array.isArray(x);
+const textOf = (v: unknown): string => (typeof v === 'boolean' ? (v ? '1' : '0') : typeof v === 'number' || typeof v === 'string' ? String(v) : '');
+
+export interface Compared {
+  id: string;
+  name: string;
+  unit: string | null;
+  mine: MaybeValue;
+  other: MaybeValue;
+  same: boolean;
+  writable: boolean;
+}
+
+/** The values of one axis beside others; what neither side knows is left out. */
+export function compareWith(list: readonly AxisParameter[], other: (p: AxisParameter) => MaybeValue): Compared[] {
+  return list.flatMap((p) => {
+    const o = other(p);
+    if (p.value === null || o === null) return [];
+    return [{ id: p.id, name: p.name, unit: p.unit, mine: p.value, other: o, same: sameValue(p.value, o), writable: p.access !== 'R' }];
+  });
+}
+
+export type Marked = 'all' | 'changed' | 'unsaved' | 'written' | 'writable';
+export const marks: readonly { id: Marked; text: string }[] = [
+  { id: 'all', text: 'all parameters' },
+  { id: 'changed', text: 'changed from default' },
+  { id: 'unsaved', text: 'live differs from stored' },
+  { id: 'written', text: 'written through the gateway' },
+  { id: 'writable', text: 'can be written' },
+];
+export const isChanged = (p: AxisParameter): boolean => p.value !== null && p.default !== null && !sameValue(p.value, p.default);
+export const isApart = (p: AxisParameter): boolean => p.value !== null && p.stored !== null && !sameValue(p.value, p.stored);
+export function isMarked(p: AxisParameter, mark: Marked): boolean {
+  switch (mark) {
+    case 'all': return true;
+    case 'changed': return isChanged(p);
+    case 'unsaved': return isApart(p);
+    case 'written': return p.written_at !== null;
+    case 'writable': return p.access !== 'R';
+  }
+}

@@ -6,7 +6,7 @@ import { after, before, test } from 'node:test';
 import { launch, open, pictures, shot, until } from './lib/browser.mjs';
 import { Program } from './lib/program.mjs';
 
-let program, browser, page, list, a, b, offersSnapshots;
+let program, browser, page, list, a, b, c, offersSnapshots;
 const path = '/axes/feeder/parameters';
 const get = async (id) => (await program.call('GET', `/axes/feeder/parameters/${encodeURIComponent(id)}`)).body.value;
 const put = (id, value) => program.call('PUT', `/axes/feeder/parameters/${encodeURIComponent(id)}`, { value });
@@ -20,6 +20,9 @@ before(async () => {
   list = (await program.call('GET', '/axes/feeder/parameters')).body;
   [a, b] = list.filter((p) => p.access === 'RW' && p.max !== null && p.min >= 0 && p.max > 2000 && !p.allowed && !p.count && /accel|decel/i.test(p.name));
   assert.ok(a && b, 'two parameters that may be written without harm');
+  c = list.find((p) => p.access === 'RW' && p.default === 0 && /stall_action|backlash/.test(p.name));
+  assert.ok(c, 'a parameter with a default');
+  await put(c.id, 1);
   await put(a.id, 1111);
   await put(a.id, 1234);
   await get(b.id);
@@ -40,11 +43,11 @@ test('the axis page leads here, and the heading names the axis', async () => {
 });
 
 test('a value that is not the default is marked in words, and can be shown alone', async () => {
-  await page.getByRole('searchbox', { name: 'Search parameters' }).fill(a.id);
-  await until('it is marked', async () => /changed/.test(await row(a.id).locator('[data-field=live]').innerText()) || (await row(a.id).innerText()));
+  await page.getByRole('searchbox', { name: 'Search parameters' }).fill(c.id);
+  await until('it is marked', async () => /changed/.test(await row(c.id).locator('[data-field=live]').innerText()) || (await row(c.id).innerText()));
   await page.getByRole('searchbox', { name: 'Search parameters' }).fill('');
   await page.getByLabel('Show').selectOption('written');
-  await until('it stands alone', async () => (await page.locator('tr[data-parameter]').count()) === 1);
+  await until('both that were written stand alone', async () => (await page.locator('tr[data-parameter]').count()) === 2);
   await page.getByLabel('Show').selectOption('all');
 });
 
@@ -58,9 +61,10 @@ test('the history says when, who, from where, from what to what', async () => {
 test('now is compared with the defaults: what differs is listed', async () => {
   const form = page.getByRole('form', { name: 'Compare' });
   await form.getByRole('button', { name: 'Compare' }).click();
-  await form.locator(`[data-compared="${a.id}"]`).waitFor();
+  await form.locator(`[data-compared="${c.id}"]`).waitFor();
   assert.match(await told('compare-told'), /^\d+ of \d+ values differ/);
-  assert.match(await form.locator(`[data-compared="${a.id}"]`).innerText(), /differs/);
+  assert.match(await form.locator(`[data-compared="${c.id}"]`).innerText(), /differs/);
+  await put(c.id, 0);
 });
 
 test('now is compared with another axis', async () => {

@@ -81,7 +81,12 @@ async function answer(request, response) {
       const count = Math.min(256, (entry.first ?? 0) + (entry.count ?? 0) - first);
       return json(response, Array.from({ length: count }, (_, i) => axis.parameter(`${array}[${first + i}]`)));
     }
-    if (method === 'GET') return json(response, q.get('cached') ? axis.parameter(id) : axis.read(id));
+    if (method === 'GET') {
+      const p = q.get('cached') ? axis.parameter(id) : axis.read(id);
+      const { written_at, written_by, written_through, previous } = p;
+      const history = written_at ? [{ value: p.stored, previous, written_at, written_by, written_through }] : [];
+      return json(response, q.get('history') ? { ...p, history } : p);
+    }
     const { value } = body();
     const old = axis.write(id, value, who);
     world.event('info', 'write', { axis: name, who, door: 'http', parameter: id, old: old === null ? null : String(old), new: String(value) }, '');

@@ -72,8 +72,8 @@ export function ParameterCompare({ axis, snapshots }: { axis: string; snapshots:
         }}
       >
         <div class="form-grid">
-          <Choice label="Compare" value={base.value} onChoice={(v) => { base.value = v; result.value = null; if (v === 'now' && other.value === 'device') other.value = 'default'; }} choices={[{ value: 'now', text: 'the values known now' }, ...snapshots.map((s) => ({ value: String(s.n), text: `snapshot ${s.name}` }))]} />
-          <Choice label="with" value={other.value} onChoice={(v) => { other.value = v; result.value = null; }} choices={choices} />
+          <Choice label="Compare" class="wide" value={base.value} onChoice={(v) => { base.value = v; result.value = null; if (v === 'now' && other.value === 'device') other.value = 'default'; }} choices={[{ value: 'now', text: 'the values known now' }, ...snapshots.map((s) => ({ value: String(s.n), text: `snapshot ${s.name}` }))]} />
+          <Choice label="with" class="wide" value={other.value} onChoice={(v) => { other.value = v; result.value = null; }} choices={choices} />
         </div>
         <div class="form-foot">
           <button type="submit" class="button primary">

@@ -80,12 +80,13 @@ export function ParameterTransfer({ axis }: { axis: string }) {
         run.stop = true;
       }
     }
-    if (done === wanted.length) told.value = { tone: 'good', text: `${done} parameters written.` };
-    else if (told.peek().tone === 'busy') told.value = { tone: 'refused', text: `Ended: ${done} of ${wanted.length} were written.` };
+    if (done === wanted.length) {
+      text.value = '';
+      told.value = { tone: 'good', text: `${done} parameters written.` };
+    } else if (told.peek().tone === 'busy') told.value = { tone: 'refused', text: `Ended: ${done} of ${wanted.length} were written.` };
     busy.value = false;
     sending.current = null;
     await load().catch(() => undefined);
-    if (done === wanted.length) text.value = '';
   };
   return (
     <Section

@@ -112,7 +112,7 @@ export function Snapshots({ axis, onList }: { axis: string; onList: (list: Snaps
         <div class="form-grid">
           <TextField label="Name" value={name.value} onText={(t) => (name.value = t)} fault={wrong.value && name.value.trim() === '' ? 'Give it a name.' : undefined} />
           <TextField label="Comment" class="wide" value={comment.value} onText={(t) => (comment.value = t)} />
-          <Choice label="Values" value={from.value} onChoice={(v) => (from.value = v)} choices={[{ value: 'device', text: 'read from the drive now' }, { value: 'stored', text: 'as the gateway has stored them' }]} />
+          <Choice label="Values" class="wide" value={from.value} onChoice={(v) => (from.value = v)} choices={[{ value: 'device', text: 'read from the drive now' }, { value: 'stored', text: 'as the gateway has stored them' }]} />
         </div>
         <div class="form-foot">
           <button type="submit" class="button primary">

@@ -164,6 +164,21 @@ public:
     [[nodiscard]] virtual std::vector<Event> events(const EventQuery& query) const = 0;
     virtual void listen(GatewayListener* listener) = 0;
     virtual void unlisten(GatewayListener* listener) = 0;
+    /// Something that a door wants to be kept and streamed; id and time are filled in.
+    virtual void note(Event event) = 0;
+
+    // --- documents -----------------------------------------------------------------------------------------------------
+    /// Small named texts of the doors' own: recipes, reports of their runs.
+    struct Document {
+        std::string name, text, who;
+        std::int64_t at_unix_ns = 0;
+    };
+    /// In order of name.
+    [[nodiscard]] virtual std::vector<Document> documents(const std::string& kind) const = 0;
+    [[nodiscard]] virtual std::optional<Document> document(const std::string& kind, const std::string& name) const = 0;
+    /// Answers when it is on disk; empty: good, else what is wrong.
+    virtual void save_document(const std::string& kind, Document document, std::function<void(std::string)> then) = 0;
+    virtual void delete_document(const std::string& kind, const std::string& name, std::function<void(std::string)> then) = 0;
 };
 
 }  // namespace axisgate

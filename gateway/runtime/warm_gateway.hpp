@@ -54,6 +54,11 @@ public:
     [[nodiscard]] std::vector<Event> events(const EventQuery& query) const override;
     void listen(GatewayListener* listener) override { listeners_.push_back(listener); }
     void unlisten(GatewayListener* listener) override { std::erase(listeners_, listener); }
+    void note(Event event) override;
+    [[nodiscard]] std::vector<Document> documents(const std::string& kind) const override;
+    [[nodiscard]] std::optional<Document> document(const std::string& kind, const std::string& name) const override;
+    void save_document(const std::string& kind, Document document, std::function<void(std::string)> then) override;
+    void delete_document(const std::string& kind, const std::string& name, std::function<void(std::string)> then) override;
 
 private:
     void answer(Result&& result);

@@ -21,6 +21,8 @@
 
 namespace axisgate::http {
 
+class RecipeDesk;
+
 /// What all handlers share; outlives every call.
 struct Context {
     Gateway& gateway;
@@ -28,6 +30,7 @@ struct Context {
     AssetLookup asset;
     std::function<std::string()> own_metrics;                                ///< the door's own counters as Prometheus text
     std::shared_ptr<ChangeQueue> changes = std::make_shared<ChangeQueue>();  ///< of the site
+    std::shared_ptr<RecipeDesk> recipes{};                                   ///< runs recipes; whoever makes a context for service gives one
 };
 
 /// One request on its way. Lives only as long as the handler's call.
@@ -104,6 +107,16 @@ Handled set_hand(Call&);
 // --- handlers_records.cpp ---------------------------------------------------------------------------------------------
 Handled get_trace(Call&);
 Handled list_events(Call&);
+
+// --- handlers_recipes.cpp ---------------------------------------------------------------------------------------------
+Handled list_recipes(Call&);
+Handled get_recipe(Call&);
+Handled put_recipe(Call&);
+Handled remove_recipe(Call&);
+Handled run_recipe(Call&);
+Handled list_recipe_runs(Call&);
+Handled get_recipe_run(Call&);
+Handled cancel_recipe_run(Call&);
 
 // --- shared -----------------------------------------------------------------------------------------------------------
 

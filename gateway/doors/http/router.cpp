@@ -68,6 +68,14 @@ constexpr std::array routes{
     Route{"/api/v1/mappings/{mapping}", Method::put, replace_mapping, Takes::json},
     Route{"/api/v1/mappings/{mapping}", Method::remove, remove_mapping, Takes::nothing, Gives::nothing},
     Route{"/api/v1/events", Method::get, list_events},
+    Route{"/api/v1/recipes", Method::get, list_recipes},
+    Route{"/api/v1/recipes/{recipe}", Method::get, get_recipe},
+    Route{"/api/v1/recipes/{recipe}", Method::put, put_recipe, Takes::json},
+    Route{"/api/v1/recipes/{recipe}", Method::remove, remove_recipe, Takes::nothing, Gives::nothing},
+    Route{"/api/v1/recipes/{recipe}/run", Method::post, run_recipe, Takes::json},
+    Route{"/api/v1/recipes/{recipe}/runs", Method::get, list_recipe_runs},
+    Route{"/api/v1/recipes/{recipe}/runs/{run}", Method::get, get_recipe_run},
+    Route{"/api/v1/recipes/{recipe}/runs/{run}/cancel", Method::post, cancel_recipe_run},
     Route{"/api/v1/stream", Method::get, open_stream, Takes::nothing, Gives::own, true},
 };
 

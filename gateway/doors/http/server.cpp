@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "gateway/doors/http/connection.hpp"
+#include "gateway/doors/http/recipe_desk.hpp"
 #include "gateway/doors/http/session.hpp"
 
 namespace axisgate::http {
@@ -25,9 +26,10 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
     Settings own_settings;
     Counters own_counters;
     asio::io_context& context;
+    std::shared_ptr<RecipeDesk> recipes;
     Router own_router;
     tcp::acceptor acceptor;
-    asio::steady_timer hub_timer, pause_timer, stop_timer;
+    asio::steady_timer hub_timer, pause_timer, stop_timer, recipe_timer;
     StreamHub own_hub;  // after the timers: it may ask for them at once
     std::unordered_map<const Session*, std::shared_ptr<Session>> sessions;
     std::function<void()> done;
@@ -36,12 +38,18 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
         : SessionHost(own_settings, own_router, own_counters, own_hub),
           own_settings(std::move(s)),
           context(c),
-          own_router(Context{gateway, own_settings, std::move(asset), [this] { return own_counters.text(); }}),
+          recipes(std::make_shared<RecipeDesk>(gateway, [] { return steady_instant(); })),
+          own_router(Context{gateway, own_settings, std::move(asset), [this] { return own_counters.text(); }, std::make_shared<ChangeQueue>(), recipes}),
           acceptor(c),
           hub_timer(c),
           pause_timer(c),
           stop_timer(c),
-          own_hub(gateway, own_settings, own_counters, [this] { rearm(); }) {}
+          recipe_timer(c),
+          own_hub(gateway, own_settings, own_counters, [this] { rearm(); }) {
+        recipes->rearm = [this] { rearm_recipes(); };
+        recipes->tell = [this](const std::string& recipe, const boost::json::object& report) { own_hub.on_recipe(recipe, report); };
+        own_hub.recipes_now = [this] { return recipes->in_progress(); };
+    }
 
     // --- sessions ------------------------------------------------------------------------------------------------------
     void add(std::shared_ptr<Session> session) override {
@@ -132,6 +140,23 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
         });
     }
 
+    // --- the recipes' time ---------------------------------------------------------------------------------------------
+    void rearm_recipes() {
+        const Instant due = recipes->deadline();
+        if (due == never || stopping) {
+            recipe_timer.cancel();
+            return;
+        }
+        recipe_timer.expires_at(
+            std::chrono::steady_clock::time_point(std::chrono::duration_cast<std::chrono::steady_clock::duration>(due.time_since_epoch())));
+        recipe_timer.async_wait([self = weak_from_this()](ErrorCode ec) {
+            const auto me = self.lock();
+            if (ec || !me || !me->own_hub.attached()) return;
+            me->recipes->on_deadline(steady_instant());
+            me->rearm_recipes();
+        });
+    }
+
     // --- the end -------------------------------------------------------------------------------------------------------
     void stop(std::function<void()> then) {
         if (stopping) return;
@@ -196,6 +221,8 @@ Server::~Server() {
     parts_->pause_timer.cancel();
     parts_->stop_timer.cancel();
     parts_->hub_timer.cancel();
+    parts_->recipe_timer.cancel();
+    parts_->recipes->rearm = nullptr;
     parts_->abort_all();
     parts_->own_hub.detach();  // handlers that still wait in the io_context may keep the parts longer than the Gateway lives
 }

@@ -104,6 +104,10 @@ void StreamHub::subscribe(StreamClient& c, const std::string& topic, std::int64_
     } else if (topic == "site") {
         c.site_ = true;
         tell_site(c);
+    } else if (topic == "recipes") {
+        c.recipes_ = true;
+        for (const auto& report : recipes_now ? recipes_now() : std::vector<json::object>())
+            put_state(c, recipe_number(std::string(report.at("recipe").get_string())), stream_message("recipes", gateway_.now_unix_ns(), report));
     } else if (const auto line = line_of_frames(topic); !line.empty() && sources_.find(fmt::format("lines/{}", line))) {
         auto it = std::ranges::find(c.frames_, topic, &StreamClient::FrameWatch::topic);
         if (it == c.frames_.end()) {
@@ -114,7 +118,7 @@ void StreamHub::subscribe(StreamClient& c, const std::string& topic, std::int64_
         begin_frames(c, *it);
     } else if (topic != "axes/*" && topic != "drives/*" && topic != "lines/*" && !sources_.find(topic)) {
         return tell_error(
-            c, "there is no such topic: use axes/*, axes/NAME, drives/*, drives/NAME, lines/*, lines/NAME, lines/NAME/frames, events, site",
+            c, "there is no such topic: use axes/*, axes/NAME, drives/*, drives/NAME, lines/*, lines/NAME, lines/NAME/frames, events, recipes, site",
             topic);
     }
     c.topics_.insert_or_assign(topic, period_ms);
@@ -124,6 +128,7 @@ void StreamHub::unsubscribe(StreamClient& c, const std::string& topic) {
     if (c.topics_.erase(topic) == 0) return tell_error(c, "this topic is not subscribed", topic);
     if (topic == "events") c.events_ = false;
     if (topic == "site") c.site_ = false;
+    if (topic == "recipes") c.recipes_ = false;
     std::erase_if(c.frames_, [&](const auto& f) { return f.topic == topic; });
 }
 
@@ -287,6 +292,21 @@ void StreamHub::wake(StreamClient& c) {
     if (!c.has_work_) return;
     c.has_work_ = false;
     if (c.wake_) c.wake_();
+}
+
+std::uint32_t StreamHub::recipe_number(const std::string& recipe) {
+    const auto it = recipe_numbers_.find(recipe);
+    return it != recipe_numbers_.end() ? it->second : recipe_numbers_.emplace(recipe, sources_.next_number()).first->second;
+}
+
+void StreamHub::on_recipe(const std::string& recipe, const json::object& report) {
+    SharedFrame frame;
+    for (const auto& c : clients_) {
+        if (!c->recipes_ || c->closing_) continue;
+        if (!frame) frame = stream_message("recipes", gateway_.now_unix_ns(), report);
+        put_state(*c, recipe_number(recipe), frame);
+        wake(*c);
+    }
 }
 
 void StreamHub::on_event(const Event& event) {

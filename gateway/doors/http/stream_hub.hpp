@@ -56,6 +56,7 @@ private:
     std::vector<FrameWatch> frames_;
     bool events_ = false;
     bool site_ = false;
+    bool recipes_ = false;
     int wrong_in_a_row_ = 0;
     std::uint16_t closing_ = 0;
     bool has_work_ = false;  ///< something was put into the queue since the last wake-up
@@ -83,6 +84,11 @@ public:
     [[nodiscard]] Instant deadline() const;
     void on_deadline(Instant now);
 
+    /// The report of a run has changed.
+    void on_recipe(const std::string& recipe, const boost::json::object& report);
+    /// Reports of the runs in progress, for those who have just subscribed to `recipes`.
+    std::function<std::vector<boost::json::object>()> recipes_now;
+
     void on_event(const Event& event) override;
     void on_site(const std::shared_ptr<const SiteState>& site) override;
 
@@ -105,6 +111,7 @@ private:
     void wake(StreamClient& c);
     void take_site(Instant now);
     void keep_groups(Instant now);
+    [[nodiscard]] std::uint32_t recipe_number(const std::string& recipe);
     [[nodiscard]] std::set<std::int64_t> periods() const;
     [[nodiscard]] LineId line_id(std::string_view line) const;
 
@@ -116,6 +123,7 @@ private:
     std::list<std::shared_ptr<StreamClient>> clients_;
     std::map<std::int64_t, Instant> groups_;     ///< next scan by period in ms
     std::shared_ptr<const SiteState> new_site_;  ///< told, but not taken yet
+    std::map<std::string, std::uint32_t, std::less<>> recipe_numbers_;  ///< of their states in the clients' queues
     bool attached_ = true;
 
     struct KeptDecoder {

@@ -266,6 +266,29 @@ public:
     }
     void listen(GatewayListener* l) override { listeners.insert(l); }
     void unlisten(GatewayListener* l) override { listeners.erase(l); }
+    void note(Event e) override { noted.push_back(std::move(e)); }
+    std::vector<Document> documents(const std::string& kind) const override {
+        std::vector<Document> out;
+        for (const auto& [key, d] : stored_documents) {
+            if (key.first == kind) out.push_back(d);
+        }
+        return out;
+    }
+    std::optional<Document> document(const std::string& kind, const std::string& name) const override {
+        const auto it = stored_documents.find({kind, name});
+        return it == stored_documents.end() ? std::nullopt : std::optional(it->second);
+    }
+    void save_document(const std::string& kind, Document d, std::function<void(std::string)> then) override {
+        if (!document_fault.empty()) return then(document_fault);
+        stored_documents[{kind, d.name}] = d;
+        then("");
+    }
+    void delete_document(const std::string& kind, const std::string& name, std::function<void(std::string)> then) override {
+        then(stored_documents.erase({kind, name}) == 0 ? "there is none of this name" : "");
+    }
+    std::vector<Event> noted;
+    std::map<std::pair<std::string, std::string>, Document> stored_documents;
+    std::string document_fault;
 
 private:
     std::uint16_t id_of(const std::string& name) { return ids_.emplace(name, static_cast<std::uint16_t>(ids_.size())).first->second; }

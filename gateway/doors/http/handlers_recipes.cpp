@@ -1,0 +1,214 @@
+// Handlers of recipes: the stored documents, their runs, and the reports of those.
+// In: calls. Out: documents as they were put, reports as the recipe desk keeps them.
+// Never carries out a step: that is the desk's.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/json/parse.hpp>
+
+#include "gateway/doors/http/handlers.hpp"
+#include "gateway/doors/http/recipe_desk.hpp"
+#include "gateway/doors/http/recipe_steps.hpp"
+
+namespace axisgate::http {
+namespace json = boost::json;
+namespace {
+const std::string kind = "recipe";
+constexpr std::size_t most_name_bytes = 64;
+
+bool good_name(std::string_view s) {
+    return !s.empty() && s.size() <= most_name_bytes && s != "." && s != ".." && std::ranges::all_of(s, [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
+    });
+}
+
+std::vector<Fault> in_body(const std::vector<SiteFault>& faults) {
+    std::vector<Fault> out;
+    for (const auto& f : faults)
+        out.push_back({f.pointer, f.text, f.remedy, true});
+    return out;
+}
+
+std::optional<json::object> parsed(const Gateway::Document& d) {
+    boost::system::error_code ec;
+    auto v = json::parse(d.text, ec);
+    if (ec || !v.is_object()) return std::nullopt;
+    return std::move(v.get_object());
+}
+
+std::optional<std::pair<Gateway::Document, json::object>> find_recipe(const Call& c) {
+    auto d = good_name(c.names[0]) ? c.gateway().document(kind, c.names[0]) : std::nullopt;
+    auto o = d ? parsed(*d) : std::nullopt;
+    if (!o) return std::nullopt;
+    return std::pair(std::move(*d), std::move(*o));
+}
+
+json::object shown(const Gateway::Document& d, json::object o) {
+    o["name"] = d.name;
+    o["changed_at"] = format_time(d.at_unix_ns);
+    o["changed_by"] = text_or_null(d.who);
+    return o;
+}
+
+std::optional<std::uint64_t> number_of(const Call& c) {
+    const auto n = parse_whole(c.names[1], 1, 9'999'999'999);
+    return n ? std::optional(static_cast<std::uint64_t>(*n)) : std::nullopt;
+}
+
+Response no_run(const Call& c) { return problem(404, "not_found", fmt::format("recipe {} has no run {}", c.names[0], c.names[1])); }
+Response store_fault(const std::string& fault) { return problem(507, "not_stored", fault); }
+}  // namespace
+
+Handled list_recipes(Call& c) {
+    json::array out;
+    for (const auto& d : c.gateway().documents(kind)) {
+        const auto o = parsed(d);
+        if (!o) continue;
+        const auto* description = o->if_contains("description");
+        const auto* parameters = o->if_contains("parameters");
+        std::vector<SiteFault> none;
+        const auto recipe = read_recipe(*o, nullptr, none);
+        const auto n = c.context.recipes->running(d.name);
+        out.push_back(json::object{{"name", d.name},
+                                   {"description", description ? *description : json::value("")},
+                                   {"parameters", parameters ? *parameters : json::value(json::object())},
+                                   {"steps", recipe ? recipe->count : 0},
+                                   {"changed_at", format_time(d.at_unix_ns)},
+                                   {"changed_by", text_or_null(d.who)},
+                                   {"running", n == 0 ? json::value(nullptr) : json::value(n)}});
+    }
+    return json_response(out);
+}
+
+Handled get_recipe(Call& c) {
+    auto found = find_recipe(c);
+    if (!found) return nothing_named("recipe", c.names[0]);
+    return json_response(shown(found->first, std::move(found->second)));
+}
+
+Handled put_recipe(Call& c) {
+    std::vector<SiteFault> faults;
+    const std::string name = c.names[0];
+    if (!good_name(name)) faults.push_back({"", "a recipe's name has 1 to 64 letters, digits, - _ .", "choose another name", false});
+    json::object document = c.body.get_object();
+    if (c.request.body.size() > most_recipe_bytes)
+        faults.push_back({"", fmt::format("the recipe has {} bytes; at most {} are kept", c.request.body.size(), most_recipe_bytes),
+                          "divide it", false});
+    if (const auto* n = document.if_contains("name"); n && *n != json::value(name))
+        faults.push_back({"/name", fmt::format("the name is {} in the path", name), "leave the member out, or write the same", false});
+    const auto recipe = read_recipe(document, nullptr, faults);
+    if (recipe) check_recipe_form(*recipe, faults);
+    if (!faults.empty()) return invalid(in_body(faults));
+    for (const auto* key : {"name", "changed_at", "changed_by"})
+        document.erase(key);
+    const bool created = !c.gateway().document(kind, name);
+    if (created && c.gateway().documents(kind).size() >= RecipeDesk::most_recipes)
+        return problem(409, "too_many",
+                       fmt::format("there are {} recipes: delete those that are no longer needed", RecipeDesk::most_recipes));
+    std::optional<Response> fault;
+    if (query_flag(c, "dry_run", fault)) return json_response(json::object{{"dry_run", true}, {"steps", recipe->count}});
+    if (fault) return *fault;
+    Gateway::Document d{name, json_text(document), c.origin().who ? *c.origin().who : "", c.gateway().now_unix_ns()};
+    Event e;
+    e.kind = "recipe";
+    e.who = d.who;
+    e.door = "http";
+    e.text = fmt::format("recipe {} {}", name, created ? "made" : "changed");
+    c.gateway().save_document(kind, d, [respond = c.respond, &gateway = c.gateway(), d, document, created, e](const std::string& why) {
+        if (!why.empty()) return respond(store_fault(why));
+        gateway.note(e);
+        Response r = json_response(shown(d, document), created ? 201 : 200);
+        if (created) r.headers.set("Location", "/api/v1/recipes/" + percent_encode(d.name));
+        respond(std::move(r));
+    });
+    return {gateway_limit, problem(504, "no_answer", "the store has not answered")};
+}
+
+Handled remove_recipe(Call& c) {
+    const auto found = find_recipe(c);
+    if (!found) return nothing_named("recipe", c.names[0]);
+    if (const auto n = c.context.recipes->running(c.names[0]); n != 0)
+        return problem(409, "running", fmt::format("recipe {} is running (run {}): cancel it first", c.names[0], n));
+    Event e;
+    e.kind = "recipe";
+    e.who = c.origin().who ? *c.origin().who : "";
+    e.door = "http";
+    e.text = fmt::format("recipe {} deleted", c.names[0]);
+    c.gateway().delete_document(
+        kind, c.names[0],
+        [respond = c.respond, &gateway = c.gateway(), desk = c.context.recipes, name = c.names[0], e](const std::string& why) {
+            if (!why.empty()) return respond(store_fault(why));
+            gateway.note(e);
+            desk->forget(name);
+            Response r;
+            r.status = 204;
+            respond(std::move(r));
+        });
+    return {gateway_limit, problem(504, "no_answer", "the store has not answered")};
+}
+
+Handled run_recipe(Call& c) {
+    auto found = find_recipe(c);
+    if (!found) return nothing_named("recipe", c.names[0]);
+    std::vector<SiteFault> faults;
+    json::object arguments;
+    bool dry_run = false;
+    for (const auto& [k, v] : c.body.get_object()) {
+        if (k == "arguments" && v.is_object()) {
+            arguments = v.get_object();
+        } else if (k == "dry_run" && v.is_bool()) {
+            dry_run = v.get_bool();
+        } else {
+            const bool known = k == "arguments" || k == "dry_run";
+            faults.push_back({"/" + std::string(k),
+                              fmt::format("{} {}", std::string_view(k), known ? "has the wrong type" : "is not known here"),
+                              "write {\"arguments\": {...}, \"dry_run\": false}", false});
+        }
+    }
+    auto recipe = read_recipe(found->second, &arguments, faults);
+    if (recipe) check_recipe(*recipe, c.gateway(), faults);
+    if (!faults.empty()) {
+        std::vector<Fault> list;
+        for (const auto& f : faults)
+            list.push_back({f.pointer, f.text, f.remedy, !f.pointer.starts_with("/steps") && !f.pointer.starts_with("/parameters")});
+        return invalid(std::move(list));
+    }
+    const auto whole = whole_arguments(found->second, arguments);
+    if (dry_run) {
+        json::array axes;
+        for (const auto& a : commanded_axes(*recipe))
+            axes.emplace_back(a);
+        return json_response(json::object{{"dry_run", true}, {"arguments", whole}, {"axes", std::move(axes)}, {"steps", recipe->count}});
+    }
+    auto started = c.context.recipes->start(c.names[0], std::move(*recipe), whole, c.origin());
+    if (auto* p = std::get_if<Problem>(&started)) return to_response(*p);
+    const auto& report = std::get<json::object>(started);
+    Response r = json_response(report, 202);
+    r.headers.set("Location",
+                  fmt::format("/api/v1/recipes/{}/runs/{}", percent_encode(c.names[0]), report.at("n").to_number<std::uint64_t>()));
+    return r;
+}
+
+Handled list_recipe_runs(Call& c) {
+    if (!find_recipe(c)) return nothing_named("recipe", c.names[0]);
+    json::array out;
+    for (auto& r : c.context.recipes->reports(c.names[0]))
+        out.push_back(std::move(r));
+    return json_response(out);
+}
+
+Handled get_recipe_run(Call& c) {
+    const auto n = number_of(c);
+    const auto report = n ? c.context.recipes->report(c.names[0], *n) : std::nullopt;
+    return report ? Handled(json_response(*report)) : Handled(no_run(c));
+}
+
+Handled cancel_recipe_run(Call& c) {
+    const auto n = number_of(c);
+    if (!n) return no_run(c);
+    auto answer = c.context.recipes->cancel(c.names[0], *n, c.origin());
+    if (auto* p = std::get_if<Problem>(&answer)) return to_response(*p);
+    return json_response(std::get<json::object>(answer), 202);
+}
+
+}  // namespace axisgate::http

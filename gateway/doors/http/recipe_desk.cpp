@@ -1,0 +1,326 @@
+// Recipe desk: see the header.
+// In and out: see the header.
+#include "gateway/doors/http/recipe_desk.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/json/parse.hpp>
+#include <boost/json/serialize.hpp>
+
+#include "gateway/doors/http/documents.hpp"
+#include "gateway/doors/http/handlers.hpp"
+#include "gateway/doors/http/recipe_steps.hpp"
+
+namespace axisgate::http {
+namespace json = boost::json;
+namespace {
+constexpr std::string_view report_kind = "recipe_run";
+constexpr std::size_t most_unsaved = 64;
+
+/// So that the order of names is the order of numbers.
+std::string report_name(std::string_view recipe, std::uint64_t n) { return fmt::format("{}/{:010}", recipe, n); }
+std::uint64_t number_in(std::string_view name, std::string_view recipe) {
+    if (name.size() <= recipe.size() + 1 || !name.starts_with(recipe) || name[recipe.size()] != '/') return 0;
+    return static_cast<std::uint64_t>(parse_whole(name.substr(recipe.size() + 1), 1, 9'999'999'999).value_or(0));
+}
+
+json::object without_steps(json::object report) {
+    report.erase("steps");
+    return report;
+}
+}  // namespace
+
+struct RecipeDesk::World final : RecipeWorld {
+    explicit World(const Gateway& g) : gateway(g) {}
+    const Gateway& gateway;
+    [[nodiscard]] json::value point(std::string_view axis, std::string_view point) const override {
+        const auto place = find_axis(gateway, axis);
+        if (!place) return nullptr;
+        const AxisPicture picture = gateway.picture(place->id());
+        const auto document = axis_document(
+            {place->spec(), place->line, place->family, place->catalogue, picture, gateway.to_unix_ns(picture.at), gateway.now_unix_ns()});
+        const bool about_itself = point == "online" || point == "stale" || point == "presence" || point == "simulated" || point == "number";
+        if (!about_itself && (!picture.ever_seen || (picture.flags & flag_stale) != 0 || (picture.flags & flag_online) == 0))
+            return nullptr;
+        if (point == "error_code") return document.at("error").get_object().at("code");
+        const auto* v = document.if_contains(point);
+        return v ? *v : json::value(nullptr);
+    }
+};
+
+std::uint64_t RecipeDesk::next_number(const std::string& name) {
+    auto it = last_.find(name);
+    if (it == last_.end()) {
+        std::uint64_t last = 0;
+        for (const auto& d : gateway_.documents(std::string(report_kind)))
+            last = std::max(last, number_in(d.name, name));
+        it = last_.emplace(name, last).first;
+    }
+    return ++it->second;
+}
+
+std::variant<json::object, Problem> RecipeDesk::start(const std::string& name, Recipe recipe, json::object arguments,
+                                                      const Origin& origin) {
+    if (const auto n = running(name); n != 0)
+        return Problem{.status = 409,
+                       .reason = "running",
+                       .detail = fmt::format("recipe {} is running already (run {}): wait for its end, or cancel it", name, n)};
+    if (active_.size() >= most_runs || unsaved_.size() >= most_unsaved)
+        return Problem{
+            .status = 503, .reason = "busy", .detail = fmt::format("{} recipes are running already: wait for one to end", active_.size())};
+    auto axes = commanded_axes(recipe);
+    for (const auto& other : active_) {
+        for (const auto& axis : axes) {
+            if (std::ranges::find(other->axes, axis) != other->axes.end())
+                return Problem{.status = 409,
+                               .reason = "running",
+                               .detail = fmt::format("axis {} is in use by recipe {} (run {})", axis, other->name, other->n),
+                               .axis = axis};
+        }
+    }
+    auto a = std::make_shared<Active>();
+    a->name = name;
+    a->n = next_number(name);
+    a->axes = std::move(axes);
+    a->arguments = std::move(arguments);
+    a->who = origin.who ? *origin.who : "";
+    a->origin = {origin.door, std::make_shared<const std::string>(fmt::format("recipe {} by {}", name, a->who))};
+    a->run = std::make_unique<RecipeRun>(std::move(recipe), clock_());
+    active_.push_back(a);
+    std::string with;
+    for (const auto& [k, v] : a->arguments)
+        with += fmt::format("{} {} = {}", with.empty() ? " with" : ",", std::string_view(k), json::serialize(v));
+    note(*a, Severity::info, fmt::format("recipe {} run {} started{}", name, a->n, with));
+    due_now_ = true;
+    if (rearm) rearm();
+    return document(*a);
+}
+
+std::variant<json::object, Problem> RecipeDesk::cancel(const std::string& name, std::uint64_t n, const Origin& origin) {
+    for (const auto& a : active_) {
+        if (a->name != name || a->n != n) continue;
+        (void)a->run->cancel(fmt::format("cancelled by {}", origin.who ? *origin.who : "nobody known"));
+        due_now_ = true;
+        if (rearm) rearm();
+        return document(*a);
+    }
+    if (!report(name, n)) return Problem{.status = 404, .reason = "not_found", .detail = fmt::format("recipe {} has no run {}", name, n)};
+    return Problem{.status = 409, .reason = "wrong_state", .detail = fmt::format("run {} of recipe {} has ended already", n, name)};
+}
+
+std::uint64_t RecipeDesk::running(const std::string& name) const {
+    const auto it = std::ranges::find_if(active_, [&](const auto& a) { return a->name == name; });
+    return it == active_.end() ? 0 : (*it)->n;
+}
+
+std::vector<json::object> RecipeDesk::in_progress() const {
+    std::vector<json::object> out;
+    for (const auto& a : active_)
+        out.push_back(document(*a));
+    return out;
+}
+
+std::optional<json::object> RecipeDesk::report(const std::string& name, std::uint64_t n) const {
+    for (const auto& a : active_) {
+        if (a->name == name && a->n == n) return document(*a);
+    }
+    if (const auto it = unsaved_.find({name, n}); it != unsaved_.end()) return it->second;
+    const auto d = gateway_.document(std::string(report_kind), report_name(name, n));
+    boost::system::error_code ec;
+    auto v = d ? json::parse(d->text, ec) : json::value(nullptr);
+    if (!d || ec || !v.is_object()) return std::nullopt;
+    return v.get_object();
+}
+
+std::vector<json::object> RecipeDesk::reports(const std::string& name) const {
+    std::map<std::uint64_t, json::object, std::greater<>> sorted;
+    for (const auto& d : gateway_.documents(std::string(report_kind))) {
+        const auto n = number_in(d.name, name);
+        boost::system::error_code ec;
+        auto v = n == 0 ? json::value(nullptr) : json::parse(d.text, ec);
+        if (!ec && v.is_object()) sorted[n] = without_steps(v.get_object());
+    }
+    for (const auto& [key, r] : unsaved_) {
+        if (key.first == name) sorted[key.second] = without_steps(r);
+    }
+    for (const auto& a : active_) {
+        if (a->name == name) sorted[a->n] = without_steps(document(*a));
+    }
+    std::vector<json::object> out;
+    for (auto& [n, r] : sorted)
+        out.push_back(std::move(r));
+    return out;
+}
+
+void RecipeDesk::forget(const std::string& name) {
+    std::erase_if(unsaved_, [&](const auto& u) { return u.first.first == name; });
+    for (const auto& d : gateway_.documents(std::string(report_kind))) {
+        if (number_in(d.name, name) != 0) gateway_.delete_document(std::string(report_kind), d.name, [](const std::string&) {});
+    }
+}
+
+Instant RecipeDesk::deadline() const {
+    if (due_now_) return time_zero;
+    Instant next = never;
+    for (const auto& a : active_) {
+        next = std::min(next, a->run->deadline());
+        if (a->run->revision() != a->told_revision) next = std::min(next, a->told + tell_period);
+    }
+    return next;
+}
+
+void RecipeDesk::on_deadline(Instant now) {
+    due_now_ = false;
+    const auto list = active_;
+    for (const auto& a : list) {
+        if (a->run->deadline() <= now) pump(a, now);
+        const bool over = a->run->ended();
+        if (a->run->revision() != a->told_revision && (over || a->told_revision == 0 || now - a->told >= tell_period)) {
+            a->told = now;
+            a->told_revision = a->run->revision();
+            if (tell) tell(a->name, document(*a));
+        }
+        if (over) ended(a);
+    }
+}
+
+void RecipeDesk::pump(const std::shared_ptr<Active>& a, Instant now) {
+    std::vector<RecipeRequest> requests;
+    a->run->turn(now, World(gateway_), requests);
+    for (const auto& r : requests)
+        carry_out(a, r);
+}
+
+void RecipeDesk::carry_out(const std::shared_ptr<Active>& a, const RecipeRequest& r) {
+    Command command;
+    if (r.what == RecipeRequest::What::stop) {
+        const auto place = find_axis(gateway_, r.axis);
+        if (!place) return answer(a, r.number, {false, fmt::format("there is no axis {} any more", r.axis), nullptr});
+        command.axis = place->id();
+        if (a->run->recipe().quick_stop) {
+            command.body = QuickStop{};
+        } else {
+            command.body = Halt{};
+        }
+        return submit(a, r.number, std::move(command));
+    }
+    if (r.step->kind == RecipeStep::Kind::message) {
+        note(*a, Severity::info, r.step->text);
+        return answer(a, r.number, {true, {}, nullptr});
+    }
+    std::vector<SiteFault> faults;
+    RecipeStep copy = *r.step;
+    auto made = r.what == RecipeRequest::What::read_parameter ? read_of(copy, gateway_, faults) : command_of(copy, gateway_, faults);
+    if (!made)  // the site has changed since the run began
+        return answer(a, r.number, {false, faults.empty() ? std::string("the step cannot be carried out") : faults.front().text, nullptr});
+    submit(a, r.number, std::move(*made));
+}
+
+void RecipeDesk::submit(const std::shared_ptr<Active>& a, std::uint32_t number, Command command) {
+    command.origin = a->origin;
+    gateway_.submit(std::move(command), [self = weak_from_this(), active = std::weak_ptr(a), number](const Result& r) {
+        const auto me = self.lock();
+        if (!me) return;
+        RecipeAnswer answer{good(r), r.text, to_json(r.value)};
+        if (!answer.good)
+            answer.text = fmt::format("{} ({}{})", r.text.empty() ? std::string("it was refused") : r.text, name_of(r.reason),
+                                      r.code == 0 ? std::string() : fmt::format(", the drive's code {}", r.code));
+        me->answer(active, number, std::move(answer));
+    });
+}
+
+void RecipeDesk::answer(const std::weak_ptr<Active>& active, std::uint32_t number, RecipeAnswer answer) {
+    const auto a = active.lock();
+    if (!a) return;
+    a->run->answer(number, std::move(answer));
+    due_now_ = true;
+    if (rearm) rearm();
+}
+
+void RecipeDesk::ended(const std::shared_ptr<Active>& a) {
+    std::erase(active_, a);
+    const bool failed = a->run->state() == RecipeRun::State::failed;
+    std::string text = fmt::format("recipe {} run {} {}", a->name, a->n, name_of(a->run->state()));
+    if (!a->run->text().empty()) text += fmt::format(" at {}: {}", a->run->where(), a->run->text());
+    note(*a, failed ? Severity::warning : Severity::info, text);
+    const auto key = std::pair(a->name, a->n);
+    unsaved_[key] = document(*a);
+    Gateway::Document d{report_name(a->name, a->n), json::serialize(unsaved_[key]), a->who, gateway_.now_unix_ns()};
+    gateway_.save_document(std::string(report_kind), std::move(d), [self = weak_from_this(), key](const std::string& fault) {
+        const auto me = self.lock();
+        if (!me) return;
+        if (!fault.empty()) {
+            Event e;
+            e.severity = Severity::warning;
+            e.kind = "recipe";
+            e.text = fmt::format("the report of run {} of recipe {} is not stored: {}", key.second, key.first, fault);
+            me->gateway_.note(std::move(e));
+            me->unsaved_.erase(key);  // what cannot be stored is not kept in memory either: the event has said how it ended
+            return;
+        }
+        me->unsaved_.erase(key);
+        std::vector<std::string> names;
+        for (const auto& doc : me->gateway_.documents(std::string(report_kind))) {
+            if (number_in(doc.name, key.first) != 0) names.push_back(doc.name);
+        }
+        std::ranges::sort(names);
+        for (std::size_t i = 0; i + kept_reports < names.size(); ++i)
+            me->gateway_.delete_document(std::string(report_kind), names[i], [](const std::string&) {});
+    });
+}
+
+void RecipeDesk::note(const Active& a, Severity severity, std::string text, std::string axis) {
+    Event e;
+    e.severity = severity;
+    e.kind = "recipe";
+    e.axis = std::move(axis);
+    e.text = std::move(text);
+    e.who = a.who;
+    e.door = std::string(axisgate::name_of(a.origin.door));
+    gateway_.note(std::move(e));
+}
+
+json::object RecipeDesk::document(const Active& a) const {
+    const RecipeRun& run = *a.run;
+    const auto time = [&](Instant i) { return i == Instant{} ? json::value(nullptr) : json::value(format_time(gateway_.to_unix_ns(i))); };
+    json::array steps, stops;
+    std::size_t done = 0;
+    for (const auto& row : run.rows()) {
+        if (row.state != RecipeRow::State::not_run) ++done;
+        json::object o{{"pointer", row.step->pointer},
+                       {"step", name_of(row.step->kind)},
+                       {"axis", text_or_null(row.step->axis)},
+                       {"state", name_of(row.state)},
+                       {"times", row.times},
+                       {"started_at", time(row.started)},
+                       {"ended_at", time(row.ended)},
+                       {"text", row.text},
+                       {"value", row.value}};
+        if (!row.step->comment.empty()) o["comment"] = row.step->comment;
+        steps.push_back(std::move(o));
+    }
+    for (const auto& s : run.stops())
+        stops.push_back({{"axis", s.axis}, {"stopped", s.good}, {"text", s.text}});
+    json::array axes;
+    for (const auto& x : a.axes)
+        axes.emplace_back(x);
+    return {{"recipe", a.name},
+            {"n", a.n},
+            {"state", name_of(run.state())},
+            {"started_at", time(run.started())},
+            {"ended_at", time(run.ended_at())},
+            {"started_by", a.who},
+            {"arguments", a.arguments},
+            {"axes", std::move(axes)},
+            {"at_step", run.ended()     ? text_or_null(run.where())
+                        : run.current() ? json::value(run.current()->pointer)
+                                        : json::value(nullptr)},
+            {"begun", done},
+            {"of", run.rows().size()},
+            {"text", run.text()},
+            {"stops", std::move(stops)},
+            {"steps", std::move(steps)}};
+}
+
+}  // namespace axisgate::http

@@ -402,6 +402,7 @@ public:
                 require(o, key, in);
             (void)number(o, "unit", in, 1, 0, 255);
             (void)number(o, "address", in, 0, 0, 65535);
+            s.limit = seconds_of(default_timeout_s);
             return;
         }
         s.axis = text(o, "axis", in, true);

@@ -21,7 +21,8 @@ from openapi import Description, sample, strict_json
 TOP = pathlib.Path(__file__).resolve().parents[2]
 TEXT = (TOP / "schema/openapi.yaml").read_text()
 API = Description(TEXT)
-NAMES = {"family": ["uim342"], "line": ["can0"], "drive": ["feeder", "slide"], "axis": ["feeder", "slide"], "parameter": ["AC", "PP[5]", "node_id"], "mapping": ["m1"]}
+NAMES = {"family": ["uim342"], "line": ["can0"], "drive": ["feeder", "slide"], "axis": ["feeder", "slide"], "parameter": ["AC", "PP[5]", "node_id"], "mapping": ["m1"], "recipe": ["warm-up"], "run": ["1"]}
+RECIPE = {"description": "on and off", "parameters": {"pause": {"type": "number", "default": 0.05}}, "steps": [{"enable": {"axis": "slide"}}, {"wait_s": "${pause}"}, {"disable": {"axis": "slide"}}]}
 
 
 class Client:
@@ -155,6 +156,9 @@ def read_everything(gateway, client, state):
 
 def test_every_get_answers_as_described_in_every_state_of_an_axis(gateway):
     client = Client(gateway, 30)
+    gateway.send("PUT", "/recipes/warm-up", RECIPE, 201)
+    gateway.send("POST", "/recipes/warm-up/run", {}, 202)
+    until(lambda: gateway.get("/recipes/warm-up/runs/1")["state"] == "done", 20, "the run's end")
     seen = read_everything(gateway, client, "fresh")
     missing = {(o.id, 200) for o in API.operations if o.method == "GET" and o.id != "openStream"} - seen
     assert not missing, missing
@@ -225,6 +229,10 @@ def test_every_write_answers_as_described(gateway):
         ("replaceMapping", {"mapping": "nobody"}, {"unit": 2, "address": 30, "axis": "feeder", "point": "AC"}, 404), ("removeMapping", {"mapping": "new"}, None, 204),
         ("addMappings", {}, "unit,address,axis,point\n3,0,feeder,position\n3,2,slide,position\n", 200), ("addMappings", {}, "unit,address,axis,point\n3,0,feeder,position\n", 422),
         ("replaceMappings", {}, "unit;address;axis;point\r\n3;0;feeder;velocity\r\n", 200),
+        ("putRecipe", {"recipe": "warm-up"}, RECIPE, 201), ("putRecipe", {"recipe": "warm-up"}, RECIPE, 200), ("putRecipe", {"recipe": "warm-up"}, {"steps": [{"fly": 1}]}, 422),
+        ("putRecipe", {"recipe": "a b"}, RECIPE, 422), ("runRecipe", {"recipe": "warm-up"}, {"dry_run": True}, 200), ("runRecipe", {"recipe": "warm-up"}, {"arguments": {"pause": 30}}, 202),
+        ("runRecipe", {"recipe": "warm-up"}, {}, 409), ("removeRecipe", {"recipe": "warm-up"}, None, 409), ("runRecipe", {"recipe": "warm-up"}, {"arguments": {"x": 1}}, 422),
+        ("runRecipe", {"recipe": "nobody"}, {}, 404), ("cancelRecipeRun", {"recipe": "warm-up", "run": "1"}, None, 202), ("cancelRecipeRun", {"recipe": "warm-up", "run": "9"}, None, 404),
         ("removeDrive", {"drive": "spare"}, None, 409), ("removeAxis", {"axis": "spare"}, None, 204), ("removeAxis", {"axis": "spare"}, None, 404), ("removeDrive", {"drive": "spare"}, None, 204),
         ("removeLine", {"line": "spare"}, None, 204), ("replaceSite", {}, site, 200)]
     actions = [c["id"] for c in gateway.get("/families/uim342/commands")]
@@ -351,11 +359,11 @@ class WebSocket:
 def test_the_stream_sends_what_is_described(gateway):
     stream = WebSocket(gateway, "/api/v1/stream")
     try:
-        request = {"subscribe": ["axes/*", "drives/*", "lines/*", "lines/can0/frames", "events", "site", "no/topic"], "period_ms": 50}
+        request = {"subscribe": ["axes/*", "drives/*", "lines/*", "lines/can0/frames", "events", "site", "recipes", "no/topic"], "period_ms": 50}
         assert API.validator({"$ref": "#/components/schemas/StreamRequest"}).is_valid(request)
         stream.send(request)
-        schemas = {"axes": "Axis", "drives": "Drive", "events": "Event", "error": "StreamError", "frames": "StreamFrames", "lines": "Line"}
-        wanted = {"axes", "drives", "lines", "frames", "events", "site", "error"}
+        schemas = {"axes": "Axis", "drives": "Drive", "events": "Event", "error": "StreamError", "frames": "StreamFrames", "lines": "Line", "recipes": "RecipeReport"}
+        wanted = {"recipes", "axes", "drives", "lines", "frames", "events", "site", "error"}
         seen = set()
         end = time.monotonic() + 15
         commanded = False
@@ -376,6 +384,8 @@ def test_the_stream_sends_what_is_described(gateway):
             if not commanded:
                 commanded = True
                 gateway.command("feeder", {"command": "enable"})
+                gateway.send("PUT", "/recipes/warm-up", RECIPE, 201)
+                gateway.send("POST", "/recipes/warm-up/run", {}, 202)
     finally:
         stream.close()
 

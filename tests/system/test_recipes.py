@@ -1,0 +1,133 @@
+"""Recipes as an outsider uses them: put, checked, run, watched, cancelled, and the report read again after a restart.
+
+In: the real program with the demo drives. Out: judgements on axes, registers, events and reports.
+"""
+import time
+
+import harness
+from harness import until
+
+THERE_AND_BACK = {
+    "description": "to the middle and back",
+    "parameters": {"distance": {"type": "number", "default": 5, "min": 0, "max": 40}, "who": {"type": "axis", "default": "feeder"}},
+    "steps": [
+        {"set_parameter": {"axis": "${who}", "parameter": "AC", "value": 1000000}},
+        {"enable": {"axis": "${who}"}},
+        {"if": {"condition": {"axis": "${who}", "point": "fault", "is": True}, "then": [{"command": {"axis": "${who}", "command": "reset_fault"}}], "else": [{"message": "moving ${who} by ${distance}"}]}},
+        {"repeat": {"times": 2, "steps": [
+            {"command": {"axis": "${who}", "command": "move_relative", "position": "${distance}", "velocity": 40, "acceleration": 400, "deceleration": 400, "wait_s": 20}}]}},
+        {"wait_for": {"axis": "${who}", "point": "moving", "is": False, "timeout_s": 5}},
+        {"check": {"axis": "${who}", "point": "position", "is": 10, "tolerance": 0.01, "text": "twice the distance"}, "comment": "the end"},
+        {"read_parameter": {"axis": "${who}", "parameter": "AC"}},
+        {"disable": {"axis": "${who}"}},
+    ],
+}
+
+
+def ended(gateway, name, n, seconds=30):
+    return until(lambda: (r := gateway.get(f"/recipes/{name}/runs/{n}"))["state"] not in ("running", "stopping") and r, seconds, f"the end of {name} run {n}")
+
+
+def step(report, pointer):
+    return next(s for s in report["steps"] if s["pointer"] == pointer)
+
+
+def test_a_recipe_moves_an_axis_and_reports_each_step(folder):
+    with harness.Gateway(folder) as g:
+        g.send("PUT", "/recipes/there-and-back", THERE_AND_BACK, 201)
+        shown = g.get("/recipes/there-and-back")
+        assert shown["steps"] == THERE_AND_BACK["steps"] and shown["name"] == "there-and-back"
+        plan = g.send("POST", "/recipes/there-and-back/run", {"dry_run": True})
+        assert plan["axes"] == ["feeder"] and plan["arguments"] == {"distance": 5, "who": "feeder"} and plan["steps"] == 11, plan
+        assert g.axis()["state"] != "operation_enabled", "a dry run does nothing"
+        status, started, head = g.request("POST", "/api/v1/recipes/there-and-back/run", {})
+        assert status == 202 and head["Location"] == "/api/v1/recipes/there-and-back/runs/1", (status, head)
+        r = ended(g, "there-and-back", 1)
+        assert r["state"] == "done", r
+        assert all(s["state"] == "done" for s in r["steps"] if s["pointer"] != "/steps/2/if/then/0"), r["steps"]
+        assert step(r, "/steps/2/if/then/0")["state"] == "not_run" and step(r, "/steps/2")["text"] == "else"
+        assert step(r, "/steps/2/if/else/0")["text"] == "moving feeder by 5"
+        assert step(r, "/steps/3/repeat/steps/0")["times"] == 2
+        assert step(r, "/steps/6")["value"] == 400 * 3200, step(r, "/steps/6")
+        assert step(r, "/steps/5")["comment"] == "the end"
+        assert abs(g.axis()["position"] - 10) < 0.02 and g.axis()["state"] != "operation_enabled"
+        texts = [e["text"] for e in g.get("/events?limit=200") if e["kind"] == "recipe"]
+        assert any(t.startswith("recipe there-and-back run 1 started with distance = 5") for t in texts) and "moving feeder by 5" in texts, texts
+        assert any(t == "recipe there-and-back run 1 done" for t in texts), texts
+        writes = [e for e in g.get("/events?limit=200") if e["kind"] == "write"]
+        assert writes and "recipe there-and-back by" in writes[-1]["who"], writes
+    with harness.Gateway(folder, None) as g:
+        assert g.get("/recipes")[0]["name"] == "there-and-back"
+        assert g.get("/recipes/there-and-back/runs/1")["state"] == "done", "reports outlive the program"
+        g.send("POST", "/recipes/there-and-back/run", {"arguments": {"distance": 0}}, 202)
+        r = ended(g, "there-and-back", 2)
+        assert [x["n"] for x in g.get("/recipes/there-and-back/runs")] == [2, 1]
+        g.request("DELETE", "/api/v1/recipes/there-and-back")
+        g.get("/recipes/there-and-back/runs/1", 404)
+
+
+def test_a_cancelled_run_halts_what_it_has_set_in_motion(gateway):
+    recipe = {"steps": [{"enable": {"axis": "feeder"}}, {"command": {"axis": "feeder", "command": "move_velocity", "velocity": 5, "acceleration": 100}},
+                        {"wait_for": {"axis": "feeder", "point": "position", "at_least": 100000, "timeout_s": 600}}]}
+    gateway.send("PUT", "/recipes/run-away", recipe, 201)
+    gateway.send("POST", "/recipes/run-away/run", {}, 202)
+    until(lambda: gateway.axis()["moving"], 10, "motion")
+    status, p, _ = gateway.request("POST", "/api/v1/recipes/run-away/run", {})
+    assert status == 409 and p["reason"] == "running", p
+    other = {"steps": [{"command": {"axis": "feeder", "command": "halt"}}]}
+    gateway.send("PUT", "/recipes/other", other, 201)
+    status, p, _ = gateway.request("POST", "/api/v1/recipes/other/run", {})
+    assert status == 409 and "feeder" in p["detail"] and "run-away" in p["detail"], p
+    gateway.send("POST", "/recipes/run-away/runs/1/cancel", None, 202)
+    r = ended(gateway, "run-away", 1)
+    assert r["state"] == "cancelled" and r["stops"] == [{"axis": "feeder", "stopped": True, "text": r["stops"][0]["text"]}], r
+    assert r["at_step"] == "/steps/2" and "cancelled by" in r["text"]
+    until(lambda: not gateway.axis()["moving"], 10, "rest")
+    assert gateway.axis()["state"] == "operation_enabled", "halted, not switched off"
+    gateway.send("POST", "/recipes/run-away/runs/1/cancel", None, 409)
+    gateway.send("POST", "/recipes/other/run", {}, 202)
+
+
+def test_a_failed_check_stops_and_says_where_and_why(gateway):
+    recipe = {"on_failure": "quick_stop", "steps": [
+        {"enable": {"axis": "feeder"}}, {"command": {"axis": "feeder", "command": "move_velocity", "velocity": 5, "acceleration": 100}},
+        {"repeat": {"times": 3, "steps": [{"check": {"axis": "feeder", "point": "position", "at_most": -1, "text": "behind the stop"}}]}}, {"disable": {"axis": "feeder"}}]}
+    gateway.send("PUT", "/recipes/bad", recipe, 201)
+    gateway.send("POST", "/recipes/bad/run", {}, 202)
+    r = ended(gateway, "bad", 1)
+    assert r["state"] == "failed" and r["at_step"] == "/steps/2/repeat/steps/0" and r["text"].startswith("behind the stop: feeder position at_most -1: it is"), r
+    assert step(r, "/steps/3")["state"] == "not_run" and step(r, "/steps/2")["state"] == "failed"
+    assert r["stops"][0]["stopped"], r
+    until(lambda: gateway.axis()["state"] == "quick_stop_active" or not gateway.axis()["moving"], 10, "rest")
+    assert any(e["severity"] == "warning" and e["kind"] == "recipe" and "failed at /steps/2/repeat/steps/0" in e["text"] for e in gateway.get("/events?limit=200"))
+
+
+def test_registers_are_written_by_the_maps_own_rules(gateway):
+    gateway.send("POST", "/mappings", {"id": "ac", "unit": 3, "address": 10, "axis": "feeder", "point": "AC", "type": "u32", "scale": 0.5, "access": "RW"}, 201)
+    recipe = {"steps": [{"write_register": {"unit": 3, "address": 10, "type": "u32", "value": 30000}},
+                        {"write_register": {"unit": 1, "address": 36, "type": "u32", "value": 77777}}]}
+    gateway.send("PUT", "/recipes/registers", recipe, 201)
+    gateway.send("POST", "/recipes/registers/run", {}, 202)
+    r = ended(gateway, "registers", 1)
+    assert r["state"] == "done", r
+    assert gateway.get("/axes/feeder/parameters/AC")["value"] == 60000, "the scale of the mapping holds"
+    with gateway.modbus() as m:
+        assert m.read32(36, signed=False) == 77777
+    for spoiled, pointer in (({"unit": 3, "address": 11, "value": 1}, "address"), ({"unit": 1, "address": 0, "value": 1}, "address"),
+                             ({"unit": 3, "address": 10, "type": "i16", "value": 1}, "type"), ({"unit": 3, "address": 10, "value": -1}, "value")):
+        gateway.send("PUT", "/recipes/registers", {"steps": [{"write_register": spoiled}]})
+        p = gateway.send("POST", "/recipes/registers/run", {}, 422)
+        assert p["faults"][0]["pointer"] == f"/steps/0/write_register/{pointer}", (spoiled, p)
+
+
+def test_what_cannot_run_is_refused_before_anything_moves(gateway):
+    recipe = {"parameters": {"n": {"type": "integer"}}, "steps": [
+        {"enable": {"axis": "feeder"}}, {"set_parameter": {"axis": "nobody", "parameter": "AC", "value": 1}}, {"set_parameter": {"axis": "feeder", "parameter": "XX", "value": 1}},
+        {"set_parameter": {"axis": "feeder", "parameter": "AC", "value": -1}}, {"command": {"axis": "feeder", "command": "move_absolute", "position": "${n}"}}]}
+    gateway.send("PUT", "/recipes/wrong", recipe, 201)
+    p = gateway.send("POST", "/recipes/wrong/run", {"arguments": {"n": 1}}, 422)
+    assert [f["pointer"] for f in p["faults"]] == ["/steps/1/set_parameter/axis", "/steps/2/set_parameter/parameter", "/steps/3/set_parameter/value"], p
+    p = gateway.send("POST", "/recipes/wrong/run", {}, 422)
+    assert p["faults"][0]["pointer"] == "/arguments/n", p
+    time.sleep(0.1)
+    assert gateway.axis()["state"] != "operation_enabled"

@@ -21,6 +21,8 @@ const Family& family_mcode() {
         "8N1",
         false,
         true,
+        0,
+        mcode::scan,
     };
     return family;
 }

@@ -5,6 +5,11 @@
 
 #include "gateway/core/family.hpp"
 
+namespace axisgate::mcode {
+/// Addresses that are worth asking (scan.cpp).
+[[nodiscard]] ScanPlan scan(const ScanWish& wish);
+}  // namespace axisgate::mcode
+
 namespace axisgate {
 
 /// Lexium MDrive and Lexium Motion Module (MCode) on RS-422, RS-485, UART or Ethernet (port 503).

@@ -21,6 +21,8 @@ const Family& family_pacontrol() {
         "7N1",
         false,
         true,
+        0,
+        pacontrol::scan,
     };
     return family;
 }

@@ -5,6 +5,11 @@
 
 #include "gateway/core/family.hpp"
 
+namespace axisgate::pacontrol {
+/// Addresses that are worth asking (scan.cpp).
+[[nodiscard]] ScanPlan scan(const ScanWish& wish);
+}  // namespace axisgate::pacontrol
+
 namespace axisgate {
 
 /// IEF Werner PA-CONTROL on its serial command port COM1.

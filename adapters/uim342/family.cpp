@@ -22,6 +22,7 @@ const Family& family_uim342() {
         true,
         true,
         500'000,  // what the twin's factory setting says; the manual is silent
+        uim342::scan,
     };
     return family;
 }

@@ -5,6 +5,11 @@
 
 #include "gateway/core/family.hpp"
 
+namespace axisgate::uim342 {
+/// Addresses that are worth asking (scan.cpp).
+[[nodiscard]] ScanPlan scan(const ScanWish& wish);
+}  // namespace axisgate::uim342
+
 namespace axisgate {
 
 /// UIROBOT UIM342 on CAN (SimpleCAN 3.0) or behind a UIM2513 / 2523 / 2533 gateway (UIMessage).

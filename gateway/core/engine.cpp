@@ -68,6 +68,7 @@ void Engine::drain(Side& side, Out& out, Instant now) {
         if (a && a->drive->serving == mine) host_.on_sample(s);
     }
     for (const auto& n : out.notices) {
+        if (is_probe(n.drive)) continue;  // the report of the scan says what there is to say
         const Axis* a = axis(n.axis);
         const Drive* d = a ? a->drive : drive(n.drive);
         if (d && d->serving != mine) continue;

@@ -70,6 +70,10 @@ public:
     void on_deadline(Instant now);
 
     [[nodiscard]] const Catalogue* catalogue(AxisId axis) const;
+    /// Looks for drives on a line. Empty: it has begun; else why not.
+    [[nodiscard]] std::string start_scan(LineId line, ScanWish wish, Instant now);
+    void cancel_scan(LineId line, Instant now);
+    [[nodiscard]] ScanReport scan_report(LineId line) const;
     [[nodiscard]] LineReport line_report(LineId line, Instant now) const;
     [[nodiscard]] DriveStatus drive_status(DriveId drive) const;
     /// Outlives the line for those who still read it.
@@ -91,6 +95,7 @@ private:
     struct Side;
     struct Client;
     struct OrderRecord;
+    struct Scan;
 
     // routing (engine.cpp)
     void drain(Side& side, Out& out, Instant now);
@@ -122,6 +127,12 @@ private:
     void housekeeping(Instant now);
     void save_twin_memory(Drive& drive);
     void drop_axis(Axis& axis, std::string_view why, Instant now);
+
+    // scans (engine_scan.cpp)
+    [[nodiscard]] static bool is_probe(DriveId id) noexcept;
+    void scan_turn(LineUnit& unit, Instant now);
+    void scan_link(Side& side, const DriveLink& link);
+    void end_scan(LineUnit& unit, ScanReport::State state, std::string why, Instant now);
 
     Axis* axis(AxisId id) const;
     Drive* drive(DriveId id) const;

@@ -17,6 +17,7 @@ struct Engine::Side final : LineEvents {
     std::string why = "not opened yet";
     std::unique_ptr<Adapter> adapter;
     std::unique_ptr<Line> line;
+    std::vector<DriveSetup> probes;  ///< addresses that a scan asks now
     TwinBus* bus = nullptr;  ///< `line` seen as what it is, on the twin's side
     AdapterCounters counters_shown;
     /// The earlier deadline of adapter and line, kept so that a turn of the engine need not ask all lines. Whoever calls one of the two
@@ -37,6 +38,23 @@ struct Engine::Side final : LineEvents {
     void on_sent(const Frame& frame) override;
 };
 
+/// One search for drives on a line; kept for its report until the next.
+struct Engine::Scan {
+    struct Asking {
+        DriveId id = no_drive;
+        std::string address;
+        Instant since{};
+        bool over = false, online = false;
+        std::string text;
+    };
+    std::vector<std::string> waiting;  ///< the next one at the back
+    std::vector<Asking> asking;
+    std::size_t at_once = 1;
+    std::uint32_t next_id = 0;
+    Instant ends_at{};
+    ScanReport report;
+};
+
 struct Engine::LineUnit {
     LineSpec spec;
     LineId id = no_line;
@@ -46,6 +64,7 @@ struct Engine::LineUnit {
     std::unique_ptr<Side> twins; ///< null while no drive is simulated
     std::shared_ptr<FrameLog> log;
     std::vector<DriveId> drives;
+    std::unique_ptr<Scan> scan;  ///< null: never scanned
     Duration stale_after{};
 };
 

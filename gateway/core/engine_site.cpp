@@ -49,6 +49,7 @@ LineSetup Engine::setup_for(const LineUnit& unit, const Side& side) const {
         for (const AxisId a : d.axes) ds.axes.push_back({a, axes_[index_of(a)]->spec.channel});
         s.drives.push_back(std::move(ds));
     }
+    s.drives.insert(s.drives.end(), side.probes.begin(), side.probes.end());
     return s;
 }
 
@@ -95,6 +96,9 @@ void Engine::drop_axis(Axis& a, std::string_view why, Instant now) {
 
 std::shared_ptr<const SiteState> Engine::apply_site(Site site, SiteMemory memory, std::uint64_t revision, Instant now) {
     now_ = std::max(now_, now);
+    for (const auto& unit : lines_) {
+        if (unit) end_scan(*unit, ScanReport::State::cancelled, "the site has changed: scan again", now);
+    }
     const Site& old = site_->site;
     const auto line_stays = [&](const LineSpec& l) {
         const LineSpec* n = site.line(l.name);
@@ -264,6 +268,7 @@ void Engine::line_state(Side& side, bool up, const std::string& why, Instant now
 }
 
 void Engine::link(Side& side, const DriveLink& l, Instant now) {
+    if (is_probe(l.drive)) return scan_link(side, l);
     Drive* d = drive(l.drive);
     if (!d) return;
     bool& online = side.twin ? d->twin_online : d->device_online;
@@ -488,6 +493,9 @@ void Engine::on_deadline(Instant now) {
 }
 
 void Engine::housekeeping(Instant now) {
+    for (const auto& unit : lines_) {
+        if (unit) scan_turn(*unit, now);
+    }
     for (const auto& slot : axes_) {
         if (!slot) continue;
         Axis& a = *slot;

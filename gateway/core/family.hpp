@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "gateway/core/adapter.hpp"
+#include "gateway/core/scan.hpp"
 #include "gateway/core/twin.hpp"
 
 namespace axisgate {
@@ -45,6 +46,8 @@ struct Family {
     bool uses_bytes;  ///< speaks on a byte line
     /// Bit rate of an embedded CAN bus whose site does not say; a real one is set outside.
     std::uint32_t default_can_bit_rate = 0;
+    /// Which addresses a search for drives asks; nullptr: drives of this family cannot be searched for.
+    ScanPlan (*scan)(const ScanWish&) = nullptr;
 };
 
 /// Every family that was found at configure time, in order of name. (Generated.)

@@ -16,6 +16,7 @@
 #include "gateway/core/image.hpp"
 #include "gateway/core/line.hpp"
 #include "gateway/core/sample.hpp"
+#include "gateway/core/scan.hpp"
 #include "gateway/core/site.hpp"
 #include "gateway/core/twin.hpp"
 
@@ -155,6 +156,10 @@ public:
     };
     /// Frames with sequence >= since, at most `limit`.
     [[nodiscard]] virtual Trace trace(LineId line, std::uint64_t since, std::size_t limit) const = 0;
+    /// Looks for drives on a line; empty: it has begun, else why not.
+    virtual void start_scan(LineId line, ScanWish wish, Origin origin, std::function<void(std::string)> then) = 0;
+    virtual void cancel_scan(LineId line, std::function<void(ScanReport)> then) = 0;
+    virtual void scan_report(LineId line, std::function<void(ScanReport)> then) = 0;
     /// The tester's hand of a twin; nothing if the drive is not simulated now.
     virtual void hand(DriveId drive, std::function<void(std::optional<std::vector<HandItem>>)> then) = 0;
     /// Sets several items, all or none; empty: good, else what is wrong.

@@ -1,6 +1,8 @@
-// Warm gateway, documents and events of doors: small named texts through the cold thread, events by the hot one's road.
+// Warm gateway, scans, documents and events of doors: questions to the hot thread, small named texts through the cold thread, events by the hot one's road.
 // In: calls on the warm thread. Out: what is stored; callbacks on the warm executor when it is on disk.
 // Never blocks but for a local read of the database.
+#include <fmt/format.h>
+
 #include <boost/asio/post.hpp>
 
 #include "gateway/runtime/warm_gateway.hpp"
@@ -14,6 +16,42 @@ void WarmGateway::note(Event event) {
     // Numbered and kept with all others: the hot thread hands events to the cold one.
     if (hot_.jobs().push([this, event = std::move(event)](Engine&, Instant now) mutable { hot_.on_event(std::move(event), now); }))
         hot_.jobs().announce();
+}
+
+void WarmGateway::start_scan(LineId line, ScanWish wish, Origin origin, std::function<void(std::string)> then) {
+    auto job = [this, line, wish = std::move(wish), origin = std::move(origin), then](Engine& engine, Instant now) mutable {
+        std::string fault = engine.start_scan(line, std::move(wish), now);
+        if (fault.empty()) {
+            Event e;
+            e.kind = "scan";
+            for (std::size_t i = 0; i < engine.site()->line_ids.size(); ++i) {
+                if (engine.site()->line_ids[i] == line) e.line = engine.site()->site.lines[i].name;
+            }
+            e.text = fmt::format("line {} is searched for drives", e.line);
+            e.who = origin.who ? *origin.who : "";
+            e.door = std::string(name_of(origin.door));
+            hot_.on_event(std::move(e), now);
+        }
+        boost::asio::post(io_, [then, fault = std::move(fault)]() mutable { then(std::move(fault)); });
+    };
+    if (!hot_.jobs().push(std::move(job))) {
+        boost::asio::post(io_, [then] { then("too much is asked at once; come again in a moment"); });
+        return;
+    }
+    hot_.jobs().announce();
+}
+
+void WarmGateway::scan_report(LineId line, std::function<void(ScanReport)> then) {
+    auto job = [this, line, then](Engine& engine, Instant) { boost::asio::post(io_, [then, r = engine.scan_report(line)]() mutable { then(std::move(r)); }); };
+    if (hot_.jobs().push(std::move(job))) hot_.jobs().announce();
+}
+
+void WarmGateway::cancel_scan(LineId line, std::function<void(ScanReport)> then) {
+    auto job = [this, line, then](Engine& engine, Instant now) {
+        engine.cancel_scan(line, now);
+        boost::asio::post(io_, [then, r = engine.scan_report(line)]() mutable { then(std::move(r)); });
+    };
+    if (hot_.jobs().push(std::move(job))) hot_.jobs().announce();
 }
 
 std::vector<Gateway::Document> WarmGateway::documents(const std::string& kind) const {

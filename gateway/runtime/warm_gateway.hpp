@@ -55,6 +55,9 @@ public:
     void listen(GatewayListener* listener) override { listeners_.push_back(listener); }
     void unlisten(GatewayListener* listener) override { std::erase(listeners_, listener); }
     void note(Event event) override;
+    void start_scan(LineId line, ScanWish wish, Origin origin, std::function<void(std::string)> then) override;
+    void cancel_scan(LineId line, std::function<void(ScanReport)> then) override;
+    void scan_report(LineId line, std::function<void(ScanReport)> then) override;
     [[nodiscard]] std::vector<Document> documents(const std::string& kind) const override;
     [[nodiscard]] std::optional<Document> document(const std::string& kind, const std::string& name) const override;
     void save_document(const std::string& kind, Document document, std::function<void(std::string)> then) override;

@@ -229,6 +229,8 @@ def test_every_write_answers_as_described(gateway):
         ("replaceMapping", {"mapping": "nobody"}, {"unit": 2, "address": 30, "axis": "feeder", "point": "AC"}, 404), ("removeMapping", {"mapping": "new"}, None, 204),
         ("addMappings", {}, "unit,address,axis,point\n3,0,feeder,position\n3,2,slide,position\n", 200), ("addMappings", {}, "unit,address,axis,point\n3,0,feeder,position\n", 422),
         ("replaceMappings", {}, "unit;address;axis;point\r\n3;0;feeder;velocity\r\n", 200),
+        ("startScan", {"line": "can0"}, {"from": 5, "to": 9, "limit_s": 30}, 202), ("startScan", {"line": "can0"}, {"from": 1}, 409), ("startScan", {"line": "can0"}, {"x": 1}, 422), ("startScan", {"line": "nobody"}, {}, 404),
+        ("cancelScan", {"line": "can0"}, None, 200),
         ("putRecipe", {"recipe": "warm-up"}, RECIPE, 201), ("putRecipe", {"recipe": "warm-up"}, RECIPE, 200), ("putRecipe", {"recipe": "warm-up"}, {"steps": [{"fly": 1}]}, 422),
         ("putRecipe", {"recipe": "a b"}, RECIPE, 422), ("runRecipe", {"recipe": "warm-up"}, {"dry_run": True}, 200), ("runRecipe", {"recipe": "warm-up"}, {"arguments": {"pause": 30}}, 202),
         ("runRecipe", {"recipe": "warm-up"}, {}, 409), ("removeRecipe", {"recipe": "warm-up"}, None, 409), ("runRecipe", {"recipe": "warm-up"}, {"arguments": {"x": 1}}, 422),

@@ -108,6 +108,10 @@ Handled set_hand(Call&);
 Handled get_trace(Call&);
 Handled list_events(Call&);
 
+// --- handlers_scan.cpp ------------------------------------------------------------------------------------------------
+Handled start_scan(Call&);
+Handled get_scan(Call&);
+Handled cancel_scan(Call&);
 // --- handlers_recipes.cpp ---------------------------------------------------------------------------------------------
 Handled list_recipes(Call&);
 Handled get_recipe(Call&);

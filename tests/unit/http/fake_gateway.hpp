@@ -266,6 +266,19 @@ public:
     }
     void listen(GatewayListener* l) override { listeners.insert(l); }
     void unlisten(GatewayListener* l) override { listeners.erase(l); }
+    void start_scan(LineId line, ScanWish wish, Origin, std::function<void(std::string)> then) override {
+        scan_wishes.push_back(std::move(wish));
+        if (scan_fault.empty()) scans[line].state = ScanReport::State::running;
+        then(scan_fault);
+    }
+    void cancel_scan(LineId line, std::function<void(ScanReport)> then) override {
+        if (scans[line].state == ScanReport::State::running) scans[line].state = ScanReport::State::cancelled;
+        then(scans[line]);
+    }
+    void scan_report(LineId line, std::function<void(ScanReport)> then) override { then(scans[line]); }
+    std::vector<ScanWish> scan_wishes;
+    std::map<LineId, ScanReport> scans;
+    std::string scan_fault;
     void note(Event e) override { noted.push_back(std::move(e)); }
     std::vector<Document> documents(const std::string& kind) const override {
         std::vector<Document> out;

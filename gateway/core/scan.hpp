@@ -1,0 +1,45 @@
+// Scan: looking for drives on a line: which addresses a family would ask, and what was found.
+// In: what the client wants searched. Out: addresses in order; a report that grows.
+// The asking itself is the adapter's own first exchange with a drive, at its lowest priority, within its own discipline: nothing is written
+// to any drive, and what is polled goes on.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gateway/core/instant.hpp"
+#include "gateway/core/setup.hpp"
+
+namespace axisgate {
+
+struct ScanWish {
+    LineKind kind = LineKind::bytes;
+    std::string from, to;            ///< first and last address, in the family's form; empty: all
+    std::vector<std::string> known;  ///< addresses of the site's drives on this line
+    Duration limit{};                ///< of the whole scan
+};
+
+/// What Family::scan answers.
+struct ScanPlan {
+    std::vector<std::string> addresses;  ///< to be asked, in this order; those of `known` are left out by the engine
+    std::size_t at_once = 1;             ///< asked at the same time, 1..16
+    std::string fault;                   ///< not empty: `from` or `to` is none of this family, and what would be right
+};
+
+struct ScanReport {
+    enum class State : std::uint8_t { none, running, done, failed, cancelled };
+    struct Found {
+        std::string address, family;
+        std::string text;      ///< what it said it is
+        std::string known_as;  ///< name of the site's drive at that address; empty: none yet
+    };
+    State state = State::none;
+    std::size_t asked = 0, of = 0;
+    std::vector<Found> found;  ///< in order of discovery; the site's own drives that answer come first
+    std::string text;          ///< why it failed or ended early
+};
+[[nodiscard]] std::string_view name_of(ScanReport::State state) noexcept;
+
+}  // namespace axisgate

@@ -1,0 +1,103 @@
+// Handlers of a line's scan: begin it, look at it, end it.
+// In: calls. Out: the report as the engine has it at that moment.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "gateway/doors/http/handlers.hpp"
+
+namespace axisgate::http {
+namespace json = boost::json;
+namespace {
+constexpr double default_limit_s = 120, most_limit_s = 600;
+
+json::object document(const ScanReport& r, std::string_view line) {
+    json::array found;
+    for (const auto& f : r.found)
+        found.push_back({{"address", f.address}, {"family", f.family}, {"text", f.text}, {"known_as", text_or_null(f.known_as)}});
+    const bool over = r.state != ScanReport::State::running;
+    const double progress = r.state == ScanReport::State::none ? 0
+                            : r.of == 0                        ? 1
+                                                               : static_cast<double>(r.asked) / static_cast<double>(r.of);
+    return {{"line", line},
+            {"state", name_of(r.state)},
+            {"progress", number(over && r.state == ScanReport::State::done ? 1 : progress)},
+            {"asked", r.asked},
+            {"of", r.of},
+            {"found", std::move(found)},
+            {"text", r.text}};
+}
+
+struct LinePlace {
+    std::string name;
+    LineId id = no_line;
+};
+std::optional<LinePlace> find_line(const Call& c) {
+    const auto site = c.gateway().site();
+    const auto i = index_of_name(site->site.lines, c.names[0]);
+    if (!i || *i >= site->line_ids.size()) return std::nullopt;
+    return LinePlace{c.names[0], site->line_ids[*i]};
+}
+Response no_answer() { return problem(504, "no_answer", "the gateway has not answered"); }
+
+/// An address as a client writes it: text or number.
+std::string address_in(const json::value& v, std::string_view key, std::vector<Fault>& faults) {
+    if (v.is_string() && v.get_string().size() <= 64) return std::string(v.get_string());
+    if (v.is_int64()) return std::to_string(v.get_int64());
+    faults.push_back(
+        {fmt::format("/{}", key), fmt::format("{} must be an address", key), "write it as a drive's address: a number or a text"});
+    return {};
+}
+}  // namespace
+
+Handled start_scan(Call& c) {
+    const auto line = find_line(c);
+    if (!line) return nothing_named("line", c.names[0]);
+    ScanWish wish;
+    std::vector<Fault> faults;
+    double limit_s = default_limit_s;
+    for (const auto& [k, v] : c.body.get_object()) {
+        if (k == "from") {
+            wish.from = address_in(v, k, faults);
+        } else if (k == "to") {
+            wish.to = address_in(v, k, faults);
+        } else if (k == "limit_s") {
+            limit_s = v.is_number() ? v.to_number<double>() : 0;
+            if (!(limit_s >= 1 && limit_s <= most_limit_s))
+                faults.push_back({"/limit_s", fmt::format("limit_s must be a number from 1 to {}", most_limit_s),
+                                  "write the seconds that the search may take"});
+        } else {
+            faults.push_back({"/" + std::string(k), fmt::format("{} is not known here", std::string_view(k)), "use from, to, limit_s"});
+        }
+    }
+    if (!faults.empty()) return invalid(std::move(faults));
+    wish.limit = Duration{static_cast<std::int64_t>(std::llround(limit_s * 1e9))};
+    c.gateway().start_scan(line->id, std::move(wish), c.origin(),
+                           [respond = c.respond, &gateway = c.gateway(), line = *line](const std::string& fault) {
+                               if (!fault.empty()) return respond(problem(409, "conflict", fault));
+                               gateway.scan_report(line.id, [respond, line](const ScanReport& r) {
+                                   Response answer = json_response(document(r, line.name), 202);
+                                   answer.headers.set("Location", fmt::format("/api/v1/lines/{}/scan", percent_encode(line.name)));
+                                   respond(std::move(answer));
+                               });
+                           });
+    return {gateway_limit, no_answer()};
+}
+
+Handled get_scan(Call& c) {
+    const auto line = find_line(c);
+    if (!line) return nothing_named("line", c.names[0]);
+    c.gateway().scan_report(line->id,
+                            [respond = c.respond, name = line->name](const ScanReport& r) { respond(json_response(document(r, name))); });
+    return {gateway_limit, no_answer()};
+}
+
+Handled cancel_scan(Call& c) {
+    const auto line = find_line(c);
+    if (!line) return nothing_named("line", c.names[0]);
+    c.gateway().cancel_scan(line->id,
+                            [respond = c.respond, name = line->name](const ScanReport& r) { respond(json_response(document(r, name))); });
+    return {gateway_limit, no_answer()};
+}
+
+}  // namespace axisgate::http

@@ -247,6 +247,28 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/lines/{line}/scan": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example can0 */
+                line: components["parameters"]["line"];
+            };
+            cookie?: never;
+        };
+        /** The last search for drives on the line, also while it goes on */
+        get: operations["getScan"];
+        put?: never;
+        /** Looks for drives at addresses that the site has not given to one; polls go on, nothing is written to any drive */
+        post: operations["startScan"];
+        /** Ends the search; what was found stays in the report */
+        delete: operations["cancelScan"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/drives": {
         parameters: {
             query?: never;
@@ -588,6 +610,154 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/recipes": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The stored recipes, in order of name */
+        get: operations["listRecipes"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/recipes/{recipe}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /**
+                 * @description 1 to 64 letters, digits, - _ .
+                 * @example warm-up
+                 */
+                recipe: components["parameters"]["recipe"];
+            };
+            cookie?: never;
+        };
+        /** One recipe as it was put */
+        get: operations["getRecipe"];
+        /** Makes or replaces a recipe; all faults of it at once, with pointers */
+        put: operations["putRecipe"];
+        post?: never;
+        /** Removes a recipe and the reports of its runs; 409 while it runs */
+        delete: operations["removeRecipe"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/recipes/{recipe}/run": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /**
+                 * @description 1 to 64 letters, digits, - _ .
+                 * @example warm-up
+                 */
+                recipe: components["parameters"]["recipe"];
+            };
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Starts a run; first everything is checked against the site
+         * @description At most 4 recipes run at once, each once, and no axis is commanded by two. The live feed's topic `recipes` carries the report whenever
+         *     it changes. A run that fails or is cancelled stops the axes that it has set in motion (`on_failure`).
+         */
+        post: operations["runRecipe"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/recipes/{recipe}/runs": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /**
+                 * @description 1 to 64 letters, digits, - _ .
+                 * @example warm-up
+                 */
+                recipe: components["parameters"]["recipe"];
+            };
+            cookie?: never;
+        };
+        /** Reports of the last 20 runs, newest first, without their steps */
+        get: operations["listRecipeRuns"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/recipes/{recipe}/runs/{run}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /**
+                 * @description 1 to 64 letters, digits, - _ .
+                 * @example warm-up
+                 */
+                recipe: components["parameters"]["recipe"];
+                /**
+                 * @description number of the run; counts up per recipe
+                 * @example 1
+                 */
+                run: components["parameters"]["run"];
+            };
+            cookie?: never;
+        };
+        /** Report of one run, also while it goes on */
+        get: operations["getRecipeRun"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/recipes/{recipe}/runs/{run}/cancel": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /**
+                 * @description 1 to 64 letters, digits, - _ .
+                 * @example warm-up
+                 */
+                recipe: components["parameters"]["recipe"];
+                /**
+                 * @description number of the run; counts up per recipe
+                 * @example 1
+                 */
+                run: components["parameters"]["run"];
+            };
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Ends a run; axes that it has set in motion are stopped */
+        post: operations["cancelRecipeRun"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/events": {
         parameters: {
             query?: never;
@@ -626,6 +796,7 @@ export interface paths {
          *     | `lines/NAME`, `lines/*` | `Line` | the same way, looked at every 250 ms at most |
          *     | `lines/NAME/frames` | `StreamFrames` | frames that crossed the line since, in one list per period |
          *     | `events` | `Event` | each event, as it happens |
+         *     | `recipes` | `RecipeReport` | of runs in progress at once, then of every run when it changed, at most every 100 ms, and at its end |
          *     | `site` | `{"revision": N}` | at once, then with each change of the site |
          *     | `error` | `StreamError` | the answer to a request that is wrong |
          *
@@ -1290,6 +1461,280 @@ export interface components {
             length?: number;
             comment?: string;
         };
+        ScanReport: {
+            line: string;
+            /**
+             * @description none: this line was never searched
+             * @enum {string}
+             */
+            state: "none" | "running" | "done" | "failed" | "cancelled";
+            progress: number;
+            asked: number;
+            /** @description addresses to ask */
+            of: number;
+            found: {
+                address: string;
+                family: string;
+                /** @description what it said it is */
+                text: string;
+                /** @description the drive of the site at that address */
+                known_as: string | null;
+            }[];
+            /** @description why it failed or ended early */
+            text: string;
+        };
+        RecipeParameter: {
+            /** @enum {string} */
+            type: "number" | "integer" | "boolean" | "text" | "axis";
+            /** @description value if the run gives none; without it the argument is needed */
+            default?: unknown;
+            min?: number;
+            max?: number;
+            unit?: string;
+            description?: string;
+        };
+        /** @description exactly one of `point` and `parameter`, and exactly one comparison */
+        RecipeCondition: {
+            axis: string;
+            /** @description a member of the axis document: state, position, moving, referenced, fault, error_code, ... */
+            point?: string;
+            /** @description a parameter of the catalogue; it is read from the drive */
+            parameter?: string;
+            /** @description a number, a text, true or false */
+            is?: unknown;
+            /** @description a number, a text, true or false */
+            is_not?: unknown;
+            at_least?: number;
+            at_most?: number;
+            above?: number;
+            below?: number;
+            /** @description for is and is_not with numbers */
+            tolerance?: number;
+        };
+        /**
+         * @description One member says what is done; `comment` may stand beside it. Any value may be "${name}" of a parameter. `wait_s` of a command: the step
+         *     ends when the drive is done, and fails after so many seconds; 0 or none: it ends when the drive has acknowledged. `if` holds `condition`,
+         *     `then` and `else`; `repeat` holds `times`, `steps` and perhaps `until`, asked after each round. schema/recipe.schema.json has it exactly.
+         */
+        RecipeStep: {
+            comment?: string;
+            /**
+             * @description axis, parameter, value
+             * @example {
+             *       "axis": "feeder",
+             *       "parameter": "AC",
+             *       "value": 20000
+             *     }
+             */
+            set_parameter?: Record<string, never>;
+            /**
+             * @description axis, parameter; the value stands in the report
+             * @example {
+             *       "axis": "feeder",
+             *       "parameter": "AC"
+             *     }
+             */
+            read_parameter?: Record<string, never>;
+            /**
+             * @description axis, wait_s (10)
+             * @example {
+             *       "axis": "feeder"
+             *     }
+             */
+            enable?: Record<string, never>;
+            /**
+             * @description axis, wait_s (10)
+             * @example {
+             *       "axis": "feeder"
+             *     }
+             */
+            disable?: Record<string, never>;
+            /**
+             * @description axis, method, wait_s (120)
+             * @example {
+             *       "axis": "feeder"
+             *     }
+             */
+            home?: Record<string, never>;
+            /**
+             * @description axis, wait_s, and what POST /axes/{axis}/commands takes
+             * @example {
+             *       "axis": "feeder",
+             *       "command": "halt"
+             *     }
+             */
+            command?: Record<string, never>;
+            /**
+             * @description axis, name, argument, wait_s
+             * @example {
+             *       "axis": "feeder",
+             *       "name": "clear"
+             *     }
+             */
+            action?: Record<string, never>;
+            /**
+             * @description unit, address, value, type: a set-point of the standard map or an own mapping, by the same checks as a Modbus write
+             * @example {
+             *       "unit": 1,
+             *       "address": 36,
+             *       "type": "u32",
+             *       "value": 64000
+             *     }
+             */
+            write_register?: Record<string, never>;
+            /**
+             * @description a condition and timeout_s (30)
+             * @example {
+             *       "axis": "feeder",
+             *       "point": "moving",
+             *       "is": false
+             *     }
+             */
+            wait_for?: Record<string, never>;
+            /**
+             * @description a condition and text; the run fails if it does not hold
+             * @example {
+             *       "axis": "feeder",
+             *       "point": "fault",
+             *       "is": false
+             *     }
+             */
+            check?: Record<string, never>;
+            /**
+             * @description seconds
+             * @example 0.5
+             */
+            wait_s?: unknown;
+            /**
+             * @description condition, then, else
+             * @example {
+             *       "condition": {
+             *         "axis": "feeder",
+             *         "point": "referenced",
+             *         "is": false
+             *       },
+             *       "then": [
+             *         {
+             *           "home": {
+             *             "axis": "feeder"
+             *           }
+             *         }
+             *       ]
+             *     }
+             */
+            if?: Record<string, never>;
+            /**
+             * @description times (1 to 10000), until, steps
+             * @example {
+             *       "times": 2,
+             *       "steps": [
+             *         {
+             *           "wait_s": 0.1
+             *         }
+             *       ]
+             *     }
+             */
+            repeat?: Record<string, never>;
+            /** @description an event and a line of the report */
+            message?: string;
+        };
+        /** @description at most 500 steps, 8 deep, 64 parameters, 256 KiB */
+        RecipeDocument: {
+            name?: string;
+            description?: string;
+            parameters?: {
+                [key: string]: components["schemas"]["RecipeParameter"];
+            };
+            /** @description for the whole run; 3600 if it is not given */
+            timeout_s?: number;
+            /**
+             * @description how axes are stopped that the run has set in motion
+             * @enum {string}
+             */
+            on_failure?: "halt" | "quick_stop";
+            steps: components["schemas"]["RecipeStep"][];
+        };
+        Recipe: components["schemas"]["RecipeDocument"] & {
+            name: string;
+            /** Format: date-time */
+            changed_at: string;
+            changed_by: string | null;
+        };
+        RecipeEntry: {
+            name: string;
+            description: string;
+            parameters: {
+                [key: string]: components["schemas"]["RecipeParameter"];
+            };
+            /** @description how many */
+            steps: number;
+            /** Format: date-time */
+            changed_at: string;
+            changed_by: string | null;
+            /** @description number of the run in progress */
+            running: number | null;
+        };
+        RecipeCheck: {
+            dry_run: boolean;
+            steps: number;
+            /** @description with the defaults */
+            arguments?: Record<string, never>;
+            /** @description those that it commands */
+            axes?: string[];
+        };
+        RecipeReportHead: {
+            recipe: string;
+            n: number;
+            /** @enum {string} */
+            state: "running" | "stopping" | "done" | "failed" | "cancelled";
+            /** Format: date-time */
+            started_at: string;
+            /** Format: date-time */
+            ended_at: string | null;
+            started_by: string;
+            arguments: Record<string, never>;
+            axes: string[];
+            /** @description pointer of the step that is carried out, or at which the run ended early */
+            at_step: string | null;
+            /** @description steps that were begun */
+            begun: number;
+            /** @description all steps */
+            of: number;
+            /** @description why it ended early */
+            text: string;
+            /** @description axes that were stopped because the run did not come to its end */
+            stops: {
+                axis: string;
+                stopped: boolean;
+                text: string;
+            }[];
+        };
+        RecipeReport: components["schemas"]["RecipeReportHead"] & {
+            /** @description all steps in the order of the document, nested ones after the one that holds them */
+            steps: components["schemas"]["RecipeReportStep"][];
+        };
+        RecipeReportStep: {
+            /** @example /steps/1/repeat/steps/0 */
+            pointer: string;
+            /** @example command */
+            step: string;
+            axis: string | null;
+            /** @enum {string} */
+            state: "not_run" | "running" | "done" | "failed" | "cancelled";
+            /** @description how often it was begun */
+            times: number;
+            /**
+             * Format: date-time
+             * @description the last time
+             */
+            started_at: string | null;
+            /** Format: date-time */
+            ended_at: string | null;
+            text: string;
+            /** @description what was read or looked at last */
+            value: unknown;
+            comment?: string;
+        };
         MappingImport: {
             dry_run: boolean;
             /** @description rows of the table */
@@ -1593,6 +2038,16 @@ export interface components {
          * @example AC
          */
         parameter: string;
+        /**
+         * @description 1 to 64 letters, digits, - _ .
+         * @example warm-up
+         */
+        recipe: string;
+        /**
+         * @description number of the run; counts up per recipe
+         * @example 1
+         */
+        run: number;
         /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
         ifMatch: string;
         /** @description 1 removes also what hangs on it (drives of a line, axes of a drive, mappings of an axis) */
@@ -2143,6 +2598,111 @@ export interface operations {
             400: components["responses"]["BadRequest"];
             404: components["responses"]["NotFound"];
             406: components["responses"]["NotAcceptable"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getScan: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example can0 */
+                line: components["parameters"]["line"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the report */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ScanReport"];
+                };
+            };
+            404: components["responses"]["NotFound"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    startScan: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example can0 */
+                line: components["parameters"]["line"];
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "from": 5,
+                 *       "to": 20
+                 *     }
+                 */
+                "application/json": {
+                    /**
+                     * @description first address, in the form of the family; all if it is not given
+                     * @example 5
+                     */
+                    from?: string | number;
+                    /**
+                     * @description last address
+                     * @example 20
+                     */
+                    to?: string | number;
+                    /** @default 120 */
+                    limit_s?: number;
+                };
+            };
+        };
+        responses: {
+            /** @description it has begun */
+            202: {
+                headers: {
+                    Location?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ScanReport"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    cancelScan: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example can0 */
+                line: components["parameters"]["line"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the report */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ScanReport"];
+                };
+            };
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
             default: components["responses"]["Problem"];
         };
     };
@@ -3388,6 +3948,349 @@ export interface operations {
                     "application/json": components["schemas"]["MappingPoint"][];
                 };
             };
+            default: components["responses"]["Problem"];
+        };
+    };
+    listRecipes: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the recipes, without their steps */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RecipeEntry"][];
+                };
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    getRecipe: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /**
+                 * @description 1 to 64 letters, digits, - _ .
+                 * @example warm-up
+                 */
+                recipe: components["parameters"]["recipe"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the recipe */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Recipe"];
+                };
+            };
+            404: components["responses"]["NotFound"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    putRecipe: {
+        parameters: {
+            query?: {
+                /** @description 1 checks the document and keeps nothing */
+                dry_run?: components["schemas"]["Flag"];
+            };
+            header?: never;
+            path: {
+                /**
+                 * @description 1 to 64 letters, digits, - _ .
+                 * @example warm-up
+                 */
+                recipe: components["parameters"]["recipe"];
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "description": "to the middle and back",
+                 *       "parameters": {
+                 *         "distance": {
+                 *           "type": "number",
+                 *           "default": 10,
+                 *           "min": 0,
+                 *           "max": 100,
+                 *           "unit": "mm"
+                 *         }
+                 *       },
+                 *       "on_failure": "halt",
+                 *       "steps": [
+                 *         {
+                 *           "enable": {
+                 *             "axis": "feeder"
+                 *           }
+                 *         },
+                 *         {
+                 *           "repeat": {
+                 *             "times": 3,
+                 *             "steps": [
+                 *               {
+                 *                 "command": {
+                 *                   "axis": "feeder",
+                 *                   "command": "move_relative",
+                 *                   "position": "${distance}",
+                 *                   "velocity": 20,
+                 *                   "wait_s": 30
+                 *                 }
+                 *               },
+                 *               {
+                 *                 "wait_s": 0.5
+                 *               }
+                 *             ]
+                 *           }
+                 *         },
+                 *         {
+                 *           "wait_for": {
+                 *             "axis": "feeder",
+                 *             "point": "moving",
+                 *             "is": false,
+                 *             "timeout_s": 5
+                 *           }
+                 *         },
+                 *         {
+                 *           "check": {
+                 *             "axis": "feeder",
+                 *             "point": "fault",
+                 *             "is": false
+                 *           }
+                 *         },
+                 *         {
+                 *           "disable": {
+                 *             "axis": "feeder"
+                 *           }
+                 *         }
+                 *       ]
+                 *     }
+                 */
+                "application/json": components["schemas"]["RecipeDocument"];
+            };
+        };
+        responses: {
+            /** @description replaced; with `dry_run` what was found */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Recipe"] | components["schemas"]["RecipeCheck"];
+                };
+            };
+            /** @description made */
+            201: {
+                headers: {
+                    Location?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Recipe"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            409: components["responses"]["Conflict"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    removeRecipe: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /**
+                 * @description 1 to 64 letters, digits, - _ .
+                 * @example warm-up
+                 */
+                recipe: components["parameters"]["recipe"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description removed */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    runRecipe: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /**
+                 * @description 1 to 64 letters, digits, - _ .
+                 * @example warm-up
+                 */
+                recipe: components["parameters"]["recipe"];
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "arguments": {
+                 *         "distance": 25
+                 *       }
+                 *     }
+                 */
+                "application/json": {
+                    /** @description values by parameter name */
+                    arguments?: Record<string, never>;
+                    /** @description check alone */
+                    dry_run?: boolean;
+                };
+            };
+        };
+        responses: {
+            /** @description the answer to `dry_run`; nothing was started */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RecipeCheck"];
+                };
+            };
+            /** @description started */
+            202: {
+                headers: {
+                    Location?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RecipeReport"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    listRecipeRuns: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /**
+                 * @description 1 to 64 letters, digits, - _ .
+                 * @example warm-up
+                 */
+                recipe: components["parameters"]["recipe"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the reports */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RecipeReportHead"][];
+                };
+            };
+            404: components["responses"]["NotFound"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getRecipeRun: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /**
+                 * @description 1 to 64 letters, digits, - _ .
+                 * @example warm-up
+                 */
+                recipe: components["parameters"]["recipe"];
+                /**
+                 * @description number of the run; counts up per recipe
+                 * @example 1
+                 */
+                run: components["parameters"]["run"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the report */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RecipeReport"];
+                };
+            };
+            404: components["responses"]["NotFound"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    cancelRecipeRun: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /**
+                 * @description 1 to 64 letters, digits, - _ .
+                 * @example warm-up
+                 */
+                recipe: components["parameters"]["recipe"];
+                /**
+                 * @description number of the run; counts up per recipe
+                 * @example 1
+                 */
+                run: components["parameters"]["run"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description it is being ended; the report says when it has */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RecipeReport"];
+                };
+            };
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
             default: components["responses"]["Problem"];
         };
     };

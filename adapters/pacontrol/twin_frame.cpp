@@ -101,7 +101,7 @@ std::optional<Heard> FrameReader::feed(std::uint8_t byte, Instant at) {
 
 Heard FrameReader::finish() const {
     if (disorder_) return fault(quit_sequence);
-    const auto check = check_.size() <= 3 ? decimal(check_) : std::nullopt;
+    const auto check = check_.size() <= 3 && !check_.starts_with('-') ? decimal(check_) : std::nullopt;
     const std::uint8_t right = xor_of(text_);
     // 0 switches the check off [L1047].
     if (!check || (*check != 0 && *check != right && !(lenient_ && *check == (right ^ 3)))) return fault(quit_check);

@@ -80,7 +80,8 @@ def broken():
             (("lines", 1, "uri"), "can:interface_0123456"), (("lines", 1, "uri"), "can:.."), (("lines", 1, "uri"), "twin:x"), (("lines", 1, "uri"), "tcp:host"),
             (("lines", 1, "uri"), "tcp:::1:80"), (("lines", 1, "uri"), "tcp:[::1]"), (("lines", 1, "uri"), "tcp:h:80?x=1"), (("lines", 2, "uri"), "serial:ttyS1"),
             (("lines", 2, "uri"), "serial:/dev/ttyS1?speed=9600"), (("lines", 2, "uri"), "serial:/dev/ttyS1?format=9N1"), (("lines", 2, "uri"), "serial:/dev/ttyS1?"),
-            (("lines", 2, "uri"), "pty:"), (("lines", 2, "uri"), "pty:/tmp/"), (("lines", 2, "uri"), 5), (("lines", 0, "family"), ""), (("lines", 0, "family"), 1),
+            (("lines", 2, "uri"), "pty:"), (("lines", 2, "uri"), "pty:/tmp/"), (("lines", 2, "uri"), "pty:/tmp/x?mode=raw"), (("lines", 2, "uri"), "pty:/tmp/x?format=7N1"),
+            (("lines", 2, "uri"), "pty:/tmp/x?baud=fast"), (("lines", 2, "uri"), 5), (("lines", 0, "family"), ""), (("lines", 0, "family"), 1),
             (("lines", 0, "bitrate"), -1), (("lines", 0, "bitrate"), 1.5), (("lines", 0, "bitrate"), "1000000"), (("lines", 0, "bitrate"), 100000001),
             (("lines", 0, "options"), []), (("lines", 0, "options", "x"), None), (("lines", 0, "options", "x"), {}), (("lines", 0, "manners"), []),
             (("lines", 0, "manners", "patience_ms"), 1), (("lines", 0, "manners", "reply_timeout_ms"), 60001), (("lines", 0, "manners", "retries"), -2),
@@ -172,7 +173,7 @@ def test_broken_documents_are_refused_by_both(gateway, folder):
 def test_schema_and_gateway_agree_on_changed_documents(gateway):
     dice = random.Random(342)
     odd = [None, True, False, 0, 1, -1, 5, 6, 1.5, 1e300, 2**31, 2**53, 65, 1024, 1025, "", "a", "5", "feeder", "can0", "twin", "auto", "device", "uim342", "x" * 70, "ä", "a b",
-           [], [1], {}, {"a": 1}, "tcp:h:1", "serial:/dev/ttyS9", "can:can9", "can:a b", "pty:x"]
+           [], [1], {}, {"a": 1}, "tcp:h:1", "serial:/dev/ttyS9", "can:can9", "can:a b", "pty:x", "pty:x?baud=9600&format=7N1", "pty:x?baud=1"]
     agreed = {True: 0, False: 0}
     seen_relations = 0
     for turn in range(600):

@@ -17,6 +17,14 @@ std::string tail(const Bytes& b, std::size_t n) {
         s += fmt::format("{:02X}", b[i]);
     return s;
 }
+/// With exactly this check, even none.
+Bytes frame_of(std::string_view text, std::string_view check) {
+    Bytes b = frame(text, "0");
+    b.resize(b.size() - 2);
+    b.insert(b.end(), check.begin(), check.end());
+    b.push_back(4);
+    return b;
+}
 std::string last_field(const std::string& text) { return text.substr(text.rfind(';') + 1); }
 /// The different statuses that the polls of the next `d` tell, one poll a millisecond.
 std::vector<int> statuses(Bench& b, Duration d) {
@@ -52,6 +60,8 @@ TEST(TwinTraps, T01_TheCheckOfAReplyHasTheEtxInItThatOfARequestNot) {
 TEST(TwinTraps, T02_ZeroSwitchesTheCheckOffAndThereIsNoPaddingAndNoHex) {
     Bench b;
     EXPECT_EQ(Bench::fields(b.one(b.bytes(frame("1900;5;0;0", "0")), "0")).quit, 0);
+    for (const char* bad : {"", "-0", "+0", "0x0", "0000", " 0"})
+        EXPECT_EQ(Bench::fields(b.one(b.bytes(frame_of("1900;5;0;0", bad)), bad)).quit, 16) << bad;
     EXPECT_EQ(Bench::fields(b.one(b.bytes(frame("1906;7;0;0", "2")), "right")).quit, 0);
     EXPECT_EQ(b.ask("0906;1;0;2"), "0;1;1;0;0;2");
     EXPECT_EQ(tail(b.raw.back(), 4), "03353804") << "58";

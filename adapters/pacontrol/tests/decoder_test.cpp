@@ -38,6 +38,39 @@ TEST(PacontrolDecoder, ChecksAreVerifiedAndSaid) {
     EXPECT_NE(decode(d, bad, true).at(0).find("check 7 wrong, 6 would be right"), std::string::npos);
 }
 
+TEST(PacontrolDecoder, FramesThatTheManualPrintsWronglyAreReadAndNamed) {
+    struct Row {
+        const char* line;
+        const char* text;
+        const char* check;
+        bool to_drive;
+        const char* named;
+    };
+    const Row rows[] = {
+        {"L1220", "0906;5;0;12345", "7", true, "check 7 wrong, 0 would be right"},
+        {"L1295", "1960;2;0;0", "6", true, "unknown command"},
+        {"L1355", "1971;3;0;0", "6", true, "unknown command"},
+        {"L1402", "0A03;0;0;0", "14", true, "unknown command"},
+        {"L1410", "0;1;31;0;0;0", "8", false, "check 8 as for the other direction, 11 would be right"},
+        {"L1436", "0A87;2;1;5552.0", "14", true, "check 14 wrong, 95 would be right"},
+    };
+    for (const Row& r : rows) {
+        SCOPED_TRACE(r.line);
+        LineDecoder d;
+        std::vector<std::uint8_t> bytes{SOH, STX};
+        for (const char* c = r.text; *c; ++c)
+            bytes.push_back(static_cast<std::uint8_t>(*c));
+        bytes.push_back(ETX);
+        for (const char* c = r.check; *c; ++c)
+            bytes.push_back(static_cast<std::uint8_t>(*c));
+        bytes.push_back(EOT);
+        const auto lines = decode(d, bytes, r.to_drive);
+        ASSERT_EQ(lines.size(), 1u);
+        EXPECT_NE(lines[0].find(r.text), std::string::npos) << lines[0];
+        EXPECT_NE(lines[0].find(r.named), std::string::npos) << lines[0];
+    }
+}
+
 TEST(PacontrolDecoder, UnknownDirectionIsInferredAndSaid) {
     LineDecoder d;
     EXPECT_NE(decode(d, framed("0906;5;0;12345", CheckForm::text)).at(0).find("cmd_put_int_reg 5 = 12345 (direction not known)"),

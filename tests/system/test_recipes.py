@@ -51,9 +51,11 @@ def test_a_recipe_moves_an_axis_and_reports_each_step(folder):
         assert step(r, "/steps/6")["value"] == 400 * 3200, step(r, "/steps/6")
         assert step(r, "/steps/5")["comment"] == "the end"
         assert abs(g.axis()["position"] - 10) < 0.02 and g.axis()["state"] != "operation_enabled"
-        texts = [e["text"] for e in g.get("/events?limit=200") if e["kind"] == "recipe"]
+        def recipe_texts():
+            return [e["text"] for e in g.get("/events?limit=200") if e["kind"] == "recipe"]
+        until(lambda: "recipe there-and-back run 1 done" in recipe_texts(), 5, "the event of the end")
+        texts = recipe_texts()
         assert any(t.startswith("recipe there-and-back run 1 started with distance = 5") for t in texts) and "moving feeder by 5" in texts, texts
-        assert any(t == "recipe there-and-back run 1 done" for t in texts), texts
         writes = [e for e in g.get("/events?limit=200") if e["kind"] == "write"]
         assert writes and "recipe there-and-back by" in writes[-1]["who"], writes
     with harness.Gateway(folder, None) as g:
@@ -62,8 +64,9 @@ def test_a_recipe_moves_an_axis_and_reports_each_step(folder):
         g.send("POST", "/recipes/there-and-back/run", {"arguments": {"distance": 0}}, 202)
         r = ended(g, "there-and-back", 2)
         assert [x["n"] for x in g.get("/recipes/there-and-back/runs")] == [2, 1]
-        g.request("DELETE", "/api/v1/recipes/there-and-back")
-        g.get("/recipes/there-and-back/runs/1", 404)
+        assert g.request("DELETE", "/api/v1/recipes/there-and-back")[0] == 204
+        for n in (1, 2):
+            until(lambda: g.request("GET", f"/api/v1/recipes/there-and-back/runs/{n}")[0] == 404, 5, f"report {n} goes with its recipe")
 
 
 def test_a_cancelled_run_halts_what_it_has_set_in_motion(gateway):

@@ -2,6 +2,8 @@
 
 In: the real program, a drive model of its own on a TCP port. Out: judgements on reports, the trace and the axis that goes on meanwhile.
 """
+import socket
+
 import harness
 from harness import until
 
@@ -11,13 +13,11 @@ def scanned(g, line, body, seconds=40):
     return until(lambda: (r := g.get(f"/lines/{line}/scan"))["state"] != "running" and r, seconds, "the end of the scan")
 
 
-def twin(family, port, *more):
-    return harness.Process("twin", family, "--line", f"tcp-listen:127.0.0.1:{port}", *more)
-
-
 def test_an_unknown_drive_is_found_on_its_line(folder):
-    with twin("uim342", 0, "--address", "9") as t:
-        address = t.ready.split("tcp-listen:")[1].split()[0].rstrip(";") if "tcp-listen:" in t.ready else t.word("line")
+    with socket.socket() as s:
+        s.bind(("127.0.0.1", 0))
+        address = f"127.0.0.1:{s.getsockname()[1]}"
+    with harness.Process("twin", "uim342", "--line", f"tcp-listen:{address}", "--address", "9"):
         site = {"lines": [{"name": "bus", "uri": f"tcp:{address}", "family": "uim342"}], "drives": [], "axes": [], "mappings": []}
         with harness.Gateway(folder, site) as g:
             until(lambda: g.get("/lines/bus")["status"]["state"] == "up", 10, "the line")
@@ -46,8 +46,6 @@ def test_an_axis_goes_on_while_its_line_is_searched(gateway):
     assert r["state"] == "done" and r["of"] == 120 and {f["known_as"] for f in r["found"]} == {"feeder", "slide"}, r
     assert max(ages) < 1000 and gateway.axis()["moving"], max(ages)
     assert any(e["kind"] == "scan" and e["line"] == "can0" for e in gateway.get("/events?limit=50"))
-
-
 
 
 def test_a_scan_is_cancelled_and_ends_when_the_site_changes(gateway):

@@ -154,9 +154,16 @@ std::vector<json::object> RecipeDesk::reports(const std::string& name) const {
 }
 
 void RecipeDesk::forget(const std::string& name) {
-    std::erase_if(unsaved_, [&](const auto& u) { return u.first.first == name; });
+    const auto remove = [this](const std::string& report) {
+        gateway_.delete_document(std::string(report_kind), report, [](const std::string&) {});
+    };
+    std::erase_if(unsaved_, [&](const auto& u) {
+        if (u.first.first != name) return false;
+        remove(report_name(name, u.first.second));  // it is on its way to the disk: what comes after it takes it away again
+        return true;
+    });
     for (const auto& d : gateway_.documents(std::string(report_kind))) {
-        if (number_in(d.name, name) != 0) gateway_.delete_document(std::string(report_kind), d.name, [](const std::string&) {});
+        if (number_in(d.name, name) != 0) remove(d.name);
     }
 }
 

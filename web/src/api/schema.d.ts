@@ -1582,24 +1582,14 @@ export interface components {
              *     }
              */
             write_register?: Record<string, never>;
-            /**
-             * @description a condition and timeout_s (30)
-             * @example {
-             *       "axis": "feeder",
-             *       "point": "moving",
-             *       "is": false
-             *     }
-             */
-            wait_for?: Record<string, never>;
-            /**
-             * @description a condition and text; the run fails if it does not hold
-             * @example {
-             *       "axis": "feeder",
-             *       "point": "fault",
-             *       "is": false
-             *     }
-             */
-            check?: Record<string, never>;
+            /** @description ends when the condition holds; the run fails if it does not within timeout_s (30) */
+            wait_for?: components["schemas"]["RecipeCondition"] & {
+                timeout_s?: number;
+            };
+            /** @description the run fails if the condition does not hold now; `text` is said then */
+            check?: components["schemas"]["RecipeCondition"] & {
+                text?: string;
+            };
             /**
              * @description seconds
              * @example 0.5
@@ -1731,7 +1721,7 @@ export interface components {
             /** Format: date-time */
             ended_at: string | null;
             text: string;
-            /** @description what was read or looked at last */
+            /** @description what was read or looked at last; null: nothing */
             value: unknown;
             comment?: string;
         };

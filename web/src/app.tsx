@@ -7,15 +7,25 @@ import { EventsPage } from './pages/events';
 import { GatewayPage } from './pages/gateway';
 import { LinePage, LinesPage } from './pages/lines';
 import { MappingsPage } from './pages/mappings';
+import { RecipePage, RecipesPage } from './pages/recipes';
 import { Overview } from './pages/overview';
 import { ParametersPage } from './pages/parameters';
 import { SitePage } from './pages/site';
 
-const titles = { overview: 'Axes', lines: 'Lines and drives', events: 'Events', gateway: 'Gateway', mappings: 'Mappings', site: 'Site', unknown: 'No such page' };
+const titles = {
+  overview: 'Axes',
+  lines: 'Lines and drives',
+  mappings: 'Mappings',
+  recipes: 'Recipes',
+  site: 'Site',
+  events: 'Events',
+  gateway: 'Gateway',
+  unknown: 'No such page',
+};
 
 export function App() {
   const r = route.value;
-  const title = r.page === 'parameters' ? `Parameters of ${r.name}` : r.page === 'axis' || r.page === 'line' ? r.name : titles[r.page];
+  const title = r.page === 'parameters' ? `Parameters of ${r.name}` : r.page === 'axis' || r.page === 'line' || r.page === 'recipe' ? r.name : titles[r.page];
   useEffect(() => {
     document.title = `${title} · axisgate`;
   }, [title]);
@@ -43,6 +53,8 @@ function Page() {
     case 'axis': return <AxisPage key={r.name} name={r.name} />;
     case 'lines': return <LinesPage />;
     case 'line': return <LinePage key={r.name} name={r.name} />;
+    case 'recipes': return <RecipesPage />;
+    case 'recipe': return <RecipePage key={r.name} name={r.name} />;
     case 'events': return <EventsPage />;
     case 'gateway': return <GatewayPage />;
     case 'mappings': return <MappingsPage />;

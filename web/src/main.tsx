@@ -17,6 +17,7 @@ import './styles/form.css';
 import './styles/mappings.css';
 import './styles/parameters.css';
 import './styles/site.css';
+import './styles/recipes.css';
 
 applyTheme();
 startClock();

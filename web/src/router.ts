@@ -7,12 +7,18 @@ export type Route =
   | { page: 'axis'; name: string }
   | { page: 'lines' }
   | { page: 'line'; name: string }
+  | { page: 'recipes' }
+  | { page: 'recipe'; name: string }
   | { page: 'events' }
   | { page: 'gateway' }
   | { page: 'mappings' }
   | { page: 'parameters'; name: string }
   | { page: 'site' }
   | { page: 'unknown'; path: string };
+
+/** Pages without a name. */
+const plain = ['lines', 'mappings', 'recipes', 'site', 'events', 'gateway'] as const;
+const isPlain = (s: string): s is (typeof plain)[number] => (plain as readonly string[]).includes(s);
 
 export function routeOf(path: string): Route {
   const parts = path.split('/').filter(Boolean).map(decode);
@@ -21,10 +27,10 @@ export function routeOf(path: string): Route {
   if (rest.length === 0 && second !== undefined) {
     if (first === 'axes') return { page: 'axis', name: second };
     if (first === 'lines') return { page: 'line', name: second };
+    if (first === 'recipes') return { page: 'recipe', name: second };
   }
   if (first === 'axes' && second !== undefined && rest.length === 1 && rest[0] === 'parameters') return { page: 'parameters', name: second };
-  if (second === undefined && (first === 'mappings' || first === 'site')) return { page: first };
-  if (second === undefined && (first === 'lines' || first === 'events' || first === 'gateway')) return { page: first };
+  if (second === undefined && isPlain(first)) return { page: first };
   return { page: 'unknown', path };
 }
 
@@ -33,6 +39,8 @@ const pathOf = (kind: string, name: string): string => `/${kind}/${encodeURIComp
 export const axisPath = (name: string): string => pathOf('axes', name);
 export const parametersPath = (name: string): string => `/axes/${encodeURIComponent(name)}/parameters`;
 export const linePath = (name: string): string => pathOf('lines', name);
+
+export const recipePath = (name: string): string => pathOf('recipes', name);
 
 export const route = signal<Route>({ page: 'overview' });
 

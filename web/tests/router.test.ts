@@ -12,6 +12,8 @@ it.each([
   ['/site', { page: 'site' }],
   ['/axes/feeder/parameters', { page: 'parameters', name: 'feeder' }],
   ['/axes/gantry.x/parameters/', { page: 'parameters', name: 'gantry.x' }],
+  ['/recipes', { page: 'recipes' }],
+  ['/recipes/warm-up', { page: 'recipe', name: 'warm-up' }],
   ['/axes/feeder', { page: 'axis', name: 'feeder' }],
   ['/lines/can0', { page: 'line', name: 'can0' }],
   ['/axes', { page: 'unknown', path: '/axes' }],

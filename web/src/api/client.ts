@@ -4,7 +4,8 @@
 // Never retries a command: a move that was perhaps taken must not be said twice.
 import { asProblem, Problem, problemOf } from './problem';
 import type {
-  About, Axis, AxisParameter, Command, CommandAnswer, Drive, GatewayEvent, HandItem, Line, NativeReply, Value,
+  About, Axis, AxisParameter, Command, CommandAnswer, Drive, GatewayEvent, HandItem, Line, NativeReply,
+  RecipeCheck, RecipeEntry, RecipeReport, RecipeReportHead, ScanReport, Value,
 } from './types';
 
 const ordinaryAtOnce = 4;
@@ -88,6 +89,21 @@ export class Client {
 
   setHand = (drive: string, change: Record<string, Value>) =>
     this.call<Record<string, Value>>(`/drives/${part(drive)}/hand`, { method: 'PATCH', body: change });
+
+  recipes = () => this.call<RecipeEntry[]>('/recipes');
+  recipe = (name: string) => this.call<Record<string, unknown>>(`/recipes/${part(name)}`);
+  /** `dryRun`: it is checked and not kept. */
+  putRecipe = (name: string, document: object, dryRun: boolean) => this.call<unknown>(`/recipes/${part(name)}${dryRun ? '?dry_run=1' : ''}`, { method: 'PUT', body: document });
+  removeRecipe = (name: string) => this.call<undefined>(`/recipes/${part(name)}`, { method: 'DELETE' });
+  runRecipe = (name: string, given: object) => this.call<RecipeReport>(`/recipes/${part(name)}/run`, { method: 'POST', body: { arguments: given } });
+  checkRun = (name: string, given: object) => this.call<RecipeCheck>(`/recipes/${part(name)}/run`, { method: 'POST', body: { arguments: given, dry_run: true } });
+  recipeRuns = (name: string) => this.call<RecipeReportHead[]>(`/recipes/${part(name)}/runs`);
+  recipeRun = (name: string, n: number) => this.call<RecipeReport>(`/recipes/${part(name)}/runs/${n}`);
+  /** Stops what the run has set in motion: it waits behind nothing. */
+  cancelRun = (name: string, n: number) => this.call<RecipeReport>(`/recipes/${part(name)}/runs/${n}/cancel`, { method: 'POST', urgent: true });
+  scan = (line: string) => this.call<ScanReport>(`/lines/${part(line)}/scan`);
+  startScan = (line: string, range: { from?: string; to?: string }) => this.call<ScanReport>(`/lines/${part(line)}/scan`, { method: 'POST', body: range });
+  cancelScan = (line: string) => this.call<ScanReport>(`/lines/${part(line)}/scan`, { method: 'DELETE' });
 
   /** Commands that wait in the page and have not been sent are given up: a stop overtakes them. Reads go on. */
   dropWaitingCommands(why: string): void {

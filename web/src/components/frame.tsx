@@ -16,6 +16,7 @@ const places: { path: string; text: string; icon: IconName; pages: Route['page']
   { path: '/lines', text: 'Lines', icon: 'lines', pages: ['lines', 'line'] },
   { path: '/mappings', text: 'Mappings', icon: 'table', pages: ['mappings'] },
   { path: '/site', text: 'Site', icon: 'site', pages: ['site'] },
+  { path: '/recipes', text: 'Recipes', icon: 'play', pages: ['recipes', 'recipe'] },
   { path: '/events', text: 'Events', icon: 'list', pages: ['events'] },
   { path: '/gateway', text: 'Gateway', icon: 'box', pages: ['gateway'] },
 ];

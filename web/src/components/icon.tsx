@@ -43,6 +43,9 @@ const shapes = {
   pencil: <path d="M3 13l.6-2.8L11 2.8l2.2 2.2-7.4 7.4z" />,
   bin: <path d="M3 4.5h10M6.5 4.5v-2h3v2M4.5 4.5l.5 9h6l.5-9M7 7v4M9 7v4" />,
   plus: <path d="M8 3v10M3 8h10" />,
+  down: <path d="M8 3v10M3.5 8.5L8 13l4.5-4.5" />,
+  remove: <path d="M4 4l8 8M12 4l-8 8" />,
+  play: <path d="M4.5 3l8 5-8 5z" />,
   up: <path d="M8 13V3M3.5 7.5L8 3l4.5 4.5" />,
 } satisfies Record<string, JSX.Element>;
 

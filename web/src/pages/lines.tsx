@@ -2,6 +2,7 @@
 // frames. Out: two pages.
 import { Hand } from '../components/hand';
 import { DriveList, Empty, LineCard, LineList } from '../components/lines';
+import { ScanSection } from '../components/scan';
 import { Section } from '../components/section';
 import { Trace } from '../components/trace';
 import { useGateway } from '../gateway';
@@ -52,6 +53,7 @@ export function LinePage({ name }: { name: string }) {
       ) : (
         store.listed.value && <Empty text={`There is no line ${name}.`} />
       )}
+      {known && <ScanSection line={name} />}
       <Trace key={name} line={name} />
       {simulated.length > 0 && (
         <Section title="Hand of the twins: rehearse what goes wrong">

@@ -1,0 +1,203 @@
+// A run of a recipe: arguments, start, live progress, cancel, and its report. In: the recipe's parameters, reports of the stream and of REST.
+// Out: requests to the gateway. What was typed stays, whatever becomes of the run. Never starts a run by itself.
+import { useSignal, type Signal } from '@preact/signals';
+import { useEffect } from 'preact/hooks';
+import { asProblem } from '../api/problem';
+import type { RecipeReport, RecipeReportHead } from '../api/types';
+import { useGateway } from '../gateway';
+import { capital } from '../state/commander';
+import { runWord, typedOf, valueOf, type Json, type RecipeDocument } from '../words/recipe';
+import { clockTime, duration } from '../words/time';
+import { Icon } from './icon';
+import { Pill } from './pill';
+import { Section } from './section';
+
+const isOver = (state: string) => state !== 'running' && state !== 'stopping';
+
+export function RunSection({ name, parameters, saved }: { name: string; parameters: NonNullable<RecipeDocument['parameters']>; saved: boolean }) {
+  const gateway = useGateway();
+  const { client } = gateway;
+  const report: Signal<RecipeReport | null> = useSignal(null);
+  const runs: Signal<RecipeReportHead[]> = useSignal([]);
+  const typed: Signal<Record<string, string>> = useSignal({});
+  const result = useSignal<{ tone: 'none' | 'good' | 'refused'; text: string }>({ tone: 'none', text: '' });
+  const refresh = () => client.recipeRuns(name).then((r) => (runs.value = r), () => undefined);
+
+  useEffect(() => {
+    let here = true;
+    void client.recipeRuns(name).then(
+      async (r) => {
+        if (!here) return;
+        runs.value = r;
+        const newest = r[0];
+        if (newest && report.peek() === null) {
+          const whole = await client.recipeRun(name, newest.n);
+          if (here && report.peek() === null) report.value = whole;
+        }
+      },
+      () => undefined,
+    );
+    const end = gateway.follow('recipes', 100, (m) => {
+      const r = m.data as RecipeReport;
+      if (r?.recipe !== name) return;
+      report.value = r;
+      if (isOver(r.state)) void refresh();
+    });
+    return () => {
+      here = false;
+      end();
+    };
+  }, [gateway, name]);
+
+  const given = () => {
+    const out: Record<string, Json> = {};
+    for (const [key, p] of Object.entries(parameters)) {
+      const t = typed.peek()[key];
+      if (t === undefined || t === '') continue;
+      out[key] = p.type === 'text' || p.type === 'axis' ? t : (valueOf(t) ?? t);
+    }
+    return out;
+  };
+  const start = async (dryRun: boolean) => {
+    result.value = { tone: 'none', text: dryRun ? 'Checking…' : 'Starting…' };
+    try {
+      if (dryRun) {
+        const c = await client.checkRun(name, given());
+        result.value = { tone: 'good', text: `Can run: ${c.steps} steps, commands ${c.axes?.join(', ') || 'no axis'}.` };
+      } else {
+        report.value = await client.runRecipe(name, given());
+        result.value = { tone: 'good', text: `Run ${report.peek()?.n} has begun.` };
+      }
+    } catch (error) {
+      result.value = { tone: 'refused', text: capital(asProblem(error).words) };
+    }
+  };
+  const cancel = async (n: number) => {
+    try {
+      await client.cancelRun(name, n);
+    } catch (error) {
+      result.value = { tone: 'refused', text: capital(asProblem(error).words) };
+    }
+  };
+  const r = report.value;
+  const running = r !== null && !isOver(r.state);
+  return (
+    <>
+      <Section title="Run">
+        <div class="card recipe-run">
+          <div class="step-fields">
+            {Object.entries(parameters).map(([key, p]) => (
+              <label class="step-field" key={key}>
+                <span>
+                  {key}
+                  {p.unit ? `, ${p.unit}` : ''}
+                </span>
+                <input
+                  type="text"
+                  autocomplete="off"
+                  spellcheck={false}
+                  aria-label={`Argument ${key}`}
+                  title={p.description}
+                  list={p.type === 'axis' ? 'recipe-axes' : undefined}
+                  placeholder={p.default === undefined ? 'needed' : typedOf(p.default)}
+                  value={typed.value[key] ?? ''}
+                  onInput={(e) => (typed.value = { ...typed.peek(), [key]: e.currentTarget.value })}
+                />
+              </label>
+            ))}
+          </div>
+          <div class="recipe-buttons">
+            <button type="button" class="button primary" disabled={!saved || running} onClick={() => void start(false)}>
+              <Icon name="play" /> Run
+            </button>
+            <button type="button" class="button" disabled={!saved || running} onClick={() => void start(true)}>
+              Check only
+            </button>
+            {running && (
+              <button type="button" class="stop" onClick={() => void cancel(r.n)}>
+                <Icon name="stop" /> Cancel run {r.n}
+              </button>
+            )}
+          </div>
+          <p class={`result result-${result.value.tone}`} role="status">
+            <span>{saved ? result.value.text : 'Save the recipe to run it.'}</span>
+          </p>
+        </div>
+      </Section>
+      {r && (
+        <Section title={`Report of run ${r.n}`}>
+          <Report report={r} />
+        </Section>
+      )}
+      {runs.value.length > 0 && (
+        <Section title="Runs">
+          <ol class="card run-list" aria-label="Runs, newest first">
+            {runs.value.map((x) => (
+              <li key={x.n} class="row">
+                <div class="row-head">
+                  <button type="button" class="button quiet small" onClick={() => void client.recipeRun(name, x.n).then((w) => (report.value = w), () => undefined)}>
+                    Run {x.n}
+                  </button>
+                  <span class="where">
+                    {clockTime(x.started_at)} · {x.started_by}
+                  </span>
+                  <Pill word={runWord(x.state)} label="State" />
+                </div>
+                {x.text && <p class="why">{capital(x.text)}</p>}
+              </li>
+            ))}
+          </ol>
+        </Section>
+      )}
+    </>
+  );
+}
+
+export function Report({ report: r }: { report: RecipeReport }) {
+  const took = r.ended_at ? duration(Date.parse(r.ended_at) - Date.parse(r.started_at)) : '';
+  return (
+    <div class="card recipe-report" data-run={r.n}>
+      <div class="row">
+        <div class="row-head">
+          <Pill word={runWord(r.state)} label="State of the run" id="run-state" />
+          <progress max={r.of} value={isOver(r.state) && r.state === 'done' ? r.of : r.begun} aria-label="Steps begun" />
+          <span class="where">
+            {clockTime(r.started_at)}
+            {took && `, ${took}`} · {r.started_by}
+          </span>
+        </div>
+        {r.text && (
+          <p class="step-fault" data-field="run-text">
+            {r.at_step ? `${r.at_step}: ` : ''}
+            {capital(r.text)}
+          </p>
+        )}
+        {r.stops.map((s) => (
+          <p key={s.axis} class="why">
+            {s.axis}: {s.stopped ? 'stopped' : 'NOT stopped'}
+            {s.text && `: ${s.text}`}
+          </p>
+        ))}
+      </div>
+      <ol class="report-steps" aria-label="Steps of the run">
+        {r.steps.map((s) => {
+          const word = runWord(s.state);
+          return (
+            <li key={s.pointer} class={`report-step tone-${word.tone}`} data-report={s.pointer} data-state={s.state}>
+              <Icon name={word.icon} size={14} />
+              <span class="report-word">{word.text}</span>
+              <span class="report-what">
+                <b>{s.step}</b> {s.axis ?? ''}
+                {s.times > 1 && ` × ${s.times}`}
+                {s.value !== null && s.value !== undefined && <span class="mono"> = {typedOf(s.value)}</span>}
+                {s.text && <span> {s.text}</span>}
+                {s.comment && <i> {s.comment}</i>}
+              </span>
+              <span class="report-at mono">{s.pointer}</span>
+            </li>
+          );
+        })}
+      </ol>
+    </div>
+  );
+}

@@ -1,0 +1,219 @@
+// Recipe steps as forms, one per step, nested where the recipe nests. In: the document and the faults that the gateway has found in it.
+// Out: a changed copy of the document. Never checks by itself: the gateway does, and its sentences stand at the step they are about.
+import { createContext } from 'preact';
+import { useContext } from 'preact/hooks';
+import type { components } from '../api/schema';
+import { added, at, changed, commands, comparisons, freshStep, kindOf, moved, pointerOf, points, removed, stepKinds, typedOf, valueOf, type Json, type Path, type RecipeDocument, type Step, type StepField, type StepKind } from '../words/recipe';
+import { Icon } from './icon';
+
+export type Fault = components['schemas']['Fault'];
+export interface Editing {
+  document: RecipeDocument;
+  change: (next: RecipeDocument) => void;
+  axes: string[];
+  faults: Fault[];
+}
+const Context = createContext<Editing | null>(null);
+const useEditing = () => useContext(Context) as Editing;
+
+export function StepEditor(editing: Editing) {
+  return (
+    <Context.Provider value={editing}>
+      <StepList path={['steps']} name="Steps" />
+      <datalist id="recipe-axes">
+        {editing.axes.map((a) => (
+          <option key={a} value={a} />
+        ))}
+      </datalist>
+    </Context.Provider>
+  );
+}
+
+function StepList({ path, name }: { path: Path; name: string }) {
+  const { document, change, axes } = useEditing();
+  const steps = (at(document, path) ?? []) as Step[];
+  return (
+    <div class="step-list">
+      <ol aria-label={name}>
+        {steps.map((s, i) => (
+          <StepRow key={i} step={s} list={path} i={i} last={i === steps.length - 1} />
+        ))}
+      </ol>
+      <label class="select step-add">
+        <span class="visually-hidden">Add a step to {name.toLowerCase()}</span>
+        <select
+          value=""
+          onChange={(e) => {
+            const word = e.currentTarget.value;
+            e.currentTarget.value = '';
+            if (word) change(added(document, path, freshStep(word, axes[0] ?? '')));
+          }}
+        >
+          <option value="">Add a step…</option>
+          {stepKinds.map((k) => (
+            <option key={k.word} value={k.word}>
+              {k.label}
+            </option>
+          ))}
+        </select>
+      </label>
+    </div>
+  );
+}
+
+function StepRow({ step, list, i, last }: { step: Step; list: Path; i: number; last: boolean }) {
+  const { document, change, faults } = useEditing();
+  const kind = kindOf(step);
+  const path = [...list, i];
+  const pointer = pointerOf(path);
+  const inner = kind?.lists?.map((l) => `${pointer}/${kind.word}/${l}/`) ?? [];
+  const mine = faults.filter((f) => (f.pointer === pointer || f.pointer.startsWith(`${pointer}/`)) && !inner.some((p) => f.pointer.startsWith(p)));
+  const title = `Step ${path.filter((p) => typeof p === 'number').map((n) => Number(n) + 1).join('.')}`;
+  const body = kind ? step[kind.word] : undefined;
+  return (
+    <li class={`step${mine.length > 0 ? ' is-wrong' : ''}`} data-step={pointer}>
+      <div class="step-head">
+        <b class="step-title">{title}</b>
+        <span class="step-kind">{kind?.label ?? `Unknown: ${Object.keys(step)[0] ?? 'nothing'}`}</span>
+        <span class="group">
+          <button type="button" class="button small square" aria-label={`Move ${title} up`} disabled={i === 0} onClick={() => change(moved(document, list, i, -1))}>
+            <Icon name="up" />
+          </button>
+          <button type="button" class="button small square" aria-label={`Move ${title} down`} disabled={last} onClick={() => change(moved(document, list, i, 1))}>
+            <Icon name="down" />
+          </button>
+          <button type="button" class="button small square" aria-label={`Delete ${title}`} onClick={() => change(removed(document, list, i))}>
+            <Icon name="remove" />
+          </button>
+        </span>
+      </div>
+      {kind && (
+        <div class="step-fields">
+          {kind.condition && <ConditionFields kind={kind} path={path} title={title} />}
+          {kind.fields.map((f) => (
+            <StepInput key={f.key} field={f} path={f.key === '' ? [...path, kind.word] : [...path, kind.word, f.key]} value={f.key === '' ? body : (body as { [k: string]: Json } | null)?.[f.key]} title={title} />
+          ))}
+        </div>
+      )}
+      {mine.map((f) => (
+        <p key={f.pointer + f.text} class="step-fault">
+          {f.text}. {f.remedy}.
+        </p>
+      ))}
+      {kind?.lists?.map((l) => (
+        <div key={l} class="step-inner">
+          {kind.lists && kind.lists.length > 1 && <p class="step-side">{l === 'then' ? 'Then' : 'Else'}</p>}
+          <StepList path={[...path, kind.word, l]} name={`${title}, ${l}`} />
+        </div>
+      ))}
+    </li>
+  );
+}
+
+function StepInput({ field, path, value, title }: { field: StepField; path: Path; value: unknown; title: string }) {
+  const { document, change } = useEditing();
+  const put = (v: Json | undefined) => change(changed(document, path, () => (v === undefined && !field.optional ? '' : v)));
+  const label = `${title}: ${field.label}`;
+  if (field.kind === 'command' || field.kind === 'register_type') {
+    const choices = field.kind === 'command' ? commands : ['', 'u16', 'i16', 'u32', 'i32', 'f32', 'u64', 'i64', 'f64', 'bool'];
+    return (
+      <label class="step-field">
+        <span>{field.label}</span>
+        <select aria-label={label} value={typedOf(value)} onChange={(e) => put(e.currentTarget.value === '' ? undefined : e.currentTarget.value)}>
+          {choices.map((c) => (
+            <option key={c} value={c}>
+              {c === '' ? 'as mapped' : c}
+            </option>
+          ))}
+        </select>
+      </label>
+    );
+  }
+  return (
+    <label class={`step-field${field.kind === 'text' ? ' is-wide' : ''}`}>
+      <span>{field.label}</span>
+      <input
+        type="text"
+        autocomplete="off"
+        spellcheck={false}
+        list={field.kind === 'axis' ? 'recipe-axes' : undefined}
+        aria-label={label}
+        placeholder={field.optional ? 'none' : undefined}
+        value={typedOf(value)}
+        onChange={(e) => {
+          const typed = e.currentTarget.value;
+          if (field.kind === 'text' || field.kind === 'axis') put(typed === '' && field.optional ? undefined : typed);
+          else put(valueOf(typed));
+        }}
+      />
+    </label>
+  );
+}
+
+function ConditionFields({ kind, path, title }: { kind: StepKind; path: Path; title: string }) {
+  const { document, change, axes } = useEditing();
+  const place: Path = kind.condition === 'own' ? [...path, kind.word] : [...path, kind.word, kind.condition as string];
+  const there = at(document, place) as { [k: string]: Json } | undefined;
+  if (kind.condition === 'until' && there === undefined) {
+    return (
+      <button type="button" class="button small" onClick={() => change(changed(document, place, () => ({ axis: axes[0] ?? '', point: 'target_reached', is: true })))}>
+        Add an end: until…
+      </button>
+    );
+  }
+  const c = there ?? {};
+  const op = comparisons.find((x) => x.key in c)?.key ?? 'is';
+  const set = (more: { [k: string]: Json | undefined }, drop: string[] = []) =>
+    change(
+      changed(document, place, () => {
+        const next: { [k: string]: Json | undefined } = { ...c, ...more };
+        for (const d of drop) delete next[d];
+        return next;
+      }),
+    );
+  return (
+    <>
+      {kind.condition === 'until' && <span class="step-word">until</span>}
+      <label class="step-field">
+        <span>Axis</span>
+        <input type="text" list="recipe-axes" autocomplete="off" spellcheck={false} aria-label={`${title}: Axis`} value={typedOf(c['axis'])} onChange={(e) => set({ axis: e.currentTarget.value })} />
+      </label>
+      <label class="step-field">
+        <span>What</span>
+        <select
+          aria-label={`${title}: What`}
+          value={'parameter' in c ? '(parameter)' : typedOf(c['point'])}
+          onChange={(e) => (e.currentTarget.value === '(parameter)' ? set({ parameter: '' }, ['point']) : set({ point: e.currentTarget.value }, ['parameter']))}
+        >
+          {points.map((p) => (
+            <option key={p} value={p}>
+              {p}
+            </option>
+          ))}
+          {typeof c['point'] === 'string' && !points.includes(c['point']) && <option value={c['point']}>{c['point']}</option>}
+          <option value="(parameter)">a parameter…</option>
+        </select>
+      </label>
+      {'parameter' in c && (
+        <label class="step-field">
+          <span>Parameter</span>
+          <input type="text" autocomplete="off" spellcheck={false} aria-label={`${title}: Parameter`} value={typedOf(c['parameter'])} onChange={(e) => set({ parameter: e.currentTarget.value })} />
+        </label>
+      )}
+      <label class="step-field is-narrow">
+        <span>Comparison</span>
+        <select aria-label={`${title}: Comparison`} value={op} onChange={(e) => set({ [e.currentTarget.value]: c[op] as Json }, e.currentTarget.value === op ? [] : [op])}>
+          {comparisons.map((x) => (
+            <option key={x.key} value={x.key}>
+              {x.label}
+            </option>
+          ))}
+        </select>
+      </label>
+      <label class="step-field is-narrow">
+        <span>Value</span>
+        <input type="text" autocomplete="off" spellcheck={false} aria-label={`${title}: Value`} value={typedOf(c[op])} onChange={(e) => set({ [op]: valueOf(e.currentTarget.value) ?? '' })} />
+      </label>
+    </>
+  );
+}

@@ -1,0 +1,90 @@
+// Scan: looking for drives on a line. In: the line's name, a range of addresses. Out: what was found, and whether the site knows it.
+// Never adds a drive by itself, and never begins to look by itself.
+import { useSignal } from '@preact/signals';
+import { useEffect } from 'preact/hooks';
+import { asProblem } from '../api/problem';
+import type { ScanReport } from '../api/types';
+import { useGateway } from '../gateway';
+import { capital } from '../state/commander';
+import { Section } from './section';
+
+const askAgain_ms = 300;
+
+export function ScanSection({ line }: { line: string }) {
+  const { client } = useGateway();
+  const report = useSignal<ScanReport | null>(null);
+  const from = useSignal('');
+  const to = useSignal('');
+  const fault = useSignal('');
+  const running = report.value?.state === 'running';
+  useEffect(() => {
+    let here = true;
+    let timer: ReturnType<typeof setTimeout>;
+    const ask = () =>
+      client.scan(line).then(
+        (r) => {
+          if (!here) return;
+          report.value = r;
+          if (r.state === 'running') timer = setTimeout(ask, askAgain_ms);
+        },
+        () => undefined,
+      );
+    void ask();
+    return () => {
+      here = false;
+      clearTimeout(timer);
+    };
+  }, [client, line, running]);
+  const act = async (what: () => Promise<ScanReport>) => {
+    fault.value = '';
+    try {
+      report.value = await what();
+    } catch (error) {
+      fault.value = capital(asProblem(error).words);
+    }
+  };
+  const r = report.value;
+  return (
+    <Section title="Scan">
+      <div class="card recipe-run" data-field="scan">
+        <div class="recipe-buttons">
+          <input class="search" type="text" aria-label="First address" placeholder="first address" autocomplete="off" value={from.value} onInput={(e) => (from.value = e.currentTarget.value)} />
+          <input class="search" type="text" aria-label="Last address" placeholder="last address" autocomplete="off" value={to.value} onInput={(e) => (to.value = e.currentTarget.value)} />
+          <button type="button" class="button primary" disabled={running} onClick={() => void act(() => client.startScan(line, { ...(from.peek() ? { from: from.peek() } : {}), ...(to.peek() ? { to: to.peek() } : {}) }))}>
+            Look for drives
+          </button>
+          {running && (
+            <button type="button" class="button" onClick={() => void act(() => client.cancelScan(line))}>
+              End
+            </button>
+          )}
+          {r && r.state !== 'none' && <progress max={1} value={r.progress} aria-label="Addresses asked" />}
+          {r && r.state !== 'none' && (
+            <span class="where" role="status">
+              {r.asked} of {r.of} asked, {r.state}
+              {r.text && `: ${r.text}`}
+            </span>
+          )}
+        </div>
+        <p class="result result-refused" role="status">
+          <span>{fault.value}</span>
+        </p>
+        {r && r.found.length > 0 && (
+          <ul aria-label="Drives found">
+            {r.found.map((f) => (
+              <li key={f.address} class="row" data-found={f.address}>
+                <div class="row-head">
+                  <h3>
+                    {f.family} at {f.address}
+                  </h3>
+                  <span class="where">{f.known_as ? `is the drive ${f.known_as}` : 'not in the site yet'}</span>
+                </div>
+                {f.text && <p class="why">{f.text}</p>}
+              </li>
+            ))}
+          </ul>
+        )}
+      </div>
+    </Section>
+  );
+}

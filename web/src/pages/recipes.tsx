@@ -1,0 +1,244 @@
+// Recipes: the list, and one recipe: forms and JSON side by side, checked by the gateway as it is typed; below it its runs.
+// In: the documents of the gateway. Out: changed documents, only when they are saved. The forms always show the last text that was JSON.
+import { useSignal, type Signal } from '@preact/signals';
+import { useEffect } from 'preact/hooks';
+import { asProblem, Problem } from '../api/problem';
+import type { RecipeEntry } from '../api/types';
+import { Empty } from '../components/lines';
+import { Pill } from '../components/pill';
+import { RunSection } from '../components/recipe-run';
+import { StepEditor, type Fault } from '../components/recipe-steps';
+import { Section } from '../components/section';
+import { useGateway } from '../gateway';
+import { go, recipePath } from '../router';
+import { capital } from '../state/commander';
+import { documentOf, editable, runWord, type RecipeDocument } from '../words/recipe';
+import { clockTime } from '../words/time';
+
+const checkAfter_ms = 300;
+const goodName = /^[A-Za-z0-9_.-]{1,64}$/;
+
+export function RecipesPage() {
+  const gateway = useGateway();
+  const list: Signal<RecipeEntry[] | null> = useSignal(null);
+  const fault = useSignal('');
+  const name = useSignal('');
+  useEffect(() => {
+    const load = () => gateway.client.recipes().then((r) => (list.value = r), (e) => (fault.value = capital(asProblem(e).words)));
+    void load();
+    let last = '';
+    return gateway.follow('recipes', 500, (m) => {
+      const r = m.data as { recipe: string; state: string; n: number };
+      const now = `${r?.recipe} ${r?.n} ${r?.state}`;
+      if (now !== last) void load();
+      last = now;
+    });
+  }, [gateway]);
+  const make = () => {
+    const n = name.peek().trim();
+    if (!goodName.test(n)) fault.value = 'A name has 1 to 64 letters, digits, - _ .';
+    else go(recipePath(n));
+  };
+  return (
+    <main class="page narrow">
+      <h1 tabIndex={-1}>Recipes</h1>
+      <p class="where">Named sequences of steps: set parameters, move, wait, check, repeat. Each can be run from here or by one request.</p>
+      <Section title="All recipes">
+        <div class="card">
+          {list.value?.length === 0 && <Empty text="There is no recipe yet. Give the first one a name." />}
+          <ul aria-label="Recipes">
+            {(list.value ?? []).map((r) => (
+              <li key={r.name} class="row" data-recipe={r.name}>
+                <div class="row-head">
+                  <h3>
+                    <a href={recipePath(r.name)}>{r.name}</a>
+                  </h3>
+                  {r.running !== null && <Pill word={runWord('running')} label="State" />}
+                  <span class="where">
+                    {r.steps} steps · {clockTime(r.changed_at)}
+                  </span>
+                </div>
+                {r.description && <p class="why">{r.description}</p>}
+              </li>
+            ))}
+          </ul>
+        </div>
+      </Section>
+      <form
+        class="recipe-buttons"
+        onSubmit={(e) => {
+          e.preventDefault();
+          make();
+        }}
+      >
+        <input class="search" type="text" aria-label="Name of the new recipe" placeholder="name" autocomplete="off" spellcheck={false} value={name.value} onInput={(e) => (name.value = e.currentTarget.value)} />
+        <button type="submit" class="button primary">
+          New recipe
+        </button>
+      </form>
+      <p class="result result-refused" role="status">
+        <span>{fault.value}</span>
+      </p>
+    </main>
+  );
+}
+
+const textOf = (d: RecipeDocument) => JSON.stringify(d, null, 2);
+
+export function RecipePage({ name }: { name: string }) {
+  const gateway = useGateway();
+  const { client, store } = gateway;
+  const text = useSignal('');
+  const document = useSignal<RecipeDocument | null>(null);
+  const textFault = useSignal('');
+  const faults: Signal<Fault[]> = useSignal([]);
+  const stored = useSignal('');
+  const result = useSignal<{ tone: 'none' | 'good' | 'refused'; text: string }>({ tone: 'none', text: '' });
+  const put = (d: RecipeDocument) => {
+    document.value = d;
+    text.value = textOf(d);
+    textFault.value = '';
+  };
+  useEffect(() => {
+    let here = true;
+    client.recipe(name).then(
+      (d) => {
+        if (!here) return;
+        put(editable(d as unknown as RecipeDocument));
+        stored.value = text.peek();
+      },
+      (error) => {
+        if (!here) return;
+        const p = asProblem(error);
+        if (p.status === 404) put({ description: '', steps: [] });
+        else result.value = { tone: 'refused', text: capital(p.words) };
+      },
+    );
+    return () => {
+      here = false;
+    };
+  }, [client, name]);
+
+  // The gateway says what is wrong, shortly after the last change.
+  const present = text.value;
+  useEffect(() => {
+    const d = document.peek();
+    if (!d || d.steps.length === 0 || textFault.peek()) return;
+    let here = true;
+    const timer = setTimeout(() => {
+      client.putRecipe(name, d, true).then(
+        () => here && (faults.value = []),
+        (e) => here && (faults.value = e instanceof Problem ? ((e.document.faults ?? []) as Fault[]) : []),
+      );
+    }, checkAfter_ms);
+    return () => {
+      here = false;
+      clearTimeout(timer);
+    };
+  }, [present]);
+
+  const save = async () => {
+    const d = document.peek();
+    if (!d || textFault.peek()) return;
+    const sent = text.peek();
+    try {
+      await client.putRecipe(name, d, false);
+      stored.value = sent;
+      faults.value = [];
+      result.value = { tone: 'good', text: 'Saved.' };
+    } catch (error) {
+      const p = asProblem(error);
+      faults.value = (p.document.faults ?? []) as Fault[];
+      result.value = { tone: 'refused', text: capital(p.message) };
+    }
+  };
+  const sure = useSignal(false);
+  const remove = async () => {
+    if (!sure.peek()) {
+      sure.value = true;
+      return;
+    }
+    try {
+      if (stored.peek()) await client.removeRecipe(name);
+      go('/recipes');
+    } catch (error) {
+      result.value = { tone: 'refused', text: capital(asProblem(error).words) };
+    }
+  };
+  const d = document.value;
+  const unsaved = d !== null && text.value !== stored.value;
+  return (
+    <main class="page">
+      <p class="crumbs">
+        <a href="/recipes">Recipes</a>
+      </p>
+      <h1 tabIndex={-1}>{name}</h1>
+      {d && (
+        <>
+          <div class="recipe-bar">
+            <input
+              class="recipe-description"
+              type="text"
+              aria-label="Description"
+              placeholder="What it does"
+              value={typeof d.description === 'string' ? d.description : ''}
+              onChange={(e) => put({ ...d, description: e.currentTarget.value })}
+            />
+            <label class="select">
+              If it fails
+              <select aria-label="If it fails" value={d.on_failure ?? 'halt'} onChange={(e) => put({ ...d, on_failure: e.currentTarget.value as 'halt' | 'quick_stop' })}>
+                <option value="halt">halt its axes</option>
+                <option value="quick_stop">quick stop its axes</option>
+              </select>
+            </label>
+            <button type="button" class="button primary" disabled={!unsaved || textFault.value !== ''} onClick={() => void save()}>
+              Save
+            </button>
+            <button type="button" class="button" onClick={() => void remove()} onBlur={() => (sure.value = false)}>
+              {sure.value ? 'Delete: sure?' : 'Delete'}
+            </button>
+          </div>
+          <p class={`result result-${result.value.tone}`} role="status">
+            <span>{unsaved ? 'Not saved yet.' : result.value.text}</span>
+          </p>
+          <div class="recipe-sides">
+            <Section title="Steps">
+              <div class="card recipe-card">
+                <StepEditor document={d} change={put} axes={store.axisNames.value} faults={faults.value} />
+                {faults.value
+                  .filter((f) => !f.pointer.startsWith('/steps/'))
+                  .map((f) => (
+                    <p key={f.pointer + f.text} class="step-fault">
+                      {f.pointer}: {f.text}. {f.remedy}.
+                    </p>
+                  ))}
+              </div>
+            </Section>
+            <Section title="JSON">
+              <div class="card recipe-card">
+                <textarea
+                  class="recipe-json mono"
+                  aria-label="The recipe as JSON"
+                  aria-invalid={textFault.value !== '' || undefined}
+                  spellcheck={false}
+                  value={text.value}
+                  onInput={(e) => {
+                    const typed = e.currentTarget.value;
+                    const read = documentOf(typed);
+                    if ('document' in read) document.value = read.document;
+                    textFault.value = 'fault' in read ? read.fault : '';
+                    text.value = typed;
+                  }}
+                />
+                <p class="step-fault" role="status">
+                  {textFault.value || (faults.value.length > 0 ? `${faults.value.length} ${faults.value.length === 1 ? 'place is' : 'places are'} not right yet.` : '')}
+                </p>
+              </div>
+            </Section>
+          </div>
+          <RunSection name={name} parameters={d.parameters ?? {}} saved={!unsaved && stored.value !== ''} />
+        </>
+      )}
+    </main>
+  );
+}

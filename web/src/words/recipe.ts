@@ -1,0 +1,166 @@
+// A recipe in words and as a tree that can be edited. In: the document as the gateway keeps it. Out: a changed copy, the fields of each step, words.
+// Never changes a document in place, and keeps members that it does not know.
+import type { Word } from './axis';
+
+export type Json = null | boolean | number | string | Json[] | { [key: string]: Json };
+export type Step = { [word: string]: Json };
+export interface RecipeDocument {
+  description?: string;
+  parameters?: Record<string, { type: string; default?: Json; min?: number; max?: number; unit?: string; description?: string }>;
+  timeout_s?: number;
+  on_failure?: 'halt' | 'quick_stop';
+  steps: Step[];
+  [other: string]: unknown;
+}
+
+export type FieldKind = 'axis' | 'text' | 'value' | 'number' | 'flag' | 'command' | 'register_type';
+export interface StepField {
+  key: string;
+  label: string;
+  kind: FieldKind;
+  optional?: boolean;
+}
+export interface StepKind {
+  word: string;
+  label: string;
+  fields: StepField[];
+  /** How a new one begins. */
+  fresh: Json;
+  condition?: 'own' | 'condition' | 'until';
+  lists?: string[];
+}
+
+const axis: StepField = { key: 'axis', label: 'Axis', kind: 'axis' };
+const wait: StepField = { key: 'wait_s', label: 'Wait up to, s', kind: 'number', optional: true };
+export const stepKinds: StepKind[] = [
+  { word: 'enable', label: 'Enable', fields: [axis, wait], fresh: { axis: '' } },
+  { word: 'disable', label: 'Disable', fields: [axis, wait], fresh: { axis: '' } },
+  { word: 'home', label: 'Home', fields: [axis, { key: 'method', label: 'Method', kind: 'number', optional: true }, wait], fresh: { axis: '' } },
+  {
+    word: 'command',
+    label: 'Command',
+    fields: [
+      axis,
+      { key: 'command', label: 'Command', kind: 'command' },
+      { key: 'position', label: 'Position', kind: 'number', optional: true },
+      { key: 'velocity', label: 'Velocity', kind: 'number', optional: true },
+      { key: 'acceleration', label: 'Acceleration', kind: 'number', optional: true },
+      { key: 'deceleration', label: 'Deceleration', kind: 'number', optional: true },
+      wait,
+    ],
+    fresh: { axis: '', command: 'move_absolute', position: 0, wait_s: 30 },
+  },
+  { word: 'set_parameter', label: 'Set a parameter', fields: [axis, { key: 'parameter', label: 'Parameter', kind: 'text' }, { key: 'value', label: 'Value', kind: 'value' }], fresh: { axis: '', parameter: '', value: 0 } },
+  { word: 'read_parameter', label: 'Read a parameter', fields: [axis, { key: 'parameter', label: 'Parameter', kind: 'text' }], fresh: { axis: '', parameter: '' } },
+  { word: 'action', label: 'Action of the family', fields: [axis, { key: 'name', label: 'Name', kind: 'text' }, { key: 'argument', label: 'Argument', kind: 'text', optional: true }, wait], fresh: { axis: '', name: '' } },
+  {
+    word: 'write_register',
+    label: 'Write a register',
+    fields: [
+      { key: 'unit', label: 'Unit', kind: 'number' },
+      { key: 'address', label: 'Address', kind: 'number' },
+      { key: 'type', label: 'Type', kind: 'register_type', optional: true },
+      { key: 'value', label: 'Value', kind: 'value' },
+    ],
+    fresh: { unit: 1, address: 34, value: 0 },
+  },
+  { word: 'wait_for', label: 'Wait for', fields: [{ key: 'timeout_s', label: 'At most, s', kind: 'number', optional: true }], condition: 'own', fresh: { axis: '', point: 'moving', is: false, timeout_s: 30 } },
+  { word: 'check', label: 'Check', fields: [{ key: 'text', label: 'Said if not', kind: 'text', optional: true }], condition: 'own', fresh: { axis: '', point: 'fault', is: false } },
+  { word: 'wait_s', label: 'Wait, seconds', fields: [{ key: '', label: 'Seconds', kind: 'number' }], fresh: 1 },
+  { word: 'if', label: 'If', fields: [], condition: 'condition', lists: ['then', 'else'], fresh: { condition: { axis: '', point: 'referenced', is: false }, then: [], else: [] } },
+  { word: 'repeat', label: 'Repeat', fields: [{ key: 'times', label: 'Times', kind: 'number' }], condition: 'until', lists: ['steps'], fresh: { times: 2, steps: [] } },
+  { word: 'message', label: 'Message', fields: [{ key: '', label: 'Text', kind: 'text' }], fresh: '' },
+];
+export const points = [
+  'state', 'moving', 'target_reached', 'referenced', 'fault', 'warning', 'internal_limit', 'position', 'velocity', 'target_position', 'position_increments',
+  'online', 'simulated', 'stale', 'mode', 'error_code', 'native', 'statusword', 'authority',
+];
+export const comparisons: { key: string; label: string }[] = [
+  { key: 'is', label: 'is' }, { key: 'is_not', label: 'is not' }, { key: 'at_least', label: '≥' }, { key: 'at_most', label: '≤' }, { key: 'above', label: '>' }, { key: 'below', label: '<' },
+];
+export const commands = ['move_absolute', 'move_relative', 'move_velocity', 'set_position', 'halt', 'quick_stop', 'reset_fault', 'enable', 'disable', 'home'];
+
+export function kindOf(step: Step): StepKind | undefined {
+  return stepKinds.find((k) => k.word in step);
+}
+
+export function freshStep(word: string, axisName: string): Step {
+  const kind = stepKinds.find((k) => k.word === word) as StepKind;
+  const body = structuredClone(kind.fresh);
+  const fill = (j: Json): void => {
+    if (j === null || typeof j !== 'object' || Array.isArray(j)) return;
+    if (j['axis'] === '') j['axis'] = axisName;
+    for (const v of Object.values(j)) fill(v);
+  };
+  fill(body);
+  return { [word]: body };
+}
+
+/** Where a step stands: ["steps", 2, "if", "then", 0]. */
+export type Path = (string | number)[];
+export const pointerOf = (path: Path): string => path.map((p) => `/${String(p).replaceAll('~', '~0').replaceAll('/', '~1')}`).join('');
+
+export function at(document: unknown, path: Path): unknown {
+  return path.reduce<unknown>((o, key) => (o as Record<string | number, unknown> | undefined)?.[key], document);
+}
+
+/** A copy of the document in which `change` has worked on what stands at the path. */
+export function changed(document: RecipeDocument, path: Path, change: (there: never) => unknown): RecipeDocument {
+  const copy = structuredClone(document);
+  const last = path.at(-1) as string | number;
+  const parent = at(copy, path.slice(0, -1)) as Record<string | number, unknown>;
+  const value = change(parent[last] as never);
+  if (value === undefined) delete parent[last];
+  else parent[last] = value;
+  return copy;
+}
+
+export function moved(document: RecipeDocument, list: Path, from: number, by: -1 | 1): RecipeDocument {
+  return changed(document, list, (steps: Step[]) => {
+    const to = from + by;
+    if (to < 0 || to >= steps.length) return steps;
+    const next = [...steps];
+    [next[from], next[to]] = [next[to] as Step, next[from] as Step];
+    return next;
+  });
+}
+export const removed = (document: RecipeDocument, list: Path, i: number): RecipeDocument => changed(document, list, (steps: Step[]) => steps.filter((_, k) => k !== i));
+export const added = (document: RecipeDocument, list: Path, step: Step): RecipeDocument => changed(document, list, (steps: Step[] | undefined) => [...(steps ?? []), step]);
+
+/** What was typed as a value: a number, true or false where it reads as one, else a text ("${name}" stays a text). */
+export function valueOf(typed: string): Json | undefined {
+  const t = typed.trim();
+  if (t === '') return undefined;
+  if (t === 'true' || t === 'false') return t === 'true';
+  return /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i.test(t) ? Number(t) : t;
+}
+export const typedOf = (value: unknown): string => (value === undefined || value === null ? '' : typeof value === 'string' ? value : JSON.stringify(value));
+
+/** A document read from text, or what is wrong with the text. */
+export function documentOf(text: string): { document: RecipeDocument } | { fault: string } {
+  try {
+    const d = JSON.parse(text) as RecipeDocument;
+    if (typeof d !== 'object' || d === null || Array.isArray(d)) return { fault: 'A recipe is a JSON object.' };
+    if (!Array.isArray(d.steps) || d.steps.some((s) => typeof s !== 'object' || s === null || Array.isArray(s))) return { fault: '"steps" must be a list of objects.' };
+    return { document: d };
+  } catch (error) {
+    return { fault: error instanceof Error ? error.message : 'This is not JSON.' };
+  }
+}
+/** Without what the gateway adds by itself. */
+export function editable(document: RecipeDocument): RecipeDocument {
+  const copy = structuredClone(document);
+  for (const key of ['name', 'changed_at', 'changed_by']) delete copy[key];
+  return copy;
+}
+
+export function runWord(state: string): Word {
+  switch (state) {
+    case 'running': return { text: 'Running', icon: 'arrow-right', tone: 'active', long: 'The run goes on' };
+    case 'stopping': return { text: 'Stopping', icon: 'pause', tone: 'warning', long: 'Axes that the run has set in motion are being stopped' };
+    case 'done': return { text: 'Done', icon: 'check', tone: 'good', long: 'Every step was carried out' };
+    case 'cancelled': return { text: 'Cancelled', icon: 'stop', tone: 'warning', long: 'The run was ended before its end' };
+    case 'failed': return { text: 'Failed', icon: 'triangle', tone: 'fault', long: 'A step failed' };
+    default: return { text: 'Not run', icon: 'circle-dashed', tone: 'muted', long: 'Not carried out' };
+  }
+}

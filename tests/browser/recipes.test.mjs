@@ -1,0 +1,136 @@
+// Recipes on the page: made by forms, mended after the gateway's own words, run with live progress, cancelled, reported; a line is scanned.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { after, before, test } from 'node:test';
+import { launch, open, shot, until } from './lib/browser.mjs';
+import { Program } from './lib/program.mjs';
+
+const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+const long = {
+  description: 'There and back, three times',
+  parameters: { distance: { type: 'number', default: 2, unit: 'mm' } },
+  steps: [
+    { enable: { axis: 'feeder' } },
+    { if: { condition: { axis: 'feeder', point: 'fault', is: true }, then: [{ command: { axis: 'feeder', command: 'reset_fault' } }], else: [{ message: 'ready' }] } },
+    { repeat: { times: 3, steps: [{ command: { axis: 'feeder', command: 'move_relative', position: '${distance}', velocity: 50, wait_s: 20 } }, { wait_s: 0.1 }] } },
+    { check: { axis: 'feeder', point: 'position', is: 6, tolerance: 0.1, text: 'three times the distance' }, comment: 'the end' },
+    { disable: { axis: 'feeder' } },
+  ],
+};
+let program, browser;
+before(async () => {
+  program = await Program.start();
+  browser = await launch();
+});
+after(async () => {
+  await browser?.close();
+  await program?.end();
+});
+
+test('a recipe is made by forms alone, saved, run, and its report tells each step', async () => {
+  const page = await open(browser, `${program.url}/recipes`);
+  await page.getByLabel('Name of the new recipe').fill('first');
+  await page.getByRole('button', { name: 'New recipe' }).click();
+  await page.getByRole('heading', { level: 1, name: 'first' }).waitFor();
+  const add = page.getByLabel('Add a step to steps');
+  await add.selectOption('enable');
+  await add.selectOption('wait_s');
+  await add.selectOption('disable');
+  await page.getByLabel('Step 2: Seconds').fill('0.2');
+  await page.getByLabel('Step 2: Seconds').press('Tab');
+  const json = page.getByLabel('The recipe as JSON');
+  assert.deepEqual(JSON.parse(await json.inputValue()).steps, [{ enable: { axis: 'feeder' } }, { wait_s: 0.2 }, { disable: { axis: 'feeder' } }]);
+  await page.getByRole('button', { name: 'Move Step 2 up' }).click();
+  assert.deepEqual(JSON.parse(await json.inputValue()).steps[0], { wait_s: 0.2 });
+  await page.getByRole('button', { name: 'Move Step 1 down' }).click();
+  assert.equal(await page.getByRole('button', { name: 'Run', exact: true }).isDisabled(), true, 'what is not saved is not run');
+  await page.getByRole('button', { name: 'Save' }).click();
+  await page.getByRole('button', { name: 'Run', exact: true }).click();
+  await page.locator('[data-report="/steps/2"][data-state=done]').waitFor();
+  assert.match(await page.locator('[data-field=run-state]').innerText(), /Done/);
+  assert.equal((await program.call('GET', '/recipes/first/runs/1')).body.state, 'done');
+  await page.goto(`${program.url}/recipes`);
+  await page.locator('[data-recipe=first]').waitFor();
+  assert.deepEqual(page.faults(), []);
+  await page.context().close();
+});
+
+test('what is wrong is said at its step, and the text is read only when it is JSON', async () => {
+  const page = await open(browser, `${program.url}/recipes/wrong`);
+  const json = page.getByLabel('The recipe as JSON');
+  await json.fill('{"steps":[{"wait_s":1},{"check":{"axis":"feeder","point":"colour","is":1}}]}');
+  await page.locator('[data-step="/steps/1"].is-wrong').waitFor();
+  assert.match(await page.locator('[data-step="/steps/1"]').innerText(), /an axis has no point colour/);
+  assert.equal(await page.locator('[data-step="/steps/0"].is-wrong').count(), 0);
+  await page.getByLabel('Step 2: What').selectOption('moving');
+  await page.getByLabel('Step 2: Value').fill('false');
+  await page.getByLabel('Step 2: Value').press('Tab');
+  await page.locator('.is-wrong').waitFor({ state: 'detached' });
+  assert.deepEqual(JSON.parse(await json.inputValue()).steps[1], { check: { axis: 'feeder', point: 'moving', is: false } });
+  await json.fill('{"steps":[');
+  assert.equal(await page.getByRole('button', { name: 'Save' }).isDisabled(), true);
+  assert.equal(await page.locator('[data-step]').count(), 2, 'the forms keep the last good text');
+  await page.getByRole('button', { name: 'Delete', exact: true }).click();
+  await page.getByRole('button', { name: 'Delete: sure?' }).click();
+  await page.getByRole('heading', { level: 1, name: 'Recipes' }).waitFor();
+  assert.deepEqual(page.faults(), []);
+  await page.context().close();
+});
+
+test('progress is live, and cancel stops the axis', async () => {
+  const recipe = { steps: [{ enable: { axis: 'feeder' } }, { command: { axis: 'feeder', command: 'move_velocity', velocity: 3, acceleration: 100 } }, { wait_s: 600 }] };
+  assert.equal((await program.call('PUT', '/recipes/endless', recipe)).status, 201);
+  const page = await open(browser, `${program.url}/recipes/endless`);
+  await page.getByRole('button', { name: 'Check only' }).click();
+  await page.getByText('Can run: 3 steps, commands feeder.').waitFor();
+  await page.getByRole('button', { name: 'Run', exact: true }).click();
+  await page.locator('[data-report="/steps/2"][data-state=running]').waitFor();
+  await until('motion', async () => (await program.axis('feeder')).moving);
+  await page.getByRole('button', { name: 'Cancel run 1' }).click();
+  await page.locator('[data-report="/steps/2"][data-state=cancelled]').waitFor();
+  await page.getByText('feeder: stopped').waitFor();
+  await until('rest', async () => !(await program.axis('feeder')).moving);
+  await program.command('feeder', { command: 'set_position', position: 0 });
+  assert.deepEqual(page.faults(), []);
+  await page.context().close();
+});
+
+test('a line is searched for drives', async () => {
+  const page = await open(browser, `${program.url}/lines/can0`);
+  await page.getByLabel('First address').fill('5');
+  await page.getByLabel('Last address').fill('8');
+  await page.getByRole('button', { name: 'Look for drives' }).click();
+  await page.getByText('2 of 2 asked, done').waitFor();
+  assert.match(await page.locator('[data-found="5"]').innerText(), /is the drive feeder/);
+  await page.getByLabel('First address').fill('4');
+  await page.getByRole('button', { name: 'Look for drives' }).click();
+  await page.getByText('4 is no node ID').waitFor();
+  assert.deepEqual(page.faults(), []);
+  await page.context().close();
+});
+
+test('light and dark, two widths: pictures for people, nothing serious for axe-core, nothing wider than the screen', async () => {
+  await program.call('PUT', '/recipes/there-and-back', long);
+  await program.call('POST', '/recipes/there-and-back/run', {});
+  await until('the end of the run', async () => (await program.call('GET', '/recipes/there-and-back/runs/1')).body.state === 'done' || (await program.call('GET', '/recipes/there-and-back/runs/1')).body.text);
+  for (const colorScheme of ['light', 'dark']) {
+    for (const width of [1440, 390]) {
+      const page = await open(browser, `${program.url}/recipes/there-and-back`, { colorScheme, viewport: { width, height: 900 }, bypassCSP: true });
+      await page.locator('[data-report="/steps/4"]').waitFor();
+      await shot(page, `recipe-${width}-${colorScheme}`, { fullPage: true });
+      assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= width, `${width} is enough`);
+      await page.addScriptTag({ content: axe });
+      const bad = await page.evaluate(async () => (await globalThis.axe.run(document)).violations.filter((v) => v.impact === 'serious' || v.impact === 'critical').map((v) => `${v.id}: ${v.nodes[0].target}`));
+      assert.deepEqual(bad, []);
+      await page.goto(`${program.url}/recipes`);
+      await page.locator('[data-recipe]').first().waitFor();
+      await shot(page, `recipes-${width}-${colorScheme}`, { fullPage: true });
+      await page.goto(`${program.url}/lines/can0`);
+      await page.locator('[data-field=scan]').waitFor();
+      await shot(page, `line-${width}-${colorScheme}`);
+      assert.deepEqual(page.faults(), []);
+      await page.context().close();
+    }
+  }
+});

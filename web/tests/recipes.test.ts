@@ -1,0 +1,49 @@
+// Recipes as a tree that is edited: every change is a copy, what is typed becomes the value that it reads as, every step kind has its form.
+import { readFileSync } from 'node:fs';
+import { describe, expect, it } from 'vitest';
+import { added, changed, documentOf, editable, freshStep, kindOf, moved, pointerOf, removed, runWord, stepKinds, typedOf, valueOf, type RecipeDocument } from '../src/words/recipe';
+
+const recipe = (): RecipeDocument => ({
+  steps: [{ enable: { axis: 'a' } }, { if: { condition: { axis: 'a', point: 'fault', is: true }, then: [{ wait_s: 1 }, { wait_s: 2 }], else: [] } }, { message: 'x' }],
+});
+
+describe('editing', () => {
+  it('moves a step within its list, never out of it', () => {
+    const d = recipe();
+    expect(moved(d, ['steps'], 0, 1).steps.map((s) => Object.keys(s)[0])).toEqual(['if', 'enable', 'message']);
+    expect(moved(d, ['steps'], 0, -1)).toEqual(d);
+    expect(moved(d, ['steps', 1, 'if', 'then'], 1, -1).steps[1]).toEqual({ if: { condition: { axis: 'a', point: 'fault', is: true }, then: [{ wait_s: 2 }, { wait_s: 1 }], else: [] } });
+    expect(d).toEqual(recipe());
+  });
+  it('adds and removes, also where there is no list yet', () => {
+    expect(removed(recipe(), ['steps'], 1).steps).toHaveLength(2);
+    expect(added({ steps: [{ if: { condition: {}, then: [] } }] }, ['steps', 0, 'if', 'else'], { wait_s: 3 }).steps[0]).toEqual({ if: { condition: {}, then: [], else: [{ wait_s: 3 }] } });
+  });
+  it('changes one value, and takes a member away that became nothing', () => {
+    expect(changed(recipe(), ['steps', 0, 'enable', 'wait_s'], () => 5).steps[0]).toEqual({ enable: { axis: 'a', wait_s: 5 } });
+    expect(changed({ steps: [{ enable: { axis: 'a', wait_s: 5 } }] }, ['steps', 0, 'enable', 'wait_s'], () => undefined).steps[0]).toEqual({ enable: { axis: 'a' } });
+  });
+  it('names places as the gateway does', () => expect(pointerOf(['steps', 1, 'if', 'then', 0])).toBe('/steps/1/if/then/0'));
+});
+
+it.each([['5', 5], ['-1.5e3', -1500], ['true', true], ['false', false], ['${distance}', '${distance}'], ['0x10', '0x10'], ['', undefined], ['operation_enabled', 'operation_enabled']])('reads %s', (typed, value) => {
+  expect(valueOf(typed)).toEqual(value);
+  expect(typedOf(value)).toBe(typed === '-1.5e3' ? '-1500' : typed);
+});
+
+it('has a form for every step of the schema, and no other', () => {
+  const schema = readFileSync(new URL('../../schema/openapi.yaml', import.meta.url), 'utf8').split('    RecipeStep:\n')[1]?.split('    RecipeDocument:')[0] ?? '';
+  const told = [...schema.matchAll(/^ {8}([a-z_]+):/gm)].map((m) => m[1]).filter((w) => w !== 'comment').sort();
+  expect(stepKinds.map((k) => k.word).sort()).toEqual(told);
+  for (const k of stepKinds) expect(kindOf(freshStep(k.word, 'feeder'))).toBe(k);
+});
+it('begins a step with the axis that there is', () => expect(freshStep('if', 'feeder')).toEqual({ if: { condition: { axis: 'feeder', point: 'referenced', is: false }, then: [], else: [] } }));
+
+it('reads text, or says what is wrong with it', () => {
+  expect(documentOf('{"steps":[{"wait_s":1}]}')).toEqual({ document: { steps: [{ wait_s: 1 }] } });
+  for (const bad of ['{', '[]', 'null', '{}', '{"steps":[1]}', '{"steps":{}}']) expect(documentOf(bad)).toHaveProperty('fault');
+});
+it('leaves out what the gateway adds', () => expect(editable({ name: 'x', changed_at: 'y', changed_by: null, steps: [] })).toEqual({ steps: [] }));
+it('has a word for every state', () => {
+  for (const s of ['running', 'stopping', 'done', 'failed', 'cancelled', 'not_run']) expect(runWord(s).text.length).toBeGreaterThan(3);
+});

@@ -130,6 +130,16 @@ export class Client {
     }
   }
 
+  /** A document of bytes. */
+  async bytes(path: string, options: Options = {}): Promise<Blob> {
+    await this.turn(true);
+    try {
+      return await this.send(path, options, (r) => r.blob());
+    } finally {
+      this.done();
+    }
+  }
+
   private turn(reads: boolean): Promise<void> {
     if (this.running < ordinaryAtOnce) {
       this.running += 1;

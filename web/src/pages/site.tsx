@@ -1,17 +1,89 @@
-// Site: what is connected, as one document. In: nothing. Out: a page.
-import { Section } from '../components/section';
+// Site: lines, drives and axes as forms; every change is a draft until it is checked and applied as one. In: the HTTP door. Out: a page.
+// An empty site begins with the wizard. The draft is the page's, not the component's: it stays when the page is left.
+import { useSignal } from '@preact/signals';
+import { useEffect } from 'preact/hooks';
+import type { Client } from '../api/client';
+import { SiteDoor } from '../api/site';
+import { Empty } from '../components/lines';
+import { SiteEntries } from '../components/site-entries';
+import { SiteFiles, SiteHistory } from '../components/site-files';
+import { ScanPanel } from '../components/site-scan';
+import { SiteStage } from '../components/site-stage';
+import { SiteWizard } from '../components/site-wizard';
+import { useGateway } from '../gateway';
+import { capital } from '../state/commander';
+import { kept } from '../state/kept';
+import { SiteDraft } from '../state/site-draft';
+
+const wizard = kept('site.wizard');
+const drafts = new WeakMap<Client, { door: SiteDoor; draft: SiteDraft }>();
+function draftOf(client: Client) {
+  let d = drafts.get(client);
+  if (!d) {
+    const door = new SiteDoor(client);
+    drafts.set(client, (d = { door, draft: new SiteDraft(door) }));
+    d.draft.keep();
+  }
+  return d;
+}
 
 export function SitePage() {
+  const { client, store } = useGateway();
+  const { door, draft } = draftOf(client);
+  const scanning = useSignal('');
+  const epoch = store.connection.value.epoch;
+  const revision = store.siteRevision.value;
+  useEffect(() => {
+    if (epoch > 0) void draft.load();
+  }, [draft, epoch, revision]);
+
+  const site = draft.draft.value;
+  const empty = (draft.base.value.axes ?? []).length === 0;
+  const guided = wizard.value === 'open' || (wizard.value === '' && draft.state.value === 'there' && empty);
+  const inForce = new Set((draft.base.value.lines ?? []).map((l) => l.name));
   return (
-    <main class="page narrow">
-      <h1 tabIndex={-1}>Site</h1>
-      <Section title="Document">
-        <p>
-          <a class="button" href="/api/v1/site" download="site.json">
-            Export
-          </a>
-        </p>
-      </Section>
+    <main class="page site-page">
+      <div class="site-head">
+        <h1 tabIndex={-1}>Site</h1>
+        {!guided && draft.state.value === 'there' && (
+          <button type="button" class="button" onClick={() => (wizard.value = 'open')}>
+            Wizard: to a moving axis
+          </button>
+        )}
+      </div>
+      {draft.state.value === 'waiting' ? (
+        <Empty text="Waiting for the gateway." />
+      ) : draft.state.value !== 'there' ? (
+        <Empty text={capital(draft.state.value)} />
+      ) : guided ? (
+        <SiteWizard draft={draft} door={door} leave={() => (wizard.value = 'closed')} />
+      ) : (
+        <>
+          <SiteStage draft={draft} />
+          <div class="site-rooms">
+            <SiteEntries
+              room="lines"
+              draft={draft}
+              extra={(l) =>
+                inForce.has(l.name) && (
+                  <button type="button" class="button small" aria-expanded={scanning.value === l.name} aria-label={`Scan ${l.name}`} onClick={() => (scanning.value = scanning.value === l.name ? '' : l.name)}>
+                    Scan
+                  </button>
+                )
+              }
+            />
+            <SiteEntries room="drives" draft={draft} />
+            <SiteEntries room="axes" draft={draft} />
+          </div>
+          {scanning.value !== '' && (site.lines ?? []).some((l) => l.name === scanning.value) && (
+            <div class="card">
+              <ScanPanel key={scanning.value} line={(site.lines ?? []).find((l) => l.name === scanning.value)!} door={door} draft={draft} />
+            </div>
+          )}
+          <SiteFiles draft={draft} door={door} />
+          <SiteHistory draft={draft} door={door} />
+        </>
+      )}
     </main>
   );
 }

@@ -1,0 +1,107 @@
+// Site scan: who answers on a line. In: a line of the site in force, a range of addresses. Out: what was found, and a drive with an axis in the draft
+// for each that is not known yet. Asks for progress three times a second, for at most ten minutes; can be ended.
+import { useSignal } from '@preact/signals';
+import { useEffect, useRef } from 'preact/hooks';
+import { asProblem } from '../api/problem';
+import type { Scan, SiteDoor } from '../api/site';
+import type { SiteDraft } from '../state/site-draft';
+import { freeName, freeNumber, withEntry, type Entry } from '../words/site';
+import { notOffered, quiet, Tell, TextField, type Told } from './form';
+
+const poll_ms = 300;
+const longest_ms = 600_000;
+const numberOf = (text: string): number | undefined => (/^\d+$/.test(text.trim()) ? Number(text) : undefined);
+
+/** A drive that was found, and its first axis, into the draft. */
+export function addFound(draft: SiteDraft, line: Entry, address: number | string): void {
+  const site = draft.draft.peek();
+  const drive = freeName(site.drives, `${line.name}-${address}`);
+  const axis = freeName(site.axes, drive);
+  const withDrive = withEntry(site, 'drives', { name: drive, line: line.name, address, presence: 'auto' }, null);
+  draft.edit(withEntry(withDrive, 'axes', { name: axis, drive, channel: 1, number: freeNumber(site) }, null));
+}
+
+export function ScanPanel({ line, door, draft }: { line: Entry; door: SiteDoor; draft: SiteDraft }) {
+  const from = useSignal('');
+  const to = useSignal('');
+  const scan = useSignal<Scan | null>(null);
+  const told = useSignal<Told>(quiet);
+  const running = useRef<{ stop: boolean } | null>(null);
+  useEffect(() => () => void (running.current && (running.current.stop = true)), []);
+
+  const start = async () => {
+    const range: { from?: number; to?: number } = {};
+    const [a, b] = [numberOf(from.value), numberOf(to.value)];
+    if (a !== undefined) range.from = a;
+    if (b !== undefined) range.to = b;
+    const run: { stop: boolean } = { stop: false };
+    running.current = run;
+    scan.value = null;
+    told.value = { tone: 'busy', text: 'Scanning …' };
+    try {
+      await door.startScan(line.name, range);
+      const end = performance.now() + longest_ms;
+      while (!run.stop && performance.now() < end) {
+        const s = await door.scan(line.name);
+        scan.value = s;
+        if (s.state !== 'running') {
+          told.value = { tone: s.state === 'done' ? 'good' : 'refused', text: `${s.state === 'done' ? `${s.found.length} found${s.asked ? `, ${s.asked} asked` : ''}.` : `The scan is ${s.state}.`} ${s.text ?? ''}`.trim() };
+          return;
+        }
+        told.value = { tone: 'busy', text: `Scanning, ${Math.round(s.progress * 100)} % …` };
+        await new Promise((r) => setTimeout(r, poll_ms));
+      }
+    } catch (error) {
+      const p = asProblem(error);
+      told.value = { tone: 'refused', text: p.status === 405 || p.status === 501 || (p.status === 404 && !/line/.test(p.message)) || p.message.startsWith('there is nothing at') ? notOffered('a scan of its lines') : p.words };
+    } finally {
+      if (running.current === run) running.current = null;
+    }
+  };
+  const known = new Map((draft.draft.value.drives ?? []).filter((d) => d.line === line.name).map((d) => [String(d.address), d.name]));
+  return (
+    <form
+      class="form scan"
+      noValidate
+      aria-label={`Scan line ${line.name}`}
+      onSubmit={(e) => {
+        e.preventDefault();
+        void start();
+      }}
+    >
+      <div class="form-foot">
+        <TextField label="From address" class="within" number value={from.value} onText={(t) => (from.value = t)} placeholder="first" />
+        <TextField label="to" class="within" number value={to.value} onText={(t) => (to.value = t)} placeholder="last" />
+        <button type="submit" class="button primary" disabled={told.value.tone === 'busy'}>
+          Scan
+        </button>
+        {told.value.tone === 'busy' && (
+          <button type="button" class="button" onClick={() => void door.endScan(line.name).catch(() => undefined)}>
+            End
+          </button>
+        )}
+        <Tell told={told.value} field="scan-told" />
+      </div>
+      {scan.value && scan.value.state === 'running' && <progress max={1} value={scan.value.progress} aria-label="Progress of the scan" />}
+      {scan.value && scan.value.found.length > 0 && (
+        <ul class="found" aria-label="Found">
+          {scan.value.found.map((f) => {
+            const name = f.known_as ?? known.get(String(f.address));
+            return (
+              <li key={String(f.address)} data-found={f.address}>
+                <b class="mono">{f.address}</b> <span>{f.text ?? ''}</span>{' '}
+                {name ? (
+                  <span class="where">known as {name}</span>
+                ) : (
+                  <button type="button" class="button small" onClick={() => addFound(draft, line, f.address)}>
+                    Add {f.address} as a drive
+                  </button>
+                )}
+              </li>
+            );
+          })}
+        </ul>
+      )}
+    </form>
+  );
+}

@@ -1,0 +1,149 @@
+// Site stage: what is waiting to be applied, and the way there: check, apply, keep, or roll back. In: the draft. Out: the draft's steps.
+// While an applied change waits to be kept, the rest of its time is shown each second, and spoken when it is short.
+import { signal, useSignal } from '@preact/signals';
+import { useEffect } from 'preact/hooks';
+import { useGateway } from '../gateway';
+import type { SiteDraft } from '../state/site-draft';
+import { kept } from '../state/kept';
+import { differenceWords, sameDocument, type Difference } from '../words/site';
+import type { StageDiff } from '../api/site';
+import { parseNumber } from '../words/number';
+import { Tell, TextField } from './form';
+import { Icon } from './icon';
+
+const within = kept('site.within_s', '60');
+const second = signal(0);
+const mostShown = 200;
+
+export function DifferenceList({ list, label }: { list: readonly (Difference | StageDiff)[]; label: string }) {
+  return (
+    <ul class="differences site-diff" aria-label={label}>
+      {list.slice(0, mostShown).map((d) => (
+        <li key={d.what} data-diff={d.what} class={`is-${d.kind}`}>
+          <span class="diff-kind">{d.kind}</span> <span>{differenceWords(d)}</span>
+        </li>
+      ))}
+      {list.length > mostShown && <li class="where">and {list.length - mostShown} more</li>}
+    </ul>
+  );
+}
+
+export function SiteStage({ draft }: { draft: SiteDraft }) {
+  const { store } = useGateway();
+  const stage = draft.stage.value;
+  useEffect(() => {
+    if (stage.state !== 'applied') return;
+    const timer = setInterval(() => {
+      second.value += 1;
+      // The gateway itself ends the wait; ask it when the time is over.
+      if (left() <= 0) void draft.look();
+    }, 1000);
+    return () => clearInterval(timer);
+  }, [stage.state, stage.confirm_by]);
+  const left = () => (stage.confirm_by ? Math.ceil((stage.confirm_by / 1e6 - (Date.now() + store.clockOffset_ms)) / 1000) : 0);
+  void second.value;
+
+  const changes = draft.changes.value;
+  const theirs = draft.theirs.value;
+  const checked = draft.checked.value !== null && sameDocument(draft.checked.value, draft.draft.value);
+  const faults = draft.faults.value;
+  const s = parseNumber(within.value);
+  const seconds = s.good && Number.isInteger(s.value) && (s.value === 0 || (s.value >= 5 && s.value <= 600)) ? s.value : null;
+  const busy = draft.told.value.tone === 'busy';
+  const foreign = stage.state === 'staged' && !checked;
+  const asked = useSignal(false);
+
+  if (stage.state === 'applied') {
+    const rest = Math.max(0, left());
+    return (
+      <section class="card stage is-applied" aria-label="Applied change" data-field="stage" data-state="applied">
+        <p class="stage-count" data-field="countdown">
+          <Icon name="clock" /> The change is applied. {rest > 0 ? `It is rolled back by itself in ${rest} s.` : 'Its time is over.'}
+        </p>
+        <p class="visually-hidden" role="alert">
+          {rest === 20 || rest === 10 ? `The change is rolled back in ${rest} seconds.` : ''}
+        </p>
+        <div class="form-foot">
+          <button type="button" class="button primary" disabled={busy} onClick={() => void draft.confirm()}>
+            Keep
+          </button>
+          <button type="button" class="button" disabled={busy} onClick={() => void draft.rollBack()}>
+            Roll back now
+          </button>
+          <Tell told={draft.told.value} field="stage-told" />
+        </div>
+        {(stage.diff?.length ?? 0) > 0 && <DifferenceList list={stage.diff ?? []} label="What was changed" />}
+      </section>
+    );
+  }
+  return (
+    <section class="card stage" aria-label="Changes" data-field="stage" data-state={stage.state}>
+      {theirs && (
+        <div class="theirs" role="group" aria-label="Somebody else's change" data-field="theirs">
+          <p class="stage-count">
+            <Icon name="triangle" /> Somebody else has changed the site meanwhile. What you typed is kept.
+          </p>
+          <DifferenceList list={theirs.changes} label="What somebody else changed" />
+          <div class="form-foot">
+            <button type="button" class="button primary" onClick={() => void draft.adopt(true)}>
+              Put mine on top
+            </button>
+            <button type="button" class="button" onClick={() => void draft.adopt(false)}>
+              Drop mine
+            </button>
+          </div>
+        </div>
+      )}
+      <p class="stage-count" role="status">
+        {changes.length === 0 ? 'Nothing is changed.' : `${changes.length === 1 ? '1 change is' : `${changes.length} changes are`} waiting; nothing has been sent to the drives.`}
+        {foreign && ' A change is staged at the gateway; checking yours takes its place.'}
+      </p>
+      {changes.length > 0 && <DifferenceList list={changes} label="What would change" />}
+      {foreign && changes.length === 0 && <DifferenceList list={stage.diff ?? []} label="What is staged" />}
+      {faults.length > 0 && checked && (
+        <ul class="stage-faults" aria-label="Faults">
+          {faults.slice(0, 50).map((f) => (
+            <li key={f.pointer + f.text} class="fault-text">
+              <span class="mono">{f.pointer}</span> {f.text}: {f.remedy}
+            </li>
+          ))}
+        </ul>
+      )}
+      {checked && draft.disturbs.value.length > 0 && <p class="form-told">Applying disturbs for a moment: {draft.disturbs.value.join(', ')}.</p>}
+      <div class="form-foot">
+        {changes.length > 0 && (
+          <>
+            <button type="button" class={`button${checked && faults.length === 0 ? '' : ' primary'}`} disabled={busy || theirs !== null} onClick={() => void draft.check()}>
+              Check
+            </button>
+            {draft.offersStage.value !== false && <TextField label="Keep within, s" class="within" number value={within.value} onText={(t) => (within.value = t)} fault={seconds === null ? '5 to 600; 0: no roll back.' : undefined} />}
+            <button type="button" class="button primary" disabled={busy || !checked || faults.length > 0 || seconds === null || theirs !== null} onClick={() => void draft.apply(seconds ?? 60)}>
+              Apply
+            </button>
+            {asked.value ? (
+              <>
+                <button type="button" class="button" onClick={() => { asked.value = false; draft.drop(); }}>
+                  Drop all changes
+                </button>
+                <button type="button" class="button quiet" onClick={() => (asked.value = false)}>
+                  Keep typing
+                </button>
+              </>
+            ) : (
+              <button type="button" class="button quiet" onClick={() => (asked.value = true)}>
+                Drop …
+              </button>
+            )}
+          </>
+        )}
+        {stage.state === 'staged' && (
+          <button type="button" class="button quiet" onClick={() => void draft.discard()}>
+            Discard what is staged
+          </button>
+        )}
+        <Tell told={draft.told.value} field="stage-told" />
+      </div>
+      {draft.offersStage.value === false && changes.length > 0 && <p class="form-told">This gateway does not offer staging: an applied change stays, there is no roll back by itself.</p>}
+    </section>
+  );
+}

@@ -1,0 +1,189 @@
+// Site wizard: from an empty site to a moving axis in five steps: line, drive, axis, apply, move. In: the draft. Out: entries in the draft, then the
+// same check, apply and keep as everywhere; the last step is the axis' own tile. Nothing moves without a button there.
+import { useSignal } from '@preact/signals';
+import { useEffect, useRef } from 'preact/hooks';
+import type { SiteDoor } from '../api/site';
+import { useGateway } from '../gateway';
+import { kept } from '../state/kept';
+import type { SiteDraft } from '../state/site-draft';
+import { checkEntry, fieldsOf, freeName, freeNumber, withEntry, type Room, type Texts } from '../words/site';
+import { AxisTile } from './axis-tile';
+import { ScanPanel } from './site-scan';
+import { EntryField } from './site-entries';
+import { SiteStage } from './site-stage';
+
+const kinds = [
+  { id: 'twin', text: 'No drive yet: simulate it', uri: 'twin' },
+  { id: 'can', text: 'CAN', uri: 'can:can0' },
+  { id: 'serial', text: 'Serial port, RS-485', uri: 'serial:/dev/ttyUSB0?baud=9600&rs485=1' },
+  { id: 'tcp', text: 'Network, TCP', uri: 'tcp:192.0.2.10:8888' },
+  { id: 'udp', text: 'Network, UDP', uri: 'udp:192.0.2.10:503' },
+];
+const steps = ['Line', 'Drive', 'Axis', 'Apply', 'Move'] as const;
+const step = kept('wizard.step', '0');
+const chosen = { lines: kept('wizard.line'), drives: kept('wizard.drive'), axes: kept('wizard.axis') };
+const order: Room[] = ['lines', 'drives', 'axes'];
+
+export function SiteWizard({ draft, door, leave }: { draft: SiteDraft; door: SiteDoor; leave: () => void }) {
+  const { store } = useGateway();
+  const at = Math.min(Number(step.value) || 0, steps.length - 1);
+  const head = useRef<HTMLHeadingElement>(null);
+  const go = (n: number) => {
+    step.value = String(n);
+    requestAnimationFrame(() => head.current?.focus());
+  };
+  const axis = chosen.axes.value;
+  const applied = (draft.base.value.axes ?? []).some((a) => a.name === axis) && store.axisNames.value.includes(axis);
+  const line = (draft.base.value.lines ?? []).find((l) => l.name === chosen.lines.value);
+  return (
+    <section class="card wizard" aria-labelledby="wizard-head" data-step={at + 1}>
+      <header class="wizard-head">
+        <h2 id="wizard-head" ref={head} tabIndex={-1}>
+          Step {at + 1} of {steps.length}: {['Where is the line?', 'Which drive is on it?', 'What does it move?', 'Check and apply', 'Move it'][at]}
+        </h2>
+        <ol class="wizard-steps" aria-label="Steps">
+          {steps.map((s, i) => (
+            <li key={s} class={i < at ? 'is-done' : i === at ? 'is-now' : ''} aria-current={i === at ? 'step' : undefined}>
+              {s}
+            </li>
+          ))}
+        </ol>
+        <button type="button" class="button quiet" onClick={leave}>
+          Leave the wizard
+        </button>
+      </header>
+      {at < 3 && <StepForm key={at} room={order[at] as Room} draft={draft} back={at > 0 ? () => go(at - 1) : null} next={() => go(at + 1)} />}
+      {at === 1 && line && line.uri !== 'twin' && <ScanPanel line={line} door={door} draft={draft} />}
+      {at === 3 && (
+        <>
+          <SiteStage draft={draft} />
+          <div class="form-foot">
+            <button type="button" class="button" onClick={() => go(2)}>
+              Back
+            </button>
+            <button type="button" class="button primary" disabled={!applied} onClick={() => go(4)}>
+              Go on to moving {axis}
+            </button>
+            {!applied && <span class="where">Apply first: {axis || 'the axis'} is not in force yet.</span>}
+          </div>
+        </>
+      )}
+      {at === 4 && (
+        <>
+          {draft.stage.value.state === 'applied' && <SiteStage draft={draft} />}
+          <p class="where">Enable the axis, then move it: a short distance first. Escape stops all axes.</p>
+          {applied ? <AxisTile name={axis} bare={false} /> : <p class="empty">{axis} is not there.</p>}
+          <div class="form-foot">
+            <button
+              type="button"
+              class="button primary"
+              onClick={() => {
+                for (const c of Object.values(chosen)) c.value = '';
+                step.value = '0';
+                leave();
+              }}
+            >
+              Done
+            </button>
+          </div>
+        </>
+      )}
+    </section>
+  );
+}
+
+const keys: Record<Room, readonly string[]> = { lines: ['name', 'family', 'uri', 'bitrate'], drives: ['name', 'address', 'presence'], axes: ['name', 'unit', 'increments_per_unit', 'channel', 'position_min', 'position_max', 'velocity_max'] };
+
+function StepForm({ room, draft, back, next }: { room: Room; draft: SiteDraft; back: (() => void) | null; next: () => void }) {
+  const site = draft.draft.value;
+  const list = site[room] ?? [];
+  // A drive of the chosen line, an axis of the chosen drive.
+  const fitting = list.filter((e) => (room === 'lines' ? true : room === 'drives' ? e.line === chosen.lines.value : e.drive === chosen.drives.value));
+  const use = useSignal(fitting.some((e) => e.name === chosen[room].peek()) ? chosen[room].peek() : (fitting[0]?.name ?? ''));
+  const texts = useSignal<Texts>(first(room, draft));
+  const touched = useSignal(false);
+  const form = useRef<HTMLFormElement>(null);
+  useEffect(() => {
+    // What a scan added is chosen.
+    if (use.peek() === '' && fitting.length > 0 && room === 'drives' && !touched.peek()) use.value = fitting[0]!.name;
+  }, [fitting.length]);
+  const { entry, faults } = checkEntry(room, texts.value, site, null);
+  const set = (key: string) => (t: string) => (texts.value = { ...texts.value, [key]: t });
+  const word = { lines: 'line', drives: 'drive', axes: 'axis' }[room];
+  const submit = () => {
+    if (use.value !== '') {
+      chosen[room].value = use.value;
+      return next();
+    }
+    touched.value = true;
+    if (!entry) return void requestAnimationFrame(() => form.current?.querySelector<HTMLElement>('.is-wrong')?.focus());
+    draft.edit(withEntry(site, room, entry, null));
+    chosen[room].value = entry.name;
+    next();
+  };
+  return (
+    <form
+      ref={form}
+      class="form"
+      noValidate
+      aria-label={`Wizard: ${word}`}
+      onSubmit={(e) => {
+        e.preventDefault();
+        submit();
+      }}
+    >
+      {fitting.length > 0 && (
+        <fieldset class="choices">
+          <legend>Take one that is there, or describe a new one</legend>
+          {fitting.map((e) => (
+            <label key={e.name} class="check">
+              <input type="radio" name={`wizard-${room}`} checked={use.value === e.name} onChange={() => (use.value = e.name)} /> {e.name}
+            </label>
+          ))}
+          <label class="check">
+            <input type="radio" name={`wizard-${room}`} checked={use.value === ''} onChange={() => (use.value = '')} /> a new {word}
+          </label>
+        </fieldset>
+      )}
+      {use.value === '' && room === 'lines' && (
+        <fieldset class="choices">
+          <legend>What kind of line is it?</legend>
+          {kinds.map((k) => (
+            <label key={k.id} class="check">
+              <input type="radio" name="wizard-kind" checked={kindOf(texts.value.uri ?? '') === k.id} onChange={() => set('uri')(k.uri)} /> {k.text}
+            </label>
+          ))}
+        </fieldset>
+      )}
+      {use.value === '' && (
+        <div class="form-grid">
+          {fieldsOf[room]
+            .filter((f) => keys[room].includes(f.key))
+            .map((f) => (
+              <EntryField key={f.key} f={f} site={site} text={texts.value[f.key] ?? ''} onText={set(f.key)} fault={touched.value || (texts.value[f.key] ?? '') !== '' ? faults[f.key] : undefined} />
+            ))}
+        </div>
+      )}
+      {use.value === '' && touched.value && (faults.line || faults.drive) && <p class="form-told is-fault">{faults.line ?? faults.drive}</p>}
+      <div class="form-foot">
+        {back && (
+          <button type="button" class="button" onClick={back}>
+            Back
+          </button>
+        )}
+        <button type="submit" class="button primary">
+          Next
+        </button>
+      </div>
+    </form>
+  );
+}
+
+const kindOf = (uri: string) => uri.split(':')[0] ?? '';
+
+function first(room: Room, draft: SiteDraft): Texts {
+  const site = draft.draft.peek();
+  if (room === 'lines') return { name: freeName(site.lines, 'line'), uri: 'twin', family: '' };
+  if (room === 'drives') return { name: freeName(site.drives, 'drive'), line: chosen.lines.peek(), presence: 'auto' };
+  return { name: freeName(site.axes, chosen.drives.peek() || 'axis'), drive: chosen.drives.peek(), number: String(freeNumber(site)), unit: 'mm', increments_per_unit: '', channel: '1' };
+}

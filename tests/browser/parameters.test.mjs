@@ -122,8 +122,8 @@ test('snapshots: saved, compared, restored after a look; or it is said that ther
   await shot(page, 'parameters-restore', { fullPage: true });
   await changes.getByRole('button', { name: /^Write \d+ to the drive$/ }).click();
   await until('it is restored', async () => (await get(a.id)) === 1234, 60_000);
-  await entry.getByRole('button', { name: 'Remove as delivered' }).click();
-  await entry.getByRole('button', { name: 'Remove as delivered for good' }).click();
+  await entry.getByRole('button', { name: 'Remove as delivered', exact: true }).click();
+  await entry.getByRole('button', { name: 'Remove for good: as delivered' }).click();
   await until('it is gone', async () => (await entry.count()) === 0);
 });
 

@@ -154,11 +154,11 @@ export function SiteHistory({ draft, door }: { draft: SiteDraft; door: SiteDoor 
                   <h3>
                     Revision {h.revision} <span class="where">{clockTime(h.at)} {h.who ?? ''} · {size(h.bytes)}</span>
                   </h3>
-                  <button type="button" class="button small" aria-expanded={shown.value?.revision === h.revision} aria-label={`What revision ${h.revision} would change`} onClick={() => void look(h.revision)}>
+                  <button type="button" class="button small" aria-expanded={shown.value?.revision === h.revision} aria-label={`Difference to revision ${h.revision}`} onClick={() => void look(h.revision)}>
                     Difference
                   </button>
                   <button type="button" class="button small" aria-label={`Restore revision ${h.revision}`} onClick={() => void draft.restore(h.revision)}>
-                    Restore …
+                    Restore
                   </button>
                 </div>
                 {shown.value?.revision === h.revision && (shown.value.changes.length === 0 ? <p class="where">It is the site that is in force.</p> : <DifferenceList list={shown.value.changes} label={`What revision ${h.revision} would change`} />)}

@@ -131,11 +131,11 @@ export function Snapshots({ axis, onList }: { axis: string; onList: (list: Snaps
                     {s.name} <span class="where">no. {s.n}</span>
                   </h3>
                   <button type="button" class="button small" aria-label={`Restore ${s.name}`} onClick={() => void look(s)}>
-                    Restore …
+                    Restore
                   </button>
                   {removing.value === s.n ? (
                     <>
-                      <button type="button" class="button small" aria-label={`Remove ${s.name} for good`} onClick={() => void remove(s)}>
+                      <button type="button" class="button small" aria-label={`Remove for good: ${s.name}`} onClick={() => void remove(s)}>
                         Remove for good
                       </button>
                       <button type="button" class="button small quiet" onClick={() => (removing.value = null)}>

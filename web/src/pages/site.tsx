@@ -40,6 +40,10 @@ export function SitePage() {
   const site = draft.draft.value;
   const empty = (draft.base.value.axes ?? []).length === 0;
   const guided = wizard.value === 'open' || (wizard.value === '' && draft.state.value === 'there' && empty);
+  useEffect(() => {
+    // The wizard stays until it is left, also when the site is not empty any more.
+    if (guided && wizard.peek() === '') wizard.value = 'open';
+  }, [guided]);
   const inForce = new Set((draft.base.value.lines ?? []).map((l) => l.name));
   return (
     <main class="page site-page">

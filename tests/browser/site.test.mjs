@@ -1,0 +1,287 @@
+// The page of the site: forms, faults beside their fields, check and apply as one, keep or roll back, two writers, import, history, scan, wizard.
+// What the program does not offer yet must be said in words; the tests ask the program itself what that is.
+import assert from 'node:assert/strict';
+import { writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { launch, open, pictures, shot, tileOf, until } from './lib/browser.mjs';
+import { Program } from './lib/program.mjs';
+
+let program, browser, page, offersStage, offersHistory, offersBackup;
+const stage = () => page.locator('[data-field=stage]').first();
+const told = (field) => page.locator(`[data-field="${field}"]`).first().innerText();
+const site = async () => (await program.call('GET', '/site')).body;
+const axis = async (name) => (await site()).axes.find((a) => a.name === name);
+const offered = async (path) => ![404, 405, 501].includes((await fetch(`${program.url}/api/v1${path}`)).status);
+/** Somebody else, with the revision as it is now. */
+const elsewhere = async (change) => {
+  const r = await fetch(`${program.url}/api/v1/site`);
+  const document = await r.json();
+  change(document);
+  const answer = await fetch(`${program.url}/api/v1/site`, { method: 'PUT', headers: { 'content-type': 'application/json', 'if-match': r.headers.get('etag') }, body: JSON.stringify(document) });
+  assert.equal(answer.status, 200, await answer.text());
+};
+const form = (name) => page.getByRole('form', { name });
+const checkIt = async () => {
+  await stage().getByRole('button', { name: 'Check', exact: true }).click();
+  await until('it is checked', async () => /^Checked|fault/.test(await told('stage-told')) || (await told('stage-told')));
+};
+const applyIt = async (seconds) => {
+  if (offersStage) await stage().getByLabel('Keep within, s').fill(String(seconds));
+  await stage().getByRole('button', { name: 'Apply', exact: true }).click();
+  await until('it is applied', async () => /^Applied/.test(await told('stage-told')) || (await told('stage-told')));
+};
+const keepIt = async () => {
+  if (!offersStage) return;
+  await stage().getByRole('button', { name: 'Keep', exact: true }).click();
+  await until('it is kept', async () => (await stage().getAttribute('data-state')) === 'none');
+};
+
+before(async () => {
+  program = await Program.start();
+  browser = await launch();
+  offersStage = await offered('/site/stage');
+  offersHistory = await offered('/site/history');
+  offersBackup = await offered('/backup');
+  page = await open(browser, `${program.url}/site`);
+  await page.locator('[data-entry="axes/feeder"]').waitFor();
+});
+after(async () => {
+  await browser?.close();
+  await program?.end();
+});
+
+test('a fault stands beside its field, in words, and what was typed stays', async () => {
+  await page.getByRole('button', { name: 'Change axis feeder' }).click();
+  const f = form('Change axis feeder');
+  await f.getByLabel('Number').fill('2');
+  await f.getByText('This number has slide.x.').waitFor();
+  await f.getByRole('button', { name: 'Take into the draft' }).click();
+  assert.equal(await f.getByLabel('Number').inputValue(), '2');
+  assert.equal(await f.getByLabel('Number').getAttribute('aria-invalid'), 'true');
+  await f.getByLabel('Number').fill('1');
+});
+
+test('a change waits as a difference, survives a reload, and touches nothing before it is applied', async () => {
+  const f = form('Change axis feeder');
+  await f.getByLabel('Unit', { exact: true }).fill('deg');
+  await f.getByLabel('Unit', { exact: true }).press('Enter');
+  await page.locator('[data-diff="axes/feeder"]').waitFor();
+  assert.match(await page.locator('[data-diff="axes/feeder"]').innerText(), /unit mm → deg/);
+  assert.equal((await axis('feeder')).unit, 'mm');
+  await page.reload();
+  await page.locator('[data-diff="axes/feeder"]').waitFor();
+  await checkIt();
+  assert.equal((await axis('feeder')).unit, 'mm');
+});
+
+test('a second writer sees what the first one did, keeps what was typed, and goes on from there', async () => {
+  await elsewhere((s) => (s.axes.find((a) => a.name === 'slide.x').velocity_max = 77));
+  const theirs = page.locator('[data-field=theirs]');
+  await theirs.waitFor();
+  assert.match(await theirs.innerText(), /slide\.x: velocity max nothing → 77/);
+  assert.match(await page.locator('.site-diff[aria-label="What would change"]').innerText(), /mm → deg/);
+  assert.equal(await stage().getByRole('button', { name: 'Apply', exact: true }).isDisabled(), true);
+  await shot(page, 'site-two-writers', { fullPage: true });
+  await theirs.getByRole('button', { name: 'Put mine on top' }).click();
+  await checkIt();
+  await applyIt(60);
+  if (offersStage) {
+    assert.match(await told('countdown'), /rolled back by itself in (60|5\d) s/);
+    await shot(page, 'site-countdown', { fullPage: true });
+  } else {
+    assert.match(await told('stage-told'), /does not roll back/);
+  }
+  await keepIt();
+  assert.equal((await axis('feeder')).unit, 'deg');
+  assert.equal((await axis('slide.x')).velocity_max, 77);
+});
+
+test('what is not kept is rolled back by itself, and by the button', async () => {
+  if (!offersStage) {
+    assert.equal((await axis('feeder')).unit, 'deg');
+    return;
+  }
+  const change = async (unit) => {
+    await page.getByRole('button', { name: 'Change axis feeder' }).click();
+    await form('Change axis feeder').getByLabel('Unit', { exact: true }).fill(unit);
+    await form('Change axis feeder').getByRole('button', { name: 'Take into the draft' }).click();
+    await checkIt();
+  };
+  await change('inch');
+  await applyIt(5);
+  assert.equal((await axis('feeder')).unit, 'inch');
+  await until('it is rolled back by itself', async () => (await stage().getAttribute('data-state')) === 'none' && (await axis('feeder')).unit === 'deg', 15_000);
+  await change('m');
+  await applyIt(60);
+  await stage().getByRole('button', { name: 'Roll back now' }).click();
+  await until('it is rolled back', async () => (await axis('feeder')).unit === 'deg');
+});
+
+test('a line, a drive and an axis are added by their forms and applied as one', async () => {
+  await page.getByRole('button', { name: 'Add a line' }).click();
+  const line = form('Add a line');
+  await line.getByLabel('Name').fill('can1');
+  await line.getByLabel('Family').selectOption('uim342');
+  await line.getByLabel('URI').fill('twin');
+  await line.getByRole('button', { name: 'Take into the draft' }).click();
+  await page.getByRole('button', { name: 'Add a drive' }).click();
+  const drive = form('Add a drive');
+  await drive.getByLabel('Name').fill('extra');
+  await drive.getByLabel('Line').selectOption('can1');
+  await drive.getByLabel('Address').fill('7');
+  await drive.getByRole('button', { name: 'Take into the draft' }).click();
+  await page.getByRole('button', { name: 'Add an axis' }).click();
+  const a = form('Add an axis');
+  await a.getByLabel('Name').fill('extra');
+  await a.getByLabel('Drive').selectOption('extra');
+  assert.equal(await a.getByLabel('Number').inputValue(), '3');
+  await a.getByRole('button', { name: 'Take into the draft' }).click();
+  assert.equal(await page.locator('[data-diff]').count(), 3);
+  await checkIt();
+  await applyIt(60);
+  await keepIt();
+  assert.equal((await axis('extra')).number, 3);
+  await until('it lives', async () => (await program.axis('extra')).online === true, 15_000);
+});
+
+test('a removal says what hangs on it, and can be dropped again', async () => {
+  await page.getByRole('button', { name: 'Remove line can1' }).click();
+  await page.getByText('Remove line can1, and with it drives extra; axes extra?').waitFor();
+  await page.locator('[data-entry="lines/can1"]').getByRole('button', { name: 'Remove', exact: true }).click();
+  assert.equal(await page.locator('[data-diff].is-removed').count(), 3);
+  await stage().getByRole('button', { name: 'Drop …' }).click();
+  await stage().getByRole('button', { name: 'Drop all changes' }).click();
+  await page.locator('[data-entry="lines/can1"]').waitFor();
+  assert.equal(await page.locator('[data-diff]').count(), 0);
+});
+
+test('what only the gateway can refuse stands at its entry', async () => {
+  const document = await site();
+  document.lines.push({ name: 'bad', uri: 'no-such-kind:x', family: 'uim342' });
+  delete document.lines.at(-1).uri;
+  const file = join(program.data, 'bad.json');
+  writeFileSync(file, JSON.stringify(document));
+  await page.getByLabel('Import a site').setInputFiles(file);
+  await page.locator('[data-entry="lines/bad"]').waitFor();
+  await checkIt();
+  assert.match(await page.locator('[data-entry="lines/bad"]').innerText(), /uri/);
+  assert.equal(await stage().getByRole('button', { name: 'Apply', exact: true }).isDisabled(), true);
+  assert.equal((await site()).lines.some((l) => l.name === 'bad'), false);
+});
+
+test('an imported document is a difference first; what is none says why', async () => {
+  const document = await site();
+  document.axes.find((a) => a.name === 'feeder').unit = 'mm';
+  const good = join(program.data, 'good.json');
+  writeFileSync(good, JSON.stringify(document));
+  writeFileSync(join(program.data, 'none.json'), '{"axes":');
+  await page.getByLabel('Import a site').setInputFiles(join(program.data, 'none.json'));
+  await until('it says why', async () => /not JSON/.test(await told('files-told')) || (await told('files-told')));
+  await page.getByLabel('Import a site').setInputFiles(good);
+  await until('it is a draft', async () => /1 differences/.test(await told('files-told')) || (await told('files-told')));
+  await checkIt();
+  await applyIt(60);
+  await keepIt();
+  assert.equal((await axis('feeder')).unit, 'mm');
+  const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('link', { name: 'Export the site' }).click()]);
+  assert.equal(download.suggestedFilename(), 'site.json');
+});
+
+test('applied states can be looked at and restored, or it is said that there are none', async () => {
+  const history = page.locator('[data-field=history]');
+  if (!offersHistory) {
+    assert.match(await history.innerText(), /does not offer/);
+    return;
+  }
+  await until('there are states', async () => (await history.locator('[data-revision]').count()) > 0);
+  const revisions = await history.locator('[data-revision]').evaluateAll((l) => l.map((e) => Number(e.dataset.revision)));
+  let wanted;
+  for (const r of revisions) {
+    const old = (await program.call('GET', `/site/history/${r}`)).body;
+    if (old.axes.find((a) => a.name === 'feeder')?.unit === 'deg' && old.axes.some((a) => a.name === 'extra')) wanted = r;
+  }
+  assert.ok(wanted, 'the state before the last one is kept');
+  await history.getByRole('button', { name: `Difference to revision ${wanted}` }).click();
+  await until('the difference is shown', async () => /mm → deg/.test(await history.innerText()) || (await history.innerText()));
+  await history.getByRole('button', { name: `Restore revision ${wanted}` }).click();
+  await until('it is staged', async () => /is staged/.test(await told('stage-told')) || (await told('stage-told')));
+  await applyIt(60);
+  await keepIt();
+  assert.equal((await axis('feeder')).unit, 'deg');
+});
+
+test('a line is scanned and what is found becomes a drive, or it is said that there is no scan', async () => {
+  await page.getByRole('button', { name: 'Scan can0' }).click();
+  const scan = form('Scan line can0');
+  await scan.getByLabel('From address').fill('5');
+  await scan.getByLabel('to', { exact: true }).fill('9');
+  await scan.getByRole('button', { name: 'Scan', exact: true }).click();
+  await until('it has an end', async () => /found|not offer|scan/i.test(await told('scan-told')) && !/Scanning/.test(await told('scan-told')), 60_000);
+  if (!/not offer/.test(await told('scan-told')) && (await page.locator('[data-found]').count()) > 0) assert.match(await page.locator('[data-found]').first().innerText(), /known as|Add/);
+});
+
+test('a backup goes out, or it is said that there is none; a restore is asked for twice', async () => {
+  if (offersBackup) {
+    const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Backup of everything' }).click()]);
+    assert.match(download.suggestedFilename(), /\.db$/);
+  } else {
+    await page.getByRole('button', { name: 'Backup of everything' }).click();
+    await until('it is said', async () => /does not offer/.test(await told('files-told')) || (await told('files-told')));
+  }
+  const file = join(program.data, 'copy.db');
+  writeFileSync(file, 'no database');
+  await page.getByLabel('Restore a backup', { exact: true }).and(page.locator('input')).setInputFiles(file);
+  await page.getByText('replaces site, mappings, parameters').waitFor();
+  await page.getByRole('button', { name: 'Leave it' }).click();
+  assert.deepEqual(page.faults(), []);
+});
+
+test('from an empty site to a moving axis, by the wizard, by keyboard', async () => {
+  const empty = await Program.start({ site: { lines: [], drives: [], axes: [], mappings: [] } });
+  try {
+    const p = await open(browser, `${empty.url}/site`);
+    const wizard = (n) => p.locator(`.wizard[data-step="${n}"]`);
+    await wizard(1).waitFor();
+    await p.getByLabel('Family').selectOption('uim342');
+    await p.getByLabel('Name').press('Enter');
+    await wizard(2).waitFor();
+    await p.getByLabel('Name').press('Enter');
+    await wizard(3).waitFor();
+    await p.getByLabel('Increments per unit').fill('0');
+    await p.getByText('Above 0.').waitFor();
+    await p.getByLabel('Increments per unit').fill('3200');
+    await p.getByLabel('Name').fill('first');
+    await p.getByLabel('Name').press('Enter');
+    await wizard(4).waitFor();
+    await shot(p, 'site-wizard-apply', { fullPage: true });
+    await p.getByRole('button', { name: 'Check', exact: true }).click();
+    const apply = p.getByRole('button', { name: 'Apply', exact: true });
+    await until('it can be applied', async () => !(await apply.isDisabled()));
+    await apply.click();
+    if (offersStage) await p.getByRole('button', { name: 'Keep', exact: true }).click();
+    await p.getByRole('button', { name: 'Go on to moving first' }).click();
+    await wizard(5).waitFor();
+    const first = tileOf(p, 'first');
+    await until('it is live', async () => (await first.field('position').getAttribute('data-live')) === 'true', 15_000);
+    await p.getByRole('button', { name: 'Enable first' }).click();
+    await until('it is enabled', async () => /Enabled/.test(await first.text('state')));
+    await p.getByLabel('Distance of first').fill('2');
+    await p.getByRole('button', { name: 'Move by distance of first' }).click();
+    await until('it has moved', async () => Math.abs((await first.position()) - 2) < 0.01 || (await first.position()), 15_000);
+    await shot(p, 'site-wizard-move', { fullPage: true });
+    assert.deepEqual(p.faults(), []);
+    await p.context().close();
+    await pictures(browser, empty.url, '/site', 'site-after-wizard', (q) => q.locator('[data-entry="axes/first"]').waitFor());
+  } finally {
+    await empty.end();
+  }
+});
+
+test('axe-core finds nothing serious, nothing scrolls sideways, pictures', async () => {
+  await pictures(browser, program.url, '/site', 'site', async (p) => {
+    await p.locator('[data-entry="axes/feeder"]').waitFor();
+    await p.getByRole('button', { name: 'Change axis feeder' }).click();
+    await p.getByRole('button', { name: 'Remove line can0' }).click();
+  });
+});

@@ -1,0 +1,131 @@
+// The draft of the site against a gateway in memory: check, apply, keep, roll back, another writer, a gateway without staging.
+import { beforeEach, describe, expect, it } from 'vitest';
+import { Problem } from '../src/api/problem';
+import type { SiteDoor, Stage } from '../src/api/site';
+import { SiteDraft } from '../src/state/site-draft';
+import type { Site } from '../src/words/site';
+
+const first: Site = { lines: [{ name: 'can0', uri: 'twin', family: 'uim342' }], drives: [], axes: [], mappings: [] };
+let inForce: Site;
+let before: Site;
+let tag: number;
+let stage: Stage & { site?: Site };
+let staging: boolean;
+let faults: { pointer: string; text: string; remedy: string; document: 'body' }[];
+let draft: SiteDraft;
+const no = () => Promise.reject(new Problem('answered', 'there is nothing', 404));
+const stale = (t: string) => t !== '' && t !== `"${tag}"`;
+const late = () => Promise.reject(new Problem('answered', 'the site has another revision', 412));
+
+const door = {
+  read: async () => ({ site: inForce, tag: `"${tag}"` }),
+  stage: () => (staging ? Promise.resolve({ ...stage }) : no()),
+  putStage: (s: Site, t: string) => {
+    if (!staging) return no();
+    if (stale(t)) return late();
+    stage = { state: 'staged', site: s, faults, diff: [], disturbs: ['feeder'] };
+    return Promise.resolve({ ...stage });
+  },
+  replace: (s: Site, how: { dryRun: boolean; tag: string }) => {
+    if (stale(how.tag)) return late();
+    if (!how.dryRun) [inForce, tag] = [s, tag + 1];
+    return Promise.resolve({ dry_run: how.dryRun, valid: faults.length === 0, revision: tag, differences: [], faults });
+  },
+  apply: async (s: number) => {
+    before = inForce;
+    [inForce, tag] = [stage.site!, tag + 1];
+    stage = s > 0 ? { ...stage, state: 'applied', confirm_by: 1e18 } : { state: 'none' };
+    return stage;
+  },
+  confirm: async () => (stage = { state: 'none' }),
+  rollBack: async () => {
+    [inForce, tag, stage] = [before, tag + 1, { state: 'none' }];
+  },
+  discard: async () => (stage = { state: 'none' }),
+  old: async () => first,
+  restore: async () => (stage = { state: 'staged', site: first, faults: [], diff: [] }),
+};
+const add = () => draft.put('drives', { name: 'feeder', line: 'can0', address: 5 }, null);
+
+beforeEach(async () => {
+  [inForce, tag, stage, staging, faults] = [first, 1, { state: 'none' }, true, []];
+  draft = new SiteDraft(door as unknown as SiteDoor);
+  await draft.load();
+});
+
+describe('a draft', () => {
+  it('is checked, applied and kept', async () => {
+    add();
+    expect(draft.changes.value.map((c) => c.what)).toEqual(['drives/feeder']);
+    expect(inForce).toBe(first);
+    expect(await draft.check()).toBe(true);
+    expect(draft.disturbs.value).toEqual(['feeder']);
+    expect(inForce).toBe(first);
+    await draft.apply(60);
+    expect(draft.stage.value.state).toBe('applied');
+    expect(draft.changes.value).toEqual([]);
+    await draft.confirm();
+    expect(draft.stage.value.state).toBe('none');
+    expect(inForce.drives).toHaveLength(1);
+  });
+  it('is rolled back', async () => {
+    add();
+    await draft.check();
+    await draft.apply(60);
+    await draft.rollBack();
+    expect(inForce).toEqual(first);
+    expect(draft.draft.value.drives).toEqual([]);
+  });
+  it('sees that the gateway rolled back by itself', async () => {
+    add();
+    await draft.check();
+    await draft.apply(5);
+    await door.rollBack();
+    await draft.look();
+    expect(draft.stage.value.state).toBe('none');
+    expect(draft.draft.value.drives).toEqual([]);
+  });
+  it('with faults is not applicable, and keeps what was typed', async () => {
+    faults = [{ pointer: '/drives/0/address', text: 'is taken', remedy: 'choose another', document: 'body' }];
+    add();
+    expect(await draft.check()).toBe(false);
+    expect(draft.told.value.text).toBe('One fault must be mended.');
+    expect(draft.faults.value).toHaveLength(1);
+    expect(draft.changes.value).toHaveLength(1);
+  });
+  it('shows the difference when somebody else was quicker, keeps what was typed, and goes on from there', async () => {
+    add();
+    inForce = { ...first, lines: [...first.lines!, { name: 'rs', uri: 'twin', family: 'mcode' }] };
+    tag += 1;
+    expect(await draft.check()).toBe(false);
+    expect(draft.theirs.value?.changes.map((c) => c.what)).toEqual(['lines/rs']);
+    expect(draft.changes.value.map((c) => c.what)).toEqual(['drives/feeder']);
+    await draft.adopt(true);
+    expect(draft.changes.value.map((c) => c.what)).toEqual(['drives/feeder']);
+    expect(draft.draft.value.lines).toHaveLength(2);
+    expect(await draft.check()).toBe(true);
+  });
+  it('can be dropped for the other one', async () => {
+    add();
+    inForce = { ...first, lines: [] };
+    tag += 1;
+    await draft.load();
+    await draft.adopt(false);
+    expect(draft.changes.value).toEqual([]);
+    expect(draft.draft.value.lines).toEqual([]);
+  });
+  it('without staging goes as a whole, and it is said that nothing rolls back', async () => {
+    staging = false;
+    add();
+    expect(await draft.check()).toBe(true);
+    expect(draft.offersStage.value).toBe(false);
+    await draft.apply(60);
+    expect(draft.told.value.text).toContain('does not roll back');
+    expect(inForce.drives).toHaveLength(1);
+  });
+  it('of an older state is staged, not applied', async () => {
+    await draft.restore(1);
+    expect(draft.stage.value.state).toBe('staged');
+    expect(inForce).toBe(first);
+  });
+});

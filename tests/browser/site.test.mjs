@@ -266,7 +266,7 @@ test('from an empty site to a moving axis, by the wizard, by keyboard', async ()
     await until('it is live', async () => (await first.field('position').getAttribute('data-live')) === 'true', 15_000);
     await p.getByRole('button', { name: 'Enable first' }).click();
     await until('it is enabled', async () => /Enabled/.test(await first.text('state')));
-    await p.getByLabel('Distance of first').fill('2');
+    await p.getByRole('textbox', { name: 'Distance of first' }).fill('2');
     await p.getByRole('button', { name: 'Move by distance of first' }).click();
     await until('it has moved', async () => Math.abs((await first.position()) - 2) < 0.01 || (await first.position()), 15_000);
     await shot(p, 'site-wizard-move', { fullPage: true });

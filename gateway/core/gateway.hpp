@@ -18,6 +18,7 @@
 #include "gateway/core/sample.hpp"
 #include "gateway/core/scan.hpp"
 #include "gateway/core/site.hpp"
+#include "gateway/core/site_stage.hpp"
 #include "gateway/core/twin.hpp"
 
 namespace axisgate {
@@ -86,6 +87,31 @@ struct TraceEntry {
     bool to_drive = false;
     bool simulated = false;            ///< crossed the twin bus, not the cable
     Frame frame;
+};
+
+// --- what is kept: snapshots of an axis' parameters, and documents of the site ---
+struct SnapshotValue {
+    std::string parameter;
+    Value value;
+};
+struct SnapshotInfo {
+    std::uint32_t n = 0;  ///< counts up per axis from 1; never given twice
+    std::string name;
+    std::string comment;
+    std::string who;
+    std::int64_t at_unix_ns = 0;
+    std::uint64_t values = 0;  ///< how many
+};
+struct AxisSnapshot : SnapshotInfo {
+    std::vector<SnapshotValue> parameters;  ///< in order of parameter id
+};
+
+struct SiteRevision {
+    std::uint64_t revision = 0;  ///< counts up; never given twice
+    std::int64_t at_unix_ns = 0;
+    std::string who;
+    std::string text;         ///< the document; empty in site_history()
+    std::uint64_t bytes = 0;  ///< length of the document
 };
 
 /// What a subscriber is told, on the warm executor.
@@ -184,6 +210,37 @@ public:
     /// Answers when it is on disk; empty: good, else what is wrong.
     virtual void save_document(const std::string& kind, Document document, std::function<void(std::string)> then) = 0;
     virtual void delete_document(const std::string& kind, const std::string& name, std::function<void(std::string)> then) = 0;
+
+    // --- what is kept --------------------------------------------------------------------------------------------------
+    /// In order of n, without their values.
+    [[nodiscard]] virtual std::vector<SnapshotInfo> snapshots(const std::string& axis) const = 0;
+    [[nodiscard]] virtual std::optional<AxisSnapshot> snapshot(const std::string& axis, std::uint32_t n) const = 0;
+    /// `then`: its number, or 0 and why it could not be stored.
+    virtual void save_snapshot(AxisSnapshot snapshot, std::string axis, std::function<void(std::uint32_t n, std::string fault)> then) = 0;
+    virtual void delete_snapshot(std::string axis, std::uint32_t n, std::function<void(std::string fault)> then) = 0;
+    /// Newest first, without the documents; at most as many as the store keeps (50).
+    [[nodiscard]] virtual std::vector<SiteRevision> site_history() const = 0;
+    [[nodiscard]] virtual std::optional<SiteRevision> site_revision(std::uint64_t revision) const = 0;
+
+    // --- staged changes of the site ------------------------------------------------------------------------------------
+    [[nodiscard]] virtual const SiteStage& site_stage() const = 0;
+    /// Each: empty, or why not. Origin tells who; an identity is the same from any port.
+    virtual std::string stage_site(Site site, std::uint64_t base_revision, const Origin& origin) = 0;
+    virtual std::string discard_stage() = 0;
+    /// Puts the staged site in force. `confirm_within_s` 0: for good; else it is taken back by itself unless it is confirmed in that time.
+    virtual void apply_stage(std::uint32_t confirm_within_s, Origin origin, std::function<void(SiteAnswer)> then) = 0;
+    virtual void confirm_stage(Origin origin, std::function<void(std::string fault)> then) = 0;
+    virtual void roll_back_stage(Origin origin, std::function<void(SiteAnswer)> then) = 0;
+
+    // --- registers, as the Modbus door shows them ----------------------------------------------------------------------
+    /// A read request (functions 1 to 4) answered by the Modbus door itself; nothing if there is no such door or too much is asked at once.
+    virtual void ask_modbus(std::uint8_t unit, std::vector<std::uint8_t> pdu, std::function<void(std::optional<std::vector<std::uint8_t>>)> then) = 0;
+
+    // --- the database as one file --------------------------------------------------------------------------------------
+    /// A whole, checked copy of the database, or nothing and why.
+    virtual void backup(std::function<void(std::optional<std::string> bytes, std::string fault)> then) = 0;
+    /// Checks a backup and lays it down to be taken at the next start; empty, or why not.
+    virtual void restore(std::string bytes, Origin origin, std::function<void(std::string fault)> then) = 0;
 };
 
 }  // namespace axisgate

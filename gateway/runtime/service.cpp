@@ -24,6 +24,7 @@
 #include "gateway/runtime/files.hpp"
 #include "gateway/runtime/hot.hpp"
 #include "gateway/runtime/site_file.hpp"
+#include "gateway/runtime/site_trial.hpp"
 #include "gateway/runtime/systemd.hpp"
 #include "gateway/runtime/threads.hpp"
 #include "gateway/runtime/warm_gateway.hpp"
@@ -139,12 +140,20 @@ int Service::open_store() {
         return exit_failed;
     }
     so.migrations = *migrations;
+    if (const std::string fault = take_laid_down_backup(so); !fault.empty()) {
+        complain(fault);
+        return exit_failed;
+    }
     auto opened = Store::open(so);
     if (!opened) {
         complain(opened.error().text);
         return exit_failed;
     }
     store = std::move(*opened);
+    if (const std::string fault = end_trial(*store, options.site_file.empty()); !fault.empty()) {
+        complain(fault);
+        return exit_failed;
+    }
     auto reader = StoreReader::open(so);
     if (!reader) {
         complain(reader.error().text);
@@ -228,6 +237,7 @@ int Service::open_doors() {
         hot->tap_samples([this](const Sample& sample) { modbus->on_sample(sample); });
         hot->on_mappings([this](const SiteState& site, std::vector<Mapping> mappings) { modbus->set_mappings(placed(site, std::move(mappings))); });
         hot->look_here_while_spinning([this] { return modbus->serve_now(); });
+        gateway->modbus_answer = [this](std::uint8_t unit, std::span<const std::uint8_t> pdu) { return modbus->answer_read(unit, pdu); };
         for (const auto& a : modbus->addresses()) doors.push_back({"modbus", a});
     }
     if (!options.config.http_bind.empty()) {

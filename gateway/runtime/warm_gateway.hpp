@@ -4,6 +4,7 @@
 #pragma once
 
 #include <boost/asio/io_context.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <functional>
 #include <memory>
 #include <unordered_map>
@@ -63,7 +64,29 @@ public:
     void save_document(const std::string& kind, Document document, std::function<void(std::string)> then) override;
     void delete_document(const std::string& kind, const std::string& name, std::function<void(std::string)> then) override;
 
+    // --- warm_keep.cpp: what is kept, staged, and asked of the Modbus door ---
+    /// Answers a Modbus request on the hot thread; set before start where there is such a door.
+    std::function<std::vector<std::uint8_t>(std::uint8_t unit, std::span<const std::uint8_t> pdu)> modbus_answer;
+    [[nodiscard]] std::vector<SnapshotInfo> snapshots(const std::string& axis) const override;
+    [[nodiscard]] std::optional<AxisSnapshot> snapshot(const std::string& axis, std::uint32_t n) const override;
+    void save_snapshot(AxisSnapshot snapshot, std::string axis, std::function<void(std::uint32_t n, std::string fault)> then) override;
+    void delete_snapshot(std::string axis, std::uint32_t n, std::function<void(std::string fault)> then) override;
+    [[nodiscard]] std::vector<SiteRevision> site_history() const override;
+    [[nodiscard]] std::optional<SiteRevision> site_revision(std::uint64_t revision) const override;
+    [[nodiscard]] const SiteStage& site_stage() const override { return stage_; }
+    std::string stage_site(Site site, std::uint64_t base_revision, const Origin& origin) override;
+    std::string discard_stage() override { return stage_.discard(); }
+    void apply_stage(std::uint32_t confirm_within_s, Origin origin, std::function<void(SiteAnswer)> then) override;
+    void confirm_stage(Origin origin, std::function<void(std::string fault)> then) override;
+    void roll_back_stage(Origin origin, std::function<void(SiteAnswer)> then) override;
+    void ask_modbus(std::uint8_t unit, std::vector<std::uint8_t> pdu, std::function<void(std::optional<std::vector<std::uint8_t>>)> then) override;
+    void backup(std::function<void(std::optional<std::string> bytes, std::string fault)> then) override;
+    void restore(std::string bytes, Origin origin, std::function<void(std::string fault)> then) override;
+
 private:
+    void arm_trial(std::chrono::nanoseconds from_now);
+    void take_back(Origin origin, std::string why, std::function<void(SiteAnswer)> then);
+    void tell_site(std::string text, const Origin& origin, Severity severity);
     void answer(Result&& result);
     void finish_site(bool good, std::string fault, std::shared_ptr<const SiteState> state, const std::function<void(SiteAnswer)>& then);
 
@@ -81,6 +104,9 @@ private:
     std::unordered_map<std::uint64_t, LiveParameter> live_;  // by axis << 32 | parameter << 16 | element
     std::uint64_t next_ticket_ = 1;
     bool applying_ = false;
+    SiteStage stage_;
+    boost::asio::steady_timer trial_{io_};
+    Site trial_base_;  // what an applied stage is taken back to
     Instant started_;
 };
 

@@ -70,6 +70,7 @@ public:
     [[nodiscard]] StoreResult<StoreFacts> facts();
     /// See backup_database (gateway/store/backup.hpp). Does not use this reader's connection.
     [[nodiscard]] StoreResult<> backup(const std::string& target);
+    [[nodiscard]] const StoreOptions& options() const noexcept { return options_; }
     [[nodiscard]] const std::string& directory() const noexcept { return files_.directory; }
 
 protected:

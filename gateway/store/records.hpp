@@ -2,7 +2,7 @@
 // In: built by the runtime from results, samples, notices and the site. Out: the same, read back.
 // Never holds ids of the running process (AxisId, DriveId): names alone outlive it. Times are nanoseconds since 1970 (UTC).
 //
-// Event, EventQuery and StoredParameter are gateway/core/gateway.hpp's; what is added to them here is added by derivation, so that a
+// Event, EventQuery, StoredParameter, SiteRevision and the snapshots are gateway/core/gateway.hpp's; what is added to them here is added by derivation, so that a
 // vector of ours can be handed on as a vector of theirs.
 #pragma once
 
@@ -92,14 +92,6 @@ struct EventFilter : EventQuery {
     bool oldest_first = false;
 };
 
-struct SiteRevision {
-    std::uint64_t revision = 0;  ///< counts up; never given twice
-    std::int64_t at_unix_ns = 0;
-    std::string who;
-    std::string text;         ///< the document; empty in site_history()
-    std::uint64_t bytes = 0;  ///< length of the document
-};
-
 struct NameChange {
     std::string from;
     std::string to;
@@ -117,22 +109,6 @@ struct SiteChange {
 struct AxisRecord {
     std::string name;
     std::optional<std::int64_t> removed_unix_ns;  ///< set: no longer in the site; its history and snapshots are still here
-};
-
-struct SnapshotValue {
-    std::string parameter;
-    Value value;
-};
-struct SnapshotInfo {
-    std::uint32_t n = 0;  ///< counts up per axis from 1; never given twice
-    std::string name;
-    std::string comment;
-    std::string who;
-    std::int64_t at_unix_ns = 0;
-    std::uint64_t values = 0;  ///< how many
-};
-struct AxisSnapshot : SnapshotInfo {
-    std::vector<SnapshotValue> parameters;  ///< in order of parameter id
 };
 
 /// A small named text of the gateway's own (a recipe, a token's record).

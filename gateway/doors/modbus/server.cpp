@@ -336,6 +336,13 @@ void Server::set_mappings(std::vector<PlacedMapping> mappings) { impl_->set_mapp
 void Server::on_sample(const Sample& sample) { impl_->on_sample(sample); }
 bool Server::serve_now() { return impl_->serve_now(); }
 Responder& Server::responder() noexcept { return impl_->responder(); }
+std::vector<std::uint8_t> Server::answer_read(std::uint8_t unit, std::span<const std::uint8_t> pdu) {
+    if (pdu.empty() || pdu.size() > 253 || pdu[0] < 1 || pdu[0] > 4) return {};
+    std::vector<std::uint8_t> out(max_pdu);
+    LateAnswer never_late;  // reads are answered at once
+    out.resize(impl_->responder().answer({}, 0, unit, pdu, impl_->now(), out.data(), never_late));
+    return out;
+}
 void Server::sweep() { impl_->sweep(); }
 const Counters& Server::counters() const noexcept { return impl_->counters(); }
 

@@ -55,6 +55,10 @@ public:
     /// A parameter value that a drive reported: own maps show it.
     void on_sample(const Sample& sample);
 
+    /// A read request (functions 1 to 4) answered as any client would be: what the register view shows. On the thread of `io`; counts as a
+    /// request, and asks for mapped parameters as one would. Empty for other functions.
+    [[nodiscard]] std::vector<std::uint8_t> answer_read(std::uint8_t unit, std::span<const std::uint8_t> pdu);
+
     /// For another transport of the same registers: there is one Responder per port.
     [[nodiscard]] Responder& responder() noexcept;
     /// Applies the time-outs as of the port's now(). The server's own timer calls it four times a second while anyone is connected.

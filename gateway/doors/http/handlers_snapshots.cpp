@@ -1,0 +1,410 @@
+// Handlers of snapshots: taken from the drive or from what is stored, compared with anything, restored one parameter at a time.
+// In: calls. Out: snapshots, differences, what was changed and what was not and why.
+// Never stores half a snapshot: a drive that falls silent gives a refusal that says how far it came.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "gateway/doors/http/axis_jobs.hpp"
+#include "gateway/doors/http/documents.hpp"
+#include "gateway/doors/http/handlers.hpp"
+
+namespace axisgate::http {
+namespace json = boost::json;
+namespace {
+/// Arrays up to this length are part of a snapshot; longer ones (programs, tables) are named in `left_out`.
+constexpr std::uint16_t most_elements = 256;
+/// A job that takes longer goes on, and is asked after at .../snapshot-progress.
+constexpr std::chrono::seconds job_wait{20};
+
+json::object info_document(const SnapshotInfo& s, const std::string& axis) {
+    return {{"n", s.n},
+            {"axis", axis},
+            {"name", s.name},
+            {"comment", s.comment},
+            {"at", format_time(s.at_unix_ns)},
+            {"who", text_or_null(s.who)},
+            {"values", s.values}};
+}
+json::object snapshot_document(const AxisSnapshot& s, const AxisPlace& axis) {
+    json::object o = info_document(s, axis.spec().name);
+    json::array list;
+    for (const auto& v : s.parameters) {
+        const auto point = axis.catalogue ? axis.catalogue->find(v.parameter) : std::nullopt;
+        const auto* p = point ? axis.catalogue->parameter(*point) : nullptr;
+        list.push_back(json::object{{"parameter", v.parameter},
+                                    {"name", p ? json::value(p->name) : json::value()},
+                                    {"unit", p ? text_or_null(p->unit) : json::value()},
+                                    {"value", to_json(v.value)}});
+    }
+    o["parameters"] = std::move(list);
+    return o;
+}
+
+std::optional<std::string> text_member(const json::object& body, const char* name, std::size_t low, std::size_t high,
+                                       std::vector<Fault>& faults) {
+    const auto* v = body.if_contains(name);
+    if (!v && low == 0) return std::string();
+    if (v && v->is_string() && v->get_string().size() >= low && v->get_string().size() <= high) return std::string(v->get_string());
+    faults.push_back({fmt::format("/{}", name),
+                      v ? fmt::format("{} must be a text of {} to {} bytes", name, low, high) : fmt::format("{} is missing", name),
+                      fmt::format("write a text of {} to {} bytes", low, high)});
+    return std::nullopt;
+}
+void refuse_unknown(const json::object& body, std::initializer_list<std::string_view> allowed, std::vector<Fault>& faults) {
+    for (const auto& [k, v] : body) {
+        if (std::ranges::find(allowed, std::string_view(k)) == allowed.end())
+            faults.push_back({"/" + std::string(k), fmt::format("{} is not known here", std::string_view(k)), "leave it out"});
+    }
+}
+
+/// Everything that can be read; what is too long goes into `left_out`.
+std::vector<JobPoint> readable_points(const Catalogue& catalogue, json::array& left_out) {
+    std::vector<JobPoint> out;
+    const auto all = catalogue.parameters();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const Parameter& p = all[i];
+        if (!p.readable()) continue;
+        const auto index = static_cast<std::uint16_t>(i);
+        if (p.count > most_elements || out.size() + std::max<std::size_t>(p.count, 1) > most_points) {
+            left_out.emplace_back(p.id);
+            continue;
+        }
+        const std::uint32_t first = p.count == 0 ? 0 : p.first, end = p.count == 0 ? 1 : std::uint32_t{p.first} + p.count;
+        for (std::uint32_t e = first; e < end; ++e) {
+            const Point point{index, static_cast<std::uint16_t>(e)};
+            out.push_back({catalogue.id_of(point), point});
+        }
+    }
+    return out;
+}
+
+json::array failures(const std::vector<JobFailure>& list) {
+    json::array out;
+    for (const auto& f : list)
+        out.push_back(json::object{{"parameter", f.parameter}, {"reason", f.reason}});
+    return out;
+}
+Response broken_off(const JobEnd& end, const std::string& axis, std::string_view consequence, json::object more = {}) {
+    return to_response(Problem{.status = end.silent ? 504u : 409u,
+                               .reason = end.silent ? "no_answer" : "wrong_state",
+                               .detail = fmt::format("{}; {}", end.broken_off, consequence),
+                               .axis = axis,
+                               .more = std::move(more)});
+}
+Response busy(const std::string& axis) {
+    return to_response(Problem{.status = 409,
+                               .reason = "busy",
+                               .detail = "parameters of this axis are being read or written already: see its snapshot-progress",
+                               .axis = axis});
+}
+Handled later(const std::string& axis) {
+    Response r = json_response(json::object{{"state", "running"}, {"text", "it goes on: ask for its progress"}}, 202);
+    r.headers.set("Location", fmt::format("/api/v1/axes/{}/snapshot-progress", percent_encode(axis)));
+    return {job_wait, std::move(r)};
+}
+
+struct Found {
+    AxisPlace axis;
+    AxisSnapshot snapshot;
+};
+std::optional<Found> find_snapshot(const Call& c, std::optional<Response>& fault) {
+    auto axis = find_axis(c.gateway(), c.names[0]);
+    if (!axis) {
+        fault = nothing_named("axis", c.names[0]);
+        return std::nullopt;
+    }
+    const auto n = parse_whole(c.names[1], 1, 0xFFFFFFFF);
+    auto s = n ? c.gateway().snapshot(c.names[0], static_cast<std::uint32_t>(*n)) : std::nullopt;
+    if (!s) {
+        fault = nothing_named("snapshot", c.names[1]);
+        return std::nullopt;
+    }
+    return Found{std::move(*axis), std::move(*s)};
+}
+
+/// What a parameter of an axis is as far as it is known: said by the drive, else written through the gateway.
+std::map<std::string, Value> known_values(Gateway& gateway, const AxisPlace& axis) {
+    std::map<std::string, Value> out;
+    for (const auto& s : gateway.stored(axis.spec().name))
+        out[s.parameter] = s.value;
+    return out;
+}
+Value live_or(Gateway& gateway, const AxisPlace& axis, const std::string& id, const std::map<std::string, Value>& otherwise) {
+    const auto point = axis.catalogue ? axis.catalogue->find(id) : std::nullopt;
+    if (point) {
+        if (const auto live = gateway.live(axis.id(), *point); known(live.value)) return live.value;
+    }
+    const auto it = otherwise.find(id);
+    return it == otherwise.end() ? Value{} : it->second;
+}
+bool same(const Value& a, const Value& b) {
+    const auto x = as_number(a), y = as_number(b);
+    return x && y ? *x == *y : a == b;
+}
+
+json::object diff_document(const Found& f, std::string_view with, const std::map<std::string, Value>& other) {
+    json::array rows;
+    std::set<std::string> ids;
+    for (const auto& v : f.snapshot.parameters)
+        ids.insert(v.parameter);
+    for (const auto& [id, v] : other)
+        ids.insert(id);
+    for (const auto& id : ids) {
+        const auto mine = std::ranges::find(f.snapshot.parameters, id, &SnapshotValue::parameter);
+        const auto theirs = other.find(id);
+        const Value a = mine == f.snapshot.parameters.end() ? Value{} : mine->value;
+        const Value b = theirs == other.end() ? Value{} : theirs->second;
+        const auto point = f.axis.catalogue ? f.axis.catalogue->find(id) : std::nullopt;
+        const auto* p = point ? f.axis.catalogue->parameter(*point) : nullptr;
+        rows.push_back(json::object{{"parameter", id},
+                                    {"name", p ? json::value(p->name) : json::value()},
+                                    {"unit", p ? text_or_null(p->unit) : json::value()},
+                                    {"snapshot", to_json(a)},
+                                    {"other", to_json(b)},
+                                    {"same", same(a, b)},
+                                    {"writable", p && p->writable()}});
+    }
+    return {{"with", with}, {"rows", std::move(rows)}};
+}
+std::map<std::string, Value> as_map(const std::vector<SnapshotValue>& list) {
+    std::map<std::string, Value> out;
+    for (const auto& v : list)
+        out[v.parameter] = v.value;
+    return out;
+}
+}  // namespace
+
+Handled write_parameters(Call& c, const AxisPlace& axis, std::vector<JobPoint> points, json::object more) {
+    const std::string name = axis.spec().name;
+    if ((c.gateway().picture(axis.id()).flags & flag_moving) != 0)
+        return to_response(Problem{
+            .status = 409, .reason = "wrong_state", .detail = "the axis moves: stop it before its parameters are written", .axis = name});
+    const bool started =
+        AxisJobs::start(c.context.jobs, c.gateway(), name, axis.id(), std::move(points), true, c.origin(),
+                        [respond = c.respond, name, more = std::move(more)](JobEnd end) {
+                            json::array changed;
+                            for (const auto& v : end.values)
+                                changed.push_back(json::object{{"parameter", v.parameter}, {"value", to_json(v.value)}});
+                            json::object answer = more;
+                            answer["dry_run"] = false;
+                            answer["changed"] = std::move(changed);
+                            answer["failed"] = failures(end.failed);
+                            if (!end.broken_off.empty())
+                                return respond(broken_off(end, name, "what was written stays written, see `changed`", std::move(answer)));
+                            respond(json_response(answer));
+                        });
+    return started ? later(name) : Handled(busy(name));
+}
+
+Handled list_snapshots(Call& c) {
+    const auto axis = find_axis(c.gateway(), c.names[0]);
+    if (!axis) return nothing_named("axis", c.names[0]);
+    json::array out;
+    for (const auto& s : c.gateway().snapshots(c.names[0]))
+        out.push_back(info_document(s, c.names[0]));
+    return json_response(out);
+}
+
+Handled get_snapshot_progress(Call& c) {
+    if (!find_axis(c.gateway(), c.names[0])) return nothing_named("axis", c.names[0]);
+    const auto* p = c.context.jobs->of(c.names[0]);
+    if (!p) return json_response(json::object{{"state", "none"}, {"kind", nullptr}, {"done", 0}, {"of", 0}, {"text", ""}});
+    const auto state = p->state == AxisJobs::State::running ? "running" : p->state == AxisJobs::State::done ? "done" : "failed";
+    return json_response(json::object{{"state", state}, {"kind", p->kind}, {"done", p->done}, {"of", p->of}, {"text", p->text}});
+}
+
+Handled take_snapshot(Call& c) {
+    const auto axis = find_axis(c.gateway(), c.names[0]);
+    if (!axis) return nothing_named("axis", c.names[0]);
+    const auto& body = c.body.get_object();
+    std::vector<Fault> faults;
+    refuse_unknown(body, {"name", "comment", "from"}, faults);
+    auto name = text_member(body, "name", 1, 256, faults);
+    auto comment = text_member(body, "comment", 0, 65'536, faults);
+    const auto* from = body.if_contains("from");
+    const bool stored = from && *from == json::value("stored");
+    if (from && !stored && *from != json::value("device"))
+        faults.push_back({"/from", "from must be device or stored", "write \"device\" or \"stored\""});
+    if (!faults.empty()) return invalid(std::move(faults), c.names[0]);
+    Gateway& gateway = c.gateway();
+    AxisSnapshot s;
+    s.name = std::move(*name);
+    s.comment = std::move(*comment);
+    s.who = c.request.peer;
+    s.at_unix_ns = gateway.now_unix_ns();
+    auto save = [&gateway, axis = *axis, respond = c.respond](AxisSnapshot taken, json::array left_out, json::array not_read) {
+        taken.values = taken.parameters.size();
+        gateway.save_snapshot(taken, axis.spec().name,
+                              [respond, axis, taken, left_out = std::move(left_out), not_read = std::move(not_read)](
+                                  std::uint32_t n, const std::string& fault) mutable {
+                                  if (!fault.empty()) return respond(problem(507, "not_stored", fault));
+                                  taken.n = n;
+                                  json::object o = snapshot_document(taken, axis);
+                                  o["left_out"] = std::move(left_out);
+                                  o["not_read"] = std::move(not_read);
+                                  Response r = json_response(o, 201);
+                                  r.headers.set("Location",
+                                                fmt::format("/api/v1/axes/{}/snapshots/{}", percent_encode(axis.spec().name), n));
+                                  respond(std::move(r));
+                              });
+    };
+    if (stored) {
+        for (const auto& v : gateway.stored(c.names[0]))
+            s.parameters.push_back({v.parameter, v.value});
+        save(std::move(s), {}, {});
+        return {gateway_limit, problem(504, "time_out", "the snapshot was not stored in time: look at the list before trying again")};
+    }
+    json::array left_out;
+    auto points = axis->catalogue ? readable_points(*axis->catalogue, left_out) : std::vector<JobPoint>();
+    const bool started =
+        AxisJobs::start(c.context.jobs, gateway, c.names[0], axis->id(), std::move(points), false, c.origin(),
+                        [save, s, left_out, respond = c.respond, name = c.names[0]](JobEnd end) mutable {
+                            if (!end.broken_off.empty())
+                                return respond(broken_off(end, name, "no snapshot was stored", {{"read", end.values.size()}}));
+                            s.parameters = std::move(end.values);
+                            save(std::move(s), std::move(left_out), failures(end.failed));
+                        });
+    return started ? later(c.names[0]) : Handled(busy(c.names[0]));
+}
+
+Handled get_snapshot(Call& c) {
+    std::optional<Response> fault;
+    const auto found = find_snapshot(c, fault);
+    return fault ? *fault : json_response(snapshot_document(found->snapshot, found->axis));
+}
+
+Handled remove_snapshot(Call& c) {
+    std::optional<Response> fault;
+    const auto found = find_snapshot(c, fault);
+    if (fault) return *fault;
+    c.gateway().delete_snapshot(c.names[0], found->snapshot.n, [respond = c.respond](const std::string& wrong) {
+        if (!wrong.empty()) return respond(problem(507, "not_stored", wrong));
+        Response r;
+        r.status = 204;
+        respond(std::move(r));
+    });
+    return {gateway_limit, problem(504, "time_out", "the snapshot was not removed in time")};
+}
+
+Handled diff_snapshot(Call& c) {
+    std::optional<Response> fault;
+    auto found = find_snapshot(c, fault);
+    if (fault) return *fault;
+    const std::string with(c.target.query.get("with").value_or("device"));
+    Gateway& gateway = c.gateway();
+    const auto shown = [&](const std::map<std::string, Value>& other) { return json_response(diff_document(*found, with, other)); };
+    if (with == "default") {
+        std::map<std::string, Value> other;
+        for (const auto& v : found->snapshot.parameters) {
+            const auto point = found->axis.catalogue ? found->axis.catalogue->find(v.parameter) : std::nullopt;
+            if (const auto* p = point ? found->axis.catalogue->parameter(*point) : nullptr) other[v.parameter] = p->factory_default;
+        }
+        return shown(other);
+    }
+    if (with == "stored") return shown(known_values(gateway, found->axis));
+    if (with.starts_with("snapshot:")) {
+        const auto n = parse_whole(std::string_view(with).substr(9), 1, 0xFFFFFFFF);
+        const auto other = n ? gateway.snapshot(c.names[0], static_cast<std::uint32_t>(*n)) : std::nullopt;
+        if (!other) return nothing_named("snapshot", with.substr(9));
+        return shown(as_map(other->parameters));
+    }
+    if (with.starts_with("axis:")) {
+        std::string name = with.substr(5), number;
+        auto other = find_axis(gateway, name);
+        if (const auto colon = name.rfind(':'); !other && colon != std::string::npos) {
+            number = name.substr(colon + 1);
+            name.resize(colon);
+            other = find_axis(gateway, name);
+        }
+        if (!other) return nothing_named("axis", name);
+        if (!number.empty()) {
+            const auto n = parse_whole(number, 1, 0xFFFFFFFF);
+            const auto s = n ? gateway.snapshot(name, static_cast<std::uint32_t>(*n)) : std::nullopt;
+            if (!s) return nothing_named("snapshot", number);
+            return shown(as_map(s->parameters));
+        }
+        std::map<std::string, Value> values;
+        const auto stored = known_values(gateway, *other);
+        for (const auto& v : found->snapshot.parameters)
+            values[v.parameter] = live_or(gateway, *other, v.parameter, stored);
+        return shown(values);
+    }
+    if (with != "device") return bad_query("with", "default, device, stored, snapshot:N, axis:NAME or axis:NAME:N");
+    std::vector<JobPoint> points;
+    for (const auto& v : found->snapshot.parameters) {
+        if (const auto point = found->axis.catalogue ? found->axis.catalogue->find(v.parameter) : std::nullopt)
+            points.push_back({v.parameter, *point});
+    }
+    const bool started = AxisJobs::start(c.context.jobs, gateway, c.names[0], found->axis.id(), std::move(points), false, c.origin(),
+                                         [found = *found, with, respond = c.respond](const JobEnd& end) {
+                                             if (!end.broken_off.empty())
+                                                 return respond(broken_off(end, found.axis.spec().name, "nothing was compared"));
+                                             respond(json_response(diff_document(found, with, as_map(end.values))));
+                                         });
+    if (!started) return busy(c.names[0]);
+    return {gateway_limit, problem(504, "time_out", "the drive's parameters were not all read in time")};
+}
+
+Handled restore_snapshot(Call& c) {
+    std::optional<Response> fault;
+    const auto found = find_snapshot(c, fault);
+    if (fault) return *fault;
+    const auto& body = c.body.get_object();
+    std::vector<Fault> faults;
+    refuse_unknown(body, {"parameters", "dry_run"}, faults);
+    const auto* dry = body.if_contains("dry_run");
+    if (dry && !dry->is_bool()) faults.push_back({"/dry_run", "dry_run must be true or false", "write true or false"});
+    std::optional<std::set<std::string>> wanted;
+    if (const auto* list = body.if_contains("parameters"); list && list->is_array()) {
+        wanted.emplace();
+        for (std::size_t i = 0; i < list->get_array().size(); ++i) {
+            const auto& v = list->get_array()[i];
+            const bool there = v.is_string() && std::ranges::find(found->snapshot.parameters, std::string(v.get_string()),
+                                                                  &SnapshotValue::parameter) != found->snapshot.parameters.end();
+            if (there)
+                wanted->insert(std::string(v.get_string()));
+            else
+                faults.push_back({fmt::format("/parameters/{}", i), "this is no parameter of the snapshot",
+                                  "name parameters by their id, as the snapshot does"});
+        }
+    } else if (list) {
+        faults.push_back({"/parameters", "parameters must be a list of ids", "leave it out for all of them"});
+    }
+    if (!faults.empty()) return invalid(std::move(faults), c.names[0]);
+    json::array changes, skipped;
+    std::vector<JobPoint> points;
+    const auto stored = known_values(c.gateway(), found->axis);
+    for (const auto& v : found->snapshot.parameters) {
+        if (wanted && !wanted->contains(v.parameter)) continue;
+        const auto skip = [&](std::string_view why) { skipped.push_back(json::object{{"parameter", v.parameter}, {"why", why}}); };
+        const auto point = found->axis.catalogue ? found->axis.catalogue->find(v.parameter) : std::nullopt;
+        const auto* p = point ? found->axis.catalogue->parameter(*point) : nullptr;
+        if (!p) {
+            skip("the axis has no such parameter now");
+            continue;
+        }
+        if (!p->writable()) {
+            skip("can only be read");
+            continue;
+        }
+        auto checked = found->axis.catalogue->check_write(*point, v.value);
+        if (!checked.fault.empty()) {
+            skip(checked.fault);
+            continue;
+        }
+        const Value now = live_or(c.gateway(), found->axis, v.parameter, stored);
+        if (known(now) && same(now, checked.value)) {
+            skip("has this value already");
+            continue;
+        }
+        changes.push_back(json::object{{"parameter", v.parameter}, {"from", to_json(now)}, {"to", to_json(checked.value)}});
+        points.push_back({v.parameter, *point, std::move(checked.value)});
+    }
+    if (dry && dry->get_bool())
+        return json_response(json::object{{"dry_run", true}, {"changes", std::move(changes)}, {"skipped", std::move(skipped)}});
+    return write_parameters(c, found->axis, std::move(points), {{"skipped", std::move(skipped)}});
+}
+
+}  // namespace axisgate::http

@@ -109,7 +109,7 @@ void Connection::await_request() {
     if (stopping_ || host_->stopping) return close();
     parser_.emplace();
     parser_->header_limit(static_cast<std::uint32_t>(host_->settings.max_header_bytes));
-    parser_->body_limit(host_->settings.max_body_bytes);
+    parser_->body_limit(std::max(host_->settings.max_body_bytes, host_->settings.max_backup_bytes));  // on_header narrows it
     if (buffer_.size() > 0) return read_header();
     phase_ = Phase::idle;
     since_ = std::chrono::steady_clock::now();
@@ -135,6 +135,11 @@ void Connection::read_header() {
 void Connection::on_header(ErrorCode ec) {
     if (phase_ != Phase::header) return;
     if (ec) return read_failed(ec);
+    const bool takes_backup = parser_->get().method() == beast::http::verb::put && parser_->get().target() == "/api/v1/backup";
+    if (!takes_backup) {
+        if (const auto length = parser_->content_length(); length && *length > host_->settings.max_body_bytes) return read_failed(beast::http::error::body_limit);
+        parser_->body_limit(host_->settings.max_body_bytes);
+    }
     const auto expect = parser_->get()[beast::http::field::expect];
     if (expect.empty() || parser_->is_done()) return read_body();
     if (!beast::iequals(expect, "100-continue")) return fail(417, "bad_request", "the only expectation that is met is 100-continue");

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "gateway/core/gateway.hpp"
+#include "gateway/doors/http/axis_jobs.hpp"
 #include "gateway/doors/http/change_queue.hpp"
 #include "gateway/doors/http/message.hpp"
 #include "gateway/doors/http/problem.hpp"
@@ -31,6 +32,7 @@ struct Context {
     std::function<std::string()> own_metrics;                                ///< the door's own counters as Prometheus text
     std::shared_ptr<ChangeQueue> changes = std::make_shared<ChangeQueue>();  ///< of the site
     std::shared_ptr<RecipeDesk> recipes{};                                   ///< runs recipes; whoever makes a context for service gives one
+    std::shared_ptr<AxisJobs> jobs = std::make_shared<AxisJobs>();           ///< many parameters of one axis, one after the other
 };
 
 /// One request on its way. Lives only as long as the handler's call.
@@ -121,6 +123,35 @@ Handled run_recipe(Call&);
 Handled list_recipe_runs(Call&);
 Handled get_recipe_run(Call&);
 Handled cancel_recipe_run(Call&);
+// --- handlers_snapshots.cpp -------------------------------------------------------------------------------------------
+Handled list_snapshots(Call&);
+Handled take_snapshot(Call&);
+Handled get_snapshot_progress(Call&);
+Handled get_snapshot(Call&);
+Handled remove_snapshot(Call&);
+Handled diff_snapshot(Call&);
+Handled restore_snapshot(Call&);
+// --- handlers_parameter_table.cpp -------------------------------------------------------------------------------------
+Handled get_parameter_history(Call&);
+Handled get_parameters_csv(Call&);
+Handled put_parameters_csv(Call&);
+// --- handlers_stage.cpp -----------------------------------------------------------------------------------------------
+Handled stage_site(Call&);
+Handled get_stage(Call&);
+Handled discard_stage(Call&);
+Handled apply_stage(Call&);
+Handled confirm_stage(Call&);
+Handled roll_back_stage(Call&);
+Handled list_site_history(Call&);
+Handled get_site_revision(Call&);
+Handled restore_site_revision(Call&);
+Handled get_backup(Call&);
+Handled put_backup(Call&);
+// --- handlers_registers.cpp -------------------------------------------------------------------------------------------
+Handled get_registers(Call&);
+Handled get_mapping_list(Call&);
+Handled get_next_free(Call&);
+Handled add_mapping_template(Call&);
 
 // --- shared -----------------------------------------------------------------------------------------------------------
 
@@ -162,6 +193,10 @@ template <class Spec>
                                      std::function<Response(const Result&)> show);
 /// The result of a command as a 200.
 [[nodiscard]] Response answer_of(const Result& result, std::string_view axis, std::string_view command);
+/// Writes checked values one after the other (handlers_snapshots.cpp); `more`: further members of the answer.
+[[nodiscard]] Handled write_parameters(Call& call, const AxisPlace& axis, std::vector<JobPoint> points, boost::json::object more);
+/// A cell that a spreadsheet takes as text and not as a formula or as several cells.
+[[nodiscard]] std::string csv_cell(std::string_view text);
 /// `?wait=`: 0 if it is not given.
 [[nodiscard]] double query_wait(const Call& call, std::optional<Response>& fault);
 

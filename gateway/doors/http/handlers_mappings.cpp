@@ -143,7 +143,9 @@ Handled list_mappings(Call& c) {
         if (axis && o.at("axis").get_string() != *axis) continue;
         out.push_back(m);
     }
-    return shown(*site, out);
+    Response r = shown(*site, out);
+    r.headers.set("Mapping-Revision", fmt::format("{:08x}", mapping_revision(site->site)));
+    return r;
 }
 
 Handled get_mapping(Call& c) {

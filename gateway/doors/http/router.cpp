@@ -70,6 +70,31 @@ constexpr std::array routes{
     Route{"/api/v1/mappings/{mapping}", Method::get, get_mapping},
     Route{"/api/v1/mappings/{mapping}", Method::put, replace_mapping, Takes::json},
     Route{"/api/v1/mappings/{mapping}", Method::remove, remove_mapping, Takes::nothing, Gives::nothing},
+    Route{"/api/v1/axes/{axis}/snapshots", Method::get, list_snapshots},
+    Route{"/api/v1/axes/{axis}/snapshots", Method::post, take_snapshot, Takes::json},
+    Route{"/api/v1/axes/{axis}/snapshot-progress", Method::get, get_snapshot_progress},
+    Route{"/api/v1/axes/{axis}/snapshots/{snapshot}", Method::get, get_snapshot},
+    Route{"/api/v1/axes/{axis}/snapshots/{snapshot}", Method::remove, remove_snapshot, Takes::nothing, Gives::nothing},
+    Route{"/api/v1/axes/{axis}/snapshots/{snapshot}/diff", Method::get, diff_snapshot},
+    Route{"/api/v1/axes/{axis}/snapshots/{snapshot}/restore", Method::post, restore_snapshot, Takes::json},
+    Route{"/api/v1/axes/{axis}/parameters/{parameter}/history", Method::get, get_parameter_history},
+    Route{"/api/v1/axes/{axis}/parameters.csv", Method::get, get_parameters_csv, Takes::nothing, Gives::own},
+    Route{"/api/v1/axes/{axis}/parameters.csv", Method::put, put_parameters_csv, Takes::csv},
+    Route{"/api/v1/site/stage", Method::get, get_stage},
+    Route{"/api/v1/site/stage", Method::post, stage_site, Takes::json},
+    Route{"/api/v1/site/stage", Method::remove, discard_stage, Takes::nothing, Gives::nothing},
+    Route{"/api/v1/site/stage/apply", Method::post, apply_stage, Takes::json},
+    Route{"/api/v1/site/stage/confirm", Method::post, confirm_stage},
+    Route{"/api/v1/site/stage/roll-back", Method::post, roll_back_stage},
+    Route{"/api/v1/site/history", Method::get, list_site_history},
+    Route{"/api/v1/site/history/{revision}", Method::get, get_site_revision},
+    Route{"/api/v1/site/history/{revision}/restore", Method::post, restore_site_revision},
+    Route{"/api/v1/backup", Method::get, get_backup, Takes::nothing, Gives::own},
+    Route{"/api/v1/backup", Method::put, put_backup, Takes::bytes},
+    Route{"/api/v1/registers", Method::get, get_registers},
+    Route{"/api/v1/mappings/list", Method::get, get_mapping_list, Takes::nothing, Gives::own},
+    Route{"/api/v1/mappings/next-free", Method::get, get_next_free},
+    Route{"/api/v1/mappings/template", Method::post, add_mapping_template, Takes::json},
     Route{"/api/v1/events", Method::get, list_events},
     Route{"/api/v1/recipes", Method::get, list_recipes},
     Route{"/api/v1/recipes/{recipe}", Method::get, get_recipe},
@@ -103,6 +128,16 @@ std::optional<std::vector<std::string>> match(std::string_view path, const std::
     }
 }
 
+/// The route path that a target means: of those that match, the one with the fewest names in it, so that /mappings/list is no mapping.
+std::string_view path_of(const std::vector<std::string>& segments) {
+    std::string_view best;
+    for (const auto& r : routes) {
+        if (r.path == best || !match(r.path, segments)) continue;
+        if (best.empty() || std::ranges::count(r.path, '{') < std::ranges::count(best, '{')) best = r.path;
+    }
+    return best;
+}
+
 std::string_view media_given(Gives gives) {
     switch (gives) {
         case Gives::json:
@@ -121,6 +156,10 @@ std::string_view media_given(Gives gives) {
 /// Reads the body where the route takes one; what is wrong with it otherwise.
 std::optional<Response> read_body(const Request& request, Takes takes, json::value& into) {
     const auto media = media_of(request.headers.get("Content-Type"));
+    if (takes == Takes::bytes) {
+        if (media == "application/octet-stream") return std::nullopt;
+        return problem(415, "unsupported_media_type", "send the file with Content-Type: application/octet-stream");
+    }
     if (takes == Takes::csv) {
         if (media == "text/csv") return std::nullopt;
         Response r = problem(415, "unsupported_media_type",
@@ -229,11 +268,12 @@ Handled Router::dispatch(const Request& request, const Respond& respond) const {
 
     const Method wanted = request.method == Method::head ? Method::get : request.method;
     const Route* route = nullptr;
+    const std::string_view path = path_of(target->segments);
     std::vector<std::string> names;
     std::string allow;
     for (const auto told : told_methods) {
         for (const auto& r : routes) {
-            if (r.method != told) continue;
+            if (r.method != told || r.path != path) continue;
             auto found = match(r.path, target->segments);
             if (!found) continue;
             allow += fmt::format("{}{}", allow.empty() ? "" : ", ", name_of(told) == "GET" ? "GET, HEAD" : name_of(told));
@@ -327,9 +367,7 @@ Handled Router::handle(const Request& request, Respond respond) const {
 std::string_view Router::route_of(const Request& request) const {
     const auto target = parse_target(request.target);
     if (!target) return "none";
-    for (const auto& r : routes) {
-        if (match(r.path, target->segments)) return r.path;
-    }
+    if (const auto path = path_of(target->segments); !path.empty()) return path;
     return target->segments[0] == "api" ? "none" : "static";
 }
 

@@ -12,7 +12,13 @@
 namespace axisgate::http {
 
 struct Route {
-    enum class Takes : std::uint8_t { nothing, json, patch, csv };       ///< patch: also application/merge-patch+json; csv: the handler reads it
+    enum class Takes : std::uint8_t {
+        nothing,
+        json,
+        patch,
+        csv,
+        bytes
+    };  ///< patch: also application/merge-patch+json; csv, bytes: the handler reads it
     enum class Gives : std::uint8_t { json, text, yaml, nothing, own };  ///< own: the handler looks at Accept itself
 
     std::string_view path;  ///< as the description writes it: "/api/v1/axes/{axis}/commands"

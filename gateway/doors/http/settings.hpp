@@ -24,15 +24,16 @@ struct Settings {
     std::vector<std::string> allowed_hosts;
     bool require_if_match = false;  ///< true: PUT /site without If-Match is refused with 428
 
-    std::size_t max_connections = 512;               ///< beyond: the longest idle one is closed; if none is idle, 503
-    std::size_t max_header_bytes = 8 * 1024;         ///< request line and headers; beyond: 431
-    std::size_t max_body_bytes = 1024 * 1024;        ///< beyond: 413
-    std::chrono::milliseconds header_limit{10'000};  ///< from the first byte (or the connection) to the end of the headers; then 408
-    std::chrono::milliseconds body_limit{30'000};    ///< for the whole body; then 408
-    std::chrono::milliseconds idle_limit{60'000};    ///< between two requests of a connection; then it is closed
-    std::chrono::milliseconds write_limit{30'000};   ///< without progress in writing an answer, or for one batch of the live feed; then cut
-    std::chrono::milliseconds stop_limit{5'000};     ///< for requests in progress when the door is closed
-    std::chrono::milliseconds linger_limit{2'000};   ///< for the client to read a last answer before the connection is cut
+    std::size_t max_connections = 512;                ///< beyond: the longest idle one is closed; if none is idle, 503
+    std::size_t max_header_bytes = 8 * 1024;          ///< request line and headers; beyond: 431
+    std::size_t max_body_bytes = 1024 * 1024;         ///< beyond: 413
+    std::size_t max_backup_bytes = 64 * 1024 * 1024;  ///< PUT /backup alone
+    std::chrono::milliseconds header_limit{10'000};   ///< from the first byte (or the connection) to the end of the headers; then 408
+    std::chrono::milliseconds body_limit{30'000};     ///< for the whole body; then 408
+    std::chrono::milliseconds idle_limit{60'000};     ///< between two requests of a connection; then it is closed
+    std::chrono::milliseconds write_limit{30'000};  ///< without progress in writing an answer, or for one batch of the live feed; then cut
+    std::chrono::milliseconds stop_limit{5'000};    ///< for requests in progress when the door is closed
+    std::chrono::milliseconds linger_limit{2'000};  ///< for the client to read a last answer before the connection is cut
 
     std::chrono::milliseconds ping_period{20'000};    ///< of the live feed
     std::chrono::milliseconds silence_limit{60'000};  ///< live feed: no byte from the client for so long closes it with 1008

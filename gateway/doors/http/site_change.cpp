@@ -32,7 +32,7 @@ struct Change : std::enable_shared_from_this<Change> {
     void attempt() {
         ++attempts;
         const auto before = gateway.site();
-        if (only_for && *only_for != before->revision) return end(overtaken());
+        if (only_for && *only_for != before->revision) return end(overtaken(*before));
         auto planned = plan(*before);
         if (auto* refusal = std::get_if<Response>(&planned)) return end(std::move(*refusal));
         auto& [site, show] = std::get<Plan>(planned);
@@ -43,12 +43,15 @@ struct Change : std::enable_shared_from_this<Change> {
                 return self->end(problem(507, "not_stored", answer.fault.empty() ? "the site could not be stored" : answer.fault));
             }
             if (!self->only_for && self->attempts < most_attempts) return self->attempt();
-            self->end(self->only_for ? overtaken() : problem(503, "busy", "other clients keep changing the site: try again"));
+            self->end(self->only_for ? overtaken(*answer.now) : problem(503, "busy", "other clients keep changing the site: try again"));
         };
         gateway.apply_site(std::move(site), before->revision, origin, std::move(then));
     }
-    static Response overtaken() {
-        return problem(412, "precondition_failed", "the site was changed by another client meanwhile: read it again");
+    static Response overtaken(const SiteState& now) {
+        return to_response(Problem{.status = 412,
+                                   .reason = "precondition_failed",
+                                   .detail = "the site was changed by another client meanwhile: read it again",
+                                   .more = {{"current", to_json(now.site)}}});
     }
 };
 
@@ -63,8 +66,10 @@ std::optional<Response> precondition(const Call& c, const SiteState& site, bool 
         return problem(428, "precondition_required", "say with If-Match which revision of the site you change: its ETag");
     }
     if (tag_listed(header, tag_of(site.revision), false)) return std::nullopt;
-    Response r = problem(412, "precondition_failed",
-                         fmt::format("the site has the revision {} by now, not {}: read it again", tag_of(site.revision), header));
+    Response r = to_response(Problem{.status = 412,
+                                     .reason = "precondition_failed",
+                                     .detail = fmt::format("the site has the revision {} by now, not {}: read it again", tag_of(site.revision), header),
+                                     .more = {{"current", to_json(site.site)}}});
     r.headers.set("ETag", tag_of(site.revision));
     put_revision(r, site);
     return r;
@@ -93,6 +98,8 @@ Response refusal_for(const std::vector<SiteFault>& faults, std::string_view entr
 
 Handled change_site(Call& c, bool if_match_demanded, std::function<Planned(const SiteState& before)> plan) {
     const auto site = c.gateway().site();
+    if (c.gateway().site_stage().busy())
+        return problem(409, "conflict", "a staged site is on trial: confirm it or roll it back before the site is changed otherwise");
     if (auto refusal = precondition(c, *site, if_match_demanded)) return *refusal;
     auto order = std::make_shared<Change>(c.gateway(), c.origin());
     if (!c.request.headers.get("If-Match").empty()) order->only_for = site->revision;

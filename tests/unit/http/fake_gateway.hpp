@@ -303,6 +303,78 @@ public:
     std::map<std::pair<std::string, std::string>, Document> stored_documents;
     std::string document_fault;
 
+    // --- what is kept and staged
+    std::map<std::string, std::vector<AxisSnapshot>> kept_snapshots;
+    std::string keep_fault;
+    std::map<std::uint64_t, SiteRevision> kept_sites;
+    SiteStage stage;
+    std::optional<std::vector<std::uint8_t>> modbus_answer;
+    std::vector<std::uint8_t> modbus_asked;
+    std::string restored;
+    std::vector<SnapshotInfo> snapshots(const std::string& name) const override {
+        const auto it = kept_snapshots.find(name);
+        return it == kept_snapshots.end() ? std::vector<SnapshotInfo>{} : std::vector<SnapshotInfo>(it->second.begin(), it->second.end());
+    }
+    std::optional<AxisSnapshot> snapshot(const std::string& name, std::uint32_t n) const override {
+        if (const auto it = kept_snapshots.find(name); it != kept_snapshots.end()) {
+            for (const auto& s : it->second) {
+                if (s.n == n) return s;
+            }
+        }
+        return std::nullopt;
+    }
+    void save_snapshot(AxisSnapshot s, std::string name, std::function<void(std::uint32_t, std::string)> then) override {
+        if (!keep_fault.empty()) return then(0, keep_fault);
+        s.n = static_cast<std::uint32_t>(kept_snapshots[name].size() + 1);
+        kept_snapshots[name].push_back(s);
+        then(s.n, "");
+    }
+    void delete_snapshot(std::string name, std::uint32_t n, std::function<void(std::string)> then) override {
+        std::erase_if(kept_snapshots[name], [n](const auto& s) { return s.n == n; });
+        then("");
+    }
+    std::vector<SiteRevision> site_history() const override {
+        std::vector<SiteRevision> out;
+        for (const auto& [n, r] : kept_sites)
+            out.push_back(r);
+        return out;
+    }
+    std::optional<SiteRevision> site_revision(std::uint64_t n) const override {
+        const auto it = kept_sites.find(n);
+        return it == kept_sites.end() ? std::nullopt : std::optional(it->second);
+    }
+    const SiteStage& site_stage() const override { return stage; }
+    std::string stage_site(Site s, std::uint64_t base, const Origin& o) override { return stage.stage(std::move(s), base, o.who ? *o.who : ""); }
+    std::string discard_stage() override { return stage.discard(); }
+    void apply_stage(std::uint32_t within, Origin o, std::function<void(SiteAnswer)> then) override {
+        if (auto fault = stage.begin_apply(site_->revision, within, now_ns, *o.who); !fault.empty()) return then({false, fault, site_});
+        before_trial = site_->site;
+        put_site(Site(stage.site()));
+        stage.applied(true);
+        then({true, "", site_});
+    }
+    void confirm_stage(Origin, std::function<void(std::string)> then) override {
+        stage.confirmed();
+        then("");
+    }
+    void roll_back_stage(Origin, std::function<void(SiteAnswer)> then) override {
+        if (auto fault = stage.begin_roll_back(); !fault.empty()) return then({false, fault, site_});
+        put_site(Site(before_trial));
+        stage.rolled_back(true, 0);
+        then({true, "", site_});
+    }
+    void ask_modbus(std::uint8_t unit, std::vector<std::uint8_t> pdu, std::function<void(std::optional<std::vector<std::uint8_t>>)> then) override {
+        modbus_asked = std::move(pdu);
+        modbus_asked.insert(modbus_asked.begin(), unit);
+        then(modbus_answer);
+    }
+    void backup(std::function<void(std::optional<std::string>, std::string)> then) override { then("SQLite", ""); }
+    void restore(std::string bytes, Origin, std::function<void(std::string)> then) override {
+        restored = std::move(bytes);
+        then(keep_fault);
+    }
+    Site before_trial;
+
 private:
     std::uint16_t id_of(const std::string& name) { return ids_.emplace(name, static_cast<std::uint16_t>(ids_.size())).first->second; }
 

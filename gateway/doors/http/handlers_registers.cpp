@@ -1,0 +1,407 @@
+// Handlers of registers as a Modbus client sees them, and of what helps to lay a register map out: printable lists, free places, templates.
+// In: calls. Out: words and bits from the Modbus door itself, decoded by the site's mappings; lists with the revision of registers 18-19.
+// Never renders a register: what is shown is what the door answered, exceptions too.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <tuple>
+
+#include "gateway/core/mapping.hpp"
+#include "gateway/doors/http/documents.hpp"
+#include "gateway/doors/http/site_change.hpp"
+
+namespace axisgate::http {
+namespace json = boost::json;
+namespace {
+
+std::optional<MapTable> table_named(std::string_view name) {
+    for (const auto t : {MapTable::coils, MapTable::discrete_inputs, MapTable::holding_registers, MapTable::input_registers}) {
+        if (name == name_of(t)) return t;
+    }
+    return std::nullopt;
+}
+bool is_bits(MapTable t) { return t == MapTable::coils || t == MapTable::discrete_inputs; }
+
+std::string_view exception_text(unsigned code) {
+    switch (code) {
+        case 1:
+            return "illegal function";
+        case 2:
+            return "illegal data address: nothing is mapped there";
+        case 3:
+            return "illegal data value: the range cuts a value in two, or is too long";
+        case 4:
+            return "server device failure: the drive refused or failed";
+        case 6:
+            return "server device busy: the value is not known yet, ask again";
+        case 0x0A:
+            return "gateway path unavailable: no such unit, or the axis is not configured";
+        case 0x0B:
+            return "gateway target device failed to respond: the drive does not answer";
+        default:
+            return "exception";
+    }
+}
+
+std::vector<Mapping> mappings_of(const SiteState& site, const Families& families) {
+    std::vector<SiteFault> none;  // the site has been checked
+    return parse_mappings(site.site.mappings, site.site, families, none).value_or(std::vector<Mapping>());
+}
+std::string revision_text(const SiteState& site) { return fmt::format("{:08x}", mapping_revision(site.site)); }
+
+/// The registers of the standard map that are values of their own, by offset.
+struct Standard {
+    std::uint16_t offset;
+    MapType type;
+    std::string_view point;
+    bool writable;
+};
+constexpr std::array standard{Standard{0, MapType::u16, "statusword", false},
+                              Standard{1, MapType::i16, "mode_display", false},
+                              Standard{2, MapType::i32, "position", false},
+                              Standard{4, MapType::i32, "velocity", false},
+                              Standard{6, MapType::i32, "position_demand", false},
+                              Standard{8, MapType::u16, "error_code", false},
+                              Standard{9, MapType::u16, "flags", false},
+                              Standard{10, MapType::u32, "native_status", false},
+                              Standard{12, MapType::u32, "age_ms", false},
+                              Standard{14, MapType::u16, "heartbeat", false},
+                              Standard{15, MapType::u16, "family", false},
+                              Standard{16, MapType::u16, "setpoints_accepted", false},
+                              Standard{17, MapType::u16, "authority", false},
+                              Standard{18, MapType::u32, "mapping_revision", false},
+                              Standard{32, MapType::u16, "controlword", true},
+                              Standard{33, MapType::i16, "mode", true},
+                              Standard{34, MapType::i32, "target_position", true},
+                              Standard{36, MapType::u32, "profile_velocity", true},
+                              Standard{38, MapType::u32, "profile_acceleration", true},
+                              Standard{40, MapType::u32, "profile_deceleration", true},
+                              Standard{42, MapType::i32, "target_velocity", true},
+                              Standard{44, MapType::i16, "homing_method", true}};
+constexpr std::uint32_t registers_per_axis = 64;
+bool is_standard_unit(std::int64_t unit) { return unit == 0 || unit == 1 || unit == 255; }
+
+json::array decoded(const SiteState& site, const Families& families, std::int64_t unit, MapTable table, std::uint32_t address,
+                    std::uint32_t count, const std::vector<std::uint8_t>& data) {
+    json::array out;
+    const auto put = [&](std::uint32_t at, const char* what, std::string_view name, const Mapping& m, std::string_view unit_text) {
+        Value v;
+        if (is_bits(table)) {
+            const auto bit = at - address;
+            v = (data[bit / 8] >> (bit % 8) & 1) != 0;
+        } else {
+            v = decode(m, data.data() + std::size_t{2} * (at - address));
+        }
+        out.push_back(json::object{{"address", at},
+                                   {what, name},
+                                   {"type", name_of(m.type)},
+                                   {"value", to_json(v)},
+                                   {"unit", text_or_null(unit_text)},
+                                   {"text", to_text(v)}});
+    };
+    if (is_standard_unit(unit)) {
+        if (is_bits(table)) return out;
+        for (const auto& axis : site.site.axes) {
+            for (const auto& s : standard) {
+                Mapping m;
+                m.type = s.type;
+                m.address = static_cast<std::uint16_t>((static_cast<std::uint32_t>(axis.number) - 1) * registers_per_axis + s.offset);
+                if (m.address < address || m.end() > address + count) continue;
+                put(m.address, "name", fmt::format("{}.{}", axis.name, s.point), m, "");
+            }
+        }
+        return out;
+    }
+    for (const auto& m : mappings_of(site, families)) {
+        if (m.unit != unit || m.table != table || m.address < address || m.end() > address + count) continue;
+        const auto* axis = site.site.axis(m.axis);
+        put(m.address, "mapping", m.id, m, m.point.ends_with("_units") && axis ? std::string_view(axis->unit) : std::string_view());
+    }
+    return out;
+}
+
+std::string html(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        switch (c) {
+            case '&':
+                out += "&amp;";
+                break;
+            case '<':
+                out += "&lt;";
+                break;
+            case '>':
+                out += "&gt;";
+                break;
+            case '"':
+                out += "&quot;";
+                break;
+            case '\'':
+                out += "&#39;";
+                break;
+            default:
+                out += c;
+        }
+    }
+    return out;
+}
+
+/// An identifier of IEC 61131-3: letters, digits and single underscores, not beginning with a digit.
+std::string st_name(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+            out += c;
+        else if (!out.empty() && out.back() != '_')
+            out += '_';
+    }
+    while (!out.empty() && out.back() == '_')
+        out.pop_back();
+    if (out.empty() || std::isdigit(static_cast<unsigned char>(out[0])) != 0) out.insert(0, "v_");
+    return out;
+}
+std::string st_type(const Mapping& m) {
+    switch (m.type) {
+        case MapType::boolean:
+            return "BOOL";
+        case MapType::u16:
+            return "UINT";
+        case MapType::i16:
+            return "INT";
+        case MapType::u32:
+            return "UDINT";
+        case MapType::i32:
+            return "DINT";
+        case MapType::f32:
+            return "REAL";
+        case MapType::u64:
+            return "ULINT";
+        case MapType::i64:
+            return "LINT";
+        case MapType::f64:
+            return "LREAL";
+        case MapType::string:
+            return fmt::format("STRING[{}]", 2 * m.length);
+    }
+    return "UINT";
+}
+/// No end of comment inside a comment.
+std::string st_comment(std::string_view text) {
+    std::string out;
+    for (const char c : text)
+        out += c == '*' || c == '(' || c == ')' || static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+    return out;
+}
+
+std::string list_csv(const std::vector<Mapping>& list, const std::string& revision) {
+    std::string s = "unit,table,address,registers,type,word_order,axis,point,scale,offset,access,comment,mapping_revision\r\n";
+    for (const auto& m : list) {
+        s += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", m.unit, name_of(m.table), m.address, m.size(), name_of(m.type),
+                         name_of(m.word_order), csv_cell(m.axis), csv_cell(m.point), m.scale, m.offset, name_of(m.access),
+                         csv_cell(m.comment), revision);
+    }
+    return s;
+}
+std::string list_html(const std::vector<Mapping>& list, const std::string& revision) {
+    std::string s = fmt::format(
+        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Register list {0}</title></head>\n<body><h1>Register "
+        "list</h1>\n"
+        "<p>Mapping revision {0} (registers 18 and 19). Addresses count from 0.</p>\n<table border=\"1\">\n<thead><tr>"
+        "<th>Unit</th><th>Table</th><th>Address</th><th>Registers</th><th>Type</th><th>Word "
+        "order</th><th>Axis</th><th>Point</th><th>Scale</th><th>Offset</th><th>Access</th><th>Comment</th>"
+        "</tr></thead>\n<tbody>\n",
+        revision);
+    for (const auto& m : list) {
+        s += fmt::format(
+            "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</"
+            "td><td>{}</td></tr>\n",
+            m.unit, name_of(m.table), m.address, m.size(), name_of(m.type), name_of(m.word_order), html(m.axis), html(m.point), m.scale,
+            m.offset, name_of(m.access), html(m.comment));
+    }
+    return s + "</tbody></table></body></html>\n";
+}
+std::string list_st(const std::vector<Mapping>& list, const std::string& revision) {
+    std::string s = fmt::format("(* Register list, mapping revision 16#{} (registers 18 and 19) *)\nTYPE\n", revision);
+    std::optional<std::pair<unsigned, MapTable>> open;
+    std::vector<std::string> used;
+    for (const auto& m : list) {
+        if (!open || open->first != m.unit || open->second != m.table) {
+            if (open) s += "  END_STRUCT;\n";
+            open.emplace(m.unit, m.table);
+            used.clear();
+            s += fmt::format("  Unit{}_{} : STRUCT\n", m.unit, name_of(m.table));
+        }
+        const std::string base = st_name(m.axis + "_" + m.point);
+        std::string name = base;
+        for (int n = 2; std::ranges::find(used, lower(name)) != used.end(); ++n)
+            name = fmt::format("{}_{}", base, n);
+        used.push_back(lower(name));
+        s += fmt::format("    {} : {}; (* {} {}, {}, scale {}, offset {}{} *)\n", name, st_type(m), name_of(m.table), m.address,
+                         name_of(m.word_order), m.scale, m.offset, m.comment.empty() ? std::string() : ": " + st_comment(m.comment));
+    }
+    if (open)
+        s += "  END_STRUCT;\n";
+    else
+        s += "  (* no mappings *)\n";
+    s += "END_TYPE\n";
+    return s;
+}
+}  // namespace
+
+Handled get_registers(Call& c) {
+    std::optional<Response> fault;
+    const auto unit = query_whole(c, "unit", 0, 255, 1, fault);
+    const auto address = query_whole(c, "address", 0, 65535, 0, fault);
+    const auto count = query_whole(c, "count", 1, 125, 1, fault);
+    if (fault) return *fault;
+    const auto table = table_named(c.target.query.get("table").value_or("holding_registers"));
+    if (!table) return bad_query("table", "holding_registers, input_registers, coils or discrete_inputs");
+    if (address + count > 65536) return bad_query("count", "such that address + count is at most 65536");
+    constexpr std::array<std::uint8_t, 4> functions{1, 2, 3, 4};  // in the order of MapTable
+    const auto function = functions[static_cast<std::size_t>(*table)];
+    std::vector<std::uint8_t> pdu{function, static_cast<std::uint8_t>(address >> 8), static_cast<std::uint8_t>(address & 255), 0,
+                                  static_cast<std::uint8_t>(count)};
+    Gateway& gateway = c.gateway();
+    const auto a = static_cast<std::uint32_t>(address), n = static_cast<std::uint32_t>(count);
+    gateway.ask_modbus(
+        static_cast<std::uint8_t>(unit), std::move(pdu),
+        [&gateway, unit, table = *table, a, n, function, respond = c.respond](std::optional<std::vector<std::uint8_t>> pdu) {
+            if (!pdu || pdu->size() < 2)
+                return respond(problem(503, "busy",
+                                       "the Modbus door is closed or has too much to do: look at its settings, or come again in a moment"));
+            json::object o{{"unit", unit},
+                           {"table", name_of(table)},
+                           {"address", a},
+                           {"count", n},
+                           {is_bits(table) ? "bits" : "words", json::array()},
+                           {"exception", nullptr},
+                           {"decoded", json::array()}};
+            if (((*pdu)[0] & 0x80) != 0) {
+                o["exception"] = json::object{{"code", (*pdu)[1]}, {"text", exception_text((*pdu)[1])}};
+                return respond(json_response(o));
+            }
+            const std::vector<std::uint8_t> data(pdu->begin() + 2, pdu->end());
+            if ((*pdu)[0] != function || data.size() != (is_bits(table) ? (n + 7) / 8 : 2 * n))
+                return respond(problem(500, "internal", "the Modbus door gave an answer of another length"));
+            json::array list;
+            for (std::uint32_t i = 0; i < n; ++i) {
+                if (is_bits(table))
+                    list.emplace_back((data[i / 8] >> (i % 8) & 1) != 0);
+                else
+                    list.emplace_back(data[2 * i] << 8 | data[2 * i + 1]);
+            }
+            o[is_bits(table) ? "bits" : "words"] = std::move(list);
+            o["decoded"] = decoded(*gateway.site(), gateway.families(), unit, table, a, n, data);
+            respond(json_response(o));
+        });
+    return {gateway_limit, problem(504, "time_out", "the Modbus door did not answer in time")};
+}
+
+Handled get_mapping_list(Call& c) {
+    const auto site = c.gateway().site();
+    auto list = mappings_of(*site, c.gateway().families());
+    std::ranges::sort(list, [](const Mapping& a, const Mapping& b) {
+        return std::tuple(a.unit, a.table, a.address) < std::tuple(b.unit, b.table, b.address);
+    });
+    const auto format = c.target.query.get("format").value_or("csv");
+    const auto revision = revision_text(*site);
+    Response r;
+    if (format == "csv") {
+        r.body = list_csv(list, revision);
+        r.headers.set("Content-Type", "text/csv; charset=utf-8");
+    } else if (format == "html") {
+        r.body = list_html(list, revision);
+        r.headers.set("Content-Type", "text/html; charset=utf-8");
+    } else if (format == "st") {
+        r.body = list_st(list, revision);
+        r.headers.set("Content-Type", "text/plain; charset=utf-8");
+        r.headers.set("Content-Disposition", "attachment; filename=\"registers.st\"");
+    } else {
+        return bad_query("format", "csv, html or st");
+    }
+    r.headers.set("Mapping-Revision", revision);
+    put_revision(r, *site);
+    return r;
+}
+
+Handled get_next_free(Call& c) {
+    std::optional<Response> fault;
+    const auto unit = query_whole(c, "unit", 2, 254, 2, fault);
+    const auto words = query_whole(c, "words", 1, 1024, 1, fault);
+    if (fault) return *fault;
+    const auto table = table_named(c.target.query.get("table").value_or("holding_registers"));
+    if (!table) return bad_query("table", "holding_registers, input_registers, coils or discrete_inputs");
+    auto list = mappings_of(*c.gateway().site(), c.gateway().families());
+    std::ranges::sort(list, {}, &Mapping::address);
+    std::uint32_t at = 0;
+    for (const auto& m : list) {
+        if (m.unit != unit || m.table != *table) continue;
+        if (m.address >= at + words) break;
+        at = std::max(at, m.end());
+    }
+    if (at + words > 65536) return problem(409, "conflict", fmt::format("unit {} has no {} free places in a row", unit, words));
+    return json_response(json::object{{"address", at}});
+}
+
+Handled add_mapping_template(Call& c) {
+    std::vector<Fault> faults;
+    const auto& body = c.body.get_object();
+    for (const auto& [k, v] : body) {
+        if (k != "template" && k != "axis" && k != "unit" && k != "address" && k != "dry_run")
+            faults.push_back({"/" + std::string(k), fmt::format("{} is not known here", std::string_view(k)), "leave it out"});
+    }
+    const auto whole = [&](const char* name, std::int64_t low, std::int64_t high) -> std::int64_t {
+        const auto* v = body.if_contains(name);
+        if (v && v->is_int64() && v->get_int64() >= low && v->get_int64() <= high) return v->get_int64();
+        faults.push_back(
+            {fmt::format("/{}", name), fmt::format("{} must be a whole number from {} to {}", name, low, high), "write such a number"});
+        return low;
+    };
+    const auto* name = body.if_contains("template");
+    if (!name || *name != json::value("standard_map"))
+        faults.push_back({"/template", "template must be standard_map", "write \"standard_map\""});
+    const auto* axis = body.if_contains("axis");
+    if (!axis || !axis->is_string()) faults.push_back({"/axis", "axis must be the name of an axis", "write its name"});
+    const auto unit = whole("unit", 2, 254), address = whole("address", 0, 65'535 - 48);
+    const auto* dry = body.if_contains("dry_run");
+    if (dry && !dry->is_bool()) faults.push_back({"/dry_run", "dry_run must be true or false", "write true or false"});
+    if (!faults.empty()) return invalid(std::move(faults));
+    json::array entries;
+    for (const auto& s : standard) {
+        const auto point = axis_point_named(s.point);
+        if (!point) continue;  // heartbeat, family and revision belong to the standard map alone
+        entries.push_back(json::object{{"unit", unit},
+                                       {"table", "holding_registers"},
+                                       {"address", address + s.offset},
+                                       {"axis", axis->get_string()},
+                                       {"point", s.point},
+                                       {"type", name_of(s.type)},
+                                       {"access", s.writable ? name_of(MapAccess::read_write) : name_of(MapAccess::read)}});
+    }
+    auto plan = [&gateway = c.gateway(), entries](const SiteState& before) -> Planned {
+        json::object document = to_json(before.site);
+        auto& list = document["mappings"].get_array();
+        const auto had = list.size();
+        for (const auto& e : entries)
+            list.push_back(e);
+        std::vector<SiteFault> wrong;
+        auto site = parse_site(document, gateway.families(), wrong);
+        if (!site) return refusal_for(wrong, "", false);
+        json::array added(site->mappings.begin() + static_cast<std::ptrdiff_t>(had), site->mappings.end());
+        return Plan{std::move(*site), [added](const std::shared_ptr<const SiteState>& now) {
+                        Response r = json_response(json::object{{"dry_run", false}, {"mappings", added}}, 201);
+                        put_revision(r, *now);
+                        return r;
+                    }};
+    };
+    if (!dry || !dry->get_bool()) return change_site(c, false, std::move(plan));
+    auto planned = plan(*c.gateway().site());
+    if (auto* refusal = std::get_if<Response>(&planned)) return std::move(*refusal);
+    const auto& all = std::get<Plan>(planned).site.mappings;
+    return json_response(
+        json::object{{"dry_run", true}, {"mappings", json::array(all.end() - static_cast<std::ptrdiff_t>(entries.size()), all.end())}});
+}
+
+}  // namespace axisgate::http

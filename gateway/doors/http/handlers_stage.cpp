@@ -1,0 +1,166 @@
+// Handlers of staged site changes, of the site's history, and of backups.
+// In: calls. Out: the stage with its differences; revisions; the database as one file.
+// Never changes a site at once: what is staged is applied as one, and taken back unless it is confirmed.
+#include <fmt/format.h>
+
+#include "gateway/doors/http/documents.hpp"
+#include "gateway/doors/http/handlers.hpp"
+#include "gateway/doors/http/site_change.hpp"
+
+namespace axisgate::http {
+namespace json = boost::json;
+namespace {
+std::string tag_of(std::uint64_t revision) { return fmt::format("\"{}\"", revision); }
+
+Response stage_answer(Gateway& gateway, unsigned status = 200) {
+    const auto now = gateway.site();
+    const auto& stage = gateway.site_stage();
+    json::object o{{"state", name_of(stage.state())},
+                   {"id", nullptr},
+                   {"by", text_or_null(stage.by())},
+                   {"base_revision", nullptr},
+                   {"revision", now->revision},
+                   {"faults", json::array()},
+                   {"diff", json::array()},
+                   {"disturbs", json::array()},
+                   {"confirm_by", nullptr}};
+    if (stage.state() != SiteStage::State::none) {
+        o["id"] = stage.id();
+        o["base_revision"] = stage.base_revision();
+        if (stage.confirm_by_unix_ns() != 0) o["confirm_by"] = stage.confirm_by_unix_ns();
+    }
+    if (stage.state() == SiteStage::State::staged) {
+        o["diff"] = site_diff(now->site, stage.site());
+        json::array axes;
+        for (const auto& a : disturbed_axes(now->site, stage.site()))
+            axes.emplace_back(a);
+        o["disturbs"] = std::move(axes);
+    }
+    Response r = json_response(o, status);
+    r.headers.set("ETag", tag_of(now->revision));
+    put_revision(r, *now);
+    return r;
+}
+
+Response conflict(std::string text) { return problem(409, "conflict", std::move(text)); }
+
+Handled stage_document(Call& c, const json::value& document) {
+    const auto now = c.gateway().site();
+    if (auto refusal = precondition(c, *now, c.context.settings.require_if_match)) return *refusal;
+    std::vector<SiteFault> faults;
+    auto site = parse_site(document, c.gateway().families(), faults);
+    if (!site) return invalid(faults_for(faults, "", true));
+    if (auto fault = c.gateway().stage_site(std::move(*site), now->revision, c.origin()); !fault.empty()) return conflict(std::move(fault));
+    return stage_answer(c.gateway());
+}
+
+auto show_after(Gateway& gateway, Respond respond) {
+    return [&gateway, respond = std::move(respond)](const Gateway::SiteAnswer& answer) {
+        if (!answer.good) return respond(conflict(answer.fault));
+        respond(stage_answer(gateway));
+    };
+}
+const char* const in_time = "it was not done in time: look at /site/stage before trying again";
+}  // namespace
+
+Handled stage_site(Call& c) { return stage_document(c, c.body); }
+Handled get_stage(Call& c) { return stage_answer(c.gateway()); }
+
+Handled discard_stage(Call& c) {
+    if (auto fault = c.gateway().discard_stage(); !fault.empty()) return conflict(std::move(fault));
+    Response r;
+    r.status = 204;
+    return r;
+}
+
+Handled apply_stage(Call& c) {
+    std::vector<Fault> faults;
+    std::int64_t within = 60;
+    for (const auto& [k, v] : c.body.get_object()) {
+        if (k != "confirm_within_s") {
+            faults.push_back({"/" + std::string(k), fmt::format("{} is not known here", std::string_view(k)), "leave it out"});
+        } else if (v.is_int64() &&
+                   (v.get_int64() == 0 || (v.get_int64() >= SiteStage::min_trial_s && v.get_int64() <= SiteStage::max_trial_s))) {
+            within = v.get_int64();
+        } else {
+            faults.push_back({"/confirm_within_s",
+                              fmt::format("confirm_within_s must be 0 or {} to {}", SiteStage::min_trial_s, SiteStage::max_trial_s),
+                              "0: for good, without a roll back"});
+        }
+    }
+    if (!faults.empty()) return invalid(std::move(faults));
+    if (auto refusal = precondition(c, *c.gateway().site(), false)) return *refusal;
+    c.gateway().apply_stage(static_cast<std::uint32_t>(within), c.origin(), show_after(c.gateway(), c.respond));
+    return {gateway_limit, problem(504, "time_out", in_time)};
+}
+
+Handled confirm_stage(Call& c) {
+    if (auto fault = c.gateway().site_stage().check_confirm(c.request.peer, c.gateway().now_unix_ns()); !fault.empty())
+        return conflict(std::move(fault));
+    c.gateway().confirm_stage(c.origin(), [&gateway = c.gateway(), respond = c.respond](const std::string& fault) {
+        respond(fault.empty() ? stage_answer(gateway) : problem(507, "not_stored", fault));
+    });
+    return {gateway_limit, problem(504, "time_out", in_time)};
+}
+
+Handled roll_back_stage(Call& c) {
+    c.gateway().roll_back_stage(c.origin(), show_after(c.gateway(), c.respond));
+    return {gateway_limit, problem(504, "time_out", in_time)};
+}
+
+Handled list_site_history(Call& c) {
+    json::array out;
+    for (const auto& r : c.gateway().site_history())
+        out.push_back(
+            json::object{{"revision", r.revision}, {"at", format_time(r.at_unix_ns)}, {"who", text_or_null(r.who)}, {"bytes", r.bytes}});
+    return json_response(out);
+}
+
+namespace {
+std::optional<json::value> document_of_revision(const Call& c) {
+    const auto n = parse_whole(c.names[0], 1, INT64_MAX);
+    const auto r = n ? c.gateway().site_revision(static_cast<std::uint64_t>(*n)) : std::nullopt;
+    if (!r) return std::nullopt;
+    boost::system::error_code ec;
+    auto v = json::parse(r->text, ec);
+    return ec ? std::nullopt : std::optional(std::move(v));
+}
+}  // namespace
+
+Handled get_site_revision(Call& c) {
+    const auto document = document_of_revision(c);
+    return document ? json_response(*document) : nothing_named("revision", c.names[0]);
+}
+
+Handled restore_site_revision(Call& c) {
+    const auto document = document_of_revision(c);
+    if (!document) return nothing_named("revision", c.names[0]);
+    return stage_document(c, *document);
+}
+
+Handled get_backup(Call& c) {
+    c.gateway().backup([respond = c.respond](std::optional<std::string> bytes, const std::string& fault) {
+        if (!bytes) return respond(problem(507, "not_stored", fault));
+        Response r;
+        r.headers.set("Content-Type", "application/octet-stream");
+        r.headers.set("Content-Disposition", "attachment; filename=\"axisgate-backup.db\"");
+        r.body = std::move(*bytes);
+        respond(std::move(r));
+    });
+    return {gateway_limit, problem(504, "time_out", "the backup was not made in time: use `axisgate backup`")};
+}
+
+Handled put_backup(Call& c) {
+    if (!c.request.body.starts_with(std::string_view("SQLite format 3\0", 16)))
+        return invalid({{"", "this is no backup of axisgate", "send the file that GET /backup gave"}});
+    c.gateway().restore(c.request.body, c.origin(), [respond = c.respond](const std::string& fault) {
+        if (!fault.empty()) return respond(invalid({{"", fault, "send a whole backup of this or an older version"}}));
+        respond(
+            json_response(json::object{{"restart_needed", true},
+                                       {"text", "the backup is whole and laid down: it takes the place of the database at the next start"}},
+                          202));
+    });
+    return {gateway_limit, problem(504, "time_out", "the backup was not checked in time")};
+}
+
+}  // namespace axisgate::http

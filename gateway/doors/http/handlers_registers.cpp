@@ -276,7 +276,7 @@ Handled get_registers(Call& c) {
                            {"address", a},
                            {"count", n},
                            {is_bits(table) ? "bits" : "words", json::array()},
-                           {"exception", nullptr},
+                           {"exception", json::value()},
                            {"decoded", json::array()}};
             if (((*pdu)[0] & 0x80) != 0) {
                 o["exception"] = json::object{{"code", (*pdu)[1]}, {"text", exception_text((*pdu)[1])}};

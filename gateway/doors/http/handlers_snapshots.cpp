@@ -210,7 +210,7 @@ Handled list_snapshots(Call& c) {
 Handled get_snapshot_progress(Call& c) {
     if (!find_axis(c.gateway(), c.names[0])) return nothing_named("axis", c.names[0]);
     const auto* p = c.context.jobs->of(c.names[0]);
-    if (!p) return json_response(json::object{{"state", "none"}, {"kind", nullptr}, {"done", 0}, {"of", 0}, {"text", ""}});
+    if (!p) return json_response(json::object{{"state", "none"}, {"kind", json::value()}, {"done", std::uint64_t{0}}, {"of", std::uint64_t{0}}, {"text", ""}});
     const auto state = p->state == AxisJobs::State::running ? "running" : p->state == AxisJobs::State::done ? "done" : "failed";
     return json_response(json::object{{"state", state}, {"kind", p->kind}, {"done", p->done}, {"of", p->of}, {"text", p->text}});
 }

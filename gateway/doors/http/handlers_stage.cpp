@@ -16,14 +16,14 @@ Response stage_answer(Gateway& gateway, unsigned status = 200) {
     const auto now = gateway.site();
     const auto& stage = gateway.site_stage();
     json::object o{{"state", name_of(stage.state())},
-                   {"id", nullptr},
+                   {"id", json::value()},
                    {"by", text_or_null(stage.by())},
-                   {"base_revision", nullptr},
+                   {"base_revision", json::value()},
                    {"revision", now->revision},
                    {"faults", json::array()},
                    {"diff", json::array()},
                    {"disturbs", json::array()},
-                   {"confirm_by", nullptr}};
+                   {"confirm_by", json::value()}};
     if (stage.state() != SiteStage::State::none) {
         o["id"] = stage.id();
         o["base_revision"] = stage.base_revision();

@@ -1,0 +1,158 @@
+// Snapshots, tables of parameters, staged sites, registers and register lists through the router, with the fake gateway.
+#include "tests/unit/http/harness.hpp"
+
+namespace axisgate::http::test {
+namespace {
+class Keep : public HttpTest {
+protected:
+    void drive_answers() {
+        gateway.at_once = [](const Command& c) {
+            Result r = good_result();
+            if (const auto* w = std::get_if<WriteParameter>(&c.body))
+                r.value = w->value;
+            else
+                r.value = std::int64_t{16};
+            return r;
+        };
+    }
+    Answer do_call(std::string_view method, std::string target, std::string body = {}, std::vector<std::pair<std::string, std::string>> headers = {}) {
+        auto a = call(method, std::move(target), std::move(body), std::move(headers));
+        return a.status != 0 ? a : answered();
+    }
+    static std::string stage_body(const char* unit) {
+        return std::string(R"({"lines":[{"name":"can0","uri":"twin","family":"demo"}],"drives":[{"name":"feeder","line":"can0","address":5}],"axes":[{"name":"feeder","drive":"feeder","number":1,"unit":")") + unit +
+               R"("}],"mappings":[]})";
+    }
+};
+
+TEST_F(Keep, ASnapshotReadsEverythingThatCanBeRead) {
+    drive_answers();
+    const auto a = do_call("POST", "/api/v1/axes/feeder/snapshots", R"({"name":"first"})");
+    ASSERT_EQ(a.status, 201u) << a.text;
+    EXPECT_EQ(a.headers.get("Location"), "/api/v1/axes/feeder/snapshots/1");
+    EXPECT_EQ(gateway.kept_snapshots["feeder"].at(0).parameters.size(), 11u) << "AC, ML, MT and eight of PP; KEY cannot be read";
+    EXPECT_EQ(a.at("left_out"), R"(["N"])");
+    EXPECT_EQ(call("GET", "/api/v1/axes/feeder/snapshots").array().size(), 1u);
+    EXPECT_EQ(call("GET", "/api/v1/axes/feeder/snapshot-progress").at("state"), "done");
+    EXPECT_EQ(do_call("DELETE", "/api/v1/axes/feeder/snapshots/1").status, 204u);
+    EXPECT_EQ(call("GET", "/api/v1/axes/feeder/snapshots/1").status, 404u);
+}
+
+TEST_F(Keep, ASilentDriveGivesNoHalfSnapshot) {
+    int asked = 0;
+    gateway.at_once = [&asked](const Command&) { return ++asked < 4 ? good_result() : bad_result(Reason::no_answer, "the drive is silent"); };
+    const auto a = do_call("POST", "/api/v1/axes/feeder/snapshots", R"({"name":"first"})");
+    EXPECT_EQ(a.status, 504u);
+    EXPECT_EQ(a.at("read"), "3");
+    EXPECT_TRUE(gateway.kept_snapshots["feeder"].empty());
+    EXPECT_EQ(asked, 4) << "a silent drive is not asked on";
+    EXPECT_EQ(call("GET", "/api/v1/axes/feeder/snapshot-progress").at("state"), "failed");
+}
+
+TEST_F(Keep, OneExchangeAtATimeAndOneJobPerAxis) {
+    EXPECT_EQ(call("POST", "/api/v1/axes/feeder/snapshots", R"({"name":"first"})").status, 0u);
+    EXPECT_EQ(gateway.waiting.size(), 1u);
+    EXPECT_EQ(do_call("POST", "/api/v1/axes/feeder/snapshots", R"({"name":"second"})").status, 409u);
+    gateway.finish(good_result());
+    EXPECT_EQ(gateway.waiting.size(), 1u);
+    EXPECT_EQ(call("GET", "/api/v1/axes/feeder/snapshot-progress").at("done"), "1");
+}
+
+TEST_F(Keep, RestoreWritesWhatDiffersAndNotWhileMoving) {
+    AxisSnapshot s;
+    s.n = 1;
+    s.parameters = {{"AC", std::int64_t{30000}}, {"ML", std::string("x")}, {"MT", std::int64_t{16}}};
+    gateway.kept_snapshots["feeder"].push_back(s);
+    gateway.stored_values["feeder"] = {{"MT", std::int64_t{16}, {}, "", "", 0}};
+    const auto dry = call("POST", "/api/v1/axes/feeder/snapshots/1/restore", R"({"dry_run":true})");
+    ASSERT_EQ(dry.status, 200u) << dry.text;
+    EXPECT_EQ(dry.object().at("changes").get_array().size(), 1u);
+    EXPECT_EQ(dry.object().at("skipped").get_array().size(), 2u);
+    EXPECT_TRUE(gateway.submitted.empty());
+    auto moving = standing(0);
+    moving.flags |= flag_moving;
+    gateway.set_picture("feeder", moving);
+    EXPECT_EQ(call("POST", "/api/v1/axes/feeder/snapshots/1/restore", "{}").status, 409u);
+    EXPECT_TRUE(gateway.submitted.empty());
+    gateway.set_picture("feeder", standing(0));
+    drive_answers();
+    const auto a = do_call("POST", "/api/v1/axes/feeder/snapshots/1/restore", "{}");
+    ASSERT_EQ(a.status, 200u) << a.text;
+    EXPECT_EQ(a.at("changed"), R"([{"parameter":"AC","value":30000}])");
+    EXPECT_EQ(call("POST", "/api/v1/axes/feeder/snapshots/1/restore", R"({"parameters":["zzz"]})").status, 422u);
+    for (const auto* with : {"default", "stored", "snapshot:1", "axis:slide", "axis:feeder:1"})
+        EXPECT_EQ(call("GET", std::string("/api/v1/axes/feeder/snapshots/1/diff?with=") + with).object().at("rows").get_array().size(), 3u) << with;
+    EXPECT_EQ(call("GET", "/api/v1/axes/feeder/snapshots/1/diff?with=moon").status, 400u);
+}
+
+TEST_F(Keep, ATableWithWrongRowsChangesNothingAndTellsAll) {
+    const auto a = call("PUT", "/api/v1/axes/feeder/parameters.csv", "parameter,value\nAC,0\nMT,16\nXX,1\nAC,abc\n", {{"Content-Type", "text/csv"}});
+    EXPECT_EQ(a.status, 422u);
+    EXPECT_EQ(a.object().at("faults").get_array().size(), 3u) << a.text;
+    EXPECT_TRUE(gateway.submitted.empty());
+    drive_answers();
+    const auto good = do_call("PUT", "/api/v1/axes/feeder/parameters.csv", "value;parameter\r\n30000;AC\r\nx;ML\r\n", {{"Content-Type", "text/csv"}});
+    EXPECT_EQ(good.status, 200u) << good.text;
+    EXPECT_EQ(gateway.submitted.size(), 1u);
+    gateway.live_values[{gateway.axis("feeder"), *gateway.catalogue.find("ML")}] = {std::string("=1+1"), 0, Quality::good};
+    EXPECT_NE(call("GET", "/api/v1/axes/feeder/parameters.csv").text.find("'=1+1"), std::string::npos) << "no formula for a spreadsheet";
+}
+
+TEST_F(Keep, AStagedSiteIsShownAppliedAndRolledBack) {
+    const auto staged = call("POST", "/api/v1/site/stage", stage_body("deg"), {{"If-Match", "\"1\""}});
+    ASSERT_EQ(staged.status, 200u) << staged.text;
+    EXPECT_EQ(staged.at("state"), "staged");
+    EXPECT_EQ(gateway.site()->revision, 1u) << "nothing is applied yet";
+    EXPECT_NE(staged.text.find(R"("what":"axes/slide")"), std::string::npos);
+    const auto stale = call("POST", "/api/v1/site/stage", stage_body("deg"), {{"If-Match", "\"9\""}});
+    EXPECT_EQ(stale.status, 412u);
+    EXPECT_TRUE(stale.object().contains("current")) << "what differs";
+    EXPECT_EQ(call("POST", "/api/v1/site/stage/apply", R"({"confirm_within_s":4})").status, 422u);
+    const auto applied = do_call("POST", "/api/v1/site/stage/apply", "{}");
+    ASSERT_EQ(applied.status, 200u) << applied.text;
+    EXPECT_EQ(applied.at("state"), "applied");
+    EXPECT_EQ(call("PATCH", "/api/v1/axes/feeder", R"({"unit":"m"})").status, 409u) << "no other change while one is on trial";
+    auto other = request("POST", "/api/v1/site/stage/confirm");
+    other.peer = "192.0.2.9:1";
+    EXPECT_EQ(send(other).status, 409u) << "only who applied it";
+    EXPECT_EQ(do_call("POST", "/api/v1/site/stage/roll-back").at("state"), "none");
+    EXPECT_EQ(gateway.site()->site.axes.size(), 2u);
+    EXPECT_EQ(call("POST", "/api/v1/site/stage/apply", "{}").status == 0 ? answered().status : 0u, 409u) << "nothing is staged";
+}
+
+TEST_F(Keep, RegistersAreTheDoorsOwnAnswer) {
+    gateway.modbus_answer = {3, 4, 0, 0, 0x0C, 0x80};
+    const auto a = do_call("GET", "/api/v1/registers?unit=2&address=0&count=2");
+    ASSERT_EQ(a.status, 200u) << a.text;
+    EXPECT_EQ(gateway.modbus_asked, (std::vector<std::uint8_t>{2, 3, 0, 0, 0, 2}));
+    EXPECT_EQ(a.at("words"), "[0,3200]");
+    EXPECT_EQ(a.object().at("decoded").at(0).at("value"), 3200);
+    gateway.modbus_answer = {0x83, 2};
+    EXPECT_EQ(do_call("GET", "/api/v1/registers?unit=3").object().at("exception").at("code"), 2);
+    gateway.modbus_answer.reset();
+    EXPECT_EQ(do_call("GET", "/api/v1/registers").status, 503u);
+    EXPECT_EQ(call("GET", "/api/v1/registers?count=126").status, 400u);
+}
+
+TEST_F(Keep, RegisterListsAreEscapedAndCarryTheRevision) {
+    gateway.put_site(R"({"lines":[{"name":"can0","uri":"twin","family":"demo"}],"drives":[{"name":"feeder","line":"can0","address":5}],"axes":[{"name":"feeder","drive":"feeder","number":1}],
+      "mappings":[{"unit":2,"table":"holding","address":4,"point":"feeder.position","type":"i32","comment":"<script>*) \"x\""}]})");
+    const auto page = call("GET", "/api/v1/mappings/list?format=html");
+    EXPECT_EQ(page.text.find("<script>"), std::string::npos);
+    EXPECT_NE(page.text.find("&lt;script&gt;"), std::string::npos);
+    const auto st = call("GET", "/api/v1/mappings/list?format=st");
+    EXPECT_NE(st.text.find("feeder_position : DINT;"), std::string::npos) << st.text;
+    EXPECT_EQ(st.text.find("*) \""), std::string::npos) << "a comment does not end a comment";
+    for (const auto* format : {"csv", "html", "st"}) {
+        const auto list = call("GET", std::string("/api/v1/mappings/list?format=") + format);
+        const std::string revision(list.headers.get("Mapping-Revision"));
+        EXPECT_EQ(revision.size(), 8u);
+        EXPECT_NE(list.text.find(revision), std::string::npos) << format;
+    }
+    EXPECT_EQ(call("GET", "/api/v1/mappings/next-free?unit=2&words=4").at("address"), "0");
+    EXPECT_EQ(call("GET", "/api/v1/mappings/next-free?unit=2&words=5").at("address"), "6");
+    EXPECT_EQ(do_call("POST", "/api/v1/mappings/template", R"({"template":"standard_map","axis":"feeder","unit":3,"address":0})").status, 201u);
+    EXPECT_EQ(do_call("POST", "/api/v1/mappings/template", R"({"template":"standard_map","axis":"feeder","unit":3,"address":0})").status, 409u);
+}
+}  // namespace
+}  // namespace axisgate::http::test

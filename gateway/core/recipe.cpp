@@ -372,8 +372,8 @@ public:
             const json::object wrapped{{"value", put_in(*member, in)}};
             const auto& x = wrapped.at("value");
             if (s.kind == Kind::message) {
-                if (!x.is_string()) fault(in, "message must be a text", "write it in quotes");
-                if (x.is_string()) s.text = std::string(x.get_string());
+                if (!member->is_string()) fault(in, "message must be a text", "write it in quotes");
+                s.text = x.is_string() ? std::string(x.get_string()) : json::serialize(x);
             } else {
                 const double d = x.is_number() ? x.to_number<double>() : -1;
                 if (!(d >= 0 && d <= most_recipe_seconds)) {

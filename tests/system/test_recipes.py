@@ -2,7 +2,12 @@
 
 In: the real program with the demo drives. Out: judgements on axes, registers, events and reports.
 """
+import copy
+import json
+import pathlib
 import time
+
+import jsonschema
 
 import harness
 from harness import until
@@ -22,6 +27,10 @@ THERE_AND_BACK = {
         {"disable": {"axis": "${who}"}},
     ],
 }
+
+
+# Each command has members of its own; a name is the path's.
+ALONE = ("/steps/5/command", "/steps/4/home", "/name", "/parameters/d/default")
 
 
 def ended(gateway, name, n, seconds=30):
@@ -134,3 +143,54 @@ def test_what_cannot_run_is_refused_before_anything_moves(gateway):
     assert p["faults"][0]["pointer"] == "/arguments/n", p
     time.sleep(0.1)
     assert gateway.axis()["state"] != "operation_enabled"
+
+
+def test_the_schema_and_the_program_agree(gateway):
+    """Spoiled one member at a time: what schema/recipe.schema.json refuses the program refuses, and the other way round."""
+    schema = json.loads((pathlib.Path(__file__).resolve().parents[2] / "schema/recipe.schema.json").read_text())
+    validator = jsonschema.Draft202012Validator(schema)
+    jsonschema.Draft202012Validator.check_schema(schema)
+    whole = {"description": "x", "timeout_s": 10, "on_failure": "halt", "parameters": {"d": {"type": "number", "default": 1, "min": 0, "max": 2, "unit": "mm", "description": "y"}}, "steps": [
+        {"set_parameter": {"axis": "a", "parameter": "AC", "value": 1}, "comment": "c"}, {"read_parameter": {"axis": "a", "parameter": "AC"}}, {"enable": {"axis": "a", "wait_s": 1}}, {"disable": {"axis": "a"}},
+        {"home": {"axis": "a", "method": 1, "wait_s": 5}}, {"command": {"axis": "a", "command": "move_absolute", "position": "${d}", "velocity": 1, "acceleration": 1, "deceleration": 1, "prepare": False, "wait_s": 1}},
+        {"action": {"axis": "a", "name": "n", "argument": "x", "wait_s": 1}}, {"write_register": {"unit": 2, "address": 3, "type": "u16", "value": 4}},
+        {"wait_for": {"axis": "a", "point": "state", "is": "fault", "timeout_s": 3}}, {"check": {"axis": "a", "parameter": "AC", "at_least": 2, "text": "t"}}, {"wait_s": 0.5},
+        {"if": {"condition": {"axis": "a", "point": "position", "is": 1, "tolerance": 0.5}, "then": [{"wait_s": 1}], "else": [{"message": "m"}]}},
+        {"repeat": {"times": 3, "until": {"axis": "a", "point": "moving", "is": False}, "steps": [{"wait_s": 1}]}}, {"message": "${d}"}]}
+    spoiled = [whole]
+
+    def walk(node, path):
+        for key in list(node) if isinstance(node, dict) else range(len(node)):
+            for change in ("without", None, [], {}, -5, "zzz", 10**6, True):
+                copy_ = copy.deepcopy(whole)
+                there = copy_
+                for p in path:
+                    there = there[p]
+                if change == "without":
+                    del there[key]
+                else:
+                    there[key] = change
+                spoiled.append(copy_)
+            if isinstance(node, dict):
+                copy_ = copy.deepcopy(whole)
+                there = copy_
+                for p in path:
+                    there = there[p]
+                there["zzz"] = 1
+                spoiled.append(copy_)
+            if isinstance(node[key], (dict, list)):
+                walk(node[key], [*path, key])
+    walk(whole, [])
+    disagree = []
+    for d in spoiled:
+        status, body, _ = gateway.request("PUT", "/api/v1/recipes/x?dry_run=1", d)
+        assert status in (200, 422), (status, body)
+        valid = validator.is_valid(d)
+        if status == 200 and not valid:
+            disagree.append(("taken, though the schema refuses it", [e.message[:200] for e in validator.iter_errors(d)][:1]))
+        elif status == 422 and valid and d.get("parameters") == whole["parameters"]:
+            # Only what hangs on other values, which a schema cannot see, may be the program's alone.
+            alone = [f for f in body["faults"] if not f["pointer"].startswith(ALONE)]
+            if alone:
+                disagree.append(("refused, though the schema takes it", alone[:1]))
+    assert not disagree, f"{len(disagree)} of {len(spoiled)}: " + "\n".join(map(str, disagree[:20]))

@@ -1,0 +1,116 @@
+"""What is kept and staged, on the real program: snapshots, a trial that takes itself back (also after a kill -9), registers as the HMI sees them, backups."""
+import copy
+import os
+import signal
+import time
+
+import harness
+from harness import DEMO, until
+
+
+def changed_site():
+    site = copy.deepcopy(DEMO)
+    site["axes"][0]["unit"] = "deg"
+    site["drives"] = site["drives"][:1]
+    site["axes"] = site["axes"][:1]
+    return site
+
+
+def unit(gateway):
+    return gateway.axis()["unit"]
+
+
+def test_a_snapshot_is_read_from_the_drive_compared_and_restored(gateway):
+    gateway.send("PUT", "/axes/feeder/parameters/AC", {"value": 23456})
+    taken = gateway.send("POST", "/axes/feeder/snapshots", {"name": "before"}, 201)
+    assert taken["values"] > 60 and {p["parameter"]: p["value"] for p in taken["parameters"]}["AC"] == 23456
+    gateway.send("PUT", "/axes/feeder/parameters/AC", {"value": 34567})
+    rows = gateway.get("/axes/feeder/snapshots/1/diff?with=device")["rows"]
+    assert next(r for r in rows if r["parameter"] == "AC")["other"] == 34567
+    told = gateway.send("POST", "/axes/feeder/snapshots/1/restore", {"parameters": ["AC"], "dry_run": True})
+    assert told["changes"] == [{"parameter": "AC", "from": 34567, "to": 23456}], told
+    done = gateway.send("POST", "/axes/feeder/snapshots/1/restore", {"parameters": ["AC"]})
+    assert done["changed"] == [{"parameter": "AC", "value": 23456}] and not done["failed"], done
+    assert gateway.get("/axes/feeder/parameters/AC")["value"] == 23456
+    assert [h["new"] for h in gateway.get("/axes/feeder/parameters/AC/history?limit=3")] == [23456, 34567, 23456]
+    gateway.send("PATCH", "/drives/feeder/hand", {"silent": True})
+    refused = gateway.send("POST", "/axes/feeder/snapshots", {"name": "silent"}, 504)
+    assert "no snapshot was stored" in refused["detail"] and len(gateway.get("/axes/feeder/snapshots")) == 1
+
+
+def test_an_unconfirmed_site_rolls_back_by_itself(gateway):
+    before = gateway.get("/site")
+    staged = gateway.send("POST", "/site/stage", changed_site())
+    assert staged["disturbs"] == ["slide"] and gateway.get("/site") == before
+    applied = gateway.send("POST", "/site/stage/apply", {"confirm_within_s": 5})
+    assert applied["state"] == "applied" and unit(gateway) == "deg"
+    gateway.send("PATCH", "/axes/feeder", {"unit": "m"}, 409)
+    until(lambda: gateway.get("/site/stage")["state"] == "none", 10, "rolled back")
+    assert gateway.get("/site") == before
+    until(lambda: any("not confirmed in time" in e["text"] for e in gateway.get("/events")), 5, "the event")
+
+
+def test_a_confirmed_site_stays_and_an_older_one_can_be_restored(gateway):
+    before = gateway.get("/site")
+    first = gateway.get("/site/history")[0]["revision"]
+    gateway.send("POST", "/site/stage", changed_site())
+    gateway.send("POST", "/site/stage/apply", {"confirm_within_s": 5})
+    assert gateway.send("POST", "/site/stage/confirm", None)["state"] == "none"
+    time.sleep(6)
+    assert unit(gateway) == "deg"
+    assert gateway.get(f"/site/history/{first}") == before
+    assert gateway.send("POST", f"/site/history/{first}/restore", None)["state"] == "staged"
+    gateway.send("POST", "/site/stage/apply", {"confirm_within_s": 0})
+    assert gateway.get("/site") == before and gateway.get("/site/stage")["state"] == "none"
+
+
+def killed(gateway):
+    os.kill(gateway.process.pid, signal.SIGKILL)
+    gateway.process.wait()
+
+
+def test_a_kill_between_apply_and_confirm_rolls_back_at_the_next_start(folder):
+    with harness.Gateway(folder) as g:
+        before = g.get("/site")
+        g.send("POST", "/site/stage", changed_site())
+        g.send("POST", "/site/stage/apply", {"confirm_within_s": 600})
+        assert unit(g) == "deg"
+        killed(g)
+    with harness.Gateway(folder, None) as g:
+        assert g.get("/site") == before
+        assert any("rolled back" in e["text"] for e in g.get("/events"))
+        g.send("POST", "/site/stage", changed_site())
+        g.send("POST", "/site/stage/apply", {"confirm_within_s": 600})
+        g.send("POST", "/site/stage/confirm", None)
+        killed(g)
+    with harness.Gateway(folder, None) as g:
+        assert unit(g) == "deg", "confirmed: it stays"
+
+
+def test_registers_are_what_the_hmi_sees(gateway):
+    with gateway.modbus() as m:
+        seen = gateway.get("/registers?unit=1&address=15&count=1")
+        assert seen["words"] == m.read(15, 1) and seen["exception"] is None
+        assert gateway.get("/registers?unit=9&address=0&count=1")["exception"]["code"] == 0x0A
+        revision = m.read32(18, signed=False)
+    own = gateway.get("/registers?unit=2&address=0&count=2")
+    assert own["decoded"][0]["mapping"] == "m1" and own["decoded"][0]["value"] == gateway.axis()["position_increments"]
+    for form in ("csv", "html", "st"):
+        _, body, headers = gateway.request("GET", f"/api/v1/mappings/list?format={form}")
+        assert headers["Mapping-Revision"] == f"{revision:08x}" and headers["Mapping-Revision"].encode() in body, form
+
+
+def test_a_backup_comes_back_at_the_next_start(folder):
+    head = {"Content-Type": "application/octet-stream"}
+    with harness.Gateway(folder) as g:
+        before = g.get("/site")
+        status, data, _ = g.request("GET", "/api/v1/backup")
+        assert status == 200 and data[:15] == b"SQLite format 3"
+        g.send("PATCH", "/axes/feeder", {"unit": "m"})
+        assert g.request("PUT", "/api/v1/backup", b"nothing", head)[0] == 422
+        assert g.request("PUT", "/api/v1/backup", data[:100] + b"x" * 20000, head)[0] == 422
+        status, answer, _ = g.request("PUT", "/api/v1/backup", data, head)
+        assert status == 202 and answer["restart_needed"], answer
+        assert unit(g) == "m"
+    with harness.Gateway(folder, None) as g:
+        assert g.get("/site") == before

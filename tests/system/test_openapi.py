@@ -21,7 +21,7 @@ from openapi import Description, sample, strict_json
 TOP = pathlib.Path(__file__).resolve().parents[2]
 TEXT = (TOP / "schema/openapi.yaml").read_text()
 API = Description(TEXT)
-NAMES = {"family": ["uim342"], "line": ["can0"], "drive": ["feeder", "slide"], "axis": ["feeder", "slide"], "parameter": ["AC", "PP[5]", "node_id"], "mapping": ["m1"], "recipe": ["warm-up"], "run": ["1"]}
+NAMES = {"family": ["uim342"], "line": ["can0"], "drive": ["feeder", "slide"], "axis": ["feeder", "slide"], "parameter": ["AC", "PP[5]", "node_id"], "mapping": ["m1"], "recipe": ["warm-up"], "run": ["1"], "snapshot": ["1"], "revision": ["1"]}
 RECIPE = {"description": "on and off", "parameters": {"pause": {"type": "number", "default": 0.05}}, "steps": [{"enable": {"axis": "slide"}}, {"wait_s": "${pause}"}, {"disable": {"axis": "slide"}}]}
 
 
@@ -159,6 +159,8 @@ def test_every_get_answers_as_described_in_every_state_of_an_axis(gateway):
     gateway.send("PUT", "/recipes/warm-up", RECIPE, 201)
     gateway.send("POST", "/recipes/warm-up/run", {}, 202)
     until(lambda: gateway.get("/recipes/warm-up/runs/1")["state"] == "done", 20, "the run's end")
+    for axis in NAMES["axis"]:
+        gateway.send("POST", f"/axes/{axis}/snapshots", {"name": "first", "from": "stored"}, 201)
     seen = read_everything(gateway, client, "fresh")
     missing = {(o.id, 200) for o in API.operations if o.method == "GET" and o.id != "openStream"} - seen
     assert not missing, missing
@@ -235,6 +237,15 @@ def test_every_write_answers_as_described(gateway):
         ("putRecipe", {"recipe": "a b"}, RECIPE, 422), ("runRecipe", {"recipe": "warm-up"}, {"dry_run": True}, 200), ("runRecipe", {"recipe": "warm-up"}, {"arguments": {"pause": 30}}, 202),
         ("runRecipe", {"recipe": "warm-up"}, {}, 409), ("removeRecipe", {"recipe": "warm-up"}, None, 409), ("runRecipe", {"recipe": "warm-up"}, {"arguments": {"x": 1}}, 422),
         ("runRecipe", {"recipe": "nobody"}, {}, 404), ("cancelRecipeRun", {"recipe": "warm-up", "run": "1"}, None, 202), ("cancelRecipeRun", {"recipe": "warm-up", "run": "9"}, None, 404),
+        ("takeSnapshot", {"axis": "feeder"}, {"name": "one", "from": "stored"}, 201), ("takeSnapshot", {"axis": "feeder"}, {"name": 1}, 422),
+        ("restoreSnapshot", {"axis": "feeder", "snapshot": "1"}, {"dry_run": True}, 200), ("removeSnapshot", {"axis": "feeder", "snapshot": "1"}, None, 204),
+        ("importParameters", {"axis": "feeder"}, "parameter,value\nAC,20000\n", 200), ("importParameters", {"axis": "feeder"}, "parameter,value\nAC,x\n", 422),
+        ("addMappingTemplate", {}, {"template": "standard_map", "axis": "feeder", "unit": 5, "address": 0, "dry_run": True}, 200),
+        ("addMappingTemplate", {}, {"template": "standard_map", "axis": "feeder", "unit": 5, "address": 0}, 201),
+        ("stageSite", {}, site, 200), ("discardStage", {}, None, 204), ("applyStage", {}, {}, 409), ("confirmStage", {}, None, 409), ("stageSite", {}, site, 200),
+        ("applyStage", {}, {"confirm_within_s": 60}, 200), ("confirmStage", {}, None, 200), ("restoreSiteRevision", {"revision": "1"}, None, 200), ("applyStage", {}, {"confirm_within_s": 60}, 200),
+        ("rollBackStage", {}, None, 200), ("putBackup", {}, gateway.request("GET", "/api/v1/backup")[1], 202),
+        ("addLine", {}, line, 201), ("addDrive", {}, drive, 201), ("addAxis", {}, axis, 201),
         ("removeDrive", {"drive": "spare"}, None, 409), ("removeAxis", {"axis": "spare"}, None, 204), ("removeAxis", {"axis": "spare"}, None, 404), ("removeDrive", {"drive": "spare"}, None, 204),
         ("removeLine", {"line": "spare"}, None, 204), ("replaceSite", {}, site, 200)]
     actions = [c["id"] for c in gateway.get("/families/uim342/commands")]
@@ -245,7 +256,9 @@ def test_every_write_answers_as_described(gateway):
         for k, v in names.items():
             target = target.replace("{" + k + "}", quoted(v))
         query = "?wait=20" if name == "commandAxis" and body.get("command") != "fly" and not body.get("prepare") else ""
-        if isinstance(body, str):
+        if isinstance(body, bytes):
+            answer = client.request(o.method, target, body, {"Content-Type": "application/octet-stream"})
+        elif isinstance(body, str):
             answer = client.request(o.method, target + query, body.encode(), {"Content-Type": "text/csv"})
         else:
             answer = client.request(o.method, target + query, None if body is None else json.dumps(body).encode())
@@ -260,7 +273,7 @@ def test_every_write_answers_as_described(gateway):
     answers = [check(o, client.request("POST", "/api/v1/axes/feeder/actions", json.dumps({"name": a}).encode()), f"action {a}") for a in actions + ["nothing"]]
     assert answers[-1] in (404, 409, 422), answers
     seen |= {("actOnAxis", s) for s in answers}
-    missing = {(o.id, s) for o in API.operations if o.method != "GET" for s in o.good()} - seen - {("actOnAxis", 200)}
+    missing = {(o.id, s) for o in API.operations if o.method != "GET" for s in o.good()} - seen - {("actOnAxis", 200), ("takeSnapshot", 202), ("restoreSnapshot", 202), ("importParameters", 202)}
     assert not missing, f"described but never seen: {missing}"
     assert gateway.get("/site") == site
 

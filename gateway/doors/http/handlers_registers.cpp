@@ -267,8 +267,8 @@ Handled get_registers(Call& c) {
     const auto a = static_cast<std::uint32_t>(address), n = static_cast<std::uint32_t>(count);
     gateway.ask_modbus(
         static_cast<std::uint8_t>(unit), std::move(pdu),
-        [&gateway, unit, table = *table, a, n, function, respond = c.respond](std::optional<std::vector<std::uint8_t>> pdu) {
-            if (!pdu || pdu->size() < 2)
+        [&gateway, unit, table = *table, a, n, function, respond = c.respond](std::optional<std::vector<std::uint8_t>> answer) {
+            if (!answer || answer->size() < 2)
                 return respond(problem(503, "busy",
                                        "the Modbus door is closed or has too much to do: look at its settings, or come again in a moment"));
             json::object o{{"unit", unit},
@@ -278,12 +278,12 @@ Handled get_registers(Call& c) {
                            {is_bits(table) ? "bits" : "words", json::array()},
                            {"exception", json::value()},
                            {"decoded", json::array()}};
-            if (((*pdu)[0] & 0x80) != 0) {
-                o["exception"] = json::object{{"code", (*pdu)[1]}, {"text", exception_text((*pdu)[1])}};
+            if (((*answer)[0] & 0x80) != 0) {
+                o["exception"] = json::object{{"code", (*answer)[1]}, {"text", exception_text((*answer)[1])}};
                 return respond(json_response(o));
             }
-            const std::vector<std::uint8_t> data(pdu->begin() + 2, pdu->end());
-            if ((*pdu)[0] != function || data.size() != (is_bits(table) ? (n + 7) / 8 : 2 * n))
+            const std::vector<std::uint8_t> data(answer->begin() + 2, answer->end());
+            if ((*answer)[0] != function || data.size() != (is_bits(table) ? (n + 7) / 8 : 2 * n))
                 return respond(problem(500, "internal", "the Modbus door gave an answer of another length"));
             json::array list;
             for (std::uint32_t i = 0; i < n; ++i) {
@@ -305,7 +305,11 @@ Handled get_mapping_list(Call& c) {
     std::ranges::sort(list, [](const Mapping& a, const Mapping& b) {
         return std::tuple(a.unit, a.table, a.address) < std::tuple(b.unit, b.table, b.address);
     });
-    const auto format = c.target.query.get("format").value_or("csv");
+    constexpr std::array<std::string_view, 3> media{"text/csv", "text/html", "text/plain"}, formats{"csv", "html", "st"};
+    const auto given = c.target.query.get("format");
+    const auto liked = best_accepted(c.request.headers.get("Accept"), media);
+    if (!given && !liked) return problem(406, "not_acceptable", "this can be given as text/csv, text/html or text/plain");
+    const auto format = given ? *given : formats[*liked];
     const auto revision = revision_text(*site);
     Response r;
     if (format == "csv") {

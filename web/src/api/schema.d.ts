@@ -758,6 +758,368 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/axes/{axis}/snapshots": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+            };
+            cookie?: never;
+        };
+        /** Snapshots of an axis, oldest first */
+        get: operations["listSnapshots"];
+        put?: never;
+        /** Takes a snapshot, of all that can be read from the drive or of what is stored; nothing is stored if the drive falls silent */
+        post: operations["takeSnapshot"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/axes/{axis}/snapshot-progress": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+            };
+            cookie?: never;
+        };
+        /** How far the newest reading or writing of many parameters is */
+        get: operations["getSnapshotProgress"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/axes/{axis}/snapshots/{snapshot}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+                snapshot: components["parameters"]["snapshot"];
+            };
+            cookie?: never;
+        };
+        /** One snapshot */
+        get: operations["getSnapshot"];
+        put?: never;
+        post?: never;
+        /** Removes a snapshot */
+        delete: operations["removeSnapshot"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/axes/{axis}/snapshots/{snapshot}/diff": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+                snapshot: components["parameters"]["snapshot"];
+            };
+            cookie?: never;
+        };
+        /** A snapshot beside something else */
+        get: operations["diffSnapshot"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/axes/{axis}/snapshots/{snapshot}/restore": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+                snapshot: components["parameters"]["snapshot"];
+            };
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Writes what differs to the drive, one parameter at a time; refused while the axis moves */
+        post: operations["restoreSnapshot"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/axes/{axis}/parameters/{parameter}/history": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+                /**
+                 * @description id or name of the catalogue; elements of an array with their number in brackets, percent-encoded (`PP%5B5%5D`)
+                 * @example AC
+                 */
+                parameter: components["parameters"]["parameter"];
+            };
+            cookie?: never;
+        };
+        /** Writes of a parameter through the gateway, newest first */
+        get: operations["getParameterHistory"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/axes/{axis}/parameters.csv": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+            };
+            cookie?: never;
+        };
+        /** Parameters as a table for a spreadsheet */
+        get: operations["exportParameters"];
+        /** Writes the values of a table; nothing is written if one line is wrong */
+        put: operations["importParameters"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/site/stage": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The staged site, if there is one */
+        get: operations["getStage"];
+        put?: never;
+        /** Stages a whole site; what was staged before is replaced */
+        post: operations["stageSite"];
+        /** Discards the staged site */
+        delete: operations["discardStage"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/site/stage/apply": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Applies the staged site as one; it rolls back by itself unless it is confirmed in time */
+        post: operations["applyStage"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/site/stage/confirm": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Keeps the applied site; only who applied it may */
+        post: operations["confirmStage"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/site/stage/roll-back": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Takes the applied site back now */
+        post: operations["rollBackStage"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/site/history": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Applied sites, newest first */
+        get: operations["listSiteHistory"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/site/history/{revision}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                revision: components["parameters"]["revision"];
+            };
+            cookie?: never;
+        };
+        /** The document of a revision */
+        get: operations["getSiteRevision"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/site/history/{revision}/restore": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                revision: components["parameters"]["revision"];
+            };
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Stages the site of a revision */
+        post: operations["restoreSiteRevision"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/backup": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The whole database as one file */
+        get: operations["getBackup"];
+        /** Checks a backup and lays it down to be taken at the next start; at most 64 MiB */
+        put: operations["putBackup"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/registers": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Registers as the Modbus door shows them now */
+        get: operations["getRegisters"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/mappings/list": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The register list for people and PLC projects, with the revision of registers 18 and 19 */
+        get: operations["getMappingList"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/mappings/next-free": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The first place with so many free registers in a row */
+        get: operations["getNextFree"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/mappings/template": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Adds a block of mappings for an axis */
+        post: operations["addMappingTemplate"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/events": {
         parameters: {
             query?: never;
@@ -818,6 +1180,170 @@ export interface paths {
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
+        SnapshotInfo: {
+            n: number;
+            axis: string;
+            name: string;
+            comment: string;
+            at: components["schemas"]["Time"];
+            who: string | null;
+            values: number;
+        };
+        Snapshot: {
+            n: number;
+            axis: string;
+            name: string;
+            comment: string;
+            at: components["schemas"]["Time"];
+            who: string | null;
+            values: number;
+            parameters: components["schemas"]["SnapshotValue"][];
+            left_out?: string[];
+            not_read?: components["schemas"]["WriteFailure"][];
+        };
+        SnapshotValue: {
+            parameter: string;
+            name: string | null;
+            unit: string | null;
+            value: components["schemas"]["MaybeValue"];
+        };
+        WriteFailure: {
+            parameter: string;
+            reason: string;
+        };
+        SnapshotRequest: {
+            name: string;
+            comment?: string;
+            /**
+             * @default device
+             * @enum {string}
+             */
+            from?: "device" | "stored";
+        };
+        JobRunning: {
+            state: string;
+            text: string;
+        };
+        JobProgress: {
+            /** @enum {string} */
+            state: "none" | "running" | "done" | "failed";
+            kind: string | null;
+            done: number;
+            of: number;
+            text: string;
+        };
+        SnapshotDiff: {
+            with: string;
+            rows: components["schemas"]["DiffRow"][];
+        };
+        DiffRow: {
+            parameter: string;
+            name: string | null;
+            unit: string | null;
+            snapshot: components["schemas"]["MaybeValue"];
+            other: components["schemas"]["MaybeValue"];
+            same: boolean;
+            writable: boolean;
+        };
+        RestoreRequest: {
+            parameters?: string[];
+            dry_run?: boolean;
+        };
+        WriteReport: {
+            dry_run: boolean;
+            changes?: components["schemas"]["ValueChange"][];
+            skipped: components["schemas"]["Skipped"][];
+            changed?: components["schemas"]["WrittenValue"][];
+            failed?: components["schemas"]["WriteFailure"][];
+        };
+        ValueChange: {
+            parameter: string;
+            from: components["schemas"]["MaybeValue"];
+            to: components["schemas"]["MaybeValue"];
+        };
+        WrittenValue: {
+            parameter: string;
+            value: components["schemas"]["MaybeValue"];
+        };
+        Skipped: {
+            parameter: string;
+            why: string;
+        };
+        ParameterChange: {
+            at: components["schemas"]["Time"];
+            who: string | null;
+            door: string | null;
+            old: components["schemas"]["MaybeValue"];
+            new: components["schemas"]["MaybeValue"];
+        };
+        Stage: {
+            /** @enum {string} */
+            state: "none" | "staged" | "applying" | "applied" | "rolling_back";
+            id: number | null;
+            by: string | null;
+            base_revision: number | null;
+            revision: number;
+            faults: components["schemas"]["Fault"][];
+            diff: components["schemas"]["SiteDifference"][];
+            disturbs: string[];
+            /** @description nanoseconds since 1970 */
+            confirm_by: number | null;
+        };
+        SiteDifference: {
+            /** @enum {string} */
+            kind: "added" | "removed" | "changed";
+            what: string;
+            before: Record<string, never> | null;
+            after: Record<string, never> | null;
+        };
+        ApplyRequest: {
+            /** @default 60 */
+            confirm_within_s?: number;
+        };
+        SiteRevision: {
+            revision: number;
+            at: components["schemas"]["Time"];
+            who: string | null;
+            bytes: number;
+        };
+        RestoreAnswer: {
+            restart_needed: boolean;
+            text: string;
+        };
+        Registers: {
+            unit: number;
+            table: string;
+            address: number;
+            count: number;
+            words?: number[];
+            bits?: boolean[];
+            exception: Record<string, never> | null;
+            decoded: components["schemas"]["DecodedRegister"][];
+        };
+        DecodedRegister: {
+            address: number;
+            name?: string;
+            mapping?: string;
+            type: string;
+            value: components["schemas"]["MaybeValue"];
+            unit: string | null;
+            text: string;
+        };
+        Place: {
+            address: number;
+        };
+        TemplateRequest: {
+            /** @enum {string} */
+            template: "standard_map";
+            axis: string;
+            unit: number;
+            address: number;
+            dry_run?: boolean;
+        };
+        TemplateAnswer: {
+            dry_run: boolean;
+            mappings: components["schemas"]["Mapping"][];
+        };
         /**
          * @default 0
          * @enum {string}
@@ -2015,6 +2541,8 @@ export interface components {
         };
     };
     parameters: {
+        snapshot: number;
+        revision: number;
         /** @example uim342 */
         family: string;
         /** @example can0 */
@@ -4281,6 +4809,786 @@ export interface operations {
             403: components["responses"]["Forbidden"];
             404: components["responses"]["NotFound"];
             409: components["responses"]["Conflict"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    listSnapshots: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the snapshots */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SnapshotInfo"][];
+                };
+            };
+            404: components["responses"]["NotFound"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    takeSnapshot: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "name": "as delivered",
+                 *       "comment": "",
+                 *       "from": "device"
+                 *     }
+                 */
+                "application/json": components["schemas"]["SnapshotRequest"];
+            };
+        };
+        responses: {
+            /** @description taken */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Snapshot"];
+                };
+            };
+            /** @description it takes longer; its progress is at Location */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["JobRunning"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getSnapshotProgress: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description progress */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["JobProgress"];
+                };
+            };
+            404: components["responses"]["NotFound"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getSnapshot: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+                snapshot: components["parameters"]["snapshot"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the snapshot */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Snapshot"];
+                };
+            };
+            404: components["responses"]["NotFound"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    removeSnapshot: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+                snapshot: components["parameters"]["snapshot"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description removed */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    diffSnapshot: {
+        parameters: {
+            query?: {
+                /** @description default, device, stored, snapshot:N, axis:NAME or axis:NAME:N */
+                with?: string;
+            };
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+                snapshot: components["parameters"]["snapshot"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description row by row */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SnapshotDiff"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    restoreSnapshot: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+                snapshot: components["parameters"]["snapshot"];
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "dry_run": true
+                 *     }
+                 */
+                "application/json": components["schemas"]["RestoreRequest"];
+            };
+        };
+        responses: {
+            /** @description what was changed, or would be */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["WriteReport"];
+                };
+            };
+            /** @description it takes longer; its progress is at Location */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["JobRunning"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getParameterHistory: {
+        parameters: {
+            query?: {
+                /** @description at most so many */
+                limit?: number;
+            };
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+                /**
+                 * @description id or name of the catalogue; elements of an array with their number in brackets, percent-encoded (`PP%5B5%5D`)
+                 * @example AC
+                 */
+                parameter: components["parameters"]["parameter"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the writes */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ParameterChange"][];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            404: components["responses"]["NotFound"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    exportParameters: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description one line per parameter */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/csv": string;
+                };
+            };
+            404: components["responses"]["NotFound"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    importParameters: {
+        parameters: {
+            query?: {
+                /** @description only tell */
+                dry_run?: components["schemas"]["Flag"];
+            };
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example parameter,value
+                 *     AC,20000
+                 */
+                "text/csv": string;
+            };
+        };
+        responses: {
+            /** @description what was changed, or would be */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["WriteReport"];
+                };
+            };
+            /** @description it takes longer; its progress is at Location */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["JobRunning"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getStage: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the stage */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Stage"];
+                };
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    stageSite: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
+                "If-Match"?: components["parameters"]["ifMatch"];
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "lines": [],
+                 *       "drives": [],
+                 *       "axes": [],
+                 *       "mappings": []
+                 *     }
+                 */
+                "application/json": components["schemas"]["Site"];
+            };
+        };
+        responses: {
+            /** @description staged */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Stage"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            409: components["responses"]["Conflict"];
+            412: components["responses"]["PreconditionFailed"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    discardStage: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description removed */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            403: components["responses"]["Forbidden"];
+            409: components["responses"]["Conflict"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    applyStage: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
+                "If-Match"?: components["parameters"]["ifMatch"];
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "confirm_within_s": 60
+                 *     }
+                 */
+                "application/json": components["schemas"]["ApplyRequest"];
+            };
+        };
+        responses: {
+            /** @description applied */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Stage"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            409: components["responses"]["Conflict"];
+            412: components["responses"]["PreconditionFailed"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    confirmStage: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description confirmed */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Stage"];
+                };
+            };
+            403: components["responses"]["Forbidden"];
+            409: components["responses"]["Conflict"];
+            507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    rollBackStage: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description rolled back */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Stage"];
+                };
+            };
+            403: components["responses"]["Forbidden"];
+            409: components["responses"]["Conflict"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    listSiteHistory: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description revisions */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SiteRevision"][];
+                };
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    getSiteRevision: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                revision: components["parameters"]["revision"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the site as it was */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Site"];
+                };
+            };
+            404: components["responses"]["NotFound"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    restoreSiteRevision: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
+                "If-Match"?: components["parameters"]["ifMatch"];
+            };
+            path: {
+                revision: components["parameters"]["revision"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description staged */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Stage"];
+                };
+            };
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            412: components["responses"]["PreconditionFailed"];
+            422: components["responses"]["Unprocessable"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getBackup: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description an SQLite database */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/octet-stream": string;
+                };
+            };
+            507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    putBackup: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/octet-stream": string;
+            };
+        };
+        responses: {
+            /** @description laid down */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RestoreAnswer"];
+                };
+            };
+            403: components["responses"]["Forbidden"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getRegisters: {
+        parameters: {
+            query?: {
+                /** @description Modbus unit */
+                unit?: number;
+                /** @description table */
+                table?: "holding_registers" | "input_registers" | "coils" | "discrete_inputs";
+                /** @description counted from 0 */
+                address?: number;
+                /** @description how many */
+                count?: number;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description words or bits, or the exception that a client gets */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Registers"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getMappingList: {
+        parameters: {
+            query?: {
+                /** @description table, page, or IEC 61131-3 structure */
+                format?: "csv" | "html" | "st";
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the list */
+            200: {
+                headers: {
+                    "Mapping-Revision"?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/csv": string;
+                    "text/html": string;
+                    "text/plain": string;
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getNextFree: {
+        parameters: {
+            query?: {
+                /** @description Modbus unit */
+                unit?: number;
+                /** @description table */
+                table?: "holding_registers" | "input_registers" | "coils" | "discrete_inputs";
+                /** @description registers or bits */
+                words?: number;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the place */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Place"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            409: components["responses"]["Conflict"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    addMappingTemplate: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
+                "If-Match"?: components["parameters"]["ifMatch"];
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "template": "standard_map",
+                 *       "axis": "feeder",
+                 *       "unit": 2,
+                 *       "address": 0,
+                 *       "dry_run": true
+                 *     }
+                 */
+                "application/json": components["schemas"]["TemplateRequest"];
+            };
+        };
+        responses: {
+            /** @description what would be added */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TemplateAnswer"];
+                };
+            };
+            /** @description added and in force */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TemplateAnswer"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            409: components["responses"]["Conflict"];
+            412: components["responses"]["PreconditionFailed"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            507: components["responses"]["NotStored"];
             default: components["responses"]["Problem"];
         };
     };

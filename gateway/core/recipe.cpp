@@ -269,7 +269,8 @@ public:
         return d;
     }
     void require(const json::object& o, std::string_view key, const std::string& at) {
-        if (!o.if_contains(key)) fault(at, fmt::format("{} is missing", key), fmt::format("add \"{}\"", key));
+        const auto* v = o.if_contains(key);
+        if (!v || v->is_null()) fault(at, fmt::format("{} is missing", key), fmt::format("add \"{}\"", key));
     }
 
     std::optional<RecipeCondition> condition(const json::object& o, const std::string& at) {

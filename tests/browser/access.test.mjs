@@ -107,7 +107,7 @@ test('the first Tab offers the way past the head', async () => {
 for (const width of [390, 320, 768, 1024, 1440]) {
   test(`at ${width} px no page scrolls sideways and the stops are in sight`, async () => {
     const page = await open(browser, program.url, { viewport: { width, height: 844 }, hasTouch: width < 500, isMobile: width < 500 });
-    for (const path of ['/', '/axes/feeder', '/axes/slide.x/', '/lines', '/lines/can0', '/events', '/gateway']) {
+    for (const path of ['/', '/axes/feeder', '/axes/slide.x/', '/lines', '/lines/can0', '/events', '/gateway', '/mappings', '/site', '/axes/feeder/parameters']) {
       await page.goto(program.url + path);
       await settled(page);
       if (path.startsWith('/axes')) await page.locator('[data-parameter]').first().waitFor();

@@ -31,7 +31,7 @@ beforeEach(async () => {
   route.value = { page: 'overview' };
   root = document.createElement('div');
   document.body.append(root);
-  client = { command: vi.fn(() => new Promise(() => undefined)), dropWaitingCommands: vi.fn(), parameters: vi.fn(async () => []), hand: vi.fn(async () => []) };
+  client = { command: vi.fn(() => new Promise(() => undefined)), dropWaitingCommands: vi.fn(), parameters: vi.fn(async () => []), whole: vi.fn(async () => { throw new Problem('answered', 'the store is shut', 503); }), call: vi.fn(async () => { throw new Problem('answered', 'there is nothing', 404); }), hand: vi.fn(async () => []) };
   gateway = new Gateway({ client: client as unknown as Client, store: new Store(), url: 'ws://nowhere/' });
   gateway.store.setConnection(live());
   gateway.store.setLists({ axes: [axis({ name: 'feeder', number: 1 })], drives: [world().driveOf('feeder').document() as Drive], lines: [] }, 1);
@@ -184,7 +184,15 @@ describe('alarms and pages', () => {
     await tick();
     expect(text('main')).toContain('names no page');
   });
-  it.each([{ page: 'axis', name: 'feeder' }, { page: 'lines' }, { page: 'line', name: 'can0' }, { page: 'events' }, { page: 'gateway' }] as const)('draws %o with one heading', async (r) => {
+  it('says what went wrong where a list should be, and what this gateway does not offer', async () => {
+    route.value = { page: 'mappings' };
+    await vi.waitFor(() => expect(text('main')).toContain('The store is shut'));
+    route.value = { page: 'site' };
+    await vi.waitFor(() => expect(text('main')).toMatch(/^Site.*The store is shut/));
+    route.value = { page: 'parameters', name: 'feeder' };
+    await vi.waitFor(() => expect(text('main')).toContain('This gateway does not offer snapshots.'));
+  });
+  it.each([{ page: 'axis', name: 'feeder' }, { page: 'lines' }, { page: 'line', name: 'can0' }, { page: 'events' }, { page: 'gateway' }, { page: 'mappings' }, { page: 'parameters', name: 'feeder' }, { page: 'site' }] as const)('draws %o with one heading', async (r) => {
     route.value = r;
     await tick();
     expect(root.querySelectorAll('main h1')).toHaveLength(1);

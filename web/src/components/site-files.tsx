@@ -151,9 +151,7 @@ export function SiteHistory({ draft, door }: { draft: SiteDraft; door: SiteDoor 
             {list.value.slice(0, 100).map((h) => (
               <li key={h.revision} class="row" data-revision={h.revision}>
                 <div class="row-head">
-                  <h3>
-                    Revision {h.revision} <span class="where">{clockTime(h.at)} {h.who ?? ''} · {size(h.bytes)}</span>
-                  </h3>
+                  <h3>Revision {h.revision}</h3>
                   <button type="button" class="button small" aria-expanded={shown.value?.revision === h.revision} aria-label={`Difference to revision ${h.revision}`} onClick={() => void look(h.revision)}>
                     Difference
                   </button>
@@ -161,6 +159,9 @@ export function SiteHistory({ draft, door }: { draft: SiteDraft; door: SiteDoor 
                     Restore
                   </button>
                 </div>
+                <p class="where">
+                  {clockTime(h.at)} {h.who ?? ''} · {size(h.bytes)}
+                </p>
                 {shown.value?.revision === h.revision && (shown.value.changes.length === 0 ? <p class="where">It is the site that is in force.</p> : <DifferenceList list={shown.value.changes} label={`What revision ${h.revision} would change`} />)}
               </li>
             ))}

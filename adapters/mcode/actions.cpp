@@ -161,17 +161,11 @@ void Node::block_ended(const ReplyReader& r, Turn& t) {
 }
 
 void Node::download_failed(std::string why, Turn& t) {
-    const bool touched = job_.memory_touched || job_.kind == JobKind::download;
+    const bool touched = job_.memory_touched;
     job_over(Outcome::failed, Reason::interrupted,
              fmt::format("{}: {}{}", name(), why, touched ? "; the program memory is cleared or incomplete: download again" : ""), t);
-    if (stops_.size() < urgent_limit && phase_ == Phase::ready) {
-        // Out of program mode, whatever became of the line; CP then removes the half.
-        Stop leave;
-        leave.command.axis = axis_;
-        leave.command.body = Halt{};
-        leave.lines = {"PG", "CP"};
-        stops_.push_back(std::move(leave));
-    }
+    // Program mode is left first (leaving.cpp); CP then removes the half, behind every stop that waits.
+    clear_half_ = touched && phase_ == Phase::ready;
 }
 
 void Node::plan_action(const Action& a, Turn& t) {
@@ -192,6 +186,7 @@ void Node::plan_action(const Action& a, Turn& t) {
         });
         if (!checked.fault.empty()) return refuse(Reason::out_of_range, fmt::format("the program was not sent; {}", checked.fault));
         job_.kind = JobKind::download;
+        mode_doubt_ = false;
         job_.program = checked.lines;
         job_.add(Step::What::send, "CP 1");
         for (auto& l : checked.lines)
@@ -229,8 +224,14 @@ void Node::plan_action(const Action& a, Turn& t) {
         job_.add(Step::What::bare, "PY=1\r");
         job_.text = "the drive that was in single mode has its name now; program.save keeps it";
     } else if (a.name == "reset") {
-        return refuse(Reason::not_supported,
-                      "CTRL+C reaches every drive of a party line; use the drive's own reset input, or CE=2 by hand");
+        if (!manners_.alone) {
+            return refuse(Reason::not_supported,
+                          "CTRL+C restarts every drive of this line: reset is offered where one drive is alone on its line; "
+                          "use the drive's own reset input");
+        }
+        job_.kind = JobKind::restart;
+        job_.add(Step::What::send, "\x03", false);
+        return;
     } else {
         const std::string w = word_of(a.name);
         const bool known = w == a.name && std::ranges::any_of(catalogue_.commands(), [&](const CatalogueCommand& c) { return c.id == w; });

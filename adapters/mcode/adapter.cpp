@@ -38,7 +38,13 @@ void LineAdapter::take_manners(const LineSetup& setup, Turn& t) {
     manners_.silent_limit = std::clamp(m.silent_limit, 1, 1000);
     manners_.pause_min = or_else(m.retry_pause_min, 200ms);
     manners_.pause_max = std::max(manners_.pause_min, m.retry_pause_max);
-    manners_.ethernet = option(setup.options, "ethernet", "off") == "on";
+    const std::string ethernet = option(setup.options, "ethernet", "off");
+    manners_.ethernet = ethernet == "on" || ethernet == "true" || ethernet == "1";
+    if (!manners_.ethernet && ethernet != "off" && ethernet != "false" && ethernet != "0" && !ethernet.empty()) {
+        t.out.notices.push_back({Severity::warning, no_drive, no_axis, "setup", 0,
+                                 fmt::format("option ethernet = {}: write on or off; off is used", ethernet), t.now});
+    }
+    manners_.alone = setup.drives.size() == 1;
     const auto digit = [&](const char* name, int most, int otherwise) {
         const std::string text = option(setup.options, name, "");
         if (text.empty()) return otherwise;

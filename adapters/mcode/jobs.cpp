@@ -34,11 +34,8 @@ void Node::submit(const Command& c, Turn& t) {
     cancel_motions(name_of(c.body), t);
     Stop s;
     s.command = c;
-    if (job_.kind == JobKind::download && job_.memory_touched) {
-        // Within PG every line would become part of the program.
-        s.lines.emplace_back("PG");
-        download_failed(fmt::format("{} came in between", name_of(c.body)), t);
-    }
+    // Within PG every line would become part of the program: leaving() goes before this stop.
+    if (job_.kind == JobKind::download) download_failed(fmt::format("{} came in between", name_of(c.body)), t);
     if (std::holds_alternative<Disable>(c.body)) {
         s.lines.emplace_back("DE=0");
     } else {
@@ -235,6 +232,18 @@ void Node::step_ended(Verdict v, const ReplyReader& r, Turn& t) {
         return;  // a stop has ended it
     }
     if (job_.kind == JobKind::setup) return step_done(t);
+    if (job_.kind == JobKind::restart) {
+        job_over(Outcome::done, Reason::none, fmt::format("{} restarts: it is looked for and set up again", name()), t);
+        fail_all(Reason::interrupted, fmt::format("{} was restarted by reset", name()), t);
+        enabled_ = false;
+        fb_.referenced = fb_.homing_attained = fb_.target_reached = false;
+        motion_ = {};
+        mode_ = Mode::immediate;
+        clear_half_ = false;
+        derive(t);
+        emit(t);
+        return begin_probing(t);
+    }
     Step& step = job_.steps[job_.at];
     switch (step.what) {
         case Step::What::send:
@@ -244,6 +253,7 @@ void Node::step_ended(Verdict v, const ReplyReader& r, Turn& t) {
             return;
         case Step::What::bare:
             if (v == Verdict::acknowledged || v == Verdict::answered) return step_done(t);
+            mode_doubt_ = v == Verdict::waiting;
             return download_failed(v == Verdict::refused ? fmt::format("the drive refused line {}: {}", job_.at, step.text)
                                                          : fmt::format("line {} was not acknowledged: {}", job_.at, step.text),
                                    t);
@@ -291,7 +301,6 @@ void Node::step_done(Turn& t) {
             coming.text = fmt::format("MA {}", target);
             job_.text.clear();
         }
-        if (job_.kind == JobKind::download && coming.text == "PG 1") job_.memory_touched = true;
         return;
     }
     switch (job_.kind) {

@@ -151,7 +151,8 @@ Node::Want Node::wants(Instant now) const noexcept {
         case Phase::ready:
             break;
     }
-    if (!stops_.empty()) return Want::urgent;
+    if (!stops_.empty() || leaving()) return Want::urgent;
+    if (clear_half_) return Want::other;
     if (need_error_ || now >= next_poll_) return Want::other;
     if (job_.kind != JobKind::none) {
         return job_.at < job_.steps.size() && job_.steps[job_.at].what == Step::What::standstill ? Want::nothing : Want::other;
@@ -161,7 +162,7 @@ Node::Want Node::wants(Instant now) const noexcept {
 
 bool Node::wants_unmarked() const noexcept {
     if (phase_ == Phase::linking) return true;
-    if (phase_ != Phase::ready || !stops_.empty() || need_error_) return false;
+    if (phase_ != Phase::ready || !stops_.empty() || leaving() || need_error_) return false;
     if (job_.kind == JobKind::none) return !queue_.empty();
     if (job_.confirming || job_.at >= job_.steps.size()) return false;
     const auto what = job_.steps[job_.at].what;
@@ -212,6 +213,13 @@ Request Node::next(Turn& t) {
         case Phase::probing:
         case Phase::absent:
             r.wake = true;
+            if (mode_ == Mode::program) {
+                // It went away in program mode, where a probe is stored and not answered.
+                r = say(What::probe, "PG");
+                r.wake = true;
+                note_mode_line(r.text);
+                return r;
+            }
             return ask(What::probe, manners_.ethernet ? "EM" : "EM,CK,ES");
         case Phase::linking:
             return say(What::link, link_line_);
@@ -220,6 +228,7 @@ Request Node::next(Turn& t) {
         default:
             break;
     }
+    if (leaving()) return next_leave();
     if (!stops_.empty()) {
         Stop& s = stops_.front();
         if (s.confirming) {
@@ -234,6 +243,13 @@ Request Node::next(Turn& t) {
         return r;
     }
     if (need_error_) return ask(What::error, "ER");
+    if (clear_half_ && job_.kind == JobKind::none) {
+        clear_half_ = false;
+        Command c;
+        c.axis = axis_;
+        c.body = Action{"program.clear", ""};
+        plan(c, t);
+    }
     if (job_.kind == JobKind::none && !queue_.empty()) take_next(t);
     if (job_.kind != JobKind::none && job_.at < job_.steps.size()) {
         const Step& step = job_.steps[job_.at];
@@ -241,7 +257,16 @@ Request Node::next(Turn& t) {
         switch (step.what) {
             case Step::What::send:
             case Step::What::bare:
-                return say(What::step, step.text);
+                r = say(What::step, step.text);
+                if (job_.kind == JobKind::download) {
+                    job_.memory_touched = true;  // CP 1 is its first line
+                    note_mode_line(step.text);
+                }
+                if (job_.kind == JobKind::restart) {
+                    r.raw = (link().party() ? std::string(1, link().name) : std::string()) + step.text;  // CE = 2 wants the name
+                    r.kind = Expect::Kind::nothing;
+                }
+                return r;
             case Step::What::query:
                 r.end_mark = step.end_mark;
                 return ask(What::step, step.text);
@@ -267,8 +292,25 @@ void Node::ended(Verdict v, const ReplyReader& reader, Turn& t) {
         if (v != Verdict::refused) ++counters_.exchanges;
         silent_ = 0;
     }
+    const bool mode_line = mode_flight_;
+    mode_line_ended(v);
     switch (purpose_) {
+        case What::leave:
+            return leave_ended(v, reader, t);
         case What::probe:
+            if (mode_line) {
+                mode_ = Mode::unknown;  // the next probe tells
+                next_probe_ = t.now;
+                if (!heard) count_silence(t);
+                return;
+            }
+            if (v == Verdict::answered) {
+                mode_ = Mode::immediate;
+            } else if (mode_ == Mode::unknown && reader.raw().find_first_of("\x06\n") != std::string::npos) {
+                mode_ = Mode::program;  // taken and not answered: it was stored
+                next_probe_ = t.now;
+                return;
+            }
             return probe_ended(v, reader.data(), t);
         case What::link:
             if (!heard) {

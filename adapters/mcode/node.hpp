@@ -1,7 +1,8 @@
 // Node: one drive: finding it, setting its link, its polls, its queue of commands and their steps, and what is known of its axis.
 // In: commands, the outcome of its exchanges, time. Out: the next request when it has the line; feedback, results, links, notices.
 // Never sends by itself: the line asks it, and gives it one exchange at a time.
-// Written in: node.cpp (exchanges, presence, polls), jobs.cpp (commands as steps), actions.cpp (parameters, native, programs).
+// Written in: node.cpp (exchanges, presence, polls), leaving.cpp (out of program mode), jobs.cpp (commands as steps), actions.cpp
+// (parameters, native, programs).
 #pragma once
 
 #include <array>
@@ -35,11 +36,12 @@ struct Manners {
     int em = 1;             ///< echo mode wanted
     int ck = 1;             ///< checksum mode wanted
     bool ethernet = false;  ///< MCode/TCP: no CK, no names [L1173-1191]
+    bool alone = false;     ///< one drive on this line: CTRL+C can mean nobody else
 };
 
 /// What a node wants to send.
 struct Request {
-    enum class Purpose : std::uint8_t { probe, link, startup, stop, confirm, error, step, poll };
+    enum class Purpose : std::uint8_t { probe, link, startup, stop, confirm, error, step, poll, leave };
     Purpose purpose = Purpose::poll;
     std::string text;  ///< without address, checksum, terminator; query: without the mark
     std::string raw;   ///< bytes as they are, instead of text
@@ -101,7 +103,8 @@ private:
         list,
         upload,
         download,
-        setup
+        setup,
+        restart
     };
     struct Step {
         enum class What : std::uint8_t {
@@ -139,6 +142,12 @@ private:
         Verdict said = Verdict::waiting;
     };
 
+    // leaving.cpp
+    [[nodiscard]] bool leaving() const noexcept;
+    [[nodiscard]] Request next_leave();
+    void note_mode_line(std::string_view line);
+    void mode_line_ended(Verdict v);
+    void leave_ended(Verdict v, const ReplyReader& r, Turn& t);
     // node.cpp
     void begin_probing(Turn& t);
     void go_absent(Turn& t, std::string why);
@@ -206,6 +215,15 @@ private:
     Job job_;
     bool need_error_ = false;
     bool error_is_ours_ = false;
+    /// Program mode, as far as this gateway has put the drive into it. It outlives absence: a drive that comes back may still be in it.
+    enum class Mode : std::uint8_t { immediate, program, unknown };
+    Mode mode_ = Mode::immediate;
+    Mode mode_before_ = Mode::immediate;  ///< of the PG in flight
+    bool mode_flight_ = false;            ///< a PG is in flight
+    bool mode_doubt_ = false;             ///< an acknowledgement may be a late one: the mode is asked after
+    bool purpose_was_question_ = false;   ///< leave: the exchange in flight asks for the mode
+    int leave_rounds_ = 0;                ///< at 12 without success the drive is given up as absent
+    bool clear_half_ = false;             ///< a download broke off: CP removes what it left, behind every stop
 
     // what is known
     AxisFeedback fb_;

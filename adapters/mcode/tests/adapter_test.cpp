@@ -278,6 +278,105 @@ TEST(McodeAdapter, ProgramsAreCheckedSentVerifiedAndRun) {
     EXPECT_TRUE(has(b.drives[0].heard, "S"));
     EXPECT_EQ(b.wait(Action{"no.such", ""}).reason, Reason::unknown_point);
 }
+/// A stop at every moment of a download, for every way to write its first line: no stop and no poll is stored, the order is kept.
+TEST(McodeAdapter, AStopDuringADownloadNeverBecomesProgramText) {
+    for (const char* first : {"", "PG 1\n", "PG 100\n", "pg 100\n", "  Pg   7\n"}) {
+        for (int kind = 0; kind < 3; ++kind) {
+            for (int at = 0; at < 40; ++at) {
+                Bench b;
+                b.up();
+                b.run(2s);
+                ASSERT_EQ(b.wait(Enable{}).outcome, Outcome::done);
+                const std::string framed = *first ? std::string(first) + "LB AA\nMA 100\nH\nE\nPG\n" : "LB AA\nMA 100\nH\nE\n";
+                b.drives[0].heard.clear();
+                const Ticket download = b.command(Action{"program.download", framed});
+                b.run(at * 5ms);
+                if (b.result(download)) break;
+                const auto before = b.drives[0].heard.size();
+                const Ticket stop = b.command(kind == 0   ? CommandBody{Halt{}}
+                                              : kind == 1 ? CommandBody{QuickStop{}}
+                                                          : CommandBody{Disable{}});
+                for (int i = 0; i < 200 && !b.result(stop); ++i) {
+                    b.run(5ms);
+                    for (const auto& l : b.drives[0].program)
+                        ASSERT_TRUE(l == "LB AA" || l == "MA 100" || l == "H" || l == "E") << l << " was stored; " << first << at;
+                }
+                ASSERT_TRUE(b.result(download));
+                EXPECT_EQ(b.result(download)->outcome, Outcome::failed) << first << at;
+                ASSERT_TRUE(b.result(stop)) << first << kind << at;
+                EXPECT_TRUE(good(*b.result(stop))) << b.result(stop)->text << first << kind << at;
+                const auto& h = b.drives[0].heard;
+                const auto said = std::ranges::find(h.begin() + static_cast<std::ptrdiff_t>(before), h.end(), kind == 2 ? "DE=0" : "SL 0");
+                ASSERT_NE(said, h.end());
+                EXPECT_LE(said - h.begin() - static_cast<std::ptrdiff_t>(before), 1) << "PG and nothing else goes before it";
+                b.run(2s);
+                EXPECT_FALSE(b.drives[0].in_program) << first << kind << at;
+                EXPECT_TRUE(b.drives[0].program.empty()) << "the half is removed; " << first << kind << at;
+                EXPECT_TRUE(b.online());
+            }
+        }
+    }
+}
+TEST(McodeAdapter, ALostPgIsAskedAfterInEveryEchoAndChecksumMode) {
+    for (int em = 0; em < 4; ++em) {
+        for (int ck = 0; ck < 2; ++ck) {
+            for (const char* lost : {"PG 1", "PG", "H"}) {
+                Bench b;
+                b.setup.options = {{"em", std::to_string(em)}, {"ck", std::to_string(ck)}};
+                b.up();
+                b.run(3s);
+                ASSERT_TRUE(b.online());
+                b.drives[0].lose.insert(lost);
+                const Ticket download = b.command(Action{"program.download", "LB AA\nMA 100\nH\nE\n"});
+                b.run(150ms);
+                const Ticket stop = b.command(Halt{});
+                b.run(8s);
+                ASSERT_TRUE(b.result(download)) << em << ck << lost;
+                ASSERT_TRUE(b.result(stop)) << em << ck << lost;
+                EXPECT_FALSE(b.drives[0].in_program) << em << ck << lost;
+                EXPECT_TRUE(b.online()) << em << ck << lost;
+                EXPECT_FALSE(has(b.drives[0].program, "SL 0")) << em << ck << lost;
+            }
+        }
+    }
+}
+TEST(McodeAdapter, ADriveThatWentAwayInProgramModeIsLedOutWhenItComesBack) {
+    Bench b;
+    b.up();
+    b.run(2s);
+    (void)b.command(Action{"program.download", "LB AA\nMA 100\nH\nE\n"});
+    for (int i = 0; i < 500 && !b.drives[0].in_program; ++i)
+        b.run(1ms);
+    ASSERT_TRUE(b.drives[0].in_program);
+    b.drives[0].silent = true;
+    b.run(3s);
+    EXPECT_FALSE(b.online());
+    b.drives[0].silent = false;
+    b.run(15s);
+    EXPECT_TRUE(b.online());
+    EXPECT_FALSE(b.drives[0].in_program);
+}
+TEST(McodeAdapter, ResetIsOfferedToADriveAloneAndFindsItAgain) {
+    for (const char name : {'!', 'a'}) {
+        Bench b({name});
+        b.up();
+        b.run(2s);
+        ASSERT_EQ(b.wait(Enable{}).outcome, Outcome::done);
+        EXPECT_EQ(b.wait(Action{"reset", ""}).outcome, Outcome::done);
+        EXPECT_EQ(b.drives[0].resets, 1);
+        b.run(8s);
+        EXPECT_TRUE(b.online());
+        EXPECT_EQ(b.drives[0].ck, 1) << "its link is set again";
+        EXPECT_EQ(b.feedback[AxisId{0}].power, AxisFeedback::Power::off);
+    }
+    Bench b({'a', 'b'});
+    b.up();
+    b.run(3s);
+    const Result r = b.wait(Action{"reset", ""});
+    EXPECT_EQ(r.outcome, Outcome::refused);
+    EXPECT_NE(r.text.find("every drive"), std::string::npos) << r.text;
+    EXPECT_EQ(b.drives[1].resets, 0);
+}
 TEST(McodeAdapter, ABrokenDownloadSaysThatTheMemoryIsCleared) {
     Bench b;
     b.up();

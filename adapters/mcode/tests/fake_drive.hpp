@@ -21,7 +21,7 @@ struct FakeDrive {
     char name = 'a';
     int em = 0, ck = 0;
     bool awake = false, silent = false, in_program = false;
-    int er = 0;
+    int er = 0, resets = 0;
     std::map<std::string, std::string> values{{"P", "0"},         {"V", "0"},       {"MV", "0"},      {"MP", "0"},      {"VC", "0"},
                                               {"DE", "1"},        {"BY", "0"},      {"ST", "0"},      {"LR", "0"},      {"AS", "0"},
                                               {"VI", "1000"},     {"VM", "768000"}, {"A", "1000000"}, {"D", "1000000"}, {"EE", "0"},
@@ -40,7 +40,12 @@ struct FakeDrive {
     std::string take(std::string_view bytes) {
         std::string out;
         for (const char c : bytes) {
-            if (c == (name == '!' ? '\r' : '\n')) {
+            if (c == '\x03') {
+                ++resets;
+                buffer.clear();
+                awake = in_program = false;
+                em = ck = 0;
+            } else if (c == (name == '!' ? '\r' : '\n')) {
                 out += line(std::move(buffer));
                 buffer.clear();
             } else {
@@ -72,7 +77,7 @@ struct FakeDrive {
         const bool lost = lose.erase(s) > 0;
         std::string data;
         bool printed = false;
-        if (in_program && s != "PG") {
+        if (in_program && word_of(s) != "PG") {
             program.push_back(s);
         } else if (const auto it = refuse.find(s); it != refuse.end()) {
             er = it->second;
@@ -87,11 +92,10 @@ struct FakeDrive {
                 data += std::to_string(n++) + " " + p + "\r\n";
             data += "99 PG";
             printed = true;
-        } else if (s == "PG 1") {
-            in_program = true;
+        } else if (word_of(s) == "PG") {
+            in_program = !in_program;  // PG toggles, whatever was meant
+        } else if (s == "CP" || s == "CP 1") {
             program.clear();
-        } else if (s == "PG") {
-            in_program = false;
         } else if (s.starts_with("MA ")) {
             values["P"] = s.substr(3);
         } else if (s.starts_with("SL ")) {

@@ -3,6 +3,7 @@
 // Never fails: what it cannot read becomes the factory's value.
 #include "adapters/mcode/twin.hpp"
 
+#include "adapters/mcode/switched.hpp"
 #include "adapters/mcode/twin_device.hpp"
 
 namespace axisgate::mcode {
@@ -12,7 +13,7 @@ std::unique_ptr<Twin> make_twin(const Catalogue&, const TwinSetup& setup) {
     twin::MechanismSetup m;
     const std::string product = option(setup.options, "product", "LMDC");
     d.product = product == "LMM" ? twin::lmm : product == "LMDO" ? twin::lmdo : twin::lmdc;
-    d.ethernet = option(setup.options, "ethernet", "false") == "true";
+    d.ethernet = switched_on(option(setup.options, "ethernet", "off"));
     d.bit_rate = setup.bit_rate;
     if (setup.address.size() == 1) d.name = setup.address[0];
     const std::string nema = option(setup.options, "nema", "23");

@@ -20,8 +20,8 @@ namespace axisgate::mcode {
 ///   that is saved makes it deaf after the reset. Other rates, and 0, are heard always.
 /// `setup.options`: the line's and the drive's; other names are left alone:
 ///   "product"   "LMDC" (default, closed loop), "LMDO" (open loop), "LMM" (motion module)
-///   "ethernet"  "true": MCode over TCP or UDP 503; the commands of the serial link are refused with error 37 [L1173-1191]
-///   "nema"      "17", "23" (default), "34"
+///   "ethernet"  "on" (also "true", "1"; default "off"): MCode over TCP or UDP 503; the commands of the serial link are refused with error
+///   37 [L1173-1191] "nema"      "17", "23" (default), "34"
 [[nodiscard]] std::unique_ptr<Twin> make_twin(const Catalogue& catalogue, const TwinSetup& setup);
 
 }  // namespace axisgate::mcode

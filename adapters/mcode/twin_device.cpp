@@ -93,12 +93,16 @@ void Device::on_deadline(Instant now, Out& out) {
 /// Everything that is due up to now_, oldest first.
 void Device::settle(Out& out) {
     if (powered_) {
-        motor_->advance(now_);
-        take_events();
         if (trip_time_ <= now_) {
+            // The position is that of the instant, however late the call is.
+            motor_->advance(trip_time_);
+            motor_->capture(trip_time_);
             trip_time_ = never;
+            take_events();
             fire(Word::TT);
         }
+        motor_->advance(now_);
+        take_events();
         while (command_due_ <= now_ && !waiting_.empty()) {
             const Command c = std::move(waiting_.front());
             waiting_.pop_front();

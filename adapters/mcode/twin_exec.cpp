@@ -13,6 +13,11 @@ constexpr int unknown_set = 20, bad_value = 21, read_only = 25, unknown_label = 
 
 bool is_digit(char c) noexcept { return c >= '0' && c <= '9'; }
 
+/// `PG1` of the manual's listing [L7052]: no name may have this form, so the address is meant.
+bool is_joined_pg(std::string_view s) noexcept {
+    return s.size() > 2 && (s[0] == 'P' || s[0] == 'p') && (s[1] == 'G' || s[1] == 'g') && is_digit(s[2]);
+}
+
 }  // namespace
 
 int Device::available(Word word) const noexcept {
@@ -60,6 +65,8 @@ void Device::clear_error() {
 
 int Device::typed(std::string_view text) {
     text = trimmed(text);
+    std::string apart;
+    if (is_joined_pg(text)) text = apart = "PG " + std::string(text.substr(2));
     if (programming_) return program_line(text);
     if (input_pending_ && (text.empty() || is_digit(text[0]) || text[0] == '-' || text[0] == '+' || text[0] == '.'))
         return input_value(text);
@@ -235,7 +242,9 @@ int Device::perform(const Statement& s, std::span<const Number> fields) {
         const auto last = motor_->text(Word::MD, now_);
         const auto word = last ? word_named(*last) : std::nullopt;
         if (!word || (*word != Word::MA && *word != Word::MR && *word != Word::SL)) return 60;
-        return motor_->start(*word, fields, now_);
+        const int code = motor_->start(*word, fields, now_);
+        if (code == 0) announce_ = false;
+        return code;
     }
     if (const int code = available(s.word); code != 0) return code;
     if (s.kind == Statement::Kind::assign) {
@@ -249,7 +258,9 @@ int Device::perform(const Statement& s, std::span<const Number> fields) {
     if (info(s.word).kind == WordKind::trip) return set_trip(s, fields);
     if (info(s.word).owner == Owner::motor) {
         const int code = motor_->start(s.word, fields, now_);
-        if (code == 0 && (s.word == Word::MA || s.word == Word::MR)) announce_ = fields.size() >= 2 && fields[1].truth();
+        // What was announced for an earlier motion is not said at the end of another one.
+        if (code == 0 && s.word != Word::CF)
+            announce_ = (s.word == Word::MA || s.word == Word::MR) && fields.size() >= 2 && fields[1].truth();
         return code;
     }
     switch (s.word) {

@@ -72,7 +72,8 @@ int Inputs::set_up(std::span<const std::int64_t> f, Instant now) {
         if (fitted_ < input_count) return wrong_clock;
     } else if (type != InputType::general) {
         const auto other = with_type(type);
-        if (other && (*other != n || high_[n] == high)) return already_so;
+        // "An IO already set": another one. The listings of setups are sent again to drives that hold them, so the same again is no fault.
+        if (other && *other != n) return already_so;
     }
     type_[n] = type;
     high_[n] = high;
@@ -273,7 +274,7 @@ int Outputs::set_up(std::span<const std::int64_t> f) {
     }
     if (type != OutputType::general) {
         for (std::size_t i = 0; i < output_count; ++i) {
-            if (type_[i] == type && (i != n || high_[n] == high)) return already_so;
+            if (type_[i] == type && i != n) return already_so;
         }
     }
     type_[n] = type;

@@ -63,7 +63,7 @@ public:
     /// `fitted`: 3 with NEMA 17, else 4 [L6919].
     Inputs(std::size_t fitted, bool configurable_analog) : fitted_(fitted), analog_set_(configurable_analog) {}
     void factory(Instant now);
-    /// IS=n,type,active; IS=5,sense,range; IS=6,active. Codes: 6 another or the same point has this type already, 8 the type does not
+    /// IS=n,type,active; IS=5,sense,range; IS=6,active. Codes: 6 another point has this type already, 8 the type does not
     /// belong on this point, 10 no such point, 11 a clock type without its pair, 21, 24 the analog input of an LMM.
     [[nodiscard]] int set_up(std::span<const std::int64_t> fields, Instant now);
     [[nodiscard]] std::string text() const;

@@ -55,6 +55,8 @@ struct Mechanism {
     virtual int arm(Word trip, std::span<const Number> fields, Instant now) = 0;
     /// The trips that are enabled, as the bits of TE.
     virtual void enable_trips(int te, Instant now) = 0;
+    /// A trip that the language times itself (TT): P goes to PC [L4726], and the trip output pulses.
+    virtual void capture(Instant now) = 0;
     virtual void stop_at_once(Instant now) = 0;
     virtual void pause(Instant now) = 0;
     virtual void resume(Instant now) = 0;

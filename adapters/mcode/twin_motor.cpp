@@ -135,6 +135,12 @@ void Motor::trip(Word w, Instant now, bool capture) {
     emit({MotorEvent::Kind::trip, 0, w});
 }
 
+void Motor::capture(Instant now) {
+    advance(now);
+    captured_ = std::llround(position(now).position);
+    if (outputs_.has(OutputType::trip)) ++trip_pulses_;
+}
+
 int Motor::arm(Word w, std::span<const Number> f, Instant now) {
     constexpr int no_capture = 12, bad_value = 21, two_trips = 39;
     advance(now);

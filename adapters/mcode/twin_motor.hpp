@@ -36,6 +36,7 @@ public:
     /// TI input; TP position; TR distance[,repeat]; TA mask; TC and TM have no field. Code 12: TC without an input of type 12.
     int arm(Word trip, std::span<const Number> fields, Instant now) override;
     void enable_trips(int te, Instant now) override;
+    void capture(Instant now) override;
     void stop_at_once(Instant now) override;
     void pause(Instant now) override;
     void resume(Instant now) override;

@@ -18,7 +18,11 @@ std::optional<std::string> Device::text_of_word(Word word, int& error) {
         case Word::SN:
             return setup_.serial_number;
         case Word::VR:
-            return "LMDCM 6.002, Hw: 3.2";
+            // Product, then M for the serial link or E for Ethernet, as in the part number [L6192].
+            return std::string((setup_.product & lmm) != 0    ? "LMMC"
+                               : (setup_.product & lmdo) != 0 ? "LMDO"
+                                                              : "LMDC") +
+                   (setup_.ethernet ? "E" : "M") + " 6.002, Hw: 3.2";
         case Word::PF:
             return std::to_string(format_.width) + ',' + std::to_string(format_.decimals) + ',' + (format_.scientific ? '1' : '0') + ',' +
                    (format_.left ? '1' : '0');

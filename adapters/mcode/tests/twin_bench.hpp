@@ -87,6 +87,7 @@ public:
         return 0;
     }
     void enable_trips(int te, Instant) override { te_seen = te; }
+    void capture(Instant now) override { values[Word::PC] = position(now); }
     void stop_at_once(Instant now) override {
         from_ = to_ = position(now);
         began_ = ended_ = now;

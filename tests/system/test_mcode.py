@@ -1,6 +1,7 @@
 """MCode from outside: a party line on a pseudo-terminal, driven as by hand; a program that curl stores and starts on the demo's drives."""
 import json
 import pathlib
+import subprocess
 import time
 
 from harness import Gateway, Port, Process, run, until
@@ -25,6 +26,58 @@ def test_a_party_line_driven_by_hand(folder):
             port.ask(b"aP=0\n")
             port.ask(b"aMR 51200\n")
             until(lambda: b"51200" in port.ask(b"aPR P\n", lambda got: got.endswith(b"\r\n")), 10, "the move's end")
+
+
+def test_a_party_line_as_the_reference_describes_it(folder):
+    """Activation, names, both shapes of answers, global commands, checksum, and the way out of party mode, byte by byte."""
+    with Process("twin", "mcode", "--line", f"pty:{folder / 'party'}", "--address", "a", "--address", "b"):
+        with Port(folder / "party") as port:
+            def expect(sent, answer):
+                got = port.ask(sent, (lambda had: len(had) >= len(answer)) if answer else None)
+                assert got == answer, (sent, got, answer)
+            expect(b"aPR P\n", b"")
+            expect(b"\n", b"")
+            expect(b"aA=5000\n", b"aA=5000\r\n>")
+            expect(b"aPR A\n", b"aPR A\r\n5000\r\n>")
+            expect(b"bPR A\n", b"bPR A\r\n1000000\r\n>")
+            expect(b"*A=6000\n", b"")
+            expect(b"aEM=1\n", b"aEM=1\r\n>")
+            expect(b"bEM=2\n", b"bEM=2\r\n>")
+            expect(b"aPR A\n", b"\r\n6000\r\n")
+            expect(b"bPR A\n", b"6000\r\n")
+            expect(b"aCK=1\n", b"\r\n")
+            expect(b"aPR P\x8d\n", b"\x060\xd0\r\n")
+            expect(b"aPR P\x8c\n", b"\x15")
+            expect(b"bMR 51200\n", b"")
+            until(lambda: port.ask(b"bPR P,MV\n", lambda had: had.endswith(b"\r\n")) == b"512000\r\n", 10, "the move's end")
+
+
+def test_a_witness_on_the_line_sees_the_bytes(folder):
+    """socat stands between the twin and the terminal and writes down every byte of both directions."""
+    with Process("twin", "mcode", "--line", f"pty:{folder / 'line'}", "--address", "!"):
+        until(lambda: (folder / "line").exists(), 5, "the twin's terminal")
+        log = open(folder / "witness", "wb")
+        witness = subprocess.Popen(["socat", "-x", f"pty,raw,echo=0,link={folder / 'desk'}", f"{folder / 'line'},raw,echo=0"], stderr=log)
+        try:
+            until(lambda: (folder / "desk").exists(), 5, "the witness' terminal")
+            with Port(folder / "desk") as port:
+                end = lambda had: had.endswith(b">")
+                assert port.ask(b"PR P\r", end) == b"PR P\r\n0\r\n>"
+                assert port.ask(b"P=77\r", end) == b"P=77\r\n>"
+                assert port.ask(b"PR P\r", end) == b"PR P\r\n77\r\n>"
+        finally:
+            witness.terminate()
+            witness.wait(5)
+            log.close()
+    out, back, way = b"", b"", None
+    for row in (folder / "witness").read_text().splitlines():
+        if row[:1] in "<>":
+            way = row[0]
+        elif row.startswith(" "):
+            data = bytes.fromhex(row)
+            out, back = (out + data, back) if way == ">" else (out, back + data)
+    assert out == b"PR P\rP=77\rPR P\r", out
+    assert back == b"PR P\r\n0\r\n>P=77\r\n>PR P\r\n77\r\n>", back
 
 
 def test_a_program_is_stored_started_and_stopped_by_http(folder):

@@ -3,8 +3,8 @@
 // Never fails: what it cannot read becomes the factory's value.
 #include "adapters/mcode/twin.hpp"
 
-#include "adapters/mcode/switched.hpp"
 #include "adapters/mcode/twin_device.hpp"
+#include "adapters/mcode/twin_switched.hpp"
 
 namespace axisgate::mcode {
 

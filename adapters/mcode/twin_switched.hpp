@@ -7,7 +7,7 @@
 
 namespace axisgate::mcode {
 
-/// `on`, `true` and `1` mean on; `off`, `false`, `0` and everything else mean off. One reading for the adapter and the twin.
+/// `on`, `true` and `1` mean on; `off`, `false`, `0` and everything else mean off.
 [[nodiscard]] constexpr bool switched_on(std::string_view text) noexcept { return text == "on" || text == "true" || text == "1"; }
 
 }  // namespace axisgate::mcode

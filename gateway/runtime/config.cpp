@@ -59,6 +59,22 @@ const std::vector<Key>& keys() {
         {"http", "bind", [](Config& c, const std::string& s) { return set_bind(c.http_bind, s); }},
         {"http", "tls_cert", [](Config& c, const std::string& s) { return set_text(c.http_tls_cert, s); }},
         {"http", "tls_key", [](Config& c, const std::string& s) { return set_text(c.http_tls_key, s); }},
+        {"http", "tls",
+         [](Config& c, const std::string& s) -> Fault {
+             if (s != "off" && s != "self_signed") return "write off or self_signed; certificates of your own are tls_cert and tls_key";
+             c.http_tls_self_signed = s == "self_signed";
+             return {};
+         }},
+        {"users", "local_role",
+         [](Config& c, const std::string& s) -> Fault {
+             for (const auto* r : {"none", "viewer", "operator", "engineer", "administrator"}) {
+                 if (s == r) return set_text(c.users_local_role, s);
+             }
+             return "write none, viewer, operator, engineer or administrator";
+         }},
+        {"users", "session_idle_min", [](Config& c, const std::string& s) { return set_integer(c.users_session_idle_min, s, 1, 1440); }},
+        {"users", "session_max_h", [](Config& c, const std::string& s) { return set_integer(c.users_session_max_h, s, 1, 720); }},
+        {"users", "new_code", [](Config& c, const std::string& s) { return set_bool(c.users_new_code, s); }},
         {"http", "allowed_hosts",
          [](Config& c, const std::string& s) -> Fault {
              c.http_allowed_hosts.clear();
@@ -275,6 +291,9 @@ Config read_config(const ConfigSources& sources, std::vector<ConfigFault>& fault
     }
     if (c.http_tls_cert.empty() != c.http_tls_key.empty()) {
         faults.push_back({sources.file_name.empty() ? "configuration" : sources.file_name, "http.tls_cert and http.tls_key go together", "give both or none"});
+    }
+    if (c.http_tls_self_signed && !c.http_tls_cert.empty()) {
+        faults.push_back({sources.file_name.empty() ? "configuration" : sources.file_name, "http.tls = self_signed and http.tls_cert are both there", "leave one of them out"});
     }
     return c;
 }

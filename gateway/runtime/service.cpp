@@ -18,6 +18,7 @@
 #include "gateway/core/assets.hpp"
 #include "gateway/doors/http/server.hpp"
 #include "gateway/doors/modbus/server.hpp"
+#include "gateway/runtime/access_service.hpp"
 #include "gateway/runtime/catalogues.hpp"
 #include "gateway/runtime/clock.hpp"
 #include "gateway/runtime/commands.hpp"
@@ -113,6 +114,7 @@ struct Service {
     std::unique_ptr<Cold> cold;
     std::unique_ptr<WarmGateway> gateway;
     std::unique_ptr<modbus::Server> modbus;
+    std::shared_ptr<AccessService> access;
     std::unique_ptr<http::Server> http;
     LogListener log;
     boost::asio::signal_set signals{warm};
@@ -125,6 +127,7 @@ struct Service {
 
     int open_store();
     int load_site(Site& site, std::uint64_t& revision);
+    int open_access();
     int open_doors();
     void watch();
     void say_ready();
@@ -220,6 +223,31 @@ int Service::load_site(Site& site, std::uint64_t& revision) {
     return exit_good;
 }
 
+/// Users, tokens and the first sign-in. The code goes to standard output and nowhere else.
+int Service::open_access() {
+    constexpr std::int64_t minute_ns = std::int64_t{60} * 1'000'000'000;
+    http::AccessSettings as;
+    as.local_role = http::role_named(options.config.users_local_role).value_or(http::Role::none);
+    as.idle_ns = options.config.users_session_idle_min * minute_ns;
+    as.max_ns = options.config.users_session_max_h * 60 * minute_ns;
+    access = std::make_shared<AccessService>(warm, *cold, as, [this](Event e) {
+        Hot::Job job([this, e](Engine&, Instant now) { hot->on_event(e, now); });
+        if (!hot->jobs().push(std::move(job))) return log_event(e);  // not in the journal, but not lost either
+        hot->jobs().announce();
+    });
+    std::string first_code;
+    if (const std::string fault = access->load(*store, options.config.users_new_code, first_code); !fault.empty()) {
+        complain(fault);
+        return exit_failed;
+    }
+    if (!first_code.empty()) {
+        fmt::print("first sign-in: code {} (on the page, or POST /api/v1/session/first; shown this once)\n", first_code);
+    } else if (!access->desk().has_users()) {
+        fmt::print("first sign-in: with the code that was shown at the first start; --set users.new_code=true makes another one\n");
+    }
+    return exit_good;
+}
+
 int Service::open_doors() {
     std::vector<Gateway::DoorInfo> doors;
     if (!options.config.modbus_bind.empty()) {
@@ -246,7 +274,7 @@ int Service::open_doors() {
         hs.bind = options.config.http_bind;
         hs.allowed_hosts = options.config.http_allowed_hosts;
         hs.max_connections = static_cast<std::size_t>(options.config.max_http_connections);
-        http = std::make_unique<http::Server>(warm, *gateway, hs, [](std::string_view path) { return asset(path); });
+        http = std::make_unique<http::Server>(warm, *gateway, hs, [](std::string_view path) { return asset(path); }, access);
         if (const std::string fault = http->start(); !fault.empty()) {
             complain(fault);
             return exit_failed;
@@ -292,6 +320,7 @@ void Service::take_down() {
     if (http) http->stop([&closed] { closed = true; });
     const Instant limit = monotonic_now() + std::chrono::seconds(3);
     while (!closed && monotonic_now() < limit) (void)warm.run_one_for(std::chrono::milliseconds(50));
+    if (access) access->stop();
     cold->stop();
 }
 }  // namespace
@@ -317,6 +346,9 @@ int command_serve(const ServeOptions& options) {
     auto memory = read_site_memory(*s.store, site);
     auto state = s.hot->engine().apply_site(std::move(site), std::move(memory), revision, monotonic_now());
     s.gateway->set_site(state);
+    if (!options.config.http_bind.empty()) {
+        if (const int code = s.open_access(); code != exit_good) return code;
+    }
     if (const int code = s.open_doors(); code != exit_good) return code;
     std::vector<SiteFault> none;  // the site has been checked
     s.hot->mappings_changed(*state, parse_mappings(state->site.mappings, state->site, s.families, none).value_or(std::vector<Mapping>()));

@@ -50,12 +50,15 @@ class Process:
         self.log = tempfile.TemporaryFile("w+")
         self.process = subprocess.Popen([PROGRAM, *arguments], stdout=subprocess.PIPE, stderr=self.log, text=True)
         self.ready = ""
+        self.code = ""  # of the first sign-in, if it was printed
         os.set_blocking(self.process.stdout.fileno(), False)
 
         def said_ready():
             if self.process.poll() is not None:
                 raise AssertionError(f"{arguments[0]} ended with {self.process.returncode}: {self.errors()}")
             line = self.process.stdout.readline()
+            if line.startswith("first sign-in: code "):
+                self.code = line.split()[3]
             if line.startswith("ready"):
                 self.ready = line.strip()
             return self.ready

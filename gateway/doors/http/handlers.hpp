@@ -14,6 +14,7 @@
 
 #include "gateway/core/gateway.hpp"
 #include "gateway/doors/http/axis_jobs.hpp"
+#include "gateway/doors/http/access_gate.hpp"
 #include "gateway/doors/http/change_queue.hpp"
 #include "gateway/doors/http/message.hpp"
 #include "gateway/doors/http/problem.hpp"
@@ -33,6 +34,7 @@ struct Context {
     std::shared_ptr<ChangeQueue> changes = std::make_shared<ChangeQueue>();  ///< of the site
     std::shared_ptr<RecipeDesk> recipes{};                                   ///< runs recipes; whoever makes a context for service gives one
     std::shared_ptr<AxisJobs> jobs = std::make_shared<AxisJobs>();           ///< many parameters of one axis, one after the other
+    std::shared_ptr<AccessPort> access = nullptr;                            ///< users; without it this machine alone is let in
 };
 
 /// One request on its way. Lives only as long as the handler's call.
@@ -43,9 +45,12 @@ struct Call {
     std::vector<std::string> names;  ///< the path's `{...}` segments, decoded, in order
     boost::json::value body;         ///< of routes that take JSON: what was sent
     Respond respond;
+    Identity identity{};
 
+    /// Who and from where, for events and the history: as API says it; the peer alone where there are no users.
+    [[nodiscard]] std::string who() const { return context.access ? http::who(identity, request.peer) : request.peer; }
     [[nodiscard]] Gateway& gateway() const noexcept { return context.gateway; }
-    [[nodiscard]] Origin origin() const { return {Door::http, std::make_shared<const std::string>(request.peer)}; }
+    [[nodiscard]] Origin origin() const { return {Door::http, std::make_shared<const std::string>(who())}; }
 };
 
 using Handler = Handled (*)(Call&);
@@ -152,6 +157,22 @@ Handled get_registers(Call&);
 Handled get_mapping_list(Call&);
 Handled get_next_free(Call&);
 Handled add_mapping_template(Call&);
+// --- handlers_session.cpp ---------------------------------------------------------------------------------------------
+Handled get_session(Call&);
+Handled sign_in(Call&);
+Handled sign_out(Call&);
+Handled first_sign_in(Call&);
+// --- handlers_users.cpp -----------------------------------------------------------------------------------------------
+Handled list_users(Call&);
+Handled add_user(Call&);
+Handled get_user(Call&);
+Handled change_user(Call&);
+Handled remove_user(Call&);
+Handled change_password(Call&);
+// --- handlers_tokens.cpp ----------------------------------------------------------------------------------------------
+Handled list_tokens(Call&);
+Handled add_token(Call&);
+Handled remove_token(Call&);
 
 // --- shared -----------------------------------------------------------------------------------------------------------
 

@@ -54,6 +54,11 @@ Handled command_axis(Call& c) {
     std::optional<Response> fault;
     const double wait_s = query_wait(c, fault);
     if (fault) return *fault;
+    const auto* word = c.body.get_object().if_contains("command");
+    const std::string_view wanted = word && word->is_string() ? std::string_view(word->get_string()) : std::string_view();
+    if (wanted != "halt" && wanted != "quick_stop" && wanted != "disable") {  // whoever sees a machine may stop it
+        if (auto refusal = refuse_below(c.identity, Role::operating)) return *refusal;
+    }
     auto read = read_command(c.body.get_object(), place->spec().increments_per_unit, place->spec().unit);
     if (!read.body) return refused(std::move(read.faults), c.names[0], read.name, read.range_only);
     Command command;

@@ -33,7 +33,8 @@ struct Request {
     bool http_1_0 = false;
     Headers headers;
     std::string body;
-    std::string peer;  ///< "192.0.2.7:51123"
+    std::string peer;     ///< "192.0.2.7:51123"
+    bool secure = false;  ///< came over TLS
 };
 
 struct Response {

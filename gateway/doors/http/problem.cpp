@@ -108,6 +108,8 @@ std::string_view phrase_of(unsigned status) noexcept {
             return "Not Modified";
         case 400:
             return "Bad Request";
+        case 401:
+            return "Unauthorized";
         case 403:
             return "Forbidden";
         case 404:
@@ -136,6 +138,8 @@ std::string_view phrase_of(unsigned status) noexcept {
             return "Upgrade Required";
         case 428:
             return "Precondition Required";
+        case 429:
+            return "Too Many Requests";
         case 431:
             return "Request Header Fields Too Large";
         case 500:

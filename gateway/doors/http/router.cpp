@@ -17,10 +17,10 @@ using Takes = Route::Takes;
 using Gives = Route::Gives;
 
 constexpr std::array routes{
-    Route{"/healthz", Method::get, get_health},
-    Route{"/readyz", Method::get, get_ready},
+    Route{"/healthz", Method::get, get_health}.needs(Role::none),
+    Route{"/readyz", Method::get, get_ready}.needs(Role::none),
     Route{"/metrics", Method::get, get_metrics, Takes::nothing, Gives::text},
-    Route{"/api/v1/openapi.yaml", Method::get, get_description, Takes::nothing, Gives::yaml},
+    Route{"/api/v1/openapi.yaml", Method::get, get_description, Takes::nothing, Gives::yaml}.needs(Role::none),
     Route{"/api/v1/about", Method::get, get_about},
     Route{"/api/v1/families", Method::get, list_families},
     Route{"/api/v1/families/{family}", Method::get, get_family},
@@ -53,12 +53,12 @@ constexpr std::array routes{
     Route{"/api/v1/axes/{axis}", Method::put, replace_axis, Takes::json},
     Route{"/api/v1/axes/{axis}", Method::patch, change_axis, Takes::patch},
     Route{"/api/v1/axes/{axis}", Method::remove, remove_axis, Takes::nothing, Gives::nothing},
-    Route{"/api/v1/axes/{axis}/commands", Method::post, command_axis, Takes::json},
+    Route{"/api/v1/axes/{axis}/commands", Method::post, command_axis, Takes::json}.needs(Role::viewer),  // stops; all others: operator
     Route{"/api/v1/axes/{axis}/actions", Method::post, act_on_axis, Takes::json},
     Route{"/api/v1/axes/{axis}/parameters", Method::get, list_parameters},
     Route{"/api/v1/axes/{axis}/parameters/{parameter}", Method::get, read_parameter},
     Route{"/api/v1/axes/{axis}/parameters/{parameter}", Method::put, write_parameter, Takes::json},
-    Route{"/api/v1/moves/start", Method::post, start_moves, Takes::json},
+    Route{"/api/v1/moves/start", Method::post, start_moves, Takes::json}.needs(Role::operating),
     Route{"/api/v1/site", Method::get, get_site},
     Route{"/api/v1/site", Method::put, replace_site, Takes::json},
     Route{"/api/v1/mappings", Method::get, list_mappings},
@@ -104,6 +104,19 @@ constexpr std::array routes{
     Route{"/api/v1/recipes/{recipe}/runs", Method::get, list_recipe_runs},
     Route{"/api/v1/recipes/{recipe}/runs/{run}", Method::get, get_recipe_run},
     Route{"/api/v1/recipes/{recipe}/runs/{run}/cancel", Method::post, cancel_recipe_run},
+    Route{"/api/v1/session", Method::get, get_session}.needs(Role::none),
+    Route{"/api/v1/session", Method::post, sign_in, Takes::json}.needs(Role::none),
+    Route{"/api/v1/session", Method::remove, sign_out, Takes::nothing, Gives::nothing}.needs(Role::none),
+    Route{"/api/v1/session/first", Method::post, first_sign_in, Takes::json}.needs(Role::none),
+    Route{"/api/v1/users", Method::get, list_users}.needs(Role::administrator),
+    Route{"/api/v1/users", Method::post, add_user, Takes::json}.needs(Role::administrator),
+    Route{"/api/v1/users/{user}", Method::get, get_user}.needs(Role::administrator),
+    Route{"/api/v1/users/{user}", Method::patch, change_user, Takes::patch}.needs(Role::administrator),
+    Route{"/api/v1/users/{user}", Method::remove, remove_user, Takes::nothing, Gives::nothing}.needs(Role::administrator),
+    Route{"/api/v1/users/{user}/password", Method::put, change_password, Takes::json, Gives::nothing}.needs(Role::viewer),
+    Route{"/api/v1/tokens", Method::get, list_tokens},
+    Route{"/api/v1/tokens", Method::post, add_token, Takes::json}.needs(Role::viewer),
+    Route{"/api/v1/tokens/{token}", Method::remove, remove_token, Takes::nothing, Gives::nothing}.needs(Role::viewer),
     Route{"/api/v1/stream", Method::get, open_stream, Takes::nothing, Gives::own, true},
 };
 
@@ -300,13 +313,27 @@ Handled Router::dispatch(const Request& request, const Respond& respond) const {
         r.headers.set("Allow", allow + ", OPTIONS");
         return r;
     }
+    // Who it is, and whether he may: before anything of the request is looked at further.
+    AccessPort* port = context_.access.get();
+    Identity identity = http::identify(port, request, context_.gateway.now_unix_ns());
+    if (const Role needed = route->needed(); needed != Role::none) {
+        if (auto refusal = refuse_below(identity, needed)) return *refusal;
+    }
+    if (route->handler != sign_in && route->handler != first_sign_in) {
+        if (auto refusal = check_csrf(identity, request)) return *refusal;
+    }
+    if (!identity.token_to_keep.empty()) {
+        if (const auto it = port->desk().tokens().find(identity.token_to_keep); it != port->desk().tokens().end()) {
+            port->keep({record_of(it->second)}, who(identity, request.peer), [](const std::string&) {});
+        }
+    }
     if (wanted != Method::get || route->same_origin_only) {
         if (auto refusal = check_origin(request)) return *refusal;
     }
     if (const auto media = media_given(route->gives); !media.empty() && !accepts(request.headers.get("Accept"), media)) {
         return problem(406, "not_acceptable", fmt::format("this can be given as {}", media));
     }
-    Call call{context_, request, *target, std::move(names), nullptr, respond};
+    Call call{context_, request, *target, std::move(names), nullptr, respond, std::move(identity)};
     if (route->takes != Takes::nothing) {
         if (auto refusal = read_body(request, route->takes, call.body)) return *refusal;
     }
@@ -362,6 +389,10 @@ Handled Router::handle(const Request& request, Respond respond) const {
         finish(handled.at_limit, is_head);
     }
     return handled;
+}
+
+bool Router::may_still_watch(const Request& request) const {
+    return http::identify(context_.access.get(), request, context_.gateway.now_unix_ns(), false).role >= Role::viewer;
 }
 
 std::string_view Router::route_of(const Request& request) const {

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "gateway/doors/http/access_gate.hpp"
 #include "gateway/doors/http/handlers.hpp"
 
 namespace axisgate::http {
@@ -27,6 +28,16 @@ struct Route {
     Takes takes = Takes::nothing;
     Gives gives = Gives::json;
     bool same_origin_only = false;  ///< even though it is a GET: the live feed
+    /// The lowest role that may; nothing: viewer for GET, engineer for all other methods. Role::none: open to all. Where it depends on the
+    /// body, the table has the lowest one and the handler asks for more with refuse_below.
+    std::optional<Role> least = std::nullopt;
+
+    [[nodiscard]] constexpr Route needs(Role role) const {
+        Route r = *this;
+        r.least = role;
+        return r;
+    }
+    [[nodiscard]] constexpr Role needed() const { return least.value_or(method == Method::get ? Role::viewer : Role::engineer); }
 };
 
 /// Every route of this door, HEAD and OPTIONS apart: those follow from these.
@@ -39,6 +50,8 @@ public:
     /// `respond` is called at most once, later, and only if the answer is not in the result. It may be called after the promise's limit:
     /// then it is the caller's to ignore it.
     [[nodiscard]] Handled handle(const Request& request, Respond respond) const;
+    /// Whether a live feed that was opened by this request may go on: its session or token still holds.
+    [[nodiscard]] bool may_still_watch(const Request& request) const;
     /// The route's path for a counter: as in the table, "static" for files, "none" where nothing matched.
     [[nodiscard]] std::string_view route_of(const Request& request) const;
 

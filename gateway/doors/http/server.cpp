@@ -34,12 +34,13 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
     std::unordered_map<const Session*, std::shared_ptr<Session>> sessions;
     std::function<void()> done;
 
-    Parts(asio::io_context& c, Gateway& gateway, Settings s, AssetLookup asset)
+    Parts(asio::io_context& c, Gateway& gateway, Settings s, AssetLookup asset, std::shared_ptr<AccessPort> access)
         : SessionHost(own_settings, own_router, own_counters, own_hub),
           own_settings(std::move(s)),
           context(c),
           recipes(std::make_shared<RecipeDesk>(gateway, [] { return steady_instant(); })),
-          own_router(Context{gateway, own_settings, std::move(asset), [this] { return own_counters.text(); }, std::make_shared<ChangeQueue>(), recipes}),
+          own_router(Context{gateway, own_settings, std::move(asset), [this] { return own_counters.text(); }, std::make_shared<ChangeQueue>(), recipes, std::make_shared<AxisJobs>(),
+                              std::move(access)}),
           acceptor(c),
           hub_timer(c),
           pause_timer(c),
@@ -210,8 +211,8 @@ std::optional<tcp::endpoint> parse_bind(std::string_view bind, std::string& faul
     return tcp::endpoint(address, static_cast<std::uint16_t>(*port));
 }
 
-Server::Server(asio::io_context& context, Gateway& gateway, Settings settings, AssetLookup asset)
-    : parts_(std::make_shared<Parts>(context, gateway, std::move(settings), std::move(asset))) {}
+Server::Server(asio::io_context& context, Gateway& gateway, Settings settings, AssetLookup asset, std::shared_ptr<AccessPort> access)
+    : parts_(std::make_shared<Parts>(context, gateway, std::move(settings), std::move(asset), std::move(access))) {}
 
 Server::~Server() {
     ErrorCode ignored;

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "gateway/core/gateway.hpp"
+#include "gateway/doors/http/access_port.hpp"
 #include "gateway/doors/http/counters.hpp"
 #include "gateway/doors/http/settings.hpp"
 
@@ -18,8 +19,9 @@ namespace axisgate::http {
 
 class Server {
 public:
-    /// The Gateway outlives the server.
-    Server(boost::asio::io_context& context, Gateway& gateway, Settings settings, AssetLookup asset);
+    /// The Gateway outlives the server. Without `access` there are no users: this machine alone is let in.
+    Server(boost::asio::io_context& context, Gateway& gateway, Settings settings, AssetLookup asset,
+           std::shared_ptr<AccessPort> access = nullptr);
     ~Server();
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;

@@ -1,0 +1,79 @@
+// Access gate: see the header.
+// In: headers. Out: identities and refusals.
+#include "gateway/doors/http/access_gate.hpp"
+
+#include <fmt/format.h>
+
+#include "gateway/doors/http/problem.hpp"
+#include "gateway/doors/http/secrets.hpp"
+#include "gateway/doors/http/text.hpp"
+
+namespace axisgate::http {
+namespace {
+constexpr std::size_t most_cookies = 8;  // of our name; further ones are not looked at
+
+std::vector<std::string_view> cookies_of(const Request& request) {
+    std::vector<std::string_view> out;
+    for (const auto& [key, value] : request.headers.fields) {
+        if (lower(key) != "cookie") continue;
+        std::string_view rest = value;
+        while (!rest.empty() && out.size() < most_cookies) {
+            const auto end = std::min(rest.find(';'), rest.size());
+            const auto pair = trimmed(rest.substr(0, end));
+            rest.remove_prefix(std::min(end + 1, rest.size()));
+            const auto equals = pair.find('=');
+            if (equals != std::string_view::npos && pair.substr(0, equals) == session_cookie) out.push_back(pair.substr(equals + 1));
+        }
+    }
+    return out;
+}
+
+bool was_forwarded(const Request& request) {
+    for (const auto& [key, value] : request.headers.fields) {
+        const std::string name = lower(key);
+        if (name == "forwarded" || name == "via" || name.starts_with("x-forwarded-") || name == "x-real-ip") return true;
+    }
+    return false;
+}
+}  // namespace
+
+Identity identify(AccessPort* port, const Request& request, std::int64_t now_ns, bool touch) {
+    Credentials c;
+    c.peer = request.peer;
+    c.forwarded = was_forwarded(request);
+    c.cookies = cookies_of(request);
+    if (request.headers.count("Authorization") > 0) {
+        // Any other scheme is a credential that we do not know: it is not taken for nothing.
+        const auto value = trimmed(request.headers.get("Authorization"));
+        c.bearer = lower(value.substr(0, 7)) == "bearer " ? trimmed(value.substr(7)) : std::string_view();
+    }
+    if (!port) {
+        if (!c.bearer) return local_identity(c, Role::engineer);
+        Identity nobody;
+        nobody.wrong_token = true;
+        return nobody;
+    }
+    return port->desk().identify(c, now_ns, touch);
+}
+
+std::optional<Response> refuse_below(const Identity& identity, Role needed) {
+    if (identity.role >= needed) return std::nullopt;
+    if (identity.role == Role::none) {
+        Response r = problem(401, identity.wrong_token ? "wrong_token" : "sign_in",
+                             identity.wrong_token ? "this token is not known, has expired, or its user is disabled: make a new one on the page Users"
+                                                  : fmt::format("sign in first: this needs the role {}", name_of(needed)));
+        r.headers.set("WWW-Authenticate", identity.wrong_token ? R"(Bearer realm="axisgate", error="invalid_token")" : R"(Bearer realm="axisgate")");
+        return r;
+    }
+    return problem(403, "role", fmt::format("this needs the role {}; {} has the role {}", name_of(needed),
+                                            identity.user.empty() ? "this machine without a sign-in" : identity.user, name_of(identity.role)));
+}
+
+std::optional<Response> check_csrf(const Identity& identity, const Request& request) {
+    if (identity.via != Identity::Via::cookie) return std::nullopt;
+    if (request.method == Method::get || request.method == Method::head || request.method == Method::options) return std::nullopt;
+    if (same_secret(request.headers.get("X-CSRF-Token"), identity.csrf)) return std::nullopt;
+    return problem(403, "csrf", "the header X-CSRF-Token is missing or not this session's: it is in the answer of GET /api/v1/session");
+}
+
+}  // namespace axisgate::http

@@ -1,0 +1,53 @@
+// Accounts: what the handlers of sessions, users and tokens share: bodies, documents, keeping a change, telling of it.
+// In: calls. Out: documents and answers. Never holds a password longer than a call and the hash that it becomes.
+#pragma once
+
+#include <boost/json/object.hpp>
+
+#include <functional>
+#include <initializer_list>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gateway/doors/http/handlers.hpp"
+
+namespace axisgate::http {
+
+/// A body's members; each fault becomes part of one 422.
+class BodyReader {
+public:
+    BodyReader(const boost::json::object& body, std::initializer_list<std::string_view> known);
+    /// Nothing if it is not there, or not a text of at most `most` bytes (then a fault). `needed`: absence is a fault.
+    std::optional<std::string> text(std::string_view key, bool needed, std::size_t most = 1024);
+    std::optional<bool> flag(std::string_view key);
+    std::optional<Role> role(std::string_view key, bool needed);
+    /// null counts as absent.
+    std::optional<std::int64_t> whole(std::string_view key, std::int64_t low, std::int64_t high);
+    void fault(std::string_view key, std::string text, std::string remedy);
+    [[nodiscard]] bool good() const noexcept { return faults_.empty(); }
+    [[nodiscard]] Response refusal() { return invalid(std::move(faults_)); }
+
+private:
+    const boost::json::object& body_;
+    std::vector<Fault> faults_;
+};
+
+/// The answer of /session.
+[[nodiscard]] boost::json::object session_document(AccessPort* port, const Identity& identity);
+[[nodiscard]] boost::json::object document_of(const User& user);
+[[nodiscard]] boost::json::object document_of(const Token& token);
+
+/// An event of kind "access".
+void tell_access(AccessPort& port, std::string who, std::string text, Severity severity = Severity::info);
+
+/// 503: the door has no users; for the handlers that need them.
+[[nodiscard]] Response no_accounts();
+/// 503: too many passwords are being computed.
+[[nodiscard]] Response too_many_passwords();
+/// 507: the store did not take it.
+[[nodiscard]] Response not_kept(const std::string& fault);
+/// A promise for what waits for a hash and the disk.
+[[nodiscard]] Handled soon();
+
+}  // namespace axisgate::http

@@ -1,0 +1,99 @@
+// Access service: see the header.
+// In and out: passwords in, hashes and records out. Never logs a password, a token or a code.
+#include "gateway/runtime/access_service.hpp"
+
+#include <fmt/format.h>
+
+#include <boost/asio/post.hpp>
+
+#include "gateway/doors/http/secrets.hpp"
+#include "gateway/runtime/clock.hpp"
+#include "gateway/runtime/threads.hpp"
+
+namespace axisgate {
+namespace asio = boost::asio;
+namespace {
+constexpr std::size_t most_waiting = 8;
+}  // namespace
+
+AccessService::AccessService(asio::io_context& warm, Cold& cold, http::AccessSettings settings, Tell tell)
+    : warm_(warm), cold_(cold), desk_(settings), tell_(std::move(tell)) {}
+
+AccessService::~AccessService() { stop(); }
+
+void AccessService::stop() {
+    if (!pool_) return;
+    pool_->stop();
+    pool_->join();
+    pool_.reset();
+}
+
+std::string AccessService::load(Store& store, bool new_code, std::string& code) {
+    const auto users = store.documents("user");
+    const auto tokens = store.documents("token");
+    const auto first = store.document("first_sign_in", http::code_record_name);
+    if (!users || !tokens || !first) return "the users cannot be read: " + (!users ? users.error().text : !tokens ? tokens.error().text : first.error().text);
+    for (const auto& d : *users) {
+        auto u = http::user_of(d.text);
+        // A user who cannot be read must not make room for a first sign-in.
+        if (!u) return fmt::format("the record of the user {} cannot be read: restore a backup", d.name);
+        desk_.load(std::move(*u));
+    }
+    for (const auto& d : *tokens) {
+        if (auto t = http::token_of(d.text)) desk_.load(std::move(*t));
+    }
+    if (desk_.has_users()) return {};
+    if (*first && !new_code) {
+        desk_.load_code(http::code_of((*first)->text));
+        return {};
+    }
+    code = http::random_code();
+    const auto record = http::record_of_code(http::digest_of(http::plain_code(code)));
+    if (const auto saved = store.save_document({record.kind, record.name, *record.text, "", unix_now_ns()}); !saved) return saved.error().text;
+    desk_.load_code(http::code_of(*record.text));
+    return {};
+}
+
+template <class Make, class Then>
+bool AccessService::work(Make make, Then then) {
+    if (waiting_ >= most_waiting) return false;
+    ++waiting_;
+    if (!pool_) {
+        pool_ = std::make_unique<asio::thread_pool>(1);
+        asio::post(*pool_, [] { enter_thread("axisgate-secret", cold_stands_back - warm_stands_back); });
+    }
+    asio::post(*pool_, [this, make = std::move(make), then = std::move(then)]() mutable {
+        auto made = make();
+        asio::post(warm_, [this, made = std::move(made), then = std::move(then)]() mutable {
+            --waiting_;
+            then(std::move(made));
+        });
+    });
+    return true;
+}
+
+bool AccessService::derive(std::string password, std::function<void(std::string)> then) {
+    return work([password = std::move(password)] { return http::derive_password(password); }, std::move(then));
+}
+
+bool AccessService::compare(std::string password, std::string hash, std::function<void(bool)> then) {
+    return work([password = std::move(password), hash = std::move(hash)] { return http::password_fits(password, hash); }, std::move(then));
+}
+
+void AccessService::keep(std::vector<http::AccessRecord> records, std::string who, std::function<void(std::string)> then) {
+    cold_.run([this, records = std::move(records), who = std::move(who), then = std::move(then)](Store& store) mutable {
+        std::string fault;
+        for (const auto& r : records) {
+            if (!fault.empty()) break;
+            if (r.text) {
+                const auto saved = store.save_document({r.kind, r.name, *r.text, who, unix_now_ns()});
+                if (!saved) fault = saved.error().text;
+            } else if (const auto gone = store.delete_document(r.kind, r.name); !gone && gone.error().kind != StoreError::Kind::not_found) {
+                fault = gone.error().text;
+            }
+        }
+        asio::post(warm_, [fault = std::move(fault), then = std::move(then)] { then(fault); });
+    });
+}
+
+}  // namespace axisgate

@@ -1,0 +1,49 @@
+// Access service: the HTTP door's AccessPort: users and tokens from the store, hashes on a thread of their own, records to the cold thread.
+// In: calls on the warm thread. Out: callbacks on the warm executor. Never computes a hash on the warm or the hot thread.
+// Bound: 8 hashes wait or run; one more is refused. The thread begins with the first hash: a gateway without sign-ins has none.
+#pragma once
+
+#include <atomic>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/thread_pool.hpp>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "gateway/doors/http/access_port.hpp"
+#include "gateway/runtime/cold.hpp"
+#include "gateway/store/store.hpp"
+
+namespace axisgate {
+
+class AccessService final : public http::AccessPort {
+public:
+    using Tell = std::function<void(Event)>;
+    AccessService(boost::asio::io_context& warm, Cold& cold, http::AccessSettings settings, Tell tell);
+    ~AccessService() override;
+
+    /// Reads what the store has; called before the threads run. Without users: makes the code of the first sign-in, if there is none yet
+    /// or `new_code`, stores it and gives it in `code`, which is the only time it can be read. Empty: good; else what is wrong.
+    [[nodiscard]] std::string load(Store& store, bool new_code, std::string& code);
+
+    [[nodiscard]] http::AccessDesk& desk() override { return desk_; }
+    [[nodiscard]] bool derive(std::string password, std::function<void(std::string)> then) override;
+    [[nodiscard]] bool compare(std::string password, std::string hash, std::function<void(bool)> then) override;
+    void keep(std::vector<http::AccessRecord> records, std::string who, std::function<void(std::string)> then) override;
+    void tell(Event event) override { tell_(std::move(event)); }
+    /// Waits for the hash that is being computed; the others are not begun.
+    void stop();
+
+private:
+    template <class Make, class Then>
+    bool work(Make make, Then then);
+
+    boost::asio::io_context& warm_;
+    Cold& cold_;
+    http::AccessDesk desk_;
+    Tell tell_;
+    std::unique_ptr<boost::asio::thread_pool> pool_;
+    std::size_t waiting_ = 0;
+};
+
+}  // namespace axisgate

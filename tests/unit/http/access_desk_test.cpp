@@ -1,0 +1,292 @@
+// The access desk in virtual time: sessions, tokens, lockout, local access; and the rules for names and passwords.
+// In: tables. Out: judgements.
+#include <gtest/gtest.h>
+
+#include "gateway/doors/http/access_desk.hpp"
+#include "gateway/doors/http/secrets.hpp"
+
+namespace axisgate::http::test {
+namespace {
+constexpr std::int64_t s = 1'000'000'000;
+constexpr std::int64_t t0 = 1'767'323'045 * s;
+constexpr std::string_view peer = "192.0.2.7:5123";
+
+AccessSettings small() {
+    AccessSettings a;
+    a.idle_ns = 600 * s;
+    a.max_ns = 3600 * s;
+    a.max_sessions = 3;
+    a.max_sessions_per_user = 2;
+    return a;
+}
+User person(std::string name, Role role) { return {std::move(name), role, true, "h", t0, 0}; }
+
+struct DeskTest : ::testing::Test {
+    AccessDesk desk{small()};
+    DeskTest() {
+        desk.load(person("anna", Role::administrator));
+        desk.load(person("ben", Role::viewer));
+    }
+    AccessDesk::NewSession in(std::string_view name, std::int64_t at) {
+        const auto attempt = desk.begin_sign_in(name, peer, at);
+        EXPECT_EQ(attempt.pause_s, 0);
+        auto session = desk.end_sign_in(name, attempt.hash, true, peer, at);
+        EXPECT_TRUE(session.has_value());
+        return session.value_or(AccessDesk::NewSession{});
+    }
+    Identity by_cookie(std::string_view id, std::int64_t at) {
+        Credentials c;
+        c.cookies = {id};
+        c.peer = peer;
+        return desk.identify(c, at);
+    }
+    Identity by_token(std::string_view secret, std::int64_t at) {
+        Credentials c;
+        c.bearer = secret;
+        c.peer = "127.0.0.1:5";
+        return desk.identify(c, at);
+    }
+};
+
+TEST_F(DeskTest, SessionIsTheUserWithHisRole) {
+    const auto session = in("anna", t0);
+    const auto i = by_cookie(session.id, t0 + s);
+    EXPECT_EQ(i.via, Identity::Via::cookie);
+    EXPECT_EQ(i.role, Role::administrator);
+    EXPECT_EQ(i.csrf, session.identity.csrf);
+    EXPECT_EQ(who(i, peer), "anna 192.0.2.7:5123");
+    EXPECT_EQ(by_cookie(session.id + "x", t0 + s).role, Role::none);
+    EXPECT_EQ(by_cookie(session.identity.session, t0 + s).role, Role::none) << "the digest is not the id";
+}
+
+TEST_F(DeskTest, IdleSessionEndsAndARequestKeepsItAwake) {
+    const auto session = in("anna", t0);
+    EXPECT_EQ(by_cookie(session.id, t0 + 599 * s).role, Role::administrator);
+    EXPECT_EQ(by_cookie(session.id, t0 + 1198 * s).role, Role::administrator);
+    EXPECT_EQ(by_cookie(session.id, t0 + 1798 * s).role, Role::none);
+    EXPECT_EQ(desk.sessions(), 0u);
+}
+
+TEST_F(DeskTest, ALookThatIsNotARequestDoesNotKeepItAwake) {
+    const auto session = in("anna", t0);
+    Credentials c;
+    c.cookies = {session.id};
+    c.peer = peer;
+    EXPECT_EQ(desk.identify(c, t0 + 599 * s, false).role, Role::administrator);
+    EXPECT_EQ(by_cookie(session.id, t0 + 600 * s).role, Role::none);
+}
+
+TEST_F(DeskTest, SessionEndsAbsolutely) {
+    const auto session = in("anna", t0);
+    for (std::int64_t t = 0; t < 3600; t += 300)
+        EXPECT_EQ(by_cookie(session.id, t0 + t * s).role, Role::administrator) << t;
+    EXPECT_EQ(by_cookie(session.id, t0 + 3600 * s).role, Role::none);
+}
+
+TEST_F(DeskTest, SessionsAreBoundedPerUserAndInAll) {
+    const auto first = in("anna", t0), second = in("anna", t0 + s), third = in("anna", t0 + 2 * s);
+    EXPECT_EQ(by_cookie(first.id, t0 + 3 * s).role, Role::none);
+    EXPECT_EQ(by_cookie(second.id, t0 + 4 * s).role, Role::administrator);
+    (void)in("ben", t0 + 5 * s);
+    (void)in("ben", t0 + 6 * s);
+    EXPECT_EQ(desk.sessions(), 3u);
+    EXPECT_EQ(by_cookie(third.id, t0 + 7 * s).role, Role::none) << "the longest idle one of all went";
+}
+
+TEST_F(DeskTest, ChangingAUserEndsHisSessionsAlone) {
+    for (int what = 0; what < 4; ++what) {
+        const auto anna = in("anna", t0), ben = in("ben", t0);
+        User u = *desk.user("ben");
+        if (what == 0) u.role = Role::engineer;
+        if (what == 1) u.hash += "2";
+        if (what == 2) u.enabled = false;
+        if (what == 3) u.last_sign_in_ns = 5;
+        desk.put(u);
+        EXPECT_EQ(by_cookie(ben.id, t0 + s).role, what == 3 ? u.role : Role::none) << what;
+        EXPECT_EQ(by_cookie(anna.id, t0 + s).role, Role::administrator) << what;
+        u.enabled = true;
+        desk.put(u);
+    }
+}
+
+TEST_F(DeskTest, SignOutAndRemovalEndASession) {
+    const auto anna = in("anna", t0);
+    desk.sign_out(anna.identity.session);
+    EXPECT_EQ(by_cookie(anna.id, t0).role, Role::none);
+    const auto ben = in("ben", t0);
+    (void)desk.remove_user("ben");
+    EXPECT_EQ(by_cookie(ben.id, t0).role, Role::none);
+}
+
+TEST_F(DeskTest, TokenHasTheLowerOfItsRoleAndItsOwners) {
+    Token t{"id1", "line3", "anna", Role::engineer, digest_of("secret"), t0, t0 + 100 * s, 0};
+    desk.put(t);
+    const auto i = by_token("id1.secret", t0 + s);
+    EXPECT_EQ(i.role, Role::engineer);
+    EXPECT_EQ(who(i, peer), "token line3 (anna) 192.0.2.7:5123");
+    EXPECT_EQ(i.token_to_keep, "id1");
+    EXPECT_EQ(by_token("id1.secret", t0 + 2 * s).token_to_keep, "") << "stored once an hour";
+    User u = *desk.user("anna");
+    u.role = Role::viewer;
+    desk.put(u);
+    EXPECT_EQ(by_token("id1.secret", t0 + s).role, Role::viewer);
+}
+
+TEST_F(DeskTest, WrongTokenIsNobodyEvenOnThisMachine) {
+    desk.put(Token{"id1", "line3", "anna", Role::engineer, digest_of("secret"), t0, t0 + 100 * s, 0});
+    for (const auto* wrong : {"id1.secre", "id2.secret", "id1", "", ".", "id1.", "id1.secret.x"}) {
+        const auto i = by_token(wrong, t0 + s);
+        EXPECT_EQ(i.role, Role::none) << wrong;
+        EXPECT_TRUE(i.wrong_token) << wrong;
+    }
+    EXPECT_EQ(by_token("id1.secret", t0 + 99 * s).role, Role::engineer);
+    EXPECT_EQ(by_token("id1.secret", t0 + 100 * s).role, Role::none) << "expired";
+    User u = *desk.user("anna");
+    u.enabled = false;
+    desk.put(u);
+    EXPECT_EQ(by_token("id1.secret", t0 + s).role, Role::none) << "disabled owner";
+    EXPECT_EQ(desk.remove_user("anna"), std::vector<std::string>{"id1"});
+    EXPECT_TRUE(desk.tokens().empty());
+}
+
+TEST(LocalAccess, IsForThisMachineWithoutAProxyAlone) {
+    struct {
+        std::string_view peer;
+        bool forwarded, let_in;
+    } const table[]{{"127.0.0.1:5", false, true},  {"127.9.9.9:5", false, true},      {"[::1]:5", false, true},       {"[::ffff:127.0.0.1]:5", false, true},
+                    {"127.0.0.1:5", true, false},  {"192.0.2.7:5", false, false},     {"[::2]:5", false, false},      {"[::ffff:192.0.2.7]:5", false, false},
+                    {"128.0.0.1:5", false, false}, {"[2001:db8::127]:5", false, false}, {"", false, false}};
+    for (const auto& row : table) {
+        Credentials c;
+        c.peer = row.peer;
+        c.forwarded = row.forwarded;
+        EXPECT_EQ(local_identity(c, Role::engineer).role, row.let_in ? Role::engineer : Role::none) << row.peer;
+        EXPECT_EQ(local_identity(c, Role::none).via, Identity::Via::none);
+    }
+}
+
+TEST_F(DeskTest, WrongPasswordsCostAGrowingPause) {
+    std::int64_t now = t0;
+    for (int i = 0; i < Lockout::free_failures; ++i)
+        EXPECT_EQ(desk.begin_sign_in("ben", peer, now).pause_s, 0);
+    for (const std::int64_t pause : {1, 2, 4, 8, 16, 32, 64, 128, 256, 300, 300}) {
+        EXPECT_EQ(desk.begin_sign_in("ben", "198.51.100.1:1", now).pause_s, pause) << "by user, from anywhere";
+        EXPECT_EQ(desk.begin_sign_in("anna", peer, now).pause_s, pause) << "by peer, whatever the user";
+        EXPECT_EQ(desk.begin_sign_in("anna", peer, now + pause * s - 1).pause_s, 1);
+        now += pause * s;
+        EXPECT_EQ(desk.begin_sign_in("ben", peer, now).pause_s, 0);
+    }
+}
+
+TEST_F(DeskTest, ARightPasswordClearsTheUserAndTakesOneBackFromThePeer) {
+    (void)desk.begin_sign_in("anna", peer, t0);
+    (void)desk.begin_sign_in("anna", peer, t0);
+    (void)in("anna", t0);
+    EXPECT_EQ(desk.begin_sign_in("ben", peer, t0).pause_s, 0);
+    EXPECT_EQ(desk.begin_sign_in("ben", peer, t0).pause_s, 1) << "the peer's two wrong ones still count";
+    EXPECT_EQ(desk.begin_sign_in("anna", "198.51.100.1:1", t0).pause_s, 0);
+}
+
+TEST_F(DeskTest, UnknownAndDisabledUsersCostAsMuchAsOthers) {
+    EXPECT_EQ(desk.begin_sign_in("nobody-here", peer, t0).hash, hash_of_nobody);
+    User u = *desk.user("ben");
+    u.enabled = false;
+    desk.put(u);
+    EXPECT_EQ(desk.begin_sign_in("ben", peer, t0).hash, hash_of_nobody);
+    EXPECT_FALSE(desk.end_sign_in("ben", "h", true, peer, t0));
+}
+
+TEST_F(DeskTest, AHashThatWasChangedMeanwhileDoesNotSignIn) {
+    const auto attempt = desk.begin_sign_in("ben", peer, t0);
+    User u = *desk.user("ben");
+    u.hash = "new";
+    desk.put(u);
+    EXPECT_FALSE(desk.end_sign_in("ben", attempt.hash, true, peer, t0));
+}
+
+TEST(LockoutTable, IsBoundedAndForgets) {
+    Lockout l;
+    for (std::size_t i = 0; i < Lockout::max_keys + 100; ++i)
+        l.failed("peer " + std::to_string(i), t0 + static_cast<std::int64_t>(i));
+    EXPECT_EQ(l.size(), Lockout::max_keys);
+    for (int i = 0; i < 10; ++i)
+        l.failed("user a", t0);
+    EXPECT_GT(l.pause_s("user a", t0 + s), 0);
+    EXPECT_EQ(l.pause_s("user a", t0 + (Lockout::forgotten_s + 1) * s), 0);
+    EXPECT_LE(l.pause_s("user a", t0 - 100'000 * s), Lockout::max_pause_s) << "the clock was set back";
+}
+
+TEST_F(DeskTest, LastAdministratorIsKnown) {
+    EXPECT_TRUE(desk.is_last_administrator("anna"));
+    EXPECT_FALSE(desk.is_last_administrator("ben"));
+    User u = person("cleo", Role::administrator);
+    u.enabled = false;
+    desk.put(u);
+    EXPECT_TRUE(desk.is_last_administrator("anna")) << "a disabled one does not count";
+    u.enabled = true;
+    desk.put(u);
+    EXPECT_FALSE(desk.is_last_administrator("anna"));
+}
+
+TEST_F(DeskTest, FirstCodeIsTakenAsItIsTypedAndWrongOnesArePaused) {
+    const std::string code = random_code();
+    EXPECT_EQ(code.size(), 19u);
+    desk.load_code(digest_of(plain_code(code)));
+    std::string typed = code;
+    for (auto& c : typed)
+        c = c == '-' ? ' ' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    EXPECT_TRUE(desk.try_code(typed, peer, t0).right);
+    for (int i = 0; i < 3; ++i)
+        EXPECT_FALSE(desk.try_code("0000-0000-0000-0000", peer, t0).right);
+    EXPECT_EQ(desk.try_code(code, peer, t0).pause_s, 1);
+    EXPECT_TRUE(desk.try_code(code, peer, t0 + s).right);
+    desk.code_used();
+    EXPECT_FALSE(desk.try_code(code, "198.51.100.1:1", t0).right);
+    EXPECT_FALSE(desk.try_code("", "198.51.100.2:1", t0).right);
+}
+
+TEST(Records, ComeBackAsTheyWere) {
+    const User u{"anna", Role::operating, false, "h", 5, 6};
+    const auto back = user_of(*record_of(u).text);
+    ASSERT_TRUE(back);
+    EXPECT_EQ(record_of(*back).text, record_of(u).text);
+    EXPECT_FALSE(back->enabled);
+    const Token t{"i", "n", "anna", Role::viewer, "d", 1, 2, 3};
+    const auto token = token_of(*record_of(t).text);
+    ASSERT_TRUE(token);
+    EXPECT_EQ(record_of(*token).text, record_of(t).text);
+    EXPECT_EQ(code_of(*record_of_code("abc").text), "abc");
+    for (const auto* bad : {"", "[]", "{", "{}", R"({"name":"a","role":"king","hash":"h"})", R"({"name":"a","role":"none","hash":"h"})", R"({"name":"","role":"viewer","hash":"h"})"})
+        EXPECT_FALSE(user_of(bad)) << bad;
+}
+
+TEST(Passwords, RulesAreKept) {
+    struct {
+        std::string password;
+        bool good;
+    } const table[]{{"correct-horse-9", true},    {"short-one-1", false},       {std::string(257, 'x') + "abcdefgh", false}, {"password1234", false},
+                    {"PassWord1234", false},      {"aaaaaaaaaaaaaaaa", false},  {"123456789012", false},                     {"abcdefghijklm", false},
+                    {"anna-anna-1", false},       {"annaanna1234", true},       {"anna1234567", false},                      {"\xff\xfe\xfd-not-utf8-text", false},
+                    {"Werkstatt im Süden", true}, {"changemechangeme", false}};
+    for (const auto& row : table)
+        EXPECT_EQ(password_fault(row.password, "anna").empty(), row.good) << row.password;
+    for (const auto* good : {"anna", "anna.b", "a@b.de", "x"})
+        EXPECT_EQ(user_name_fault(good), "") << good;
+    for (const auto* bad : {"", "Anna", "a b", "local", "token", "a\n", "ä", "a/b"})
+        EXPECT_NE(user_name_fault(bad), "") << bad;
+}
+
+TEST(Secrets, HashesAreArgon2idAndNobodysHashCostsTheSame) {
+    const std::string hash = derive_password("correct-horse-9");
+    EXPECT_TRUE(hash.starts_with("$argon2id$v=19$m=65536,t=2,p=1$")) << hash;
+    EXPECT_TRUE(std::string(hash_of_nobody).starts_with(hash.substr(0, hash.find("p=1$") + 4)));
+    EXPECT_EQ(hash_of_nobody.size(), hash.size());
+    EXPECT_TRUE(password_fits("correct-horse-9", hash));
+    EXPECT_FALSE(password_fits("correct-horse-8", hash));
+    EXPECT_FALSE(password_fits("", std::string(hash_of_nobody)));
+    EXPECT_FALSE(password_fits("x", ""));
+    EXPECT_NE(random_secret(), random_secret());
+    EXPECT_EQ(random_secret().size(), 43u);
+}
+}  // namespace
+}  // namespace axisgate::http::test

@@ -1,0 +1,41 @@
+// An AccessPort for tests: hashes at once ("hash of PASSWORD"), keeps records in memory, or fails when told to.
+// In: what the test sets. Out: what the door stored and told. Never has a thread or a clock.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gateway/doors/http/access_port.hpp"
+
+namespace axisgate::http::test {
+
+class FakeAccess final : public AccessPort {
+public:
+    explicit FakeAccess(AccessSettings settings = {}) : own_desk(settings) {}
+    AccessDesk& desk() override { return own_desk; }
+    bool derive(std::string password, std::function<void(std::string)> then) override {
+        if (full) return false;
+        then("hash of " + password);
+        return true;
+    }
+    bool compare(std::string password, std::string hash, std::function<void(bool)> then) override {
+        if (full) return false;
+        ++compared;
+        then(hash == "hash of " + password);
+        return true;
+    }
+    void keep(std::vector<AccessRecord> records, std::string, std::function<void(std::string)> then) override {
+        if (store_fault.empty()) kept.insert(kept.end(), records.begin(), records.end());
+        then(store_fault);
+    }
+    void tell(Event event) override { told.push_back(std::move(event)); }
+
+    AccessDesk own_desk;
+    bool full = false;
+    int compared = 0;
+    std::string store_fault;
+    std::vector<AccessRecord> kept;
+    std::vector<Event> told;
+};
+
+}  // namespace axisgate::http::test

@@ -1,0 +1,265 @@
+// Who may do what: each role against each route of the table, so that a new route is covered the day it is added.
+// And the handlers of sessions, users and tokens, with a fake of everything behind them.
+#include "tests/unit/http/fake_access.hpp"
+#include "tests/unit/http/harness.hpp"
+
+#include <set>
+
+namespace axisgate::http::test {
+namespace {
+constexpr std::string_view far_peer = "192.0.2.7:5123";
+using Fields = std::vector<std::pair<std::string, std::string>>;
+
+class AccessTest : public ::testing::Test, public Harness {
+protected:
+    std::shared_ptr<FakeAccess> access = std::make_shared<FakeAccess>();
+    AccessTest() {
+        router = Router{Context{gateway, settings, [](std::string_view) { return std::string_view(); }, {}, std::make_shared<ChangeQueue>(), access}};
+        for (const auto* role : {"viewer", "operator", "engineer", "administrator"})
+            access->own_desk.load(User{role, *role_named(role), true, std::string("hash of secret ") + role, 1, 0});
+    }
+    Answer from(std::string_view peer, std::string_view method, std::string target, std::string body = {}, Fields headers = {}) {
+        Request r = request(method, std::move(target), std::move(body), std::move(headers));
+        r.peer = std::string(peer);
+        return send(r);
+    }
+    /// Cookie and X-CSRF-Token of a fresh session; none for "none".
+    Fields as(std::string_view role) {
+        if (role == "none") return {};
+        const auto a = from(far_peer, "POST", "/api/v1/session", R"({"user":")" + std::string(role) + R"(","password":"secret )" + std::string(role) + R"("})");
+        EXPECT_EQ(a.status, 200u) << role << a.text;
+        const std::string cookie(a.headers.get("Set-Cookie"));
+        return {{"Cookie", cookie.substr(0, cookie.find(';'))}, {"X-CSRF-Token", a.at("csrf")}};
+    }
+};
+
+std::string with_names(std::string_view path) {
+    std::string out;
+    for (std::size_t i = 0; i < path.size(); ++i) {
+        if (path[i] != '{') {
+            out += path[i];
+            continue;
+        }
+        out += "nothing-of-this-name";
+        i = path.find('}', i);
+    }
+    return out;
+}
+
+TEST_F(AccessTest, EachRoleAgainstEachRoute) {
+    std::map<std::string, Fields> of_role;
+    int checked = 0;
+    for (const auto& route : all_routes()) {
+        for (const auto* role : {"none", "viewer", "operator", "engineer", "administrator"}) {
+            if (!of_role.contains(role) || route.path == "/api/v1/session") of_role[role] = as(role);
+            Fields headers = of_role[role];
+            std::string body;
+            if (route.takes == Route::Takes::csv) {
+                headers.emplace_back("Content-Type", "text/csv");
+                body = "x\n";
+            } else if (route.takes != Route::Takes::nothing) {
+                body = "{}";
+            }
+            const auto a = from(far_peer, name_of(route.method), with_names(route.path), body, headers);
+            const bool may = *role_named(role) >= route.needed();
+            const std::string what = std::string(name_of(route.method)) + " " + std::string(route.path) + " as " + role + ": " + a.text;
+            ++checked;
+            if (may) {
+                // What a handler refines by its body or by whose it is stands in its own tests.
+                const bool refines = route.handler == change_password || route.handler == add_token || route.handler == command_axis;
+                if (!refines) EXPECT_TRUE(a.status != 401 && a.status != 403) << what;
+                EXPECT_NE(a.at("reason"), "sign_in") << what;
+                EXPECT_NE(a.at("reason"), "csrf") << what;
+            } else {
+                EXPECT_EQ(a.status, std::string_view(role) == "none" ? 401u : 403u) << what;
+                EXPECT_EQ(a.at("reason"), std::string_view(role) == "none" ? "sign_in" : "role") << what;
+                if (a.status == 401) EXPECT_TRUE(a.headers.get("WWW-Authenticate").starts_with("Bearer")) << what;
+                if (a.status == 403) EXPECT_NE(a.at("detail").find(name_of(route.needed())), std::string::npos) << what;
+            }
+        }
+    }
+    EXPECT_EQ(checked, 5 * static_cast<int>(all_routes().size()));
+    EXPECT_TRUE(gateway.submitted.empty());
+}
+
+TEST_F(AccessTest, OpenRoutesAreTheseAlone) {
+    std::set<std::string> open;
+    for (const auto& r : all_routes()) {
+        if (r.needed() == Role::none) open.insert(std::string(name_of(r.method)) + " " + std::string(r.path));
+        if (r.method != Method::get && r.needed() == Role::viewer) {
+            EXPECT_TRUE(r.handler == command_axis || r.handler == change_password || r.handler == add_token || r.handler == remove_token) << r.path;
+        }
+    }
+    EXPECT_EQ(open, (std::set<std::string>{"GET /healthz", "GET /readyz", "GET /api/v1/openapi.yaml", "GET /api/v1/session", "POST /api/v1/session",
+                                           "DELETE /api/v1/session", "POST /api/v1/session/first"}));
+}
+
+TEST_F(AccessTest, EverybodyWhoIsKnownMayStopAndOperatorsMayMove) {
+    gateway.at_once = [](const Command&) { return good_result(); };
+    for (const auto* role : {"none", "viewer", "operator", "engineer"}) {
+        const auto headers = as(role);
+        for (const auto* word : {"halt", "quick_stop", "disable", "enable", "home", "reset_fault"}) {
+            const bool stops = std::string_view(word) == "halt" || std::string_view(word) == "quick_stop" || std::string_view(word) == "disable";
+            const auto a = from(far_peer, "POST", "/api/v1/axes/feeder/commands", R"({"command":")" + std::string(word) + "\"}", headers);
+            const Role r = *role_named(role);
+            const unsigned wanted = r == Role::none ? 401 : r == Role::viewer && !stops ? 403 : 200;
+            EXPECT_EQ(a.status, wanted) << role << " " << word << a.text;
+        }
+    }
+}
+
+TEST_F(AccessTest, AChangeOverACookieNeedsItsToken) {
+    auto headers = as("engineer");
+    const auto good = headers.back().second;
+    for (const std::string& token : {std::string(), std::string("x"), good + "x", good.substr(1)}) {
+        headers.back().second = token;
+        EXPECT_EQ(from(far_peer, "POST", "/api/v1/axes/feeder/commands", R"({"command":"halt"})", headers).at("reason"), "csrf") << token;
+        EXPECT_EQ(from(far_peer, "DELETE", "/api/v1/session", "", headers).at("reason"), "csrf");
+        EXPECT_EQ(from(far_peer, "GET", "/api/v1/axes", "", headers).status, 200u) << "a read needs none";
+    }
+    headers.pop_back();
+    EXPECT_EQ(from(far_peer, "DELETE", "/api/v1/session", "", headers).status, 403u);
+    EXPECT_TRUE(gateway.submitted.empty());
+}
+
+TEST_F(AccessTest, LocalAccessIsAnEngineerAndAProxyIsNot) {
+    EXPECT_EQ(from("127.0.0.1:5", "GET", "/api/v1/session").at("via"), "local");
+    EXPECT_EQ(from("127.0.0.1:5", "GET", "/api/v1/session").at("role"), "engineer");
+    for (const auto* header : {"Forwarded", "X-Forwarded-For", "x-forwarded-proto", "Via", "X-Real-IP"})
+        EXPECT_EQ(from("127.0.0.1:5", "GET", "/api/v1/axes", "", {{header, "x"}}).status, 401u) << header;
+    EXPECT_EQ(from("127.0.0.1:5", "GET", "/api/v1/axes", "", {{"Authorization", "Bearer nonsense"}}).at("reason"), "wrong_token");
+    EXPECT_EQ(from("127.0.0.1:5", "GET", "/api/v1/axes", "", {{"Authorization", "Basic YTpi"}}).status, 401u);
+    EXPECT_EQ(from("127.0.0.1:5", "GET", "/api/v1/users").status, 403u);
+}
+
+TEST_F(AccessTest, WhoIsToldWithEveryCommand) {
+    gateway.at_once = [](const Command&) { return good_result(); };
+    (void)from(far_peer, "POST", "/api/v1/axes/feeder/commands", R"({"command":"halt"})", as("viewer"));
+    EXPECT_EQ(*gateway.submitted.back().origin.who, "viewer 192.0.2.7:5123");
+    (void)from("127.0.0.1:5", "POST", "/api/v1/axes/feeder/commands", R"({"command":"halt"})");
+    EXPECT_EQ(*gateway.submitted.back().origin.who, "local 127.0.0.1:5");
+}
+
+TEST_F(AccessTest, WrongUserAndWrongPasswordLookAlikeAndAreCompared) {
+    const auto a = from(far_peer, "POST", "/api/v1/session", R"({"user":"viewer","password":"x"})");
+    const auto b = from("192.0.2.8:1", "POST", "/api/v1/session", R"({"user":"nobody9","password":"x"})");
+    EXPECT_EQ(a.status, 401u);
+    EXPECT_EQ(a.text, b.text);
+    EXPECT_EQ(access->compared, 2) << "an unknown user costs a hash too";
+    ASSERT_EQ(access->told.size(), 2u);
+    EXPECT_EQ(access->told[0].kind, "access");
+    EXPECT_EQ(access->told[0].text, "sign-in refused: viewer");
+    (void)from("192.0.2.9:1", "POST", "/api/v1/session", R"({"user":"My Secret Password","password":"x"})");
+    EXPECT_EQ(access->told.back().text.find("secret"), std::string::npos) << access->told.back().text;
+}
+
+TEST_F(AccessTest, LockoutAnswersHowLong) {
+    for (int i = 0; i < 3; ++i)
+        EXPECT_EQ(from(far_peer, "POST", "/api/v1/session", R"({"user":"viewer","password":"x"})").status, 401u);
+    const auto a = from(far_peer, "POST", "/api/v1/session", R"({"user":"viewer","password":"secret viewer"})");
+    EXPECT_EQ(a.status, 429u) << "also the right password waits";
+    EXPECT_EQ(a.headers.get("Retry-After"), "1");
+    gateway.now_ns += 1'000'000'000;
+    EXPECT_EQ(from(far_peer, "POST", "/api/v1/session", R"({"user":"viewer","password":"secret viewer"})").status, 200u);
+}
+
+TEST_F(AccessTest, CookieIsGuardedAndSecureOverTls) {
+    Request r = request("POST", "/api/v1/session", R"({"user":"viewer","password":"secret viewer"})");
+    r.peer = std::string(far_peer);
+    auto cookie = std::string(send(r).headers.get("Set-Cookie"));
+    EXPECT_NE(cookie.find("; HttpOnly; SameSite=Strict; Path=/"), std::string::npos) << cookie;
+    EXPECT_EQ(cookie.find("Secure"), std::string::npos);
+    r.secure = true;
+    cookie = send(r).headers.get("Set-Cookie");
+    EXPECT_NE(cookie.find("; Secure"), std::string::npos) << cookie;
+}
+
+TEST_F(AccessTest, SignOutEndsTheSession) {
+    const auto headers = as("viewer");
+    EXPECT_EQ(from(far_peer, "GET", "/api/v1/axes", "", headers).status, 200u);
+    const auto a = from(far_peer, "DELETE", "/api/v1/session", "", headers);
+    EXPECT_EQ(a.status, 204u);
+    EXPECT_NE(a.headers.get("Set-Cookie").find("Max-Age=0"), std::string_view::npos);
+    EXPECT_EQ(from(far_peer, "GET", "/api/v1/axes", "", headers).status, 401u);
+}
+
+TEST_F(AccessTest, FirstSignInIsOnceAndNeedsTheCode) {
+    const std::string body = R"({"code":"abcd-0000","user":"Eva","password":"correct-horse-9"})";
+    EXPECT_EQ(from(far_peer, "POST", "/api/v1/session/first", body).status, 409u);
+    access->own_desk = AccessDesk{AccessSettings{}};
+    EXPECT_EQ(from(far_peer, "POST", "/api/v1/session/first", body).status, 401u);
+    access->own_desk.load_code("4b3b4f53f2ae2c5a9c7b7be2be02a4ba64f4c7e9fdaa3a9d0d6f0a5b8e3b2f10");
+    EXPECT_EQ(from(far_peer, "POST", "/api/v1/session/first", body).status, 401u);
+}
+
+TEST_F(AccessTest, UsersAreMadeChangedAndRemovedByAdministrators) {
+    const auto admin = as("administrator");
+    const auto make = from(far_peer, "POST", "/api/v1/users", R"({"name":"Ben","password":"a-long-sentence-1","role":"operator"})", admin);
+    ASSERT_EQ(make.status, 201u) << make.text;
+    EXPECT_EQ(make.at("name"), "ben");
+    EXPECT_EQ(make.headers.get("Location"), "/api/v1/users/ben");
+    EXPECT_EQ(access->kept.back().name, "ben");
+    EXPECT_EQ(access->kept.back().text->find("a-long-sentence-1\""), access->kept.back().text->find("hash of ") + 8) << "the fake's hash";
+    EXPECT_EQ(make.text.find("hash"), std::string::npos);
+    EXPECT_EQ(from(far_peer, "POST", "/api/v1/users", R"({"name":"ben","password":"a-long-sentence-1","role":"operator"})", admin).status, 409u);
+    const auto wrong = from(far_peer, "POST", "/api/v1/users", R"({"name":"x y","password":"short","role":"king","more":1})", admin);
+    EXPECT_EQ(wrong.status, 422u);
+    EXPECT_EQ(wrong.object().at("faults").get_array().size(), 4u);
+    EXPECT_EQ(from(far_peer, "PATCH", "/api/v1/users/ben", R"({"role":"engineer"})", admin).at("role"), "engineer");
+    EXPECT_EQ(from(far_peer, "PATCH", "/api/v1/users/administrator", R"({"role":"viewer"})", admin).status, 409u);
+    EXPECT_EQ(from(far_peer, "PATCH", "/api/v1/users/administrator", R"({"enabled":false})", admin).status, 409u);
+    EXPECT_EQ(from(far_peer, "DELETE", "/api/v1/users/administrator", "", admin).status, 409u);
+    access->store_fault = "the disk is full";
+    EXPECT_EQ(from(far_peer, "DELETE", "/api/v1/users/ben", "", admin).status, 507u);
+    EXPECT_EQ(from(far_peer, "GET", "/api/v1/users/ben", "", admin).status, 200u) << "not stored, not in force";
+    access->store_fault.clear();
+    EXPECT_EQ(from(far_peer, "DELETE", "/api/v1/users/ben", "", admin).status, 204u);
+    EXPECT_EQ(from(far_peer, "GET", "/api/v1/users/ben", "", admin).status, 404u);
+    access->full = true;
+    EXPECT_EQ(from(far_peer, "POST", "/api/v1/users", R"({"name":"cleo","password":"a-long-sentence-1","role":"viewer"})", admin).status, 503u);
+}
+
+TEST_F(AccessTest, OnesOwnPasswordNeedsTheOldOne) {
+    const auto viewer = as("viewer");
+    EXPECT_EQ(from(far_peer, "PUT", "/api/v1/users/engineer/password", R"({"old":"secret engineer","new":"a-long-sentence-1"})", viewer).status, 403u);
+    EXPECT_EQ(from(far_peer, "PUT", "/api/v1/users/viewer/password", R"({"old":"wrong","new":"a-long-sentence-1"})", viewer).status, 403u);
+    EXPECT_EQ(from(far_peer, "PUT", "/api/v1/users/viewer/password", R"({"old":"secret viewer","new":"short"})", viewer).status, 422u);
+    EXPECT_EQ(from(far_peer, "PUT", "/api/v1/users/viewer/password", R"({"old":"secret viewer","new":"a-long-sentence-1"})", viewer).status, 204u);
+    EXPECT_EQ(from(far_peer, "GET", "/api/v1/axes", "", viewer).status, 401u) << "his sessions ended";
+    EXPECT_EQ(from(far_peer, "POST", "/api/v1/session", R"({"user":"viewer","password":"a-long-sentence-1"})").status, 200u);
+}
+
+TEST_F(AccessTest, TokensAreShownOnceAndNotAboveTheirOwner) {
+    const auto engineer = as("engineer");
+    EXPECT_EQ(from(far_peer, "POST", "/api/v1/tokens", R"({"name":"line3","role":"administrator"})", engineer).status, 403u);
+    EXPECT_EQ(from("127.0.0.1:5", "POST", "/api/v1/tokens", R"({"name":"line3","role":"viewer"})").status, 403u) << "local access is no user";
+    const auto made = from(far_peer, "POST", "/api/v1/tokens", R"({"name":"line3","role":"operator","expires_in_s":60})", engineer);
+    ASSERT_EQ(made.status, 201u) << made.text;
+    const Fields bearer{{"Authorization", "Bearer " + made.at("token")}};
+    const std::string secret = made.at("token").substr(made.at("token").find('.') + 1);
+    EXPECT_EQ(access->kept.back().text->find(secret), std::string::npos) << "stored as a digest";
+    for (const auto& e : access->told)
+        EXPECT_EQ(e.text.find(secret), std::string::npos);
+    EXPECT_EQ(from(far_peer, "GET", "/api/v1/session", "", bearer).at("role"), "operator");
+    EXPECT_EQ(from(far_peer, "POST", "/api/v1/tokens", R"({"name":"x","role":"viewer"})", bearer).status, 403u) << "a token makes no tokens";
+    const auto list = from(far_peer, "GET", "/api/v1/tokens", "", engineer);
+    EXPECT_EQ(list.array().size(), 1u);
+    EXPECT_EQ(list.text.find(secret), std::string::npos);
+    EXPECT_EQ(from(far_peer, "GET", "/api/v1/tokens", "", as("viewer")).array().size(), 0u);
+    EXPECT_EQ(from(far_peer, "DELETE", "/api/v1/tokens/" + made.at("id"), "", as("viewer")).status, 404u);
+    gateway.now_ns += 60'000'000'000;
+    EXPECT_EQ(from(far_peer, "GET", "/api/v1/axes", "", bearer).status, 401u) << "expired";
+    EXPECT_EQ(from(far_peer, "DELETE", "/api/v1/tokens/" + made.at("id"), "", as("administrator")).status, 204u);
+    EXPECT_TRUE(access->own_desk.tokens().empty());
+}
+
+TEST_F(AccessTest, LiveFeedIsOverWhenItsSessionIs) {
+    const auto headers = as("viewer");
+    Request r = request("GET", "/api/v1/stream", "", headers);
+    r.peer = std::string(far_peer);
+    EXPECT_TRUE(router.may_still_watch(r));
+    EXPECT_EQ(from(far_peer, "DELETE", "/api/v1/session", "", headers).status, 204u);
+    EXPECT_FALSE(router.may_still_watch(r));
+}
+}  // namespace
+}  // namespace axisgate::http::test

@@ -6,6 +6,7 @@
 
 #include <unordered_map>
 
+#include "gateway/doors/http/axis_jobs.hpp"
 #include "gateway/doors/http/connection.hpp"
 #include "gateway/doors/http/recipe_desk.hpp"
 #include "gateway/doors/http/session.hpp"

@@ -327,9 +327,11 @@ void Service::take_down() {
 
 int command_serve(const ServeOptions& options) {
     if (!open_log(options.config)) return exit_failed;
-    if (!options.config.modbus_rtu_port.empty() || options.config.dds_enabled || !options.config.http_tls_cert.empty()) {
+    if (!options.config.modbus_rtu_port.empty() || options.config.dds_enabled || !options.config.http_tls_cert.empty() ||
+        options.config.http_tls_self_signed) {
         if (!options.config.modbus_rtu_port.empty()) complain("modbus_rtu.port: this version has no Modbus RTU door; leave the key out");
         if (options.config.dds_enabled) complain("dds.enabled: this version has no DDS door; set it to false");
+        if (options.config.http_tls_self_signed) complain("http.tls: this version serves HTTP without TLS; leave the key out, and keep http.bind on loopback or behind a proxy");
         if (!options.config.http_tls_cert.empty()) complain("http.tls_cert: this version serves HTTP without TLS; leave the keys out, and keep http.bind on loopback or behind a proxy");
         return exit_usage;
     }

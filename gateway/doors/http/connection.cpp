@@ -265,7 +265,7 @@ void Connection::upgrade() {
     timer_.cancel();
     phase_ = Phase::closed;
     const auto data = static_cast<const std::uint8_t*>(buffer_.data().data());
-    auto session = std::make_shared<WebSocketSession>(std::move(socket_), host_);
+    auto session = std::make_shared<WebSocketSession>(std::move(socket_), host_, std::move(request_));
     std::vector<std::uint8_t> early(data, data + buffer_.size());
     auto self = shared_from_this();  // this connection ends here; its place is the session's
     host_->add(session);

@@ -15,8 +15,8 @@ constexpr std::size_t batch_bytes = 64 * 1024;
 constexpr int send_buffer_bytes = 128 * 1024;
 }  // namespace
 
-WebSocketSession::WebSocketSession(Transport socket, std::shared_ptr<SessionHost> host)
-    : socket_(std::move(socket)), host_(std::move(host)), timer_(socket_.get_executor()), parser_(host_->settings.max_message_bytes) {}
+WebSocketSession::WebSocketSession(Transport socket, std::shared_ptr<SessionHost> host, Request opened_by)
+    : socket_(std::move(socket)), host_(std::move(host)), opened_by_(std::move(opened_by)), timer_(socket_.get_executor()), parser_(host_->settings.max_message_bytes) {}
 
 WebSocketSession::~WebSocketSession() = default;
 
@@ -149,6 +149,7 @@ void WebSocketSession::on_timer() {
     } else if (!closing_ && now >= pinged_ + host_->settings.ping_period) {
         // Asked regularly, also of a client that sends much: only a pong shows that it reads.
         pinged_ = now;
+        if (!host_->router.may_still_watch(opened_by_)) return begin_close(close_policy, "signed out");
         client_->queue.push_control(std::make_shared<const std::string>(server_frame(Opcode::ping, {})));
         pump();
     }

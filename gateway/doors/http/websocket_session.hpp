@@ -17,7 +17,8 @@ namespace axisgate::http {
 
 class WebSocketSession final : public Session, public std::enable_shared_from_this<WebSocketSession> {
 public:
-    WebSocketSession(Transport socket, std::shared_ptr<SessionHost> host);
+    /// `opened_by`: the handshake; when its session or token no longer holds, the feed is closed with 1008 (looked at with every ping).
+    WebSocketSession(Transport socket, std::shared_ptr<SessionHost> host, Request opened_by);
     ~WebSocketSession() override;
 
     /// `early`: bytes that came with the handshake.
@@ -41,6 +42,7 @@ private:
 
     Transport socket_;
     std::shared_ptr<SessionHost> host_;
+    Request opened_by_;
     boost::asio::steady_timer timer_;
     std::shared_ptr<StreamClient> client_;
     WebSocketParser parser_;

@@ -23,12 +23,8 @@ enum class Door : std::uint8_t { none = 0, modbus = 1, ethernet_ip = 2, http = 3
 struct Origin {
     Door door = Door::internal;
     std::shared_ptr<const std::string> who;
-    /// The part that stays the same when a client connects anew for each request: without the port.
-    [[nodiscard]] std::string client() const {
-        if (!who) return std::string(name_of(door));
-        const auto colon = who->rfind(':');
-        return std::string(name_of(door)) + " " + (door == Door::http ? who->substr(0, colon) : *who);
-    }
+    /// The stable part, by which a client holds an axis ("anna", "192.0.2.7 panel"); absent: `who` without its port.
+    std::shared_ptr<const std::string> client{};
     [[nodiscard]] std::string text() const { return std::string(name_of(door)) + (who ? " " + *who : std::string()); }
 };
 
@@ -99,9 +95,17 @@ struct ProcessData {
     std::optional<std::int32_t> target_velocity;
     std::optional<std::int16_t> homing_method;
 };
+/// Not a command to the drive: takes, renews, gives up or hands over the lease by which one client alone commands the axis.
+struct HoldAxis {
+    enum class Kind : std::uint8_t { take, release, hand_over };
+    Kind kind = Kind::take;
+    std::int64_t lease_s = 30;  ///< 1..3600
+    bool take_over = false;     ///< take it away from another client; the door has asked whether this one may
+    std::string to;             ///< hand_over: the client that gets it, "modbus 192.0.2.7"
+};
 
 using CommandBody = std::variant<Enable, Disable, QuickStop, Halt, ResetFault, Home, SetPosition, Move, StartTogether, ReadParameter,
-                                 WriteParameter, Native, Action, Hand, ProcessData>;
+                                 WriteParameter, Native, Action, Hand, ProcessData, HoldAxis>;
 
 struct Command {
     Ticket ticket = no_ticket;

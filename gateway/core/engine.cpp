@@ -119,7 +119,15 @@ void Engine::publish(Axis& a, Instant) {
     a.profile.fill(p);
     p.number = static_cast<std::uint16_t>(a.spec.number);
     p.family_number = a.drive->line->family.catalogue->number();
-    p.authority = a.authority;
+    p.authority = a.authority.door();
+    p.authority_since = a.authority.since();
+    p.authority_until = a.authority.until();
+    const auto write = [](std::array<char, 64>& into, std::string_view text) {
+        into.fill(0);
+        std::copy_n(text.begin(), std::min(text.size(), into.size() - 1), into.begin());
+    };
+    write(p.authority_holder, a.authority.holder().name);
+    write(p.authority_commander, a.authority.commander().door == Door::none ? std::string() : a.authority.commander().text());
     p.presence = a.drive->serving;
     const bool online = (a.drive->serving == Presence::device && a.drive->device_online) || (a.drive->serving == Presence::twin && a.drive->twin_online);
     const auto put = [](std::uint16_t& word, std::uint16_t bit, bool on) {
@@ -146,25 +154,6 @@ void Engine::refuse(const Command& c, Reason reason, std::string text) {
     host_.on_result(r);
 }
 
-bool Engine::take_authority(Axis& a, const Origin& origin, Instant now) {
-    if (origin.door == Door::internal || origin.door == Door::none) return true;
-    std::string who = origin.text();
-    // A client that opens a connection per request comes from another port each time and is still the same client.
-    if (origin.door == Door::http) who = who.substr(0, who.rfind(':'));
-    if (a.authority != origin.door || a.authority_who != who) {
-        Event e;
-        e.kind = "authority";
-        e.axis = a.spec.name;
-        e.text = a.authority == Door::none ? "commanded by " + who : fmt::format("commanded by {} (before: {})", who, a.authority_who);
-        e.who = origin.who ? *origin.who : "";
-        e.door = std::string(name_of(origin.door));
-        a.authority = origin.door;
-        a.authority_who = who;
-        event(std::move(e), now);
-    }
-    return true;
-}
-
 void Engine::on_command(Command c, Instant now) {
     now_ = std::max(now_, now);
     Axis* a = axis(c.axis);
@@ -173,9 +162,10 @@ void Engine::on_command(Command c, Instant now) {
     if (a->clients.size() >= max_clients_per_axis && !is_urgent(c.body)) {
         return refuse(c, Reason::busy, fmt::format("axis {}: {} commands are on their way already; wait for their answers", name, max_clients_per_axis));
     }
+    if (const auto* wish = std::get_if<HoldAxis>(&c.body)) return hold(*a, c, *wish, now);
     const Catalogue& catalogue = *a->drive->line->family.catalogue;
     std::vector<CommandBody> orders;
-    bool commands_motion = false;
+    bool commands_motion = false, stops = false;
 
     if (auto* hand = std::get_if<Hand>(&c.body)) {
         const std::string wrong = set_hand(a->drive->id, {{hand->name, hand->value}}, c.origin, now);
@@ -197,10 +187,23 @@ void Engine::on_command(Command c, Instant now) {
         auto checked = catalogue.check_write(write->point, write->value);
         if (!checked.fault.empty()) return refuse(c, Reason::out_of_range, fmt::format("axis {}: {}", name, checked.fault));
         write->value = std::move(checked.value);
+        if (!ask_authority(*a, c, now)) return;
         orders.push_back(c.body);
     } else if (std::holds_alternative<Native>(c.body) || std::holds_alternative<Action>(c.body)) {
+        if (!ask_authority(*a, c, now)) return;
         orders.push_back(c.body);
     } else {
+        stops = only_stops(*a, c.body);
+        if (stops) {
+            // A stop counts for everybody; but only who may command gives set-points with it.
+            if (auto* data = std::get_if<ProcessData>(&c.body); data && !may_command(*a, c, now).allowed) {
+                const auto only = data->controlword;
+                *data = {};
+                data->controlword = only;
+            }
+        } else if (const auto v = may_command(*a, c, now); !v.allowed) {
+            return refuse(c, Reason::authority, v.text);
+        }
         const auto* word = std::get_if<ProcessData>(&c.body);
         if (std::holds_alternative<Disable>(c.body) || (word && word->controlword && !(*word->controlword & cia402::cw_enable_voltage))) {
             a->drive->device_lost_while_commanded = false;  // nobody commands it any more: its twin may take over
@@ -231,7 +234,7 @@ void Engine::on_command(Command c, Instant now) {
         orders = std::move(decision.orders);
         commands_motion = true;
     }
-    if (commands_motion && !orders.empty() && !is_urgent(c.body)) (void)take_authority(*a, c.origin, now);
+    if (commands_motion && !orders.empty() && !stops && !ask_authority(*a, c, now)) return;
     if (!orders.empty() && (commands_motion || std::holds_alternative<Native>(c.body) || std::holds_alternative<Action>(c.body)) &&
         c.origin.door != Door::internal) {
         Event e;

@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "gateway/core/authority.hpp"
 #include "gateway/core/cia402.hpp"
 #include "gateway/core/door.hpp"
 #include "gateway/core/frame_log.hpp"
@@ -63,6 +64,8 @@ public:
     [[nodiscard]] const std::shared_ptr<const SiteState>& site() const noexcept { return site_; }
 
     void on_command(Command command, Instant now);
+    /// How long a command holds an axis of mode "lease".
+    void set_lease(Duration lease) noexcept { lease_ = lease; }
     /// The store has (`fault` empty) or has not recorded an order.
     void on_stored(Ticket order, const std::string& fault, Instant now);
 
@@ -108,7 +111,14 @@ private:
     void publish(Axis& axis, Instant now);
     void event(Event e, Instant now) { host_.on_event(std::move(e), now); }
     [[nodiscard]] Side* side_of(const Drive& drive) const;
-    [[nodiscard]] bool take_authority(Axis& axis, const Origin& origin, Instant now);
+    // authority (engine_authority.cpp)
+    [[nodiscard]] AxisAuthority::Verdict may_command(const Axis& axis, const Command& command, Instant now) const;
+    /// Ends motion and nothing else: not asked for a lease.
+    [[nodiscard]] static bool only_stops(const Axis& axis, const CommandBody& body);
+    /// False: another client holds the axis; the command has been refused with its name.
+    [[nodiscard]] bool ask_authority(Axis& axis, const Command& command, Instant now);
+    void hold(Axis& axis, const Command& command, const HoldAxis& wish, Instant now);
+    void authority_changed(Axis& axis, const AxisAuthority::Verdict& verdict, const Origin* by, Instant now);
     void supersede(Axis& axis, std::uint64_t by, std::string_view what, Instant now);
     [[nodiscard]] bool hold_on(Axis& axis, const Command& command, Instant now);
     void begin_hold(Axis& axis, const Move& move, const Origin& origin);
@@ -155,6 +165,7 @@ private:
     Instant now_{};
     Instant next_housekeeping_{};
     std::size_t trace_frames_;
+    Duration lease_ = std::chrono::seconds(30);
     bool closing_ = false;
 };
 

@@ -2,6 +2,7 @@
 // In and out: nothing; these are plain records with the one event handler that a line needs. Never used outside the engine.
 #pragma once
 
+#include "gateway/core/authority.hpp"
 #include "gateway/core/engine.hpp"
 
 namespace axisgate {
@@ -102,10 +103,9 @@ struct Engine::Axis {
         Instant until = never;      ///< runs from the drive's acknowledgement on
         Duration time{};            ///< 0: no hold
         std::int64_t velocity = 0;  ///< increments/s
-        std::string who;
+        AuthorityClient who;
     } held;
-    Door authority = Door::none;
-    std::string authority_who;
+    AxisAuthority authority;
     bool stale = true;
     bool was_fault = false;
     std::uint16_t last_error = 0;

@@ -154,7 +154,7 @@ void Engine::track(Axis& a, Instant now) {
 bool Engine::hold_on(Axis& a, const Command& c, Instant now) {
     const auto* m = std::get_if<Move>(&c.body);
     if (!m || !m->hold_ms) return false;
-    const bool same = a.held.until != never && a.held.velocity == m->target && a.held.who == c.origin.client() &&
+    const bool same = a.held.until != never && a.held.velocity == m->target && a.held.who == AuthorityClient::of(c.origin) &&
                       a.profile.state() == PowerState::operation_enabled && !a.profile.feedback().fault;
     if (!same) {
         if (!m->renew_only) return false;
@@ -173,19 +173,19 @@ bool Engine::hold_on(Axis& a, const Command& c, Instant now) {
 
 /// Its time begins when the drive has taken the move: a slow line must not end what it has not begun.
 void Engine::begin_hold(Axis& a, const Move& m, const Origin& origin) {
-    a.held = {never, std::chrono::milliseconds(*m.hold_ms), m.target, origin.client()};
+    a.held = {never, std::chrono::milliseconds(*m.hold_ms), m.target, AuthorityClient::of(origin)};
 }
 
 /// Looked at with every housekeeping, so a halt comes at most one of its periods late.
 void Engine::check_hold(Axis& a, Instant now) {
     if (now < a.held.until) return;
-    const std::string who = a.held.who;
+    const std::string who = a.held.who.text();
     a.held = {};
     Event e;
     e.severity = Severity::warning;
     e.kind = "hold";
     e.axis = a.spec.name;
-    e.text = fmt::format("{} has not renewed its velocity move in time: the axis is halted", who.empty() ? "the client" : who);
+    e.text = fmt::format("{} has not renewed its velocity move in time: the axis is halted", who);
     event(std::move(e), now);
     auto decision = a.profile.on_command(Halt{});
     for (auto& o : decision.orders)

@@ -191,6 +191,24 @@ public:
     /// Sets several items, all or none; empty: good, else what is wrong.
     virtual void set_hand(DriveId drive, std::vector<std::pair<std::string, Value>> items, Origin origin, std::function<void(std::string)> then) = 0;
 
+    // --- Modbus locks --------------------------------------------------------------------------------------------------
+    struct ModbusConnection {
+        std::string peer;
+        std::uint64_t requests = 0, writes = 0, exceptions = 0;
+        std::int64_t since_unix_ns = 0;
+        std::vector<std::string> holds;  ///< axes
+    };
+    struct ModbusReport {
+        std::string bind;
+        std::vector<std::string> allow, functions;  ///< empty: all
+        bool read_only = false;
+        std::vector<ModbusConnection> connections;
+    };
+    /// Nothing: there is no Modbus door, or it is too busy to say.
+    virtual void modbus_report(std::function<void(std::optional<ModbusReport>)> then) { then(std::nullopt); }
+    /// Empty: done and stored; else why not.
+    virtual void set_modbus_read_only(bool, Origin, std::function<void(std::string)> then) { then("there is no Modbus door"); }
+
     // --- events --------------------------------------------------------------------------------------------------------
     [[nodiscard]] virtual std::vector<Event> events(const EventQuery& query) const = 0;
     virtual void listen(GatewayListener* listener) = 0;

@@ -44,7 +44,11 @@ struct AxisPicture {
     std::int32_t target_velocity = 0;
     std::int16_t homing_method = 0;
     std::uint16_t setpoints_accepted = 0;  ///< counts up with each accepted set-point
-    Door authority = Door::none;           ///< who commands
+    Door authority = Door::none;           ///< who commands: the door that holds the axis, or that commanded last while nobody does
+    Instant authority_since{};             ///< begin and end of the holder's lease; until = the beginning of time: nobody holds it
+    Instant authority_until{};
+    std::array<char, 64> authority_holder{};     ///< the holder's name, ends with 0; empty: nobody
+    std::array<char, 64> authority_commander{};  ///< who commanded last: "modbus 192.0.2.7"
     Presence presence = Presence::offline;
     bool ever_seen = false;                ///< feedback has arrived at least once
     Instant at{};                          ///< when the drive said it

@@ -78,6 +78,9 @@ std::string_view name_of(const CommandBody& body) noexcept {
         std::string_view operator()(const Action&) const { return "action"; }
         std::string_view operator()(const Hand&) const { return "hand"; }
         std::string_view operator()(const ProcessData&) const { return "process_data"; }
+        std::string_view operator()(const HoldAxis& h) const {
+            return h.kind == HoldAxis::Kind::take ? "take_authority" : h.kind == HoldAxis::Kind::release ? "release_authority" : "hand_over_authority";
+        }
     };
     return std::visit(Names{}, body);
 }

@@ -391,6 +391,13 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
         a.position_max = f.number("position_max", "100");
         a.velocity_max = f.number("velocity_max", "50");
         a.acceleration_max = f.number("acceleration_max", "500");
+        if (const auto* mode = f.get("authority_mode")) {
+            if (mode->is_string() && mode->get_string() == "lease") {
+                a.authority_mode = AuthorityMode::lease;
+            } else if (!mode->is_string() || mode->get_string() != "free") {
+                f.fault("authority_mode", fmt::format("axis {}: this is not an authority mode", a.name), "use free or lease");
+            }
+        }
         if (a.position_min && a.position_max && *a.position_min >= *a.position_max) {
             f.fault("position_max", fmt::format("axis {}: position_max must be above position_min", a.name), "exchange them");
         }
@@ -442,6 +449,7 @@ json::object to_json(const AxisSpec& a) {
     put_optional(o, "position_max", a.position_max);
     put_optional(o, "velocity_max", a.velocity_max);
     put_optional(o, "acceleration_max", a.acceleration_max);
+    if (a.authority_mode != AuthorityMode::free) o["authority_mode"] = name_of(a.authority_mode);
     return o;
 }
 

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gateway/core/authority.hpp"
 #include "gateway/core/catalogue.hpp"
 #include "gateway/core/family.hpp"
 #include "gateway/core/setup.hpp"
@@ -56,6 +57,7 @@ struct AxisSpec {
     std::optional<double> position_max;
     std::optional<double> velocity_max; ///< unit/s, > 0
     std::optional<double> acceleration_max;
+    AuthorityMode authority_mode = AuthorityMode::free;  ///< "lease": a command takes the axis for a while, and others are refused
     bool operator==(const AxisSpec&) const = default;
 };
 

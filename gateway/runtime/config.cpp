@@ -17,6 +17,8 @@
 #include <charconv>
 #include <functional>
 
+#include "gateway/doors/modbus/access.hpp"
+
 namespace axisgate {
 namespace {
 using Fault = std::optional<std::string>;  // the remedy, if the text cannot be the value
@@ -51,6 +53,16 @@ Fault set_bind(std::string& into, const std::string& s) {
 Fault set_text(std::string& into, const std::string& s) {
     into = s;
     return {};
+}
+
+std::vector<std::string> split_list(const std::string& s) {
+    std::vector<std::string> out;
+    for (std::size_t i = 0; i < s.size();) {
+        const auto comma = std::min(s.find(',', i), s.size());
+        if (comma > i) out.push_back(s.substr(i, comma - i));
+        i = comma + 1;
+    }
+    return out;
 }
 
 const std::vector<Key>& keys() {
@@ -94,6 +106,25 @@ const std::vector<Key>& keys() {
          }},
         {"modbus", "idle_timeout_s", [](Config& c, const std::string& s) { return set_integer(c.modbus_idle_timeout_s, s, 1, 86400); }},
         {"modbus", "max_connections", [](Config& c, const std::string& s) { return set_integer(c.modbus_max_connections, s, 1, 8192); }},
+        {"modbus", "allow",
+         [](Config& c, const std::string& s) -> Fault {
+             c.modbus_allow = split_list(s);
+             for (const auto& one : c.modbus_allow) {
+                 if (!modbus::parse_network(one)) return "write addresses or networks, such as [\"127.0.0.0/8\", \"192.168.1.20\", \"fd00::/8\"]";
+             }
+             return {};
+         }},
+        {"modbus", "functions",
+         [](Config& c, const std::string& s) -> Fault {
+             c.modbus_functions = split_list(s);
+             for (const auto& one : c.modbus_functions) {
+                 std::int64_t ignored = 0;
+                 if (set_integer(ignored, one, 1, 127)) return "write function codes from 1 to 127, such as [3, 4, 6, 16]";
+             }
+             return {};
+         }},
+        {"modbus", "read_only", [](Config& c, const std::string& s) { return set_bool(c.modbus_read_only, s); }},
+        {"authority", "lease_s", [](Config& c, const std::string& s) { return set_integer(c.authority_lease_s, s, 1, 3600); }},
         {"modbus_rtu", "port", [](Config& c, const std::string& s) { return set_text(c.modbus_rtu_port, s); }},
         {"enip", "bind", [](Config& c, const std::string& s) { return set_bind(c.enip_bind, s); }},
         {"dds", "enabled", [](Config& c, const std::string& s) { return set_bool(c.dds_enabled, s); }},
@@ -142,8 +173,9 @@ std::optional<std::string> text_of(const toml::node& node) {
         std::string s;
         for (const auto& x : *a) {
             const auto* t = x.as_string();
-            if (!t) return std::nullopt;
-            s += (s.empty() ? "" : ",") + t->get();
+            const auto* n = x.as_integer();
+            if (!t && !n) return std::nullopt;
+            s += (s.empty() ? "" : ",") + (t ? t->get() : std::to_string(n->get()));
         }
         return s;
     }

@@ -24,6 +24,10 @@ struct Config {
     bool modbus_low_word_first = false;          ///< [modbus] word_order = "high_first" | "low_first"
     std::int64_t modbus_idle_timeout_s = 60;     ///< [modbus] idle_timeout_s, 1..86400
     std::int64_t modbus_max_connections = 1024;  ///< [modbus] max_connections, 1..8192
+    std::vector<std::string> modbus_allow;       ///< [modbus] allow: addresses and networks that may connect; empty: all
+    std::vector<std::string> modbus_functions;   ///< [modbus] functions: function codes that are served; empty: all
+    bool modbus_read_only = false;               ///< [modbus] read_only: writes are answered with exception 1
+    std::int64_t authority_lease_s = 30;         ///< [authority] lease_s, 1..3600: how long a command holds an axis of mode "lease"
     std::string modbus_rtu_port;                 ///< [modbus_rtu] port; empty: none
     std::string enip_bind = "127.0.0.1:44818";   ///< [enip] bind
     bool dds_enabled = false;                    ///< [dds] enabled

@@ -78,6 +78,7 @@ std::string modbus_metrics(const modbus::Counters& c) {
     put("connections", "gauge", "Connections open now.", c.connections_open.value());
     put("connections_accepted_total", "counter", "Connections accepted.", c.connections_accepted.value());
     put("connections_refused_total", "counter", "Connections refused at the limit.", c.connections_refused.value());
+    put("connections_not_allowed_total", "counter", "Connections closed at once: not on the allow list.", c.connections_not_allowed.value());
     put("connections_evicted_total", "counter", "Idle connections closed to make room.", c.connections_evicted.value());
     put("closed_not_modbus_total", "counter", "Connections closed for bytes that were not Modbus.", c.closed_not_modbus.value());
     put("received_bytes_total", "counter", "Bytes received.", c.bytes_received.value());
@@ -103,6 +104,31 @@ std::vector<modbus::PlacedMapping> placed(const SiteState& site, std::vector<Map
         out.push_back({std::move(m), id, site.site.axes[it->second].increments_per_unit});
     }
     return out;
+}
+
+Gateway::ModbusReport modbus_report(modbus::Server& server, Hot& hot, const Config& config) {
+    Gateway::ModbusReport r;
+    const auto addresses = server.addresses();
+    if (!addresses.empty()) r.bind = addresses.front();
+    r.allow = config.modbus_allow;
+    r.functions = config.modbus_functions;
+    r.read_only = server.responder().access().read_only;
+    const auto& site = *hot.engine().site();
+    for (auto& c : server.connections()) {
+        Gateway::ModbusConnection x;
+        x.requests = c.requests;
+        x.writes = c.writes;
+        x.exceptions = c.exceptions;
+        x.since_unix_ns = unix_ns_of(c.since);
+        const auto host = std::string_view(c.peer).substr(0, c.peer.rfind(':'));
+        for (std::size_t i = 0; i < site.axis_ids.size(); ++i) {
+            const AxisPicture& p = hot.image().picture(site.axis_ids[i]);
+            if (p.authority == Door::modbus && p.authority_holder[0] != 0 && host == p.authority_holder.data()) x.holds.push_back(site.site.axes[i].name);
+        }
+        x.peer = std::move(c.peer);
+        r.connections.push_back(std::move(x));
+    }
+    return r;
 }
 
 struct Service {
@@ -167,6 +193,7 @@ int Service::open_store() {
     hs.cpu = static_cast<int>(options.config.hot_cpu);
     hs.trace_frames = static_cast<std::size_t>(options.config.trace_frames);
     hot = std::make_unique<Hot>(families, hs);
+    hot->engine().set_lease(std::chrono::seconds(options.config.authority_lease_s));
     Cold::Answers answers;
     answers.stored = [this](std::vector<Stored> list) {
         for (auto& s : list) {
@@ -254,6 +281,13 @@ int Service::open_doors() {
         modbus::ServerSettings ms;
         ms.responder.version = AXISGATE_VERSION;
         ms.responder.word_order = options.config.modbus_low_word_first ? modbus::WordOrder::low_first : modbus::WordOrder::high_first;
+        for (const auto& text : options.config.modbus_allow) {
+            if (const auto network = modbus::parse_network(text)) ms.responder.access.allow.push_back(*network);
+        }
+        for (const auto& text : options.config.modbus_functions) ms.responder.access.functions.set(static_cast<std::size_t>(std::stoi(text)));
+        ms.responder.access.read_only = options.config.modbus_read_only;
+        // What was switched while it ran is newer than the file.
+        if (const auto kept = store->document("setting", "modbus.read_only"); kept && *kept) ms.responder.access.read_only = (*kept)->text == "true";
         ms.max_connections = static_cast<std::size_t>(options.config.modbus_max_connections);
         ms.idle_timeout = std::chrono::seconds(options.config.modbus_idle_timeout_s);
         modbus = std::make_unique<modbus::Server>(hot->context(), *hot, ms);
@@ -267,6 +301,8 @@ int Service::open_doors() {
         hot->look_here_while_spinning([this] { return modbus->serve_now(); });
         gateway->modbus_answer = [this](std::uint8_t unit, std::span<const std::uint8_t> pdu) { return modbus->answer_read(unit, pdu); };
         for (const auto& a : modbus->addresses()) doors.push_back({"modbus", a});
+        gateway->modbus_read_only_on_hot = [this](bool on) { modbus->responder().set_read_only(on); };
+        gateway->modbus_on_hot = [this] { return modbus_report(*modbus, *hot, options.config); };
     }
     if (!options.config.http_bind.empty()) {
         http::Settings hs;

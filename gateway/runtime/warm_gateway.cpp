@@ -172,6 +172,56 @@ void WarmGateway::set_hand(DriveId drive, std::vector<std::pair<std::string, Val
     hot_.jobs().announce();
 }
 
+// --- Modbus locks ---------------------------------------------------------------------------------------------------
+
+void WarmGateway::modbus_report(std::function<void(std::optional<ModbusReport>)> then) {
+    auto job = [this, then](Engine&, Instant) {
+        auto report = modbus_on_hot();
+        boost::asio::post(io_, [then, report = std::move(report)]() mutable { then(std::move(report)); });
+    };
+    if (!modbus_on_hot || !hot_.jobs().push(Hot::Job(std::move(job)))) {
+        boost::asio::post(io_, [then] { then(std::nullopt); });
+        return;
+    }
+    hot_.jobs().announce();
+}
+
+/// Stored first, so that a lock that was seen to be on is on after a restart.
+void WarmGateway::set_modbus_read_only(bool on, Origin origin, std::function<void(std::string)> then) {
+    if (!modbus_read_only_on_hot) {
+        boost::asio::post(io_, [then = std::move(then)] { then("there is no Modbus door: set modbus.bind"); });
+        return;
+    }
+    cold_.run([this, on, origin = std::move(origin), then = std::move(then)](Store& store) mutable {
+        StoreDocument d;
+        d.kind = "setting";
+        d.name = "modbus.read_only";
+        d.text = on ? "true" : "false";
+        d.who = origin.text();
+        d.at_unix_ns = unix_now_ns();
+        const auto saved = store.save_document(d);
+        if (!saved) {
+            boost::asio::post(io_, [then = std::move(then), fault = saved.error().text] { then(fault); });
+            return;
+        }
+        boost::asio::post(io_, [this, on, origin = std::move(origin), then = std::move(then)]() mutable {
+            auto job = [this, on, origin = std::move(origin), then](Engine&, Instant now) {
+                modbus_read_only_on_hot(on);
+                Event e;
+                e.kind = "modbus";
+                e.severity = on ? Severity::warning : Severity::info;
+                e.text = on ? "the Modbus door is read-only now" : "the Modbus door takes writes again";
+                e.who = origin.who ? *origin.who : "";
+                e.door = std::string(name_of(origin.door));
+                hot_.on_event(std::move(e), now);
+                boost::asio::post(io_, [then] { then({}); });
+            };
+            if (!hot_.jobs().push(Hot::Job(std::move(job)))) return then("it is stored, but could not be put in force now: send it again");
+            hot_.jobs().announce();
+        });
+    });
+}
+
 // --- site -----------------------------------------------------------------------------------------------------------
 
 void WarmGateway::finish_site(bool good, std::string fault, std::shared_ptr<const SiteState> state, const std::function<void(SiteAnswer)>& then) {

@@ -31,6 +31,11 @@ public:
     /// More sentences for not_ready and more lines for metrics, from the service.
     std::function<std::vector<std::string>()> more_not_ready;
     std::function<std::string()> more_metrics;
+    /// The Modbus door, from the service; called on the hot thread.
+    std::function<ModbusReport()> modbus_on_hot;
+    std::function<void(bool)> modbus_read_only_on_hot;
+    void modbus_report(std::function<void(std::optional<ModbusReport>)> then) override;
+    void set_modbus_read_only(bool on, Origin origin, std::function<void(std::string)> then) override;
 
     [[nodiscard]] std::vector<DoorInfo> doors() const override { return doors_; }
     [[nodiscard]] double uptime_s() const override;

@@ -12,7 +12,7 @@ namespace axisgate::http {
 namespace json = boost::json;
 namespace {
 
-constexpr std::array<std::string_view, 32> axis_live_members{"line",
+constexpr std::array<std::string_view, 34> axis_live_members{"line",
                                                              "family",
                                                              "online",
                                                              "simulated",
@@ -41,6 +41,8 @@ constexpr std::array<std::string_view, 32> axis_live_members{"line",
                                                              "error",
                                                              "native",
                                                              "authority",
+                                                             "authority_holder",
+                                                             "authority_until",
                                                              "setpoints_accepted",
                                                              "at",
                                                              "age_ms"};
@@ -161,6 +163,8 @@ json::object axis_document(const AxisView& v) {
     o["error"] = json::object{{"code", p.error_code}, {"text", error_text}};
     o["native"] = p.native_status;
     o["authority"] = axisgate::name_of(p.authority);
+    o["authority_holder"] = p.authority_holder.data();
+    o["authority_until"] = p.authority_holder[0] != 0 ? json::value(format_time(v.at_unix_ns + ns_of(p.authority_until) - ns_of(p.at))) : json::value(nullptr);
     o["setpoints_accepted"] = p.setpoints_accepted;
     o["at"] = p.ever_seen ? json::value(format_time(v.at_unix_ns)) : json::value(nullptr);
     if (v.now_unix_ns) {

@@ -50,7 +50,7 @@ struct Call {
     /// Who and from where, for events and the history: as API says it; the peer alone where there are no users.
     [[nodiscard]] std::string who() const { return context.access ? http::who(identity, request.peer) : request.peer; }
     [[nodiscard]] Gateway& gateway() const noexcept { return context.gateway; }
-    [[nodiscard]] Origin origin() const { return {Door::http, std::make_shared<const std::string>(who())}; }
+    [[nodiscard]] Origin origin() const;  ///< in handlers_authority.cpp
 };
 
 using Handler = Handled (*)(Call&);
@@ -103,6 +103,14 @@ Handled list_mapping_points(Call&);
 Handled command_axis(Call&);
 Handled act_on_axis(Call&);
 Handled start_moves(Call&);
+// --- handlers_authority.cpp -------------------------------------------------------------------------------------------
+Handled list_authority(Call&);
+Handled get_authority(Call&);
+Handled take_authority(Call&);
+Handled release_authority(Call&);
+Handled hand_over_authority(Call&);
+Handled get_modbus(Call&);
+Handled change_modbus(Call&);
 // --- handlers_parameters.cpp ------------------------------------------------------------------------------------------
 Handled list_parameters(Call&);
 Handled read_parameter(Call&);

@@ -55,6 +55,13 @@ constexpr std::array routes{
     Route{"/api/v1/axes/{axis}", Method::remove, remove_axis, Takes::nothing, Gives::nothing},
     Route{"/api/v1/axes/{axis}/commands", Method::post, command_axis, Takes::json}.needs(Role::viewer),  // stops; all others: operator
     Route{"/api/v1/axes/{axis}/actions", Method::post, act_on_axis, Takes::json},
+    Route{"/api/v1/authority", Method::get, list_authority},
+    Route{"/api/v1/axes/{axis}/authority", Method::get, get_authority},
+    Route{"/api/v1/axes/{axis}/authority", Method::put, take_authority, Takes::json},
+    Route{"/api/v1/axes/{axis}/authority", Method::remove, release_authority, Takes::nothing, Gives::nothing},
+    Route{"/api/v1/axes/{axis}/authority/hand-over", Method::post, hand_over_authority, Takes::json},
+    Route{"/api/v1/modbus", Method::get, get_modbus},
+    Route{"/api/v1/modbus", Method::patch, change_modbus, Takes::patch},
     Route{"/api/v1/axes/{axis}/parameters", Method::get, list_parameters},
     Route{"/api/v1/axes/{axis}/parameters/{parameter}", Method::get, read_parameter},
     Route{"/api/v1/axes/{axis}/parameters/{parameter}", Method::put, write_parameter, Takes::json},

@@ -55,6 +55,10 @@ public:
     [[nodiscard]] ConnectionToken token() const noexcept { return token_; }
     [[nodiscard]] bool commands_now(const Image& image) const { return session_.commands_now(image); }
     /// It has sent at least one whole request.
+    [[nodiscard]] const std::string& peer() const noexcept { return session_.who(); }
+    [[nodiscard]] std::uint64_t requests() const noexcept { return session_.requests(); }
+    [[nodiscard]] std::uint64_t writes() const noexcept { return session_.writes(); }
+    [[nodiscard]] std::uint64_t exceptions() const noexcept { return session_.exceptions(); }
     [[nodiscard]] bool has_asked() const noexcept { return session_.requests() > 0; }
     /// Why it stands still, for whoever closes it at its deadline.
     [[nodiscard]] bool has_unsent() const noexcept { return !backlog_.empty(); }

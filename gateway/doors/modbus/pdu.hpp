@@ -10,6 +10,7 @@
 #include <string>
 
 #include "gateway/core/door.hpp"
+#include "gateway/doors/modbus/access.hpp"
 #include "gateway/doors/modbus/counters.hpp"
 #include "gateway/doors/modbus/identification.hpp"
 #include "gateway/doors/modbus/standard_map.hpp"
@@ -40,6 +41,7 @@ struct LateAnswer {
 class Responder final : public ResultSink {
 public:
     struct Settings {
+        Access access;  ///< allow list, functions, read-only
         WordOrder word_order = WordOrder::high_first;
         std::string version = "0";
         Duration result_timeout = std::chrono::seconds(30);  ///< a result that has not come by then is taken for "no answer"
@@ -81,6 +83,8 @@ public:
 
     void on_result(const Result& result) override;
 
+    [[nodiscard]] const Access& access() const noexcept { return settings_.access; }
+    void set_read_only(bool on) noexcept { settings_.access.read_only = on; }
     [[nodiscard]] Counters& counters() noexcept { return counters_; }
     [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
     [[nodiscard]] const DoorPort& port() const noexcept { return port_; }

@@ -115,6 +115,13 @@ public:
         }
     }
 
+    [[nodiscard]] std::vector<ConnectionReport> connections() const {
+        std::vector<ConnectionReport> list;
+        for (const auto& place : places_) {
+            if (const Connection* c = place.connection.get()) list.push_back({c->peer(), c->requests(), c->writes(), c->exceptions(), place.since});
+        }
+        return list;
+    }
     bool serve_now() { return poller_.serve_now(); }
     void set_mappings(std::vector<PlacedMapping> mappings) {
         std::map<std::uint8_t, std::vector<PlacedMapping>> by_unit;
@@ -168,6 +175,7 @@ private:
     struct Place {
         std::unique_ptr<Connection> connection;
         std::uint32_t users = 0;
+        Instant since{};
     };
     [[nodiscard]] static std::size_t place_of(ConnectionToken token) noexcept { return static_cast<std::uint32_t>(token); }
     /// nullptr: that connection is closed, whoever has its place now.
@@ -255,6 +263,14 @@ private:
     }
 
     void admit(int fd, const sockaddr_storage& peer, socklen_t length) {
+        tcp::endpoint from;
+        from.resize(std::min<std::size_t>(length, from.capacity()));
+        std::memcpy(from.data(), &peer, from.size());
+        if (!responder_.access().admits(to_text(from))) {
+            counters().connections_not_allowed.add();
+            ::close(fd);
+            return;
+        }
         if (free_.empty() && !evict_one()) {
             counters().connections_refused.add();
             ::close(fd);
@@ -268,11 +284,9 @@ private:
             ::close(fd);
             return;
         }
-        tcp::endpoint from;
-        from.resize(std::min<std::size_t>(length, from.capacity()));
-        std::memcpy(from.data(), &peer, from.size());
         free_.pop_back();
         times_[i] = {port_.now(), never};
+        places_[i].since = port_.now();
         places_[i].connection = std::make_unique<Connection>(fd, poller_, *this, responder_, token, to_text(from));
         counters().connections_accepted.add();
         counters().connections_open.add();
@@ -335,6 +349,7 @@ void Server::close() { impl_->close(); }
 void Server::set_mappings(std::vector<PlacedMapping> mappings) { impl_->set_mappings(std::move(mappings)); }
 void Server::on_sample(const Sample& sample) { impl_->on_sample(sample); }
 bool Server::serve_now() { return impl_->serve_now(); }
+std::vector<Server::ConnectionReport> Server::connections() const { return impl_->connections(); }
 Responder& Server::responder() noexcept { return impl_->responder(); }
 std::vector<std::uint8_t> Server::answer_read(std::uint8_t unit, std::span<const std::uint8_t> pdu) {
     if (pdu.empty() || pdu.size() > 253 || pdu[0] < 1 || pdu[0] > 4) return {};

@@ -59,6 +59,13 @@ public:
     /// request, and asks for mapped parameters as one would. Empty for other functions.
     [[nodiscard]] std::vector<std::uint8_t> answer_read(std::uint8_t unit, std::span<const std::uint8_t> pdu);
 
+    /// What one client has done since it connected.
+    struct ConnectionReport {
+        std::string peer;
+        std::uint64_t requests = 0, writes = 0, exceptions = 0;
+        Instant since{};
+    };
+    [[nodiscard]] std::vector<ConnectionReport> connections() const;
     /// For another transport of the same registers: there is one Responder per port.
     [[nodiscard]] Responder& responder() noexcept;
     /// Applies the time-outs as of the port's now(). The server's own timer calls it four times a second while anyone is connected.

@@ -28,6 +28,7 @@ Session::Work Session::work(Instant now, AnswerBuffer& out) {
             const Slot& slot = slots_[head_];
             std::uint8_t* const adu = out.bytes.data() + out.size;
             const std::size_t size = responder_.finish(slot.late, now, adu + mbap_size);
+            if (size == 2 && (adu[mbap_size] & function::exception_bit) != 0) ++exceptions_;
             put_header(adu, slot.transaction, slot.late.unit, size);
             out.size += mbap_size + size;
             head_ = index(1);
@@ -57,6 +58,7 @@ Session::Work Session::work(Instant now, AnswerBuffer& out) {
 
 void Session::begin(const Adu& adu, Instant now, AnswerBuffer& out) {
     ++requests_;
+    if (is_write(adu.pdu[0])) ++writes_;
     const std::size_t at = index(count_);
     Slot& slot = slots_[at];
     slot.transaction = adu.transaction;
@@ -65,6 +67,7 @@ void Session::begin(const Adu& adu, Instant now, AnswerBuffer& out) {
     const std::size_t size =
         responder_.answer(client_, static_cast<std::uint8_t>(at), adu.unit, adu.pdu, now, bytes + mbap_size, slot.late);
     if (size > 0 && count_ == 0) {
+        if (size == 2 && (bytes[mbap_size] & function::exception_bit) != 0) ++exceptions_;
         put_header(bytes, adu.transaction, adu.unit, size);
         out.size += mbap_size + size;
         return;

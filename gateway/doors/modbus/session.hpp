@@ -55,6 +55,9 @@ public:
     [[nodiscard]] std::size_t in_flight() const noexcept { return count_; }
     /// Whole requests that work() has taken so far.
     [[nodiscard]] std::uint64_t requests() const noexcept { return requests_; }
+    [[nodiscard]] std::uint64_t writes() const noexcept { return writes_; }
+    [[nodiscard]] std::uint64_t exceptions() const noexcept { return exceptions_; }
+    [[nodiscard]] const std::string& who() const noexcept { return *client_.who; }
     /// The stream broke off within a request: work() said need_bytes and some bytes are left.
     [[nodiscard]] bool holds_partial() const noexcept { return partial_; }
 
@@ -78,7 +81,7 @@ private:
     Responder& responder_;
     SessionWaker& waker_;
     Responder::Client client_;
-    std::uint64_t requests_ = 0;
+    std::uint64_t requests_ = 0, writes_ = 0, exceptions_ = 0;
     std::size_t head_ = 0;
     std::size_t count_ = 0;
     bool partial_ = false;

@@ -1,0 +1,160 @@
+// Handlers of who may command: the leases of axes, and the locks of the Modbus door.
+// In: calls. Out: JSON; a refusal names the holder and how long it has the axis still.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "gateway/doors/http/documents.hpp"
+#include "gateway/doors/http/handlers.hpp"
+
+namespace axisgate::http {
+namespace json = boost::json;
+namespace {
+json::object authority_document(const Gateway& gateway, const AxisSpec& spec, AxisId id) {
+    const AxisPicture p = gateway.picture(id);
+    const std::int64_t now = gateway.now_unix_ns();
+    const std::int64_t until = p.authority_holder[0] != 0 ? gateway.to_unix_ns(p.authority_until) : 0;
+    const bool held = until > now;
+    json::object o{{"axis", spec.name},
+                   {"door", axisgate::name_of(p.authority)},
+                   {"holder", held ? p.authority_holder.data() : ""},
+                   {"mode", axisgate::name_of(spec.authority_mode)}};
+    o["expires_in_s"] = held ? number(static_cast<double>((until - now) / 1'000'000) / 1000.0) : json::value(nullptr);
+    o["since"] = held ? json::value(gateway.to_unix_ns(p.authority_since)) : json::value(nullptr);
+    o["last_commander"] = p.authority_commander.data();
+    return o;
+}
+
+/// Hands a wish to the hot thread and answers with what holds then.
+Handled submit_hold(Call& c, HoldAxis wish, bool empty_answer) {
+    const auto place = find_axis(c.gateway(), c.names[0]);
+    if (!place) return nothing_named("axis", c.names[0]);
+    Command command;
+    command.axis = place->id();
+    command.body = std::move(wish);
+    const std::string word(name_of(command.body));
+    Gateway* const gateway = &c.gateway();
+    return submit_command(c, std::move(command), c.names[0], word, 0, [gateway, spec = place->spec(), id = place->id(), empty_answer](const Result&) {
+        if (!empty_answer) return json_response(authority_document(*gateway, spec, id));
+        Response r;
+        r.status = 204;
+        return r;
+    });
+}
+
+/// Reads the members of a small body; what is wrong with it as faults.
+void check_members(const json::object& body, std::initializer_list<std::string_view> known, std::vector<Fault>& faults) {
+    for (const auto& [k, v] : body) {
+        if (std::ranges::find(known, std::string_view(k)) == known.end()) {
+            faults.push_back({"/" + std::string(k), fmt::format("{} is not known here", std::string_view(k)), "remove it"});
+        }
+    }
+}
+}  // namespace
+
+Origin Call::origin() const {
+    Origin o{Door::http, std::make_shared<const std::string>(who()), {}};
+    // Who has signed in is one client wherever from; without a name, several connections of one page are one client: the host, and the
+    // name that the client gives itself.
+    std::string name = identity.user.empty() ? request.peer.substr(0, request.peer.rfind(':')) : identity.user;
+    if (const auto own = trimmed(request.headers.get("X-Client")); !own.empty()) {
+        name += ' ';
+        for (const char x : own.substr(0, 40)) name += static_cast<unsigned char>(x) < 0x20 || x == 0x7F ? '_' : x;
+    }
+    o.client = std::make_shared<const std::string>(std::move(name));
+    return o;
+}
+
+Handled list_authority(Call& c) {
+    const auto site = c.gateway().site();
+    json::array axes;
+    for (std::size_t i = 0; i < site->site.axes.size() && i < site->axis_ids.size(); ++i)
+        axes.push_back(authority_document(c.gateway(), site->site.axes[i], site->axis_ids[i]));
+    return json_response(json::object{{"axes", std::move(axes)}});
+}
+
+Handled get_authority(Call& c) {
+    const auto place = find_axis(c.gateway(), c.names[0]);
+    if (!place) return nothing_named("axis", c.names[0]);
+    return json_response(authority_document(c.gateway(), place->spec(), place->id()));
+}
+
+Handled take_authority(Call& c) {
+    const json::object& body = c.body.get_object();
+    std::vector<Fault> faults;
+    check_members(body, {"ttl_s", "take_over"}, faults);
+    HoldAxis wish;
+    if (const auto* ttl = body.if_contains("ttl_s")) {
+        const bool good = ttl->is_int64() && ttl->get_int64() >= 1 && ttl->get_int64() <= 3600;
+        if (good) wish.lease_s = ttl->get_int64();
+        else faults.push_back({"/ttl_s", "ttl_s must be a whole number of seconds", "write a value from 1 to 3600"});
+    }
+    if (const auto* over = body.if_contains("take_over")) {
+        if (over->is_bool()) wish.take_over = over->get_bool();
+        else faults.push_back({"/take_over", "take_over must be true or false", "write one of them"});
+    }
+    if (!faults.empty()) return invalid(std::move(faults), c.names[0]);
+    return submit_hold(c, std::move(wish), false);
+}
+
+Handled release_authority(Call& c) {
+    HoldAxis wish;
+    wish.kind = HoldAxis::Kind::release;
+    return submit_hold(c, std::move(wish), true);
+}
+
+Handled hand_over_authority(Call& c) {
+    const json::object& body = c.body.get_object();
+    std::vector<Fault> faults;
+    check_members(body, {"to"}, faults);
+    HoldAxis wish;
+    wish.kind = HoldAxis::Kind::hand_over;
+    if (const auto* to = body.if_contains("to"); to && to->is_string() && !to->get_string().empty() && to->get_string().size() <= 80) {
+        wish.to = std::string(to->get_string());
+    } else {
+        faults.push_back({"/to", "to must name the next holder in 1 to 80 bytes", "write \"modbus 192.0.2.7\", or a holder as GET shows it"});
+    }
+    if (!faults.empty()) return invalid(std::move(faults), c.names[0]);
+    return submit_hold(c, std::move(wish), false);
+}
+
+namespace {
+Response modbus_document(const std::optional<Gateway::ModbusReport>& report) {
+    if (!report) return problem(503, "busy", "the Modbus door is switched off, or cannot say now: see modbus.bind, or come again in a moment");
+    json::array allow, functions, connections;
+    for (const auto& a : report->allow) allow.emplace_back(a);
+    for (const auto& f : report->functions) functions.emplace_back(std::stoi(f));
+    for (const auto& x : report->connections) {
+        json::array holds;
+        for (const auto& h : x.holds) holds.emplace_back(h);
+        connections.push_back(json::object{{"peer", x.peer}, {"requests", x.requests}, {"writes", x.writes}, {"exceptions", x.exceptions},
+                                           {"since", x.since_unix_ns}, {"holds", std::move(holds)}});
+    }
+    return json_response(json::object{{"bind", report->bind}, {"allow", std::move(allow)}, {"functions", std::move(functions)},
+                                      {"read_only", report->read_only}, {"connections", std::move(connections)}});
+}
+
+Response late_modbus() { return problem(504, "no_answer", "the Modbus door did not say in time; come again in a moment"); }
+}  // namespace
+
+Handled get_modbus(Call& c) {
+    c.gateway().modbus_report([respond = c.respond](std::optional<Gateway::ModbusReport> r) { respond(modbus_document(r)); });
+    return {gateway_limit, late_modbus()};
+}
+
+Handled change_modbus(Call& c) {
+    const json::object& body = c.body.get_object();
+    std::vector<Fault> faults;
+    check_members(body, {"read_only"}, faults);
+    const auto* value = body.if_contains("read_only");
+    if (!value || !value->is_bool()) faults.push_back({"/read_only", "read_only must be true or false", "write one of them"});
+    if (!faults.empty()) return invalid(std::move(faults));
+    Gateway* const gateway = &c.gateway();
+    gateway->set_modbus_read_only(value->get_bool(), c.origin(), [gateway, respond = c.respond](std::string fault) {
+        if (!fault.empty()) return respond(problem(503, "busy", fault));
+        gateway->modbus_report([respond](std::optional<Gateway::ModbusReport> r) { respond(modbus_document(r)); });
+    });
+    return {gateway_limit, late_modbus()};
+}
+
+}  // namespace axisgate::http

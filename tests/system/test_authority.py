@@ -1,0 +1,95 @@
+"""Who may command: leases over HTTP and Modbus, take over, expiry, stops by others; the locks of the Modbus door."""
+import copy
+import socket
+
+from harness import DEMO, Gateway, Modbus, ModbusException, until
+
+
+def client(gateway, method, path, body=None, name=None):
+    s, answer, _ = gateway.request(method, "/api/v1" + path, body, {"X-Client": name} if name else None)
+    return s, answer
+
+
+class From(Modbus):
+    """A Modbus client of another host of the loopback network."""
+
+    def __init__(self, port, address):
+        self.socket = socket.create_connection(("127.0.0.1", port), timeout=20, source_address=(address, 0))
+        self.transaction = 0
+
+
+def code_of(call):
+    try:
+        call()
+    except ModbusException as e:
+        return e.code
+    return 0
+
+
+def test_a_lease_refuses_others_by_name_but_never_a_stop(gateway):
+    assert gateway.get("/axes/feeder/authority")["holder"] == ""
+    s, a = client(gateway, "PUT", "/axes/feeder/authority", {"ttl_s": 60}, "panel")
+    assert s == 200 and a["holder"] == "127.0.0.1 panel" and a["door"] == "http" and 55 < a["expires_in_s"] <= 60, a
+    s, a = client(gateway, "POST", "/axes/feeder/commands?wait=5", {"command": "enable"}, "panel")
+    assert s == 200, a
+    s, a = client(gateway, "POST", "/axes/feeder/commands", {"command": "move_relative", "position": 1}, "script")
+    assert s == 409 and a["reason"] == "authority" and "127.0.0.1 panel" in a["detail"], a
+    with gateway.modbus() as m:
+        assert m.read(17, 1)[0] == 3
+        assert code_of(lambda: m.write32(34, 3200)) == 6
+        assert code_of(lambda: m.write1(32, 0x0F)) == 6
+        assert code_of(lambda: m.write1(32, 0x02)) == 0, "a quick stop of another client"
+    s, a = client(gateway, "POST", "/axes/feeder/commands?wait=5", {"command": "halt"}, "script")
+    assert s == 200, a
+    s, a = client(gateway, "PUT", "/axes/feeder/authority", {}, "script")
+    assert s == 409 and "127.0.0.1 panel" in a["detail"], a
+    s, a = client(gateway, "DELETE", "/axes/feeder/authority", None, "script")
+    assert s == 409, a
+    s, a = client(gateway, "PUT", "/axes/feeder/authority", {"take_over": True, "ttl_s": 1}, "script")
+    assert s == 200 and a["holder"] == "127.0.0.1 script", a
+    until(lambda: gateway.get("/axes/feeder/authority")["holder"] == "", 5, "the lease expires")
+    s, a = client(gateway, "PUT", "/axes/feeder/authority", {}, "panel")
+    s, a = client(gateway, "POST", "/axes/feeder/authority/hand-over", {"to": "modbus 127.0.0.9"}, "panel")
+    assert s == 200 and a["door"] == "modbus" and a["holder"] == "127.0.0.9", a
+    texts = until(lambda: [t for t in [[e["text"] for e in gateway.get("/events") if e["kind"] == "authority"]] if any("handed over" in x for x in t)], 5, "events")[0]
+    for word in ("held by", "taken over", "expired", "handed over"):
+        assert any(word in t for t in texts), (word, texts)
+
+
+def test_in_lease_mode_a_command_takes_the_axis(folder):
+    site = copy.deepcopy(DEMO)
+    site["axes"][0]["authority_mode"] = "lease"
+    with Gateway(folder, site, "--set", "authority.lease_s=2") as g:
+        one, two = From(g.modbus_port, "127.0.0.2"), From(g.modbus_port, "127.0.0.3")
+        with one, two:
+            one.write1(32, 0x06)
+            one.write1(32, 0x07)
+            one.write1(32, 0x0F)
+            assert g.get("/axes/feeder/authority")["holder"] == "127.0.0.2"
+            assert code_of(lambda: two.write1(32, 0x0F)) == 6
+            s, a = client(g, "POST", "/axes/feeder/commands", {"command": "enable"})
+            assert s == 409 and "modbus 127.0.0.2" in a["detail"], a
+            holds = {c["peer"].split(":")[0]: c["holds"] for c in g.get("/modbus")["connections"]}
+            assert holds == {"127.0.0.2": ["feeder"], "127.0.0.3": []}, holds
+            assert code_of(lambda: two.write1(32, 0x00)) == 0, "everybody may switch it off"
+        until(lambda: g.get("/axes/feeder/authority")["holder"] == "", 5, "the lease of the client that is gone")
+
+
+def test_modbus_locks(folder):
+    locks = ("--set", "modbus.allow=127.0.0.1,10.0.0.0/8", "--set", "modbus.functions=3,6,16")
+    with Gateway(folder, DEMO, *locks) as g:
+        with g.modbus() as m:
+            assert code_of(lambda: m.read(0, 1)) == 0
+            assert g.get("/modbus")["allow"] == ["127.0.0.1", "10.0.0.0/8"]
+            g.send("PATCH", "/modbus", {"read_only": True})
+            assert code_of(lambda: m.write1(33, 1)) == 1
+            assert code_of(lambda: m.read(0, 1)) == 0
+        try:
+            with From(g.modbus_port, "127.0.0.2") as other:
+                other.read(0, 1)
+            raise AssertionError("a peer that is not allowed was served")
+        except OSError:
+            pass
+        g.stop()
+    with Gateway(folder, None, *locks) as g:
+        assert g.get("/modbus")["read_only"] is True, "the switch is kept"

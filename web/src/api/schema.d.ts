@@ -439,6 +439,83 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/authority": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Who holds each axis */
+        get: operations["listAuthority"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/axes/{axis}/authority": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+            };
+            cookie?: never;
+        };
+        /** Who holds the axis */
+        get: operations["getAuthority"];
+        /** Takes or renews the lease; X-Client names the client beside its address */
+        put: operations["takeAuthority"];
+        post?: never;
+        /** Gives the lease up */
+        delete: operations["releaseAuthority"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/axes/{axis}/authority/hand-over": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+            };
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Gives the lease to another client */
+        post: operations["handOverAuthority"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/modbus": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Locks and clients of the Modbus door */
+        get: operations["getModbus"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        /** Makes the door read-only, or not; kept over a restart */
+        patch: operations["changeModbus"];
+        trace?: never;
+    };
     "/api/v1/axes/{axis}/parameters": {
         parameters: {
             query?: never;
@@ -1176,6 +1253,146 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/session": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Who this request comes from */
+        get: operations["getSession"];
+        put?: never;
+        /**
+         * Sign in with a password
+         * @description 401 has one text for a wrong user and a wrong password. After three wrong attempts the next ones have to wait, longer each time (429).
+         */
+        post: operations["signIn"];
+        /** End this session */
+        delete: operations["signOut"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/session/first": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Make the first administrator, with the code that was printed when the gateway started for the first time */
+        post: operations["firstSignIn"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/users": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** All users (administrator) */
+        get: operations["listUsers"];
+        put?: never;
+        /** Make a user (administrator) */
+        post: operations["addUser"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/users/{user}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                user: string;
+            };
+            cookie?: never;
+        };
+        /** One user (administrator) */
+        get: operations["getUser"];
+        put?: never;
+        post?: never;
+        /** Remove a user, with his sessions and tokens (administrator) */
+        delete: operations["removeUser"];
+        options?: never;
+        head?: never;
+        /**
+         * Change role, password or whether the user may sign in (administrator)
+         * @description Ends the user's sessions. The last administrator that can sign in stays one (409).
+         */
+        patch: operations["changeUser"];
+        trace?: never;
+    };
+    "/api/v1/users/{user}/password": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                user: string;
+            };
+            cookie?: never;
+        };
+        get?: never;
+        /** Change one's own password, signed in with it */
+        put: operations["changePassword"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/tokens": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** One's own tokens; an administrator sees all */
+        get: operations["listTokens"];
+        put?: never;
+        /**
+         * Make a token for a program; its secret is in this answer alone
+         * @description For whoever is signed in with a password. The role is not above one's own; a token is worth no more than its owner is at that time.
+         */
+        post: operations["addToken"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/tokens/{token}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                token: string;
+            };
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /** Remove a token of one's own; an administrator removes any */
+        delete: operations["removeToken"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
 }
 export type webhooks = Record<string, never>;
 export interface components {
@@ -1652,6 +1869,11 @@ export interface components {
             velocity_max?: number;
             /** @description unit/s^2 */
             acceleration_max?: number;
+            /**
+             * @description lease: a command takes the axis for a while
+             * @enum {string}
+             */
+            authority_mode?: "free" | "lease";
         };
         AxisSpec: components["schemas"]["AxisFields"] & Record<string, never>;
         /** @description a whole axis; `name` may be left out, and the members that only tell the state are ignored */
@@ -1718,6 +1940,13 @@ export interface components {
              * @enum {string}
              */
             readonly authority: "none" | "modbus" | "ethernet_ip" | "http" | "dds" | "internal";
+            /** @description the client that holds the axis; empty: nobody */
+            readonly authority_holder?: string;
+            /**
+             * Format: date-time
+             * @description end of its lease
+             */
+            readonly authority_until?: string | null;
             /** @description counts up */
             readonly setpoints_accepted: number;
             /**
@@ -1894,6 +2123,124 @@ export interface components {
             /** @description `since` for the next request */
             next: number;
             frames: components["schemas"]["Frame"][];
+        };
+        /** @enum {string} */
+        Role: "viewer" | "operator" | "engineer" | "administrator";
+        SessionInfo: {
+            /** @description null for local access and nobody */
+            user: string | null;
+            /** @enum {string|null} */
+            role: "viewer" | "operator" | "engineer" | "administrator" | null;
+            /** @enum {string} */
+            via: "cookie" | "token" | "local" | "none";
+            /** @description for X-CSRF-Token */
+            csrf: string | null;
+            /** Format: date-time */
+            expires_at: string | null;
+            /** @description no user exists yet */
+            first_sign_in: boolean;
+            /** @description all roles, lowest first */
+            roles: components["schemas"]["Role"][];
+        };
+        SignIn: {
+            user: string;
+            password: string;
+        };
+        FirstSignIn: {
+            /** @example K7QF-2M9D-XW3E-8HTR */
+            code: string;
+            user: string;
+            password: string;
+        };
+        User: {
+            name: string;
+            role: components["schemas"]["Role"];
+            enabled: boolean;
+            created_at: components["schemas"]["Time"];
+            /** Format: date-time */
+            last_sign_in_at: string | null;
+        };
+        NewUser: {
+            /** @description 1 to 64 of a-z, 0-9, . _ - @ */
+            name: string;
+            password: string;
+            role: components["schemas"]["Role"];
+            enabled?: boolean;
+        };
+        UserChange: {
+            role?: components["schemas"]["Role"];
+            enabled?: boolean;
+            password?: string;
+        };
+        PasswordChange: {
+            old: string;
+            new: string;
+        };
+        Token: {
+            id: string;
+            name: string;
+            role: components["schemas"]["Role"];
+            owner: string;
+            created_at: components["schemas"]["Time"];
+            /** Format: date-time */
+            expires_at: string | null;
+            /**
+             * Format: date-time
+             * @description to the hour
+             */
+            last_used_at: string | null;
+        };
+        NewToken: {
+            name: string;
+            role: components["schemas"]["Role"];
+            expires_in_s?: number | null;
+        };
+        MadeToken: components["schemas"]["Token"] & {
+            /** @description the secret, shown once: Authorization: Bearer ... */
+            token: string;
+        };
+        Authority: {
+            axis: string;
+            /** @enum {string} */
+            door: "none" | "modbus" | "ethernet_ip" | "http" | "dds" | "internal";
+            /** @description empty: nobody */
+            holder: string;
+            /** @enum {string} */
+            mode: "free" | "lease";
+            expires_in_s: number | null;
+            /** @description Unix time in ns */
+            since: number | null;
+            last_commander: string;
+        };
+        AuthorityList: {
+            axes: components["schemas"]["Authority"][];
+        };
+        TakeAuthority: {
+            /** @default 30 */
+            ttl_s?: number;
+            /** @default false */
+            take_over?: boolean;
+        };
+        HandOver: {
+            to: string;
+        };
+        ModbusChange: {
+            read_only: boolean;
+        };
+        ModbusDoor: {
+            bind: string;
+            allow: string[];
+            functions: number[];
+            read_only: boolean;
+            connections: {
+                peer: string;
+                requests: number;
+                writes: number;
+                exceptions: number;
+                /** @description Unix time in ns */
+                since: number;
+                holds: string[];
+            }[];
         };
         Event: {
             id: number;
@@ -3890,6 +4237,214 @@ export interface operations {
             default: components["responses"]["Problem"];
         };
     };
+    listAuthority: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description all axes */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AuthorityList"];
+                };
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    getAuthority: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description who holds it */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Authority"];
+                };
+            };
+            404: components["responses"]["NotFound"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    takeAuthority: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "ttl_s": 30
+                 *     }
+                 */
+                "application/json": components["schemas"]["TakeAuthority"];
+            };
+        };
+        responses: {
+            /** @description held */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Authority"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Refused"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            503: components["responses"]["Unavailable"];
+            504: components["responses"]["NoAnswer"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    releaseAuthority: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            204: components["responses"]["Removed"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Refused"];
+            503: components["responses"]["Unavailable"];
+            504: components["responses"]["NoAnswer"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    handOverAuthority: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "to": "modbus 192.0.2.7"
+                 *     }
+                 */
+                "application/json": components["schemas"]["HandOver"];
+            };
+        };
+        responses: {
+            /** @description held by the other */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Authority"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Refused"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            503: components["responses"]["Unavailable"];
+            504: components["responses"]["NoAnswer"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getModbus: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the door */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ModbusDoor"];
+                };
+            };
+            503: components["responses"]["Unavailable"];
+            504: components["responses"]["NoAnswer"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    changeModbus: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "read_only": true
+                 *     }
+                 */
+                "application/json": components["schemas"]["ModbusChange"];
+            };
+        };
+        responses: {
+            /** @description the door */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ModbusDoor"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            503: components["responses"]["Unavailable"];
+            504: components["responses"]["NoAnswer"];
+            default: components["responses"]["Problem"];
+        };
+    };
     listParameters: {
         parameters: {
             query?: {
@@ -5649,6 +6204,317 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            default: components["responses"]["Problem"];
+        };
+    };
+    getSession: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the identity */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionInfo"];
+                };
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    signIn: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SignIn"];
+            };
+        };
+        responses: {
+            /** @description signed in */
+            200: {
+                headers: {
+                    "Set-Cookie"?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionInfo"];
+                };
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    signOut: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description ended */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    firstSignIn: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["FirstSignIn"];
+            };
+        };
+        responses: {
+            /** @description made and signed in */
+            200: {
+                headers: {
+                    "Set-Cookie"?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionInfo"];
+                };
+            };
+            409: components["responses"]["Conflict"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    listUsers: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the users */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["User"][];
+                };
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    addUser: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewUser"];
+            };
+        };
+        responses: {
+            /** @description made */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["User"];
+                };
+            };
+            409: components["responses"]["Conflict"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getUser: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                user: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the user */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["User"];
+                };
+            };
+            404: components["responses"]["NotFound"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    removeUser: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                user: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description removed */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    changeUser: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                user: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["UserChange"];
+                "application/merge-patch+json": components["schemas"]["UserChange"];
+            };
+        };
+        responses: {
+            /** @description changed */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["User"];
+                };
+            };
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    changePassword: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                user: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PasswordChange"];
+            };
+        };
+        responses: {
+            /** @description changed; all sessions of the user have ended */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    listTokens: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the tokens, without their secrets */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Token"][];
+                };
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    addToken: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewToken"];
+            };
+        };
+        responses: {
+            /** @description made */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MadeToken"];
+                };
+            };
+            409: components["responses"]["Conflict"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    removeToken: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                token: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description removed */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            404: components["responses"]["NotFound"];
             default: components["responses"]["Problem"];
         };
     };

@@ -216,6 +216,9 @@ def test_every_write_answers_as_described(gateway):
     drive = {"name": "spare", "line": "spare", "address": 9, "presence": "twin"}
     axis = {"name": "spare", "drive": "spare", "number": 9, "unit": "deg", "increments_per_unit": 10}
     steps = [
+        ("takeAuthority", {"axis": "slide"}, {"ttl_s": 5}, 200), ("takeAuthority", {"axis": "slide"}, {"ttl_s": 0}, 422), ("takeAuthority", {"axis": "nobody"}, {}, 404),
+        ("handOverAuthority", {"axis": "slide"}, {"to": "http 127.0.0.1"}, 200), ("handOverAuthority", {"axis": "feeder"}, {"to": "x"}, 409), ("releaseAuthority", {"axis": "slide"}, None, 204),
+        ("changeModbus", {}, {"read_only": False}, 200), ("changeModbus", {}, {}, 422),
         ("addLine", {}, line, 201), ("addLine", {}, line, 409), ("addLine", {}, {"name": "x"}, 422), ("addDrive", {}, drive, 201), ("addDrive", {}, drive, 409),
         ("addDrive", {}, {**drive, "name": "other", "address": 4}, 422), ("addAxis", {}, axis, 201), ("addAxis", {}, axis, 409), ("addAxis", {}, {**axis, "name": "other"}, 422),
         ("replaceLine", {"line": "spare"}, line, 200), ("changeLine", {"line": "spare"}, {"bitrate": 250000}, 200), 

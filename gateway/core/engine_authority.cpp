@@ -48,6 +48,7 @@ bool Engine::ask_authority(Axis& a, const Command& c, Instant now) {
     }
     const auto who = AuthorityClient::of(c.origin);
     const auto note = [&](Axis& x) {
+        authority_changed(x, x.authority.expire(now), nullptr, now);  // the end of a lease is told before the next one begins
         const auto v = x.authority.command(who, x.spec.authority_mode, lease_, now);
         authority_changed(x, v, &c.origin, now);
     };
@@ -64,6 +65,7 @@ void Engine::hold(Axis& a, const Command& c, const HoldAxis& wish, Instant now) 
     const auto who = AuthorityClient::of(c.origin);
     const Duration lease = std::chrono::seconds(wish.lease_s);
     if (wish.lease_s < 1 || wish.lease_s > 3600) return refuse(c, Reason::out_of_range, "a lease has 1 to 3600 s");
+    authority_changed(a, a.authority.expire(now), nullptr, now);
     const AxisAuthority::Verdict v = wish.kind == HoldAxis::Kind::take      ? a.authority.take(who, lease, wish.take_over, now)
                                      : wish.kind == HoldAxis::Kind::release ? a.authority.release(who, now)
                                                                             : a.authority.hand_over(who, wish.to, lease, now);

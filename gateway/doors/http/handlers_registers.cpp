@@ -267,7 +267,7 @@ Handled get_registers(Call& c) {
     const auto a = static_cast<std::uint32_t>(address), n = static_cast<std::uint32_t>(count);
     gateway.ask_modbus(
         static_cast<std::uint8_t>(unit), std::move(pdu),
-        [&gateway, unit, table = *table, a, n, function, respond = c.respond](std::optional<std::vector<std::uint8_t>> answer) {
+        [&gateway, unit, table = *table, a, n, function, respond = c.respond](const std::optional<std::vector<std::uint8_t>>& answer) {
             if (!answer || answer->size() < 2)
                 return respond(problem(503, "busy",
                                        "the Modbus door is closed or has too much to do: look at its settings, or come again in a moment"));

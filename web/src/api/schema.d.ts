@@ -1601,6 +1601,14 @@ export interface components {
             remedy: string;
         };
         Problem: {
+            /** @description of 412: the site in force */
+            current?: components["schemas"]["Site"];
+            /** @description how many parameters were read before the drive fell silent */
+            read?: number;
+            dry_run?: boolean;
+            changed?: components["schemas"]["WrittenValue"][];
+            failed?: components["schemas"]["WriteFailure"][];
+            skipped?: components["schemas"]["Skipped"][];
             /**
              * @description `urn:axisgate:problem:` and the reason
              * @example urn:axisgate:problem:not_found
@@ -4336,7 +4344,13 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            204: components["responses"]["Removed"];
+            /** @description nobody holds it now */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
             403: components["responses"]["Forbidden"];
             404: components["responses"]["NotFound"];
             409: components["responses"]["Refused"];

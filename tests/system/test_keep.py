@@ -104,7 +104,12 @@ def test_a_backup_comes_back_at_the_next_start(folder):
     head = {"Content-Type": "application/octet-stream"}
     with harness.Gateway(folder) as g:
         before = g.get("/site")
-        status, data, _ = g.request("GET", "/api/v1/backup")
+        assert g.request("GET", "/api/v1/backup")[0] == 403, "a copy of everything, names and digests too, is for administrators"
+        status, session, headers = g.request("POST", "/api/v1/session/first", {"code": g.code, "user": "anna", "password": "correct-horse-9"}, {"Content-Type": "application/json"})
+        assert status == 200, session
+        signed = {"Cookie": headers["Set-Cookie"].split(";")[0], "X-CSRF-Token": session["csrf"]}
+        head.update(signed)
+        status, data, _ = g.request("GET", "/api/v1/backup", None, signed)
         assert status == 200 and data[:15] == b"SQLite format 3"
         g.send("PATCH", "/axes/feeder", {"unit": "m"})
         assert g.request("PUT", "/api/v1/backup", b"nothing", head)[0] == 422

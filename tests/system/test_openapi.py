@@ -217,7 +217,7 @@ def test_every_write_answers_as_described(gateway):
     axis = {"name": "spare", "drive": "spare", "number": 9, "unit": "deg", "increments_per_unit": 10}
     steps = [
         ("takeAuthority", {"axis": "slide"}, {"ttl_s": 5}, 200), ("takeAuthority", {"axis": "slide"}, {"ttl_s": 0}, 422), ("takeAuthority", {"axis": "nobody"}, {}, 404),
-        ("handOverAuthority", {"axis": "slide"}, {"to": "http 127.0.0.1"}, 200), ("handOverAuthority", {"axis": "feeder"}, {"to": "x"}, 409), ("releaseAuthority", {"axis": "slide"}, None, 204),
+        ("handOverAuthority", {"axis": "slide"}, {"to": "anna"}, 200), ("handOverAuthority", {"axis": "feeder"}, {"to": "x"}, 409), ("releaseAuthority", {"axis": "slide"}, None, 204),
         ("changeModbus", {}, {"read_only": False}, 200), ("changeModbus", {}, {}, 422),
         ("addLine", {}, line, 201), ("addLine", {}, line, 409), ("addLine", {}, {"name": "x"}, 422), ("addDrive", {}, drive, 201), ("addDrive", {}, drive, 409),
         ("addDrive", {}, {**drive, "name": "other", "address": 4}, 422), ("addAxis", {}, axis, 201), ("addAxis", {}, axis, 409), ("addAxis", {}, {**axis, "name": "other"}, 422),
@@ -256,7 +256,7 @@ def test_every_write_answers_as_described(gateway):
         ("addMappingTemplate", {}, {"template": "standard_map", "axis": "feeder", "unit": 5, "address": 0}, 201),
         ("stageSite", {}, site, 200), ("discardStage", {}, None, 204), ("applyStage", {}, {}, 409), ("confirmStage", {}, None, 409), ("stageSite", {}, site, 200),
         ("applyStage", {}, {"confirm_within_s": 60}, 200), ("confirmStage", {}, None, 200), ("restoreSiteRevision", {"revision": "1"}, None, 200), ("applyStage", {}, {"confirm_within_s": 60}, 200),
-        ("rollBackStage", {}, None, 200), ("putBackup", {}, gateway.request("GET", "/api/v1/backup")[1], 202),
+        ("rollBackStage", {}, None, 200), ("putBackup", {}, client.request("GET", "/api/v1/backup")[2], 202),
         ("addLine", {}, line, 201), ("addDrive", {}, drive, 201), ("addAxis", {}, axis, 201),
         ("removeDrive", {"drive": "spare"}, None, 409), ("removeAxis", {"axis": "spare"}, None, 204), ("removeAxis", {"axis": "spare"}, None, 404), ("removeDrive", {"drive": "spare"}, None, 204),
         ("removeLine", {"line": "spare"}, None, 204), ("replaceSite", {}, site, 200),

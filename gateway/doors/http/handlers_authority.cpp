@@ -94,6 +94,9 @@ Handled take_authority(Call& c) {
         else faults.push_back({"/take_over", "take_over must be true or false", "write one of them"});
     }
     if (!faults.empty()) return invalid(std::move(faults), c.names[0]);
+    if (wish.take_over) {
+        if (auto refusal = refuse_below(c.identity, Role::engineer)) return *refusal;
+    }
     return submit_hold(c, std::move(wish), false);
 }
 

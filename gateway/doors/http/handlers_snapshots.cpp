@@ -232,7 +232,7 @@ Handled take_snapshot(Call& c) {
     AxisSnapshot s;
     s.name = std::move(*name);
     s.comment = std::move(*comment);
-    s.who = c.request.peer;
+    s.who = c.who();
     s.at_unix_ns = gateway.now_unix_ns();
     auto save = [&gateway, axis = *axis, respond = c.respond](AxisSnapshot taken, json::array left_out, json::array not_read) {
         taken.values = taken.parameters.size();

@@ -95,7 +95,7 @@ Handled apply_stage(Call& c) {
 }
 
 Handled confirm_stage(Call& c) {
-    if (auto fault = c.gateway().site_stage().check_confirm(c.request.peer, c.gateway().now_unix_ns()); !fault.empty())
+    if (auto fault = c.gateway().site_stage().check_confirm(c.who(), c.gateway().now_unix_ns()); !fault.empty())
         return conflict(std::move(fault));
     c.gateway().confirm_stage(c.origin(), [&gateway = c.gateway(), respond = c.respond](const std::string& fault) {
         respond(fault.empty() ? stage_answer(gateway) : problem(507, "not_stored", fault));

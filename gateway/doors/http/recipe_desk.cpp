@@ -85,7 +85,7 @@ std::variant<json::object, Problem> RecipeDesk::start(const std::string& name, R
     a->axes = std::move(axes);
     a->arguments = std::move(arguments);
     a->who = origin.who ? *origin.who : "";
-    a->origin = {origin.door, std::make_shared<const std::string>(fmt::format("recipe {} by {}", name, a->who))};
+    a->origin = {origin.door, std::make_shared<const std::string>(fmt::format("recipe {} by {}", name, a->who)), origin.client};
     a->run = std::make_unique<RecipeRun>(std::move(recipe), clock_());
     active_.push_back(a);
     std::string with;

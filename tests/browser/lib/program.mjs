@@ -30,6 +30,7 @@ export class Process {
       const look = (piece) => {
         output = (output + piece).slice(-20_000);
         if (!(p.said = ready.exec(output))) return;
+        p.code = /first sign-in: code (\S+)/.exec(output)?.[1];
         clearTimeout(limit);
         resolve();
       };

@@ -19,7 +19,7 @@ TEST_F(HttpTest, ProblemsHaveTheMembersOfRfc9457) {
 
 TEST_F(HttpTest, UnknownPathsAreProblems) {
     for (const auto* path :
-         {"/api", "/api/", "/api/v1", "/api/v1/", "/api/v2/axes", "/api/v1/recipes", "/api/v1/axes/feeder/nothing",
+         {"/api", "/api/", "/api/v1", "/api/v1/", "/api/v2/axes", "/api/v1/recipe", "/api/v1/axes/feeder/nothing",
           "/api/v1/axes/", "/api/v1/axes/feeder/", "/api/v1//axes", "/api/v1/axes/feeder/commands/1", "/api/v1/Axes"}) {
         for (const auto* method : {"GET", "POST", "OPTIONS"}) {
             const auto a = call(method, path, method == std::string_view("POST") ? "{}" : "");

@@ -113,7 +113,7 @@ TEST_F(Keep, AStagedSiteIsShownAppliedAndRolledBack) {
     EXPECT_EQ(applied.at("state"), "applied");
     EXPECT_EQ(call("PATCH", "/api/v1/axes/feeder", R"({"unit":"m"})").status, 409u) << "no other change while one is on trial";
     auto other = request("POST", "/api/v1/site/stage/confirm");
-    other.peer = "192.0.2.9:1";
+    other.peer = "127.0.0.9:1";
     EXPECT_EQ(send(other).status, 409u) << "only who applied it";
     EXPECT_EQ(do_call("POST", "/api/v1/site/stage/roll-back").at("state"), "none");
     EXPECT_EQ(gateway.site()->site.axes.size(), 2u);

@@ -180,7 +180,7 @@ export class SiteDraft {
 
   private verdict(): string {
     const n = this.faults.peek().length;
-    if (n > 0) throw new Error(n === 1 ? 'One fault must be mended.' : `${n} faults must be mended.`);
+    if (n > 0) throw new Error(faultWords(n));
     return 'Checked: it can be applied.';
   }
   private judge(site: Site, faults: SiteFault[], disturbs: string[]): void {
@@ -211,9 +211,12 @@ export class SiteDraft {
       const p = asProblem(error);
       if (p.document.faults) this.judge(this.draft.peek(), p.document.faults, []);
       if (p.status === 412) await this.load();
-      const words = p.kind === 'unreachable' && error instanceof Error ? error.message : p.status === 412 ? 'Somebody else has changed the site meanwhile; what you typed is kept.' : p.words;
+      const n = p.document.faults?.length ?? 0;
+      const words = n > 0 ? faultWords(n) : p.kind === 'unreachable' && error instanceof Error ? error.message : p.status === 412 ? 'Somebody else has changed the site meanwhile; what you typed is kept.' : p.words;
       this.told.value = { tone: 'refused', text: words.charAt(0).toUpperCase() + words.slice(1) };
       return false;
     }
   }
 }
+
+const faultWords = (n: number): string => (n === 1 ? 'One fault must be mended.' : `${n} faults must be mended.`);

@@ -73,6 +73,7 @@ void LineAdapter::configure(const LineSetup& setup, Instant now, Out& out) {
             flight_ = {};
         }
         if (dirty_ == n.get()) dirty_ = nullptr;
+        if (answered_ == n.get()) answered_ = nullptr;
     }
     nodes_ = std::move(kept);
     const bool alone = setup.drives.size() == 1;
@@ -104,6 +105,7 @@ void LineAdapter::on_line(bool up, Instant now, Out& out) {
     flight_ = {};
     stray_.clear();
     dirty_ = nullptr;
+    answered_ = nullptr;
     dirty_until_ = quiet_until_ = now;
     for (auto& n : nodes_)
         up ? n->line_up(t) : n->line_down(t, "the line went down");
@@ -143,14 +145,24 @@ void LineAdapter::stray(std::string_view bytes, Turn& t) {
         }
         ++counters_.unexpected;
         if (!stray_.empty() && stray_.front() == '#') {
-            if (!last_mark_.empty() && stray_.starts_with(last_mark_) && from) {
-                from->note(Severity::warning, "protocol", 0, "the same question was answered twice: two drives may have the same name", t);
-            }
+            look_for_twice(stray_, t);
         } else if (from) {
             from->foreign(stray_, t);
         }
         stray_.clear();
     }
+}
+
+/// The mark of an answered question again, and not as part of an echo: somebody else has answered it too.
+void LineAdapter::look_for_twice(std::string_view text, Turn& t) {
+    if (!answered_ || answered_mark_.empty()) return;
+    const auto at = text.find(answered_mark_);
+    if (at == std::string_view::npos || at + answered_mark_.size() >= text.size() || text[at + answered_mark_.size()] == '"') return;
+    answered_->note(Severity::warning, "protocol", 0,
+                    fmt::format("{} answered the same question twice: two drives may have the same name {}", answered_->name(),
+                                answered_->setup().address),
+                    t);
+    answered_mark_.clear();
 }
 
 void LineAdapter::on_frame(const Frame& frame, Instant now, Out& out) {
@@ -168,6 +180,9 @@ void LineAdapter::on_frame(const Frame& frame, Instant now, Out& out) {
     const Verdict v = reader_.push(bytes);
     if (flight_.kind == Expect::Kind::block) {
         flight_.deadline = std::min(flight_.latest, now + manners_.reply_timeout / 2 + wire(24));
+    } else if (v == Verdict::waiting && reader_.maybe_refused()) {
+        // Speaking into an answer that still comes would spoil the next one too. 25 ms: what USB converters hold bytes back, and more.
+        flight_.deadline = std::min(flight_.latest, now + 25ms + wire(16));
     } else if (v == Verdict::waiting) {
         // Half an answer: the rest is on its way, but noise must not hold the line for ever.
         flight_.deadline = std::min(flight_.latest, std::max(flight_.deadline, now + 10ms + wire(16)));
@@ -189,7 +204,7 @@ void LineAdapter::start(Node& node, Turn& t) {
         bytes = r.raw;
     } else if (r.kind == Expect::Kind::query) {
         mark_ = (mark_ + 1) % static_cast<unsigned>(marks.size());
-        e.mark = last_mark_ = fmt::format("#{}", marks[mark_]);
+        e.mark = fmt::format("#{}", marks[mark_]);
         bytes = request(node.link(), fmt::format("PR \"{}\",{}{}", e.mark, r.text, r.end_mark ? ",\"~\"" : ""));
     } else {
         bytes = request(node.link(), r.text);
@@ -223,6 +238,12 @@ void LineAdapter::finish(Verdict v, Turn& t) {
     if (v == Verdict::answered && f.kind == Expect::Kind::query && !reader_.before().empty()) {
         const std::string& before = reader_.before();
         if (before.find("\r\n") != std::string::npos && before.size() > 3 && node.runs_program()) node.foreign(before, t);
+    }
+    look_for_twice(reader_.before(), t);
+    if (f.kind == Expect::Kind::query && v == Verdict::answered) {
+        answered_mark_ = fmt::format("#{}", marks[mark_]);
+        answered_ = &node;
+        look_for_twice(reader_.behind(), t);
     }
     node.ended(v, reader_, t);
 }

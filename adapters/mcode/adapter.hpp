@@ -30,6 +30,7 @@ private:
     void start(Node& node, Turn& t);
     void finish(Verdict v, Turn& t);
     void stray(std::string_view bytes, Turn& t);
+    void look_for_twice(std::string_view text, Turn& t);
     [[nodiscard]] bool held(const Node& n, Instant now) const noexcept;
 
     const Catalogue& catalogue_;
@@ -49,9 +50,10 @@ private:
     } flight_;
     ReplyReader reader_;
     unsigned mark_ = 0;
-    std::string last_mark_;
-    Instant quiet_until_{};  ///< LineManners::pause
-    Instant dirty_until_{};  ///< answers of an exchange that was given up may come until then
+    std::string answered_mark_;  ///< of the last question that was answered: seen again, two drives answer to one name
+    Node* answered_ = nullptr;   ///< by whom
+    Instant quiet_until_{};      ///< LineManners::pause
+    Instant dirty_until_{};      ///< answers of an exchange that was given up may come until then
     const Node* dirty_ = nullptr;
     std::string stray_;  ///< bytes while nobody was asked, at most 256
 };

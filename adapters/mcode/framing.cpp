@@ -17,6 +17,8 @@ void ReplyReader::begin(Expect expect) {
     raw_.clear();
     data_.clear();
     before_.clear();
+    behind_.clear();
+    maybe_refused_ = false;
 }
 
 Verdict ReplyReader::push(std::string_view bytes) {
@@ -56,7 +58,10 @@ Verdict ReplyReader::look(bool over) {
         at = all.find(expect_.mark, at + 1);
     }
     if (at == std::string_view::npos || at + expect_.mark.size() >= all.size()) {
-        if (all.find(nak) != std::string_view::npos && expect_.checksum) return Verdict::refused;
+        if (all.find(nak) != std::string_view::npos && expect_.checksum) {
+            maybe_refused_ = true;
+            return over ? Verdict::refused : Verdict::waiting;
+        }
         const bool told = all.find("\r\n") != std::string_view::npos;
         if (told && expect_.prompt && all.back() == '?') return Verdict::refused;
         if (over && (all.find(nak) != std::string_view::npos || (told && !expect_.checksum))) return Verdict::refused;
@@ -90,6 +95,7 @@ Verdict ReplyReader::look(bool over) {
         return Verdict::garbled;
     }
     data_ = part;
+    behind_ = all.substr(end + 2);
     before_ = all.substr(0, at);
     return Verdict::answered;
 }

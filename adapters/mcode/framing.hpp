@@ -48,10 +48,16 @@ public:
     /// What came before the answer and is none: output of programs, noise.
     [[nodiscard]] const std::string& before() const noexcept { return before_; }
 
+    /// Question: what came behind its answer in the same run.
+    [[nodiscard]] const std::string& behind() const noexcept { return behind_; }
+    /// Question: a NAK has come and no data: refused, unless data follow soon (then the NAK was noise).
+    [[nodiscard]] bool maybe_refused() const noexcept { return maybe_refused_; }
+
 private:
     [[nodiscard]] Verdict look(bool over);
     Expect expect_;
-    std::string raw_, data_, before_;
+    std::string raw_, data_, before_, behind_;
+    bool maybe_refused_ = false;
 };
 
 /// Text of a native answer: without echo of the request, ACK, NAK, checksum, prompt and outer line ends.

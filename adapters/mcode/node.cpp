@@ -120,6 +120,11 @@ void Node::came(Turn& t) {
     next_poll_ = t.now;
 }
 
+std::string Node::not_understood() const {
+    return fmt::format("{}: what answers to {} is not understood: noise, another rate, or two drives with this name", name(),
+                       setup_.address);
+}
+
 void Node::count_silence(Turn& t) {
     ++silent_;
     ++counters_.timeouts;
@@ -127,9 +132,10 @@ void Node::count_silence(Turn& t) {
     if (phase_ == Phase::absent) {
         retry_pause_ = std::min(2 * retry_pause_, manners_.pause_max);
         next_probe_ = t.now + retry_pause_;
-        link_state(false, fmt::format("{} does not answer to {}", name(), setup_.address), t);
+        link_state(false, babble_ ? not_understood() : fmt::format("{} does not answer to {}", name(), setup_.address), t);
     } else if (gone) {
-        go_absent(t, fmt::format("{} has not answered to {} {} times in a row", name(), setup_.address, silent_));
+        go_absent(t,
+                  babble_ ? not_understood() : fmt::format("{} has not answered to {} {} times in a row", name(), setup_.address, silent_));
     } else if (phase_ == Phase::probing) {
         next_probe_ = t.now;
     }
@@ -292,6 +298,8 @@ void Node::ended(Verdict v, const ReplyReader& reader, Turn& t) {
         if (v != Verdict::refused) ++counters_.exchanges;
         silent_ = 0;
     }
+    // An echo is silence; anything else is somebody who is not understood.
+    babble_ = !heard && reader.raw().find("PR \"#") == std::string::npos && reader.raw().find_first_not_of("\r\n") != std::string::npos;
     const bool mode_line = mode_flight_;
     mode_line_ended(v);
     switch (purpose_) {
@@ -355,13 +363,17 @@ void Node::ended(Verdict v, const ReplyReader& reader, Turn& t) {
         case What::step:
             return step_ended(v, reader, t);
         case What::poll:
+            if (v != Verdict::refused) poll_refusals_ = 0;
             if (v == Verdict::answered && learn_poll(reader.data(), t)) {
                 if (ef_) {
                     need_error_ = true;
                     error_is_ours_ = false;
                 }
             } else if (v == Verdict::refused) {
-                // Its link may have changed: a restart has brought back EM and CK of its memory.
+                // One may be noise. Two: its link has changed; a restart has brought back EM and CK of its memory.
+                next_poll_ = t.now;
+                if (++poll_refusals_ < 2) return;
+                poll_refusals_ = 0;
                 phase_ = Phase::probing;
                 next_probe_ = t.now;
                 ++silent_;
@@ -409,8 +421,7 @@ void Node::probe_ended(Verdict v, const std::string& data, Turn& t) {
     next_probe_ = t.now;
     if (silent_ > 2U * static_cast<std::uint32_t>(manners_.silent_limit) || phase_ == Phase::absent) {
         if (phase_ == Phase::absent) retry_pause_ = std::min(2 * retry_pause_, manners_.pause_max);
-        go_absent(t,
-                  fmt::format("what answers to {} is not understood: noise, another rate, or two drives with this name", setup_.address));
+        go_absent(t, not_understood());
         // NAK is a drive that is there: the other way is tried soon.
         if (v == Verdict::refused) next_probe_ = t.now + manners_.pause_min;
     }

@@ -153,6 +153,7 @@ private:
     void go_absent(Turn& t, std::string why);
     void came(Turn& t);
     void count_silence(Turn& t);
+    [[nodiscard]] std::string not_understood() const;
     void probe_ended(Verdict v, const std::string& data, Turn& t);
     void startup_ended(Verdict v, const std::string& data, Turn& t);
     void stop_ended(Verdict v, const ReplyReader& r, Turn& t);
@@ -197,6 +198,8 @@ private:
 
     Phase phase_ = Phase::down;
     std::uint32_t silent_ = 0;
+    bool babble_ = false;  ///< the last exchange without an answer was not without bytes
+    int poll_refusals_ = 0;
     Duration retry_pause_{};
     Instant next_probe_ = never, next_poll_ = never;
     bool shown_online_ = false;

@@ -12,7 +12,7 @@
 
 namespace axisgate::mcode::test {
 
-struct LineBench final : LineEvents {
+struct LineBench : LineEvents {
     struct Sent {
         Instant at;
         std::string bytes;
@@ -65,9 +65,11 @@ struct LineBench final : LineEvents {
         adapter.configure(setup, now, out);
         drain();
     }
+    /// Gives a drive a position of its own, to be told from the others'.
     void put(std::size_t drive, std::int64_t position) {
-        const DriveId key{static_cast<std::uint16_t>(drive)};
-        EXPECT_EQ(bus->set_hand(key, "position", Value{position}, now), "");
+        EXPECT_EQ(wait(SetPosition{position}, drive).outcome, Outcome::done);
+        run(1s);
+        EXPECT_EQ(feedback[AxisId{static_cast<std::uint16_t>(drive)}].position, position);
     }
     /// From now on a feedback of this axis with another position counts as `wrong`.
     void expect(std::size_t drive) {

@@ -105,7 +105,9 @@ TEST(Framing, SpoiledHalfAndRefused) {
     EXPECT_EQ(r.push(good.substr(0, 4)), Verdict::waiting);
     EXPECT_EQ(r.give_up(), Verdict::waiting) << "cut in the middle";
     r.begin(e);
-    EXPECT_EQ(r.push("\x15"), Verdict::refused);
+    EXPECT_EQ(r.push("\x15"), Verdict::waiting) << "noise, if data follow";
+    EXPECT_TRUE(r.maybe_refused());
+    EXPECT_EQ(r.give_up(), Verdict::refused);
     e.checksum = false;
     r.begin(e);
     EXPECT_EQ(r.push("\r\n"), Verdict::waiting);

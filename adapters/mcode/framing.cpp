@@ -102,7 +102,14 @@ Verdict ReplyReader::look(bool over) {
 
 std::string plain_text(std::string_view raw, std::string_view sent, bool with_checksum) {
     std::string s(raw);
-    if (const auto at = s.find(sent); !sent.empty() && at != std::string::npos) s.erase(at, sent.size());
+    // An echo stands at the beginning of a line and ends it; the request may be as short as L, a letter of many answers.
+    for (auto at = sent.empty() ? std::string::npos : s.find(sent); at != std::string::npos; at = s.find(sent, at + 1)) {
+        const auto end = at + sent.size();
+        const auto control = [&](std::size_t i) { return static_cast<std::uint8_t>(s[i]) < 0x20; };
+        if ((at > 0 && !control(at - 1)) || (end < s.size() && !control(end))) continue;
+        s.erase(at, sent.size());
+        break;
+    }
     std::erase_if(s, [&](char c) { return c == ack || c == nak || c == '\0' || (with_checksum && static_cast<std::uint8_t>(c) >= 0x80); });
     const auto outer = [](char c) { return c == cr || c == lf; };
     while (!s.empty() && is_prompt(s.back()) && (s.size() == 1 || outer(s[s.size() - 2])))

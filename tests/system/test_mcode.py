@@ -2,6 +2,8 @@
 import json
 import pathlib
 import subprocess
+import re
+import socket
 import time
 
 from harness import Gateway, Port, Process, run, until
@@ -104,3 +106,45 @@ def test_a_program_is_stored_started_and_stopped_by_http(folder):
         recording = g.get("/lines/rs485/trace?limit=300")
         code, out, err = run("decode", "mcode", "--format", "trace", stdin=json.dumps(recording))
         assert code == 0 and len(out.splitlines()) > 20, (out[:300], err)
+
+
+def over_ethernet(folder, twin_uri, scheme):
+    with Process("twin", "mcode", "--line", twin_uri, "--option", "ethernet=true") as drive:
+        if scheme == "tcp":
+            port = re.search(r"127\.0\.0\.1:(\d+)", drive.ready).group(1)
+        else:
+            port = twin_uri.rsplit(":", 1)[1]
+        site = {"lines": [{"name": "lan", "uri": f"{scheme}:127.0.0.1:{port}", "family": "mcode", "options": {"ethernet": "on"}}],
+                "drives": [{"name": "lexium", "line": "lan", "address": "!", "presence": "device"}],
+                "axes": [{"name": "lift", "drive": "lexium", "channel": 1, "number": 1, "unit": "mm", "increments_per_unit": 1000}]}
+        with Gateway(folder, site) as g:
+            until(lambda: g.axis("lift")["online"] and not g.axis("lift")["simulated"], 15, "the drive serves over " + scheme)
+            assert g.command("lift", {"command": "enable"})["result"] == "done"
+            move = {"command": "move_absolute", "position": 25.6, "velocity": 100, "acceleration": 1000, "deceleration": 1000}
+            assert g.command("lift", move)["result"] == "done"
+            assert g.axis("lift")["position_increments"] == 25600
+
+            def act(name, argument="", status=200):
+                return g.send("POST", "/axes/lift/actions", {"name": name, "argument": argument}, status)
+            time.sleep(1.3)  # MV stays on for MT and HT, one second from the factory
+            assert act("program.download", "PG 1\nLB G1\nMR 1000\nH\nE\nPG\n")["result"] == "done"
+            assert "MR 1000" in act("program.list")["text"]
+            g.command("lift", {"command": "move_velocity", "velocity": 50})
+            until(lambda: g.axis("lift")["position_increments"] > 30000, 10, "it runs")
+            assert g.command("lift", {"command": "quick_stop"})["result"] == "done"
+            first = g.axis("lift")["position_increments"]
+            time.sleep(0.4)
+            assert g.axis("lift")["position_increments"] == first
+            drive.stop()
+            until(lambda: not g.axis("lift")["online"], 15, "the loss of the drive is seen over " + scheme)
+
+
+def test_mcode_over_tcp_with_one_drive(folder):
+    over_ethernet(folder, "tcp-listen:127.0.0.1:0", "tcp")
+
+
+def test_mcode_over_udp_with_one_drive(folder):
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as s:
+        s.bind(("127.0.0.1", 0))
+        port = s.getsockname()[1]
+    over_ethernet(folder, f"udp-listen:127.0.0.1:{port}", "udp")

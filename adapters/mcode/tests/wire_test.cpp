@@ -113,6 +113,11 @@ TEST(Framing, SpoiledHalfAndRefused) {
     EXPECT_EQ(r.push("\r\n"), Verdict::waiting);
     EXPECT_EQ(r.give_up(), Verdict::refused) << "the line was obeyed, and nothing printed";
 }
+TEST(Framing, OnlyAnEchoIsTakenOutOfANativeAnswer) {
+    EXPECT_EQ(plain_text("\r\n1 LB G1\r\n2 E\r\n", "L", false), "1 LB G1\r\n2 E") << "the request is a letter of its answer";
+    EXPECT_EQ(plain_text("L\r\n1 LB G1\r\n>", "L", false), "1 LB G1");
+    EXPECT_EQ(plain_text("aL\n\r\n1 LB aL\r\n", "aL", false), "1 LB aL");
+}
 TEST(Framing, SeveralLinesUpToTheEndMark) {
     Expect e;
     e.mark = "#c";

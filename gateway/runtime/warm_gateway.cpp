@@ -249,6 +249,10 @@ void WarmGateway::apply_site(Site site, std::uint64_t expected_revision, Origin 
     change.drives.emplace();
     for (const auto& a : site.axes) change.axes->push_back(a.name);
     for (const auto& d : site.drives) change.drives->push_back(d.name);
+    if (on_trial_) {
+        for (const auto& a : trial_base_.axes) change.axes->push_back(a.name);
+        for (const auto& d : trial_base_.drives) change.drives->push_back(d.name);
+    }
     cold_.run([this, site = std::move(site), who = origin.text(), change = std::move(change), e = std::move(e), then = std::move(then)](Store& store) mutable {
         const auto saved = store.save_site(boost::json::serialize(to_json(site)), who, unix_now_ns(), change);
         if (!saved) {

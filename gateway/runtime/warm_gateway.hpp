@@ -112,6 +112,8 @@ private:
     SiteStage stage_;
     boost::asio::steady_timer trial_{io_};
     Site trial_base_;  // what an applied stage is taken back to
+    bool on_trial_ = false;    ///< the site that is being put in force may be taken back: what the store knows by name stays until it is confirmed
+    bool confirming_ = false;  ///< the disk is asked; until it has answered nothing is rolled back
     Instant started_;
 };
 

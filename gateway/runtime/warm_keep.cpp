@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <boost/asio/post.hpp>
+#include <boost/json/serialize.hpp>
 #include <filesystem>
 #include <fstream>
 
@@ -85,12 +86,14 @@ void WarmGateway::apply_stage(std::uint32_t confirm_within_s, Origin origin, std
     }
     trial_base_ = site_->site;
     auto apply = [this, confirm_within_s, origin, then = std::move(then)] {
+        on_trial_ = confirm_within_s != 0;
         apply_site(stage_.site(), stage_.base_revision(), origin, [this, confirm_within_s, then](SiteAnswer answer) {
             stage_.applied(answer.good);
             if (answer.good && confirm_within_s != 0) arm_trial(std::chrono::seconds(confirm_within_s));
             if (!answer.good && confirm_within_s != 0) cold_.run([](Store& store) { (void)unmark_trial(store); });
             then(std::move(answer));
         });
+        on_trial_ = false;
     };
     if (confirm_within_s == 0) return apply();
     cold_.run([this, to = site_->revision, who = stage_.by(), by = stage_.confirm_by_unix_ns(), apply = std::move(apply),
@@ -111,10 +114,18 @@ void WarmGateway::confirm_stage(Origin origin, std::function<void(std::string fa
         boost::asio::post(io_, [fault = std::move(fault), then = std::move(then)] { then(fault); });
         return;
     }
+    if (confirming_) {
+        boost::asio::post(io_, [then = std::move(then)] { then("it is being confirmed already"); });
+        return;
+    }
+    confirming_ = true;
     trial_.cancel();  // from here on it is the disk that decides, and its answer comes
-    cold_.run([this, origin = std::move(origin), then = std::move(then)](Store& store) {
+    cold_.run([this, site = site_->site, origin = std::move(origin), then = std::move(then)](Store& store) {
         const auto done = unmark_trial(store);
+        // The same text is not stored again; what the store knew of names that are gone now goes.
+        if (done) (void)store.save_site(boost::json::serialize(to_json(site)), origin.text(), unix_now_ns(), names_of(site));
         boost::asio::post(io_, [this, origin, then, good = bool(done), fault = done ? std::string() : done.error().text] {
+            confirming_ = false;
             if (good) {
                 stage_.confirmed();
                 tell_site("the applied site was confirmed", origin, Severity::info);
@@ -131,6 +142,10 @@ void WarmGateway::roll_back_stage(Origin origin, std::function<void(SiteAnswer)>
         boost::asio::post(io_, [this, then = std::move(then)] {
             then({false, "no applied site waits to be confirmed: there is nothing to roll back", site_});
         });
+        return;
+    }
+    if (confirming_) {
+        boost::asio::post(io_, [this, then = std::move(then)] { then({false, "the applied site is being confirmed just now", site_}); });
         return;
     }
     std::string why = fmt::format("the site that {} applied was rolled back on demand", stage_.by());

@@ -64,6 +64,28 @@ def test_a_confirmed_site_stays_and_an_older_one_can_be_restored(gateway):
     assert gateway.get("/site") == before and gateway.get("/site/stage")["state"] == "none"
 
 
+def test_what_was_written_to_a_removed_axis_comes_back_with_it_until_its_removal_is_confirmed(gateway):
+    def written():
+        return gateway.get("/axes/slide/parameters/AC?cached=1")["written_at"]
+    gateway.send("PUT", "/axes/slide/parameters/AC", {"value": 23456})
+    before = written()
+    assert before
+    site = gateway.get("/site")
+    without = dict(site, axes=[a for a in site["axes"] if a["name"] != "slide"], drives=[d for d in site["drives"] if d["name"] != "slide"])
+    gateway.send("POST", "/site/stage", without)
+    gateway.send("POST", "/site/stage/apply", {"confirm_within_s": 600})
+    assert len(gateway.get("/axes")) == 1
+    gateway.send("POST", "/site/stage/roll-back", None)
+    assert written() == before
+    harness.until(lambda: gateway.get("/axes/slide")["online"], 10, "slide is back")
+    assert gateway.get("/axes/slide/parameters/AC")["value"] == 23456, "the twin's memory came back too"
+    gateway.send("POST", "/site/stage", without)
+    gateway.send("POST", "/site/stage/apply", {"confirm_within_s": 600})
+    gateway.send("POST", "/site/stage/confirm", None)
+    gateway.send("PUT", "/site", site)
+    assert written() is None, "confirmed: the next axis of that name begins anew"
+
+
 def killed(gateway):
     os.kill(gateway.process.pid, signal.SIGKILL)
     gateway.process.wait()

@@ -219,10 +219,22 @@ void Node::plan_action(const Action& a, Turn& t) {
         line("FD", false);
     } else if (a.name == "line.setup") {
         if (!link().party()) return refuse(Reason::not_supported, "a drive at address ! stays in single mode and needs no setting up");
+        if (!a.argument.empty() && a.argument != "save") {
+            return refuse(Reason::out_of_range, fmt::format("line.setup {}: write save, or nothing", a.argument));
+        }
+        if (phase_ == Phase::ready) {
+            return refuse(Reason::wrong_state,
+                          fmt::format("a drive answers to {} already: line.setup names the fresh drive that is missing", setup_.address));
+        }
         job_.kind = JobKind::setup;
-        job_.add(Step::What::bare, fmt::format("DN=\"{}\"\r", setup_.address));
-        job_.add(Step::What::bare, "PY=1\r");
-        job_.text = "the drive that was in single mode has its name now; program.save keeps it";
+        // The fresh drive has taken all that was said to the others for the beginning of a line: CR ends it. A LF before each line ends
+        // what a drive in party mode whose name is its first letter has taken for its own. Each waits until the line is silent.
+        for (const auto& raw :
+             {std::string("\n"), std::string("\r"), fmt::format("DN=\"{}\"\r", setup_.address), std::string("\n"), std::string("PY=1\r")}) {
+            job_.add(Step::What::bare, raw);
+        }
+        job_.text = a.argument.empty() ? fmt::format("a fresh drive answers to {} now; program.save keeps it", setup_.address)
+                                       : fmt::format("a fresh drive answers to {} now, and has saved it", setup_.address);
     } else if (a.name == "reset") {
         if (!manners_.alone) {
             return refuse(Reason::not_supported,

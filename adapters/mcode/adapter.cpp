@@ -216,7 +216,8 @@ void LineAdapter::start(Node& node, Turn& t) {
     flight_.kind = e.kind;
     const Duration expected = e.kind == Expect::Kind::nothing ? Duration{20ms} : manners_.reply_timeout + wire(64) + r.patience;
     flight_.deadline = t.now + wire(bytes.size()) + expected;
-    flight_.latest = flight_.deadline + (e.kind == Expect::Kind::block ? Duration{60s} : Duration{wire(512) + 200ms});
+    // Drives that echo one another without end (line.setup with two fresh ones) hold the line for a second at most.
+    flight_.latest = flight_.deadline + (e.kind == Expect::Kind::block ? Duration{r.raw.empty() ? 60s : 1s} : Duration{wire(512) + 200ms});
     reader_.begin(std::move(e));
     for_each_run({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, [&](const Frame& f) {
         t.out.send(f, r.urgent ? Priority::urgent : r.purpose == Request::Purpose::poll ? Priority::poll : Priority::command);

@@ -328,9 +328,16 @@ void Node::step_done(Turn& t) {
             derive(t);
             emit(t);
             break;
-        case JobKind::setup:
-            begin_probing(t);
-            break;
+        case JobKind::setup: {
+            // It is looked for by its name, and given EM, CK and ES; S comes behind them, so that they are kept too.
+            const auto* action = std::get_if<Action>(&job_.command.body);
+            job_.kind = JobKind::named;
+            job_.steps.clear();
+            job_.at = 0;
+            job_.give_up = t.now + 5s;
+            if (action && action->argument == "save") job_.add(Step::What::send, "S");
+            return begin_probing(t);
+        }
         default:
             break;
     }

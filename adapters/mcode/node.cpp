@@ -118,6 +118,7 @@ void Node::came(Turn& t) {
     seen_ = false;
     link_state(true, identity_.empty() ? fmt::format("answers to {}", setup_.address) : identity_, t);
     next_poll_ = t.now;
+    if (job_.kind == JobKind::named && job_.steps.empty()) job_over(Outcome::done, Reason::none, job_.text, t);
 }
 
 std::string Node::not_understood() const {
@@ -149,7 +150,7 @@ Node::Want Node::wants(Instant now) const noexcept {
             return Want::nothing;
         case Phase::probing:
         case Phase::absent:
-            if (job_.kind == JobKind::setup) return Want::other;
+            if (job_.kind == JobKind::setup) return Want::urgent;  // nothing for others in between: the fresh drive would take it too
             return now >= next_probe_ ? Want::other : Want::nothing;
         case Phase::linking:
         case Phase::starting:
@@ -213,6 +214,7 @@ Request Node::next(Turn& t) {
         const Step& step = job_.steps[job_.at];
         r = say(What::step, {});
         r.raw = step.text;
+        r.kind = Expect::Kind::block;  // EM is not known: nothing may be said before its last prompt is over
         return r;
     }
     switch (phase_) {
@@ -302,6 +304,7 @@ void Node::ended(Verdict v, const ReplyReader& reader, Turn& t) {
     babble_ = !heard && reader.raw().find("PR \"#") == std::string::npos && reader.raw().find_first_not_of("\r\n") != std::string::npos;
     const bool mode_line = mode_flight_;
     mode_line_ended(v);
+    if (job_.kind == JobKind::named && phase_ != Phase::ready && t.now >= job_.give_up) return go_absent(t, not_understood());
     switch (purpose_) {
         case What::leave:
             return leave_ended(v, reader, t);
@@ -660,10 +663,12 @@ void Node::fail_all(Reason reason, const std::string& text, Turn& t) {
         result(c, Outcome::failed, reason, text, t);
     }
     if (job_.kind != JobKind::none) {
-        const bool touched = job_.memory_touched;
+        std::string said = text;
+        if (job_.memory_touched) said += "; the program memory is cleared or incomplete: download again";
+        if (job_.kind == JobKind::named) said += "; no fresh drive took the name, or more than one did: power up one alone";
         const Command c = job_.command;
         job_ = {};
-        result(c, Outcome::failed, reason, touched ? text + "; the program memory is cleared or incomplete: download again" : text, t);
+        result(c, Outcome::failed, reason, std::move(said), t);
     }
     while (!queue_.empty()) {
         const Command c = std::move(queue_.front());

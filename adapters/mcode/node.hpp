@@ -103,7 +103,8 @@ private:
         list,
         upload,
         download,
-        setup,
+        setup,  ///< line.setup: the fresh drive gets its name
+        named,  ///< line.setup: it is looked for by its name, then saves if asked
         restart
     };
     struct Step {

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # bench: runs every benchmark of a release build, in less than three minutes. For an idle machine; not a part of the ordinary tests.
-#   tests/bench/run.sh BUILD_DIR [NAME...]      NAME: round, write, program, modbus, modbus_program
+#   tests/bench/run.sh BUILD_DIR [NAME...]      NAME: round, write, mcode, program, modbus, modbus_program
 # In: BUILD_DIR/bench_* and BUILD_DIR/axisgate. Out: per figure the ratio, the limit it is measured against, and both figures; at the end
 # "N passed, N failed", where what is beyond its limit has failed.
 set -euo pipefail
@@ -39,6 +39,7 @@ wanted=("$@")
 echo "load of the machine before: $(cut -d' ' -f1-3 /proc/loadavg), processors: $(nproc)"
 bench round 60 "$(find_program bench_round)"
 bench write 60 "$(find_program bench_write)" "$(find_program axisgate)"
+bench mcode 20 "$(find_program bench_mcode)"
 bench program 60 /usr/bin/python3 "$here/bench_program.py" "$(find_program axisgate)"
 bench modbus_program 120 /usr/bin/python3 "$here/bench_modbus_program.py" "$(find_program axisgate)" "$(find_program bench_modbus)"
 bench modbus 100 "$(find_program bench_modbus)" --seconds 1.5

@@ -9,6 +9,13 @@
 namespace axisgate::mcode {
 using namespace std::chrono_literals;
 
+namespace {
+/// QD and ^ choose who hears a line, not when it acts, and a line to * has one target for all [L4991, L5034].
+constexpr std::string_view no_prepared_start =
+    "MCode has no motion that is loaded now and started later, and one line to all drives has one target for all; a stored program in "
+    "each drive that waits for the same input, or EX to each drive in turn, is what the language offers";
+}  // namespace
+
 bool Node::is_motion(const CommandBody& b) noexcept {
     return std::holds_alternative<Move>(b) || std::holds_alternative<Home>(b) || std::holds_alternative<StartTogether>(b);
 }
@@ -115,14 +122,13 @@ void Node::plan(const Command& c, Turn& t) {
         plan_action(*action, t);
     } else {
         job_.kind = JobKind::plain;
-        return job_over(Outcome::refused, Reason::not_supported,
-                        fmt::format("{} is nothing that a drive of this family can do: it has no prepared start", name_of(b)), t);
+        return job_over(Outcome::refused, Reason::not_supported, fmt::format("{}: {}", name_of(b), no_prepared_start), t);
     }
 }
 
 void Node::plan_move(const Move& m, Turn& t) {
     const auto refuse = [&](Reason r, std::string why) { job_over(Outcome::refused, r, std::move(why), t); };
-    if (m.prepare_only) return refuse(Reason::not_supported, "MCode has no motion that is loaded now and started later");
+    if (m.prepare_only) return refuse(Reason::not_supported, std::string(no_prepared_start));
     if (!de_) return refuse(Reason::wrong_state, fmt::format("{} is off (DE=0): enable it first", name()));
     const bool velocity = m.kind == Move::Kind::velocity;
     const std::int64_t least_rate = encoder_mode_ ? 6 : 66, most_rate = encoder_mode_ ? 44'000'000 : 1'100'000'000;

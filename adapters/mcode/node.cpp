@@ -7,6 +7,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 namespace axisgate::mcode {
 using namespace std::chrono_literals;
@@ -14,7 +15,7 @@ using What = Request::Purpose;
 
 namespace {
 /// Read one after the other when a drive was found; what it refuses is left unknown.
-constexpr std::array<std::string_view, 5> startup_items{"ER", "PN", "VR", "AS", "VI,\",\",VM,\",\",A,\",\",D,\",\",EE"};
+constexpr std::array<std::string_view, 6> startup_items{"ER", "PN", "VR", "AS", "VI,\",\",VM,\",\",A,\",\",D,\",\",EE", "IF"};
 
 std::optional<std::int64_t> whole(std::string_view s) {
     double v = 0;
@@ -192,6 +193,7 @@ std::string Node::poll_text() const {
     std::string s = R"(P,",",V,",",MV,MP,VC,DE,EF,BY)";
     if (encoder_) s += ",ST";
     if (hmt_) s += ",LR";
+    if (tells_input_) s += ",IF";
     return s;
 }
 
@@ -458,6 +460,9 @@ void Node::startup_ended(Verdict v, const std::string& data, Turn& t) {
                 encoder_mode_ = whole(f[4]).value_or(0) == 1;
             }
             break;
+        case 5:
+            tells_input_ = good;
+            break;
         default:
             break;
     }
@@ -466,7 +471,7 @@ void Node::startup_ended(Verdict v, const std::string& data, Turn& t) {
 
 bool Node::learn_poll(const std::string& data, Turn& t) {
     const auto f = split(data);
-    const std::size_t flags = 6U + (encoder_ ? 1U : 0U) + (hmt_ ? 1U : 0U);
+    const std::size_t flags = 6U + (encoder_ ? 1U : 0U) + (hmt_ ? 1U : 0U) + (tells_input_ ? 1U : 0U);
     if (f.size() != 3 || f[2].size() != flags || f[2].find_first_not_of("01") != std::string_view::npos) {
         ++counters_.garbled;
         return false;
@@ -487,7 +492,12 @@ bool Node::learn_poll(const std::string& data, Turn& t) {
     ef_ = flag(4);
     running_ = flag(5);
     stalled_ = encoder_ && flag(6);
-    locked_ = hmt_ && flag(flags - 1);
+    locked_ = hmt_ && flag(encoder_ ? 7 : 6);
+    const bool waited = std::exchange(input_, tells_input_ && flag(flags - 1));
+    if (input_ && !waited) {
+        // No poll can be the number: it begins with PR. What is sent as native text and begins with a digit or a sign is.
+        note(Severity::info, "input", 0, fmt::format("{}: its program waits for a number (IV): send it as a native line", name()), t);
+    }
     seen_ = true;
     next_poll_ = t.now + manners_.poll_period;
     derive(t);
@@ -512,7 +522,7 @@ void Node::derive(Turn& t) {
     fb_.internal_limit = last_error_ == 83 || last_error_ == 84;
     fb_.warning = last_error_ == 71 || fb_.internal_limit;
     fb_.native_status = (mv_ ? 1U : 0U) | (mp_ ? 2U : 0U) | (vc_ ? 4U : 0U) | (de_ ? 8U : 0U) | (ef_ ? 16U : 0U) | (running_ ? 32U : 0U) |
-                        (stalled_ ? 64U : 0U) | (locked_ ? 128U : 0U);
+                        (stalled_ ? 64U : 0U) | (locked_ ? 128U : 0U) | (input_ ? 256U : 0U);
     if (motion_.ended) {
         if (fb_.moving) fb_.target_reached = false;  // a program, or somebody else, moves it
         return;

@@ -209,8 +209,10 @@ private:
     int link_rounds_ = 0;
     std::string link_line_;  ///< EM=, CK= to be sent next
     std::size_t startup_at_ = 0;
-    bool hmt_ = false;     ///< LMD closed loop: LR is there
-    bool encoder_ = true;  ///< ST can be read
+    bool tells_input_ = false;  ///< IF can be read
+    bool input_ = false;        ///< a program waits for a number (IV)
+    bool hmt_ = false;          ///< LMD closed loop: LR is there
+    bool encoder_ = true;       ///< ST can be read
     std::string identity_;
     Request::Purpose purpose_ = Request::Purpose::poll;
 

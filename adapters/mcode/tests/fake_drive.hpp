@@ -22,10 +22,10 @@ struct FakeDrive {
     int em = 0, ck = 0;
     bool awake = false, silent = false, in_program = false;
     int er = 0, resets = 0;
-    std::map<std::string, std::string> values{{"P", "0"},         {"V", "0"},       {"MV", "0"},      {"MP", "0"},      {"VC", "0"},
-                                              {"DE", "1"},        {"BY", "0"},      {"ST", "0"},      {"LR", "0"},      {"AS", "0"},
-                                              {"VI", "1000"},     {"VM", "768000"}, {"A", "1000000"}, {"D", "1000000"}, {"EE", "0"},
-                                              {"PN", "LMDCM571"}, {"VR", "6.011"},  {"ES", "1"}};
+    std::map<std::string, std::string> values{{"P", "0"},     {"V", "0"},         {"MV", "0"},      {"MP", "0"},      {"VC", "0"},
+                                              {"DE", "1"},    {"BY", "0"},        {"ST", "0"},      {"LR", "0"},      {"AS", "0"},
+                                              {"VI", "1000"}, {"VM", "768000"},   {"A", "1000000"}, {"D", "1000000"}, {"EE", "0"},
+                                              {"IF", "0"},    {"PN", "LMDCM571"}, {"VR", "6.011"},  {"ES", "1"}};
     std::map<std::string, int> refuse;  ///< line -> error code
     std::set<std::string> lose;         ///< lines that are executed once and not answered
     std::vector<std::string> heard, program;

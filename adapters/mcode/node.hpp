@@ -1,8 +1,8 @@
 // Node: one drive: finding it, setting its link, its polls, its queue of commands and their steps, and what is known of its axis.
 // In: commands, the outcome of its exchanges, time. Out: the next request when it has the line; feedback, results, links, notices.
 // Never sends by itself: the line asks it, and gives it one exchange at a time.
-// Written in: node.cpp (exchanges, presence, polls), leaving.cpp (out of program mode), jobs.cpp (commands as steps), actions.cpp
-// (parameters, native, programs).
+// Written in: node.cpp (exchanges, presence, polls), node_next.cpp (what is sent), stops.cpp (stops, results, notices), leaving.cpp (out of
+// program mode), jobs.cpp (commands as steps), actions.cpp (parameters, native, programs).
 #pragma once
 
 #include <array>
@@ -250,6 +250,9 @@ private:
     int notice_tokens_ = 20;
     Instant notice_refilled_{};
 };
+
+/// Read one after the other when a drive was found; what it refuses is left unknown.
+inline constexpr std::array<std::string_view, 6> startup_items{"ER", "PN", "VR", "AS", "VI,\",\",VM,\",\",A,\",\",D,\",\",EE", "IF"};
 
 /// Codes of ER that stop an axis until they are reset; the others say that a line was refused.
 [[nodiscard]] bool is_fault_code(int code) noexcept;

@@ -1,0 +1,159 @@
+// Node: what it wants and what it sends next: probes, its link, stops, errors, steps of a job, polls.
+// In: its phase, its queue, the time. Out: one request.
+// Never chooses a poll or a command while a stop waits, nor a stop while the drive may be in program mode (leaving.cpp).
+#include <fmt/format.h>
+
+#include "adapters/mcode/node.hpp"
+
+namespace axisgate::mcode {
+using namespace std::chrono_literals;
+using What = Request::Purpose;
+
+Node::Want Node::wants(Instant now) const noexcept {
+    switch (phase_) {
+        case Phase::down:
+            return Want::nothing;
+        case Phase::probing:
+        case Phase::absent:
+            if (job_.kind == JobKind::setup) return Want::urgent;  // nothing for others in between: the fresh drive would take it too
+            return now >= next_probe_ ? Want::other : Want::nothing;
+        case Phase::linking:
+        case Phase::starting:
+            return Want::other;
+        case Phase::ready:
+            break;
+    }
+    if (!stops_.empty() || leaving()) return Want::urgent;
+    if (clear_half_) return Want::other;
+    if (need_error_ || now >= next_poll_) return Want::other;
+    if (job_.kind != JobKind::none) {
+        return job_.at < job_.steps.size() && job_.steps[job_.at].what == Step::What::standstill ? Want::nothing : Want::other;
+    }
+    return queue_.empty() ? Want::nothing : Want::other;
+}
+
+bool Node::wants_unmarked() const noexcept {
+    if (phase_ == Phase::linking) return true;
+    if (phase_ != Phase::ready || !stops_.empty() || leaving() || need_error_) return false;
+    if (job_.kind == JobKind::none) return !queue_.empty();
+    if (job_.confirming || job_.at >= job_.steps.size()) return false;
+    const auto what = job_.steps[job_.at].what;
+    return what == Step::What::send || what == Step::What::bare || what == Step::What::block;
+}
+
+Instant Node::due() const noexcept {
+    switch (phase_) {
+        case Phase::down:
+            return never;
+        case Phase::probing:
+        case Phase::absent:
+            return next_probe_;
+        default:
+            return next_poll_;
+    }
+}
+
+std::string Node::poll_text() const {
+    std::string s = R"(P,",",V,",",MV,MP,VC,DE,EF,BY)";
+    if (encoder_) s += ",ST";
+    if (hmt_) s += ",LR";
+    if (tells_input_) s += ",IF";
+    return s;
+}
+
+Request Node::next(Turn& t) {
+    Request r;
+    const auto ask = [&](What purpose, std::string items) {
+        r.purpose = purpose_ = purpose;
+        r.text = std::move(items);
+        return r;
+    };
+    const auto say = [&](What purpose, std::string line) {
+        r.purpose = purpose_ = purpose;
+        r.text = std::move(line);
+        r.kind = Expect::Kind::command;
+        r.urgent = purpose == What::stop;
+        if (word_of(r.text) == "S" || word_of(r.text) == "FD" || word_of(r.text) == "CP" || word_of(r.text) == "IP") r.patience = 2s;
+        return r;
+    };
+    if (job_.kind == JobKind::setup && phase_ != Phase::ready) {
+        const Step& step = job_.steps[job_.at];
+        r = say(What::step, {});
+        r.raw = step.text;
+        r.kind = Expect::Kind::block;  // EM is not known: nothing may be said before its last prompt is over
+        return r;
+    }
+    switch (phase_) {
+        case Phase::probing:
+        case Phase::absent:
+            r.wake = true;
+            if (mode_ == Mode::program) {
+                // It went away in program mode, where a probe is stored and not answered.
+                r = say(What::probe, "PG");
+                r.wake = true;
+                note_mode_line(r.text);
+                return r;
+            }
+            return ask(What::probe, manners_.ethernet ? "EM" : "EM,CK,ES");
+        case Phase::linking:
+            return say(What::link, link_line_);
+        case Phase::starting:
+            return ask(What::startup, std::string(startup_items[startup_at_]));
+        default:
+            break;
+    }
+    if (leaving()) return next_leave();
+    if (!stops_.empty()) {
+        Stop& s = stops_.front();
+        if (s.confirming) {
+            if (need_error_) return ask(What::error, "ER");
+            return ask(What::confirm, poll_text());
+        }
+        r = say(What::stop, s.lines[s.at]);
+        if (r.text == "ESC") {
+            r.raw = escape(link());
+            r.kind = Expect::Kind::nothing;
+        }
+        return r;
+    }
+    if (need_error_) return ask(What::error, "ER");
+    if (clear_half_ && job_.kind == JobKind::none) {
+        clear_half_ = false;
+        Command c;
+        c.axis = axis_;
+        c.body = Action{"program.clear", ""};
+        plan(c, t);
+    }
+    if (job_.kind == JobKind::none && !queue_.empty()) take_next(t);
+    if (job_.kind != JobKind::none && job_.at < job_.steps.size()) {
+        const Step& step = job_.steps[job_.at];
+        if (job_.confirming) return ask(What::confirm, poll_text());
+        switch (step.what) {
+            case Step::What::send:
+            case Step::What::bare:
+                r = say(What::step, step.text);
+                if (job_.kind == JobKind::download) {
+                    job_.memory_touched = true;  // CP 1 is its first line
+                    note_mode_line(step.text);
+                }
+                if (job_.kind == JobKind::restart) {
+                    r.raw = (link().party() ? std::string(1, link().name) : std::string()) + step.text;  // CE = 2 wants the name
+                    r.kind = Expect::Kind::nothing;
+                }
+                return r;
+            case Step::What::query:
+                r.end_mark = step.end_mark;
+                return ask(What::step, step.text);
+            case Step::What::block:
+                r = say(What::step, step.text);
+                r.kind = Expect::Kind::block;
+                return r;
+            case Step::What::standstill:
+                break;
+        }
+    }
+    next_poll_ = t.now + manners_.poll_period;
+    return ask(What::poll, poll_text());
+}
+
+}  // namespace axisgate::mcode

@@ -1,0 +1,133 @@
+// Node: stops and confirmations, and what leaves a node: results, notices.
+// In: the end of a stop's exchange, the poll or error code that confirms a line. Out: the next line of a stop, results, notices.
+// Never takes an acknowledgement alone for a stop: a poll, and ER if it says that there is one, come behind it.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "adapters/mcode/node.hpp"
+
+namespace axisgate::mcode {
+using namespace std::chrono_literals;
+
+void Node::stop_ended(Verdict v, const ReplyReader&, Turn& t) {
+    if (stops_.empty()) return;
+    Stop& s = stops_.front();
+    s.said = v == Verdict::answered ? Verdict::acknowledged : v;
+    s.confirming = true;
+    if (v == Verdict::waiting) count_silence(t);
+}
+
+void Node::stop_over(Outcome o, Reason r, std::string text, Turn& t, std::int32_t code) {
+    const Command c = stops_.front().command;
+    stops_.pop_front();
+    result(c, o, r, std::move(text), t, code);
+}
+
+void Node::confirmed(Turn& t) {
+    if (!stops_.empty() && stops_.front().confirming) {
+        Stop& s = stops_.front();
+        const std::string line = s.lines[s.at];
+        if (last_error_ == 85 && line == "SL 0") {
+            // During a homing only the escape character stops [L4106].
+            s.lines[s.at] = link().party() && es_ != 3 ? "DE=0" : "ESC";
+            s.confirming = false;
+            return;
+        }
+        const bool off = line == "DE=0" && !de_;
+        const bool harmless = last_error_ == 40 || last_error_ == 94;  // no program ran; nothing can move with the drive off
+        const bool taken = s.said == Verdict::acknowledged && last_error_ == 0 && (line != "DE=0" || off);
+        if (taken || off || harmless) {
+            s.tries = 0;
+            s.confirming = false;
+            if (++s.at < s.lines.size()) return;
+            fb_.target_reached = false;
+            motion_.ended = true;
+            if (line == "DE=0") enabled_ = false;
+            derive(t);
+            emit(t);
+            return stop_over(std::holds_alternative<Disable>(s.command.body) ? Outcome::done : Outcome::accepted, Reason::none, {}, t);
+        }
+        if (last_error_ != 0 && s.tries >= manners_.retries) {
+            return stop_over(Outcome::refused, Reason::drive_refused,
+                             fmt::format("{}: {} was refused with error {}", name(), line, last_error_), t, last_error_);
+        }
+        if (++s.tries > manners_.retries) {
+            return stop_over(Outcome::failed, Reason::no_answer, fmt::format("{} did not take {}", name(), line), t);
+        }
+        ++counters_.retries;
+        s.confirming = false;
+        return;
+    }
+    if (job_.kind == JobKind::none || !job_.confirming) return;
+    job_.confirming = false;
+    const std::string& line = job_.steps[job_.at].text;
+    if (last_error_ != 0) {
+        const ErrorCode* e = catalogue_.error(last_error_);
+        const bool changed = job_.at > 0 && job_.kind == JobKind::move;
+        return job_over(Outcome::refused, Reason::drive_refused,
+                        fmt::format("{}: {} was refused with error {}{}{}", name(), line, last_error_, e ? ", " + e->text : std::string(),
+                                    changed ? "; values set before it stay" : ""),
+                        t, last_error_);
+    }
+    if (job_.said == Verdict::acknowledged || job_.said == Verdict::answered) return step_done(t);
+    if (job_.steps[job_.at].repeatable && ++job_.tries <= manners_.retries) {
+        ++counters_.retries;
+        return;
+    }
+    job_over(Outcome::failed, Reason::no_answer, fmt::format("{} did not acknowledge {}", name(), line), t);
+}
+
+// --- results and notices ---------------------------------------------------------------------------------------------------------
+
+void Node::result(const Command& c, Outcome o, Reason r, std::string text, Turn& t, std::int32_t code, Value value) {
+    if (c.ticket == no_ticket) return;
+    t.out.results.push_back({c.ticket, axis_, o, r, code, std::move(text), std::move(value), {}});
+}
+
+void Node::fail_all(Reason reason, const std::string& text, Turn& t) {
+    while (!stops_.empty()) {
+        const Command c = std::move(stops_.front().command);
+        stops_.pop_front();
+        result(c, Outcome::failed, reason, text, t);
+    }
+    if (job_.kind != JobKind::none) {
+        std::string said = text;
+        if (job_.memory_touched) said += "; the program memory is cleared or incomplete: download again";
+        if (job_.kind == JobKind::named) said += "; no fresh drive took the name, or more than one did: power up one alone";
+        const Command c = job_.command;
+        job_ = {};
+        result(c, Outcome::failed, reason, std::move(said), t);
+    }
+    while (!queue_.empty()) {
+        const Command c = std::move(queue_.front());
+        queue_.pop_front();
+        result(c, Outcome::failed, reason, text, t);
+    }
+}
+
+/// At most 20 at once and 10 in a second, alarms excepted.
+void Node::note(Severity severity, std::string_view kind, std::int32_t code, std::string text, Turn& t) {
+    if (severity != Severity::alarm) {
+        const auto earned = (t.now - notice_refilled_) / 100ms;
+        if (earned > 0) {
+            notice_tokens_ = static_cast<int>(std::min<std::int64_t>(20, notice_tokens_ + earned));
+            notice_refilled_ = t.now;
+        }
+        if (notice_tokens_ == 0) return;
+        --notice_tokens_;
+    }
+    t.out.notices.push_back({severity, setup_.id, axis_, std::string(kind), code, std::move(text), t.now});
+}
+
+void Node::foreign(std::string_view text, Turn& t) {
+    ++counters_.unexpected;
+    std::string shown;
+    for (const char c : text) {
+        if (c >= 0x20 && c <= 0x7E) shown += c;
+    }
+    if (shown.size() < 2 || shown.find("PR \"#") != std::string::npos || shown.size() > 200) return;
+    note(Severity::info, "output", 0, fmt::format("{}: {}", name(), shown), t);
+}
+
+}  // namespace axisgate::mcode

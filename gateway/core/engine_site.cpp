@@ -393,6 +393,7 @@ void Engine::serve(Drive& d, Presence by, std::string why, Instant now) {
     Event e;
     e.severity = by == Presence::twin && before != Presence::offline ? Severity::warning : Severity::info;
     e.kind = "presence";
+    e.new_value = by == Presence::twin ? "twin" : "device";
     e.drive = d.spec.name;
     e.line = unit.spec.name;
     e.text = fmt::format("drive {}: {} ({})", d.spec.name, by == Presence::twin ? "simulated by its twin" : "the real drive serves", why);

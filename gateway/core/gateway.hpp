@@ -51,6 +51,8 @@ struct EventQuery {
     std::string axis;                 ///< empty: any
     std::optional<Severity> at_least;
     std::size_t limit = 200;          ///< 1..1000; the newest ones if there are more
+    std::string kind;                 ///< empty: any
+    std::uint64_t before_id = 0;      ///< events with a smaller id, for paging backwards; 0: no bound
 };
 
 struct StoredParameter {

@@ -87,8 +87,6 @@ struct StoreBatch {
 struct EventFilter : EventQuery {
     EventFilter() = default;
     EventFilter(const EventQuery& q) : EventQuery(q) {}  // NOLINT(google-explicit-constructor): a query is a filter
-    std::string kind;                                    ///< empty: any
-    std::uint64_t before_id = 0;                         ///< events with a smaller id, for paging backwards; 0: no bound
     bool oldest_first = false;
 };
 

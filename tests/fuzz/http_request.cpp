@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "gateway/doors/http/alarm_desk.hpp"
 #include "gateway/doors/http/recipe_desk.hpp"
 #include "gateway/doors/http/router.hpp"
 #include "gateway/doors/http/stream_hub.hpp"
@@ -52,7 +53,9 @@ void feed_request(std::string_view text) {
     gateway.hands[gateway.drive("feeder")] = {{"stall", false, true, "held"}};
     Settings settings;
     const auto recipes = std::make_shared<RecipeDesk>(gateway, [] { return time_zero; });
-    const Router router{Context{gateway, settings, [](std::string_view) { return std::string_view(); }, {}, std::make_shared<ChangeQueue>(), recipes}};
+    const auto alarms = std::make_shared<AlarmDesk>(gateway, [] { return time_zero; });
+    const Router router{Context{gateway, settings, [](std::string_view) { return std::string_view(); }, {}, std::make_shared<ChangeQueue>(), recipes,
+                                std::make_shared<AxisJobs>(), nullptr, alarms}};
     Request request;
     const auto first = line_of(text);
     request.method = method_named(first.substr(0, first.find(' ')));

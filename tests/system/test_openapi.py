@@ -21,7 +21,7 @@ from openapi import Description, sample, strict_json
 TOP = pathlib.Path(__file__).resolve().parents[2]
 TEXT = (TOP / "schema/openapi.yaml").read_text()
 API = Description(TEXT)
-NAMES = {"family": ["uim342"], "line": ["can0"], "drive": ["feeder", "slide"], "axis": ["feeder", "slide"], "parameter": ["AC", "PP[5]", "node_id"], "mapping": ["m1"], "recipe": ["warm-up"], "run": ["1"], "snapshot": ["1"], "revision": ["1"], "user": ["anna"], "token": ["none"]}
+NAMES = {"family": ["uim342"], "line": ["can0"], "drive": ["feeder", "slide"], "axis": ["feeder", "slide"], "parameter": ["AC", "PP[5]", "node_id"], "mapping": ["m1"], "recipe": ["warm-up"], "run": ["1"], "snapshot": ["1"], "revision": ["1"], "user": ["anna"], "token": ["none"], "alarm": ["1"]}
 RECIPE = {"description": "on and off", "parameters": {"pause": {"type": "number", "default": 0.05}}, "steps": [{"enable": {"axis": "slide"}}, {"wait_s": "${pause}"}, {"disable": {"axis": "slide"}}]}
 
 
@@ -402,11 +402,11 @@ class WebSocket:
 def test_the_stream_sends_what_is_described(gateway):
     stream = WebSocket(gateway, "/api/v1/stream")
     try:
-        request = {"subscribe": ["axes/*", "drives/*", "lines/*", "lines/can0/frames", "events", "site", "recipes", "no/topic"], "period_ms": 50}
+        request = {"subscribe": ["axes/*", "drives/*", "lines/*", "lines/can0/frames", "events", "site", "recipes", "alarms", "no/topic"], "period_ms": 50}
         assert API.validator({"$ref": "#/components/schemas/StreamRequest"}).is_valid(request)
         stream.send(request)
-        schemas = {"axes": "Axis", "drives": "Drive", "events": "Event", "error": "StreamError", "frames": "StreamFrames", "lines": "Line", "recipes": "RecipeReport"}
-        wanted = {"recipes", "axes", "drives", "lines", "frames", "events", "site", "error"}
+        schemas = {"axes": "Axis", "drives": "Drive", "events": "Event", "error": "StreamError", "frames": "StreamFrames", "lines": "Line", "recipes": "RecipeReport", "alarms": "AlarmList"}
+        wanted = {"recipes", "alarms", "axes", "drives", "lines", "frames", "events", "site", "error"}
         seen = set()
         end = time.monotonic() + 15
         commanded = False

@@ -24,6 +24,7 @@
 namespace axisgate::http {
 
 class RecipeDesk;
+class AlarmDesk;
 
 /// What all handlers share; outlives every call.
 struct Context {
@@ -35,6 +36,7 @@ struct Context {
     std::shared_ptr<RecipeDesk> recipes{};                                   ///< runs recipes; whoever makes a context for service gives one
     std::shared_ptr<AxisJobs> jobs = std::make_shared<AxisJobs>();           ///< many parameters of one axis, one after the other
     std::shared_ptr<AccessPort> access = nullptr;                            ///< users; without it this machine alone is let in
+    std::shared_ptr<AlarmDesk> alarms{};                                     ///< the list of alarms; as with recipes
 };
 
 /// One request on its way. Lives only as long as the handler's call.
@@ -123,6 +125,12 @@ Handled set_hand(Call&);
 Handled get_trace(Call&);
 Handled list_events(Call&);
 
+// --- handlers_alarms.cpp ----------------------------------------------------------------------------------------------
+Handled list_alarms(Call&);
+Handled acknowledge_alarm(Call&);
+Handled acknowledge_alarms(Call&);
+Handled shelve_alarm(Call&);
+Handled unshelve_alarm(Call&);
 // --- handlers_scan.cpp ------------------------------------------------------------------------------------------------
 Handled start_scan(Call&);
 Handled get_scan(Call&);

@@ -46,6 +46,52 @@ Response file(std::string_view media, std::string name, std::string body) {
     r.body = std::move(body);
     return r;
 }
+
+enum class EventForm : std::uint8_t { json, csv, text };
+std::optional<EventForm> event_form(const Call& c, std::optional<Response>& fault) {
+    if (fault) return std::nullopt;
+    static constexpr std::array forms{EventForm::json, EventForm::csv, EventForm::text};
+    if (const auto name = c.target.query.get("format")) {
+        static constexpr std::array<std::string_view, 3> names{"json", "csv", "text"};
+        const auto it = std::ranges::find(names, *name);
+        if (it != names.end()) return forms[static_cast<std::size_t>(it - names.begin())];
+        fault = bad_query("format", "json, csv or text");
+        return std::nullopt;
+    }
+    static constexpr std::array<std::string_view, 3> media{"application/json", "text/csv", "text/plain"};
+    const auto best = best_accepted(c.request.headers.get("Accept"), media);
+    if (best) return forms[*best];
+    fault = problem(406, "not_acceptable", "this can be given as application/json, text/csv or text/plain");
+    return std::nullopt;
+}
+
+std::string events_csv(const std::vector<Event>& events) {
+    std::string out = "id,at,severity,kind,axis,drive,line,code,text,who,door,parameter,old,new\r\n";
+    for (const auto& e : events) {
+        out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", e.id, format_time(e.at_unix_ns), name_of(e.severity), csv_cell(e.kind),
+                           csv_cell(e.axis), csv_cell(e.drive), csv_cell(e.line), e.code == 0 ? std::string() : std::to_string(e.code),
+                           csv_cell(e.text), csv_cell(e.who), csv_cell(e.door), csv_cell(e.parameter), csv_cell(e.old_value),
+                           csv_cell(e.new_value));
+    }
+    return out;
+}
+
+/// One line per event, whatever its text has in it.
+std::string events_text(const std::vector<Event>& events) {
+    std::string out;
+    for (const auto& e : events) {
+        const std::string& about = !e.axis.empty() ? e.axis : !e.drive.empty() ? e.drive : e.line;
+        std::string line = fmt::format("{} {:7} {:12} {:16} {}", format_time(e.at_unix_ns), name_of(e.severity), e.kind, about.empty() ? "-" : about, e.text);
+        if (!e.parameter.empty()) line += fmt::format(" [{}: {} -> {}]", e.parameter, e.old_value, e.new_value);
+        if (e.code != 0) line += fmt::format(" (code {})", e.code);
+        if (!e.who.empty()) line += fmt::format(" by {}", e.who);
+        for (char& x : line) {
+            if (static_cast<unsigned char>(x) < 0x20 || x == 0x7F) x = ' ';
+        }
+        out += line + "\n";
+    }
+    return out;
+}
 }  // namespace
 
 Handled get_trace(Call& c) {
@@ -107,11 +153,16 @@ Handled list_events(Call& c) {
         }
         if (!query.at_least) return bad_query("severity", "info, warning or alarm");
     }
+    if (const auto kind = c.target.query.get("kind")) query.kind = std::string(*kind);
     std::optional<Response> fault;
+    query.before_id = static_cast<std::uint64_t>(query_whole(c, "before", 1, INT64_MAX, 0, fault));
     query.limit = static_cast<std::size_t>(query_whole(c, "limit", 1, 1000, 200, fault));
+    const auto form = event_form(c, fault);
     if (fault) return *fault;
     auto events = c.gateway().events(query);
     std::ranges::sort(events, {}, &Event::id);
+    if (*form == EventForm::csv) return file("text/csv; charset=utf-8", "events.csv", events_csv(events));
+    if (*form == EventForm::text) return file("text/plain; charset=utf-8", "events.txt", events_text(events));
     json::array out;
     for (const auto& e : events)
         out.push_back(event_document(e));

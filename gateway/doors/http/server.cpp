@@ -6,6 +6,7 @@
 
 #include <unordered_map>
 
+#include "gateway/doors/http/alarm_desk.hpp"
 #include "gateway/doors/http/axis_jobs.hpp"
 #include "gateway/doors/http/connection.hpp"
 #include "gateway/doors/http/recipe_desk.hpp"
@@ -28,9 +29,10 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
     Counters own_counters;
     asio::io_context& context;
     std::shared_ptr<RecipeDesk> recipes;
+    std::shared_ptr<AlarmDesk> alarms;
     Router own_router;
     tcp::acceptor acceptor;
-    asio::steady_timer hub_timer, pause_timer, stop_timer, recipe_timer;
+    asio::steady_timer hub_timer, pause_timer, stop_timer, recipe_timer, alarm_timer;
     StreamHub own_hub;  // after the timers: it may ask for them at once
     std::unordered_map<const Session*, std::shared_ptr<Session>> sessions;
     std::function<void()> done;
@@ -40,17 +42,23 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
           own_settings(std::move(s)),
           context(c),
           recipes(std::make_shared<RecipeDesk>(gateway, [] { return steady_instant(); })),
+          alarms(std::make_shared<AlarmDesk>(gateway, [] { return steady_instant(); })),
           own_router(Context{gateway, own_settings, std::move(asset), [this] { return own_counters.text(); }, std::make_shared<ChangeQueue>(), recipes, std::make_shared<AxisJobs>(),
-                              std::move(access)}),
+                              std::move(access), alarms}),
           acceptor(c),
           hub_timer(c),
           pause_timer(c),
           stop_timer(c),
           recipe_timer(c),
+          alarm_timer(c),
           own_hub(gateway, own_settings, own_counters, [this] { rearm(); }) {
         recipes->rearm = [this] { rearm_recipes(); };
         recipes->tell = [this](const std::string& recipe, const boost::json::object& report) { own_hub.on_recipe(recipe, report); };
         own_hub.recipes_now = [this] { return recipes->in_progress(); };
+        alarms->rearm = [this] { rearm_alarms(); };
+        alarms->tell = [this](const boost::json::object& list) { own_hub.on_alarms(list); };
+        own_hub.alarms_now = [this] { return alarms->document(); };
+        alarms->begin();
     }
 
     // --- sessions ------------------------------------------------------------------------------------------------------
@@ -159,6 +167,24 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
         });
     }
 
+    // --- the alarms' time ----------------------------------------------------------------------------------------------
+    void rearm_alarms() {
+        const Instant due = alarms->deadline();
+        if (due == never || stopping) {
+            alarm_timer.cancel();
+            return;
+        }
+        alarm_timer.expires_at(
+            std::chrono::steady_clock::time_point(std::chrono::duration_cast<std::chrono::steady_clock::duration>(due.time_since_epoch())));
+        // As `this` is not yet shared while it is being made, the desk is what must still be there.
+        alarm_timer.async_wait([this, desk = std::weak_ptr(alarms)](ErrorCode ec) {
+            const auto still = desk.lock();
+            if (ec || !still || !own_hub.attached()) return;
+            still->on_deadline(steady_instant());
+            rearm_alarms();
+        });
+    }
+
     // --- the end -------------------------------------------------------------------------------------------------------
     void stop(std::function<void()> then) {
         if (stopping) return;
@@ -225,6 +251,8 @@ Server::~Server() {
     parts_->hub_timer.cancel();
     parts_->recipe_timer.cancel();
     parts_->recipes->rearm = nullptr;
+    parts_->alarm_timer.cancel();
+    parts_->alarms->detach();
     parts_->abort_all();
     parts_->own_hub.detach();  // handlers that still wait in the io_context may keep the parts longer than the Gateway lives
 }

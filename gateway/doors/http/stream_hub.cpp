@@ -108,6 +108,10 @@ void StreamHub::subscribe(StreamClient& c, const std::string& topic, std::int64_
         c.recipes_ = true;
         for (const auto& report : recipes_now ? recipes_now() : std::vector<json::object>())
             put_state(c, recipe_number(std::string(report.at("recipe").get_string())), stream_message("recipes", gateway_.now_unix_ns(), report));
+    } else if (topic == "alarms") {
+        c.alarms_ = true;
+        if (alarms_number_ == 0) alarms_number_ = sources_.next_number();
+        if (alarms_now) put_state(c, alarms_number_, stream_message("alarms", gateway_.now_unix_ns(), alarms_now()));
     } else if (const auto line = line_of_frames(topic); !line.empty() && sources_.find(fmt::format("lines/{}", line))) {
         auto it = std::ranges::find(c.frames_, topic, &StreamClient::FrameWatch::topic);
         if (it == c.frames_.end()) {
@@ -118,7 +122,7 @@ void StreamHub::subscribe(StreamClient& c, const std::string& topic, std::int64_
         begin_frames(c, *it);
     } else if (topic != "axes/*" && topic != "drives/*" && topic != "lines/*" && !sources_.find(topic)) {
         return tell_error(
-            c, "there is no such topic: use axes/*, axes/NAME, drives/*, drives/NAME, lines/*, lines/NAME, lines/NAME/frames, events, recipes, site",
+            c, "there is no such topic: use axes/*, axes/NAME, drives/*, drives/NAME, lines/*, lines/NAME, lines/NAME/frames, events, alarms, recipes, site",
             topic);
     }
     c.topics_.insert_or_assign(topic, period_ms);
@@ -129,6 +133,7 @@ void StreamHub::unsubscribe(StreamClient& c, const std::string& topic) {
     if (topic == "events") c.events_ = false;
     if (topic == "site") c.site_ = false;
     if (topic == "recipes") c.recipes_ = false;
+    if (topic == "alarms") c.alarms_ = false;
     std::erase_if(c.frames_, [&](const auto& f) { return f.topic == topic; });
 }
 
@@ -305,6 +310,16 @@ void StreamHub::on_recipe(const std::string& recipe, const json::object& report)
         if (!c->recipes_ || c->closing_) continue;
         if (!frame) frame = stream_message("recipes", gateway_.now_unix_ns(), report);
         put_state(*c, recipe_number(recipe), frame);
+        wake(*c);
+    }
+}
+
+void StreamHub::on_alarms(const json::object& list) {
+    SharedFrame frame;
+    for (const auto& c : clients_) {
+        if (!c->alarms_ || c->closing_) continue;
+        if (!frame) frame = stream_message("alarms", gateway_.now_unix_ns(), list);
+        put_state(*c, alarms_number_, frame);
         wake(*c);
     }
 }

@@ -57,6 +57,7 @@ private:
     bool events_ = false;
     bool site_ = false;
     bool recipes_ = false;
+    bool alarms_ = false;
     int wrong_in_a_row_ = 0;
     std::uint16_t closing_ = 0;
     bool has_work_ = false;  ///< something was put into the queue since the last wake-up
@@ -88,6 +89,11 @@ public:
     void on_recipe(const std::string& recipe, const boost::json::object& report);
     /// Reports of the runs in progress, for those who have just subscribed to `recipes`.
     std::function<std::vector<boost::json::object>()> recipes_now;
+
+    /// The list of alarms has changed.
+    void on_alarms(const boost::json::object& list);
+    /// The list as it is, for those who have just subscribed to `alarms`.
+    std::function<boost::json::object()> alarms_now;
 
     void on_event(const Event& event) override;
     void on_site(const std::shared_ptr<const SiteState>& site) override;
@@ -124,6 +130,7 @@ private:
     std::map<std::int64_t, Instant> groups_;     ///< next scan by period in ms
     std::shared_ptr<const SiteState> new_site_;  ///< told, but not taken yet
     std::map<std::string, std::uint32_t, std::less<>> recipe_numbers_;  ///< of their states in the clients' queues
+    std::uint32_t alarms_number_ = 0;                                   ///< of the list in the clients' queues; 0: not given yet
     bool attached_ = true;
 
     struct KeptDecoder {

@@ -257,7 +257,8 @@ public:
         std::vector<Event> out;
         for (const auto& e : events_) {
             if (e.id > query.since_id && e.at_unix_ns >= query.since_unix_ns && (query.axis.empty() || e.axis == query.axis) &&
-                (!query.at_least || e.severity >= *query.at_least)) {
+                (!query.at_least || e.severity >= *query.at_least) && (query.kind.empty() || e.kind == query.kind) &&
+                (query.before_id == 0 || e.id < query.before_id)) {
                 out.push_back(e);
             }
         }

@@ -7,6 +7,7 @@
 
 #include <string>
 
+#include "gateway/doors/http/alarm_desk.hpp"
 #include "gateway/doors/http/recipe_desk.hpp"
 #include "gateway/doors/http/router.hpp"
 #include "tests/unit/http/fake_gateway.hpp"
@@ -53,6 +54,7 @@ struct Harness {
                                                           {"schema/openapi.yaml", "openapi: 3.0.3\n"}};
     Instant clock = time_zero;  ///< of the recipes
     std::shared_ptr<RecipeDesk> recipes = std::make_shared<RecipeDesk>(gateway, [this] { return clock; });
+    std::shared_ptr<AlarmDesk> alarms = std::make_shared<AlarmDesk>(gateway, [this] { return clock; });
     Router router{Context{gateway, settings,
                           [this](std::string_view path) {
                               const auto it = files.find(path);
@@ -60,7 +62,7 @@ struct Harness {
                                      : it->second.empty() ? std::string_view("", 0)
                                                           : std::string_view(it->second);
                           },
-                          [] { return std::string("axisgate_http_own 1\n"); }, std::make_shared<ChangeQueue>(), recipes}};
+                          [] { return std::string("axisgate_http_own 1\n"); }, std::make_shared<ChangeQueue>(), recipes, std::make_shared<AxisJobs>(), nullptr, alarms}};
     std::vector<Response> later;       ///< answers that came through Respond
     std::chrono::nanoseconds limit{};  ///< of the last promise
     Response at_limit;

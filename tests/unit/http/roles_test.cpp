@@ -14,8 +14,8 @@ using Fields = std::vector<std::pair<std::string, std::string>>;
 class AccessTest : public ::testing::Test, public Harness {
 protected:
     std::shared_ptr<FakeAccess> access = std::make_shared<FakeAccess>();
-    Router door{Context{gateway, settings, [](std::string_view) { return std::string_view(); }, {}, std::make_shared<ChangeQueue>(),
-                        std::make_shared<RecipeDesk>(gateway, [] { return Instant{}; }), std::make_shared<AxisJobs>(), access}};
+    Router door{Context{gateway, settings, [](std::string_view) { return std::string_view(); }, {}, std::make_shared<ChangeQueue>(), recipes,
+                        std::make_shared<AxisJobs>(), access, alarms}};
     AccessTest() {
         for (const auto* role : {"viewer", "operator", "engineer", "administrator"})
             access->own_desk.load(User{role, *role_named(role), true, std::string("hash of secret ") + role, 1, 0});

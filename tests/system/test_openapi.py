@@ -209,6 +209,27 @@ def test_every_parameter_reads_as_described(gateway):
     assert read > 60, read
 
 
+def alarm_answers(gateway, client):
+    """Every operation on an alarm, with a fault that is made for it and mended again."""
+    gateway.command("feeder", {"command": "enable"})
+    gateway.command("feeder", {"command": "move_velocity", "velocity": 1, "acceleration": 20}, wait=0)
+    gateway.send("PATCH", "/drives/feeder/hand", {"stall": True})
+    number = until(lambda: [a["id"] for a in gateway.get("/alarms")["alarms"] if a["kind"] == "fault"], 10, "an alarm")[0]
+    seen = set()
+    for name, body, wanted in (("shelveAlarm", {"for_s": 60, "reason": "test"}, 200), ("acknowledgeAlarm", {}, 409), ("unshelveAlarm", None, 200), ("unshelveAlarm", None, 409),
+                               ("shelveAlarm", {}, 422), ("acknowledgeAlarm", {"comment": "seen"}, 200), ("acknowledgeAlarms", {"ids": [number]}, 409),
+                               ("acknowledgeAlarms", {"all": True}, 200), ("acknowledgeAlarms", {}, 422)):
+        o = operation(name)
+        status = check(o, client.request(o.method, o.path.replace("{alarm}", str(number)), None if body is None else json.dumps(body).encode()), f"{name} {body}")
+        assert status == wanted, f"{name} {body}: {status}"
+        seen.add((name, status))
+    gateway.send("PATCH", "/drives/feeder/hand", {"stall": False})
+    for command in ("reset_fault", "disable"):
+        gateway.command("feeder", {"command": command})
+    gateway.command("feeder", {"command": "set_position", "position": 0})
+    return seen
+
+
 def test_every_write_answers_as_described(gateway):
     client = Client(gateway, 40).sign_in(gateway)
     site = gateway.get("/site")
@@ -266,7 +287,7 @@ def test_every_write_answers_as_described(gateway):
         ("firstSignIn", {}, {"code": gateway.code, "user": "x", "password": "a-long-sentence-1"}, 409), ("signIn", {}, {"user": "anna", "password": "wrong"}, 401),
         ("changePassword", {"user": "anna"}, {"old": "wrong", "new": "a-long-sentence-2"}, 403)]
     actions = [c["id"] for c in gateway.get("/families/uim342/commands")]
-    seen = set()
+    seen = alarm_answers(gateway, client)
     for name, names, body, wanted in steps:
         o = operation(name)
         target = o.path

@@ -1217,6 +1217,116 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/alarms": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * What is wrong, or was and nobody has acknowledged it; unacknowledged active ones first, then newest first
+         * @description In the words of ISA-18.2. One alarm is one (axis, drive or line; kind; code), however often it comes. It is raised by an event of
+         *     severity alarm, by a line that is down and by a drive that is silent; it is cleared when the fault is cleared, the line is up, the
+         *     drive answers, or when what it is about leaves the site. What nothing takes back is cleared at once and waits to be acknowledged.
+         *     Cleared and acknowledged, it leaves the list; what happened stays in the events. The list is kept over a restart. At most 1000
+         *     alarms: then the one that was cleared first goes. The live feed's topic `alarms` carries the same document when it changes.
+         */
+        get: operations["listAlarms"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/alarms/acknowledge": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Acknowledges several alarms, all or none; `all` are those that are neither acknowledged nor shelved. Needs the role operator */
+        post: operations["acknowledgeAlarms"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/alarms/{alarm}/acknowledge": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /**
+                 * @description number of an alarm of the list
+                 * @example 12
+                 */
+                alarm: components["parameters"]["alarm"];
+            };
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Somebody has seen this alarm; if it is cleared it leaves the list. Needs the role operator */
+        post: operations["acknowledgeAlarm"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/alarms/{alarm}/shelve": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /**
+                 * @description number of an alarm of the list
+                 * @example 12
+                 */
+                alarm: components["parameters"]["alarm"];
+            };
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Puts an alarm aside for a time, with a reason; then it is back by itself. Needs the role operator */
+        post: operations["shelveAlarm"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/alarms/{alarm}/unshelve": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /**
+                 * @description number of an alarm of the list
+                 * @example 12
+                 */
+                alarm: components["parameters"]["alarm"];
+            };
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Takes an alarm back from the shelf. Needs the role operator */
+        post: operations["unshelveAlarm"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/stream": {
         parameters: {
             query?: never;
@@ -1235,6 +1345,7 @@ export interface paths {
          *     | `lines/NAME`, `lines/*` | `Line` | the same way, looked at every 250 ms at most |
          *     | `lines/NAME/frames` | `StreamFrames` | frames that crossed the line since, in one list per period |
          *     | `events` | `Event` | each event, as it happens |
+         *     | `alarms` | `AlarmList` | at once, then when it changed, at most every 200 ms |
          *     | `recipes` | `RecipeReport` | of runs in progress at once, then of every run when it changed, at most every 100 ms, and at its end |
          *     | `site` | `{"revision": N}` | at once, then with each change of the site |
          *     | `error` | `StreamError` | the answer to a request that is wrong |
@@ -2269,6 +2380,55 @@ export interface components {
             old: string | null;
             new: string | null;
         };
+        Alarm: {
+            /** @description that of the event that raised it first; never given twice */
+            id: number;
+            axis: string | null;
+            drive: string | null;
+            line: string | null;
+            /** @description of the event that raised it */
+            kind: string;
+            /** @description the drive's own */
+            code: number | null;
+            /** @description of the newest occurrence */
+            text: string;
+            severity: components["schemas"]["Severity"];
+            /**
+             * @description normal is only said of an alarm that has just left the list
+             * @enum {string}
+             */
+            state: "unacknowledged_active" | "acknowledged_active" | "unacknowledged_cleared" | "shelved" | "normal";
+            active: boolean;
+            acknowledged: boolean;
+            since: components["schemas"]["Time"];
+            /** Format: date-time */
+            cleared_at: string | null;
+            acknowledged_by: string | null;
+            /** Format: date-time */
+            acknowledged_at: string | null;
+            comment: string | null;
+            /** Format: date-time */
+            shelved_until: string | null;
+            shelved_by: string | null;
+            /** @description of the shelving */
+            reason: string | null;
+            /** @description how often it came */
+            count: number;
+        };
+        AlarmList: {
+            /** @description those that are not shelved */
+            unacknowledged: number;
+            /** @description alarms since the start that found 1000 active ones */
+            dropped: number;
+            alarms: components["schemas"]["Alarm"][];
+        };
+        /** @description either `ids` or `all` */
+        AcknowledgeAlarms: {
+            ids?: number[];
+            /** @enum {boolean} */
+            all?: true;
+            comment?: string;
+        };
         Site: {
             lines?: components["schemas"]["LineSpec"][];
             drives?: components["schemas"]["DriveSpec"][];
@@ -2911,6 +3071,11 @@ export interface components {
          * @example AC
          */
         parameter: string;
+        /**
+         * @description number of an alarm of the list
+         * @example 12
+         */
+        alarm: string;
         /**
          * @description 1 to 64 letters, digits, - _ .
          * @example warm-up
@@ -6170,7 +6335,16 @@ export interface operations {
                 axis?: string;
                 /** @description of this severity or a higher one */
                 severity?: components["schemas"]["Severity"];
+                /**
+                 * @description of this kind alone
+                 * @example alarm
+                 */
+                kind?: string;
+                /** @description events with a smaller id, for paging backwards */
+                before?: number;
                 limit?: number;
+                /** @description json, csv (a table) or text (a line per event); without it `Accept` decides */
+                format?: "json" | "csv" | "text";
             };
             header?: never;
             path?: never;
@@ -6185,9 +6359,190 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Event"][];
+                    "text/csv": string;
+                    "text/plain": string;
                 };
             };
             400: components["responses"]["BadRequest"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    listAlarms: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the list */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AlarmList"];
+                };
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    acknowledgeAlarms: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "all": true,
+                 *       "comment": "seen at the machine"
+                 *     }
+                 */
+                "application/json": components["schemas"]["AcknowledgeAlarms"];
+            };
+        };
+        responses: {
+            /** @description done, and on disk */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": {
+                        /** @description how many */
+                        acknowledged: number;
+                        /** @description how many are left */
+                        unacknowledged: number;
+                    };
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            409: components["responses"]["Conflict"];
+            422: components["responses"]["Unprocessable"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    acknowledgeAlarm: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /**
+                 * @description number of an alarm of the list
+                 * @example 12
+                 */
+                alarm: components["parameters"]["alarm"];
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "comment": "the guard was open"
+                 *     }
+                 */
+                "application/json": {
+                    comment?: string;
+                };
+            };
+        };
+        responses: {
+            /** @description done, and on disk; `normal` if it is off the list */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Alarm"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            422: components["responses"]["Unprocessable"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    shelveAlarm: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /**
+                 * @description number of an alarm of the list
+                 * @example 12
+                 */
+                alarm: components["parameters"]["alarm"];
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "for_s": 3600,
+                 *       "reason": "the sensor is being replaced"
+                 *     }
+                 */
+                "application/json": {
+                    for_s: number;
+                    reason: string;
+                };
+            };
+        };
+        responses: {
+            /** @description shelved, and on disk */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Alarm"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            422: components["responses"]["Unprocessable"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    unshelveAlarm: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /**
+                 * @description number of an alarm of the list
+                 * @example 12
+                 */
+                alarm: components["parameters"]["alarm"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description done, and on disk; `normal` if it is off the list */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Alarm"];
+                };
+            };
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
             default: components["responses"]["Problem"];
         };
     };

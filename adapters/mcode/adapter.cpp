@@ -258,6 +258,10 @@ void LineAdapter::pump(Turn& t) {
             Node& n = *nodes_[(turn_ + i) % nodes_.size()];
             if (n.wants(t.now) == Node::Want::urgent) next = &n;
         }
+        // line.setup keeps the line to itself, but from a stop.
+        for (std::size_t i = 0; i < nodes_.size() && next && next->naming(); ++i) {
+            if (nodes_[i]->wants(t.now) == Node::Want::urgent && !nodes_[i]->naming()) next = nodes_[i].get();
+        }
         for (std::size_t i = 0; i < nodes_.size() && !next; ++i) {
             Node& n = *nodes_[(turn_ + i) % nodes_.size()];
             if (n.wants(t.now) != Node::Want::other) continue;

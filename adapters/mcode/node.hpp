@@ -68,6 +68,8 @@ public:
     [[nodiscard]] Want wants(Instant now) const noexcept;
     /// What it would send next is answered without a mark (a line, not a question), and is no stop.
     [[nodiscard]] bool wants_unmarked() const noexcept;
+    /// It gives a fresh drive its name: urgent, but behind stops.
+    [[nodiscard]] bool naming() const noexcept { return job_.kind == JobKind::setup; }
     /// When it will want something without being asked again.
     [[nodiscard]] Instant due() const noexcept;
     [[nodiscard]] Request next(Turn& t);

@@ -54,6 +54,21 @@ TEST(McodeLineSetup, TwoFreshDrivesAtOnceOrNoneIsSaid) {
         EXPECT_NE(r.text.find("power up one alone"), std::string::npos) << r.text;
     }
 }
+TEST(McodeLineSetup, AStopOfAnotherDriveGoesBeforeItsNextStep) {
+    LineBench b("ba", 9600, {}, "ba");
+    b.hand(0, "power", Value{false});
+    b.run(6s);
+    ASSERT_TRUE(b.online(1));
+    (void)b.command(Action{"line.setup", "save"}, 0);
+    b.run(50ms);
+    const auto before = b.sent.size();
+    const Ticket stop = b.command(Halt{}, 1);
+    b.run(3s);
+    ASSERT_GT(b.sent.size(), before);
+    EXPECT_TRUE(b.sent[before].bytes.starts_with("aSL 0")) << b.sent[before].bytes;
+    ASSERT_TRUE(b.result(stop));
+    EXPECT_EQ(b.result(stop)->outcome, Outcome::accepted);
+}
 TEST(McodeLineSetup, ANameThatAnswersIsNotGivenAgain) {
     LineBench b("ab", 9600, {}, "a!");
     b.hand(1, "power", Value{false});

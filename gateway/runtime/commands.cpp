@@ -10,7 +10,9 @@
 
 #include "gateway/core/assets.hpp"
 #include "gateway/runtime/catalogues.hpp"
+#include "gateway/runtime/clock.hpp"
 #include "gateway/runtime/site_file.hpp"
+#include "gateway/runtime/tls_files.hpp"
 #include "gateway/store/backup.hpp"
 #include "gateway/store/store.hpp"
 
@@ -153,7 +155,8 @@ int command_catalogue(const std::string& family, const std::string& what, const 
 
 int command_check(const ConfigSources& sources, const std::string& site_file) {
     std::vector<ConfigFault> faults;
-    (void)read_config(sources, faults);
+    const auto config = read_config(sources, faults);
+    if (faults.empty()) faults = check_tls(config, unix_now_ns() / 1'000'000'000);
     for (const auto& f : faults) complain(fmt::format("{}: {}; {}", f.place, f.text, f.remedy));
     std::size_t count = faults.size();
     if (!site_file.empty()) {

@@ -28,6 +28,7 @@
 #include "gateway/runtime/site_trial.hpp"
 #include "gateway/runtime/systemd.hpp"
 #include "gateway/runtime/threads.hpp"
+#include "gateway/runtime/tls_files.hpp"
 #include "gateway/runtime/warm_gateway.hpp"
 
 namespace axisgate {
@@ -311,11 +312,16 @@ int Service::open_doors() {
         hs.allowed_hosts = options.config.http_allowed_hosts;
         hs.max_connections = static_cast<std::size_t>(options.config.max_http_connections);
         http = std::make_unique<http::Server>(warm, *gateway, hs, [](std::string_view path) { return asset(path); }, access);
+        std::vector<ConfigFault> faults;
+        const auto identity = open_tls(options.config, unix_now_ns() / 1'000'000'000, faults);
+        for (const auto& f : faults) complain(fmt::format("{}: {}; {}", f.place, f.text, f.remedy));
+        if (!faults.empty()) return exit_usage;  // never plain text where somebody asked for TLS
+        http->use_tls(identity);
         if (const std::string fault = http->start(); !fault.empty()) {
             complain(fault);
             return exit_failed;
         }
-        doors.push_back({"http", http->address()});
+        doors.push_back({identity ? "https" : "http", http->address()});
     }
     gateway->set_doors(doors);
     gateway->more_metrics = [this] { return modbus ? modbus_metrics(modbus->counters()) : std::string(); };
@@ -363,12 +369,14 @@ void Service::take_down() {
 
 int command_serve(const ServeOptions& options) {
     if (!open_log(options.config)) return exit_failed;
-    if (!options.config.modbus_rtu_port.empty() || options.config.dds_enabled || !options.config.http_tls_cert.empty() ||
-        options.config.http_tls_self_signed) {
+    if (!options.config.modbus_rtu_port.empty() || options.config.dds_enabled) {
         if (!options.config.modbus_rtu_port.empty()) complain("modbus_rtu.port: this version has no Modbus RTU door; leave the key out");
         if (options.config.dds_enabled) complain("dds.enabled: this version has no DDS door; set it to false");
-        if (options.config.http_tls_self_signed) complain("http.tls: this version serves HTTP without TLS; leave the key out, and keep http.bind on loopback or behind a proxy");
-        if (!options.config.http_tls_cert.empty()) complain("http.tls_cert: this version serves HTTP without TLS; leave the keys out, and keep http.bind on loopback or behind a proxy");
+        return exit_usage;
+    }
+    // Before anything is opened: a certificate that does not hold is a fault of the configuration, as in `axisgate check`.
+    if (const auto wrong = check_tls(options.config, unix_now_ns() / 1'000'000'000); !wrong.empty()) {
+        for (const auto& f : wrong) complain(fmt::format("{}: {}; {}", f.place, f.text, f.remedy));
         return exit_usage;
     }
     (void)std::signal(SIGPIPE, SIG_IGN);

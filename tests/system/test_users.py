@@ -77,9 +77,3 @@ def test_the_code_is_shown_once_and_can_be_made_anew(folder):
         assert g.code and g.code != old
         first(g, 401, code=old)
         first(g)
-
-
-def test_tls_keys_are_refused_in_words(folder):
-    from harness import run
-    code, _, errors = run("serve", "--data", str(folder / "d"), "--set", "http.tls=self_signed")
-    assert code == 2 and "http.tls" in errors, errors  # never plain text where somebody asked for TLS

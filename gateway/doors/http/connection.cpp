@@ -16,6 +16,8 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace {
 constexpr std::size_t most_buffered = 64 * 1024;         // read ahead of the request that is answered
+constexpr std::size_t first_read_bytes = 4 * 1024;       // of a request over TLS; an idle connection holds them
+constexpr std::uint8_t tls_handshake_record = 0x16;      // RFC 8446 5.1
 constexpr std::size_t least_bytes_per_ms = 16;           // an answer of 1 MiB may take about a minute more than the limit of a step
 constexpr std::size_t most_discarded = 2 * 1024 * 1024;  // read and thrown away so that the last answer arrives
 
@@ -55,16 +57,49 @@ std::string response_head(const Response& r, bool keep, std::int64_t now_unix_s)
 Connection::Connection(Transport socket, std::shared_ptr<SessionHost> host, std::string peer)
     : socket_(std::move(socket)), host_(std::move(host)), peer_(std::move(peer)), timer_(socket_.get_executor()), buffer_(most_buffered) {}
 
-void Connection::start() { await_request(); }
+void Connection::start() {
+    if (host_->tls) return await_handshake();
+    await_request();
+}
+
+/// Looks at the first byte without taking it: a TLS record of a handshake begins with 0x16, no HTTP request does.
+void Connection::await_handshake() {
+    phase_ = Phase::handshake;
+    since_ = std::chrono::steady_clock::now();
+    set_timer(host_->settings.header_limit);
+    socket_.socket().async_wait(Transport::Socket::wait_read, [self = shared_from_this()](ErrorCode ec) {
+        if (self->phase_ != Phase::handshake) return;
+        std::uint8_t first = 0;
+        auto& socket = self->socket_.socket();
+        if (!ec) socket.non_blocking(true, ec);
+        if (!ec) socket.receive(asio::buffer(&first, 1), asio::socket_base::message_peek, ec);
+        if (ec) return self->close();
+        if (first == tls_handshake_record) return self->shake_hands();
+        self->fail(400, "bad_request", "this port speaks TLS: write https:// instead of http://");
+    });
+}
+
+void Connection::shake_hands() {
+    socket_.async_handshake(host_->tls->context, [self = shared_from_this()](ErrorCode ec) {
+        if (self->phase_ != Phase::handshake) return;
+        if (ec) {
+            ++self->host_->counters.tls_handshakes_failed;
+            return self->close();
+        }
+        ++self->host_->counters.tls_handshakes;
+        self->await_request();
+    });
+}
 
 std::optional<SteadyTime> Connection::idle_since() const {
-    if (phase_ == Phase::idle && buffer_.size() == 0) return since_;
+    // Also a handshake that does not go on: else silent clients could hold all places for its time.
+    if (phase_ == Phase::handshake || (phase_ == Phase::idle && buffer_.size() == 0)) return since_;
     return std::nullopt;
 }
 
 void Connection::stop() {
     stopping_ = true;
-    if (phase_ == Phase::idle || phase_ == Phase::header || phase_ == Phase::lingering) close();
+    if (phase_ == Phase::handshake || phase_ == Phase::idle || phase_ == Phase::header || phase_ == Phase::lingering) close();
 }
 
 void Connection::abort() { close(); }
@@ -79,6 +114,9 @@ void Connection::set_timer(std::chrono::nanoseconds after) {
 
 void Connection::on_timer() {
     switch (phase_) {
+        case Phase::handshake:
+            ++host_->counters.tls_handshakes_failed;
+            [[fallthrough]];
         case Phase::idle:
             ++host_->counters.connections_timed_out;
             close();
@@ -114,7 +152,18 @@ void Connection::await_request() {
     phase_ = Phase::idle;
     since_ = std::chrono::steady_clock::now();
     set_timer(first_ ? host_->settings.header_limit : host_->settings.idle_limit);
-    socket_.async_wait(Transport::wait_read, [self = shared_from_this()](ErrorCode ec) {
+    if (socket_.secure()) {
+        // Bytes may be deciphered already while the socket below is silent: only reading tells.
+        socket_.async_read_some(buffer_.prepare(first_read_bytes), [self = shared_from_this()](ErrorCode ec, std::size_t bytes) {
+            if (self->phase_ != Phase::idle) return;
+            if (ec) return self->close();
+            self->host_->counters.bytes_in += bytes;
+            self->buffer_.commit(bytes);
+            self->read_header();
+        });
+        return;
+    }
+    socket_.socket().async_wait(Transport::Socket::wait_read, [self = shared_from_this()](ErrorCode ec) {
         if (self->phase_ != Phase::idle) return;
         if (ec) return self->close();
         self->read_header();
@@ -207,6 +256,7 @@ void Connection::answer_request() {
         request_.headers.fields.emplace_back(std::string(f.name_string()), std::string(f.value()));
     request_.body = std::move(m.body());
     request_.peer = peer_;
+    request_.secure = socket_.secure();
     phase_ = Phase::answering;
     since_ = std::chrono::steady_clock::now();
     const std::uint64_t serial = ++serial_;
@@ -232,6 +282,7 @@ void Connection::write(Response response, bool keep) {
     phase_ = Phase::writing;
     at_limit_.reset();
     const auto now_s = std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch()).count();
+    if (socket_.secure() && !host_->tls->self_made) response.headers.set("Strict-Transport-Security", "max-age=31536000");
     head_ = response_head(response, keep, now_s);
     const bool upgraded = response.status == 101;
     body_ = response.without_body ? std::string() : std::move(response.body);
@@ -276,16 +327,16 @@ void Connection::upgrade() {
 void Connection::linger() {
     // Closing with unread bytes resets the connection, and the client may lose the answer: say the end, read on for a while.
     phase_ = Phase::lingering;
-    ErrorCode ignored;
-    socket_.shutdown(Transport::shutdown_send, ignored);
     buffer_.clear();
     discarded_ = 0;
     set_timer(host_->settings.linger_limit);
-    discard();
+    socket_.end_sending([self = shared_from_this()] {
+        if (self->phase_ == Phase::lingering) self->discard();
+    });
 }
 
 void Connection::discard() {
-    socket_.async_read_some(buffer_.prepare(16 * 1024), [self = shared_from_this()](ErrorCode ec, std::size_t bytes) {
+    socket_.socket().async_read_some(buffer_.prepare(16 * 1024), [self = shared_from_this()](ErrorCode ec, std::size_t bytes) {
         if (self->phase_ != Phase::lingering) return;
         self->discarded_ += bytes;
         if (ec || self->discarded_ > most_discarded) return self->close();

@@ -30,8 +30,10 @@ public:
 private:
     using Parser = boost::beast::http::request_parser<boost::beast::http::string_body>;
     using ErrorCode = boost::system::error_code;
-    enum class Phase : std::uint8_t { idle, header, body, answering, writing, lingering, closed };
+    enum class Phase : std::uint8_t { handshake, idle, header, body, answering, writing, lingering, closed };
 
+    void await_handshake();
+    void shake_hands();
     void await_request();
     void read_header();
     void on_header(ErrorCode ec);

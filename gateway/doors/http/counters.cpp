@@ -43,6 +43,8 @@ std::string Counters::text() const {
     plain("connections_refused_total", "counter", "Connections refused because too many were open.", connections_refused);
     plain("connections_timed_out_total", "counter", "Connections closed because a client was too slow or idle.", connections_timed_out);
     plain("malformed_total", "counter", "Requests that were not HTTP, or over a bound.", malformed);
+    plain("tls_handshakes_total", "counter", "TLS handshakes that came to their end.", tls_handshakes);
+    plain("tls_handshakes_failed_total", "counter", "TLS handshakes that failed or took too long.", tls_handshakes_failed);
     plain("received_bytes_total", "counter", "Bytes received.", bytes_in);
     plain("sent_bytes_total", "counter", "Bytes sent.", bytes_out);
     plain("stream_clients", "gauge", "Live-feed clients.", stream_clients);

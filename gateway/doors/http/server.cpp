@@ -106,7 +106,7 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
         }
         ++own_counters.connections_accepted;
         socket.set_option(tcp::no_delay(true), ec);
-        auto connection = std::make_shared<Connection>(std::move(socket), shared_from_this(), text_of(peer));
+        auto connection = std::make_shared<Connection>(Transport(std::move(socket)), shared_from_this(), text_of(peer));
         add(connection);
         connection->start();
     }
@@ -128,6 +128,7 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
         const auto now_s = std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch()).count();
         const std::string all = response_head(r, false, now_s) + r.body;
         ErrorCode ignored;
+        if (tls) return;  // closed without a word: it could not read a plain answer
         socket.non_blocking(true, ignored);
         socket.write_some(asio::buffer(all), ignored);
         socket.shutdown(tcp::socket::shutdown_send, ignored);
@@ -256,6 +257,8 @@ Server::~Server() {
     parts_->abort_all();
     parts_->own_hub.detach();  // handlers that still wait in the io_context may keep the parts longer than the Gateway lives
 }
+
+void Server::use_tls(std::shared_ptr<TlsIdentity> identity) { parts_->tls = std::move(identity); }
 
 std::string Server::start() {
     std::string fault;

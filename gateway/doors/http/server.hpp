@@ -17,6 +17,8 @@
 
 namespace axisgate::http {
 
+struct TlsIdentity;
+
 class Server {
 public:
     /// The Gateway outlives the server. Without `access` there are no users: this machine alone is let in.
@@ -26,6 +28,8 @@ public:
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;
 
+    /// Before start(): every connection is TLS with this identity.
+    void use_tls(std::shared_ptr<TlsIdentity> identity);
     /// Opens the door. Empty: it is open; else what is wrong and what to do.
     [[nodiscard]] std::string start();
     /// "127.0.0.1:8080", with the port that was really taken; empty while it is closed.

@@ -1,9 +1,8 @@
 // Session: what a server sees of one open socket, be it plain requests or the live feed; and what a session sees of its server.
 // In and out: interfaces alone.
-// The seam for TLS is `Transport`: whoever adds it makes this type a stream that is one or the other; nothing else names a socket type.
+// The bytes go through `Transport`, plain or TLS.
 #pragma once
 
-#include <boost/asio/ip/tcp.hpp>
 #include <chrono>
 #include <memory>
 
@@ -12,10 +11,11 @@
 #include "gateway/doors/http/router.hpp"
 #include "gateway/doors/http/settings.hpp"
 #include "gateway/doors/http/stream_hub.hpp"
+#include "gateway/doors/http/tls.hpp"
+#include "gateway/doors/http/transport.hpp"
 
 namespace axisgate::http {
 
-using Transport = boost::asio::ip::tcp::socket;
 using SteadyTime = std::chrono::steady_clock::time_point;
 
 struct Session {
@@ -34,6 +34,7 @@ struct SessionHost {
     const Router& router;
     Counters& counters;
     StreamHub& hub;
+    std::shared_ptr<TlsIdentity> tls;  ///< nothing: plain HTTP
     bool stopping = false;
 
     virtual void add(std::shared_ptr<Session> session) = 0;

@@ -22,7 +22,7 @@ WebSocketSession::~WebSocketSession() = default;
 
 void WebSocketSession::start(std::span<const std::uint8_t> early) {
     ErrorCode ignored;
-    socket_.set_option(asio::socket_base::send_buffer_size(send_buffer_bytes), ignored);
+    socket_.socket().set_option(asio::socket_base::send_buffer_size(send_buffer_bytes), ignored);
     client_ = host_->hub.add([self = weak_from_this()] {
         if (const auto me = self.lock()) me->pump();
     });
@@ -118,8 +118,7 @@ void WebSocketSession::finish() {
     // Our close frame is out. If the client's is here too, the connection ends; else its answer is waited for, but not for long.
     if (close_heard_) {
         finished_ = true;
-        ErrorCode ignored;
-        socket_.shutdown(Transport::shutdown_send, ignored);
+        socket_.end_sending([self = shared_from_this()] {});  // the read ends when the client's end comes
     }
     close_began_ = std::chrono::steady_clock::now();
     arm();

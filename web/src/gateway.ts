@@ -33,7 +33,7 @@ export class Gateway {
         for (const reader of this.extra.get(m.topic) ?? []) reader(m);
       },
     });
-    this.stream.subscribe({ 'axes/*': overviewPeriod_ms, 'drives/*': 500, 'lines/*': 500, events: 1000 });
+    this.stream.subscribe({ 'axes/*': overviewPeriod_ms, 'drives/*': 500, 'lines/*': 500, events: 1000, alarms: 1000 });
   }
 
   start(): void {

@@ -18,6 +18,7 @@ import './styles/mappings.css';
 import './styles/parameters.css';
 import './styles/site.css';
 import './styles/recipes.css';
+import './styles/alarms.css';
 
 applyTheme();
 startClock();

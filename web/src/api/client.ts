@@ -4,7 +4,7 @@
 // Never retries a command: a move that was perhaps taken must not be said twice.
 import { asProblem, Problem, problemOf } from './problem';
 import type {
-  About, Axis, AxisParameter, Command, CommandAnswer, Drive, GatewayEvent, HandItem, Line, NativeReply,
+  About, Alarm, AlarmList, Axis, AxisParameter, Command, CommandAnswer, Drive, GatewayEvent, HandItem, Line, NativeReply,
   RecipeCheck, RecipeEntry, RecipeReport, RecipeReportHead, ScanReport, Value,
 } from './types';
 
@@ -51,7 +51,13 @@ export class Client {
   drives = () => this.call<Drive[]>('/drives');
   lines = () => this.call<Line[]>('/lines');
 
-  events(query: { since?: number; limit?: number; axis?: string; severity?: string } = {}) {
+  alarms = () => this.call<AlarmList>('/alarms');
+  acknowledgeAlarm = (id: number, comment: string) => this.call<Alarm>(`/alarms/${id}/acknowledge`, { method: 'POST', body: comment ? { comment } : {} });
+  acknowledgeAlarms = (ids: number[], comment: string) => this.call<{ acknowledged: number }>('/alarms/acknowledge', { method: 'POST', body: comment ? { ids, comment } : { ids } });
+  shelveAlarm = (id: number, for_s: number, reason: string) => this.call<Alarm>(`/alarms/${id}/shelve`, { method: 'POST', body: { for_s, reason } });
+  unshelveAlarm = (id: number) => this.call<Alarm>(`/alarms/${id}/unshelve`, { method: 'POST' });
+
+  events(query: { since?: number; before?: number; limit?: number; axis?: string; severity?: string; kind?: string } = {}) {
     const q = new URLSearchParams();
     for (const [k, v] of Object.entries(query)) if (v !== undefined && v !== '') q.set(k, String(v));
     return this.call<GatewayEvent[]>(`/events${q.size ? `?${q}` : ''}`);

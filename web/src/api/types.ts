@@ -21,6 +21,8 @@ export type Line = Always<Schemas['LineFields'], 'name' | 'uri' | 'family'> & {
   };
 };
 export type GatewayEvent = Schemas['Event'];
+export type Alarm = Schemas['Alarm'];
+export type AlarmList = Schemas['AlarmList'];
 export type Severity = Schemas['Severity'];
 export type About = Schemas['About'];
 export type Command = Schemas['Command'];

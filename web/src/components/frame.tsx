@@ -21,6 +21,18 @@ const places: { path: string; text: string; icon: IconName; pages: Route['page']
   { path: '/gateway', text: 'Gateway', icon: 'box', pages: ['gateway'] },
 ];
 
+/** How many alarms nobody has acknowledged; nothing when there are none. */
+function AlarmBadge() {
+  const n = useGateway().store.alarms.value?.unacknowledged ?? 0;
+  if (n === 0) return null;
+  return (
+    <span class="alarm-badge" data-field="alarm-badge">
+      {n > 99 ? '99+' : n}
+      <span class="visually-hidden"> unacknowledged alarms</span>
+    </span>
+  );
+}
+
 export function Navigation() {
   const page = route.value.page;
   return (
@@ -29,6 +41,7 @@ export function Navigation() {
         <a key={p.path} href={p.path} aria-current={p.pages.includes(page) ? 'page' : undefined}>
           <Icon name={p.icon} />
           <span>{p.text}</span>
+          {p.path === '/events' && <AlarmBadge />}
         </a>
       ))}
     </nav>

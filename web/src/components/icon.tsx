@@ -45,6 +45,7 @@ const shapes = {
   plus: <path d="M8 3v10M3 8h10" />,
   down: <path d="M8 3v10M3.5 8.5L8 13l4.5-4.5" />,
   remove: <path d="M4 4l8 8M12 4l-8 8" />,
+  shelf: <path d="M2.5 10.5h11M4 10.5v3M12 10.5v3M4.5 10.5v-6h3v6M9.5 10.5v-4h3" />,
   play: <path d="M4.5 3l8 5-8 5z" />,
   up: <path d="M8 13V3M3.5 7.5L8 3l4.5 4.5" />,
 } satisfies Record<string, JSX.Element>;

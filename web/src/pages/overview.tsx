@@ -1,6 +1,7 @@
 // Overview: all axes as live tiles, the lines, the drives, what happened last. In: the store. Out: the first page.
 import { useGateway } from '../gateway';
 import { AxisTile } from '../components/axis-tile';
+import { WrongList } from '../components/wrong';
 import { EventList } from '../components/events';
 import { DriveList, Empty, LineList } from '../components/lines';
 import { Section } from '../components/section';
@@ -17,6 +18,7 @@ export function Overview() {
         Overview
       </h1>
       <div class="overview-main">
+        <WrongList />
         <Axes />
         <div class="side-by-side">
           <Section title="Lines">

@@ -4,7 +4,7 @@
 // are kept. Never talks to the network: it is handed what came.
 import { batch, computed, signal, type ReadonlySignal, type Signal } from '@preact/signals';
 import type { StreamMessage, StreamState } from '../api/stream';
-import type { About, Axis, Drive, GatewayEvent, Line } from '../api/types';
+import type { About, AlarmList, Axis, Drive, GatewayEvent, Line } from '../api/types';
 import { Trail } from './trail';
 
 export interface Known<T> {
@@ -94,6 +94,8 @@ export class Store {
   readonly listed = signal(false);
   /** Newest first. */
   readonly events = signal<GatewayEvent[]>([]);
+  /** As the gateway last told it; null until it has. */
+  readonly alarms = signal<AlarmList | null>(null);
   readonly axisNames: ReadonlySignal<string[]>;
   readonly driveNames: ReadonlySignal<string[]>;
   readonly lineNames: ReadonlySignal<string[]>;
@@ -201,6 +203,9 @@ export class Store {
       const event = message.data as GatewayEvent;
       this.pendingEvents.push(event);
       for (const l of this.eventListeners) l(event);
+    } else if (message.topic === 'alarms') {
+      this.alarms.value = message.data as AlarmList;
+      return;
     } else if (message.topic === 'site') {
       this.siteRevision.value = (message.data as { revision: number }).revision;
       return;

@@ -1,0 +1,84 @@
+// Alarms in words: state, subject, order, how long a shelf lasts; what is wrong now, with the place where it can be mended.
+// In: documents of the gateway. Out: words and links. Never asks anything.
+import type { Alarm, Axis, Drive, GatewayEvent, Line } from '../api/types';
+import { axisPath, linePath } from '../router';
+import type { Word } from './axis';
+
+export function alarmWord(alarm: Pick<Alarm, 'state' | 'severity'>): Word {
+  const tone = alarm.severity === 'alarm' ? 'fault' : 'warning';
+  switch (alarm.state) {
+    case 'unacknowledged_active': return { text: 'Active, not acknowledged', icon: 'octagon', tone, long: 'It is wrong now, and nobody has acknowledged it' };
+    case 'acknowledged_active': return { text: 'Active, acknowledged', icon: 'triangle', tone: 'warning', long: 'It is wrong now, and somebody knows' };
+    case 'unacknowledged_cleared': return { text: 'Cleared, not acknowledged', icon: 'circle-dashed', tone: 'neutral', long: 'It is over, but nobody has acknowledged it' };
+    case 'shelved': return { text: 'Shelved', icon: 'shelf', tone: 'muted', long: 'Put aside for a time' };
+    case 'normal': return { text: 'Normal', icon: 'check', tone: 'good', long: 'Over and acknowledged' };
+  }
+}
+
+export const subjectOf = (a: Pick<Alarm, 'axis' | 'drive' | 'line'>): string => a.axis ?? a.drive ?? a.line ?? 'gateway';
+export const canAcknowledge = (a: Alarm): boolean => !a.acknowledged && a.state !== 'shelved';
+
+export const shelfTimes = [
+  { value: '600', text: '10 minutes' },
+  { value: '3600', text: '1 hour' },
+  { value: '28800', text: '8 hours' },
+  { value: '86400', text: '1 day' },
+] as const;
+
+export interface Wrong {
+  key: string;
+  word: Word;
+  about: string;
+  text: string;
+  path: string;
+}
+
+/** Faults first, then lines, drives, and at the end what waits to be acknowledged. Nothing: all is well. */
+export function whatIsWrong(axes: Axis[], lines: Line[], drives: Drive[], unacknowledged: number): Wrong[] {
+  const out: Wrong[] = [];
+  for (const a of axes) {
+    if (!a.fault) continue;
+    const text = `Fault ${a.error.code}: ${a.error.text || 'the drive says no more'}`;
+    out.push({ key: `axis ${a.name}`, word: { text: 'Fault', icon: 'octagon', tone: 'fault', long: text }, about: a.name, text, path: axisPath(a.name) });
+  }
+  for (const l of lines) {
+    if (l.status.state !== 'down' && l.status.state !== 'bus_off') continue;
+    const text = l.status.text || 'it cannot be opened';
+    out.push({ key: `line ${l.name}`, word: { text: l.status.state === 'down' ? 'Line down' : 'Bus off', icon: 'unplugged', tone: 'fault', long: text }, about: l.name, text, path: linePath(l.name) });
+  }
+  for (const d of drives) {
+    if (d.status.presence !== 'offline') continue;
+    const text = d.status.text || 'nobody answers';
+    out.push({ key: `drive ${d.name}`, word: { text: 'Drive offline', icon: 'unplugged', tone: 'warning', long: text }, about: d.name, text, path: linePath(d.line) });
+  }
+  if (unacknowledged > 0) {
+    const text = unacknowledged === 1 ? '1 alarm is not acknowledged' : `${unacknowledged} alarms are not acknowledged`;
+    out.push({ key: 'alarms', word: { text: 'Alarms', icon: 'list', tone: 'warning', long: text }, about: 'Alarms', text, path: '/events' });
+  }
+  return out;
+}
+
+export interface EventFilter {
+  least: string;
+  axis: string;
+  kind: string;
+  text: string;
+}
+const rank: Record<string, number> = { info: 0, warning: 1, alarm: 2 };
+
+export function passes(e: GatewayEvent, f: EventFilter): boolean {
+  if ((rank[e.severity] ?? 0) < (rank[f.least] ?? 0)) return false;
+  if (f.axis !== '' && e.axis !== f.axis) return false;
+  if (f.kind !== '' && e.kind !== f.kind) return false;
+  const wanted = f.text.trim().toLowerCase();
+  return wanted === '' || [e.text, e.kind, e.axis, e.drive, e.line, e.who, e.parameter].some((s) => s?.toLowerCase().includes(wanted));
+}
+
+/** The same filter for the export; the text is the page's own and stays here. */
+export function exportPath(f: EventFilter, format: 'csv' | 'text'): string {
+  const q = new URLSearchParams({ format, limit: '1000' });
+  if (f.least !== 'info' && f.least !== '') q.set('severity', f.least);
+  if (f.axis) q.set('axis', f.axis);
+  if (f.kind) q.set('kind', f.kind);
+  return `/api/v1/events?${q}`;
+}

@@ -1,0 +1,64 @@
+// Alarms in words: states without colour, what is wrong now and where it is mended, the filter of the events and of their files.
+import { describe, expect, it } from 'vitest';
+import type { Alarm, Drive, Line } from '../src/api/types';
+import { Store } from '../src/state/store';
+import { alarmWord, canAcknowledge, exportPath, passes, subjectOf, whatIsWrong } from '../src/words/alarm';
+import { axis, event, world } from './fixtures';
+
+const alarm = (change: Partial<Alarm> = {}): Alarm => ({
+  id: 4, axis: 'feeder', drive: 'feeder', line: null, kind: 'fault', code: 8, text: 'fault 8', severity: 'alarm', state: 'unacknowledged_active', active: true, acknowledged: false,
+  since: '2026-01-02T03:04:05Z', cleared_at: null, acknowledged_by: null, acknowledged_at: null, comment: null, shelved_until: null, shelved_by: null, reason: null, count: 1, ...change,
+});
+const drive = (presence: string): Drive => {
+  const d = structuredClone(world().driveOf('feeder').document()) as Drive;
+  return { ...d, status: { ...d.status, presence: presence as Drive['status']['presence'], text: 'silent' } };
+};
+const line = (state: string): Line => ({ name: 'can0', uri: 'twin', family: 'uim342', drives: [], status: { state, text: 'no such device' } }) as unknown as Line;
+
+describe('an alarm', () => {
+  it('tells its state in a word and a shape of its own', () => {
+    const words = (['unacknowledged_active', 'acknowledged_active', 'unacknowledged_cleared', 'shelved', 'normal'] as const).map((state) => alarmWord(alarm({ state })));
+    expect(new Set(words.map((w) => w.text)).size).toBe(5);
+    expect(new Set(words.map((w) => w.icon)).size).toBe(5);
+  });
+  it('can be acknowledged unless it is, or is shelved', () => {
+    expect([alarm(), alarm({ acknowledged: true, state: 'acknowledged_active' }), alarm({ state: 'shelved' }), alarm({ state: 'unacknowledged_cleared' })].map(canAcknowledge)).toEqual([true, false, false, true]);
+    expect(subjectOf({ axis: null, drive: null, line: 'can0' })).toBe('can0');
+  });
+});
+
+describe('what is wrong', () => {
+  it('is nothing when all is well', () => {
+    expect(whatIsWrong([axis()], [line('up')], [drive('twin')], 0)).toEqual([]);
+  });
+  it('is each with a link to where it can be mended', () => {
+    const all = whatIsWrong([axis({ name: 'feeder', fault: true, error: { code: 8, text: 'stalled' } })], [line('down')], [drive('offline')], 2);
+    expect(all.map((w) => [w.word.text, w.text, w.path])).toEqual([
+      ['Fault', 'Fault 8: stalled', '/axes/feeder'],
+      ['Line down', 'no such device', '/lines/can0'],
+      ['Drive offline', 'silent', `/lines/${drive('offline').line}`],
+      ['Alarms', '2 alarms are not acknowledged', '/events'],
+    ]);
+  });
+});
+
+describe('events', () => {
+  const all = { least: 'info', axis: '', kind: '', text: '' };
+  it('pass by severity, axis, kind and text', () => {
+    const e = event(1, { severity: 'warning', kind: 'line', axis: null, line: 'can0', text: 'line can0 is down' });
+    for (const [f, wanted] of [[all, true], [{ ...all, least: 'alarm' }, false], [{ ...all, axis: 'feeder' }, false], [{ ...all, kind: 'line' }, true], [{ ...all, kind: 'write' }, false], [{ ...all, text: ' CAN0' }, true], [{ ...all, text: 'usb' }, false]] as const) {
+      expect(passes(e, f)).toBe(wanted);
+    }
+  });
+  it('are saved by the same filter', () => {
+    expect(exportPath(all, 'csv')).toBe('/api/v1/events?format=csv&limit=1000');
+    expect(exportPath({ least: 'alarm', axis: 'x y', kind: 'fault', text: '' }, 'text')).toBe('/api/v1/events?format=text&limit=1000&severity=alarm&axis=x+y&kind=fault');
+  });
+});
+
+it('the store keeps the list that the gateway last told', () => {
+  const store = new Store();
+  expect(store.alarms.value).toBeNull();
+  store.take({ topic: 'alarms', at: 1e15, data: { unacknowledged: 1, dropped: 0, alarms: [alarm()] } });
+  expect(store.alarms.value?.unacknowledged).toBe(1);
+});

@@ -100,8 +100,8 @@ test('an alarm is shelved with a reason, taken back, acknowledged, and leaves wh
 test('events are filtered by kind, axis and text, and saved as shown', async () => {
   const page = await open(browser, `${program.url}/events`);
   await page.locator('[data-severity]').first().waitFor();
-  await page.getByLabel('Kind').selectOption('fault');
-  await page.getByLabel('Axis').selectOption('slide.x');
+  await page.getByRole('combobox', { name: 'Kind' }).selectOption('fault');
+  await page.getByRole('combobox', { name: 'Axis' }).selectOption('slide.x');
   await page.getByRole('heading', { name: /Events: 1 shown/ }).waitFor();
   await page.getByLabel('Text in the event').fill('no such text');
   await page.getByRole('heading', { name: /Events: 0 shown/ }).waitFor();

@@ -127,6 +127,8 @@ TEST(Alarms, AreOnePerCodeAndTheFaultEndsThemAll) {
     EXPECT_EQ(w.list.all().size(), 2u);
     w.list.on_event(w.event("alarm", Severity::alarm, 29));  // told while the drive is in fault: over with it
     EXPECT_EQ(w.list.find(3)->state(), AlarmState::unacknowledged_active);
+    EXPECT_FALSE(w.list.on_event(w.event("alarm", Severity::alarm, 8))) << "the drive's word about the fault 8";
+    EXPECT_EQ(w.list.all().size(), 3u);
     w.cleared();
     for (const auto& [id, a] : w.list.all())
         EXPECT_EQ(a.state(), AlarmState::unacknowledged_cleared) << id;

@@ -26,7 +26,7 @@ export function WrongList() {
               <span class="wrong-word">
                 <Icon name={w.word.icon} size={14} /> {w.word.text}
               </span>
-              <b>{w.about}</b>
+              {w.about && <b>{w.about}</b>}
               <span class="wrong-text">{w.text}</span>
             </a>
           </li>

@@ -53,7 +53,7 @@ export function whatIsWrong(axes: Axis[], lines: Line[], drives: Drive[], unackn
   }
   if (unacknowledged > 0) {
     const text = unacknowledged === 1 ? '1 alarm is not acknowledged' : `${unacknowledged} alarms are not acknowledged`;
-    out.push({ key: 'alarms', word: { text: 'Alarms', icon: 'list', tone: 'warning', long: text }, about: 'Alarms', text, path: '/events' });
+    out.push({ key: 'alarms', word: { text: 'Alarms', icon: 'list', tone: 'warning', long: text }, about: '', text, path: '/events' });
   }
   return out;
 }

@@ -1,5 +1,5 @@
 // App: the frame around whatever page the address names. In: the route. Out: the whole page.
-import { useEffect } from 'preact/hooks';
+import { useEffect, useRef } from 'preact/hooks';
 import { Head, Spoken, Strip } from './components/frame';
 import { route } from './router';
 import { AxisPage } from './pages/axis';
@@ -11,6 +11,9 @@ import { RecipePage, RecipesPage } from './pages/recipes';
 import { Overview } from './pages/overview';
 import { ParametersPage } from './pages/parameters';
 import { SitePage } from './pages/site';
+import { SignInPage } from './pages/sign-in';
+import { UsersPage } from './pages/users';
+import { useGateway } from './gateway';
 
 const titles = {
   overview: 'Axes',
@@ -20,6 +23,8 @@ const titles = {
   site: 'Site',
   events: 'Events',
   gateway: 'Gateway',
+  users: 'Users',
+  'sign-in': 'Sign in',
   unknown: 'No such page',
 };
 
@@ -39,9 +44,27 @@ export function App() {
         <Strip />
       </div>
       <div id="content" class="content">
-        <Page />
+        <Signed />
       </div>
       <Spoken />
+    </>
+  );
+}
+
+/** While a sign-in is needed the page waits behind it, unseen and with all that was typed. A visit that begins without a role has no page yet. */
+function Signed() {
+  const { session } = useGateway();
+  const needed = session.needed.value;
+  const wasIn = useRef(false);
+  if (!needed) wasIn.current = true;
+  return (
+    <>
+      {needed && <SignInPage />}
+      {wasIn.current && (
+        <div hidden={needed}>
+          <Page />
+        </div>
+      )}
     </>
   );
 }
@@ -60,6 +83,8 @@ function Page() {
     case 'mappings': return <MappingsPage />;
     case 'parameters': return <ParametersPage key={r.name} name={r.name} />;
     case 'site': return <SitePage />;
+    case 'users': return <UsersPage />;
+    case 'sign-in': return <SignInPage />;
     case 'unknown':
       return (
         <main class="page narrow">

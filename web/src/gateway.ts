@@ -7,6 +7,8 @@ import { Client } from './api/client';
 import { Stream, type StreamMessage } from './api/stream';
 import { Commander } from './state/commander';
 import { Jog } from './state/jog';
+import { Session } from './state/session';
+import { kept } from './state/kept';
 import { Store } from './state/store';
 
 const overviewPeriod_ms = 100;
@@ -17,14 +19,20 @@ export class Gateway {
   readonly client: Client;
   readonly store: Store;
   readonly commander: Commander;
+  readonly session: Session;
   readonly stream: Stream;
   private readonly jogs = new Map<string, Jog>();
   private readonly extra = new Map<string, Set<(m: StreamMessage) => void>>();
 
   constructor(parts: { client?: Client; store?: Store; url?: string } = {}) {
-    this.client = parts.client ?? new Client();
+    this.client = parts.client ?? new Client('/api/v1', undefined, tabName());
     this.store = parts.store ?? new Store({ schedule: beforeNextPicture });
     this.commander = new Commander(this.client, () => (this.store.connected.peek() ? '' : 'The page is not connected to the gateway.'));
+    this.session = new Session(this.client, () => {
+      // Another identity: the old stream belongs to the one before.
+      this.stream.stop();
+      this.stream.start();
+    });
     this.stream = new Stream({
       url: parts.url ?? streamUrl(location),
       onState: (s) => this.store.setConnection(s),
@@ -45,6 +53,14 @@ export class Gateway {
       const fresh = !listedFor.startsWith(`${epoch}/`);
       listedFor = `${epoch}/${revision}`;
       void this.list(epoch, fresh);
+    });
+    // A connection that was lost may be a session that has ended; a gateway that is back may be another one.
+    let askedFor = '';
+    effect(() => {
+      const { phase, epoch } = this.store.connection.value;
+      if (phase === 'connecting' || askedFor === `${phase}/${epoch}`) return;
+      askedFor = `${phase}/${epoch}`;
+      void this.session.ask();
     });
     this.stream.start();
     addEventListener('online', () => this.stream.wake());
@@ -95,6 +111,13 @@ export class Gateway {
       }, listRetry_ms);
     }
   }
+}
+
+/** A name per tab, kept for its session: a reload is the same client. */
+function tabName(): string {
+  const name = kept('client');
+  if (!name.value) name.value = `page-${Math.floor(Math.random() * 36 ** 6).toString(36).padStart(6, '0')}`;
+  return name.value;
 }
 
 export function streamUrl(at: { protocol: string; host: string }): string {

@@ -19,12 +19,15 @@ import './styles/parameters.css';
 import './styles/site.css';
 import './styles/recipes.css';
 import './styles/alarms.css';
+import './styles/users.css';
 
 applyTheme();
 startClock();
 startRouter();
 const gateway = new Gateway();
 gateway.start();
+// Who one is decides what is shown first; a gateway that does not answer keeps the stops off the screen for a second at most.
+await Promise.race([gateway.session.ask(), new Promise((r) => setTimeout(r, 1000))]);
 render(
   <GatewayProvider value={gateway}>
     <App />

@@ -14,10 +14,12 @@ export type Route =
   | { page: 'mappings' }
   | { page: 'parameters'; name: string }
   | { page: 'site' }
+  | { page: 'users' }
+  | { page: 'sign-in' }
   | { page: 'unknown'; path: string };
 
 /** Pages without a name. */
-const plain = ['lines', 'mappings', 'recipes', 'site', 'events', 'gateway'] as const;
+const plain = ['lines', 'mappings', 'recipes', 'site', 'events', 'gateway', 'users', 'sign-in'] as const;
 const isPlain = (s: string): s is (typeof plain)[number] => (plain as readonly string[]).includes(s);
 
 export function routeOf(path: string): Route {

@@ -38,12 +38,18 @@ interface Waiting {
 const part = encodeURIComponent;
 
 export class Client {
+  /** Goes with every change, also with stops, while the session has one. */
+  csrf: string | null = null;
+  /** The gateway knows nobody here any more. */
+  onUnauthorized: (() => void) | undefined;
   private running = 0;
   private waiting: Waiting[] = [];
 
   constructor(
     private readonly base = '/api/v1',
     private readonly fetcher: typeof fetch = (...a) => fetch(...a),
+    /** X-Client: what makes all connections of one tab one client, which can hold an axis. */
+    readonly name = '',
   ) {}
 
   about = () => this.call<About>('/about');
@@ -179,6 +185,8 @@ export class Client {
     try {
       const headers: Record<string, string> = { accept: 'application/json, application/problem+json' };
       const init: RequestInit = { method: options.method ?? 'GET', headers, signal: aborter.signal, cache: 'no-store' };
+      if (this.name) headers['x-client'] = this.name;
+      if (this.csrf && init.method !== 'GET') headers['x-csrf-token'] = this.csrf;
       if (options.body !== undefined) {
         headers['content-type'] = 'application/json';
         init.body = JSON.stringify(options.body);
@@ -192,6 +200,7 @@ export class Client {
         init.priority = 'high';
       }
       const response = await this.fetcher(this.base + path, init);
+      if (response.status === 401 && !path.startsWith('/session')) this.onUnauthorized?.();
       if (!response.ok) throw await problemOf(response);
       return await read(response);
     } catch (error) {

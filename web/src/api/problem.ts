@@ -16,6 +16,8 @@ export class Problem extends Error {
     detail: string,
     readonly status = 0,
     readonly document: ProblemDocument = {},
+    /** Seconds that the gateway asks to wait; 0: it did not. */
+    readonly retryAfter_s = 0,
   ) {
     super(detail);
   }
@@ -36,17 +38,19 @@ export class Problem extends Error {
 /** Reads the body of a response that is not good. Something else than a problem document becomes one. */
 export async function problemOf(response: Response): Promise<Problem> {
   const text = await response.text().catch(() => '');
+  const wait = Number(response.headers.get('retry-after') ?? 0);
+  const retryAfter_s = Number.isFinite(wait) && wait > 0 ? Math.ceil(wait) : 0;
   const type = response.headers.get('content-type') ?? '';
   if (/^application\/(problem\+)?json\b/.test(type)) {
     try {
       const document = JSON.parse(text) as ProblemDocument;
       const detail = document.detail || document.title;
-      if (typeof detail === 'string' && detail) return new Problem('answered', detail, response.status, document);
+      if (typeof detail === 'string' && detail) return new Problem('answered', detail, response.status, document, retryAfter_s);
     } catch {
       // Half a document says nothing: the status has to do.
     }
   }
-  return new Problem('answered', `the gateway answered ${response.status} ${response.statusText}`.trim(), response.status);
+  return new Problem('answered', `the gateway answered ${response.status} ${response.statusText}`.trim(), response.status, {}, retryAfter_s);
 }
 
 export function asProblem(error: unknown): Problem {

@@ -21,6 +21,9 @@ export interface TextFieldProps extends Common {
   /** Offers while typing. */
   offers?: readonly { value: string; text?: string }[];
   mono?: boolean;
+  password?: boolean;
+  /** What a password manager may fill in. */
+  fill?: string;
 }
 
 export function TextField(p: TextFieldProps) {
@@ -31,10 +34,10 @@ export function TextField(p: TextFieldProps) {
       <label for={id}>{p.label}</label>
       <input
         id={id}
-        type="text"
+        type={p.password ? 'password' : 'text'}
         class={`${p.fault ? 'is-wrong' : ''}${p.mono ? ' mono' : ''}`}
         inputMode={p.number ? 'decimal' : 'text'}
-        autocomplete="off"
+        autocomplete={(p.fill ?? 'off') as 'off'}
         autocapitalize="off"
         spellcheck={false}
         value={p.value}

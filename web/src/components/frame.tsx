@@ -10,6 +10,7 @@ import { duration } from '../words/time';
 import { Icon, type IconName } from './icon';
 import { lastKnownWords } from './axis-tile';
 import { StopAll } from './stop';
+import { Who } from './who';
 
 const places: { path: string; text: string; icon: IconName; pages: Route['page'][] }[] = [
   { path: '/', text: 'Axes', icon: 'axis', pages: ['overview', 'axis', 'parameters'] },
@@ -81,6 +82,7 @@ export function Head() {
       </a>
       <Navigation />
       <Connection />
+      <Who />
       <ThemeButton />
       <StopAll />
     </header>
@@ -98,6 +100,15 @@ function Counted({ n, one, many, tone }: { n: number; one: string; many: string;
 export function Strip() {
   const gateway = useGateway();
   const { store, commander } = gateway;
+  if (gateway.session.needed.value) {
+    const said = commander.stopReport.value;
+    return (
+      <div class="strip" data-field="strip">
+        <span class="strip-text">Not signed in: no values are shown.</span>
+        <span class={`strip-stop result-${said.tone}`}>{said.text}</span>
+      </div>
+    );
+  }
   const c = store.connection.value;
   const stop = commander.stopReport.value;
   if (c.phase !== 'live') {

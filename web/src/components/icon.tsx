@@ -37,6 +37,7 @@ const shapes = {
   axis: <path d="M2 13.5h12M3.5 10h9M5 8V5.5h6V8z" />,
   lines: <path d="M2 8h12M5 8V4.5M11 8v3.5M3.5 2.5h3v2h-3zM9.5 11.5h3v2h-3z" />,
   list: <path d="M5.5 4h8M5.5 8h8M5.5 12h8M2.5 4h.4M2.5 8h.4M2.5 12h.4" />,
+  person: <path d="M8 2.5a2.7 2.7 0 1 0 0 5.4 2.7 2.7 0 0 0 0-5.4M2.8 13.5c.5-2.6 2.5-4 5.2-4s4.7 1.4 5.2 4" />,
   box: <path d="M2.5 4.5h11v7h-11zM5 9h.4M8 9h3" />,
   table: <path d="M2.5 3.5h11v9h-11zM2.5 6.5h11M2.5 9.5h11M6.5 3.5v9" />,
   site: <path d="M6 2.5h4v3H6zM2 10.5h4v3H2zM10 10.5h4v3h-4zM8 5.5V8M4 10.5V8h8v2.5" />,

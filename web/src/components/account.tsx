@@ -1,0 +1,43 @@
+// Account: a new password for oneself. In: the old one, the new one twice. Out: a change at the gateway, which ends all sessions of the user.
+import { useState } from 'preact/hooks';
+import { asProblem } from '../api/problem';
+import { useGateway } from '../gateway';
+import { passwordFault, signInWords } from '../state/session';
+import { quiet, Tell, TextField, type Told } from './form';
+
+export function Account({ user }: { user: string }) {
+  const { client, session } = useGateway();
+  const [old, setOld] = useState('');
+  const [fresh, setFresh] = useState('');
+  const [second, setSecond] = useState('');
+  const [told, setTold] = useState<Told>(quiet);
+  const send = async (event: Event) => {
+    event.preventDefault();
+    const fault = old ? passwordFault(fresh, second) : 'The old password is missing.';
+    if (fault) return setTold({ tone: 'refused', text: fault });
+    setTold({ tone: 'busy', text: 'Changing …' });
+    try {
+      await client.call(`/users/${encodeURIComponent(user)}/password`, { method: 'PUT', body: { old, new: fresh } });
+      setTold({ tone: 'good', text: 'Changed. Sign in with the new password.' });
+      for (const clear of [setOld, setFresh, setSecond]) clear('');
+      void session.ask();
+    } catch (error) {
+      setTold({ tone: 'refused', text: signInWords(asProblem(error)) });
+    }
+  };
+  return (
+    <form class="form card" aria-label="Your password" onSubmit={(e) => void send(e)}>
+      <div class="form-grid">
+        <TextField label="Old password" password fill="current-password" value={old} onText={setOld} />
+        <TextField label="New password" password fill="new-password" value={fresh} onText={setFresh} hint="At least 12 characters. All your sessions end." />
+        <TextField label="New password again" password fill="new-password" value={second} onText={setSecond} />
+      </div>
+      <div class="form-foot">
+        <button type="submit" class="button">
+          Change the password
+        </button>
+        <Tell told={told} field="password-told" />
+      </div>
+    </form>
+  );
+}

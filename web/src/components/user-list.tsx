@@ -1,0 +1,112 @@
+// User list: who can sign in, with role; for administrators. In: GET /users. Out: added, changed, disabled and deleted users.
+// A deletion is asked twice. A password is typed by the administrator and never shown again.
+import { useEffect, useState } from 'preact/hooks';
+import { asProblem } from '../api/problem';
+import type { Role, User } from '../api/types';
+import { useGateway } from '../gateway';
+import { passwordFault, roles, userFault } from '../state/session';
+import { clockTime } from '../words/time';
+import { Choice, quiet, Tell, TextField, type Told } from './form';
+
+export const roleChoices = roles.map((r) => ({ value: r, text: r }));
+
+export function UserList() {
+  const { client, session } = useGateway();
+  const [users, setUsers] = useState<User[] | null>(null);
+  const [told, setTold] = useState<Told>(quiet);
+  const [asked, setAsked] = useState('');
+  const [renewing, setRenewing] = useState('');
+  const [name, setName] = useState('');
+  const [role, setRole] = useState<string>('operator');
+  const [password, setPassword] = useState('');
+  const [fresh, setFresh] = useState('');
+
+  const list = async () => setUsers(await client.call<User[]>('/users'));
+  const act = async (words: string, work: () => Promise<unknown>): Promise<boolean> => {
+    setTold({ tone: 'busy', text: `${words} …` });
+    try {
+      await work();
+      setTold({ tone: 'good', text: `${words}: done.` });
+      await list();
+      return true;
+    } catch (error) {
+      setTold({ tone: 'refused', text: `${words}: ${asProblem(error).words}` });
+      return false;
+    } finally {
+      void session.ask(); // it may have been oneself
+    }
+  };
+  useEffect(() => void list().catch((e) => setTold({ tone: 'refused', text: asProblem(e).words })), []);
+
+  const at = (n: string) => `/users/${encodeURIComponent(n)}`;
+  const patch = (n: string, words: string, body: object) => act(words, () => client.call(at(n), { method: 'PATCH', body }));
+  const remove = (n: string) => {
+    if (asked !== n) return setAsked(n);
+    setAsked('');
+    void act(`Delete ${n}`, () => client.call(at(n), { method: 'DELETE' }));
+  };
+  const renew = async (n: string) => {
+    if (renewing !== n) {
+      setFresh('');
+      return setRenewing(n);
+    }
+    const fault = passwordFault(fresh, fresh);
+    if (fault) return setTold({ tone: 'refused', text: fault });
+    if (await patch(n, `New password of ${n}`, { password: fresh })) setRenewing('');
+    setFresh('');
+  };
+  const add = async (event: Event) => {
+    event.preventDefault();
+    const fault = userFault(name) || passwordFault(password, password);
+    if (fault) return setTold({ tone: 'refused', text: fault });
+    if (await act(`Add ${name}`, () => client.call('/users', { method: 'POST', body: { name, role: role as Role, password } }))) setName('');
+    setPassword('');
+  };
+
+  return (
+    <div class="card form">
+      <ul class="access-list">
+        {users?.length === 0 && <li>There are no users yet.</li>}
+        {users?.map((u) => (
+          <li key={u.name} data-user={u.name} class="access-row">
+            <span class="access-name">
+              <b>{u.name}</b> <span class="access-more">{u.enabled ? '' : 'disabled · '}{u.last_sign_in_at ? `last sign-in ${clockTime(u.last_sign_in_at)}` : 'never signed in'}</span>
+            </span>
+            <span class="access-acts">
+              <select aria-label={`Role of ${u.name}`} value={u.role} onChange={(e) => void patch(u.name, `Role of ${u.name}`, { role: e.currentTarget.value })}>
+                {roles.map((r) => (
+                  <option key={r} value={r}>
+                    {r}
+                  </option>
+                ))}
+              </select>
+              <button type="button" class="button" aria-label={`${u.enabled ? 'Disable' : 'Enable'} ${u.name}`} onClick={() => void patch(u.name, `${u.enabled ? 'Disable' : 'Enable'} ${u.name}`, { enabled: !u.enabled })}>
+                {u.enabled ? 'Disable' : 'Enable'}
+              </button>
+              {renewing === u.name && <input type="password" aria-label={`New password of ${u.name}`} autocomplete="new-password" value={fresh} onInput={(e) => setFresh(e.currentTarget.value)} />}
+              <button type="button" class="button" aria-label={renewing === u.name ? `Set the password of ${u.name}` : `Give ${u.name} a new password`} onClick={() => void renew(u.name)}>
+                {renewing === u.name ? 'Set' : 'New password'}
+              </button>
+              <button type="button" class="button" aria-label={asked === u.name ? `Really delete ${u.name}` : `Delete ${u.name}`} onClick={() => remove(u.name)} onBlur={() => setAsked('')}>
+                {asked === u.name ? 'Really delete' : 'Delete'}
+              </button>
+            </span>
+          </li>
+        ))}
+      </ul>
+      <form aria-label="Add a user" onSubmit={(e) => void add(e)}>
+        <div class="form-grid">
+          <TextField label="Name" value={name} onText={setName} hint="a-z, 0-9, point, _ - and @" />
+          <Choice label="Role" value={role} onChoice={setRole} choices={roleChoices} />
+          <TextField label="Password" password fill="new-password" value={password} onText={setPassword} hint="At least 12 characters." />
+        </div>
+        <div class="form-foot">
+          <button type="submit" class="button primary">
+            Add user
+          </button>
+          <Tell told={told} field="users-told" />
+        </div>
+      </form>
+    </div>
+  );
+}

@@ -1,0 +1,29 @@
+// Who: who one is to the gateway, with the role; the way to the own account, to the sign-in, and out. In: the session. Out: a piece of the head.
+import { useGateway } from '../gateway';
+import { whoWords } from '../state/session';
+import { Icon } from './icon';
+
+export function Who() {
+  const { session } = useGateway();
+  const info = session.info.value;
+  if (!info?.role) return null;
+  const words = whoWords(info);
+  return (
+    <span class="who" data-field="who">
+      <a class="who-name" href="/users" title={`${words}: account, users and tokens`} aria-label={`You are ${words}. Account, users and tokens`}>
+        <Icon name="person" size={15} />
+        <span>{words}</span>
+      </a>
+      {info.via === 'local' && (
+        <a class="button quiet who-way" href="/sign-in">
+          Sign in
+        </a>
+      )}
+      {info.via === 'cookie' && (
+        <button type="button" class="button quiet who-way" onClick={() => void session.signOut()}>
+          Sign out
+        </button>
+      )}
+    </span>
+  );
+}

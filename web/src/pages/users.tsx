@@ -1,0 +1,28 @@
+// Users: the own account for everybody, the users for administrators, and the access tokens. In: the session. Out: a page.
+import { Account } from '../components/account';
+import { Tokens } from '../components/tokens';
+import { UserList } from '../components/user-list';
+import { Section } from '../components/section';
+import { useGateway } from '../gateway';
+import { whoWords } from '../state/session';
+
+export function UsersPage() {
+  const { session } = useGateway();
+  const info = session.info.value;
+  const why = session.mayNot('administrator');
+  return (
+    <main class="page narrow users-page">
+      <h1 tabIndex={-1}>Users</h1>
+      <p data-field="account">{info ? `You are ${whoWords(info)}.` : 'The gateway has not said who you are.'}</p>
+      {info?.user && info.via === 'cookie' && (
+        <Section title="Your password">
+          <Account user={info.user} />
+        </Section>
+      )}
+      <Section title="All users">{why ? <p class="card form" data-field="users-barred">{why}</p> : <UserList key={info?.user ?? ''} />}</Section>
+      <Section title="Tokens">
+        <Tokens key={info?.user ?? ''} />
+      </Section>
+    </main>
+  );
+}

@@ -1,0 +1,120 @@
+// Session: who this page is to the gateway, and what that role may do. In: GET /session, sign-in, sign-out. Out: a signal, and reasons in words.
+// What the gateway has not answered forbids nothing here: the gateway itself refuses. Never keeps a password; the CSRF token lives in memory only.
+import { computed, signal } from '@preact/signals';
+import type { Client } from '../api/client';
+import { asProblem, type Problem } from '../api/problem';
+import type { Role, SessionInfo } from '../api/types';
+
+export const roles: readonly Role[] = ['viewer', 'operator', 'engineer', 'administrator'];
+
+type Caller = Pick<Client, 'call'> & Partial<Pick<Client, 'csrf' | 'onUnauthorized'>>;
+
+export class Session {
+  /** null: the gateway has not said yet, or is older than the page. */
+  readonly info = signal<SessionInfo | null>(null);
+  /** The page has to be left for the sign-in: the gateway knows nobody here. */
+  readonly needed = computed(() => this.info.value !== null && this.info.value.role === null);
+  private asking: Promise<void> | null = null;
+  private again = false;
+  private change = 0;
+
+  constructor(
+    private readonly client: Caller,
+    /** Who one is has changed: the stream has to be opened anew. */
+    private readonly onChange: () => void = () => undefined,
+  ) {
+    client.onUnauthorized = () => void this.ask();
+  }
+
+  /** One question at a time; asked meanwhile, it is asked once more afterwards. */
+  ask(): Promise<void> {
+    if (this.asking) {
+      this.again = true;
+      return this.asking;
+    }
+    this.asking = this.askOnce().finally(() => {
+      this.asking = null;
+      if (this.again) {
+        this.again = false;
+        void this.ask();
+      }
+    });
+    return this.asking;
+  }
+
+  private async askOnce(): Promise<void> {
+    const before = this.change;
+    try {
+      const info = await this.client.call<SessionInfo>('/session', { urgent: true });
+      if (before === this.change) this.set(info); // an answer from before a sign-in says nothing about after it
+    } catch {
+      // Not reached: what was known stays, the strip tells the loss.
+    }
+  }
+
+  private set(info: SessionInfo): void {
+    const old = this.info.peek();
+    this.client.csrf = info.csrf;
+    this.info.value = info;
+    if (old && (old.user !== info.user || old.role !== info.role || old.via !== info.via)) this.onChange();
+  }
+
+  signIn = (user: string, password: string) => this.enter('/session', { user, password });
+  first = (code: string, user: string, password: string) => this.enter('/session/first', { code, user, password });
+
+  private async enter(path: string, body: object): Promise<Problem | null> {
+    try {
+      const info = await this.client.call<SessionInfo>(path, { method: 'POST', body });
+      this.change += 1;
+      this.set(info);
+      return null;
+    } catch (error) {
+      const problem = asProblem(error);
+      if (problem.status === 409) void this.ask();
+      return problem;
+    }
+  }
+
+  async signOut(): Promise<Problem | null> {
+    try {
+      await this.client.call<undefined>('/session', { method: 'DELETE' });
+    } catch (error) {
+      return asProblem(error);
+    }
+    this.change += 1;
+    this.client.csrf = null;
+    await this.ask();
+    return null;
+  }
+
+  /** Why one may not do what needs this role; empty: one may. */
+  mayNot(need: Role): string {
+    const info = this.info.value;
+    if (!info || (info.role && roles.indexOf(info.role) >= roles.indexOf(need))) return '';
+    return `This needs the role ${need}. ${info.role ? `Yours is ${info.role}.` : 'You are not signed in.'}`;
+  }
+}
+
+/** "anna, engineer"; "local access, engineer". */
+export function whoWords(info: SessionInfo): string {
+  if (!info.role) return 'not signed in';
+  return `${info.user ?? (info.via === 'local' ? 'local access' : info.via)}, ${info.role}`;
+}
+
+/** What a disabled control tells about itself. */
+export const barred = (why: string): { disabled?: true; title?: string; 'aria-description'?: string } => (why ? { disabled: true, title: why, 'aria-description': why } : {});
+
+/** Why a sign-in did not work; for a lockout with the seconds to wait. */
+export function signInWords(p: Problem): string {
+  if (p.status !== 429) return p.words;
+  return p.retryAfter_s > 0 ? `Too many wrong attempts. Try again in ${p.retryAfter_s} s.` : p.words;
+}
+
+/** Rules of a password, told before the gateway has to. */
+export function passwordFault(first: string, second: string): string {
+  const n = [...first].length;
+  if (n < 12) return `A password has at least 12 characters; this one has ${n}.`;
+  if (n > 256) return 'A password has at most 256 characters.';
+  return first === second ? '' : 'The two passwords are not the same.';
+}
+export const userFault = (name: string): string => (/^[a-z0-9._@-]{1,64}$/.test(name) ? '' : 'A name has 1 to 64 of a-z, 0-9, point, _ - and @.');

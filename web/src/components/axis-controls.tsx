@@ -9,6 +9,7 @@ import { unitOf } from '../words/axis';
 import { parseNumber } from '../words/number';
 import { Field } from './field';
 import { Icon } from './icon';
+import { useBarred } from './gate';
 import { JogButton } from './jog-button';
 
 type Which = 'target' | 'distance' | 'speed' | 'acceleration' | 'deceleration' | 'zero';
@@ -76,6 +77,7 @@ export function ResultLine({ axis, id }: { axis: string; id: string }) {
 /** The compact form, for a tile. `bare`: power and stops alone. */
 export function TileControls({ axis, bare }: { axis: Axis; bare: boolean }) {
   const c = useControls(axis);
+  const no = useBarred('operator');
   const name = axis.name;
   const wrong = c.wrong.value;
   const result = resultId(name);
@@ -84,9 +86,9 @@ export function TileControls({ axis, bare }: { axis: Axis; bare: boolean }) {
       {!bare && (
         <div class="control-rows">
           <Field label="Target" longLabel={`Target of ${name}`} unit={c.unit} text={c.fields.target} wrong={wrong === 'target'} describedBy={result} onEnter={() => c.move('move_absolute')} />
-          <button type="button" class="button tinted" aria-label={`Move to target of ${name}`} onClick={() => c.move('move_absolute')}>Move to</button>
+          <button type="button" class="button tinted" aria-label={`Move to target of ${name}`} {...no} onClick={() => c.move('move_absolute')}>Move to</button>
           <Field label="Distance" longLabel={`Distance of ${name}`} unit={c.unit} text={c.fields.distance} wrong={wrong === 'distance'} describedBy={result} onEnter={() => c.move('move_relative')} />
-          <button type="button" class="button" aria-label={`Move by distance of ${name}`} onClick={() => c.move('move_relative')}>Move by</button>
+          <button type="button" class="button" aria-label={`Move by distance of ${name}`} {...no} onClick={() => c.move('move_relative')}>Move by</button>
           <Field label="Speed" longLabel={`Speed of ${name}`} unit={`${c.unit}/s`} text={c.fields.speed} wrong={wrong === 'speed'} describedBy={result} placeholder="as is" />
           <span class="pair">
             <JogButton axis={name} direction={-1} speed={c.jogSpeed} unit={c.unit} />
@@ -96,10 +98,10 @@ export function TileControls({ axis, bare }: { axis: Axis; bare: boolean }) {
       )}
       <div class="control-power">
         <span class="group">
-          <button type="button" class="button" aria-label={`Enable ${name}`} onClick={c.simple('enable', 'Enable')}>Enable</button>
+          <button type="button" class="button" aria-label={`Enable ${name}`} {...no} onClick={c.simple('enable', 'Enable')}>Enable</button>
           <button type="button" class="button" aria-label={`Disable ${name}`} onClick={c.simple('disable', 'Disable')}>Disable</button>
         </span>
-        <button type="button" class="button" aria-label={`Reset fault of ${name}`} onClick={c.simple('reset_fault', 'Reset fault')}>Reset</button>
+        <button type="button" class="button" aria-label={`Reset fault of ${name}`} {...no} onClick={c.simple('reset_fault', 'Reset fault')}>Reset</button>
         <button type="button" class="button" aria-label={`Halt ${name}`} title="Stop on the profile ramp, stay enabled" onClick={c.simple('halt', 'Halt')}>Halt</button>
       </div>
     </div>
@@ -109,6 +111,7 @@ export function TileControls({ axis, bare }: { axis: Axis; bare: boolean }) {
 /** The whole form, for the page of an axis. */
 export function FullControls({ axis }: { axis: Axis }) {
   const c = useControls(axis);
+  const no = useBarred('operator');
   const result = useId();
   const name = axis.name;
   const wrong = c.wrong.value;
@@ -117,21 +120,21 @@ export function FullControls({ axis }: { axis: Axis }) {
     <div class="controls controls-full">
       <div class="control-power">
         <span class="group">
-          <button type="button" class="button" onClick={c.simple('enable', 'Enable')}>Enable</button>
+          <button type="button" class="button" {...no} onClick={c.simple('enable', 'Enable')}>Enable</button>
           <button type="button" class="button" onClick={c.simple('disable', 'Disable')}>Disable</button>
         </span>
-        <button type="button" class="button" onClick={c.simple('reset_fault', 'Reset fault')}>Reset fault</button>
+        <button type="button" class="button" {...no} onClick={c.simple('reset_fault', 'Reset fault')}>Reset fault</button>
         <button type="button" class="button" title="Stop on the profile ramp, stay enabled" onClick={c.simple('halt', 'Halt')}>Halt</button>
         <button type="button" class="button" title="Stop on the quick-stop ramp; enable to go on" onClick={c.simple('quick_stop', 'Quick stop')}>Quick stop</button>
-        <button type="button" class="button" title="Homing, by the drive's own method" onClick={c.simple('home', 'Home')}>Home</button>
+        <button type="button" class="button" title="Homing, by the drive's own method" {...no} onClick={c.simple('home', 'Home')}>Home</button>
       </div>
       <div class="control-rows">
         <Field label="Target" unit={u} text={c.fields.target} wrong={wrong === 'target'} describedBy={result} onEnter={() => c.move('move_absolute')} />
-        <button type="button" class="button primary" onClick={() => c.move('move_absolute')}>Move to</button>
+        <button type="button" class="button primary" {...no} onClick={() => c.move('move_absolute')}>Move to</button>
         <Field label="Distance" unit={u} text={c.fields.distance} wrong={wrong === 'distance'} describedBy={result} onEnter={() => c.move('move_relative')} />
         <span class="pair">
-          <button type="button" class="button" aria-label="Move back by distance" onClick={() => c.move('move_relative', -1)}>− by</button>
-          <button type="button" class="button" aria-label="Move forward by distance" onClick={() => c.move('move_relative')}>+ by</button>
+          <button type="button" class="button" aria-label="Move back by distance" {...no} onClick={() => c.move('move_relative', -1)}>− by</button>
+          <button type="button" class="button" aria-label="Move forward by distance" {...no} onClick={() => c.move('move_relative')}>+ by</button>
         </span>
         <Field label="Speed" unit={`${u}/s`} text={c.fields.speed} wrong={wrong === 'speed'} describedBy={result} placeholder="as is" />
         <span class="pair">
@@ -145,7 +148,7 @@ export function FullControls({ axis }: { axis: Axis }) {
       </div>
       <div class="control-rows">
         <Field label="Position" longLabel="What the present position shall be called" unit={u} text={c.fields.zero} wrong={wrong === 'zero'} describedBy={result} />
-        <button type="button" class="button" title="Calls the present position this; nothing moves" onClick={c.setZero}>Set position</button>
+        <button type="button" class="button" title="Calls the present position this; nothing moves" {...no} onClick={c.setZero}>Set position</button>
       </div>
       <ResultLine axis={name} id={result} />
     </div>

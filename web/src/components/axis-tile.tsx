@@ -9,6 +9,7 @@ import type { AxisEntry } from '../state/store';
 import { markOf, motionWord, noticeOf, positionText, stateWord, targetText, unitOf, velocityText } from '../words/axis';
 import { duration } from '../words/time';
 import { ResultLine, resultId, TileControls } from './axis-controls';
+import { HolderLine } from './authority';
 import { Icon } from './icon';
 import { memo } from './memo';
 import { Mark, Pill } from './pill';
@@ -113,10 +114,15 @@ export function AxisTile({ name, bare }: { name: string; bare: boolean }) {
       <Steady entry={entry} bare={bare} />
       <footer class="tile-foot">
         <Notice entry={entry} />
+        <TileHolder entry={entry} />
         <ResultLine axis={name} id={resultId(name)} />
       </footer>
     </TileFrame>
   );
+}
+
+function TileHolder({ entry }: { entry: EntrySignal }) {
+  return <HolderLine entry={entry.value} />;
 }
 
 /** The frame tells the condition too; it is drawn anew only when the condition changes. */

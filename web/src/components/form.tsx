@@ -34,7 +34,7 @@ export function TextField(p: TextFieldProps) {
       <label for={id}>{p.label}</label>
       <input
         id={id}
-        type={p.password ? 'password' : 'text'}
+        type={(p.password ? 'password' : 'text') as 'text'}
         class={`${p.fault ? 'is-wrong' : ''}${p.mono ? ' mono' : ''}`}
         inputMode={p.number ? 'decimal' : 'text'}
         autocomplete={(p.fill ?? 'off') as 'off'}

@@ -2,6 +2,7 @@
 // when the page is hidden, closed or loses the keyboard. Never starts by a click alone that was not held.
 import { useEffect, useRef } from 'preact/hooks';
 import { useGateway } from '../gateway';
+import { useBarred } from './gate';
 import { Icon } from './icon';
 
 export interface JogProps {
@@ -19,6 +20,7 @@ export function JogButton({ axis, direction, speed, unit }: JogProps) {
 
   // The two buttons of an axis share its jog: each ends only what it began.
   const holding = useRef(false);
+  const no = useBarred('operator');
 
   const press = () => {
     const v = speed();
@@ -57,6 +59,7 @@ export function JogButton({ axis, direction, speed, unit }: JogProps) {
       class="button jog"
       aria-label={`Jog ${axis} ${direction > 0 ? 'forward' : 'backward'} while held`}
       title="Moves while held"
+      {...no}
       onPointerDown={(e) => {
         if (e.button !== 0) return;
         e.currentTarget.setPointerCapture?.(e.pointerId);

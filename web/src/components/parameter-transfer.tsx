@@ -1,5 +1,6 @@
 // Parameter transfer: all known values out as CSV or JSON, and in again: each row is checked first, nothing is sent while one is wrong, then they are
 // written one by one. In: the HTTP door, a file or pasted text. Out: files; writes. At the first refusal the rest is held back and said so.
+import { useBarred } from './gate';
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo, useRef } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -16,6 +17,7 @@ const largest = 2_000_000;
 
 /** Hands a text to the browser as a file. */
 export function saveText(name: string, type: string, text: string): void {
+  const no = useBarred('engineer');
   const link = document.createElement('a');
   link.href = URL.createObjectURL(new Blob([text], { type }));
   link.download = name;
@@ -118,7 +120,7 @@ export function ParameterTransfer({ axis }: { axis: string }) {
               End after this one
             </button>
           ) : (
-            <button type="button" class="button primary" disabled={wanted.length === 0 || bad > 0} onClick={() => void send()}>
+            <button type="button" class="button primary" disabled={wanted.length === 0 || bad > 0} {...no} onClick={() => void send()}>
               Write {wanted.length} to the drive
             </button>
           )}

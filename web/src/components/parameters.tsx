@@ -1,6 +1,7 @@
 // Parameters of one axis: live, stored and default value, range, who wrote last; read from the drive, write with a check before.
 // In: REST. Out: a table. Reading all goes one by one and can be ended; a slow drive is not flooded. What was typed stays until the
 // drive took it. At most 100 rows are drawn at once; more on demand.
+import { useBarred } from './gate';
 import { signal, useSignal, type Signal } from '@preact/signals';
 import { useEffect, useId, useMemo, useRef } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -302,6 +303,7 @@ function RowView({ axis, row, read, write, open }: RowProps) {
 const ParameterRow = memo(RowView, (a, b) => a.row === b.row);
 
 function Editor({ row, describedBy, write }: { row: Row; describedBy: string; write: () => void }) {
+  const no = useBarred('engineer');
   const p = row.data.value;
   const wrong = row.note.value.tone === 'refused' && row.typed.value !== null;
   const text = row.typed.value ?? '';
@@ -333,11 +335,11 @@ function Editor({ row, describedBy, write }: { row: Row; describedBy: string; wr
           value={text}
           onInput={(e) => (row.typed.value = e.currentTarget.value)}
           onKeyDown={(e) => {
-            if (e.key === 'Enter' && !e.repeat) write();
+            if (e.key === 'Enter' && !e.repeat && !no.disabled) write();
           }}
         />
       )}
-      <button type="button" class="button small" aria-label={`Write ${p.id}`} onClick={write}>
+      <button type="button" class="button small" aria-label={`Write ${p.id}`} {...no} onClick={write}>
         Write
       </button>
     </>

@@ -1,5 +1,6 @@
 // A run of a recipe: arguments, start, live progress, cancel, and its report. In: the recipe's parameters, reports of the stream and of REST.
 // Out: requests to the gateway. What was typed stays, whatever becomes of the run. Never starts a run by itself.
+import { useBarred } from './gate';
 import { useSignal, type Signal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -16,6 +17,7 @@ const isOver = (state: string) => state !== 'running' && state !== 'stopping';
 
 export function RunSection({ name, parameters, saved }: { name: string; parameters: NonNullable<RecipeDocument['parameters']>; saved: boolean }) {
   const gateway = useGateway();
+  const no = useBarred('operator');
   const { client } = gateway;
   const report: Signal<RecipeReport | null> = useSignal(null);
   const runs: Signal<RecipeReportHead[]> = useSignal([]);
@@ -107,7 +109,7 @@ export function RunSection({ name, parameters, saved }: { name: string; paramete
             ))}
           </div>
           <div class="recipe-buttons">
-            <button type="button" class="button primary" disabled={!saved || running} onClick={() => void start(false)}>
+            <button type="button" class="button primary" disabled={!saved || running} {...no} onClick={() => void start(false)}>
               <Icon name="play" /> Run
             </button>
             <button type="button" class="button" disabled={!saved || running} onClick={() => void start(true)}>

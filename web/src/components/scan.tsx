@@ -1,5 +1,6 @@
 // Scan: looking for drives on a line. In: the line's name, a range of addresses. Out: what was found, and whether the site knows it.
 // Never adds a drive by itself, and never begins to look by itself.
+import { useBarred } from './gate';
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -12,6 +13,7 @@ const askAgain_ms = 300;
 
 export function ScanSection({ line }: { line: string }) {
   const { client } = useGateway();
+  const no = useBarred('engineer');
   const report = useSignal<ScanReport | null>(null);
   const from = useSignal('');
   const to = useSignal('');
@@ -50,7 +52,7 @@ export function ScanSection({ line }: { line: string }) {
         <div class="recipe-buttons">
           <input class="search" type="text" aria-label="First address" placeholder="first address" autocomplete="off" value={from.value} onInput={(e) => (from.value = e.currentTarget.value)} />
           <input class="search" type="text" aria-label="Last address" placeholder="last address" autocomplete="off" value={to.value} onInput={(e) => (to.value = e.currentTarget.value)} />
-          <button type="button" class="button primary" disabled={running} onClick={() => void act(() => client.startScan(line, { ...(from.peek() ? { from: from.peek() } : {}), ...(to.peek() ? { to: to.peek() } : {}) }))}>
+          <button type="button" class="button primary" disabled={running} {...no} onClick={() => void act(() => client.startScan(line, { ...(from.peek() ? { from: from.peek() } : {}), ...(to.peek() ? { to: to.peek() } : {}) }))}>
             Look for drives
           </button>
           {running && (

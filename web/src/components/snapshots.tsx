@@ -1,5 +1,6 @@
 // Snapshots of an axis' parameters: saved under a name, compared, restored after a look at what will change. In: the HTTP door. Out: a section.
 // A restore is never sent without the list of its changes on the page; it is refused by the gateway while the axis is commanded.
+import { useBarred } from './gate';
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -27,6 +28,7 @@ export function Snapshots({ axis, onList }: { axis: string; onList: (list: Snaps
   const from = useSignal('device');
   const wrong = useSignal(false);
   const removing = useSignal<number | null>(null);
+  const no = useBarred('engineer');
   const restoring = useSignal<{ snapshot: Snapshot; report: RestoreReport; chosen: Set<string> } | null>(null);
   const epoch = store.connection.value.epoch;
 
@@ -115,7 +117,7 @@ export function Snapshots({ axis, onList }: { axis: string; onList: (list: Snaps
           <Choice label="Values" class="wide" value={from.value} onChoice={(v) => (from.value = v)} choices={[{ value: 'device', text: 'read from the drive now' }, { value: 'stored', text: 'as the gateway has stored them' }]} />
         </div>
         <div class="form-foot">
-          <button type="submit" class="button primary">
+          <button type="submit" class="button primary" {...no}>
             Save snapshot
           </button>
           <Tell told={told.value} field="snapshot-told" />
@@ -130,7 +132,7 @@ export function Snapshots({ axis, onList }: { axis: string; onList: (list: Snaps
                   <h3>
                     {s.name} <span class="where">no. {s.n}</span>
                   </h3>
-                  <button type="button" class="button small" aria-label={`Restore ${s.name}`} onClick={() => void look(s)}>
+                  <button type="button" class="button small" aria-label={`Restore ${s.name}`} {...no} onClick={() => void look(s)}>
                     Restore
                   </button>
                   {removing.value === s.n ? (

@@ -3,6 +3,8 @@
 import { useEffect } from 'preact/hooks';
 import { FullControls } from '../components/axis-controls';
 import { Notice, Readout, StatePills } from '../components/axis-tile';
+import { AuthorityBar } from '../components/authority';
+import { Gate } from '../components/gate';
 import { Console } from '../components/console';
 import { EventList } from '../components/events';
 import { Hand } from '../components/hand';
@@ -60,6 +62,7 @@ export function AxisPage({ name }: { name: string }) {
           <Readout entry={entry} large />
           <StatePills entry={entry} />
           <Notice entry={entry} />
+          <AuthorityBar entry={entry.value} />
           <Controls axis={axis} />
         </div>
         <Scope axis={name} unit={unitOf(axis)} />
@@ -69,10 +72,14 @@ export function AxisPage({ name }: { name: string }) {
           <StateMachine axis={axis} trust={trust} />
         </Section>
         <Section title="Native console">
-          <Console drive={axis.drive} />
+          <Gate need="engineer">
+            <Console drive={axis.drive} />
+          </Gate>
         </Section>
         <Section title="Hand of the twin">
-          <Hand drive={axis.drive} />
+          <Gate need="engineer">
+            <Hand drive={axis.drive} />
+          </Gate>
         </Section>
       </div>
       <Parameters axis={name} />

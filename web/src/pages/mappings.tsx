@@ -1,5 +1,6 @@
 // Mappings: the registers of one's own: a grid with live values, adding, changing, templates, tables, lists, and what an HMI sees. In: the HTTP
 // door, the axis stream. Out: a page. Registers of the shown table are read once a second where the gateway offers it; at most 8 spans a second.
+import { Gate } from '../components/gate';
 import { signal, useSignal, type Signal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
 import { MappingDoor, type Registers } from '../api/mappings';
@@ -188,9 +189,11 @@ export function MappingsPage() {
         {registers.value !== 'there' && registers.value !== 'asking' && <p class="where">{registers.value}</p>}
         <ListLinks door={door} />
       </Section>
+      <Gate need="engineer">
       <MappingForm book={book} known={known} editing={editing.value} done={() => (editing.value = null)} />
       <MappingTemplates book={book} door={door} />
       <MappingPaste book={book} known={known} />
+      </Gate>
       <HmiView door={door} />
       <PrintedList rows={rows} hash={book.hash.value} />
     </main>

@@ -1,5 +1,6 @@
 // Recipes: the list, and one recipe: forms and JSON side by side, checked by the gateway as it is typed; below it its runs.
 // In: the documents of the gateway. Out: changed documents, only when they are saved. The forms always show the last text that was JSON.
+import { useBarred } from '../components/gate';
 import { useSignal, type Signal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { asProblem, Problem } from '../api/problem';
@@ -20,6 +21,7 @@ const goodName = /^[A-Za-z0-9_.-]{1,64}$/;
 
 export function RecipesPage() {
   const gateway = useGateway();
+  const no = useBarred('engineer');
   const list: Signal<RecipeEntry[] | null> = useSignal(null);
   const fault = useSignal('');
   const name = useSignal('');
@@ -72,7 +74,7 @@ export function RecipesPage() {
         }}
       >
         <input class="search" type="text" aria-label="Name of the new recipe" placeholder="name" autocomplete="off" spellcheck={false} value={name.value} onInput={(e) => (name.value = e.currentTarget.value)} />
-        <button type="submit" class="button primary">
+        <button type="submit" class="button primary" {...no}>
           New recipe
         </button>
       </form>
@@ -87,6 +89,7 @@ const textOf = (d: RecipeDocument) => JSON.stringify(d, null, 2);
 
 export function RecipePage({ name }: { name: string }) {
   const gateway = useGateway();
+  const no = useBarred('engineer');
   const { client, store } = gateway;
   const text = useSignal('');
   const document = useSignal<RecipeDocument | null>(null);
@@ -191,10 +194,10 @@ export function RecipePage({ name }: { name: string }) {
                 <option value="quick_stop">quick stop its axes</option>
               </select>
             </label>
-            <button type="button" class="button primary" disabled={!unsaved || textFault.value !== ''} onClick={() => void save()}>
+            <button type="button" class="button primary" disabled={!unsaved || textFault.value !== ''} {...no} onClick={() => void save()}>
               Save
             </button>
-            <button type="button" class="button" onClick={() => void remove()} onBlur={() => (sure.value = false)}>
+            <button type="button" class="button" {...no} onClick={() => void remove()} onBlur={() => (sure.value = false)}>
               {sure.value ? 'Delete: sure?' : 'Delete'}
             </button>
           </div>

@@ -1,5 +1,6 @@
 // Site: lines, drives and axes as forms; every change is a draft until it is checked and applied as one. In: the HTTP door. Out: a page.
 // An empty site begins with the wizard. The draft is the page's, not the component's: it stays when the page is left.
+import { Gate } from '../components/gate';
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import type { Client } from '../api/client';
@@ -60,9 +61,11 @@ export function SitePage() {
       ) : draft.state.value !== 'there' ? (
         <Empty text={capital(draft.state.value)} />
       ) : guided ? (
-        <SiteWizard draft={draft} door={door} leave={() => (wizard.value = 'closed')} />
+        <Gate need="engineer">
+          <SiteWizard draft={draft} door={door} leave={() => (wizard.value = 'closed')} />
+        </Gate>
       ) : (
-        <>
+        <Gate need="engineer">
           <SiteStage draft={draft} />
           <div class="site-rooms">
             <SiteEntries
@@ -86,7 +89,7 @@ export function SitePage() {
           )}
           <SiteFiles draft={draft} door={door} />
           <SiteHistory draft={draft} door={door} />
-        </>
+        </Gate>
       )}
     </main>
   );

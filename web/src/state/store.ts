@@ -151,6 +151,11 @@ export class Store {
     return t;
   }
 
+  /** The gateway's clock now, as the page reckons it; the page's own until the gateway has told one. */
+  gatewayNow_ms(): number {
+    return this.clockKnown ? this.now() + this.clockOffset_ms : Date.now();
+  }
+
   trustOf(entry: AxisEntry): Trust {
     const c = this.connection.value;
     if (c.phase !== 'live' || entry.epoch !== c.epoch) return 'disconnected';

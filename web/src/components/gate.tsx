@@ -1,0 +1,20 @@
+// Gate: what one's role may not do is disabled, and says why. In: the role that is needed. Out: the same controls, or disabled ones with the reason.
+// Stops never stand behind a gate. The gateway refuses by itself; this only spares the attempt.
+import type { ComponentChildren } from 'preact';
+import type { Role } from '../api/types';
+import { useGateway } from '../gateway';
+import { barred } from '../state/session';
+
+/** What to spread over a button. */
+export const useBarred = (need: Role) => barred(useGateway().session.mayNot(need));
+
+/** A group of controls at once. */
+export function Gate({ need, children }: { need: Role; children: ComponentChildren }) {
+  const why = useGateway().session.mayNot(need);
+  return (
+    <fieldset class="gate" disabled={why !== ''} title={why || undefined} aria-label={why || undefined} data-barred={why !== ''}>
+      {why && <p class="gate-why">{why}</p>}
+      {children}
+    </fieldset>
+  );
+}

@@ -1,0 +1,24 @@
+// Words about authority: who holds an axis, and how long still. In: an axis document, the gateway's time, the name of this tab. Out: text.
+import type { Axis } from '../api/types';
+
+export interface Held {
+  /** Empty: nobody. */
+  holder: string;
+  rest_s: number;
+  mine: boolean;
+}
+/** Somebody else may hold it by the same name of a user: only the name of the tab tells that it is this page. */
+export function heldBy(axis: Pick<Axis, 'authority_holder' | 'authority_until'>, gatewayNow_ms: number, tab: string): Held {
+  const holder = axis.authority_holder ?? '';
+  const until = axis.authority_until ? Date.parse(axis.authority_until) : Number.NaN;
+  const rest_s = Number.isNaN(until) ? 0 : Math.max(0, Math.ceil((until - gatewayNow_ms) / 1000));
+  return { holder, rest_s, mine: tab !== '' && (holder === tab || holder.endsWith(` ${tab}`)) };
+}
+
+/** "anna page-1a2b3c" is anna to people. */
+export const holderName = (holder: string): string => holder.replace(/ page-[0-9a-z]{6}$/, '');
+
+export function heldWords(h: Held): string {
+  if (!h.holder) return 'Nobody holds it';
+  return `${h.mine ? 'Held by this page' : `Held by ${holderName(h.holder)}`}, ${h.rest_s > 0 ? `${h.rest_s} s left` : 'about to end'}`;
+}

@@ -17,7 +17,6 @@ const largest = 2_000_000;
 
 /** Hands a text to the browser as a file. */
 export function saveText(name: string, type: string, text: string): void {
-  const no = useBarred('engineer');
   const link = document.createElement('a');
   link.href = URL.createObjectURL(new Blob([text], { type }));
   link.download = name;
@@ -29,6 +28,7 @@ export function saveText(name: string, type: string, text: string): void {
 
 export function ParameterTransfer({ axis }: { axis: string }) {
   const { client, store } = useGateway();
+  const no = useBarred('engineer');
   const text = kept(`transfer.${axis}`);
   const list = useSignal<AxisParameter[]>([]);
   const told = useSignal<Told>(quiet);

@@ -1,0 +1,121 @@
+// Session: what goes with requests, who one is, what a role may not do, and who holds an axis, in words.
+import { describe, expect, it, vi } from 'vitest';
+import { Client } from '../src/api/client';
+import type { SessionInfo } from '../src/api/types';
+import { passwordFault, Session, signInWords, userFault, whoWords } from '../src/state/session';
+import { asProblem, Problem } from '../src/api/problem';
+import { heldBy, heldWords } from '../src/words/authority';
+
+const info = (change: Partial<SessionInfo> = {}): SessionInfo => ({ user: 'anna', role: 'engineer', via: 'cookie', csrf: 'c1', expires_at: null, first_sign_in: false, roles: ['viewer', 'operator', 'engineer', 'administrator'], ...change });
+const nobody = info({ user: null, role: null, via: 'none', csrf: null });
+const answer = (body: unknown, status = 200, head: Record<string, string> = {}) => new Response(status === 204 ? null : JSON.stringify(body), { status, headers: { 'content-type': 'application/json', ...head } });
+
+function made(answers: (url: string, init: RequestInit) => Response) {
+  const asked: { url: string; method: string; head: Record<string, string> }[] = [];
+  const fetcher = vi.fn(async (url: RequestInfo | URL, init: RequestInit = {}) => {
+    asked.push({ url: String(url), method: String(init.method), head: init.headers as Record<string, string> });
+    return answers(String(url), init);
+  });
+  const client = new Client('/api/v1', fetcher as unknown as typeof fetch, 'page-abc123');
+  const changed = vi.fn();
+  return { asked, client, changed, session: new Session(client, changed) };
+}
+
+describe('requests', () => {
+  it('carry the CSRF token with every change, urgent stops too, but not with reads; and the name of the tab always', async () => {
+    const { asked, client, session } = made((url) => answer(url.endsWith('/session') ? info() : {}));
+    await session.ask();
+    await client.axes();
+    await client.command('feeder', { command: 'quick_stop' }, true);
+    await client.command('feeder', { command: 'enable' });
+    expect(asked.map((a) => [a.method, a.head['x-csrf-token']])).toEqual([['GET', undefined], ['GET', undefined], ['POST', 'c1'], ['POST', 'c1']]);
+    expect(asked.every((a) => a.head['x-client'] === 'page-abc123')).toBe(true);
+  });
+  it('ask who one is when a request is answered 401, and once at a time', async () => {
+    let now = info();
+    const { asked, client, session } = made((url) => (url.endsWith('/session') ? answer(now) : answer({ detail: 'sign in' }, 401)));
+    await session.ask();
+    now = nobody;
+    await Promise.allSettled([client.axes(), client.axes(), client.axes()]);
+    await vi.waitFor(() => expect(session.needed.value).toBe(true));
+    expect(asked.filter((a) => a.url.endsWith('/session')).length).toBeLessThanOrEqual(3);
+    expect(client.csrf).toBeNull();
+  });
+});
+
+describe('session', () => {
+  it('signs in and out, and says that one is another', async () => {
+    let now = nobody;
+    const { client, session, changed } = made((_url, init) => {
+      if (init.method === 'POST') now = info();
+      if (init.method === 'DELETE') now = nobody;
+      return init.method === 'DELETE' ? answer(null, 204) : answer(now);
+    });
+    await session.ask();
+    expect(session.needed.value).toBe(true);
+    expect(await session.signIn('anna', 'x')).toBeNull();
+    expect(session.needed.value).toBe(false);
+    expect(client.csrf).toBe('c1');
+    expect(await session.signOut()).toBeNull();
+    expect(session.needed.value).toBe(true);
+    expect(client.csrf).toBeNull();
+    expect(changed).toHaveBeenCalledTimes(2);
+  });
+  it('says a lockout with the seconds to wait, and a wrong password in the words of the gateway', async () => {
+    const locked = made(() => answer({ detail: 'wait' }, 429, { 'retry-after': '8' }));
+    expect(signInWords((await locked.session.signIn('anna', 'x'))!)).toBe('Too many wrong attempts. Try again in 8 s.');
+    const wrong = made(() => answer({ detail: 'the name or the password is wrong' }, 401));
+    expect(signInWords((await wrong.session.signIn('anna', 'x'))!)).toBe('the name or the password is wrong');
+    expect(wrong.asked).toHaveLength(1);
+  });
+  it('keeps what was known when the gateway does not answer', async () => {
+    let up = true;
+    const { session } = made(() => {
+      if (!up) throw new TypeError('gone');
+      return answer(info());
+    });
+    await session.ask();
+    up = false;
+    await session.ask();
+    expect(session.info.value?.user).toBe('anna');
+  });
+  it.each([
+    [null, 'administrator', ''],
+    [info({ role: 'viewer' }), 'viewer', ''],
+    [info({ role: 'viewer' }), 'operator', 'This needs the role operator. Yours is viewer.'],
+    [info({ role: 'operator' }), 'engineer', 'This needs the role engineer. Yours is operator.'],
+    [info({ role: 'administrator' }), 'engineer', ''],
+    [nobody, 'viewer', 'This needs the role viewer. You are not signed in.'],
+  ] as const)('%# tells why a role may not', (who, need, why) => {
+    const { session } = made(() => answer({}));
+    session.info.value = who;
+    expect(session.mayNot(need)).toBe(why);
+  });
+  it('says who one is', () => {
+    expect(whoWords(info())).toBe('anna, engineer');
+    expect(whoWords(info({ user: null, via: 'local' }))).toBe('local access, engineer');
+    expect(whoWords(nobody)).toBe('not signed in');
+  });
+  it('tells the rules of names and passwords', () => {
+    expect(passwordFault('short', 'short')).toContain('at least 12');
+    expect(passwordFault('long enough 12', 'long enough 13')).toContain('not the same');
+    expect(passwordFault('long enough 12', 'long enough 12')).toBe('');
+    expect(userFault('Anna')).not.toBe('');
+    expect(userFault('anna.b-1@x')).toBe('');
+  });
+  it('makes a refusal of anything', () => expect(signInWords(asProblem(new Problem('unreachable', 'gone')))).toBe('gone'));
+});
+
+describe('authority', () => {
+  const now = Date.parse('2026-01-02T03:04:00Z');
+  it.each([
+    ['', null, 'Nobody holds it', false],
+    ['anna page-abc123', '2026-01-02T03:04:12Z', 'Held by this page, 12 s left', true],
+    ['anna page-zzz999', '2026-01-02T03:04:12Z', 'Held by anna, 12 s left', false],
+    ['10.0.0.7', '2026-01-02T03:03:59Z', 'Held by 10.0.0.7, about to end', false],
+  ])('of %j is said', (authority_holder, authority_until, words, mine) => {
+    const held = heldBy({ authority_holder, authority_until }, now, 'page-abc123');
+    expect(heldWords(held)).toBe(words);
+    expect(held.mine).toBe(mine);
+  });
+});

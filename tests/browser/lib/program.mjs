@@ -50,10 +50,12 @@ export class Process {
 
 export class Program {
   /** `site`: a document in place of site.json. */
-  static async start({ site: document } = {}) {
+  /** `set`: more settings, such as users.local_role=none. */
+  static async start({ site: document, set = [] } = {}) {
     const p = new Program();
     p.data = mkdtempSync(join(tmpdir(), 'axisgate-browser-'));
     p.site = site;
+    p.set = set;
     if (document) writeFileSync((p.site = join(p.data, 'site.json')), JSON.stringify(document));
     p.port = await freePort(); // chosen here, so that a restart has the same address
     await p.run();
@@ -62,8 +64,10 @@ export class Program {
 
   async run() {
     const args = ['serve', '--data', this.data, '--site', this.site];
-    for (const s of [`http.bind=127.0.0.1:${this.port}`, 'modbus.bind=127.0.0.1:0', 'enip.bind=127.0.0.1:0']) args.push('--set', s);
+    for (const s of [`http.bind=127.0.0.1:${this.port}`, 'modbus.bind=127.0.0.1:0', 'enip.bind=127.0.0.1:0', ...(this.set ?? [])]) args.push('--set', s);
     this.process = await Process.run(args, /^ready .*?\bhttp=(\S+)/m);
+    // Printed once, before `ready`, while no user exists.
+    this.firstCode = /^first sign-in: code (\S+)/m.exec(this.process.said.input)?.[1] ?? this.firstCode ?? '';
     this.url = `http://${this.process.said[1]}`;
   }
 

@@ -31,7 +31,7 @@ export class Gateway {
     this.session = new Session(this.client, () => {
       // Another identity: the old stream belongs to the one before.
       this.stream.stop();
-      this.stream.start();
+      if (!this.session.needed.peek()) this.stream.start();
     });
     this.stream = new Stream({
       url: parts.url ?? streamUrl(location),
@@ -62,7 +62,10 @@ export class Gateway {
       askedFor = `${phase}/${epoch}`;
       void this.session.ask();
     });
-    this.stream.start();
+    // Nobody is given no stream: it is not knocked for before the sign-in. A gateway that is slow to say who one is holds it up for a second at most.
+    void Promise.race([this.session.ask(), new Promise((r) => setTimeout(r, 1000))]).then(() => {
+      if (!this.session.needed.peek()) this.stream.start();
+    });
     addEventListener('online', () => this.stream.wake());
     document.addEventListener('visibilitychange', () => {
       if (!document.hidden) this.stream.wake();

@@ -50,9 +50,10 @@ export function Navigation() {
 }
 
 function Connection() {
-  const { store } = useGateway();
-  const phase = store.connection.value.phase;
-  const words = phase === 'live' ? 'Live' : phase === 'connecting' ? 'Connecting' : 'Not connected';
+  const { store, session } = useGateway();
+  const out = session.needed.value;
+  const phase = out ? 'connecting' : store.connection.value.phase;
+  const words = out ? 'Not signed in' : phase === 'live' ? 'Live' : phase === 'connecting' ? 'Connecting' : 'Not connected';
   return (
     <span class={`connection is-${phase}`} role="status" aria-label={`Connection to the gateway: ${words}`} data-field="connection">
       <Icon name={phase === 'live' ? 'check' : phase === 'connecting' ? 'clock' : 'unplugged'} size={14} />

@@ -14,16 +14,26 @@ export function Who() {
         <Icon name="person" size={15} />
         <span>{words}</span>
       </a>
-      {info.via === 'local' && (
-        <a class="button quiet who-way" href="/sign-in">
-          Sign in
-        </a>
-      )}
-      {info.via === 'cookie' && (
-        <button type="button" class="button quiet who-way" onClick={() => void session.signOut()}>
-          Sign out
-        </button>
-      )}
+      <Way />
     </span>
+  );
+}
+
+/** The way in, or out; in the head where there is room, and always on the page of users. */
+export function Way() {
+  const { session } = useGateway();
+  const info = session.info.value;
+  if (info?.via === 'local') {
+    return (
+      <a class="button quiet who-way" href="/sign-in">
+        Sign in
+      </a>
+    );
+  }
+  if (info?.via !== 'cookie') return null;
+  return (
+    <button type="button" class="button quiet who-way" onClick={() => void session.signOut()}>
+      Sign out
+    </button>
   );
 }

@@ -1,5 +1,6 @@
 // Users: the own account for everybody, the users for administrators, and the access tokens. In: the session. Out: a page.
 import { Account } from '../components/account';
+import { Way } from '../components/who';
 import { Tokens } from '../components/tokens';
 import { UserList } from '../components/user-list';
 import { Section } from '../components/section';
@@ -13,7 +14,9 @@ export function UsersPage() {
   return (
     <main class="page narrow users-page">
       <h1 tabIndex={-1}>Users</h1>
-      <p data-field="account">{info ? `You are ${whoWords(info)}.` : 'The gateway has not said who you are.'}</p>
+      <p class="account-line">
+        <span data-field="account">{info ? `You are ${whoWords(info)}.` : 'The gateway has not said who you are.'}</span> <Way />
+      </p>
       {info?.user && info.via === 'cookie' && (
         <Section title="Your password">
           <Account user={info.user} />

@@ -38,7 +38,7 @@ test('the first administrator is made, and lands where one was', async () => {
   await page.getByLabel('Password', { exact: true }).fill(password);
   await page.getByLabel('Password again').fill(password);
   await send.click();
-  await page.getByRole('heading', { name: 'Events', exact: true }).first().waitFor();
+  await page.getByRole('heading', { name: 'Events and alarms', exact: true }).first().waitFor();
   assert.match(await text(page, 'who'), /anna, administrator/);
   await until('the stream is live', async () => /Live/.test(await text(page, 'connection')));
 });

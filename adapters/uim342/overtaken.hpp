@@ -48,8 +48,10 @@ public:
                 ++behind;
             }
         }
-        if (behind == 0) return true;
-        if (behind + had_their_chance < size_) return false;  // asked again when one of the others ends
+        if (behind == 0 || behind + had_their_chance < size_) {
+            alone_since_ = never;  // whose grace it was has ended, or is not alone any more: a deadline that is over must not stay
+            return behind == 0;    // else asked again when one of the others ends
+        }
         if (alone_since_ == never) alone_since_ = now;
         if (now < alone_since_ + grace_) return false;
         for (std::size_t i = 0; i < size_; ++i)

@@ -351,6 +351,39 @@ TEST_P(EveryFamily, AFullLineServesEverybody) {
         EXPECT_FALSE(event.kind == "drive" && event.severity == Severity::warning) << event.text;
 }
 
+TEST_P(EveryFamily, ALineThatIsCutAtAnyMomentComesToRestAndBack) {
+    // Full, lossy and late, so that it is cut with every kind of work half done. A line that is down has nothing to turn for.
+    Site wanted = w.make_site(e, e.family->uses_can ? "can:sim" : "tcp:127.0.0.1:9", 16, "device");
+    wanted.lines.at(0).manners.poll_period = 5ms;
+    site = w.apply(std::move(wanted));
+    const auto list = addresses(e, 16);
+    for (std::size_t i = 0; i < site->drive_ids.size(); ++i)
+        w.plug_in("line", site->drive_ids[i], e, list[i], e.family->uses_can ? LineKind::can : LineKind::bytes);
+    const auto all = [&](std::uint16_t flag, bool on) {
+        return std::ranges::all_of(site->axis_ids, [&](AxisId a) { return ((w.picture(a).flags & flag) != 0) == on; });
+    };
+    ASSERT_TRUE(w.run_until_true([&] { return all(flag_online, true); }, 30s)) << "not all come up";
+    std::mt19937_64 random(11);
+    FaultLine& cable = *w.cables.at("line");
+    for (int i = 0; i < 200; ++i) {
+        FaultRates to, from;
+        to.loss = from.loss = static_cast<double>(random() % 100) / 1000.0;
+        from.delay = static_cast<double>(random() % 100) / 1000.0;
+        from.delay_max = std::chrono::milliseconds(1 + random() % 40);
+        cable.set_rates(to, from);
+        if (i % 4 == 0) (void)w.command(site->axis_ids[random() % site->axis_ids.size()], Enable{}, true);
+        w.run_for(std::chrono::microseconds(random() % 200'000));
+        cable.cut(w.now);
+        const auto before = w.steps;
+        w.run_for(100ms);
+        ASSERT_LT(w.steps - before, 1000u) << "the engine turns although the line is down (cut " << i << ")";
+        cable.heal(w.now);
+        w.samples.clear();
+    }
+    cable.set_rates({}, {});
+    EXPECT_TRUE(w.run_until_true([&] { return all(flag_online, true) && all(flag_stale, false); }, 60s)) << "not all come back";
+}
+
 TEST_P(EveryFamily, PowerCycleIsSurvived) {
     start();
     enable();

@@ -72,5 +72,16 @@ TEST_F(Overtaking, ACommandMeanwhileGivesItItsTimeAnew) {
     EXPECT_TRUE(o.may_begin(now));
 }
 
+TEST_F(Overtaking, AGraceWhoseReasonIsGoneLeavesNoDeadline) {
+    o.began(9);
+    for (int i = 0; i < 4; ++i)
+        one(1);
+    EXPECT_FALSE(o.may_begin(now));
+    ASSERT_EQ(o.deadline(), now + 2ms);
+    o.ended(9);
+    EXPECT_TRUE(o.may_begin(now + 1ms));
+    EXPECT_EQ(o.deadline(), never) << "nobody waits for it any more";
+}
+
 }  // namespace
 }  // namespace axisgate::uim342::test

@@ -23,6 +23,17 @@ void Comm::clear() noexcept {
 
 bool Comm::addressed(char first) const noexcept { return first == flags.dn || first == '*' || (first == '^' && flags.qd); }
 
+std::size_t Comm::pass_over(std::span<const std::uint8_t> bytes) {
+    if (!flags.py || stepping_ || line_.empty() || discarding_ || (armed_ && addressed(line_[0]))) return 0;
+    const std::size_t limit = line_limit + 1 + (flags.ck > 0 ? 1 : 0);
+    const std::size_t room = limit > line_.size() ? limit - line_.size() : 0;
+    std::size_t n = 0;
+    while (n < bytes.size() && n < room && bytes[n] >= 0x20)
+        ++n;
+    line_.append(reinterpret_cast<const char*>(bytes.data()), n);
+    return n;
+}
+
 LinkEvent Comm::receive(std::uint8_t byte, std::string& echo) {
     const bool alone = line_.size() == 1 && addressed(line_[0]);
     // Escape characters act at once, wherever they stand [L861, L2741-2744].

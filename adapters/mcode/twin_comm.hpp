@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -59,6 +60,8 @@ public:
 
     /// Takes one byte. `echo` gets what goes back at once. A command is then taken with `take`.
     LinkEvent receive(std::uint8_t byte, std::string& echo);
+    /// How many of `bytes` are plain text in a neighbour's line: they are taken at once, as if `receive` had had each of them.
+    [[nodiscard]] std::size_t pass_over(std::span<const std::uint8_t> bytes);
     [[nodiscard]] Command take() { return std::move(command_); }
 
     /// ((-sum) & 7F) | 80 [L6867].

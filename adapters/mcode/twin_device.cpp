@@ -50,8 +50,9 @@ void Device::on_frame(const Frame& frame, Instant now, Out& out) {
     now_ = std::max(now_, now);
     settle(out);
     if (deaf() || frame.kind != Frame::Kind::bytes) return;
-    for (const std::uint8_t byte : frame.data()) {
-        switch (comm_.receive(byte, tx_).kind) {
+    const auto bytes = frame.data();
+    for (std::size_t i = comm_.pass_over(bytes); i < bytes.size(); i += 1 + comm_.pass_over(bytes.subspan(i + 1))) {
+        switch (comm_.receive(bytes[i], tx_).kind) {
             case LinkEvent::Kind::none:
                 break;
             case LinkEvent::Kind::command:

@@ -10,18 +10,36 @@ namespace {
 
 constexpr char upper(char c) noexcept { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 
+// At most three letters, upper case, packed into one number: a statement is looked up with a few comparisons of numbers.
+constexpr std::uint32_t key_of(std::string_view letters) noexcept {
+    std::uint32_t key = 0;
+    for (const char c : letters)
+        key = key << 8 | static_cast<std::uint8_t>(upper(c));
+    return key;
+}
+
+struct Entry {
+    std::uint32_t key;
+    Word word;
+};
+
+constexpr auto by_key = [] {
+    std::array<Entry, words.size()> out{};
+    for (std::size_t i = 0; i < words.size(); ++i)
+        out[i] = {key_of(words[i].text), static_cast<Word>(i)};
+    std::ranges::sort(out, {}, &Entry::key);
+    return out;
+}();
+
+static_assert(std::ranges::all_of(words, [](const WordInfo& w) { return !w.text.empty() && w.text.size() <= 3; }));
+
 }  // namespace
 
 std::optional<Word> word_named(std::string_view letters) noexcept {
     if (letters.empty() || letters.size() > 3) return std::nullopt;
-    std::array<char, 3> buffer{};
-    for (std::size_t i = 0; i < letters.size(); ++i)
-        buffer[i] = upper(letters[i]);
-    const std::string_view wanted(buffer.data(), letters.size());
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        if (words[i].text == wanted) return static_cast<Word>(i);
-    }
-    return std::nullopt;
+    const auto at = std::ranges::lower_bound(by_key, key_of(letters), {}, &Entry::key);
+    if (at == by_key.end() || at->key != key_of(letters)) return std::nullopt;
+    return at->word;
 }
 
 bool countable(Word w) noexcept {

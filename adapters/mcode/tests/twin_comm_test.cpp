@@ -1,6 +1,9 @@
 // The link of the twin: all shapes of replies, party mode, checksum, control characters, bounds.
 // In: bytes. Out: bytes.
 // Never shares code with the adapter: checksums are worked out by hand or by the test's own sum.
+#include <array>
+#include <random>
+
 #include "adapters/mcode/tests/twin_bench.hpp"
 
 namespace axisgate::mcode::twin::test {
@@ -269,6 +272,35 @@ TEST(TwinComm, NinthWaitingLineIsLostWithError63) {
     b.send(burst, milliseconds(20));
     EXPECT_EQ(shown(b.send("PR R1\r")), "8<CR><LF>");
     EXPECT_EQ(shown(b.send("PR ER\r")), "63<CR><LF>");
+}
+
+// Text of neighbours is passed over in runs: that must be the same as taking each byte alone.
+TEST(TwinComm, BytesInARunAreTheSameAsBytesOneByOne) {
+    std::mt19937 random(5);
+    const std::array<std::string, 14> pieces{"aPR A\n",  "bPR A\n",   "*A=7\n", "^A=9\n",     "\x06",           "b0123456789", "\n",
+                                             "0.5\r\n>", "cA=1\bX\n", "\x1b",   "b\x1b PR A\n", "aPR A\baPR P\n", "\x15?",      std::string(40, 'x')};
+    for (int round = 0; round < 300; ++round) {
+        DeviceSetup setup;
+        setup.name = 'a';
+        Bench whole(setup), single(setup);
+        const std::string ck = "aCK=" + std::to_string(round % 2) + "\n";
+        for (Bench* b : {&whole, &single})
+            b->send("\n" + ck);
+        std::string bytes;
+        for (int i = 0; i < 12; ++i)
+            bytes += pieces[random() % pieces.size()];
+        for (std::size_t at = 0; at < bytes.size();) {
+            const std::size_t n = std::min<std::size_t>(1 + random() % 64, bytes.size() - at);
+            const std::string part = bytes.substr(at, n);
+            const std::string told = whole.send(part, {});
+            std::string one_by_one;
+            for (const char c : part)
+                one_by_one += single.send({&c, 1}, {});
+            ASSERT_EQ(shown(told), shown(one_by_one)) << "round " << round << ", byte " << at << " of " << shown(bytes);
+            at += n;
+        }
+        ASSERT_EQ(shown(whole.send("")), shown(single.send(""))) << "round " << round << ": " << shown(bytes);
+    }
 }
 
 }  // namespace

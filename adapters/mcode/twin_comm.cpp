@@ -17,7 +17,6 @@ void Comm::restart() noexcept {
 
 void Comm::clear() noexcept {
     line_.clear();
-    raw_.clear();
     discarding_ = false;
 }
 

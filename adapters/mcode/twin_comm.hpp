@@ -77,7 +77,6 @@ private:
     LinkEvent finish();
 
     std::string line_;  // bounded by the limit below
-    std::string raw_;
     bool armed_ = false;  // party mode: the first LF has come
     bool discarding_ = false;
     bool stepping_ = false;

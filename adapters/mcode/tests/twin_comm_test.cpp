@@ -277,30 +277,49 @@ TEST(TwinComm, NinthWaitingLineIsLostWithError63) {
 // Text of neighbours is passed over in runs: that must be the same as taking each byte alone.
 TEST(TwinComm, BytesInARunAreTheSameAsBytesOneByOne) {
     std::mt19937 random(5);
-    const std::array<std::string, 14> pieces{"aPR A\n",  "bPR A\n",   "*A=7\n", "^A=9\n",     "\x06",           "b0123456789", "\n",
-                                             "0.5\r\n>", "cA=1\bX\n", "\x1b",   "b\x1b PR A\n", "aPR A\baPR P\n", "\x15?",      std::string(40, 'x')};
-    for (int round = 0; round < 300; ++round) {
-        DeviceSetup setup;
-        setup.name = 'a';
-        Bench whole(setup), single(setup);
-        const std::string ck = "aCK=" + std::to_string(round % 2) + "\n";
-        for (Bench* b : {&whole, &single})
-            b->send("\n" + ck);
-        std::string bytes;
-        for (int i = 0; i < 12; ++i)
-            bytes += pieces[random() % pieces.size()];
-        for (std::size_t at = 0; at < bytes.size();) {
-            const std::size_t n = std::min<std::size_t>(1 + random() % 64, bytes.size() - at);
-            const std::string part = bytes.substr(at, n);
-            const std::string told = whole.send(part, {});
-            std::string one_by_one;
-            for (const char c : part)
-                one_by_one += single.send({&c, 1}, {});
-            ASSERT_EQ(shown(told), shown(one_by_one)) << "round " << round << ", byte " << at << " of " << shown(bytes);
-            at += n;
+    const std::array<std::string, 14> pieces{"aPR A\n",   "bPR A\n",   "*A=7\n",  "^A=9\n",        "\x06",   "b0123456789",       "\n",
+                                             "0.5\r\n>", "cA=1\bX\n", "\x1b",    "b\x1b PR A\n", "aPR A\b", "bPR\x03 A\raPR P\n", std::string(40, 'x')};
+    std::size_t commands = 0, passed_over = 0, overruns = 0;
+    for (unsigned round = 0; round < 500; ++round) {
+        Comm in_runs, one_by_one;
+        for (Comm* c : {&in_runs, &one_by_one}) {
+            c->flags.py = round % 8 != 0;
+            c->flags.dn = 'a';
+            c->flags.ck = round % 3 == 0;
+            c->flags.em = static_cast<int>(round % 4);
+            c->flags.es = static_cast<int>(round % 5 % 4);
+            c->flags.qd = round % 2 == 0;
         }
-        ASSERT_EQ(shown(whole.send("")), shown(single.send(""))) << "round " << round << ": " << shown(bytes);
+        std::string bytes = "\n";
+        for (int i = 0; i < 20; ++i)
+            bytes += pieces[random() % pieces.size()];
+        const auto data = std::span(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+        std::string seen[2], echo[2];
+        const auto take = [&](Comm& c, int which, std::size_t at) {
+            const LinkEvent::Kind kind = c.receive(data[at], echo[which]).kind;
+            if (kind == LinkEvent::Kind::none) return;
+            seen[which] += std::to_string(at) + ":" + std::to_string(static_cast<int>(kind)) + " ";
+            if (kind == LinkEvent::Kind::command) seen[which] += c.take().as_received + " ";
+            if (which == 0) (kind == LinkEvent::Kind::overrun ? overruns : commands) += 1;
+        };
+        for (std::size_t at = 0; at < data.size(); ++at)
+            take(one_by_one, 1, at);
+        for (std::size_t at = 0; at < data.size();) {
+            const auto run = data.subspan(at, std::min<std::size_t>(1 + random() % 64, data.size() - at));
+            for (std::size_t i = 0; i < run.size(); ++i) {
+                const std::size_t over = in_runs.pass_over(run.subspan(i));
+                passed_over += over;
+                i += over;
+                if (i < run.size()) take(in_runs, 0, at + i);
+            }
+            at += run.size();
+        }
+        ASSERT_EQ(seen[0], seen[1]) << "round " << round << ": " << shown(bytes);
+        ASSERT_EQ(shown(echo[0]), shown(echo[1])) << "round " << round << ": " << shown(bytes);
     }
+    EXPECT_GT(commands, 500u);
+    EXPECT_GT(passed_over, 5000u);
+    EXPECT_GT(overruns, 5u);
 }
 
 }  // namespace

@@ -74,6 +74,10 @@ struct Reader {
                 }
             }
         }
+        if (const auto* v = o.if_contains("addressing")) {
+            if (!v->is_bool()) faults.push_back(where + ".addressing: write true or false");
+            p.addressing = v->is_bool() && v->get_bool();
+        }
         if (const auto* v = o.if_contains("first"); v && v->is_int64()) p.first = static_cast<std::uint16_t>(v->get_int64());
         if (const auto* v = o.if_contains("count"); v && v->is_int64()) p.count = static_cast<std::uint16_t>(v->get_int64());
         if (const auto* v = o.if_contains("wire"); v && v->is_object()) p.wire = v->get_object();

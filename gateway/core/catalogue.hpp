@@ -31,6 +31,9 @@ struct Parameter {
     Value factory_default;            ///< unknown: the manual is silent
     Access access = Access::read;
     std::string storage;              ///< "eeprom", "ram", ...
+    /// By it the drive is reached: its address, name or group, or the speed and form of its line. Snapshots and tables are written back
+    /// without it, unless it is asked for: a copied address leaves two drives that cannot be told apart, or one that nobody finds.
+    bool addressing = false;
     std::string description;
     std::vector<std::pair<std::int64_t, std::string>> allowed;  ///< the only values, with their meaning; empty: min..max decides
     std::uint16_t first = 0;          ///< arrays: number of the first element ...

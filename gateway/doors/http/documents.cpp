@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "gateway/core/axis_members.hpp"
 #include "gateway/core/cia402.hpp"
 #include "gateway/doors/http/text.hpp"
 
@@ -12,40 +13,8 @@ namespace axisgate::http {
 namespace json = boost::json;
 namespace {
 
-constexpr std::array<std::string_view, 34> axis_live_members{"line",
-                                                             "family",
-                                                             "online",
-                                                             "simulated",
-                                                             "stale",
-                                                             "presence",
-                                                             "state",
-                                                             "statusword",
-                                                             "controlword",
-                                                             "mode",
-                                                             "mode_number",
-                                                             "moving",
-                                                             "target_reached",
-                                                             "referenced",
-                                                             "fault",
-                                                             "warning",
-                                                             "internal_limit",
-                                                             "position",
-                                                             "position_demand",
-                                                             "velocity",
-                                                             "target_position",
-                                                             "target_velocity",
-                                                             "position_increments",
-                                                             "position_demand_increments",
-                                                             "velocity_increments",
-                                                             "target_position_increments",
-                                                             "error",
-                                                             "native",
-                                                             "authority",
-                                                             "authority_holder",
-                                                             "authority_until",
-                                                             "setpoints_accepted",
-                                                             "at",
-                                                             "age_ms"};
+/// Beside those that tell the state in one value.
+constexpr std::array<std::string_view, 6> other_axis_live_members{"at", "authority_holder", "authority_until", "error", "family", "line"};
 constexpr std::array<std::string_view, 3> drive_live_members{"family", "axes", "status"};
 constexpr std::array<std::string_view, 2> line_live_members{"drives", "status"};
 
@@ -258,6 +227,7 @@ json::object parameter_document(const Parameter& p, std::string_view id) {
                    {"default", to_json(p.factory_default)},
                    {"access", name_of(p.access)},
                    {"storage", text_or_null(p.storage)},
+                   {"addressing", p.addressing},
                    {"description", p.description}};
     if (p.allowed.empty()) {
         o["allowed"] = nullptr;
@@ -303,7 +273,7 @@ json::object family_document(const FamilyEntry& entry) {
 }
 
 bool is_read_only_axis_member(std::string_view name) noexcept {
-    return std::ranges::find(axis_live_members, name) != axis_live_members.end();
+    return is_axis_state_member(name) || std::ranges::find(other_axis_live_members, name) != other_axis_live_members.end();
 }
 bool is_read_only_drive_member(std::string_view name) noexcept {
     return std::ranges::find(drive_live_members, name) != drive_live_members.end();

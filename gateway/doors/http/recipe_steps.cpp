@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "gateway/core/mapping.hpp"
+#include "gateway/core/process_data.hpp"
 #include "gateway/doors/http/command_reader.hpp"
 #include "gateway/doors/http/handlers.hpp"
 
@@ -73,34 +74,6 @@ json::object command_body(const RecipeStep& s) {
 
 // --- registers ----------------------------------------------------------------------------------------------------------------
 
-template <class T>
-bool take(std::optional<T>& into, std::int64_t n) {
-    if (!std::in_range<T>(n)) return false;
-    into = static_cast<T>(n);
-    return true;
-}
-bool put(ProcessData& d, AxisPoint point, std::int64_t n) {
-    switch (point) {
-        case AxisPoint::controlword:
-            return take(d.controlword, n);
-        case AxisPoint::mode:
-            return take(d.mode, n);
-        case AxisPoint::target_position:
-            return take(d.target_position, n);
-        case AxisPoint::profile_velocity:
-            return take(d.profile_velocity, n);
-        case AxisPoint::profile_acceleration:
-            return take(d.profile_acceleration, n);
-        case AxisPoint::profile_deceleration:
-            return take(d.profile_deceleration, n);
-        case AxisPoint::target_velocity:
-            return take(d.target_velocity, n);
-        case AxisPoint::homing_method:
-            return take(d.homing_method, n);
-        default:
-            return false;
-    }
-}
 struct StandardRegister {
     int offset;
     AxisPoint point;
@@ -116,7 +89,7 @@ constexpr int registers_per_axis = 64;
 std::optional<CommandBody> process_data(const RecipeStep& s, AxisPoint point, const Value& value, std::vector<SiteFault>& faults) {
     ProcessData d;
     const auto n = as_integer(value);
-    if (!n || !put(d, point, *n)) {
+    if (!n || !put_process_data(d, point, *n)) {
         faults.push_back({pointer_in(s, "value"), fmt::format("{} does not fit {}", to_text(value), name_of(point)),
                           "write a whole number of its type", false});
         return std::nullopt;

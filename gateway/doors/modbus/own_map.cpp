@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
 #include <optional>
 
+#include "gateway/core/process_data.hpp"
 #include "gateway/doors/modbus/register_map.hpp"
 
 namespace axisgate::modbus {
@@ -92,36 +92,6 @@ Value axis_value(const AxisPicture& p, AxisPoint point, double increments_per_un
             return static_cast<double>(p.velocity) / increments_per_unit;
     }
     return {};
-}
-
-/// False: the value does not fit the register of the standard map behind the point.
-template <class T>
-bool take(std::optional<T>& to, std::int64_t n) {
-    if (n < std::numeric_limits<T>::min() || n > std::numeric_limits<T>::max()) return false;
-    to = static_cast<T>(n);
-    return true;
-}
-bool put(ProcessData& d, AxisPoint point, std::int64_t n) {
-    switch (point) {
-        case AxisPoint::controlword:
-            return take(d.controlword, n);
-        case AxisPoint::mode:
-            return take(d.mode, n);
-        case AxisPoint::target_position:
-            return take(d.target_position, n);
-        case AxisPoint::profile_velocity:
-            return take(d.profile_velocity, n);
-        case AxisPoint::profile_acceleration:
-            return take(d.profile_acceleration, n);
-        case AxisPoint::profile_deceleration:
-            return take(d.profile_deceleration, n);
-        case AxisPoint::target_velocity:
-            return take(d.target_velocity, n);
-        case AxisPoint::homing_method:
-            return take(d.homing_method, n);
-        default:
-            return false;
-    }
 }
 
 }  // namespace
@@ -266,7 +236,7 @@ Exception OwnMap::plan_value(const Place& place, const Value& value, WritePlan& 
             plan.commands.push_back({axis, ProcessData{}, false, 0});
             same = std::prev(plan.commands.end());
         }
-        return put(std::get<ProcessData>(same->body), *point, *n) ? Exception::none : Exception::illegal_value;
+        return put_process_data(std::get<ProcessData>(same->body), *point, *n) ? Exception::none : Exception::illegal_value;
     }
     const Point point = std::get<Point>(place.at.mapping.what);
     const Catalogue* catalogue = port_.catalogue(axis);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace axisgate {
@@ -47,6 +48,30 @@ AlarmState Alarm::state() const noexcept {
     return acknowledged ? AlarmState::acknowledged_active : AlarmState::unacknowledged_active;
 }
 
+std::optional<AlarmFilter> alarm_filter_named(std::string_view word) noexcept {
+    static constexpr std::array<std::string_view, 5> names{"active", "cleared", "unacknowledged", "acknowledged", "shelved"};
+    const auto it = std::ranges::find(names, word);
+    if (it == names.end()) return std::nullopt;
+    return static_cast<AlarmFilter>(it - names.begin());
+}
+
+bool fits(const Alarm& a, AlarmFilter filter) noexcept {
+    const bool on_shelf = a.shelved_until_unix_ns != 0;
+    switch (filter) {
+        case AlarmFilter::active:
+            return a.active;
+        case AlarmFilter::cleared:
+            return !a.active;
+        case AlarmFilter::unacknowledged:
+            return !a.acknowledged && !on_shelf;
+        case AlarmFilter::acknowledged:
+            return a.acknowledged;
+        case AlarmFilter::shelved:
+            return on_shelf;
+    }
+    return false;
+}
+
 void AlarmList::restore(Alarm alarm) {
     if (alarms_.size() < most_alarms) alarms_.insert_or_assign(alarm.id, std::move(alarm));
 }
@@ -58,7 +83,7 @@ const Alarm* AlarmList::find(std::uint64_t id) const {
 
 std::size_t AlarmList::unacknowledged() const {
     return static_cast<std::size_t>(
-        std::ranges::count_if(alarms_, [](const auto& a) { return a.second.shelved_until_unix_ns == 0 && !a.second.acknowledged; }));
+        std::ranges::count_if(alarms_, [](const auto& a) { return fits(a.second, AlarmFilter::unacknowledged); }));
 }
 
 bool AlarmList::fault_active(const std::string& axis) const {

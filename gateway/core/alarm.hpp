@@ -42,6 +42,12 @@ struct Alarm {
     [[nodiscard]] AlarmState state() const noexcept;
 };
 
+/// What a list of alarms can be narrowed to; an alarm may fit several. `unacknowledged` is what is counted: shelved ones are not.
+enum class AlarmFilter : std::uint8_t { active, cleared, unacknowledged, acknowledged, shelved };
+inline constexpr std::string_view alarm_filter_words = "active, cleared, unacknowledged, acknowledged or shelved";
+[[nodiscard]] std::optional<AlarmFilter> alarm_filter_named(std::string_view word) noexcept;
+[[nodiscard]] bool fits(const Alarm& alarm, AlarmFilter filter) noexcept;
+
 class AlarmList {
 public:
     static constexpr std::size_t most_alarms = 1000;

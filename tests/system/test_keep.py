@@ -38,6 +38,44 @@ def test_a_snapshot_is_read_from_the_drive_compared_and_restored(gateway):
     assert "no snapshot was stored" in refused["detail"] and len(gateway.get("/axes/feeder/snapshots")) == 1
 
 
+# What each family is reached by, as its manual has it; what else a catalogue may mark, it must have here too.
+REACHED_BY = {"uim342": {"PP[5]", "PP[7]", "PP[8]"}, "mcode": {"BD", "CK", "DN", "PY", "QD"}, "pacontrol": {"SP[17]"}}
+
+
+def test_every_family_says_what_its_drives_are_reached_by(gateway):
+    families = {f["name"] if "name" in f else f["family"] for f in gateway.get("/families")}
+    assert families == set(REACHED_BY), "a new family says what its drives are reached by"
+    for family, wanted in REACHED_BY.items():
+        parameters = gateway.get(f"/families/{family}/parameters")
+        assert {p["id"] for p in parameters if p["addressing"]} == wanted, family
+        assert all(p["access"] == "RW" for p in parameters if p["addressing"]), family
+
+
+def test_a_restore_leaves_the_address_of_the_drive_alone(gateway):
+    taken = gateway.send("POST", "/axes/feeder/snapshots", {"name": "of another drive"}, 201)
+    node = {p["parameter"]: p["value"] for p in taken["parameters"]}["PP[7]"]
+    for parameter, value in (("PP%5B7%5D", 21), ("PP%5B5%5D", 3), ("AC", 34567)):
+        gateway.send("PUT", f"/axes/feeder/parameters/{parameter}", {"value": value})
+    told = gateway.send("POST", "/axes/feeder/snapshots/1/restore", {"dry_run": True})
+    assert [c["parameter"] for c in told["changes"]] == ["AC"], told["changes"]
+    left_out = {s["parameter"]: s["why"] for s in told["skipped"]}
+    assert "include_addressing" in left_out["PP[7]"] and "node_id" in left_out["PP[7]"] and "include_addressing" in left_out["PP[5]"], left_out
+    done = gateway.send("POST", "/axes/feeder/snapshots/1/restore", {"parameters": ["PP[7]", "AC"]})
+    assert [c["parameter"] for c in done["changed"]] == ["AC"] and [s["parameter"] for s in done["skipped"]] == ["PP[7]"], done
+    assert gateway.get("/axes/feeder/parameters/PP%5B7%5D")["value"] == 21
+    table = f"parameter,value\nPP[7],{node}\nAC,45678\n".encode()
+    for query, written in (("?dry_run=1", None), ("", ["AC"]), ("?include_addressing=1", ["PP[7]"])):
+        status, report, _ = gateway.request("PUT", "/api/v1/axes/feeder/parameters.csv" + query, table, {"Content-Type": "text/csv"})
+        assert status == 200, report
+        if written is None:
+            assert [c["parameter"] for c in report["changes"]] == ["AC"] and "include_addressing" in report["skipped"][0]["why"], report
+        else:
+            assert [c["parameter"] for c in report["changed"]] == written, report
+    assert gateway.get("/axes/feeder/parameters/PP%5B7%5D")["value"] == node
+    done = gateway.send("POST", "/axes/feeder/snapshots/1/restore", {"parameters": ["PP[5]"], "include_addressing": True})
+    assert [c["parameter"] for c in done["changed"]] == ["PP[5]"], done
+
+
 def test_an_unconfirmed_site_rolls_back_by_itself(gateway):
     before = gateway.get("/site")
     staged = gateway.send("POST", "/site/stage", changed_site())

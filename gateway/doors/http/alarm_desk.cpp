@@ -148,10 +148,11 @@ void AlarmDesk::detach() {
     waiting_.clear();
 }
 
-json::object AlarmDesk::document() const {
+json::object AlarmDesk::document(std::optional<AlarmFilter> only) const {
     std::vector<const Alarm*> sorted;
-    for (const auto& [id, a] : list_.all())
-        sorted.push_back(&a);
+    for (const auto& [id, a] : list_.all()) {
+        if (!only || fits(a, *only)) sorted.push_back(&a);
+    }
     std::ranges::sort(sorted, [](const Alarm* a, const Alarm* b) {
         if (a->state() != b->state()) return a->state() < b->state();
         if (a->since_unix_ns != b->since_unix_ns) return a->since_unix_ns > b->since_unix_ns;
@@ -166,7 +167,7 @@ json::object AlarmDesk::document() const {
 std::vector<std::uint64_t> AlarmDesk::open() const {
     std::vector<std::uint64_t> ids;
     for (const auto& [id, a] : list_.all()) {
-        if (!a.acknowledged && a.shelved_until_unix_ns == 0) ids.push_back(id);
+        if (fits(a, AlarmFilter::unacknowledged)) ids.push_back(id);
     }
     return ids;
 }

@@ -8,6 +8,7 @@
 #include <boost/json/object.hpp>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,8 +36,8 @@ public:
     std::function<void(const boost::json::object& list)> tell;
 
     [[nodiscard]] const AlarmList& list() const noexcept { return list_; }
-    /// {"unacknowledged", "dropped", "alarms"}: active ones first, then newest first.
-    [[nodiscard]] boost::json::object document() const;
+    /// {"unacknowledged", "dropped", "alarms"}: active ones first, then newest first. The counts are of all, whatever is asked for.
+    [[nodiscard]] boost::json::object document(std::optional<AlarmFilter> only = std::nullopt) const;
 
     using Then = std::function<void(std::string fault)>;
     /// Each: empty, or why not; `then` is called when it is on disk (empty), or why it is not.

@@ -19,6 +19,7 @@ constexpr std::size_t most_buffered = 64 * 1024;         // read ahead of the re
 constexpr std::size_t first_read_bytes = 4 * 1024;       // of a request over TLS; an idle connection holds them
 constexpr std::uint8_t tls_handshake_record = 0x16;      // RFC 8446 5.1
 constexpr std::size_t least_bytes_per_ms = 16;           // an answer of 1 MiB may take about a minute more than the limit of a step
+constexpr std::size_t most_read_anyway = 64 * 1024;      // of a body that is refused
 constexpr std::size_t most_discarded = 2 * 1024 * 1024;  // read and thrown away so that the last answer arrives
 
 /// RFC 9110 5.6.7: "Sun, 06 Nov 1994 08:49:37 GMT".
@@ -184,14 +185,22 @@ void Connection::read_header() {
 void Connection::on_header(ErrorCode ec) {
     if (phase_ != Phase::header) return;
     if (ec) return read_failed(ec);
-    const bool takes_backup = parser_->get().method() == beast::http::verb::put && parser_->get().target() == "/api/v1/backup";
-    if (!takes_backup) {
-        if (const auto length = parser_->content_length(); length && *length > host_->settings.max_body_bytes) return read_failed(beast::http::error::body_limit);
-        parser_->body_limit(host_->settings.max_body_bytes);
-    }
+    take_head();
     const auto expect = parser_->get()[beast::http::field::expect];
+    if (!expect.empty() && !parser_->is_done() && !beast::iequals(expect, "100-continue"))
+        return fail(417, "bad_request", "the only expectation that is met is 100-continue");
+    most_body_bytes_ = host_->settings.max_body_bytes;
+    // A small body is read before anything is decided: the connection can then be kept, and its answer cannot be lost. But nobody who may
+    // not is waited for with a long one, with one that does not say how long it is, or when he asks first.
+    const bool small = expect.empty() && request_.announced_bytes && *request_.announced_bytes <= most_read_anyway;
+    if (!parser_->is_done() && !small) {
+        auto admission = host_->router.admit(request_);
+        if (admission.refusal) return refuse(*std::move(admission.refusal));
+        most_body_bytes_ = admission.max_body_bytes;
+    }
+    if (request_.announced_bytes.value_or(0) > most_body_bytes_) return read_failed(beast::http::error::body_limit);
+    parser_->body_limit(most_body_bytes_);
     if (expect.empty() || parser_->is_done()) return read_body();
-    if (!beast::iequals(expect, "100-continue")) return fail(417, "bad_request", "the only expectation that is met is 100-continue");
     if (parser_->get().version() < 11 || buffer_.size() > 0) return read_body();
     head_ = "HTTP/1.1 100 Continue\r\n\r\n";
     asio::async_write(socket_, asio::buffer(head_), [self = shared_from_this()](ErrorCode write_ec, std::size_t bytes) {
@@ -227,7 +236,7 @@ void Connection::read_failed(ErrorCode ec) {
         return fail(431, "headers_too_large",
                     fmt::format("request line and headers may have {} bytes together", host_->settings.max_header_bytes));
     }
-    if (ec == error::body_limit) return fail(413, "too_large", fmt::format("a body may have {} bytes", host_->settings.max_body_bytes));
+    if (ec == error::body_limit) return fail(413, "too_large", fmt::format("a body may have {} bytes here", most_body_bytes_));
     if (ec == error::bad_version) return fail(505, "bad_request", "this gateway speaks HTTP/1.1");
     const bool is_http_fault = ec.category() == make_error_code(error::bad_method).category();
     if (is_http_fault && ec != error::partial_message) return fail(400, "bad_request", fmt::format("this is not HTTP: {}", ec.message()));
@@ -246,17 +255,31 @@ void Connection::fail(unsigned status, std::string_view reason, std::string deta
     write(std::move(r), false);
 }
 
-void Connection::answer_request() {
-    auto& m = parser_->get();
+/// Everything of the request but its body. Fields of a trailer that comes after the body are not taken: the role was decided without them.
+void Connection::take_head() {
+    const auto& m = parser_->get();
     request_ = {};
     request_.method = method_named(std::string_view(m.method_string()));
     request_.target = std::string(m.target());
     request_.http_1_0 = m.version() < 11;
     for (const auto& f : m)
         request_.headers.fields.emplace_back(std::string(f.name_string()), std::string(f.value()));
-    request_.body = std::move(m.body());
+    if (const auto length = parser_->content_length()) request_.announced_bytes = *length;
     request_.peer = peer_;
     request_.secure = socket_.secure();
+    close_after_ = false;
+}
+
+/// Answers before the body has come. The connection ends with it; what the client has already sent is read for a while and thrown away.
+void Connection::refuse(Response response) {
+    phase_ = Phase::answering;
+    since_ = std::chrono::steady_clock::now();
+    close_after_ = true;
+    answer(++serial_, std::move(response));
+}
+
+void Connection::answer_request() {
+    request_.body = std::move(parser_->get().body());
     phase_ = Phase::answering;
     since_ = std::chrono::steady_clock::now();
     const std::uint64_t serial = ++serial_;
@@ -274,7 +297,7 @@ void Connection::answer(std::uint64_t serial, Response response) {
     const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - since_).count();
     const auto method = request_.method == Method::other ? std::string_view("other") : name_of(request_.method);
     host_->counters.answered(host_->router.route_of(request_), method, response.status, took_s);
-    const bool keep = parser_->get().keep_alive() && !stopping_ && !host_->stopping;
+    const bool keep = !close_after_ && parser_->get().keep_alive() && !stopping_ && !host_->stopping;
     write(std::move(response), keep);
 }
 

@@ -40,7 +40,9 @@ private:
     void read_body();
     void on_body(ErrorCode ec);
     void read_failed(ErrorCode ec);
+    void take_head();
     void answer_request();
+    void refuse(Response response);
     void answer(std::uint64_t serial, Response response);
     void fail(unsigned status, std::string_view reason, std::string detail);
     void write(Response response, bool keep);
@@ -67,6 +69,8 @@ private:
     Phase phase_ = Phase::idle;
     bool first_ = true;  ///< no request yet on this connection
     bool timed_out_ = false;
+    bool close_after_ = false;         ///< the answer is the last: a body that was not read may still be coming
+    std::size_t most_body_bytes_ = 0;  ///< of the request that is read
     bool stopping_ = false;
     std::size_t discarded_ = 0;
     std::string head_;  ///< of the answer that is being written

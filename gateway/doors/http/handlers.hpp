@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gateway/core/alarm.hpp"
 #include "gateway/core/gateway.hpp"
 #include "gateway/doors/http/axis_jobs.hpp"
 #include "gateway/doors/http/access_gate.hpp"
@@ -232,8 +233,12 @@ template <class Spec>
 [[nodiscard]] Response answer_of(const Result& result, std::string_view axis, std::string_view command);
 /// Writes checked values one after the other (handlers_snapshots.cpp); `more`: further members of the answer.
 [[nodiscard]] Handled write_parameters(Call& call, const AxisPlace& axis, std::vector<JobPoint> points, boost::json::object more);
+/// Why a parameter of the catalogue's `addressing` is left out when many are written back.
+[[nodiscard]] std::string why_addressing(const Parameter& parameter);
 /// A cell that a spreadsheet takes as text and not as a formula or as several cells.
 [[nodiscard]] std::string csv_cell(std::string_view text);
+/// `?state=` of alarms; nothing if it is not given (handlers_alarms.cpp).
+[[nodiscard]] std::optional<AlarmFilter> query_alarm_state(const Call& call, std::optional<Response>& fault);
 /// `?wait=`: 0 if it is not given.
 [[nodiscard]] double query_wait(const Call& call, std::optional<Response>& fault);
 

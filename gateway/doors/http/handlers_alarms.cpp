@@ -57,7 +57,20 @@ AlarmDesk::Then answer_with(Call& c, std::uint64_t id) {
 }
 }  // namespace
 
-Handled list_alarms(Call& c) { return json_response(c.context.alarms->document()); }
+std::optional<AlarmFilter> query_alarm_state(const Call& c, std::optional<Response>& fault) {
+    const auto word = c.target.query.get("state");
+    if (!word) return std::nullopt;
+    const auto filter = alarm_filter_named(*word);
+    if (!filter) fault = bad_query("state", alarm_filter_words);
+    return filter;
+}
+
+Handled list_alarms(Call& c) {
+    std::optional<Response> fault;
+    const auto only = query_alarm_state(c, fault);
+    if (fault) return *fault;
+    return json_response(c.context.alarms->document(only));
+}
 
 Handled acknowledge_alarm(Call& c) {
     const auto id = id_of(c);

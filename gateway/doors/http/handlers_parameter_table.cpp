@@ -128,6 +128,7 @@ Handled put_parameters_csv(Call& c) {
     if (!axis) return nothing_named("axis", c.names[0]);
     std::optional<Response> fault;
     const bool dry_run = query_flag(c, "dry_run", fault);
+    const bool include_addressing = query_flag(c, "include_addressing", fault);
     if (fault) return *fault;
     std::vector<Fault> faults;
     const auto wrong = [&](std::size_t line, std::string text) {
@@ -196,6 +197,10 @@ Handled put_parameters_csv(Call& c) {
         const Value now = known(live.value) ? live.value : it == stored.end() ? Value{} : it->second;
         if (now == checked.value) {
             skip("has this value already");
+            continue;
+        }
+        if (p.addressing && !include_addressing) {
+            skip(why_addressing(p));
             continue;
         }
         changes.push_back(json::object{{"parameter", id}, {"from", to_json(now)}, {"to", to_json(checked.value)}});

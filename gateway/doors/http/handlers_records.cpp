@@ -6,6 +6,7 @@
 #include <array>
 
 #include "gateway/core/frame_export.hpp"
+#include "gateway/doors/http/alarm_desk.hpp"
 #include "gateway/doors/http/documents.hpp"
 #include "gateway/doors/http/frame_decoder.hpp"
 #include "gateway/doors/http/handlers.hpp"
@@ -72,6 +73,24 @@ std::string events_csv(const std::vector<Event>& events) {
                            csv_cell(e.axis), csv_cell(e.drive), csv_cell(e.line), e.code == 0 ? std::string() : std::to_string(e.code),
                            csv_cell(e.text), csv_cell(e.who), csv_cell(e.door), csv_cell(e.parameter), csv_cell(e.old_value),
                            csv_cell(e.new_value));
+    }
+    return out;
+}
+
+/// The events that raised the alarms of the list which are in that state now, the newest ones: an alarm has the id of its event. Bounded
+/// by the length of the list.
+std::vector<Event> events_of_alarms(const Call& c, const EventQuery& wanted, AlarmFilter state) {
+    std::vector<Event> out;
+    const auto& all = c.context.alarms->list().all();
+    for (auto it = all.rbegin(); it != all.rend() && out.size() < wanted.limit; ++it) {
+        const auto id = it->first;
+        if (!fits(it->second, state) || id <= wanted.since_id || (wanted.before_id != 0 && id >= wanted.before_id)) continue;
+        EventQuery one = wanted;
+        one.since_id = id - 1;
+        one.before_id = id + 1;
+        one.limit = 1;
+        for (auto& e : c.gateway().events(one))
+            out.push_back(std::move(e));
     }
     return out;
 }
@@ -157,9 +176,10 @@ Handled list_events(Call& c) {
     std::optional<Response> fault;
     query.before_id = static_cast<std::uint64_t>(query_whole(c, "before", 1, INT64_MAX, 0, fault));
     query.limit = static_cast<std::size_t>(query_whole(c, "limit", 1, 1000, 200, fault));
+    const auto state = query_alarm_state(c, fault);
     const auto form = event_form(c, fault);
     if (fault) return *fault;
-    auto events = c.gateway().events(query);
+    auto events = state ? events_of_alarms(c, query, *state) : c.gateway().events(query);
     std::ranges::sort(events, {}, &Event::id);
     if (*form == EventForm::csv) return file("text/csv; charset=utf-8", "events.csv", events_csv(events));
     if (*form == EventForm::text) return file("text/plain; charset=utf-8", "events.txt", events_text(events));

@@ -176,6 +176,10 @@ std::map<std::string, Value> as_map(const std::vector<SnapshotValue>& list) {
 }
 }  // namespace
 
+std::string why_addressing(const Parameter& p) {
+    return fmt::format("the drive is reached by it ({}): it is written only with include_addressing", p.name);
+}
+
 Handled write_parameters(Call& c, const AxisPlace& axis, std::vector<JobPoint> points, json::object more) {
     const std::string name = axis.spec().name;
     if ((c.gateway().picture(axis.id()).flags & flag_moving) != 0)
@@ -353,9 +357,13 @@ Handled restore_snapshot(Call& c) {
     if (fault) return *fault;
     const auto& body = c.body.get_object();
     std::vector<Fault> faults;
-    refuse_unknown(body, {"parameters", "dry_run"}, faults);
-    const auto* dry = body.if_contains("dry_run");
-    if (dry && !dry->is_bool()) faults.push_back({"/dry_run", "dry_run must be true or false", "write true or false"});
+    refuse_unknown(body, {"parameters", "dry_run", "include_addressing"}, faults);
+    const auto flag = [&](std::string_view key) {
+        const auto* v = body.if_contains(key);
+        if (v && !v->is_bool()) faults.push_back({fmt::format("/{}", key), fmt::format("{} must be true or false", key), "write true or false"});
+        return v && v->is_bool() && v->get_bool();
+    };
+    const bool dry_run = flag("dry_run"), include_addressing = flag("include_addressing");
     std::optional<std::set<std::string>> wanted;
     if (const auto* list = body.if_contains("parameters"); list && list->is_array()) {
         wanted.emplace();
@@ -399,10 +407,14 @@ Handled restore_snapshot(Call& c) {
             skip("has this value already");
             continue;
         }
+        if (p->addressing && !include_addressing) {
+            skip(why_addressing(*p));
+            continue;
+        }
         changes.push_back(json::object{{"parameter", v.parameter}, {"from", to_json(now)}, {"to", to_json(checked.value)}});
         points.push_back({v.parameter, *point, std::move(checked.value)});
     }
-    if (dry && dry->get_bool())
+    if (dry_run)
         return json_response(json::object{{"dry_run", true}, {"changes", std::move(changes)}, {"skipped", std::move(skipped)}});
     return write_parameters(c, found->axis, std::move(points), {{"skipped", std::move(skipped)}});
 }

@@ -33,8 +33,9 @@ struct Request {
     bool http_1_0 = false;
     Headers headers;
     std::string body;
-    std::string peer;     ///< "192.0.2.7:51123"
-    bool secure = false;  ///< came over TLS
+    std::optional<std::uint64_t> announced_bytes{};  ///< Content-Length; nothing: none, or chunks
+    std::string peer;                                ///< "192.0.2.7:51123"
+    bool secure = false;                             ///< came over TLS
 };
 
 struct Response {

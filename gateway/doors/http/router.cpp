@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 
+#include "gateway/doors/http/hosts.hpp"
 #include "gateway/doors/http/static_files.hpp"
 
 namespace axisgate::http {
@@ -32,8 +33,8 @@ constexpr std::array routes{
     Route{"/api/v1/lines/{line}", Method::get, get_line},
     Route{"/api/v1/lines/{line}", Method::put, replace_line, Takes::json},
     Route{"/api/v1/lines/{line}", Method::patch, change_line, Takes::patch},
-    Route{"/api/v1/lines/{line}", Method::remove, remove_line, Takes::nothing, Gives::nothing},
-    Route{"/api/v1/lines/{line}/trace", Method::get, get_trace, Takes::nothing, Gives::own},
+    Route{"/api/v1/lines/{line}", Method::remove, remove_line, Takes::nothing, Gives::nothing}.asks("cascade"),
+    Route{"/api/v1/lines/{line}/trace", Method::get, get_trace, Takes::nothing, Gives::own}.asks("format since limit"),
     Route{"/api/v1/lines/{line}/scan", Method::get, get_scan},
     Route{"/api/v1/lines/{line}/scan", Method::post, start_scan, Takes::json},
     Route{"/api/v1/lines/{line}/scan", Method::remove, cancel_scan},
@@ -42,9 +43,9 @@ constexpr std::array routes{
     Route{"/api/v1/drives/{drive}", Method::get, get_drive},
     Route{"/api/v1/drives/{drive}", Method::put, replace_drive, Takes::json},
     Route{"/api/v1/drives/{drive}", Method::patch, change_drive, Takes::patch},
-    Route{"/api/v1/drives/{drive}", Method::remove, remove_drive, Takes::nothing, Gives::nothing},
+    Route{"/api/v1/drives/{drive}", Method::remove, remove_drive, Takes::nothing, Gives::nothing}.asks("cascade"),
     Route{"/api/v1/drives/{drive}/native", Method::post, exchange_native, Takes::json},
-    Route{"/api/v1/drives/{drive}/hand", Method::get, get_hand},
+    Route{"/api/v1/drives/{drive}/hand", Method::get, get_hand}.asks("describe"),
     Route{"/api/v1/drives/{drive}/hand", Method::put, set_hand, Takes::json},
     Route{"/api/v1/drives/{drive}/hand", Method::patch, set_hand, Takes::patch},
     Route{"/api/v1/axes", Method::get, list_axes},
@@ -52,9 +53,10 @@ constexpr std::array routes{
     Route{"/api/v1/axes/{axis}", Method::get, get_axis},
     Route{"/api/v1/axes/{axis}", Method::put, replace_axis, Takes::json},
     Route{"/api/v1/axes/{axis}", Method::patch, change_axis, Takes::patch},
-    Route{"/api/v1/axes/{axis}", Method::remove, remove_axis, Takes::nothing, Gives::nothing},
-    Route{"/api/v1/axes/{axis}/commands", Method::post, command_axis, Takes::json}.needs(Role::viewer),  // stops; all others: operator
-    Route{"/api/v1/axes/{axis}/actions", Method::post, act_on_axis, Takes::json},
+    Route{"/api/v1/axes/{axis}", Method::remove, remove_axis, Takes::nothing, Gives::nothing}.asks("cascade"),
+    Route{"/api/v1/axes/{axis}/commands", Method::post, command_axis, Takes::json}.asks("wait").needs(
+        Role::viewer),  // stops; all others: operator
+    Route{"/api/v1/axes/{axis}/actions", Method::post, act_on_axis, Takes::json}.asks("wait"),
     Route{"/api/v1/authority", Method::get, list_authority},
     Route{"/api/v1/axes/{axis}/authority", Method::get, get_authority},
     Route{"/api/v1/axes/{axis}/authority", Method::put, take_authority, Takes::json}.needs(Role::operating),
@@ -62,17 +64,17 @@ constexpr std::array routes{
     Route{"/api/v1/axes/{axis}/authority/hand-over", Method::post, hand_over_authority, Takes::json}.needs(Role::operating),
     Route{"/api/v1/modbus", Method::get, get_modbus},
     Route{"/api/v1/modbus", Method::patch, change_modbus, Takes::patch},
-    Route{"/api/v1/axes/{axis}/parameters", Method::get, list_parameters},
-    Route{"/api/v1/axes/{axis}/parameters/{parameter}", Method::get, read_parameter},
+    Route{"/api/v1/axes/{axis}/parameters", Method::get, list_parameters}.asks("group array first"),
+    Route{"/api/v1/axes/{axis}/parameters/{parameter}", Method::get, read_parameter}.asks("cached history"),
     Route{"/api/v1/axes/{axis}/parameters/{parameter}", Method::put, write_parameter, Takes::json},
-    Route{"/api/v1/moves/start", Method::post, start_moves, Takes::json}.needs(Role::operating),
+    Route{"/api/v1/moves/start", Method::post, start_moves, Takes::json}.asks("wait").needs(Role::operating),
     Route{"/api/v1/site", Method::get, get_site},
-    Route{"/api/v1/site", Method::put, replace_site, Takes::json},
-    Route{"/api/v1/mappings", Method::get, list_mappings},
+    Route{"/api/v1/site", Method::put, replace_site, Takes::json}.asks("dry_run"),
+    Route{"/api/v1/mappings", Method::get, list_mappings}.asks("unit axis"),
     Route{"/api/v1/mappings", Method::post, add_mapping, Takes::json},
     Route{"/api/v1/mappings.csv", Method::get, get_mappings_csv, Takes::nothing, Gives::own},
-    Route{"/api/v1/mappings.csv", Method::post, add_mappings_csv, Takes::csv},
-    Route{"/api/v1/mappings.csv", Method::put, replace_mappings_csv, Takes::csv},
+    Route{"/api/v1/mappings.csv", Method::post, add_mappings_csv, Takes::csv}.asks("dry_run"),
+    Route{"/api/v1/mappings.csv", Method::put, replace_mappings_csv, Takes::csv}.asks("dry_run"),
     Route{"/api/v1/mapping-points", Method::get, list_mapping_points},
     Route{"/api/v1/mappings/{mapping}", Method::get, get_mapping},
     Route{"/api/v1/mappings/{mapping}", Method::put, replace_mapping, Takes::json},
@@ -82,11 +84,11 @@ constexpr std::array routes{
     Route{"/api/v1/axes/{axis}/snapshot-progress", Method::get, get_snapshot_progress},
     Route{"/api/v1/axes/{axis}/snapshots/{snapshot}", Method::get, get_snapshot},
     Route{"/api/v1/axes/{axis}/snapshots/{snapshot}", Method::remove, remove_snapshot, Takes::nothing, Gives::nothing},
-    Route{"/api/v1/axes/{axis}/snapshots/{snapshot}/diff", Method::get, diff_snapshot},
+    Route{"/api/v1/axes/{axis}/snapshots/{snapshot}/diff", Method::get, diff_snapshot}.asks("with"),
     Route{"/api/v1/axes/{axis}/snapshots/{snapshot}/restore", Method::post, restore_snapshot, Takes::json},
-    Route{"/api/v1/axes/{axis}/parameters/{parameter}/history", Method::get, get_parameter_history},
+    Route{"/api/v1/axes/{axis}/parameters/{parameter}/history", Method::get, get_parameter_history}.asks("limit"),
     Route{"/api/v1/axes/{axis}/parameters.csv", Method::get, get_parameters_csv, Takes::nothing, Gives::own},
-    Route{"/api/v1/axes/{axis}/parameters.csv", Method::put, put_parameters_csv, Takes::csv},
+    Route{"/api/v1/axes/{axis}/parameters.csv", Method::put, put_parameters_csv, Takes::csv}.asks("dry_run include_addressing"),
     Route{"/api/v1/site/stage", Method::get, get_stage},
     Route{"/api/v1/site/stage", Method::post, stage_site, Takes::json},
     Route{"/api/v1/site/stage", Method::remove, discard_stage, Takes::nothing, Gives::nothing},
@@ -98,19 +100,19 @@ constexpr std::array routes{
     Route{"/api/v1/site/history/{revision}/restore", Method::post, restore_site_revision},
     Route{"/api/v1/backup", Method::get, get_backup, Takes::nothing, Gives::own}.needs(Role::administrator),
     Route{"/api/v1/backup", Method::put, put_backup, Takes::bytes}.needs(Role::administrator),
-    Route{"/api/v1/registers", Method::get, get_registers},
-    Route{"/api/v1/mappings/list", Method::get, get_mapping_list, Takes::nothing, Gives::own},
-    Route{"/api/v1/mappings/next-free", Method::get, get_next_free},
+    Route{"/api/v1/registers", Method::get, get_registers}.asks("unit table address count"),
+    Route{"/api/v1/mappings/list", Method::get, get_mapping_list, Takes::nothing, Gives::own}.asks("format"),
+    Route{"/api/v1/mappings/next-free", Method::get, get_next_free}.asks("unit table words"),
     Route{"/api/v1/mappings/template", Method::post, add_mapping_template, Takes::json},
-    Route{"/api/v1/events", Method::get, list_events, Takes::nothing, Gives::own},
-    Route{"/api/v1/alarms", Method::get, list_alarms},
+    Route{"/api/v1/events", Method::get, list_events, Takes::nothing, Gives::own}.asks("since axis severity kind state before limit format"),
+    Route{"/api/v1/alarms", Method::get, list_alarms}.asks("state"),
     Route{"/api/v1/alarms/acknowledge", Method::post, acknowledge_alarms, Takes::json}.needs(Role::operating),
     Route{"/api/v1/alarms/{alarm}/acknowledge", Method::post, acknowledge_alarm, Takes::json}.needs(Role::operating),
     Route{"/api/v1/alarms/{alarm}/shelve", Method::post, shelve_alarm, Takes::json}.needs(Role::operating),
     Route{"/api/v1/alarms/{alarm}/unshelve", Method::post, unshelve_alarm}.needs(Role::operating),
     Route{"/api/v1/recipes", Method::get, list_recipes},
     Route{"/api/v1/recipes/{recipe}", Method::get, get_recipe},
-    Route{"/api/v1/recipes/{recipe}", Method::put, put_recipe, Takes::json},
+    Route{"/api/v1/recipes/{recipe}", Method::put, put_recipe, Takes::json}.asks("dry_run"),
     Route{"/api/v1/recipes/{recipe}", Method::remove, remove_recipe, Takes::nothing, Gives::nothing},
     Route{"/api/v1/recipes/{recipe}/run", Method::post, run_recipe, Takes::json}.needs(Role::operating),
     Route{"/api/v1/recipes/{recipe}/runs", Method::get, list_recipe_runs},
@@ -178,29 +180,39 @@ std::string_view media_given(Gives gives) {
     return {};
 }
 
-/// Reads the body where the route takes one; what is wrong with it otherwise.
+/// What is wrong with the media type that is announced for the body.
+std::optional<Response> check_media(const Request& request, Takes takes) {
+    const auto given = request.headers.get("Content-Type");
+    const auto media = media_of(given);
+    const auto refused = [&](std::string_view header, std::string_view taken, std::string text) {
+        Response r = problem(415, "unsupported_media_type", std::move(text));
+        if (!header.empty()) r.headers.set(header, std::string(taken));
+        return r;
+    };
+    switch (takes) {
+        case Takes::nothing:
+            return std::nullopt;
+        case Takes::bytes:
+            if (media == "application/octet-stream") return std::nullopt;
+            return refused({}, {}, "send the file with Content-Type: application/octet-stream");
+        case Takes::csv:
+            if (media == "text/csv") return std::nullopt;
+            return refused("Accept-Post", "text/csv", fmt::format("send a table with Content-Type: text/csv in UTF-8, not \"{}\"", given));
+        case Takes::json:
+            if (media == "application/json") return std::nullopt;
+            return refused("Accept-Post", "application/json",
+                           fmt::format("send a JSON object with Content-Type: application/json in UTF-8, not \"{}\"", given));
+        case Takes::patch:
+            if (media == "application/json" || media == "application/merge-patch+json") return std::nullopt;
+            return refused("Accept-Patch", "application/merge-patch+json, application/json",
+                           fmt::format("send a JSON object with Content-Type: application/json in UTF-8, not \"{}\"", given));
+    }
+    return std::nullopt;
+}
+
+/// Reads the body where the route takes JSON; what is wrong with it otherwise. Tables and files are read by their handlers.
 std::optional<Response> read_body(const Request& request, Takes takes, json::value& into) {
-    const auto media = media_of(request.headers.get("Content-Type"));
-    if (takes == Takes::bytes) {
-        if (media == "application/octet-stream") return std::nullopt;
-        return problem(415, "unsupported_media_type", "send the file with Content-Type: application/octet-stream");
-    }
-    if (takes == Takes::csv) {
-        if (media == "text/csv") return std::nullopt;
-        Response r = problem(415, "unsupported_media_type",
-                             fmt::format("send a table with Content-Type: text/csv in UTF-8, not \"{}\"", request.headers.get("Content-Type")));
-        r.headers.set("Accept-Post", "text/csv");
-        return r;
-    }
-    const bool good = media == "application/json" || (takes == Takes::patch && media == "application/merge-patch+json");
-    if (!good) {
-        Response r = problem(415, "unsupported_media_type",
-                             fmt::format("send {} with Content-Type: application/json in UTF-8, not \"{}\"",
-                                         request.body.empty() ? "a JSON object" : "the body", request.headers.get("Content-Type")));
-        r.headers.set(takes == Takes::patch ? "Accept-Patch" : "Accept-Post",
-                      takes == Takes::patch ? "application/merge-patch+json, application/json" : "application/json");
-        return r;
-    }
+    if (takes != Takes::json && takes != Takes::patch) return std::nullopt;
     boost::system::error_code ec;
     into = json::parse(request.body, ec);
     if (ec) return problem(400, "bad_request", fmt::format("the body is not JSON: {}", ec.message()));
@@ -208,59 +220,37 @@ std::optional<Response> read_body(const Request& request, Takes takes, json::val
     return std::nullopt;
 }
 
-/// HOST without its port: "[::1]" keeps its brackets.
-std::string_view host_name(std::string_view host) {
-    if (host.starts_with('[')) return host.substr(0, std::min(host.find(']') + 1, host.size()));
-    return host.substr(0, host.find(':'));
+/// What is wrong with the names of the query: each must be one of the route's, and none may stand twice.
+std::optional<Response> check_query(const Query& query, std::string_view known) {
+    const auto is_known = [known](std::string_view name) {
+        for (std::string_view rest = known; !rest.empty();) {
+            const auto end = std::min(rest.find(' '), rest.size());
+            if (rest.substr(0, end) == name) return true;
+            rest.remove_prefix(std::min(end + 1, rest.size()));
+        }
+        return false;
+    };
+    std::string list;
+    for (const char x : known)
+        x == ' ' ? list += ", " : list += x;
+    for (std::size_t i = 0; i < query.pairs.size(); ++i) {
+        const auto& name = query.pairs[i].first;
+        if (!is_known(name)) {
+            const auto shown = name.size() > 100 ? name.substr(0, 100) : name;
+            return problem(400, "bad_request",
+                           known.empty() ? fmt::format("\"{}\" is not known here: this takes no query", shown)
+                                         : fmt::format("\"{}\" is not known here: the query may have {}", shown, list));
+        }
+        for (std::size_t k = 0; k < i; ++k) {
+            if (query.pairs[k].first == name) return problem(400, "bad_request", fmt::format("{} stands twice in the query", name));
+        }
+    }
+    return std::nullopt;
 }
 
-bool is_ip_address(std::string_view name) {
-    if (name.starts_with('[')) {
-        return name.size() > 3 && name.ends_with(']') && std::ranges::all_of(name.substr(1, name.size() - 2), [](char c) {
-                   return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F') || c == ':' || c == '.';
-               });
-    }
-    int parts = 0;
-    while (!name.empty()) {
-        const auto dot = name.find('.');
-        if (!parse_whole(name.substr(0, dot), 0, 255)) return false;
-        ++parts;
-        if (dot == std::string_view::npos) break;
-        name.remove_prefix(dot + 1);
-    }
-    return parts == 4;
-}
-
-bool is_loopback(std::string_view name) {
-    return name == "localhost" || name.ends_with(".localhost") || name == "[::1]" || (name.starts_with("127.") && is_ip_address(name));
-}
 }  // namespace
 
 std::span<const Route> all_routes() noexcept { return routes; }
-
-bool same_host(std::string_view origin, std::string_view host) {
-    const auto scheme = origin.find("://");
-    if (scheme == std::string_view::npos) return false;
-    const std::string name = lower(origin.substr(0, scheme));
-    if (name != "http" && name != "https") return false;
-    const auto with_port = [&name](std::string_view h) {
-        std::string s = lower(trimmed(h));
-        const std::size_t colon = s.rfind(':');
-        if (colon == std::string::npos || s.ends_with(']')) s += name == "https" ? ":443" : ":80";
-        return s;
-    };
-    return !trimmed(host).empty() && with_port(origin.substr(scheme + 3)) == with_port(host);
-}
-
-bool host_allowed(std::string_view host, const Settings& settings) {
-    std::string name = lower(host_name(trimmed(host)));
-    if (name.size() > 1 && name.back() == '.') name.pop_back();
-    const std::string bound = lower(host_name(settings.bind));
-    const auto listed = [&](const std::string& allowed) { return lower(allowed) == name; };
-    if (is_ip_address(name) || is_loopback(name) || (!bound.empty() && name == bound)) return true;
-    if (std::ranges::any_of(settings.allowed_hosts, listed)) return true;
-    return settings.allowed_hosts.empty() && !is_loopback(bound) && !name.empty();
-}
 
 std::optional<Response> Router::check_host(const Request& request) const {
     const auto count = request.headers.count("Host");
@@ -281,75 +271,113 @@ std::optional<Response> Router::check_origin(const Request& request) {
                    fmt::format("the request comes from a page of another host ({})", origin.empty() ? "cross-site" : origin));
 }
 
-Handled Router::dispatch(const Request& request, const Respond& respond) const {
-    if (auto refusal = check_host(request)) return *refusal;
+/// What the head of a request leads to: an answer, or a route with everything that its handler needs beside the body.
+struct Router::Entry {
+    std::optional<Response> answer;
+    const Route* route = nullptr;
+    std::optional<Target> target;
+    std::vector<std::string> names;
+    Identity identity{};
+};
+
+std::size_t Router::most_bytes(const Route& route) const noexcept {
+    return route.takes == Takes::bytes ? context_.settings.max_backup_bytes : context_.settings.max_body_bytes;
+}
+
+Router::Entry Router::enter(const Request& request, bool touch) const {
+    Entry e;
+    const auto answer = [&e](Response r) {
+        e.answer = std::move(r);
+        return std::move(e);
+    };
+    if (auto refusal = check_host(request)) return answer(*std::move(refusal));
     if (request.method == Method::options && request.target == "*") {
         Response r;
         r.status = 204;
-        return r;
+        return answer(std::move(r));
     }
-    const auto target = parse_target(request.target);
-    if (!target) return problem(400, "bad_request", "the request target cannot be read: a path that begins with /, percent-encoded UTF-8");
+    e.target = parse_target(request.target);
+    if (!e.target)
+        return answer(problem(400, "bad_request", "the request target cannot be read: a path that begins with /, percent-encoded UTF-8"));
 
     const Method wanted = request.method == Method::head ? Method::get : request.method;
-    const Route* route = nullptr;
-    const std::string_view path = path_of(target->segments);
-    std::vector<std::string> names;
+    const std::string_view path = path_of(e.target->segments);
     std::string allow;
     for (const auto told : told_methods) {
         for (const auto& r : routes) {
             if (r.method != told || r.path != path) continue;
-            auto found = match(r.path, target->segments);
+            auto found = match(r.path, e.target->segments);
             if (!found) continue;
             allow += fmt::format("{}{}", allow.empty() ? "" : ", ", name_of(told) == "GET" ? "GET, HEAD" : name_of(told));
             if (told == wanted) {
-                route = &r;
-                names = std::move(*found);
+                e.route = &r;
+                e.names = std::move(*found);
             }
         }
     }
-    const bool is_api = !target->segments.empty() && target->segments[0] == "api";
+    const bool is_api = !e.target->segments.empty() && e.target->segments[0] == "api";
     const bool is_file = allow.empty() && !is_api;
     if (allow.empty() && is_api)
-        return problem(404, "not_found", fmt::format("there is nothing at {}: see /api/v1/openapi.yaml", request.target));
+        return answer(problem(404, "not_found", fmt::format("there is nothing at {}: see /api/v1/openapi.yaml", request.target)));
     if (is_file) allow = "GET, HEAD";
     if (request.method == Method::options) {
         Response r;
         r.status = 204;
         r.headers.set("Allow", allow + ", OPTIONS");
-        return r;
+        return answer(std::move(r));
     }
-    if (is_file && wanted == Method::get) return static_file(context_.asset, *target, request.headers);
-    if (!route) {
+    if (is_file && wanted == Method::get) return answer(static_file(context_.asset, *e.target, request.headers));
+    if (!e.route) {
         Response r = problem(405, "method_not_allowed", fmt::format("this takes {}, OPTIONS", allow));
         r.headers.set("Allow", allow + ", OPTIONS");
-        return r;
+        return answer(std::move(r));
     }
     // Who it is, and whether he may: before anything of the request is looked at further.
+    e.identity = http::identify(context_.access.get(), request, context_.gateway.now_unix_ns(), touch);
+    if (const Role needed = e.route->needed(); needed != Role::none) {
+        if (auto refusal = refuse_below(e.identity, needed)) return answer(*std::move(refusal));
+    }
+    if (e.route->handler != sign_in && e.route->handler != first_sign_in) {
+        if (auto refusal = check_csrf(e.identity, request)) return answer(*std::move(refusal));
+    }
+    if (wanted != Method::get || e.route->same_origin_only) {
+        if (auto refusal = check_origin(request)) return answer(*std::move(refusal));
+    }
+    if (const auto most = most_bytes(*e.route); request.announced_bytes.value_or(0) > most)
+        return answer(problem(413, "too_large", fmt::format("a body may have {} bytes here", most)));
+    if (const auto media = media_given(e.route->gives); !media.empty() && !accepts(request.headers.get("Accept"), media))
+        return answer(problem(406, "not_acceptable", fmt::format("this can be given as {}", media)));
+    if (auto refusal = check_query(e.target->query, e.route->query)) return answer(*std::move(refusal));
+    if (auto refusal = check_media(request, e.route->takes)) return answer(*std::move(refusal));
+    return e;
+}
+
+Admission Router::admit(const Request& head) const {
+    Admission a;
+    a.max_body_bytes = context_.settings.max_body_bytes;
+    try {
+        Entry e = enter(head, false);
+        if (e.route) a.max_body_bytes = most_bytes(*e.route);
+        if (e.answer && e.answer->status >= 400) a.refusal = std::move(e.answer);
+    } catch (const std::exception& x) {
+        a.refusal = problem(500, "internal", fmt::format("a fault of the gateway itself: {}", x.what()));
+    }
+    if (a.refusal) finish(*a.refusal, head.method == Method::head);
+    return a;
+}
+
+Handled Router::dispatch(const Request& request, const Respond& respond) const {
+    Entry e = enter(request, true);
+    if (e.answer) return *std::move(e.answer);
     AccessPort* port = context_.access.get();
-    Identity identity = http::identify(port, request, context_.gateway.now_unix_ns());
-    if (const Role needed = route->needed(); needed != Role::none) {
-        if (auto refusal = refuse_below(identity, needed)) return *refusal;
-    }
-    if (route->handler != sign_in && route->handler != first_sign_in) {
-        if (auto refusal = check_csrf(identity, request)) return *refusal;
-    }
-    if (!identity.token_to_keep.empty()) {
-        if (const auto it = port->desk().tokens().find(identity.token_to_keep); it != port->desk().tokens().end()) {
-            port->keep({record_of(it->second)}, who(identity, request.peer), [](const std::string&) {});
+    if (!e.identity.token_to_keep.empty()) {
+        if (const auto it = port->desk().tokens().find(e.identity.token_to_keep); it != port->desk().tokens().end()) {
+            port->keep({record_of(it->second)}, who(e.identity, request.peer), [](const std::string&) {});
         }
     }
-    if (wanted != Method::get || route->same_origin_only) {
-        if (auto refusal = check_origin(request)) return *refusal;
-    }
-    if (const auto media = media_given(route->gives); !media.empty() && !accepts(request.headers.get("Accept"), media)) {
-        return problem(406, "not_acceptable", fmt::format("this can be given as {}", media));
-    }
-    Call call{context_, request, *target, std::move(names), nullptr, respond, std::move(identity)};
-    if (route->takes != Takes::nothing) {
-        if (auto refusal = read_body(request, route->takes, call.body)) return *refusal;
-    }
-    return route->handler(call);
+    Call call{context_, request, *e.target, std::move(e.names), nullptr, respond, std::move(e.identity)};
+    if (auto refusal = read_body(request, e.route->takes, call.body)) return *std::move(refusal);
+    return e.route->handler(call);
 }
 
 void Router::finish(Response& r, bool is_head) {

@@ -9,6 +9,7 @@
 
 #include "gateway/doors/http/access_gate.hpp"
 #include "gateway/doors/http/handlers.hpp"
+#include "gateway/doors/http/hosts.hpp"
 
 namespace axisgate::http {
 
@@ -31,13 +32,27 @@ struct Route {
     /// The lowest role that may; nothing: viewer for GET, engineer for all other methods. Role::none: open to all. Where it depends on the
     /// body, the table has the lowest one and the handler asks for more with refuse_below.
     std::optional<Role> least = std::nullopt;
+    /// Names that its query may have, with blanks between them; any other is refused with 400, so that nobody believes in a `dry_run` or
+    /// a filter that does not exist. What a value may be is the handler's.
+    std::string_view query = {};
 
+    [[nodiscard]] constexpr Route asks(std::string_view names) const {
+        Route r = *this;
+        r.query = names;
+        return r;
+    }
     [[nodiscard]] constexpr Route needs(Role role) const {
         Route r = *this;
         r.least = role;
         return r;
     }
     [[nodiscard]] constexpr Role needed() const { return least.value_or(method == Method::get ? Role::viewer : Role::engineer); }
+};
+
+/// What is known of a request before its body has been read.
+struct Admission {
+    std::optional<Response> refusal;  ///< the answer, if the body is not wanted
+    std::size_t max_body_bytes = 0;   ///< otherwise: of the body
 };
 
 /// Every route of this door, HEAD and OPTIONS apart: those follow from these.
@@ -50,23 +65,24 @@ public:
     /// `respond` is called at most once, later, and only if the answer is not in the result. It may be called after the promise's limit:
     /// then it is the caller's to ignore it.
     [[nodiscard]] Handled handle(const Request& request, Respond respond) const;
+    /// Everything that is decided without the body: host, route, role, CSRF, origin, announced length, query, media type. A refusal here is
+    /// the one that handle() would give. Changes nothing: no session is renewed by it.
+    [[nodiscard]] Admission admit(const Request& head) const;
     /// Whether a live feed that was opened by this request may go on: its session or token still holds.
     [[nodiscard]] bool may_still_watch(const Request& request) const;
     /// The route's path for a counter: as in the table, "static" for files, "none" where nothing matched.
     [[nodiscard]] std::string_view route_of(const Request& request) const;
 
 private:
+    struct Entry;
     [[nodiscard]] Handled dispatch(const Request& request, const Respond& respond) const;
+    [[nodiscard]] Entry enter(const Request& head, bool touch) const;
+    [[nodiscard]] std::size_t most_bytes(const Route& route) const noexcept;
     [[nodiscard]] std::optional<Response> check_host(const Request& request) const;
     [[nodiscard]] static std::optional<Response> check_origin(const Request& request);
     static void finish(Response& response, bool is_head);
 
     Context context_;
 };
-
-/// Whether an Origin header names the same host and port as the Host header.
-[[nodiscard]] bool same_host(std::string_view origin, std::string_view host);
-/// Whether a Host header may name this gateway; see Settings::allowed_hosts.
-[[nodiscard]] bool host_allowed(std::string_view host, const Settings& settings);
 
 }  // namespace axisgate::http

@@ -1,5 +1,6 @@
 // Values, catalogue and guard: conversions, range checks with their messages, limits in an axis' own unit.
 // In: tables. Out: values or refusals. Never uses a real family's catalogue.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "gateway/core/catalogue.hpp"
@@ -76,6 +77,19 @@ TEST(Catalogue, WritesAreCheckedAndRefusalsNameTheRange) {
     }
 }
 
+TEST(Catalogue, WhatADriveIsReachedByIsMarkedAndNothingElse) {
+    const auto parse = [](std::string_view mark, std::vector<std::string>& faults) {
+        return Catalogue::parse(fmt::format(R"({{"family": "x", "number": 1, "parameters": [{{"id": "A", "name": "a", "group": "g", "type": "u8", "access": "RW", "description": "d"{}}}],
+          "commands": [], "errors": []}})", mark), faults);
+    };
+    std::vector<std::string> faults;
+    EXPECT_FALSE(parse("", faults)->parameters()[0].addressing);
+    EXPECT_FALSE(parse(R"(, "addressing": false)", faults)->parameters()[0].addressing);
+    EXPECT_TRUE(parse(R"(, "addressing": true)", faults)->parameters()[0].addressing);
+    EXPECT_TRUE(faults.empty());
+    for (const auto* wrong : {R"(, "addressing": 1)", R"(, "addressing": "yes")", R"(, "addressing": null)"}) EXPECT_FALSE(parse(wrong, faults)) << wrong;
+    EXPECT_EQ(faults.size(), 3u);
+}
 TEST(Catalogue, EveryFaultOfAPageIsFound) {
     std::vector<std::string> faults;
     EXPECT_FALSE(Catalogue::parse(R"({"family": "", "parameters": [{"id": "A", "name": "a", "group": "g", "type": "u9", "access": "X", "description": "d", "min": 2, "max": 1},

@@ -55,6 +55,38 @@ TEST_F(Alarms, AreAcknowledgedByNameAndLeaveWhenCleared) {
     EXPECT_EQ(post(fmt::format("/{}/acknowledge", id), "{}").status, 404u);
 }
 
+TEST_F(Alarms, ListAndEventsAreNarrowedByState) {
+    const auto one = fault(1), two = fault(2, "slide"), three = fault(3, "slide");
+    gateway.tell(event("a note", "feeder", Severity::info, "note"));
+    cleared();  // one
+    EXPECT_EQ(post(fmt::format("/{}/acknowledge", two), "{}").status, 200u);
+    EXPECT_EQ(post(fmt::format("/{}/shelve", three), R"({"for_s":60,"reason":"mended"})").status, 200u);
+    using Ids = std::vector<std::uint64_t>;
+    for (const auto& [state, wanted] : std::vector<std::pair<std::string, Ids>>{
+             {"active", {two, three}}, {"cleared", {one}}, {"unacknowledged", {one}}, {"acknowledged", {two}}, {"shelved", {three}}}) {
+        Ids listed, told;
+        const auto list = call("GET", "/api/v1/alarms?state=" + state);
+        for (const auto& a : list.object().at("alarms").get_array())
+            listed.push_back(static_cast<std::uint64_t>(a.at("id").to_number<std::int64_t>()));
+        std::ranges::sort(listed);
+        EXPECT_EQ(listed, wanted) << state;
+        EXPECT_EQ(list.at("unacknowledged"), "1") << "the counts are of all";
+        for (const auto& e : call("GET", "/api/v1/events?state=" + state).array())
+            told.push_back(static_cast<std::uint64_t>(e.at("id").to_number<std::int64_t>()));
+        EXPECT_EQ(told, wanted) << state;
+    }
+    EXPECT_EQ(call("GET", "/api/v1/events?state=active&axis=feeder").array().size(), 0u) << "together with the other filters";
+    EXPECT_EQ(call("GET", "/api/v1/events?state=active&limit=1").array().at(0).at("id"), three) << "the newest";
+    EXPECT_EQ(call("GET", fmt::format("/api/v1/events?state=active&since={}", two)).array().size(), 1u);
+    EXPECT_EQ(call("GET", fmt::format("/api/v1/events?state=active&before={}", three)).array().at(0).at("id"), two);
+    EXPECT_NE(call("GET", "/api/v1/events?state=shelved&format=csv").text.find("slide"), std::string::npos);
+    for (const auto* target : {"/api/v1/events?state=loud", "/api/v1/alarms?state=loud", "/api/v1/alarms?state=", "/api/v1/events?state=Active"}) {
+        const auto a = call("GET", target);
+        EXPECT_EQ(a.status, 400u) << target;
+        EXPECT_EQ(a.at("detail"), "state must be active, cleared, unacknowledged, acknowledged or shelved") << target;
+    }
+}
+
 TEST_F(Alarms, AllOrNoneOfSeveral) {
     const auto one = fault(1), two = fault(2);
     fault(3, "slide");

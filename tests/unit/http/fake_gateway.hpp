@@ -24,7 +24,7 @@ inline constexpr std::string_view catalogue_text = R"({
     {"id": "KEY", "name": "unlock", "group": "identity", "type": "u16", "access": "W", "description": "Opens what is locked."},
     {"id": "MT", "name": "micro_steps", "group": "motor", "type": "u8", "allowed": {"1": "full", "16": "sixteenth"}, "default": 16,
      "access": "RW", "description": "Steps."},
-    {"id": "PP", "name": "protocol", "group": "bus", "type": "u8", "min": 0, "max": 200, "access": "RW", "description": "Array.", "first": 1, "count": 8},
+    {"id": "PP", "name": "protocol", "group": "bus", "type": "u8", "min": 0, "max": 200, "access": "RW", "description": "Array.", "first": 1, "count": 8, "addressing": true},
     {"id": "N", "name": "registers", "group": "program", "type": "f64", "access": "RW", "description": "Long array.", "first": 1, "count": 2000}
   ],
   "commands": [{"id": "BG", "name": "begin", "description": "Starts."}],

@@ -1,6 +1,7 @@
 // schema/openapi.yaml against the program, in both directions: routes and methods, and the members that documents must have.
 // The file is read by its indentation, which its head comment promises: paths at two spaces, methods at four, schemas at four.
 #include <fstream>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -108,6 +109,90 @@ TEST(OpenApi, RoutesThatTakeABodyAreDescribedSo) {
         for (auto& c : low)
             c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
         EXPECT_EQ(with_body.contains({std::string(r.path), low}), r.takes != Route::Takes::nothing) << low << " " << r.path;
+    }
+}
+
+/// One value that stands at six spaces below each method, by path and method; empty where it is missing.
+std::map<std::pair<std::string, std::string>, std::string> told_at_each(const std::string& key) {
+    std::map<std::pair<std::string, std::string>, std::string> out;
+    std::pair<std::string, std::string> at;
+    bool in_paths = false, in_method = false;
+    for (const auto& line : lines_of_description()) {
+        const auto indent = indent_of(line);
+        if (indent == std::string::npos) continue;
+        if (indent == 0) in_paths = line == "paths:";
+        if (!in_paths) continue;
+        if (indent == 2) at.first = line.substr(2, line.size() - 3);
+        if (indent == 2 || indent == 4) in_method = indent == 4 && line != "    parameters:";
+        if (indent == 4 && in_method) {
+            at.second = line.substr(4, line.size() - 5);
+            out[at];
+        }
+        if (indent == 6 && in_method && line.starts_with("      " + key + ": ")) out[at] = line.substr(8 + key.size());
+    }
+    return out;
+}
+std::pair<std::string, std::string> place_of(const Route& r) {
+    std::string low(name_of(r.method));
+    for (auto& c : low)
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return {std::string(r.path), low};
+}
+
+TEST(OpenApi, QueriesAreThoseOfTheDescriptionInBothDirections) {
+    // A parameter is a list entry of an operation: "- name: x" with "in: query" below it, or a reference to one of the components, which
+    // stand at four spaces with their name at six.
+    std::map<std::string, std::string> shared;
+    std::map<std::pair<std::string, std::string>, std::set<std::string>> told;
+    std::pair<std::string, std::string> at;
+    std::string section, kind, component, name;
+    for (const auto& line : lines_of_description()) {
+        const auto indent = indent_of(line);
+        if (indent == std::string::npos) continue;
+        const std::string text = line.substr(indent);
+        if (indent == 0) section = text;
+        if (section == "components:") {
+            if (indent == 2) kind = text;
+            if (kind != "parameters:") continue;
+            if (indent == 4) component = text.substr(0, text.size() - 1);
+            if (text.starts_with("name: ")) name = text.substr(6);
+            if (text == "in: query") shared[component] = name;
+        }
+    }
+    for (const auto& line : lines_of_description()) {
+        const auto indent = indent_of(line);
+        if (indent == std::string::npos) continue;
+        const std::string text = line.substr(indent);
+        if (indent == 0) section = text;
+        if (section != "paths:") continue;
+        if (indent == 2) at.first = text.substr(0, text.size() - 1);
+        if (indent == 4) at.second = text.substr(0, text.size() - 1);
+        if (text.starts_with("- name: ")) name = text.substr(8);
+        if (text == "in: query") told[at].insert(name);
+        if (constexpr std::string_view head = "- {$ref: '#/components/parameters/"; indent == 8 && text.starts_with(head)) {
+            const auto it = shared.find(text.substr(head.size(), text.size() - head.size() - 2));
+            if (it != shared.end()) told[at].insert(it->second);
+        }
+    }
+    EXPECT_GE(told.size(), 20u) << "the description was read";
+    for (const auto& r : all_routes()) {
+        std::set<std::string> taken;
+        std::stringstream words{std::string(r.query)};
+        for (std::string word; words >> word;)
+            EXPECT_TRUE(taken.insert(word).second) << r.path << " has " << word << " twice";
+        EXPECT_EQ(taken, told[place_of(r)]) << name_of(r.method) << " " << r.path;
+    }
+}
+
+TEST(OpenApi, EveryOperationStatesTheRoleThatTheProgramAsksFor) {
+    const auto told = told_at_each("x-role");
+    EXPECT_EQ(told.size(), all_routes().size());
+    for (const auto& [at, role] : told)
+        EXPECT_TRUE(role_named(role)) << at.second << " " << at.first << " states no role: " << role;
+    for (const auto& r : all_routes()) {
+        const auto it = told.find(place_of(r));
+        ASSERT_NE(it, told.end()) << r.path;
+        EXPECT_EQ(it->second, name_of(r.needed())) << it->first.second << " " << r.path;
     }
 }
 

@@ -14,8 +14,15 @@ using Fields = std::vector<std::pair<std::string, std::string>>;
 class AccessTest : public ::testing::Test, public Harness {
 protected:
     std::shared_ptr<FakeAccess> access = std::make_shared<FakeAccess>();
-    Router door{Context{gateway, settings, [](std::string_view) { return std::string_view(); }, {}, std::make_shared<ChangeQueue>(), recipes,
-                        std::make_shared<AxisJobs>(), access, alarms}};
+    Router door{Context{gateway,
+                        settings,
+                        [](std::string_view) { return std::string_view(); },
+                        {},
+                        std::make_shared<ChangeQueue>(),
+                        recipes,
+                        std::make_shared<AxisJobs>(),
+                        access,
+                        alarms}};
     AccessTest() {
         for (const auto* role : {"viewer", "operator", "engineer", "administrator"})
             access->own_desk.load(User{role, *role_named(role), true, std::string("hash of secret ") + role, 1, 0});
@@ -35,7 +42,8 @@ protected:
     /// Cookie and X-CSRF-Token of a fresh session; none for "none".
     Fields as(std::string_view role) {
         if (role == "none") return {};
-        const auto a = from(far_peer, "POST", "/api/v1/session", R"({"user":")" + std::string(role) + R"(","password":"secret )" + std::string(role) + R"("})");
+        const auto a = from(far_peer, "POST", "/api/v1/session",
+                            R"({"user":")" + std::string(role) + R"(","password":"secret )" + std::string(role) + R"("})");
         EXPECT_EQ(a.status, 200u) << role << a.text;
         const std::string cookie(a.headers.get("Set-Cookie"));
         return {{"Cookie", cookie.substr(0, cookie.find(';'))}, {"X-CSRF-Token", a.at("csrf")}};
@@ -89,16 +97,66 @@ TEST_F(AccessTest, EachRoleAgainstEachRoute) {
     EXPECT_TRUE(gateway.submitted.empty());
 }
 
+/// What the connection asks before it reads a body: the same refusal as with the body, and nothing that changes anything.
+TEST_F(AccessTest, EachRouteWithABodyRefusesBeforeItIsRead) {
+    int with_body = 0, refused = 0;
+    for (const auto& route : all_routes()) {
+        if (route.takes == Route::Takes::nothing) continue;
+        ++with_body;
+        for (const auto* role : {"none", "viewer", "operator", "engineer", "administrator"}) {
+            const std::string what = std::string(name_of(route.method)) + " " + std::string(route.path) + " as " + role;
+            Fields headers = as(role);
+            headers.emplace_back("Content-Type", route.takes == Route::Takes::csv     ? "text/csv"
+                                                 : route.takes == Route::Takes::bytes ? "application/octet-stream"
+                                                                                      : "application/json");
+            Request head = request(name_of(route.method), with_names(route.path), {}, headers);
+            head.peer = std::string(far_peer);
+            head.announced_bytes = 1'000'000;
+            const auto a = door.admit(head);
+            if (*role_named(role) >= route.needed()) {
+                EXPECT_FALSE(a.refusal) << what << a.refusal->body;
+                EXPECT_EQ(a.max_body_bytes, route.takes == Route::Takes::bytes ? settings.max_backup_bytes : settings.max_body_bytes)
+                    << what;
+                head.announced_bytes = a.max_body_bytes + 1;
+                const auto over = door.admit(head);
+                ASSERT_TRUE(over.refusal) << what;
+                EXPECT_EQ(over.refusal->status, 413u) << what;
+                continue;
+            }
+            ++refused;
+            ASSERT_TRUE(a.refusal) << what;
+            EXPECT_EQ(a.refusal->status, std::string_view(role) == "none" ? 401u : 403u) << what;
+            EXPECT_EQ(a.refusal->headers.get("Content-Type"), "application/problem+json") << what;
+            EXPECT_EQ(a.refusal->body, from(far_peer, name_of(route.method), with_names(route.path), "{}", headers).text) << what;
+        }
+    }
+    EXPECT_GE(with_body, 40);
+    EXPECT_GE(refused, with_body) << "nobody at least is refused nearly everywhere";
+}
+
+TEST_F(AccessTest, AdmittingRenewsNoSession) {
+    const auto headers = as("engineer");
+    Request head = request("PUT", "/api/v1/site", {}, headers);
+    head.headers.set("Content-Type", "application/json");
+    head.peer = std::string(far_peer);
+    const std::int64_t idle_ns = AccessSettings{}.idle_ns, second_ns = 1'000'000'000;
+    gateway.now_ns += idle_ns - second_ns;
+    EXPECT_FALSE(door.admit(head).refusal);
+    gateway.now_ns += 2 * second_ns;
+    EXPECT_EQ(from(far_peer, "GET", "/api/v1/axes", "", headers).status, 401u) << "asking whether one may is no use of the session";
+}
+
 TEST_F(AccessTest, OpenRoutesAreTheseAlone) {
     std::set<std::string> open;
     for (const auto& r : all_routes()) {
         if (r.needed() == Role::none) open.insert(std::string(name_of(r.method)) + " " + std::string(r.path));
         if (r.method != Method::get && r.needed() == Role::viewer) {
-            EXPECT_TRUE(r.handler == command_axis || r.handler == change_password || r.handler == add_token || r.handler == remove_token) << r.path;
+            EXPECT_TRUE(r.handler == command_axis || r.handler == change_password || r.handler == add_token || r.handler == remove_token)
+                << r.path;
         }
     }
-    EXPECT_EQ(open, (std::set<std::string>{"GET /healthz", "GET /readyz", "GET /api/v1/openapi.yaml", "GET /api/v1/session", "POST /api/v1/session",
-                                           "DELETE /api/v1/session", "POST /api/v1/session/first"}));
+    EXPECT_EQ(open, (std::set<std::string>{"GET /healthz", "GET /readyz", "GET /api/v1/openapi.yaml", "GET /api/v1/session",
+                                           "POST /api/v1/session", "DELETE /api/v1/session", "POST /api/v1/session/first"}));
 }
 
 TEST_F(AccessTest, EverybodyWhoIsKnownMayStopAndOperatorsMayMove) {
@@ -106,7 +164,8 @@ TEST_F(AccessTest, EverybodyWhoIsKnownMayStopAndOperatorsMayMove) {
     for (const auto* role : {"none", "viewer", "operator", "engineer"}) {
         const auto headers = as(role);
         for (const auto* word : {"halt", "quick_stop", "disable", "enable", "home", "reset_fault"}) {
-            const bool stops = std::string_view(word) == "halt" || std::string_view(word) == "quick_stop" || std::string_view(word) == "disable";
+            const bool stops =
+                std::string_view(word) == "halt" || std::string_view(word) == "quick_stop" || std::string_view(word) == "disable";
             const auto a = from(far_peer, "POST", "/api/v1/axes/feeder/commands", R"({"command":")" + std::string(word) + "\"}", headers);
             const Role r = *role_named(role);
             const unsigned wanted = r == Role::none ? 401 : r == Role::viewer && !stops ? 403 : 200;
@@ -216,7 +275,8 @@ TEST_F(AccessTest, UsersAreMadeChangedAndRemovedByAdministrators) {
     EXPECT_EQ(access->kept.back().name, "ben");
     EXPECT_EQ(access->kept.back().text->find("a-long-sentence-1\""), access->kept.back().text->find("hash of ") + 8) << "the fake's hash";
     EXPECT_EQ(make.text.find("hash"), std::string::npos);
-    EXPECT_EQ(from(far_peer, "POST", "/api/v1/users", R"({"name":"ben","password":"a-long-sentence-1","role":"operator"})", admin).status, 409u);
+    EXPECT_EQ(from(far_peer, "POST", "/api/v1/users", R"({"name":"ben","password":"a-long-sentence-1","role":"operator"})", admin).status,
+              409u);
     const auto wrong = from(far_peer, "POST", "/api/v1/users", R"({"name":"x y","password":"short","role":"king","more":1})", admin);
     EXPECT_EQ(wrong.status, 422u);
     EXPECT_EQ(wrong.object().at("faults").get_array().size(), 4u);
@@ -231,15 +291,19 @@ TEST_F(AccessTest, UsersAreMadeChangedAndRemovedByAdministrators) {
     EXPECT_EQ(from(far_peer, "DELETE", "/api/v1/users/ben", "", admin).status, 204u);
     EXPECT_EQ(from(far_peer, "GET", "/api/v1/users/ben", "", admin).status, 404u);
     access->full = true;
-    EXPECT_EQ(from(far_peer, "POST", "/api/v1/users", R"({"name":"cleo","password":"a-long-sentence-1","role":"viewer"})", admin).status, 503u);
+    EXPECT_EQ(from(far_peer, "POST", "/api/v1/users", R"({"name":"cleo","password":"a-long-sentence-1","role":"viewer"})", admin).status,
+              503u);
 }
 
 TEST_F(AccessTest, OnesOwnPasswordNeedsTheOldOne) {
     const auto viewer = as("viewer");
-    EXPECT_EQ(from(far_peer, "PUT", "/api/v1/users/engineer/password", R"({"old":"secret engineer","new":"a-long-sentence-1"})", viewer).status, 403u);
+    EXPECT_EQ(
+        from(far_peer, "PUT", "/api/v1/users/engineer/password", R"({"old":"secret engineer","new":"a-long-sentence-1"})", viewer).status,
+        403u);
     EXPECT_EQ(from(far_peer, "PUT", "/api/v1/users/viewer/password", R"({"old":"wrong","new":"a-long-sentence-1"})", viewer).status, 403u);
     EXPECT_EQ(from(far_peer, "PUT", "/api/v1/users/viewer/password", R"({"old":"secret viewer","new":"short"})", viewer).status, 422u);
-    EXPECT_EQ(from(far_peer, "PUT", "/api/v1/users/viewer/password", R"({"old":"secret viewer","new":"a-long-sentence-1"})", viewer).status, 204u);
+    EXPECT_EQ(from(far_peer, "PUT", "/api/v1/users/viewer/password", R"({"old":"secret viewer","new":"a-long-sentence-1"})", viewer).status,
+              204u);
     EXPECT_EQ(from(far_peer, "GET", "/api/v1/axes", "", viewer).status, 401u) << "his sessions ended";
     EXPECT_EQ(from(far_peer, "POST", "/api/v1/session", R"({"user":"viewer","password":"a-long-sentence-1"})").status, 200u);
 }
@@ -247,7 +311,8 @@ TEST_F(AccessTest, OnesOwnPasswordNeedsTheOldOne) {
 TEST_F(AccessTest, TokensAreShownOnceAndNotAboveTheirOwner) {
     const auto engineer = as("engineer");
     EXPECT_EQ(from(far_peer, "POST", "/api/v1/tokens", R"({"name":"line3","role":"administrator"})", engineer).status, 403u);
-    EXPECT_EQ(from("127.0.0.1:5", "POST", "/api/v1/tokens", R"({"name":"line3","role":"viewer"})").status, 403u) << "local access is no user";
+    EXPECT_EQ(from("127.0.0.1:5", "POST", "/api/v1/tokens", R"({"name":"line3","role":"viewer"})").status, 403u)
+        << "local access is no user";
     const auto made = from(far_peer, "POST", "/api/v1/tokens", R"({"name":"line3","role":"operator","expires_in_s":60})", engineer);
     ASSERT_EQ(made.status, 201u) << made.text;
     const Fields bearer{{"Authorization", "Bearer " + made.at("token")}};
@@ -256,7 +321,8 @@ TEST_F(AccessTest, TokensAreShownOnceAndNotAboveTheirOwner) {
     for (const auto& e : access->told)
         EXPECT_EQ(e.text.find(secret), std::string::npos);
     EXPECT_EQ(from(far_peer, "GET", "/api/v1/session", "", bearer).at("role"), "operator");
-    EXPECT_EQ(from(far_peer, "POST", "/api/v1/tokens", R"({"name":"x","role":"viewer"})", bearer).status, 403u) << "a token makes no tokens";
+    EXPECT_EQ(from(far_peer, "POST", "/api/v1/tokens", R"({"name":"x","role":"viewer"})", bearer).status, 403u)
+        << "a token makes no tokens";
     const auto list = from(far_peer, "GET", "/api/v1/tokens", "", engineer);
     EXPECT_EQ(list.array().size(), 1u);
     EXPECT_EQ(list.text.find(secret), std::string::npos);

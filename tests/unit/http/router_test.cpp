@@ -29,6 +29,42 @@ TEST_F(HttpTest, UnknownPathsAreProblems) {
     }
 }
 
+TEST_F(HttpTest, NamesThatAQueryDoesNotHaveAreRefusedEverywhere) {
+    for (const auto& route : all_routes()) {
+        std::string path;
+        for (std::size_t i = 0; i < route.path.size(); ++i) {
+            path += route.path[i] == '{' ? 'x' : route.path[i];
+            if (route.path[i] == '{') i = route.path.find('}', i);
+        }
+        const bool csv = route.takes == Route::Takes::csv, bytes = route.takes == Route::Takes::bytes;
+        std::vector<std::pair<std::string, std::string>> headers;
+        if (route.takes != Route::Takes::nothing)
+            headers.emplace_back("Content-Type", csv ? "text/csv" : bytes ? "application/octet-stream" : "application/json");
+        std::vector<std::string> queries{"?nonsense=1", "?", "?=", "?=1"};
+        for (const auto word : {"dry_run", "wait", "force"})
+            if (route.query.find(word) == std::string_view::npos) queries.push_back(std::string("?") + word + "=1");
+        if (!route.query.empty()) {
+            const std::string first(route.query.substr(0, route.query.find(' ')));
+            queries.push_back("?" + first + "=1&" + first + "=1");
+            queries.push_back("?" + first + "=1&other=1");
+        }
+        for (const auto& query : queries) {
+            if (query == "?") continue;  // an empty query is none
+            if (route.needed() == Role::administrator) continue;  // who it is comes first: see roles_test
+            const auto a = call(name_of(route.method), path + query, route.takes == Route::Takes::nothing ? "" : "{}", headers);
+            EXPECT_EQ(a.status, 400u) << name_of(route.method) << " " << path << query << " " << a.text;
+            EXPECT_EQ(a.at("reason"), "bad_request") << path << query;
+            EXPECT_EQ(a.headers.get("Content-Type"), "application/problem+json") << path << query;
+        }
+    }
+    EXPECT_TRUE(gateway.submitted.empty());
+    EXPECT_EQ(call("GET", "/api/v1/about?").status, 200u);
+    EXPECT_EQ(call("GET", "/index.html?v=12").status, 200u) << "files of the page are no operations";
+    EXPECT_EQ(call("GET", "/api/v1/events?dry_run=1").at("detail"),
+              "\"dry_run\" is not known here: the query may have since, axis, severity, kind, state, before, limit, format");
+    EXPECT_EQ(call("GET", "/api/v1/about?dry_run=1").at("detail"), "\"dry_run\" is not known here: this takes no query");
+}
+
 TEST_F(HttpTest, MethodsThatARouteDoesNotHave) {
     const auto a = call("DELETE", "/api/v1/site");
     EXPECT_EQ(a.status, 405u);

@@ -98,6 +98,35 @@ TEST_F(Keep, ATableWithWrongRowsChangesNothingAndTellsAll) {
     EXPECT_NE(call("GET", "/api/v1/axes/feeder/parameters.csv").text.find("'=1+1"), std::string::npos) << "no formula for a spreadsheet";
 }
 
+TEST_F(Keep, WhatTheDriveIsReachedByIsLeftOutUnlessAskedFor) {
+    AxisSnapshot s;
+    s.n = 1;
+    s.parameters = {{"AC", std::int64_t{30000}}, {"PP[2]", std::int64_t{7}}, {"PP[3]", std::int64_t{9}}};
+    gateway.kept_snapshots["feeder"].push_back(s);
+    gateway.stored_values["feeder"] = {{"PP[3]", std::int64_t{9}, {}, "", "", 0}};
+    drive_answers();
+    const auto restore = [this](std::string body) { return do_call("POST", "/api/v1/axes/feeder/snapshots/1/restore", std::move(body)); };
+    const auto table = [this](std::string query) {
+        return do_call("PUT", "/api/v1/axes/feeder/parameters.csv" + query, "parameter,value\nAC,30001\nPP[2],7\n", {{"Content-Type", "text/csv"}});
+    };
+    const std::string left_out = R"({"parameter":"PP[2]","why":"the drive is reached by it (protocol): it is written only with include_addressing"})";
+    for (const auto& a : {restore(R"({"dry_run":true})"), restore("{}"), restore(R"({"parameters":["AC","PP[2]"]})"), restore(R"({"include_addressing":false})"),
+                          table("?dry_run=1"), table(""), table("?include_addressing=0")}) {
+        ASSERT_EQ(a.status, 200u) << a.text;
+        EXPECT_NE(a.text.find(left_out), std::string::npos) << a.text;
+    }
+    for (const auto& c : gateway.submitted)
+        EXPECT_EQ(std::get<WriteParameter>(c.body).point, *gateway.catalogue.find("AC"));
+    gateway.submitted.clear();
+    EXPECT_EQ(restore(R"({"dry_run":true,"include_addressing":true})").object().at("changes").get_array().size(), 2u);
+    EXPECT_NE(restore("{}").text.find(R"({"parameter":"PP[3]","why":"has this value already"})"), std::string::npos);
+    EXPECT_EQ(restore(R"({"include_addressing":true})").object().at("changed").get_array().size(), 2u);
+    EXPECT_EQ(table("?include_addressing=1").object().at("changed").get_array().size(), 2u);
+    EXPECT_EQ(restore(R"({"include_addressing":1})").status, 422u);
+    EXPECT_EQ(table("?include_addressing=maybe").status, 400u);
+    EXPECT_EQ(do_call("PUT", "/api/v1/axes/feeder/parameters/PP%5B2%5D", R"({"value":8})").status, 200u) << "by itself it is written as ever";
+}
+
 TEST_F(Keep, AStagedSiteIsShownAppliedAndRolledBack) {
     const auto staged = call("POST", "/api/v1/site/stage", stage_body("deg"), {{"If-Match", "\"1\""}});
     ASSERT_EQ(staged.status, 200u) << staged.text;

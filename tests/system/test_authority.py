@@ -75,6 +75,47 @@ def test_in_lease_mode_a_command_takes_the_axis(folder):
         until(lambda: g.get("/axes/feeder/authority")["holder"] == "", 5, "the lease of the client that is gone")
 
 
+def test_two_programs_of_one_host_are_one_client_and_both_are_shown(folder):
+    site = copy.deepcopy(DEMO)
+    site["axes"][0]["authority_mode"] = "lease"
+    with Gateway(folder, site, "--set", "authority.lease_s=30") as g:
+        free = g.get("/axes/feeder/authority")
+        assert (free["holder"], free["holder_text"], free["connections"]) == ("", "nobody", []), free
+        with From(g.modbus_port, "127.0.0.2") as one, From(g.modbus_port, "127.0.0.2") as two, From(g.modbus_port, "127.0.0.3") as other:
+            one.write1(32, 0x06)
+            assert code_of(lambda: two.write1(32, 0x07)) == 0, "the same address is the same client"
+            assert code_of(lambda: other.write1(32, 0x0F)) == 6
+            peers = sorted("%s:%d" % x.socket.getsockname() for x in (one, two))
+            for a in (g.get("/axes/feeder/authority"), next(a for a in g.get("/authority")["axes"] if a["axis"] == "feeder")):
+                assert a["holder"] == "127.0.0.2" and sorted(a["connections"]) == peers, a
+                assert a["holder_text"].startswith("modbus 127.0.0.2: one client with 2 connections, ") and all(p in a["holder_text"] for p in peers), a
+            slide = next(a for a in g.get("/authority")["axes"] if a["axis"] == "slide")
+            assert slide["connections"] == [] and slide["holder_text"] == "nobody", slide
+        # The panel comes back from another port and still has its axis.
+        with From(g.modbus_port, "127.0.0.2") as again:
+            assert code_of(lambda: again.write1(32, 0x0F)) == 0
+            a = until(lambda: [x for x in [g.get("/axes/feeder/authority")] if len(x["connections"]) == 1], 5, "one connection")[0]
+            assert a["holder_text"] == "modbus 127.0.0.2, connected from %s:%d" % again.socket.getsockname(), a
+
+
+def test_a_read_only_door_still_stops(folder):
+    with Gateway(folder, DEMO) as g:
+        g.command("feeder", {"command": "enable"})
+        g.command("feeder", {"command": "move_velocity", "velocity": 1, "acceleration": 20}, wait=0)
+        g.send("PATCH", "/modbus", {"read_only": True})
+        with g.modbus() as m:
+            for word in (0x06, 0x0F, 0x1F, 0x80, 0x10F, 0x12):
+                assert code_of(lambda: m.write1(32, word)) == 1, hex(word)
+            assert code_of(lambda: m.write(32, [2, 1])) == 1 and code_of(lambda: m.write(34, [0, 0])) == 1 and code_of(lambda: m.write1(33, 2)) == 1
+            assert code_of(lambda: m.write1(0, 2, unit=2)) == 1, "an own map is no standard map"
+            assert g.axis()["state"] == "operation_enabled"
+            assert code_of(lambda: m.write1(32, 0x02)) == 0
+            until(lambda: not g.axis()["moving"], 10, "the quick stop")
+            assert code_of(lambda: m.write(32, [0])) == 0
+            until(lambda: g.axis()["state"] == "switch_on_disabled", 10, "switched off")
+            assert code_of(lambda: m.write1(32, 0x0F)) == 1
+
+
 def test_modbus_locks(folder):
     locks = ("--set", "modbus.allow=127.0.0.1,10.0.0.0/8", "--set", "modbus.functions=3,6,16")
     with Gateway(folder, DEMO, *locks) as g:

@@ -10,6 +10,8 @@
 namespace axisgate::http {
 namespace json = boost::json;
 namespace {
+Response late_modbus() { return problem(504, "no_answer", "the Modbus door did not say in time; come again in a moment"); }
+
 json::object authority_document(const Gateway& gateway, const AxisSpec& spec, AxisId id) {
     const AxisPicture p = gateway.picture(id);
     const std::int64_t now = gateway.now_unix_ns();
@@ -25,6 +27,29 @@ json::object authority_document(const Gateway& gateway, const AxisSpec& spec, Ax
     return o;
 }
 
+/// The connections behind a holder that came by Modbus: all of its host, since one client is one address.
+void add_connections(json::object& document, const std::optional<Gateway::ModbusReport>& report) {
+    const std::string axis(document.at("axis").get_string()), holder(document.at("holder").get_string());
+    json::array peers;
+    std::string list;
+    if (report && document.at("door") == json::value("modbus")) {
+        for (const auto& x : report->connections) {
+            if (std::ranges::find(x.holds, axis) == x.holds.end()) continue;
+            peers.emplace_back(x.peer);
+            list += (list.empty() ? "" : ", ") + x.peer;
+        }
+    }
+    const std::string door(document.at("door").get_string());
+    document["holder_text"] = holder.empty()      ? std::string("nobody")
+                              : peers.size() > 1  ? fmt::format("{} {}: one client with {} connections, {}", door, holder, peers.size(), list)
+                              : peers.size() == 1 ? fmt::format("{} {}, connected from {}", door, holder, list)
+                                                  : fmt::format("{} {}", door, holder);
+    document["connections"] = std::move(peers);
+}
+bool held_by_modbus(const json::object& document) {
+    return document.at("door") == json::value("modbus") && !document.at("holder").get_string().empty();
+}
+
 /// Hands a wish to the hot thread and answers with what holds then.
 Handled submit_hold(Call& c, HoldAxis wish, bool empty_answer) {
     const auto place = find_axis(c.gateway(), c.names[0]);
@@ -35,7 +60,11 @@ Handled submit_hold(Call& c, HoldAxis wish, bool empty_answer) {
     const std::string word(name_of(command.body));
     Gateway* const gateway = &c.gateway();
     return submit_command(c, std::move(command), c.names[0], word, 0, [gateway, spec = place->spec(), id = place->id(), empty_answer](const Result&) {
-        if (!empty_answer) return json_response(authority_document(*gateway, spec, id));
+        if (!empty_answer) {
+            auto o = authority_document(*gateway, spec, id);
+            add_connections(o, std::nullopt);
+            return json_response(o);
+        }
         Response r;
         r.status = 204;
         return r;
@@ -67,16 +96,35 @@ Origin Call::origin() const {
 
 Handled list_authority(Call& c) {
     const auto site = c.gateway().site();
-    json::array axes;
+    auto axes = std::make_shared<std::vector<json::object>>();
     for (std::size_t i = 0; i < site->site.axes.size() && i < site->axis_ids.size(); ++i)
-        axes.push_back(authority_document(c.gateway(), site->site.axes[i], site->axis_ids[i]));
-    return json_response(json::object{{"axes", std::move(axes)}});
+        axes->push_back(authority_document(c.gateway(), site->site.axes[i], site->axis_ids[i]));
+    const auto answer = [axes](const std::optional<Gateway::ModbusReport>& report) {
+        json::array out;
+        for (auto& o : *axes) {
+            add_connections(o, report);
+            out.push_back(std::move(o));
+        }
+        return json_response(json::object{{"axes", std::move(out)}});
+    };
+    if (std::ranges::none_of(*axes, held_by_modbus)) return answer(std::nullopt);
+    c.gateway().modbus_report([answer, respond = c.respond](const std::optional<Gateway::ModbusReport>& r) { respond(answer(r)); });
+    return {gateway_limit, late_modbus()};
 }
 
 Handled get_authority(Call& c) {
     const auto place = find_axis(c.gateway(), c.names[0]);
     if (!place) return nothing_named("axis", c.names[0]);
-    return json_response(authority_document(c.gateway(), place->spec(), place->id()));
+    auto document = authority_document(c.gateway(), place->spec(), place->id());
+    if (!held_by_modbus(document)) {
+        add_connections(document, std::nullopt);
+        return json_response(document);
+    }
+    c.gateway().modbus_report([document = std::move(document), respond = c.respond](const std::optional<Gateway::ModbusReport>& r) mutable {
+        add_connections(document, r);
+        respond(json_response(document));
+    });
+    return {gateway_limit, late_modbus()};
 }
 
 Handled take_authority(Call& c) {
@@ -136,8 +184,6 @@ Response modbus_document(const std::optional<Gateway::ModbusReport>& report) {
     return json_response(json::object{{"bind", report->bind}, {"allow", std::move(allow)}, {"functions", std::move(functions)},
                                       {"read_only", report->read_only}, {"connections", std::move(connections)}});
 }
-
-Response late_modbus() { return problem(504, "no_answer", "the Modbus door did not say in time; come again in a moment"); }
 }  // namespace
 
 Handled get_modbus(Call& c) {

@@ -8,6 +8,8 @@
 #include <charconv>
 #include <string>
 
+#include "gateway/core/cia402.hpp"
+#include "gateway/doors/modbus/register_map.hpp"
 #include "gateway/doors/modbus/wire.hpp"
 
 namespace axisgate::modbus {
@@ -78,9 +80,26 @@ bool Access::admits(std::string_view endpoint) const {
     return peer && std::ranges::any_of(allow, [&](const Network& n) { return n.holds(*peer); });
 }
 
-bool Access::serves(std::uint8_t f) const noexcept {
-    if (read_only && is_write(f)) return false;
-    return functions.none() || (f < functions.size() && functions[f]);
+bool stops_only(std::uint8_t unit, std::span<const std::uint8_t> pdu) noexcept {
+    if (unit > 1 && unit != 255) return false;  // own maps may scale, or put anything anywhere
+    std::size_t value = 0;
+    if (pdu.size() == 5 && pdu[0] == function::write_single_register) {
+        value = 3;
+    } else if (pdu.size() == 8 && pdu[0] == function::write_multiple_registers && get16(pdu.data() + 3) == 1 && pdu[5] == 2) {
+        value = 6;
+    } else {
+        return false;
+    }
+    if (get16(pdu.data() + 1) % registers_per_axis != reg::controlword) return false;
+    const std::uint16_t word = get16(pdu.data() + value);
+    if ((word & (cia402::cw_fault_reset | cia402::cw_new_setpoint)) != 0) return false;
+    return (word & cia402::cw_enable_voltage) == 0 || (word & cia402::cw_quick_stop) == 0;
+}
+
+bool Access::serves(std::uint8_t unit, std::span<const std::uint8_t> pdu) const noexcept {
+    const std::uint8_t f = pdu[0];
+    if (functions.any() && !(f < functions.size() && functions[f])) return false;
+    return !read_only || !is_write(f) || stops_only(unit, pdu);
 }
 
 }  // namespace axisgate::modbus

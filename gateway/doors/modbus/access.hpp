@@ -7,6 +7,7 @@
 #include <bitset>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -25,11 +26,16 @@ struct Network {
 struct Access {
     std::vector<Network> allow;     ///< empty: everybody
     std::bitset<128> functions;     ///< none set: all that there are
-    bool read_only = false;         ///< every function that writes is answered with exception 1, stops too
+    bool read_only = false;         ///< what writes is answered with exception 1; a pure stop alone is taken, see stops_only
 
     [[nodiscard]] bool admits(std::string_view endpoint) const;
-    [[nodiscard]] bool serves(std::uint8_t function) const noexcept;
+    /// `pdu`: of at least one byte. Functions that `functions` leaves out are not served, whatever they say.
+    [[nodiscard]] bool serves(std::uint8_t unit, std::span<const std::uint8_t> pdu) const noexcept;
 };
 [[nodiscard]] bool is_write(std::uint8_t function) noexcept;
+/// Whether a request can do nothing but stop: function 6, or 16 with one register, to the control word of an axis of the standard map, with
+/// a word that in every state of CiA 402 means quick stop or switching off, and has neither a fault reset nor a new set-point in it. A halt
+/// is none: with an axis that stands ready, the same word switches it on.
+[[nodiscard]] bool stops_only(std::uint8_t unit, std::span<const std::uint8_t> pdu) noexcept;
 
 }  // namespace axisgate::modbus

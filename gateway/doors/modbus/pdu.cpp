@@ -68,7 +68,7 @@ std::size_t Responder::exception_answer(std::uint8_t fn, Exception e, std::uint8
 std::size_t Responder::answer(const Client& client, std::uint8_t slot, std::uint8_t unit, std::span<const std::uint8_t> pdu, Instant now,
                               std::uint8_t* out, LateAnswer& late) {
     counters_.requests.add();
-    if (!settings_.access.serves(pdu[0])) return exception_answer(pdu[0], Exception::illegal_function, out);
+    if (!settings_.access.serves(unit, pdu)) return exception_answer(pdu[0], Exception::illegal_function, out);
     UnitMap* const map = maps_[unit];
     if (!map) return exception_answer(pdu[0], Exception::no_path, out);
     late.unit = unit;

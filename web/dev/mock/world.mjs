@@ -68,7 +68,7 @@ export const catalogue = [
 ].map((row) => {
   const [id, name, group, type, unit, min, max, fallback, access, description, allowed, first, count] = /** @type {any[]} */ (row);
   return {
-    id, name, group, type, unit, min, max, default: fallback, access, storage: access === 'R' ? null : 'flash', description,
+    id, name, group, type, unit, min, max, default: fallback, access, storage: access === 'R' ? null : 'flash', addressing: id === 'PP', description,
     allowed: allowed ? allowed.map((/** @type {[number, string]} */ [value, meaning]) => ({ value, meaning })) : null,
     first: first ?? null, count: count ?? null,
   };

@@ -1576,6 +1576,11 @@ export interface components {
         RestoreRequest: {
             parameters?: string[];
             dry_run?: boolean;
+            /**
+             * @description also what the drive is reached by (`addressing` of a parameter); without it that is in `skipped`
+             * @default false
+             */
+            include_addressing?: boolean;
         };
         WriteReport: {
             dry_run: boolean;
@@ -1833,6 +1838,8 @@ export interface components {
             /** @enum {string} */
             access: "R" | "W" | "RW";
             storage: string | null;
+            /** @description the drive is reached by it (address, name, group, speed or form of its line): snapshots and tables are written back without it unless they say include_addressing */
+            addressing: boolean;
             description: string;
             /** @description the only values that are allowed, with their meaning; null where min and max decide */
             allowed: {
@@ -2322,8 +2329,12 @@ export interface components {
             axis: string;
             /** @enum {string} */
             door: "none" | "modbus" | "ethernet_ip" | "http" | "dds" | "internal";
-            /** @description empty: nobody */
+            /** @description empty: nobody; a Modbus client is its address, whatever the number of its connections */
             holder: string;
+            /** @description the holder in words */
+            holder_text: string;
+            /** @description of a holder by Modbus, as address and port; empty for others, and in the answers of PUT and of hand-over */
+            connections: string[];
             /** @enum {string} */
             mode: "free" | "lease";
             expires_in_s: number | null;
@@ -2415,6 +2426,11 @@ export interface components {
             /** @description how often it came */
             count: number;
         };
+        /**
+         * @description `unacknowledged` does not count shelved ones, as `unacknowledged` of the list; the others say one thing each, so that an alarm fits several
+         * @enum {string}
+         */
+        AlarmFilter: "active" | "cleared" | "unacknowledged" | "acknowledged" | "shelved";
         AlarmList: {
             /** @description those that are not shelved */
             unacknowledged: number;
@@ -2981,7 +2997,7 @@ export interface components {
                 "application/problem+json": components["schemas"]["Problem"];
             };
         };
-        /** @description the body is over 1 MiB */
+        /** @description the body is over 1 MiB (a backup 64 MiB); it is not read */
         TooLarge: {
             headers: {
                 [name: string]: unknown;
@@ -5843,6 +5859,8 @@ export interface operations {
             query?: {
                 /** @description only tell */
                 dry_run?: components["schemas"]["Flag"];
+                /** @description 1 writes also what the drive is reached by (`addressing` of a parameter); without it that is in `skipped` */
+                include_addressing?: components["schemas"]["Flag"];
             };
             header?: never;
             path: {
@@ -6340,6 +6358,8 @@ export interface operations {
                  * @example alarm
                  */
                 kind?: string;
+                /** @description the events that first raised the alarms of `/alarms` which are in this state now; an alarm has the id of that event */
+                state?: components["schemas"]["AlarmFilter"];
                 /** @description events with a smaller id, for paging backwards */
                 before?: number;
                 limit?: number;
@@ -6369,7 +6389,10 @@ export interface operations {
     };
     listAlarms: {
         parameters: {
-            query?: never;
+            query?: {
+                /** @description those in this state alone; the counts are of all */
+                state?: components["schemas"]["AlarmFilter"];
+            };
             header?: never;
             path?: never;
             cookie?: never;

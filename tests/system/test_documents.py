@@ -1,0 +1,81 @@
+"""The curl lines of docs/http.md and README.md, run as they stand against the demo site; and no path of the API is without one.
+
+In: the documents, the real program. Out: the first line that did not work, with what it said. Bounded: each line and each document has its time.
+"""
+import json
+import os
+import pathlib
+import re
+import subprocess
+
+import harness
+from harness import Gateway
+from test_openapi import API
+
+TOP = pathlib.Path(__file__).resolve().parents[2]
+DEMO = json.loads((TOP / "deploy/examples/demo-site.json").read_text())
+BLOCK = re.compile(r"^```sh\n(.*?)^```$", re.M | re.S)
+# curl says with its exit code what the gateway refused; a line that hangs is ended.
+PRELUDE = "curl() { command curl --fail-with-body --max-time 40 \"$@\"; }\nset -eo pipefail\n"
+NOT_BY_CURL = {"/api/v1/stream"}  # a WebSocket
+
+
+def blocks(name):
+    return BLOCK.findall((TOP / name).read_text())
+
+
+def run_lines(text, folder, limit_s):
+    """Each line by itself is announced on standard error, so that the one that failed is known."""
+    script = PRELUDE
+    for line in text.splitlines():
+        if line.strip() and not line.startswith("#"):
+            script += f"printf '%s\\n' {quoted(line)} >&2\n{line}\n"
+    path = folder / "lines.sh"
+    path.write_text(script)
+    p = subprocess.run(["bash", str(path)], cwd=folder, capture_output=True, text=True, timeout=limit_s, env={**os.environ, "LC_ALL": "C.UTF-8", "no_proxy": "*"})
+    assert p.returncode == 0, f"this line did not work: {p.stderr.splitlines()[-1:]}\n{p.stdout[-600:]}"
+    return p.stdout
+
+
+def quoted(text):
+    return "'" + text.replace("'", "'\\''") + "'"
+
+
+def paths_of(text):
+    """The paths of the description that the lines of a text ask for."""
+    asked = set(re.findall(r"\$(?:api|root)(/[^\s\"'|?)]*)", text))
+    out = set()
+    for path in API.document["paths"]:
+        form = re.compile(re.sub(r"\\\{\w+\\\}", r"[^/]+", re.escape(path.removeprefix("/api/v1"))) + "$")
+        if any(form.match(a) for a in asked):
+            out.add(path)
+    return out
+
+
+def test_every_path_has_a_line(folder):
+    text = "\n".join(blocks("docs/http.md"))
+    missing = set(API.document["paths"]) - paths_of(text) - NOT_BY_CURL
+    assert not missing, f"docs/http.md has no line for {sorted(missing)}"
+    assert len(re.findall(r"\bcurl ", text)) > 100
+
+
+def test_the_lines_of_the_page_work_in_their_order(folder):
+    with Gateway(folder, DEMO) as g:
+        text = "\n".join(blocks("docs/http.md"))
+        text = re.sub(r"^root=.*$", f"root=http://{g.http[0]}:{g.http[1]}", text, count=1, flags=re.M)
+        text, n = re.subn(r"^code=.*$", f"code={g.code}", text, count=1, flags=re.M)
+        assert n == 1 and g.code
+        out = run_lines(text, folder, 100)
+        assert "node_id" in out and "include_addressing" in out
+        assert (folder / "backup.db").read_bytes().startswith(b"SQLite format 3")
+        assert g.get("/axes/feeder")["unit"] == "cm" and not g.axis()["moving"]
+        assert g.request("GET", "/healthz")[0] == 200
+
+
+def test_the_lines_of_the_readme_work_in_their_order(folder):
+    with Gateway(folder, DEMO) as g:
+        text = "\n".join(b for b in blocks("README.md") if "curl" in b)
+        text = re.sub(r"^api=.*$", f"api=http://{g.http[0]}:{g.http[1]}/api/v1", text, count=1, flags=re.M)
+        text = text.replace("-p 1502", f"-p {g.modbus_port}").replace("build/release/axisgate", str(harness.PROGRAM)).replace("K7QF-2M9D-XW3E-8HTR", g.code)
+        run_lines(text, folder, 150)
+        assert g.request("GET", "/healthz")[0] == 200

@@ -55,6 +55,7 @@ private:
         bool defined = false;
         Target target;
         std::int64_t repeats = 0;  ///< TR: 0 endless
+        std::int64_t left = 0;     ///< of this series
         std::int64_t ms = 0;       ///< TT
     };
 

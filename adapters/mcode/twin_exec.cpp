@@ -159,7 +159,7 @@ int Device::write(Word word, std::span<const Number> fields) {
     if (i.access == Access::ro) return read_only;
     if (i.access == Access::none) return unknown_set;
     if (i.ranged && fields.size() == 1) {
-        const double v = fields[0].as_double();
+        const auto v = static_cast<double>(fields[0].as_integer());  // the fraction is dropped first [L2813]
         if (!(v >= i.min && v <= i.max)) return bad_value;
     }
     if (i.owner == Owner::motor) return motor_->write(word, fields, now_);

@@ -128,7 +128,7 @@ void Device::restore(const NonVolatile& memory, bool programs) {
         pw_[i] = integer_in(memory, "PW." + std::to_string(i + 1), pw_[i]);
     for (std::size_t i = 0; i < 4; ++i)
         run_.integer(i) =
-            static_cast<std::int32_t>(std::clamp<std::int64_t>(integer_in(memory, "R" + std::to_string(i + 1), 0), INT32_MIN, INT32_MAX));
+            static_cast<std::int32_t>(std::clamp<std::int64_t>(integer_in(memory, "R" + std::to_string(i + 1), 0), -INT32_MAX, INT32_MAX));
     for (std::size_t i = 0; i < 8; ++i) {
         const auto it = memory.find("F" + std::to_string(i + 1));
         run_.real(i) = it == memory.end() ? 0.0 : as_number(it->second).value_or(0.0);

@@ -1,9 +1,16 @@
 // Device: PR and the printed form of words; see twin_device.hpp.
 // In: items of a PR. Out: text.
 // Never writes a word; only reading ER clears it.
+#include <algorithm>
+
 #include "adapters/mcode/twin_device.hpp"
 
 namespace axisgate::mcode::twin {
+namespace {
+
+constexpr int bad_value = 21, not_available = 37;
+
+}  // namespace
 
 std::optional<std::string> Device::text_of_word(Word word, int& error) {
     if (const int code = available(word); code != 0) {
@@ -86,11 +93,14 @@ int Device::print(const Statement& s) {
                                  s.items[i + 1].value.terms[0].operand.kind == Operand::Kind::constant;
             if (own && indexed) {
                 const std::int64_t n = s.items[++i].value.terms[0].operand.number.as_integer();
+                if (n != 1 && n != 2) return bad_value;
+                const bool module_supply = t.operand.word == Word::VT && (setup_.product & lmm) != 0;
+                if (module_supply && n == 1) return not_available;  // it has no auxiliary supply [L6222]
+                // IT: bridge, controller. VT: status, auxiliary (not on the module), +V.
+                const std::int64_t skip = t.operand.word == Word::IT ? n - 1 : module_supply ? 1 : n;
                 std::string_view rest = *own;
-                for (std::int64_t k = t.operand.word == Word::IT ? 1 : 0; k < n && !rest.empty(); ++k) {
-                    const std::size_t comma = rest.find(',');
-                    rest = comma == std::string_view::npos ? std::string_view{} : trimmed(rest.substr(comma + 1));
-                }
+                for (std::int64_t k = 0; k < skip; ++k)
+                    rest = trimmed(rest.substr(std::min(rest.find(','), rest.size() - 1) + 1));
                 text += rest.substr(0, rest.find(','));
                 continue;
             }

@@ -73,7 +73,7 @@ int Device::break_point(const Statement& s, std::span<const Number> fields) {
 
 int Device::set_trip(const Statement& s, std::span<const Number> fields) {
     const std::size_t i = trip_index(s.word);
-    const bool none = s.target && s.target->given && s.target->label == no_symbol && s.target->address == 0 && !s.target->missing_name;
+    const bool none = s.target && s.target->label == no_symbol && s.target->address == 0 && !s.target->missing_name;
     if (!(none && s.word == Word::TR)) {
         int error = 0;
         if (!s.target || program_.find(*s.target, error) < 0) return unknown_label;
@@ -88,6 +88,7 @@ int Device::set_trip(const Statement& s, std::span<const Number> fields) {
         if (s.word == Word::TR && fields.size() > 1) {
             t.repeats = fields[1].as_integer();
             if (t.repeats < 0 || t.repeats > 65000) return bad_value;
+            t.left = t.repeats;
         }
         if (const int code = motor_->arm(s.word, fields, now_); code != 0) return code;
     }
@@ -102,6 +103,7 @@ int Device::enable_trips(std::int64_t mask) {
     if ((mask & 2) != 0 && (mask & 16) != 0) return two_trips;
     if ((mask & 8) != 0 && (te_ & 8) == 0) trip_time_ = now_ + std::chrono::milliseconds(trips_[3].ms);
     if ((mask & 8) == 0) trip_time_ = never;
+    if ((mask & 16) != 0 && (te_ & 16) == 0) trips_[4].left = trips_[4].repeats;  // each series begins with TE [L5836]
     te_ = static_cast<int>(mask);
     motor_->enable_trips(te_, now_);
     return 0;
@@ -112,7 +114,7 @@ void Device::fire(Word word) {
     const int bit = 1 << i;
     if (i >= trips_.size() || (te_ & bit) == 0) return;
     Trip& t = trips_[i];
-    if (word != Word::TR || (t.repeats > 0 && --t.repeats == 0)) {
+    if (word != Word::TR || (t.repeats > 0 && --t.left <= 0)) {
         te_ &= ~bit;
         motor_->enable_trips(te_, now_);
     }

@@ -16,6 +16,9 @@ bool fits_int32(std::int64_t v) noexcept {
     return v >= std::numeric_limits<std::int32_t>::min() && v <= std::numeric_limits<std::int32_t>::max();
 }
 
+/// R1 to R4 are symmetric, other than user variables [L5076].
+bool fits_register(std::int64_t v) noexcept { return fits_int32(v) && v != std::numeric_limits<std::int32_t>::min(); }
+
 Number function(Word f, const Number& n, bool radians, int& error) {
     const double x = n.as_double();
     const double to_radians = radians ? 1.0 : 3.141592653589793 / 180.0;
@@ -104,6 +107,7 @@ Number Run::value(const Expression& e, bool real, int& error) {
     for (std::size_t i = 0; i < e.terms.size(); ++i) {
         const Term& t = e.terms[i];
         Number n = operand(t.operand, error);
+        if (t.operand_minus) n = n.real ? Number::of_real(-n.d) : Number::of(-n.i);
         if (t.function) {
             int unreadable = 0;
             const bool radians = host_.read(Word::RA, unreadable).truth();
@@ -117,8 +121,8 @@ Number Run::value(const Expression& e, bool real, int& error) {
             continue;
         }
         const auto r = apply(t.op, result, n, real);
-        if (!r) {
-            error = bad_value;  // division by zero: the manual is silent
+        if (!r || !std::isfinite(r->as_double())) {
+            error = bad_value;  // division by zero, beyond the largest double: the manual is silent
             return result;
         }
         result = *r;
@@ -135,7 +139,7 @@ bool Run::holds(const Condition& c, int& error) {
 int Run::store(Word word, const Number& n) {
     if (word >= Word::R1 && word <= Word::R4) {
         const std::int64_t v = n.as_integer();
-        if (!fits_int32(v)) return bad_value;
+        if (!fits_register(v)) return bad_value;
         integers_[static_cast<std::size_t>(word) - static_cast<std::size_t>(Word::R1)] = static_cast<std::int32_t>(v);
         return 0;
     }
@@ -168,7 +172,7 @@ int Run::count(const Statement& s, int by) {
     const Operand& o = s.fields[0].terms[0].operand;
     if (o.kind == Operand::Kind::integer_register) {
         std::int32_t& r = integers_[o.index];
-        if (!fits_int32(std::int64_t{r} + by)) return bad_value;
+        if (!fits_register(std::int64_t{r} + by)) return bad_value;
         r += by;
         return 0;
     }

@@ -173,6 +173,10 @@ private:
             return finish(std::move(s));
         }
         s.fields.push_back(expression());
+        if (s.word == Word::TR && tokens_.at_end() && error_ == 0) {
+            s.target = Target{};  // no subroutine: the trip output alone [L5832]
+            return s;
+        }
         if (!tokens_.take_sign(',')) return faulty(error_ != 0 ? error_ : separator);
         s.target = target();
         if (s.word == Word::TR && tokens_.take_sign(',')) s.fields.push_back(expression());
@@ -237,7 +241,8 @@ private:
     /// IC, DC, IV: one variable. A word stays in `fields` as it is, a name becomes `symbol`.
     Statement counted(Statement s) {
         const Token t = tokens_.take();
-        if (t.kind != Token::Kind::name) return faulty(unknown_name);
+        // IC and DC of nothing are as of what cannot be written [L2336, L3375].
+        if (t.kind != Token::Kind::name) return faulty(s.word == Word::IV ? unknown_name : 25);
         if (const auto w = word_named(t.text)) {
             Expression e;
             e.terms.push_back({});
@@ -259,7 +264,9 @@ private:
             const bool start_up = s.word == Word::LB && *w == Word::SU;
             if (!start_up && *w != Word::PW) return faulty(reserved || s.word == Word::VA ? 24 : redefine_word);
         }
-        if (!Symbols::well_formed(t.text, s.word == Word::VA ? 2 : 3)) return faulty(24);
+        // Two characters; a label may also be a letter and two digits [L3765, E-9].
+        const bool digits = t.text.size() == 3 && t.text.find_first_not_of("0123456789", 1) == std::string_view::npos;
+        if (!Symbols::well_formed(t.text, s.word == Word::LB && digits ? 3 : 2)) return faulty(24);
         s.symbol = symbols_.mention(t.text);
         if (s.symbol == no_symbol) return faulty(31);
         if (s.word == Word::VA && !tokens_.at_end()) {
@@ -392,15 +399,8 @@ private:
             if (token.kind == Token::Kind::name) {
                 if (const auto w = word_named(token.text); w && is_function(*w)) {
                     t.function = *w;
-                    // The sign after the function belongs to the operand, as in AB -5: it is folded into a constant.
-                    const bool minus = tokens_.take_sign('-');
+                    t.operand_minus = tokens_.take_sign('-');  // belongs to the operand, as in AB -5
                     token = tokens_.take();
-                    if (minus && token.kind == Token::Kind::number) {
-                        token.number.i = -token.number.i;
-                        token.number.d = -token.number.d;
-                    } else if (minus) {
-                        fail(21);
-                    }
                 }
             }
             if (token.kind == Token::Kind::number) {

@@ -31,6 +31,7 @@ struct Term {
     bool minus = false;
     bool complement = false;
     std::optional<Word> function;
+    bool operand_minus = false;  ///< sign behind the function, as in AB -R2
     Operand operand;
 };
 

@@ -3,7 +3,9 @@
 // Never reads past the line or the limit: what is longer is cut, and the line's length is checked before.
 #include "adapters/mcode/twin_token.hpp"
 
+#include <algorithm>
 #include <charconv>
+#include <limits>
 
 namespace axisgate::mcode::twin {
 namespace {
@@ -32,13 +34,30 @@ std::size_t number_end(std::string_view s, std::size_t at) noexcept {
     return at;
 }
 
+/// Whether digits that no double holds are too small, and not too large. At most `line_limit` characters.
+bool below_one(std::string_view s) noexcept {
+    const std::size_t e = std::min(s.find_first_of("eE"), s.size());
+    const std::string_view digits = s.substr(0, e);
+    const std::size_t point = std::min(digits.find('.'), digits.size()), first = digits.find_first_of("123456789");
+    if (first == std::string_view::npos) return true;  // 0 with any exponent
+    long exponent = 0;
+    if (e < s.size()) {
+        std::string_view figure = s.substr(e + 1);
+        if (figure.starts_with('+')) figure.remove_prefix(1);
+        const auto [end, fault] = std::from_chars(figure.data(), figure.data() + figure.size(), exponent);
+        if (fault != std::errc{}) return figure.starts_with('-');
+    }
+    return exponent + static_cast<long>(point) - static_cast<long>(first) < 0;
+}
+
 Number number_of(std::string_view s) noexcept {
     std::int64_t i = 0;
     const char* const last = s.data() + s.size();
     if (const auto [end, fault] = std::from_chars(s.data(), last, i); fault == std::errc{} && end == last) return Number::of(i);
     double d = 0;
     if (const auto [end, fault] = std::from_chars(s.data(), last, d); fault == std::errc{} && end == last) return Number::of_real(d);
-    return Number::of_real(1e300);  // too large for a double; every range refuses it
+    // Nearer to 0 than any double is 0; beyond the largest is infinity, which every range refuses.
+    return Number::of_real(below_one(s) ? 0.0 : std::numeric_limits<double>::infinity());
 }
 
 }  // namespace

@@ -171,10 +171,10 @@ struct WordInfo {
     X(PW, setup, rw, language, 1, 1, lmm, 0, 0, 0) \
     X(PY, flag, rw, language, 1, 1, every, 1, 0, 1) \
     X(QD, flag, rw, language, 1, 1, every, 1, 0, 1) \
-    X(R1, variable, rw, language, 1, 1, every, 1, -2147483648.0, 2147483647.0) \
-    X(R2, variable, rw, language, 1, 1, every, 1, -2147483648.0, 2147483647.0) \
-    X(R3, variable, rw, language, 1, 1, every, 1, -2147483648.0, 2147483647.0) \
-    X(R4, variable, rw, language, 1, 1, every, 1, -2147483648.0, 2147483647.0) \
+    X(R1, variable, rw, language, 1, 1, every, 1, -2147483647.0, 2147483647.0) \
+    X(R2, variable, rw, language, 1, 1, every, 1, -2147483647.0, 2147483647.0) \
+    X(R3, variable, rw, language, 1, 1, every, 1, -2147483647.0, 2147483647.0) \
+    X(R4, variable, rw, language, 1, 1, every, 1, -2147483647.0, 2147483647.0) \
     X(RA, variable, rw, language, 1, 1, every, 1, 0, 1) \
     X(RC, variable, rw, motor, 1, 1, every, 1, 1, 100) \
     X(RD, variable, rw, motor, 1, 1, every, 1, 0, 1) \

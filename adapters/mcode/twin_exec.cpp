@@ -8,8 +8,9 @@
 namespace axisgate::mcode::twin {
 namespace {
 
-constexpr int unknown_set = 20, bad_value = 21, read_only = 25, unknown_label = 30, bad_print = 35, not_available = 37, not_running = 40,
-              locked = 44, not_program = 46, bad_baud = 61, already_pending = 62, saving_in_motion = 73, restoring_in_motion = 74;
+constexpr int unknown_set = 20, bad_value = 21, illegal_data = 24, read_only = 25, redefine_word = 29, unknown_label = 30, bad_print = 35,
+              not_available = 37, not_running = 40, locked = 44, not_program = 46, bad_baud = 61, already_pending = 62,
+              saving_in_motion = 73, restoring_in_motion = 74;
 
 bool is_digit(char c) noexcept { return c >= '0' && c <= '9'; }
 
@@ -84,6 +85,12 @@ int Device::program_line(std::string_view text) {
     if (tokens.peek().kind == Token::Kind::name && word_named(tokens.peek().text) == Word::PG) {
         programming_ = false;
         return 0;
+    }
+    if (tokens.peek(1).kind == Token::Kind::name && word_named(tokens.peek(1).text) == Word::PW && (setup_.product & lmm) != 0) {
+        // A word of the module, and a free name elsewhere [L4970].
+        const auto first = word_named(tokens.peek().text);
+        if (first == Word::VA) return illegal_data;
+        if (first == Word::LB) return redefine_word;
     }
     return program_.enter(text, program_address_);
 }

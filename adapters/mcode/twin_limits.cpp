@@ -104,6 +104,14 @@ void Motor::judge_cams(Instant now) {
     }
 }
 
+/// Switches that stand beside the axis hold their input from now on, also where an open one would be active.
+void Motor::place_switches(Instant now) {
+    for (std::size_t i = 0; i < cams_.size(); ++i) {
+        if (cams_[i].turns) cams_[i].was = !cam_active(i, now);
+    }
+    judge_cams(now);
+}
+
 Instant Motor::cam_crossing(Instant now) const noexcept {
     Instant t = never;
     for (std::size_t i = 0; i < cams_.size(); ++i) {

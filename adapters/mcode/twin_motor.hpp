@@ -142,6 +142,7 @@ private:
     [[nodiscard]] int held_limit(int way, Instant now) const noexcept;
     void limit_met(int way, Instant now);
     void judge_cams(Instant now);
+    void place_switches(Instant now);
     [[nodiscard]] Instant cam_crossing(Instant now) const noexcept;
     [[nodiscard]] bool cam_active(std::size_t cam, Instant now) const noexcept;
     /// First instant at which the rotor passes these turns of the shaft.

@@ -109,7 +109,7 @@ std::optional<std::string> Motor::set_hand(const std::string& name, const Value&
             return name + ": " + shown + " is not a number of turns, or none";
         }
         cams_[c.cam].was = false;
-        judge_cams(now);
+        place_switches(now);
         replan(now);
         return "";
     }

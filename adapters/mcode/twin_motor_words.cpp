@@ -178,6 +178,7 @@ int Motor::write(Word w, std::span<const Number> fields, Instant now) {
         if (i.ranged && !(v >= i.min && v <= i.max)) return bad_value;
         code = write_value(w, fields[0], now);
     }
+    if (w == Word::IS && code == 0) place_switches(now);
     replan(now);
     return code;
 }

@@ -76,7 +76,7 @@ public:
         if (const auto word = word_named(first.text)) {
             tokens_.take();
             // PW is a word of one product only, and a free name on the others [L4970]: a user who has declared it means his own.
-            if (const SymbolId own = symbols_.find(first.text); *word == Word::PW && own != no_symbol) return of_name(first.text);
+            if (*word == Word::PW && declared(first.text)) return of_name(first.text);
             return of_word(*word);
         }
         return of_name(tokens_.take().text);
@@ -91,6 +91,11 @@ private:
     }
 
     Statement finish(Statement s) { return error_ != 0 ? faulty(error_) : tokens_.at_end() ? std::move(s) : faulty(separator); }
+
+    [[nodiscard]] bool declared(std::string_view name) const noexcept {
+        const SymbolId id = symbols_.find(name);
+        return id != no_symbol && symbols_.at(id).kind != Symbol::Kind::unknown;
+    }
 
     void fail(int code) {
         if (error_ == 0) error_ = code;
@@ -408,7 +413,7 @@ private:
             } else if (token.kind == Token::Kind::name) {
                 const auto w = word_named(token.text);
                 const SymbolId own = symbols_.find(token.text);
-                if (w && !(*w == Word::PW && own != no_symbol)) {
+                if (w && !(*w == Word::PW && declared(token.text))) {
                     const WordInfo& i = info(*w);
                     if (i.access == Access::none && i.kind != WordKind::trip) fail(unknown == bad_print ? bad_print : unknown_name);
                     if (i.access == Access::wo) fail(bad_print);

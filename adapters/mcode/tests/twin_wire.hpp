@@ -9,8 +9,10 @@ namespace axisgate::mcode::twin::test {
 
 class Wire {
 public:
-    explicit Wire(std::uint8_t product = lmdc, char name = '!', const NonVolatile& memory = {}, int frame_size = 23) {
+    explicit Wire(std::uint8_t product = lmdc, char name = '!', const NonVolatile& memory = {}, int frame_size = 23,
+                  bool ethernet = false) {
         DeviceSetup setup;
+        setup.ethernet = ethernet;
         setup.product = product;
         setup.name = name;
         setup.bit_rate = 9600;

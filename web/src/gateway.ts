@@ -27,7 +27,7 @@ export class Gateway {
   constructor(parts: { client?: Client; store?: Store; url?: string } = {}) {
     this.client = parts.client ?? new Client('/api/v1', undefined, tabName());
     this.store = parts.store ?? new Store({ schedule: beforeNextPicture });
-    this.commander = new Commander(this.client, () => (this.store.connected.peek() ? '' : 'The page is not connected to the gateway.'));
+    this.commander = new Commander(this.client, () => (this.store.connected.peek() ? this.session.mayNot('operator') : 'The page is not connected to the gateway.'));
     this.session = new Session(this.client, () => {
       // Another identity: the old stream belongs to the one before.
       this.stream.stop();

@@ -9,6 +9,7 @@ import { capital } from '../state/commander';
 import { alarmWord, canAcknowledge, shelfTimes, subjectOf } from '../words/alarm';
 import { clockTime } from '../words/time';
 import { Choice, quiet, Tell, TextField, type Told } from './form';
+import { useBarred, Why } from './gate';
 import { Empty } from './lines';
 import { Pill } from './pill';
 import { Section } from './section';
@@ -18,6 +19,7 @@ export function AlarmSection() {
   const told = useSignal<Told>(quiet);
   const comment = useSignal('');
   const shelving = useSignal<number | null>(null);
+  const no = useBarred('operator');
   const list = store.alarms.value;
   const all = list?.alarms ?? [];
   const open = all.filter(canAcknowledge);
@@ -42,6 +44,7 @@ export function AlarmSection() {
             <button
               type="button"
               class="button primary"
+              {...no}
               onClick={() =>
                 void act(
                   () => client.acknowledgeAlarms(open.map((a) => a.id), comment.peek().trim()),
@@ -55,6 +58,7 @@ export function AlarmSection() {
         ) : undefined
       }
     >
+      {all.length > 0 && <Why need="operator" what="Acknowledging and shelving" />}
       <div class="card">
         {list === null ? (
           <Empty text="Waiting for the gateway." />
@@ -94,6 +98,7 @@ interface RowProps {
 }
 
 function AlarmRow(p: RowProps) {
+  const no = useBarred('operator');
   const a = p.alarm;
   const about = subjectOf(a);
   const path = a.axis ? axisPath(a.axis) : a.line ? linePath(a.line) : null;
@@ -107,16 +112,16 @@ function AlarmRow(p: RowProps) {
         </span>
         <span class="alarm-buttons">
           {canAcknowledge(a) && (
-            <button type="button" class="button" aria-label={`Acknowledge ${about}: ${a.text}`} onClick={p.onAcknowledge}>
+            <button type="button" class="button" {...no} aria-label={`Acknowledge ${about}: ${a.text}`} onClick={p.onAcknowledge}>
               Acknowledge
             </button>
           )}
           {a.state === 'shelved' ? (
-            <button type="button" class="button" aria-label={`Unshelve ${about}: ${a.text}`} onClick={p.onUnshelve}>
+            <button type="button" class="button" {...no} aria-label={`Unshelve ${about}: ${a.text}`} onClick={p.onUnshelve}>
               Unshelve
             </button>
           ) : (
-            <button type="button" class="button quiet" aria-expanded={p.shelving} aria-label={`Shelve ${about}: ${a.text}`} onClick={() => p.onShelving(!p.shelving)}>
+            <button type="button" class="button quiet" {...no} aria-expanded={p.shelving} aria-label={`Shelve ${about}: ${a.text}`} onClick={() => p.onShelving(!p.shelving)}>
               Shelve
             </button>
           )}
@@ -129,7 +134,7 @@ function AlarmRow(p: RowProps) {
         {a.acknowledged_at && ` · acknowledged ${clockTime(a.acknowledged_at)} by ${a.acknowledged_by ?? 'nobody known'}${a.comment ? `: ${a.comment}` : ''}`}
         {a.shelved_until && ` · shelved until ${clockTime(a.shelved_until)} by ${a.shelved_by ?? 'nobody known'}: ${a.reason ?? ''}`}
       </p>
-      {p.shelving && <ShelfForm about={about} onShelve={p.onShelve} onCancel={() => p.onShelving(false)} />}
+      {p.shelving && !no.disabled && <ShelfForm about={about} onShelve={p.onShelve} onCancel={() => p.onShelving(false)} />}
     </li>
   );
 }

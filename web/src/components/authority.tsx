@@ -60,7 +60,7 @@ export function AuthorityBar({ entry }: { entry: AxisEntry }) {
         </button>
       )}
       {mine && (
-        <button type="button" class="button small" onClick={() => void act('Released', () => client.call(path, { method: 'DELETE' }))}>
+        <button type="button" class="button small" {...barred(session.mayNot('operator'))} onClick={() => void act('Released', () => client.call(path, { method: 'DELETE' }))}>
           Release
         </button>
       )}

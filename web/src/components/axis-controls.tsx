@@ -9,7 +9,7 @@ import { unitOf } from '../words/axis';
 import { parseNumber } from '../words/number';
 import { Field } from './field';
 import { Icon } from './icon';
-import { useBarred } from './gate';
+import { useBarred, Why } from './gate';
 import { JogButton } from './jog-button';
 
 type Which = 'target' | 'distance' | 'speed' | 'acceleration' | 'deceleration' | 'zero';
@@ -118,6 +118,7 @@ export function FullControls({ axis }: { axis: Axis }) {
   const u = c.unit;
   return (
     <div class="controls controls-full">
+      <Why need="operator" what="Every command but a stop" />
       <div class="control-power">
         <span class="group">
           <button type="button" class="button" {...no} onClick={c.simple('enable', 'Enable')}>Enable</button>

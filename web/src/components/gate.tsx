@@ -8,12 +8,22 @@ import { barred } from '../state/session';
 /** What to spread over a button. */
 export const useBarred = (need: Role) => barred(useGateway().session.mayNot(need));
 
-/** A group of controls at once. */
-export function Gate({ need, children }: { need: Role; children: ComponentChildren }) {
+/** The reason once, in sight, where several controls of a part are disabled for it: a finger finds no tooltip. */
+export function Why({ need, what }: { need: Role; what: string }) {
+  const why = useGateway().session.mayNot(need, what);
+  return why ? (
+    <p class="gate-why" data-field="barred">
+      {why}
+    </p>
+  ) : null;
+}
+
+/** A group of controls at once. `silent`: the reason stands above already. */
+export function Gate({ need, silent = false, children }: { need: Role; silent?: boolean; children: ComponentChildren }) {
   const why = useGateway().session.mayNot(need);
   return (
     <fieldset class="gate" disabled={why !== ''} title={why || undefined} aria-label={why || undefined} data-barred={why !== ''}>
-      {why && <p class="gate-why">{why}</p>}
+      {why && !silent && <p class="gate-why">{why}</p>}
       {children}
     </fieldset>
   );

@@ -23,6 +23,7 @@ export function JogButton({ axis, direction, speed, unit }: JogProps) {
   const no = useBarred('operator');
 
   const press = () => {
+    if (no.disabled) return; // some browsers tell a disabled button of pointers too
     const v = speed();
     if (v === null) return;
     holding.current = true;

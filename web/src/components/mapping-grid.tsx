@@ -6,6 +6,7 @@ import { useGateway } from '../gateway';
 import { gridOf, oneBased, placeText, pointUnit, pointValue, registerValue, tableOf, type Mapping, type Table } from '../words/mapping';
 import { formatExact } from '../words/number';
 import { axisPath } from '../router';
+import { useBarred } from './gate';
 import { Icon } from './icon';
 import { Empty } from './lines';
 import { memo } from './memo';
@@ -30,6 +31,7 @@ export interface GridProps {
 
 export function MappingGrid({ rows, unit, table, heard, edit, remove, addAt }: GridProps) {
   const most = useSignal(rowsAtOnce);
+  const no = useBarred('engineer');
   const grid = gridOf(rows, unit, table);
   if (grid.length === 0) return <Empty text={rows.length === 0 ? 'Nothing is mapped yet. Add an entry below, or paste a table.' : `Unit ${unit} has no ${tableOf(table).name.toLowerCase()}.`} />;
   return (
@@ -55,7 +57,7 @@ export function MappingGrid({ rows, unit, table, heard, edit, remove, addAt }: G
                 <tr key={`gap-${r.first}`} class="gap">
                   <td colSpan={9}>
                     <span class="mono">{r.first === r.last ? r.first : `${r.first}–${r.last}`}</span> free ({r.last - r.first + 1}){' '}
-                    <button type="button" class="button small quiet" onClick={() => addAt(unit, table, r.first)}>
+                    <button type="button" class="button small quiet" {...no} onClick={() => addAt(unit, table, r.first)}>
                       <Icon name="plus" size={14} /> Add at {r.first}
                     </button>
                   </td>
@@ -84,6 +86,7 @@ interface RowProps {
 }
 
 function RowView({ mapping: m, heard, edit, remove }: RowProps) {
+  const no = useBarred('engineer');
   return (
     <tr data-mapping={m.id}>
       <th scope="row">
@@ -101,10 +104,10 @@ function RowView({ mapping: m, heard, edit, remove }: RowProps) {
       <LiveCells m={m} heard={heard} />
       <td data-label="Comment" class={`comment${m.comment ? '' : ' is-empty'}`}>{m.comment ?? ''}</td>
       <td class="row-buttons">
-        <button type="button" class="button small quiet square" aria-label={`Change ${m.id}`} title="Change" onClick={() => edit(m)}>
+        <button type="button" class="button small quiet square" aria-label={`Change ${m.id}`} title="Change" {...no} onClick={() => edit(m)}>
           <Icon name="pencil" size={14} />
         </button>
-        <button type="button" class="button small quiet square" aria-label={`Remove ${m.id}`} title="Remove; can be undone" onClick={() => remove(m)}>
+        <button type="button" class="button small quiet square" aria-label={`Remove ${m.id}`} title="Remove; can be undone" {...no} onClick={() => remove(m)}>
           <Icon name="bin" size={14} />
         </button>
       </td>

@@ -1,6 +1,6 @@
 // Parameter transfer: all known values out as CSV or JSON, and in again: each row is checked first, nothing is sent while one is wrong, then they are
 // written one by one. In: the HTTP door, a file or pasted text. Out: files; writes. At the first refusal the rest is held back and said so.
-import { useBarred } from './gate';
+import { useBarred, Why } from './gate';
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo, useRef } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -106,6 +106,7 @@ export function ParameterTransfer({ axis }: { axis: string }) {
       }
     >
       <div class="card form">
+        <Why need="engineer" what="Writing what is imported" />
         <label class="where" for="transfer-text">
           CSV with the columns <span class="mono">parameter, value</span>, or JSON as it is exported
         </label>

@@ -1,7 +1,7 @@
 // Parameters of one axis: live, stored and default value, range, who wrote last; read from the drive, write with a check before.
 // In: REST. Out: a table. Reading all goes one by one and can be ended; a slow drive is not flooded. What was typed stays until the
 // drive took it. At most 100 rows are drawn at once; more on demand.
-import { useBarred } from './gate';
+import { useBarred, Why } from './gate';
 import { signal, useSignal, type Signal } from '@preact/signals';
 import { useEffect, useId, useMemo, useRef } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -187,6 +187,7 @@ export function Parameters({ axis }: { axis: string }) {
         </>
       }
     >
+      <Why need="engineer" what="Writing a parameter" />
       {loaded.value === 'waiting' ? (
         <Empty text="Waiting for the list." />
       ) : loaded.value !== 'there' ? (

@@ -1,6 +1,6 @@
 // A run of a recipe: arguments, start, live progress, cancel, and its report. In: the recipe's parameters, reports of the stream and of REST.
 // Out: requests to the gateway. What was typed stays, whatever becomes of the run. Never starts a run by itself.
-import { useBarred } from './gate';
+import { useBarred, Why } from './gate';
 import { useSignal, type Signal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -87,6 +87,7 @@ export function RunSection({ name, parameters, saved }: { name: string; paramete
     <>
       <Section title="Run">
         <div class="card recipe-run">
+          <Why need="operator" what="Running and cancelling" />
           <div class="step-fields">
             {Object.entries(parameters).map(([key, p]) => (
               <label class="step-field" key={key}>
@@ -112,11 +113,11 @@ export function RunSection({ name, parameters, saved }: { name: string; paramete
             <button type="button" class="button primary" disabled={!saved || running} {...no} onClick={() => void start(false)}>
               <Icon name="play" /> Run
             </button>
-            <button type="button" class="button" disabled={!saved || running} onClick={() => void start(true)}>
+            <button type="button" class="button" disabled={!saved || running} {...no} onClick={() => void start(true)}>
               Check only
             </button>
             {running && (
-              <button type="button" class="stop" onClick={() => void cancel(r.n)}>
+              <button type="button" class="stop" {...no} onClick={() => void cancel(r.n)}>
                 <Icon name="stop" /> Cancel run {r.n}
               </button>
             )}

@@ -3,7 +3,7 @@
 import { createContext } from 'preact';
 import { useContext } from 'preact/hooks';
 import type { components } from '../api/schema';
-import { added, at, changed, commands, comparisons, freshStep, kindOf, moved, pointerOf, points, removed, stepKinds, typedOf, valueOf, type Json, type Path, type RecipeDocument, type Step, type StepField, type StepKind } from '../words/recipe';
+import { added, at, changed, commands, comparisons, freshStep, kindOf, moved, pointerOf, points, removed, stepKinds, takesTolerance, typedOf, valueOf, type Json, type Path, type RecipeDocument, type Step, type StepField, type StepKind } from '../words/recipe';
 import { Icon } from './icon';
 
 export type Fault = components['schemas']['Fault'];
@@ -95,6 +95,10 @@ function StepRow({ step, list, i, last }: { step: Step; list: Path; i: number; l
           ))}
         </div>
       )}
+      <label class="step-field step-comment">
+        <span class="visually-hidden">Comment</span>
+        <input type="text" autocomplete="off" aria-label={`${title}: Comment`} placeholder="comment" value={typedOf(step['comment'])} onChange={(e) => change(changed(document, [...path, 'comment'], () => e.currentTarget.value || undefined))} />
+      </label>
       {mine.map((f) => (
         <p key={f.pointer + f.text} class="step-fault">
           {f.text}. {f.remedy}.
@@ -202,7 +206,7 @@ function ConditionFields({ kind, path, title }: { kind: StepKind; path: Path; ti
       )}
       <label class="step-field is-narrow">
         <span>Comparison</span>
-        <select aria-label={`${title}: Comparison`} value={op} onChange={(e) => set({ [e.currentTarget.value]: c[op] as Json }, e.currentTarget.value === op ? [] : [op])}>
+        <select aria-label={`${title}: Comparison`} value={op} onChange={(e) => set({ [e.currentTarget.value]: c[op] as Json }, e.currentTarget.value === op ? [] : [op, ...(takesTolerance(e.currentTarget.value, c[op]) ? [] : ['tolerance'])])}>
           {comparisons.map((x) => (
             <option key={x.key} value={x.key}>
               {x.label}
@@ -214,6 +218,25 @@ function ConditionFields({ kind, path, title }: { kind: StepKind; path: Path; ti
         <span>Value</span>
         <input type="text" autocomplete="off" spellcheck={false} aria-label={`${title}: Value`} value={typedOf(c[op])} onChange={(e) => set({ [op]: valueOf(e.currentTarget.value) ?? '' })} />
       </label>
+      {('tolerance' in c || takesTolerance(op, c[op])) && (
+        <label class="step-field is-narrow">
+          <span>Tolerance ±</span>
+          <input
+            type="text"
+            inputMode="decimal"
+            autocomplete="off"
+            spellcheck={false}
+            aria-label={`${title}: Tolerance`}
+            placeholder="exact"
+            value={typedOf(c['tolerance'])}
+            onChange={(e) => {
+              const tolerance = valueOf(e.currentTarget.value);
+              if (tolerance === undefined) set({}, ['tolerance']);
+              else set({ tolerance });
+            }}
+          />
+        </label>
+      )}
     </>
   );
 }

@@ -1,6 +1,6 @@
 // Scan: looking for drives on a line. In: the line's name, a range of addresses. Out: what was found, and whether the site knows it.
 // Never adds a drive by itself, and never begins to look by itself.
-import { useBarred } from './gate';
+import { useBarred, Why } from './gate';
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -49,6 +49,7 @@ export function ScanSection({ line }: { line: string }) {
   return (
     <Section title="Scan">
       <div class="card recipe-run" data-field="scan">
+        <Why need="engineer" what="Looking for drives" />
         <div class="recipe-buttons">
           <input class="search" type="text" aria-label="First address" placeholder="first address" autocomplete="off" value={from.value} onInput={(e) => (from.value = e.currentTarget.value)} />
           <input class="search" type="text" aria-label="Last address" placeholder="last address" autocomplete="off" value={to.value} onInput={(e) => (to.value = e.currentTarget.value)} />
@@ -56,7 +57,7 @@ export function ScanSection({ line }: { line: string }) {
             Look for drives
           </button>
           {running && (
-            <button type="button" class="button" onClick={() => void act(() => client.cancelScan(line))}>
+            <button type="button" class="button" {...no} onClick={() => void act(() => client.cancelScan(line))}>
               End
             </button>
           )}

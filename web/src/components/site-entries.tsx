@@ -7,6 +7,7 @@ import { useGateway } from '../gateway';
 import type { SiteDraft } from '../state/site-draft';
 import { checkEntry, fieldsOf, freeNumber, oneOf, placeOf, sameDocument, textsOfEntry, uriKinds, type Entry, type FieldSpec, type Room, type Site, type Texts } from '../words/site';
 import { Choice, TextField } from './form';
+import { useBarred } from './gate';
 import { Icon } from './icon';
 import { Section } from './section';
 
@@ -25,6 +26,7 @@ export function openForm(room: Room, site: Site, entry: Entry | null, preset: Te
 const titles: Record<Room, string> = { lines: 'Lines', drives: 'Drives', axes: 'Axes' };
 
 export function SiteEntries({ room, draft, extra }: { room: Room; draft: SiteDraft; extra?: (entry: Entry) => ComponentChildren }) {
+  const no = useBarred('engineer');
   const site = draft.draft.value;
   const list = site[room] ?? [];
   const open = forms[room].value;
@@ -39,7 +41,7 @@ export function SiteEntries({ room, draft, extra }: { room: Room; draft: SiteDra
       title={titles[room]}
       class={`entries entries-${room}`}
       beside={
-        <button type="button" class="button" onClick={() => openForm(room, site, null)}>
+        <button type="button" class="button" {...no} onClick={() => openForm(room, site, null)}>
           <Icon name="plus" size={14} /> Add {room === 'axes' ? 'an' : 'a'} {oneOf[room]}
         </button>
       }
@@ -58,10 +60,10 @@ export function SiteEntries({ room, draft, extra }: { room: Room; draft: SiteDra
                     {e.name} {mark && <span class="flag">{mark}</span>}
                   </h3>
                   {extra?.(e)}
-                  <button type="button" class="button small quiet square" aria-label={`Change ${oneOf[room]} ${e.name}`} title="Change" onClick={() => openForm(room, site, e)}>
+                  <button type="button" class="button small quiet square" aria-label={`Change ${oneOf[room]} ${e.name}`} title="Change" {...no} onClick={() => openForm(room, site, e)}>
                     <Icon name="pencil" size={14} />
                   </button>
-                  <button type="button" class="button small quiet square" aria-label={`Remove ${oneOf[room]} ${e.name}`} title="Remove from the draft" onClick={() => (removing.value = e.name)}>
+                  <button type="button" class="button small quiet square" aria-label={`Remove ${oneOf[room]} ${e.name}`} title="Remove from the draft" {...no} onClick={() => (removing.value = e.name)}>
                     <Icon name="bin" size={14} />
                   </button>
                 </div>

@@ -9,6 +9,7 @@ import { capital } from '../state/commander';
 import type { SiteDraft } from '../state/site-draft';
 import { differenceOf, readSite, type Difference } from '../words/site';
 import { clockTime } from '../words/time';
+import { useBarred, Why } from './gate';
 import { notOffered, quiet, Tell, type Told } from './form';
 import { Section } from './section';
 import { DifferenceList } from './site-stage';
@@ -19,6 +20,8 @@ const absent = (status: number) => status === 404 || status === 405 || status ==
 const size = (bytes: number) => (bytes < 1024 ? `${bytes} bytes` : bytes < 1024 * 1024 ? `${Math.round(bytes / 1024)} KiB` : `${(bytes / 1024 / 1024).toFixed(1)} MiB`);
 
 export function SiteFiles({ draft, door }: { draft: SiteDraft; door: SiteDoor }) {
+  const no = useBarred('engineer');
+  const noCopy = useBarred('administrator');
   const told = useSignal<Told>(quiet);
   const copy = useSignal<File | null>(null);
   const take = async (input: HTMLInputElement) => {
@@ -66,15 +69,16 @@ export function SiteFiles({ draft, door }: { draft: SiteDraft; door: SiteDoor })
   return (
     <Section title="Export, import, backup" class="files">
       <div class="card form">
+        <Why need="administrator" what="A backup of everything, and its restore," />
         <div class="form-foot">
           <a class="button" href="/api/v1/site" download="site.json">
             Export the site
           </a>
           <label class="button">
-            <input type="file" class="visually-hidden" aria-label="Import a site" accept=".json,application/json" onChange={(e) => void take(e.currentTarget)} />
+            <input type="file" class="visually-hidden" aria-label="Import a site" accept=".json,application/json" {...no} onChange={(e) => void take(e.currentTarget)} />
             Import a site
           </label>
-          <button type="button" class="button" onClick={() => void backup()}>
+          <button type="button" class="button" {...noCopy} onClick={() => void backup()}>
             Backup of everything
           </button>
           <label class="button">
@@ -82,6 +86,7 @@ export function SiteFiles({ draft, door }: { draft: SiteDraft; door: SiteDoor })
               type="file"
               class="visually-hidden"
               aria-label="Restore a backup"
+              {...noCopy}
               onChange={(e) => {
                 const file = e.currentTarget.files?.[0];
                 e.currentTarget.value = '';
@@ -98,7 +103,7 @@ export function SiteFiles({ draft, door }: { draft: SiteDraft; door: SiteDoor })
             <span>
               {copy.value.name} ({size(copy.value.size)}) replaces site, mappings, parameters, snapshots and events of this gateway.
             </span>
-            <button type="button" class="button" onClick={() => void restore()}>
+            <button type="button" class="button" {...noCopy} onClick={() => void restore()}>
               Replace everything
             </button>
             <button type="button" class="button quiet" onClick={() => (copy.value = null)}>
@@ -112,6 +117,7 @@ export function SiteFiles({ draft, door }: { draft: SiteDraft; door: SiteDoor })
 }
 
 export function SiteHistory({ draft, door }: { draft: SiteDraft; door: SiteDoor }) {
+  const no = useBarred('engineer');
   const { store } = useGateway();
   const list = useSignal<HistoryEntry[]>([]);
   const state = useSignal<'waiting' | 'there' | string>('waiting');
@@ -155,7 +161,7 @@ export function SiteHistory({ draft, door }: { draft: SiteDraft; door: SiteDoor 
                   <button type="button" class="button small" aria-expanded={shown.value?.revision === h.revision} aria-label={`Difference to revision ${h.revision}`} onClick={() => void look(h.revision)}>
                     Difference
                   </button>
-                  <button type="button" class="button small" aria-label={`Restore revision ${h.revision}`} onClick={() => void draft.restore(h.revision)}>
+                  <button type="button" class="button small" aria-label={`Restore revision ${h.revision}`} {...no} onClick={() => void draft.restore(h.revision)}>
                     Restore
                   </button>
                 </div>

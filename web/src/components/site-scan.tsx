@@ -6,6 +6,7 @@ import { asProblem } from '../api/problem';
 import type { Scan, SiteDoor } from '../api/site';
 import type { SiteDraft } from '../state/site-draft';
 import { freeName, freeNumber, withEntry, type Entry } from '../words/site';
+import { useBarred } from './gate';
 import { notOffered, quiet, Tell, TextField, type Told } from './form';
 
 const poll_ms = 300;
@@ -22,6 +23,7 @@ export function addFound(draft: SiteDraft, line: Entry, address: number | string
 }
 
 export function ScanPanel({ line, door, draft }: { line: Entry; door: SiteDoor; draft: SiteDraft }) {
+  const no = useBarred('engineer');
   const from = useSignal('');
   const to = useSignal('');
   const scan = useSignal<Scan | null>(null);
@@ -72,11 +74,11 @@ export function ScanPanel({ line, door, draft }: { line: Entry; door: SiteDoor; 
       <div class="form-foot">
         <TextField label="From address" class="within" number value={from.value} onText={(t) => (from.value = t)} placeholder="first" />
         <TextField label="to" class="within" number value={to.value} onText={(t) => (to.value = t)} placeholder="last" />
-        <button type="submit" class="button primary" disabled={told.value.tone === 'busy'}>
+        <button type="submit" class="button primary" disabled={told.value.tone === 'busy'} {...no}>
           Scan
         </button>
         {told.value.tone === 'busy' && (
-          <button type="button" class="button" onClick={() => void door.endScan(line.name).catch(() => undefined)}>
+          <button type="button" class="button" {...no} onClick={() => void door.endScan(line.name).catch(() => undefined)}>
             End
           </button>
         )}
@@ -93,7 +95,7 @@ export function ScanPanel({ line, door, draft }: { line: Entry; door: SiteDoor; 
                 {name ? (
                   <span class="where">known as {name}</span>
                 ) : (
-                  <button type="button" class="button small" onClick={() => addFound(draft, line, f.address)}>
+                  <button type="button" class="button small" {...no} onClick={() => addFound(draft, line, f.address)}>
                     Add {f.address} as a drive
                   </button>
                 )}

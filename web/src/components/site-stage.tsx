@@ -9,6 +9,7 @@ import { differenceWords, sameDocument, type Difference } from '../words/site';
 import type { StageDiff } from '../api/site';
 import { parseNumber } from '../words/number';
 import { Tell, TextField } from './form';
+import { useBarred } from './gate';
 import { Icon } from './icon';
 
 const within = kept('site.within_s', '60');
@@ -30,6 +31,7 @@ export function DifferenceList({ list, label }: { list: readonly (Difference | S
 
 export function SiteStage({ draft }: { draft: SiteDraft }) {
   const { store } = useGateway();
+  const no = useBarred('engineer');
   const stage = draft.stage.value;
   useEffect(() => {
     if (stage.state !== 'applied') return;
@@ -67,7 +69,7 @@ export function SiteStage({ draft }: { draft: SiteDraft }) {
           <button type="button" class="button primary" disabled={busy} onClick={() => void draft.confirm()}>
             Keep
           </button>
-          <button type="button" class="button" disabled={busy} onClick={() => void draft.rollBack()}>
+          <button type="button" class="button" disabled={busy} {...no} onClick={() => void draft.rollBack()}>
             Roll back now
           </button>
           <Tell told={draft.told.value} field="stage-told" />
@@ -113,11 +115,11 @@ export function SiteStage({ draft }: { draft: SiteDraft }) {
       <div class="form-foot">
         {changes.length > 0 && (
           <>
-            <button type="button" class={`button${checked && faults.length === 0 ? '' : ' primary'}`} disabled={busy || theirs !== null} onClick={() => void draft.check()}>
+            <button type="button" class={`button${checked && faults.length === 0 ? '' : ' primary'}`} disabled={busy || theirs !== null} {...no} onClick={() => void draft.check()}>
               Check
             </button>
             {draft.offersStage.value !== false && <TextField label="Keep within, s" class="within" number value={within.value} onText={(t) => (within.value = t)} fault={seconds === null ? '5 to 600; 0: no roll back.' : undefined} />}
-            <button type="button" class="button primary" disabled={busy || !checked || faults.length > 0 || seconds === null || theirs !== null} onClick={() => void draft.apply(seconds ?? 60)}>
+            <button type="button" class="button primary" disabled={busy || !checked || faults.length > 0 || seconds === null || theirs !== null} {...no} onClick={() => void draft.apply(seconds ?? 60)}>
               Apply
             </button>
             {asked.value ? (
@@ -137,7 +139,7 @@ export function SiteStage({ draft }: { draft: SiteDraft }) {
           </>
         )}
         {stage.state === 'staged' && (
-          <button type="button" class="button quiet" onClick={() => void draft.discard()}>
+          <button type="button" class="button quiet" {...no} onClick={() => void draft.discard()}>
             Discard what is staged
           </button>
         )}

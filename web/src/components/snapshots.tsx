@@ -1,6 +1,6 @@
 // Snapshots of an axis' parameters: saved under a name, compared, restored after a look at what will change. In: the HTTP door. Out: a section.
 // A restore is never sent without the list of its changes on the page; it is refused by the gateway while the axis is commanded.
-import { useBarred } from './gate';
+import { useBarred, Why } from './gate';
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -111,6 +111,7 @@ export function Snapshots({ axis, onList }: { axis: string; onList: (list: Snaps
           save();
         }}
       >
+        <Why need="engineer" what="Saving, restoring and removing a snapshot" />
         <div class="form-grid">
           <TextField label="Name" value={name.value} onText={(t) => (name.value = t)} fault={wrong.value && name.value.trim() === '' ? 'Give it a name.' : undefined} />
           <TextField label="Comment" class="wide" value={comment.value} onText={(t) => (comment.value = t)} />
@@ -137,7 +138,7 @@ export function Snapshots({ axis, onList }: { axis: string; onList: (list: Snaps
                   </button>
                   {removing.value === s.n ? (
                     <>
-                      <button type="button" class="button small" aria-label={`Remove for good: ${s.name}`} onClick={() => void remove(s)}>
+                      <button type="button" class="button small" aria-label={`Remove for good: ${s.name}`} {...no} onClick={() => void remove(s)}>
                         Remove for good
                       </button>
                       <button type="button" class="button small quiet" onClick={() => (removing.value = null)}>
@@ -145,7 +146,7 @@ export function Snapshots({ axis, onList }: { axis: string; onList: (list: Snaps
                       </button>
                     </>
                   ) : (
-                    <button type="button" class="button small quiet" aria-label={`Remove ${s.name}`} onClick={() => (removing.value = s.n)}>
+                    <button type="button" class="button small quiet" aria-label={`Remove ${s.name}`} {...no} onClick={() => (removing.value = s.n)}>
                       Remove
                     </button>
                   )}
@@ -186,7 +187,7 @@ export function Snapshots({ axis, onList }: { axis: string; onList: (list: Snaps
             </ul>
             {(r.report.skipped?.length ?? 0) > 0 && <p class="where">Left out: {r.report.skipped?.map((s) => `${s.parameter} (${s.why})`).join(', ')}</p>}
             <div class="form-foot">
-              <button type="button" class="button primary" disabled={r.chosen.size === 0} onClick={restore}>
+              <button type="button" class="button primary" disabled={r.chosen.size === 0} {...no} onClick={restore}>
                 Write {r.chosen.size} to the drive
               </button>
               <button type="button" class="button quiet" onClick={() => (restoring.value = null)}>

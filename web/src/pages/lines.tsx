@@ -1,5 +1,6 @@
 // Lines and drives, and one line with what it counts, the frames that cross it, and the hand of its twins. In: the store, the stream's
 // frames. Out: two pages.
+import { Gate } from '../components/gate';
 import { Hand } from '../components/hand';
 import { DriveList, Empty, LineCard, LineList } from '../components/lines';
 import { ScanSection } from '../components/scan';
@@ -61,7 +62,9 @@ export function LinePage({ name }: { name: string }) {
             {simulated.map((d) => (
               <section key={d} aria-label={`Hand of ${d}`}>
                 <h3>{d}</h3>
-                <Hand drive={d} />
+                <Gate need="engineer">
+                  <Hand drive={d} />
+                </Gate>
               </section>
             ))}
           </div>

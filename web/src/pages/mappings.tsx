@@ -1,11 +1,11 @@
 // Mappings: the registers of one's own: a grid with live values, adding, changing, templates, tables, lists, and what an HMI sees. In: the HTTP
 // door, the axis stream. Out: a page. Registers of the shown table are read once a second where the gateway offers it; at most 8 spans a second.
-import { Gate } from '../components/gate';
 import { signal, useSignal, type Signal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
 import { MappingDoor, type Registers } from '../api/mappings';
 import { asProblem } from '../api/problem';
 import { notOffered, quiet, Tell, toldOf, type Told } from '../components/form';
+import { Gate, useBarred, Why } from '../components/gate';
 import { HmiView } from '../components/hmi-view';
 import { Empty } from '../components/lines';
 import { addAt, MappingForm } from '../components/mapping-form';
@@ -50,6 +50,7 @@ export function MappingsPage() {
   const heard: Signal<ReadonlyMap<string, Heard>> = useMemo(() => signal(new Map()), []);
   const registers = useSignal<'asking' | 'there' | string>('asking');
   const parameters: Signal<ReadonlyMap<string, readonly string[]>> = useMemo(() => signal(new Map()), []);
+  const no = useBarred('engineer');
   const epoch = store.connection.value.epoch;
   const revision = store.siteRevision.value;
 
@@ -128,7 +129,7 @@ export function MappingsPage() {
       class="page mappings-page"
       onKeyDown={(e) => {
         const typing = e.target instanceof HTMLElement && /^(INPUT|TEXTAREA|SELECT)$/.test(e.target.tagName);
-        if (e.key.toLowerCase() === 'z' && (e.ctrlKey || e.metaKey) && !e.shiftKey && !typing && last) {
+        if (e.key.toLowerCase() === 'z' && (e.ctrlKey || e.metaKey) && !e.shiftKey && !typing && last && !no.disabled) {
           e.preventDefault();
           void undo();
         }
@@ -161,12 +162,13 @@ export function MappingsPage() {
                 </button>
               ))}
             </div>
-            <button type="button" class="button" disabled={!last} title={last ? `${last.words} (Ctrl Z)` : 'Nothing was changed by this page yet'} onClick={() => void undo()}>
+            <button type="button" class="button" disabled={!last} title={last ? `${last.words} (Ctrl Z)` : 'Nothing was changed by this page yet'} {...no} onClick={() => void undo()}>
               Undo{last ? `: ${last.words.toLowerCase()}` : ''}
             </button>
           </>
         }
       >
+        <Why need="engineer" what="Changing the mappings" />
         <Tell told={told.value} field="grid-told" />
         {book.state.value === 'waiting' ? (
           <Empty text="Waiting for the gateway." />
@@ -190,9 +192,9 @@ export function MappingsPage() {
         <ListLinks door={door} />
       </Section>
       <Gate need="engineer">
-      <MappingForm book={book} known={known} editing={editing.value} done={() => (editing.value = null)} />
-      <MappingTemplates book={book} door={door} />
-      <MappingPaste book={book} known={known} />
+        <MappingForm book={book} known={known} editing={editing.value} done={() => (editing.value = null)} />
+        <MappingTemplates book={book} door={door} />
+        <MappingPaste book={book} known={known} />
       </Gate>
       <HmiView door={door} />
       <PrintedList rows={rows} hash={book.hash.value} />

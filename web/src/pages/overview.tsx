@@ -3,6 +3,7 @@ import { useGateway } from '../gateway';
 import { AxisTile } from '../components/axis-tile';
 import { WrongList } from '../components/wrong';
 import { EventList } from '../components/events';
+import { Why } from '../components/gate';
 import { DriveList, Empty, LineList } from '../components/lines';
 import { Section } from '../components/section';
 import { kept } from '../state/kept';
@@ -64,6 +65,7 @@ function Axes() {
         </>
       }
     >
+      <Why need="operator" what="Every command but a stop" />
       {names.length > 0 ? (
         <div class="tiles">
           {names.map((n) => (

@@ -1,6 +1,6 @@
 // Recipes: the list, and one recipe: forms and JSON side by side, checked by the gateway as it is typed; below it its runs.
 // In: the documents of the gateway. Out: changed documents, only when they are saved. The forms always show the last text that was JSON.
-import { useBarred } from '../components/gate';
+import { Gate, useBarred, Why } from '../components/gate';
 import { useSignal, type Signal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { asProblem, Problem } from '../api/problem';
@@ -9,11 +9,12 @@ import { Empty } from '../components/lines';
 import { Pill } from '../components/pill';
 import { RunSection } from '../components/recipe-run';
 import { StepEditor, type Fault } from '../components/recipe-steps';
+import { RecipeParameters } from '../components/recipe-parameters';
 import { Section } from '../components/section';
 import { useGateway } from '../gateway';
 import { go, recipePath } from '../router';
 import { capital } from '../state/commander';
-import { documentOf, editable, runWord, type RecipeDocument } from '../words/recipe';
+import { documentOf, editable, runWord, valueOf, type RecipeDocument } from '../words/recipe';
 import { clockTime } from '../words/time';
 
 const checkAfter_ms = 300;
@@ -66,6 +67,7 @@ export function RecipesPage() {
           </ul>
         </div>
       </Section>
+      <Why need="engineer" what="Making a recipe" />
       <form
         class="recipe-buttons"
         onSubmit={(e) => {
@@ -126,7 +128,7 @@ export function RecipePage({ name }: { name: string }) {
   const present = text.value;
   useEffect(() => {
     const d = document.peek();
-    if (!d || d.steps.length === 0 || textFault.peek()) return;
+    if (!d || d.steps.length === 0 || textFault.peek() || no.disabled) return;
     let here = true;
     const timer = setTimeout(() => {
       client.putRecipe(name, d, true).then(
@@ -138,7 +140,7 @@ export function RecipePage({ name }: { name: string }) {
       here = false;
       clearTimeout(timer);
     };
-  }, [present]);
+  }, [present, no.disabled]);
 
   const save = async () => {
     const d = document.peek();
@@ -178,45 +180,72 @@ export function RecipePage({ name }: { name: string }) {
       <h1 tabIndex={-1}>{name}</h1>
       {d && (
         <>
-          <div class="recipe-bar">
-            <input
-              class="recipe-description"
-              type="text"
-              aria-label="Description"
-              placeholder="What it does"
-              value={typeof d.description === 'string' ? d.description : ''}
-              onChange={(e) => put({ ...d, description: e.currentTarget.value })}
-            />
-            <label class="select">
-              If it fails
-              <select aria-label="If it fails" value={d.on_failure ?? 'halt'} onChange={(e) => put({ ...d, on_failure: e.currentTarget.value as 'halt' | 'quick_stop' })}>
-                <option value="halt">halt its axes</option>
-                <option value="quick_stop">quick stop its axes</option>
-              </select>
-            </label>
-            <button type="button" class="button primary" disabled={!unsaved || textFault.value !== ''} {...no} onClick={() => void save()}>
-              Save
-            </button>
-            <button type="button" class="button" {...no} onClick={() => void remove()} onBlur={() => (sure.value = false)}>
-              {sure.value ? 'Delete: sure?' : 'Delete'}
-            </button>
-          </div>
+          <Gate need="engineer">
+            <div class="recipe-bar">
+              <input
+                class="recipe-description"
+                type="text"
+                aria-label="Description"
+                placeholder="What it does"
+                value={typeof d.description === 'string' ? d.description : ''}
+                onChange={(e) => put({ ...d, description: e.currentTarget.value })}
+              />
+              <label class="select">
+                If it fails
+                <select aria-label="If it fails" value={d.on_failure ?? 'halt'} onChange={(e) => put({ ...d, on_failure: e.currentTarget.value as 'halt' | 'quick_stop' })}>
+                  <option value="halt">halt its axes</option>
+                  <option value="quick_stop">quick stop its axes</option>
+                </select>
+              </label>
+              <label class="select">
+                At most, s
+                <input
+                  class="recipe-limit"
+                  type="text"
+                  inputMode="decimal"
+                  aria-label="Longest time of a run, s"
+                  placeholder="3600"
+                  value={typeof d.timeout_s === 'number' ? String(d.timeout_s) : ''}
+                  onChange={(e) => {
+                    const { timeout_s: _, ...rest } = d;
+                    const typed = valueOf(e.currentTarget.value);
+                    put(typed === undefined ? { ...rest } : ({ ...rest, timeout_s: typed } as RecipeDocument));
+                  }}
+                />
+              </label>
+              <button type="button" class="button primary" disabled={!unsaved || textFault.value !== ''} {...no} onClick={() => void save()}>
+                Save
+              </button>
+              <button type="button" class="button" {...no} onClick={() => void remove()} onBlur={() => (sure.value = false)}>
+                {sure.value ? 'Delete: sure?' : 'Delete'}
+              </button>
+            </div>
+          </Gate>
           <p class={`result result-${result.value.tone}`} role="status">
             <span>{unsaved ? 'Not saved yet.' : result.value.text}</span>
           </p>
           <div class="recipe-sides">
-            <Section title="Steps">
-              <div class="card recipe-card">
-                <StepEditor document={d} change={put} axes={store.axisNames.value} faults={faults.value} />
-                {faults.value
-                  .filter((f) => !f.pointer.startsWith('/steps/'))
-                  .map((f) => (
-                    <p key={f.pointer + f.text} class="step-fault">
-                      {f.pointer}: {f.text}. {f.remedy}.
-                    </p>
-                  ))}
+            <Gate need="engineer" silent>
+              <div>
+                <Section title="Parameters">
+                  <div class="card recipe-card">
+                    <RecipeParameters document={d} change={put} faults={faults.value} />
+                  </div>
+                </Section>
+                <Section title="Steps">
+                  <div class="card recipe-card">
+                    <StepEditor document={d} change={put} axes={store.axisNames.value} faults={faults.value} />
+                    {faults.value
+                      .filter((f) => !f.pointer.startsWith('/steps/') && !Object.keys(d.parameters ?? {}).some((p) => f.pointer === `/parameters/${p}` || f.pointer.startsWith(`/parameters/${p}/`)))
+                      .map((f) => (
+                        <p key={f.pointer + f.text} class="step-fault">
+                          {f.pointer}: {f.text}. {f.remedy}.
+                        </p>
+                      ))}
+                  </div>
+                </Section>
               </div>
-            </Section>
+            </Gate>
             <Section title="JSON">
               <div class="card recipe-card">
                 <textarea
@@ -224,6 +253,7 @@ export function RecipePage({ name }: { name: string }) {
                   aria-label="The recipe as JSON"
                   aria-invalid={textFault.value !== '' || undefined}
                   spellcheck={false}
+                  readOnly={no.disabled ?? false}
                   value={text.value}
                   onInput={(e) => {
                     const typed = e.currentTarget.value;

@@ -1,6 +1,6 @@
 // Site: lines, drives and axes as forms; every change is a draft until it is checked and applied as one. In: the HTTP door. Out: a page.
 // An empty site begins with the wizard. The draft is the page's, not the component's: it stays when the page is left.
-import { Gate } from '../components/gate';
+import { Why } from '../components/gate';
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import type { Client } from '../api/client';
@@ -14,6 +14,7 @@ import { SiteWizard } from '../components/site-wizard';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
 import { kept } from '../state/kept';
+import { barred } from '../state/session';
 import { SiteDraft } from '../state/site-draft';
 
 const wizard = kept('site.wizard');
@@ -29,7 +30,7 @@ function draftOf(client: Client) {
 }
 
 export function SitePage() {
-  const { client, store } = useGateway();
+  const { client, session, store } = useGateway();
   const { door, draft } = draftOf(client);
   const scanning = useSignal('');
   const epoch = store.connection.value.epoch;
@@ -40,7 +41,8 @@ export function SitePage() {
 
   const site = draft.draft.value;
   const empty = (draft.base.value.axes ?? []).length === 0;
-  const guided = wizard.value === 'open' || (wizard.value === '' && draft.state.value === 'there' && empty);
+  // The wizard is all change: who may change nothing reads the site instead.
+  const guided = session.mayNot('engineer') === '' && (wizard.value === 'open' || (wizard.value === '' && draft.state.value === 'there' && empty));
   useEffect(() => {
     // The wizard stays until it is left, also when the site is not empty any more.
     if (guided && wizard.peek() === '') wizard.value = 'open';
@@ -51,7 +53,7 @@ export function SitePage() {
       <div class="site-head">
         <h1 tabIndex={-1}>Site</h1>
         {!guided && draft.state.value === 'there' && (
-          <button type="button" class="button" onClick={() => (wizard.value = 'open')}>
+          <button type="button" class="button" {...barred(session.mayNot('engineer'))} onClick={() => (wizard.value = 'open')}>
             Wizard: to a moving axis
           </button>
         )}
@@ -61,11 +63,10 @@ export function SitePage() {
       ) : draft.state.value !== 'there' ? (
         <Empty text={capital(draft.state.value)} />
       ) : guided ? (
-        <Gate need="engineer">
-          <SiteWizard draft={draft} door={door} leave={() => (wizard.value = 'closed')} />
-        </Gate>
+        <SiteWizard draft={draft} door={door} leave={() => (wizard.value = 'closed')} />
       ) : (
-        <Gate need="engineer">
+        <>
+          <Why need="engineer" what="Changing the site" />
           <SiteStage draft={draft} />
           <div class="site-rooms">
             <SiteEntries
@@ -89,7 +90,7 @@ export function SitePage() {
           )}
           <SiteFiles draft={draft} door={door} />
           <SiteHistory draft={draft} door={door} />
-        </Gate>
+        </>
       )}
     </main>
   );

@@ -87,11 +87,11 @@ export class Session {
     return null;
   }
 
-  /** Why one may not do what needs this role; empty: one may. */
-  mayNot(need: Role): string {
+  /** Why one may not do what needs this role; empty: one may. `what` begins the sentence. */
+  mayNot(need: Role, what = 'This'): string {
     const info = this.info.value;
     if (!info || (info.role && roles.indexOf(info.role) >= roles.indexOf(need))) return '';
-    return `This needs the role ${need}. ${info.role ? `Yours is ${info.role}.` : 'You are not signed in.'}`;
+    return `${what} needs the role ${need}. ${info.role ? `Yours is ${info.role}.` : 'You are not signed in.'}`;
   }
 }
 

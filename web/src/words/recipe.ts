@@ -4,9 +4,17 @@ import type { Word } from './axis';
 
 export type Json = null | boolean | number | string | Json[] | { [key: string]: Json };
 export type Step = { [word: string]: Json };
+export interface RecipeParameter {
+  type: string;
+  default?: Json;
+  min?: number;
+  max?: number;
+  unit?: string;
+  description?: string;
+}
 export interface RecipeDocument {
   description?: string;
-  parameters?: Record<string, { type: string; default?: Json; min?: number; max?: number; unit?: string; description?: string }>;
+  parameters?: Record<string, RecipeParameter>;
   timeout_s?: number;
   on_failure?: 'halt' | 'quick_stop';
   steps: Step[];
@@ -135,6 +143,62 @@ export function valueOf(typed: string): Json | undefined {
   return /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i.test(t) ? Number(t) : t;
 }
 export const typedOf = (value: unknown): string => (value === undefined || value === null ? '' : typeof value === 'string' ? value : JSON.stringify(value));
+
+export const parameterTypes = ['number', 'integer', 'boolean', 'text', 'axis'] as const;
+const mostParameters = 64;
+
+/** Why a parameter cannot have this name; empty: it can. */
+export function parameterFault(document: RecipeDocument, name: string): string {
+  if (!/^[A-Za-z0-9_.-]{1,64}$/.test(name)) return 'A name has 1 to 64 letters, digits, - _ .';
+  const known = Object.keys(document.parameters ?? {});
+  if (known.includes(name)) return `There is a parameter ${name} already.`;
+  return known.length >= mostParameters ? `A recipe has at most ${mostParameters} parameters.` : '';
+}
+
+/** What was typed as a default, by the type; undefined: no default, the run must be given one. */
+export function defaultOf(type: string, typed: string): Json | undefined {
+  if (typed.trim() === '') return undefined;
+  return type === 'text' || type === 'axis' ? typed : valueOf(typed);
+}
+
+/** The parameter with some members changed, or a new one; a member that became undefined is taken away. */
+export function withParameter(document: RecipeDocument, name: string, more: Partial<Record<keyof RecipeParameter, Json | undefined>>): RecipeDocument {
+  const copy = structuredClone(document);
+  const next: Record<string, Json | undefined> = { ...(copy.parameters?.[name] as Record<string, Json> | undefined), ...more };
+  for (const [k, v] of Object.entries(next)) if (v === undefined) delete next[k];
+  copy.parameters = { ...copy.parameters, [name]: next as unknown as RecipeParameter };
+  return ordered(copy);
+}
+
+export function withoutParameter(document: RecipeDocument, name: string): RecipeDocument {
+  const copy = structuredClone(document);
+  delete copy.parameters?.[name];
+  if (copy.parameters && Object.keys(copy.parameters).length === 0) delete copy.parameters;
+  return copy;
+}
+
+/** The parameter under another name, in its place; every "${old}" in the steps becomes "${new}". */
+export function renamedParameter(document: RecipeDocument, from: string, to: string): RecipeDocument {
+  const inside = (j: Json): Json => {
+    if (typeof j === 'string') return j.replaceAll(`\${${from}}`, () => `\${${to}}`);
+    if (Array.isArray(j)) return j.map(inside);
+    return j === null || typeof j !== 'object' ? j : Object.fromEntries(Object.entries(j).map(([k, v]) => [k, inside(v)]));
+  };
+  const copy = structuredClone(document);
+  copy.steps = inside(copy.steps) as Step[];
+  copy.parameters = Object.fromEntries(Object.entries(copy.parameters ?? {}).map(([k, v]) => [k === from ? to : k, v]));
+  return copy;
+}
+
+/** Parameters stand before the steps that use them, for who reads the JSON. */
+function ordered({ steps, ...rest }: RecipeDocument): RecipeDocument {
+  return { ...rest, steps };
+}
+
+/** Whether a difference can be allowed: only numbers (and what stands for one) are compared within a tolerance. */
+export function takesTolerance(op: string, value: unknown): boolean {
+  return (op === 'is' || op === 'is_not') && (typeof value === 'number' || (typeof value === 'string' && value.includes('${')));
+}
 
 /** A document read from text, or what is wrong with the text. */
 export function documentOf(text: string): { document: RecipeDocument } | { fault: string } {

@@ -1,0 +1,125 @@
+// Parameters of a recipe as a form: name, type, default, bounds, unit, what each is for. In: the document and the faults found in it.
+// Out: a changed copy. A new name is taken over in every step that uses the old one. Never checks by itself: the gateway does.
+import { useSignal } from '@preact/signals';
+import { defaultOf, parameterFault, parameterTypes, renamedParameter, typedOf, valueOf, withParameter, withoutParameter, type Json, type RecipeDocument, type RecipeParameter } from '../words/recipe';
+import { Icon } from './icon';
+import type { Fault } from './recipe-steps';
+
+export interface RecipeParametersProps {
+  document: RecipeDocument;
+  change: (next: RecipeDocument) => void;
+  faults: Fault[];
+}
+
+export function RecipeParameters({ document, change, faults }: RecipeParametersProps) {
+  const fresh = useSignal('');
+  const wrong = useSignal('');
+  const names = Object.keys(document.parameters ?? {});
+  const add = () => {
+    const name = fresh.peek().trim();
+    wrong.value = parameterFault(document, name);
+    if (wrong.peek()) return;
+    fresh.value = '';
+    change(withParameter(document, name, { type: 'number' }));
+  };
+  return (
+    <div class="recipe-parameters" role="group" aria-label="Parameters of the recipe">
+      {names.length === 0 && <p class="where">None: every run does the same. A step uses one as {'${name}'}.</p>}
+      {names.map((name) => (
+        <ParameterRow key={name} name={name} document={document} change={change} faults={faults.filter((f) => f.pointer === `/parameters/${name}` || f.pointer.startsWith(`/parameters/${name}/`))} />
+      ))}
+      <form
+        class="recipe-buttons"
+        aria-label="Add a parameter"
+        onSubmit={(e) => {
+          e.preventDefault();
+          add();
+        }}
+      >
+        <input class="search" type="text" aria-label="Name of the new parameter" placeholder="name" autocomplete="off" spellcheck={false} value={fresh.value} aria-invalid={wrong.value !== '' || undefined} onInput={(e) => (fresh.value = e.currentTarget.value)} />
+        <button type="submit" class="button">
+          Add a parameter
+        </button>
+        {wrong.value && (
+          <span class="step-fault" role="status">
+            {wrong.value}
+          </span>
+        )}
+      </form>
+    </div>
+  );
+}
+
+function ParameterRow({ name, document, change, faults }: RecipeParametersProps & { name: string }) {
+  const wrong = useSignal('');
+  const p = document.parameters?.[name] as RecipeParameter;
+  const set = (more: Partial<Record<keyof RecipeParameter, Json | undefined>>) => change(withParameter(document, name, more));
+  const label = (what: string) => `Parameter ${name}: ${what}`;
+  const isNumber = p.type === 'number' || p.type === 'integer';
+  const field = (what: string, value: unknown, put: (typed: string) => void, more: { wide?: boolean; list?: string } = {}) => (
+    <label class={`step-field${more.wide ? ' is-wide' : ' is-narrow'}`}>
+      <span>{what}</span>
+      <input type="text" autocomplete="off" spellcheck={false} aria-label={label(what)} list={more.list} placeholder="none" value={typedOf(value)} onChange={(e) => put(e.currentTarget.value)} />
+    </label>
+  );
+  return (
+    <div class={`step${faults.length > 0 ? ' is-wrong' : ''}`} data-recipe-parameter={name}>
+      <div class="step-fields">
+        <label class="step-field">
+          <span>Name</span>
+          <input
+            type="text"
+            class="mono"
+            autocomplete="off"
+            spellcheck={false}
+            aria-label={label('Name')}
+            aria-invalid={wrong.value !== '' || undefined}
+            value={name}
+            onChange={(e) => {
+              const typed = e.currentTarget.value.trim();
+              wrong.value = typed === name ? '' : parameterFault(document, typed);
+              if (wrong.peek() || typed === name) e.currentTarget.value = name;
+              else change(renamedParameter(document, name, typed));
+            }}
+          />
+        </label>
+        <label class="step-field">
+          <span>Type</span>
+          <select
+            aria-label={label('Type')}
+            value={p.type}
+            onChange={(e) => {
+              const type = e.currentTarget.value;
+              const numeric = type === 'number' || type === 'integer';
+              set({ type, default: defaultOf(type, typedOf(p.default)), ...(numeric ? {} : { min: undefined, max: undefined }) });
+            }}
+          >
+            {parameterTypes.map((t) => (
+              <option key={t} value={t}>
+                {t}
+              </option>
+            ))}
+          </select>
+        </label>
+        {field('Default', p.default, (t) => set({ default: defaultOf(p.type, t) }), p.type === 'axis' ? { list: 'recipe-axes' } : {})}
+        {isNumber && field('Least', p.min, (t) => set({ min: valueOf(t) }))}
+        {isNumber && field('Most', p.max, (t) => set({ max: valueOf(t) }))}
+        {isNumber && field('Unit', p.unit, (t) => set({ unit: t.trim() || undefined }))}
+        {field('What it is for', p.description, (t) => set({ description: t || undefined }), { wide: true })}
+        <button type="button" class="button small square" aria-label={`Remove parameter ${name}`} title="Remove" onClick={() => change(withoutParameter(document, name))}>
+          <Icon name="remove" />
+        </button>
+      </div>
+      {wrong.value && (
+        <p class="step-fault" role="status">
+          {wrong.value}
+        </p>
+      )}
+      {faults.map((f) => (
+        <p key={f.pointer + f.text} class="step-fault">
+          {f.text}. {f.remedy}.
+        </p>
+      ))}
+    </div>
+  );
+}

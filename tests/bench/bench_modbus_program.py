@@ -4,6 +4,7 @@
 In: the program and bench_modbus. Out: what bench_modbus prints; exit 1 if a limit is not kept. The program gets processor 0, as the plain
 server does, and the load generator processor 1. Never touches anything but the loopback and a folder of its own.
 """
+import contextlib
 import json
 import os
 import pathlib
@@ -19,13 +20,11 @@ from bench_program import Program  # noqa: E402
 AXES = 8
 
 
-def site():
-    return {
-        "lines": [{"name": "can0", "uri": "twin", "family": "uim342", "bitrate": 1000000}],
-        "drives": [{"name": f"a{i + 1}", "line": "can0", "address": 11 + i} for i in range(AXES)],
-        "axes": [{"name": f"a{i + 1}", "drive": f"a{i + 1}", "number": i + 1, "unit": "mm", "increments_per_unit": 100} for i in range(AXES)],
-        "mappings": [],
-    }
+def site(axes):
+    lines = [{"name": f"can{i}", "uri": "twin", "family": "uim342", "bitrate": 1000000} for i in range((axes + 15) // 16)]
+    drives = [{"name": f"a{i + 1}", "line": f"can{i // 16}", "address": 11 + i % 16} for i in range(axes)]
+    axes = [{"name": f"a{i + 1}", "drive": f"a{i + 1}", "number": i + 1, "unit": "mm", "increments_per_unit": 100} for i in range(axes)]
+    return {"lines": lines, "drives": drives, "axes": axes, "mappings": []}
 
 
 def address(program, door):
@@ -43,26 +42,32 @@ def moving(program):
         return sum(bool(a["moving"]) for a in json.load(answer))
 
 
-def run(program, load, settings, arguments):
+@contextlib.contextmanager
+def moving_program(program, axes, *settings, cpu=None):
+    """The program with so many axes, all moving now and still moving at the end, or there is no figure. `cpu`: all its threads there."""
     with tempfile.TemporaryDirectory(prefix="axisgate-bench-") as name:
         folder = pathlib.Path(name)
-        (folder / "site.json").write_text(json.dumps(site()))
+        (folder / "site.json").write_text(json.dumps(site(axes)))
         p = Program(program, folder, "--site", str(folder / "site.json"), *settings)
         try:
-            for thread in os.listdir(f"/proc/{p.process.pid}/task"):
-                os.sched_setaffinity(int(thread), {0})
-            for i in range(AXES):
+            for thread in os.listdir(f"/proc/{p.process.pid}/task") if cpu is not None else []:
+                os.sched_setaffinity(int(thread), {cpu})
+            for i in range(axes):
                 command(p, f"a{i + 1}", {"command": "enable"})
                 command(p, f"a{i + 1}", {"command": "move_velocity", "velocity": 10 + i})
             time.sleep(0.3)
-            if moving(p) != AXES:
-                raise SystemExit("bench_modbus_program: the axes do not move")
-            code = subprocess.run([load, "--connect", address(p, "modbus"), *arguments], check=False).returncode
-            if moving(p) != AXES:
-                raise SystemExit("bench_modbus_program: the axes do not move any more")
-            return code == 0
+            if moving(p) != axes:
+                raise SystemExit("bench: the axes do not move")
+            yield p
+            if moving(p) != axes:
+                raise SystemExit("bench: the axes do not move any more")
         finally:
             p.stop()
+
+
+def run(program, load, settings, arguments):
+    with moving_program(program, AXES, *settings, cpu=0) as p:
+        return subprocess.run([load, "--connect", address(p, "modbus"), *arguments], check=False).returncode == 0
 
 
 def main():

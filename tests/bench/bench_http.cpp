@@ -1,0 +1,80 @@
+// HTTP benchmark: one axis asked for by REST, the program against a bare Beast server that gives the same bytes, in one run.
+// In: where the program listens, the axis. Out: per number of connections the ratio, the limit, and both figures; exit 1 if one is not kept.
+// The servers have one thread on one core and take turns in short slices, the load generator has the other core; the figure is the
+// median of the slices' ratios, so that what disturbs the machine disturbs both.
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tests/bench/http_load.hpp"
+#include "tests/bench/http_plain.hpp"
+#include "tests/bench/report.hpp"
+
+namespace axisgate::bench {
+namespace {
+constexpr double least_rate = 0.8;  // of the bare server's
+constexpr int slices = 7;
+constexpr int server_cpu = 0, load_cpu = 1;
+constexpr int nice_of_the_door = 5;  // the program's thread for HTTP stands back by so much
+
+double median(std::vector<double> v) {
+    std::nth_element(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2), v.end());
+    return v[v.size() / 2];
+}
+
+/// One number of connections; whether the limit is kept.
+bool compare(Address program, Address plain, const std::string& path, int connections, double seconds) {
+    std::printf("GET %s, %d connections kept open, one request in flight each\n", path.c_str(), connections);
+    HttpLoad a(program, path, connections), b(plain, path, connections);
+    std::vector<double> rate_a, rate_b, p99_a, p99_b, rates, p99s;
+    const double slice = seconds / slices;
+    (void)a.run(slice / 2);  // warm-up
+    (void)b.run(slice / 2);
+    for (int i = 0; i < slices; ++i) {
+        const bool first = i % 2 == 0;
+        const LoadResult x = (first ? a : b).run(slice), y = (first ? b : a).run(slice);
+        if (!x.good || !y.good) {
+            std::printf("    a connection was lost or an answer was wrong: %s%s  NOT KEPT\n", a.fault().c_str(), b.fault().c_str());
+            return false;
+        }
+        const LoadResult &ours = first ? x : y, &theirs = first ? y : x;
+        rate_a.push_back(ours.per_second);
+        rate_b.push_back(theirs.per_second);
+        p99_a.push_back(ours.p99_us);
+        p99_b.push_back(theirs.p99_us);
+        rates.push_back(ours.per_second / theirs.per_second);
+        p99s.push_back(ours.p99_us / theirs.p99_us);
+    }
+    const bool kept = say("requests/s", median(rates), ">=", least_rate, "axisgate", median(rate_a), "bare Beast", median(rate_b), "/s");
+    std::printf("    %-34s ratio %10.3f  (no limit)  axisgate %.1f us, bare Beast %.1f us\n", "p99", median(p99s), median(p99_a), median(p99_b));
+    return kept;
+}
+}  // namespace
+}  // namespace axisgate::bench
+
+int main(int argc, char** argv) {
+    using namespace axisgate::bench;
+    Address program;
+    if (argc < 3 || !parse_address(argv[1], program)) {
+        std::fputs("bench_http HOST:PORT AXIS [SECONDS]: measures the program that listens there\n", stderr);
+        return 2;
+    }
+    const std::string path = "/api/v1/axes/" + std::string(argv[2]);
+    const double seconds = argc > 3 ? std::clamp(std::atof(argv[3]), 0.5, 60.0) : 2.0;
+    pin(load_cpu);
+    const HttpAnswer answer = ask_once(program, path);
+    if (answer.head.empty()) {
+        std::fprintf(stderr, "bench_http: %s does not answer with 200 at %s\n", path.c_str(), argv[1]);
+        return 2;
+    }
+    std::printf("an answer of %zu bytes, %zu of them body\n", answer.head.size() + 4 + answer.body.size(), answer.body.size());
+    const PlainHttpServer plain(server_cpu, nice_of_the_door, answer.head, answer.body);
+    bool kept = true;
+    for (const int connections : {1, 8, 32})
+        kept &= compare(program, plain.address(), path, connections, seconds);
+    std::printf(kept ? "all limits kept\n" : "NOT all limits kept\n");
+    return kept ? 0 : 1;
+}

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/json/serialize.hpp>
 #include <cmath>
 
 #include "gateway/core/axis_members.hpp"
@@ -292,7 +293,7 @@ public:
             fault(at, "a step is an object with one word", "write {\"enable\": {\"axis\": \"feeder\"}}");
             return s;
         }
-        const Word* word = nullptr;
+        const RecipeWord* word = nullptr;
         const json::value* member = nullptr;
         for (const auto& [k, x] : v.get_object()) {
             if (k == "comment") {

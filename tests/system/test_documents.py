@@ -32,9 +32,16 @@ def run_lines(text, folder, limit_s):
             script += f"printf '%s\\n' {quoted(line)} >&2\n{line}\n"
     path = folder / "lines.sh"
     path.write_text(script)
-    p = subprocess.run(["bash", str(path)], cwd=folder, capture_output=True, text=True, timeout=limit_s, env={**os.environ, "LC_ALL": "C.UTF-8", "no_proxy": "*"})
-    assert p.returncode == 0, f"this line did not work: {p.stderr.splitlines()[-1:]}\n{p.stdout[-600:]}"
-    return p.stdout
+    with open(folder / "out", "w+") as out, open(folder / "err", "w+") as err:
+        with subprocess.Popen(["bash", str(path)], cwd=folder, stdout=out, stderr=err, env={**os.environ, "LC_ALL": "C.UTF-8", "no_proxy": "*"}) as p:
+            try:
+                code = p.wait(limit_s)
+            except subprocess.TimeoutExpired:
+                p.kill()
+                code = f"not within {limit_s} s"
+    said, last = (folder / "out").read_text(), (folder / "err").read_text().splitlines()[-1:]
+    assert code == 0, f"this line did not work ({code}): {last}\n{said[-600:]}"
+    return said
 
 
 def quoted(text):

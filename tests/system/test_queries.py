@@ -23,9 +23,9 @@ def wrong_values(o, p):
         return ["maybe", "2", "yes", "-1"] if flag else ["nonsense", "", str(schema["enum"][0]).upper() + "x"]
     if schema.get("type") == "integer":
         out = ["", "x", "1.5", "1e2", "0x10", "99999999999999999999", "+1", " 1"]
-        return out + [str(schema["minimum"] - 1)] * ("minimum" in schema) + [str(schema["maximum"] + 1)] * ("maximum" in schema)
+        return out + [str(schema[k] + d) for k, d in (("minimum", -1), ("maximum", 1)) if k in schema]
     if schema.get("type") == "number":
-        return ["", "x", "nan", "inf", "1e400", str(schema["minimum"] - 1), str(schema["maximum"] + 1)]
+        return ["", "x", "nan", "inf", "1e400"] + [str(schema[k] + d) for k, d in (("minimum", -1), ("maximum", 1)) if k in schema]
     assert schema.get("type") == "string", (o.id, p)
     if p["name"] in TEXTS and (o.id, p["name"]) not in FREE:
         return TEXTS[p["name"]]

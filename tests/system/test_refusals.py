@@ -60,6 +60,8 @@ def announce(gateway, o, headers, length=None, more=""):
                 ended = True
                 break
             said += part
+            if said.startswith(b"HTTP/1.1 100"):
+                break  # go on: now the body would be sent
         took = time.monotonic() - begun
     if not said:
         return None, {}, b"", took, ended

@@ -148,7 +148,7 @@ void Connection::await_request() {
     if (stopping_ || host_->stopping) return close();
     parser_.emplace();
     parser_->header_limit(static_cast<std::uint32_t>(host_->settings.max_header_bytes));
-    parser_->body_limit(std::max(host_->settings.max_body_bytes, host_->settings.max_backup_bytes));  // on_header narrows it
+    parser_->body_limit(boost::none);  // on_header says how much, before any of it is read
     if (buffer_.size() > 0) return read_header();
     phase_ = Phase::idle;
     since_ = std::chrono::steady_clock::now();

@@ -71,7 +71,8 @@ TEST_F(Alarms, ListAndEventsAreNarrowedByState) {
         std::ranges::sort(listed);
         EXPECT_EQ(listed, wanted) << state;
         EXPECT_EQ(list.at("unacknowledged"), "1") << "the counts are of all";
-        for (const auto& e : call("GET", "/api/v1/events?state=" + state).array())
+        const auto events = call("GET", "/api/v1/events?state=" + state);
+        for (const auto& e : events.array())
             told.push_back(static_cast<std::uint64_t>(e.at("id").to_number<std::int64_t>()));
         EXPECT_EQ(told, wanted) << state;
     }

@@ -38,7 +38,10 @@ struct Drive {
         auto decision = profile.on_process_data(d);
         for (const auto& o : decision.orders) {
             if (std::holds_alternative<Enable>(o)) feedback.power = AxisFeedback::Power::on;
-            if (std::holds_alternative<Disable>(o)) feedback.power = AxisFeedback::Power::off;
+            if (std::holds_alternative<Disable>(o)) {
+                feedback.power = AxisFeedback::Power::off;
+                feedback.moving = false;  // adapters stop an axis before they switch it off
+            }
             if (std::holds_alternative<Move>(o)) feedback.moving = true;
             if (std::holds_alternative<Halt>(o) || std::holds_alternative<QuickStop>(o)) feedback.moving = false;
             say();
@@ -94,9 +97,9 @@ TEST(ModbusAccess, WhatAReadOnlyDoorTakesOnlyStopsInEveryState) {
     }
     EXPECT_GT(taken, 90);
     EXPECT_GT(refused, 300);
-    for (const std::uint16_t usual : {0x00, 0x02, 0x0B})
+    for (const auto usual : std::initializer_list<std::uint16_t>{0x00, 0x02, 0x0B})
         EXPECT_TRUE(stops_only(1, write1(32, usual))) << usual;
-    for (const std::uint16_t not_a_stop : {0x06, 0x07, 0x0F, 0x1F, 0x80, 0x82, 0x10F, 0x12, 0x10})
+    for (const auto not_a_stop : std::initializer_list<std::uint16_t>{0x06, 0x07, 0x0F, 0x1F, 0x80, 0x82, 0x10F, 0x12, 0x10})
         EXPECT_FALSE(stops_only(1, write1(32, not_a_stop))) << not_a_stop;
 }
 
@@ -109,6 +112,7 @@ struct ReadOnlyRow {
 
 TEST(ModbusAccess, AReadOnlyDoorTakesAStopByItselfAndNoOtherWrite) {
     Desk desk;
+    desk.port.add_axis(1);
     desk.responder.set_read_only(true);
     for (const auto& [what, pdu, answer, unit] : std::vector<ReadOnlyRow>{
              {"read", "03 00 20 00 01", "03 02 00 00"},

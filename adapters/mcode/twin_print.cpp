@@ -83,7 +83,7 @@ int Device::print(const Statement& s) {
         }
         int error = 0;
         const Term& t = item.value.terms[0];
-        const bool plain = item.value.terms.size() == 1 && !t.minus && !t.complement && !t.function;
+        const bool plain = item.value.terms.size() == 1 && t.prefix.empty() && !t.function;
         if (plain && t.operand.kind == Operand::Kind::word) {
             auto own = text_of_word(t.operand.word, error);
             if (error != 0) return error;

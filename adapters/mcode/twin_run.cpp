@@ -59,10 +59,13 @@ Number function(Word f, const Number& n, bool radians, int& error) {
     return Number::of_real(r);
 }
 
+Number negative(const Number& n) noexcept { return n.real ? Number::of_real(-n.d) : Number::of(-n.i); }
+
 bool compare(Comparison c, const Number& a, const Number& b) noexcept {
-    // Integers of 32 bits are exact in a double, so one comparison serves both.
-    const double x = a.as_double();
-    const double y = b.as_double();
+    // Integers have 64 bits between operators, more than a double holds: two of them are compared as they are.
+    const bool whole = !a.real && !b.real;
+    const double x = whole ? static_cast<double>((a.i > b.i) - (a.i < b.i)) : a.as_double();
+    const double y = whole ? 0.0 : b.as_double();
     switch (c) {
         case Comparison::equal:
             return x == y;
@@ -107,14 +110,14 @@ Number Run::value(const Expression& e, bool real, int& error) {
     for (std::size_t i = 0; i < e.terms.size(); ++i) {
         const Term& t = e.terms[i];
         Number n = operand(t.operand, error);
-        if (t.operand_minus) n = n.real ? Number::of_real(-n.d) : Number::of(-n.i);
+        if (t.operand_minus) n = negative(n);
         if (t.function) {
             int unreadable = 0;
             const bool radians = host_.read(Word::RA, unreadable).truth();
             n = function(*t.function, n, radians, error);
         }
-        if (t.complement) n = Number::of(static_cast<std::int32_t>(~static_cast<std::uint32_t>(n.as_integer())));
-        if (t.minus) n = n.real ? Number::of_real(-n.d) : Number::of(-n.i);
+        for (auto sign = t.prefix.rbegin(); sign != t.prefix.rend(); ++sign)
+            n = *sign == '-' ? negative(n) : Number::of(static_cast<std::int32_t>(~static_cast<std::uint32_t>(n.as_integer())));
         if (error != 0) return n;
         if (i == 0) {
             result = n;

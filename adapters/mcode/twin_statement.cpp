@@ -393,9 +393,9 @@ private:
             t.op = op;
             for (;;) {
                 if (tokens_.take_sign('-')) {
-                    t.minus = !t.minus;
+                    t.prefix += '-';
                 } else if (tokens_.take_sign('!')) {
-                    t.complement = !t.complement;
+                    t.prefix += '!';
                 } else if (!tokens_.take_sign('+')) {
                     break;
                 }

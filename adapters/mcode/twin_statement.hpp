@@ -28,8 +28,7 @@ struct Operand {
 /// One operand with what stands before it: sign, complement, a function of the firmware 6 [L6550-6767].
 struct Term {
     Operator op = Operator::add;  ///< between what stands to the left and this; not used for the first
-    bool minus = false;
-    bool complement = false;
+    std::string prefix;           ///< of `-` and `!`, as written: the one next to the value counts first
     std::optional<Word> function;
     bool operand_minus = false;  ///< sign behind the function, as in AB -R2
     Operand operand;

@@ -183,6 +183,56 @@ TEST(McodeManual, ProgramWords) {
            }}});
 }
 
+TEST(McodeManual, ConditionsOfThePages) {
+    struct Example {
+        const char* line;
+        Rows before;
+        bool taken;
+    };
+    const std::vector<Example> examples{
+        {"BR LP, I1=1", {{"@active_inputs 1", ""}}, true},                       // L532
+        {"BR SP, MV = 0", {}, true},                                             // L566
+        {"BR K5, I2=0", {}, true},                                               // L805
+        {"CL Q1, AF=4", {}, false},                                              // L1357
+        {"BR Q1, AV>10000", {{"AS=1", ""}, {"SL 50000", ""}, {"~500", "*"}}, true},  // L1558
+        {"BR Q1, I1=1", {{"@active_inputs 1", ""}}, true},                       // L1812
+        {"BR Q1, ST=1", {}, false},                                              // L1799
+        {"BR Q1, V1<=10", {{"VA V1=10", ""}}, true},                             // L1800
+        {"BR Q1, C1=512000", {{"C1=512000", ""}}, true},                         // L1877
+        {"CL X5, C1=512000", {{"C1=511999", ""}}, false},                        // L1878
+        {"BR Q1, C2=40000", {{"C2=40000", ""}}, true},                           // L1934
+        {"CL X5, C2=40000", {{"C2=40001", ""}}, false},                          // L1935
+        {"CL Q3, I1=1", {}, false},                                              // L2129
+        {"BR Q1, ER=86", {}, false},                                             // L2718
+        {"CL Z2, ER=104", {}, false},                                            // L2719
+        {"BR L2, I3=1", {{"@active_inputs 4", ""}}, true},                       // L3283
+        {"CL Q5, I4=0", {}, true},                                               // L3284
+        {"BR L2, I5>2048", {{"@analog 2049", ""}}, true},                        // L3313
+        {"CL Q5, I5=<2048", {{"@analog 2048", ""}}, true},                       // L3314
+        {"BR L2, I6=0", {{"MR 5000", ""}, {"~3000", "*"}}, true},                // L3344
+        {"CL Q5, I5=1", {}, false},                                              // L3345
+        {"BR L5, IN=07", {{"@inputs 7", ""}}, true},                             // L3447
+        {"CL K3, IN=13", {{"@inputs 13", ""}}, true},                            // L3448
+        {"CL k5, LL>102500", {}, false},                                         // L3879
+        {"CL Q1,OF=1", {{"@output_fault 1", ""}}, true},                         // L4592
+        {"CL Q2, R1<25", {}, true},                                              // L5084
+        {"CL Q1, VC=1", {{"SL 2000000", ""}}, true},                             // L6070
+        {"CL X1, I1=1", {{"@active_inputs 1", ""}}, true},                       // L6374
+    };
+    for (const Example& e : examples) {
+        const std::string name = std::string(e.line).substr(3, 2), label = "LB " + name;
+        Rows rows{{"@active_inputs 0", ""}};
+        for (const Row& r : e.before)
+            if (std::string_view(r.line).starts_with("VA ")) rows.push_back(r);
+        for (const char* l : {"PG 1", "LB G1", e.line, "PR \"on\"", "E", label.c_str(), "PR \"taken\"", "E", "PG"})
+            rows.push_back({l, ""});
+        for (const Row& r : e.before)
+            if (!std::string_view(r.line).starts_with("VA ")) rows.push_back(r);
+        rows.push_back({"EX G1", e.taken ? "taken" : "on"});
+        play(Walk{e.line, rows});
+    }
+}
+
 TEST(McodeManual, NamesOfInstructionsAreNotValues) {
     Wire w;
     for (const WordInfo& i : words) {

@@ -165,7 +165,8 @@ int Device::write(Word word, std::span<const Number> fields) {
     const WordInfo& i = info(word);
     if (i.access == Access::ro) return read_only;
     if (i.access == Access::none) return unknown_set;
-    if (i.ranged && fields.size() == 1) {
+    if (fields.size() != 1 && i.kind != WordKind::setup) return bad_value;
+    if (i.ranged) {
         const auto v = static_cast<double>(fields[0].as_integer());  // the fraction is dropped first [L2813]
         if (!(v >= i.min && v <= i.max)) return bad_value;
     }

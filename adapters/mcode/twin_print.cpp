@@ -8,7 +8,7 @@
 namespace axisgate::mcode::twin {
 namespace {
 
-constexpr int bad_value = 21, not_available = 37;
+constexpr int bad_value = 21;
 
 }  // namespace
 
@@ -94,10 +94,9 @@ int Device::print(const Statement& s) {
             if (own && indexed) {
                 const std::int64_t n = s.items[++i].value.terms[0].operand.number.as_integer();
                 if (n != 1 && n != 2) return bad_value;
-                const bool module_supply = t.operand.word == Word::VT && (setup_.product & lmm) != 0;
-                if (module_supply && n == 1) return not_available;  // it has no auxiliary supply [L6222]
-                // IT: bridge, controller. VT: status, auxiliary (not on the module), +V.
-                const std::int64_t skip = t.operand.word == Word::IT ? n - 1 : module_supply ? 1 : n;
+                // IT: bridge, controller. VT: status, auxiliary, +V; the module has no auxiliary supply and answers with +V for both
+                // [L6220-6228].
+                const std::int64_t skip = t.operand.word == Word::IT ? n - 1 : (setup_.product & lmm) != 0 ? 1 : n;
                 std::string_view rest = *own;
                 for (std::int64_t k = 0; k < skip; ++k)
                     rest = trimmed(rest.substr(std::min(rest.find(','), rest.size() - 1) + 1));

@@ -235,7 +235,7 @@ TEST(McodeManual, SupplyAndTemperature) {
            }},
           {"VT of the module",
            {
-               {"@supply_voltage 23", ""}, {"PR VT", "1, 23"}, {"PR VT,2", "23"}, {"PR VT,1", "!37"},  // L6236, L6222
+               {"@supply_voltage 23", ""}, {"PR VT", "1, 23"}, {"PR VT,2", "23"}, {"PR VT,1", "23"},  // L6236, L6228; there is no other
            },
            lmm}});
 }

@@ -107,7 +107,7 @@ void Node::plan_native(const Native& native, Turn& t) {
     if (!native.is_text) return job_over(Outcome::refused, Reason::not_supported, "MCode is text: use send", t);
     if (auto why = check_line(line); !why.empty()) return job_over(Outcome::refused, Reason::out_of_range, why, t);
     const std::string w = word_of(line);
-    if (w == "PG")
+    if (w.starts_with("PG") && w.find_first_not_of("0123456789", 2) == std::string::npos)  // PG1 means PG 1 [L7052]
         return job_over(Outcome::refused, Reason::not_supported,
                         "PG would take the polls into the program: use the action program.download", t);
     if (is_link_word(w) && line.find('=') != std::string::npos) {
@@ -129,6 +129,7 @@ void Node::block_ended(const ReplyReader& r, Turn& t) {
     if (sums_ && r.raw().find(nak) != std::string::npos && text.empty()) {
         return job_over(Outcome::refused, Reason::drive_refused, fmt::format("{} refused {}", name(), job_.steps[job_.at].text), t);
     }
+    if (job_.kind == JobKind::tidy) return tidy_up(text, t);
     if (job_.kind == JobKind::upload) {
         std::string program;
         for (const auto& l : listed_lines(text))
@@ -187,6 +188,7 @@ void Node::plan_action(const Action& a, Turn& t) {
         if (!checked.fault.empty()) return refuse(Reason::out_of_range, fmt::format("the program was not sent; {}", checked.fault));
         job_.kind = JobKind::download;
         mode_doubt_ = false;
+        tidy_ = false;
         job_.program = checked.lines;
         job_.add(Step::What::send, "CP 1");
         for (auto& l : checked.lines)
@@ -201,6 +203,7 @@ void Node::plan_action(const Action& a, Turn& t) {
     } else if (a.name == "program.end") {
         line("E");
     } else if (a.name == "program.clear") {
+        tidy_ = tidy_ && !a.argument.empty();
         line(a.argument.empty() ? "CP" : fmt::format("CP {}", a.argument));
     } else if (a.name == "program.save") {
         line("S");

@@ -100,6 +100,24 @@ Verdict ReplyReader::look(bool over) {
     return Verdict::answered;
 }
 
+bool ReplyReader::taken_without_answer() const {
+    if (expect_.kind != Expect::Kind::query) return false;
+    std::string rest = raw_;
+    const auto control = [&](std::size_t i) { return static_cast<std::uint8_t>(rest[i]) < 0x20; };
+    // Echoes, by the drive or by a converter: from the name of a party line to the end of the line, its checksum included.
+    const std::string asked = "PR \"" + expect_.mark + '"';
+    for (auto at = rest.find(asked); at != std::string::npos; at = rest.find(asked)) {
+        auto end = at;
+        while (end < rest.size() && !control(end))
+            ++end;
+        if (at > 0 && !control(at - 1)) --at;
+        rest.erase(at, end - at);
+    }
+    const std::string_view end_of_line = expect_.checksum ? "\x06" : "\r\n";
+    return rest.find(end_of_line) != std::string::npos && rest.find_first_not_of("\r\n\x06>?") == std::string::npos &&
+           (expect_.checksum || rest.find(ack) == std::string::npos);
+}
+
 std::string plain_text(std::string_view raw, std::string_view sent, bool with_checksum) {
     std::string s(raw);
     // An echo stands at the beginning of a line and ends it; the request may be as short as L, a letter of many answers.

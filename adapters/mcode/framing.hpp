@@ -52,6 +52,9 @@ public:
     [[nodiscard]] const std::string& behind() const noexcept { return behind_; }
     /// Question: a NAK has come and no data: refused, unless data follow soon (then the NAK was noise).
     [[nodiscard]] bool maybe_refused() const noexcept { return maybe_refused_; }
+    /// Question: its end came (CR LF; ACK where checksums are on) and nothing else but echo and prompt: it was taken like a line that
+    /// prints nothing. So program mode stores it; without checksums a refusal looks the same.
+    [[nodiscard]] bool taken_without_answer() const;
 
 private:
     [[nodiscard]] Verdict look(bool over);

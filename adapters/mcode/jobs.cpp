@@ -245,7 +245,7 @@ void Node::step_ended(Verdict v, const ReplyReader& r, Turn& t) {
         fb_.referenced = fb_.homing_attained = fb_.target_reached = false;
         motion_ = {};
         mode_ = Mode::immediate;
-        clear_half_ = false;
+        clear_half_ = suspected_ = found_ = tidy_ = false;
         derive(t);
         emit(t);
         return begin_probing(t);
@@ -334,6 +334,9 @@ void Node::step_done(Turn& t) {
             derive(t);
             emit(t);
             break;
+        case JobKind::tidy:
+            note(Severity::info, "program_mode", 0, job_.text, t);
+            return job_over(Outcome::done, Reason::none, {}, t);
         case JobKind::setup: {
             // It is looked for by its name, and given EM, CK and ES; S comes behind them, so that they are kept too.
             const auto* action = std::get_if<Action>(&job_.command.body);
@@ -353,6 +356,12 @@ void Node::step_done(Turn& t) {
 void Node::job_over(Outcome o, Reason r, std::string text, Turn& t, std::int32_t code, Value value) {
     const Command c = std::move(job_.command);
     const bool bad = o == Outcome::refused || o == Outcome::failed;
+    if (bad && job_.kind == JobKind::tidy) {
+        note(Severity::warning, "program_mode", code,
+             fmt::format("{}: questions of this gateway may stand at the end of its program (PR \"#...): they could not be removed, {}",
+                         name(), text),
+             t);
+    }
     if (bad && job_.kind == JobKind::move) vi_ = vm_ = a_ = d_ = 0;  // not known any more: set again next time
     job_ = {};
     result(c, o, r, std::move(text), t, code, std::move(value));

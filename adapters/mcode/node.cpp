@@ -97,6 +97,7 @@ void Node::go_absent(Turn& t, std::string why) {
     fb_.referenced = fb_.homing_attained = false;
     motion_ = {};
     zero_after_home_ = false;
+    tidy_ = tidy_ || job_.kind == JobKind::tidy;
     fail_all(Reason::no_answer, why, t);
     link_state(false, std::move(why), t);
 }
@@ -155,6 +156,13 @@ void Node::ended(Verdict v, const ReplyReader& reader, Turn& t) {
     const bool mode_line = mode_flight_;
     mode_line_ended(v);
     if (job_.kind == JobKind::named && phase_ != Phase::ready && t.now >= job_.give_up) return go_absent(t, not_understood());
+    const bool seldom_refused = purpose_ == What::poll || purpose_ == What::confirm || purpose_ == What::error;
+    if (seldom_refused && mode_ == Mode::immediate && v != Verdict::answered && reader.taken_without_answer()) {
+        // Perhaps somebody has put it into program mode: asked before anything else is said, a stop included.
+        mode_ = Mode::unknown;
+        suspected_ = true;
+        stored_ = 1;
+    }
     switch (purpose_) {
         case What::leave:
             return leave_ended(v, reader, t);
@@ -165,13 +173,7 @@ void Node::ended(Verdict v, const ReplyReader& reader, Turn& t) {
                 if (!heard) count_silence(t);
                 return;
             }
-            if (v == Verdict::answered) {
-                mode_ = Mode::immediate;
-            } else if (mode_ == Mode::unknown && reader.raw().find_first_of("\x06\n") != std::string::npos) {
-                mode_ = Mode::program;  // taken and not answered: it was stored
-                next_probe_ = t.now;
-                return;
-            }
+            if (probe_tells_mode(v, reader, t)) return;
             return probe_ended(v, reader.data(), t);
         case What::link:
             if (!heard) {
@@ -266,6 +268,7 @@ void Node::probe_ended(Verdict v, const std::string& data, Turn& t) {
         }
         return;
     }
+    own_trouble_ = true;
     // A drive with CK on ignores a line without checksum, one with CK off does not know the extra byte: the other way next time.
     sums_ = !sums_;
     if (manners_.ethernet) sums_ = false;
@@ -289,31 +292,36 @@ void Node::startup_ended(Verdict v, const std::string& data, Turn& t) {
         return;
     }
     const bool good = v == Verdict::answered;
-    switch (startup_at_) {
-        case 1:
-            if (good) identity_ = data;
-            break;
-        case 2:
-            if (good && !data.empty()) identity_ += fmt::format("{}firmware {}", identity_.empty() ? "" : ", ", data);
-            break;
-        case 3:
-            hmt_ = good;
-            break;
-        case 4:
-            if (const auto f = split(data); good && f.size() == 5) {
-                vi_ = user_vi_ = whole(f[0]).value_or(0);
-                vm_ = whole(f[1]).value_or(0);
-                a_ = whole(f[2]).value_or(0);
-                d_ = whole(f[3]).value_or(0);
-                encoder_mode_ = whole(f[4]).value_or(0) == 1;
-            }
-            break;
-        case 5:
-            tells_input_ = good;
-            break;
-        default:
-            break;
+    const auto asks = startup_items[startup_at_];
+    own_trouble_ = own_trouble_ || !good;
+    if (asks == "PN") {
+        if (good) identity_ = data;
+        // The part number tells closed loop [L1217]: asking others for AS would be an error in them, and run their handler (OE).
+        const bool closed = identity_.starts_with("LMDC"), open = identity_.starts_with("LMDO"), module = identity_.starts_with("LMM");
+        hmt_ = closed;
+        encoder_ = closed || module;
+        knows_model_ = closed || open || module;
+    } else if (asks == "VR") {
+        if (good && !data.empty()) identity_ += fmt::format("{}firmware {}", identity_.empty() ? "" : ", ", data);
+    } else if (asks == "BY") {
+        running_ = good && data == "1";
+    } else if (asks == "AS") {
+        hmt_ = good;
+    } else if (asks == "ST") {
+        encoder_ = good;
+    } else if (asks == "IF") {
+        tells_input_ = good;
+    } else if (const auto f = split(data); good && f.size() == (encoder_ ? 5U : 4U)) {
+        vi_ = user_vi_ = whole(f[0]).value_or(0);
+        vm_ = whole(f[1]).value_or(0);
+        a_ = whole(f[2]).value_or(0);
+        d_ = whole(f[3]).value_or(0);
+        encoder_mode_ = encoder_ && whole(f[4]).value_or(0) == 1;
     }
+    // Without an encoder ST and EE are errors; an open loop is asked for them only when no program can be disturbed by that.
+    const auto needless = [&](std::string_view item) { return (item == "AS" && knows_model_) || (item == "ST" && (encoder_ || running_)); };
+    while (startup_at_ + 1 < startup_items.size() && needless(startup_items[startup_at_ + 1]))
+        ++startup_at_;
     if (++startup_at_ == startup_items.size()) came(t);
 }
 
@@ -346,7 +354,10 @@ bool Node::learn_poll(const std::string& data, Turn& t) {
         // No poll can be the number: it begins with PR. What is sent as native text and begins with a digit or a sign is.
         note(Severity::info, "input", 0, fmt::format("{}: its program waits for a number (IV): send it as a native line", name()), t);
     }
-    seen_ = true;
+    if (!std::exchange(seen_, true) && running_) {
+        note(Severity::info, "program", 0,
+             fmt::format("{}: a program runs in it already: it is left alone; quick stop ends it, halt stops its motion only", name()), t);
+    }
     next_poll_ = t.now + manners_.poll_period;
     derive(t);
     emit(t);
@@ -409,7 +420,8 @@ void Node::learn_error(int code, bool ours, Turn& t) {
     const std::string text = e ? e->text : std::string("a code that the catalogue does not have");
     last_error_ = code;
     if (is_fault_code(code)) fault_ = code;
-    if (!ours && code != 0) {
+    const bool no_news = std::exchange(own_trouble_, false) && !is_fault_code(code);
+    if (!ours && !no_news && code != 0) {
         note(is_fault_code(code) ? Severity::alarm : Severity::warning, "error", code, fmt::format("{}: error {}, {}", name(), code, text),
              t);
     }

@@ -107,6 +107,7 @@ private:
         download,
         setup,  ///< line.setup: the fresh drive gets its name
         named,  ///< line.setup: it is looked for by its name, then saves if asked
+        tidy,   ///< removes the questions that were stored while it was in program mode
         restart
     };
     struct Step {
@@ -151,6 +152,10 @@ private:
     void note_mode_line(std::string_view line);
     void mode_line_ended(Verdict v);
     void leave_ended(Verdict v, const ReplyReader& r, Turn& t);
+    [[nodiscard]] bool probe_tells_mode(Verdict v, const ReplyReader& r, Turn& t);
+    void found_in_program();
+    void led_out(Turn& t);
+    void tidy_up(std::string_view listing, Turn& t);
     // node.cpp
     void begin_probing(Turn& t);
     void go_absent(Turn& t, std::string why);
@@ -214,7 +219,8 @@ private:
     bool tells_input_ = false;  ///< IF can be read
     bool input_ = false;        ///< a program waits for a number (IV)
     bool hmt_ = false;          ///< LMD closed loop: LR is there
-    bool encoder_ = true;       ///< ST can be read
+    bool encoder_ = true;       ///< ST and EE can be read
+    bool knows_model_ = false;  ///< by its part number
     std::string identity_;
     Request::Purpose purpose_ = Request::Purpose::poll;
 
@@ -231,6 +237,11 @@ private:
     bool mode_doubt_ = false;             ///< an acknowledgement may be a late one: the mode is asked after
     bool purpose_was_question_ = false;   ///< leave: the exchange in flight asks for the mode
     int leave_rounds_ = 0;                ///< at 12 without success the drive is given up as absent
+    bool suspected_ = false;              ///< a question was taken and not answered, and this gateway has sent no PG
+    bool found_ = false;                  ///< it is certain: somebody else has left it in program mode
+    int stored_ = 0;                      ///< questions that it may have stored since
+    bool tidy_ = false;                   ///< they are to be removed, at rest
+    bool own_trouble_ = false;            ///< looking for it may have raised an error in it: that one is no news
     bool clear_half_ = false;             ///< a download broke off: CP removes what it left, behind every stop
 
     // what is known
@@ -254,7 +265,8 @@ private:
 };
 
 /// Read one after the other when a drive was found; what it refuses is left unknown.
-inline constexpr std::array<std::string_view, 6> startup_items{"ER", "PN", "VR", "AS", "VI,\",\",VM,\",\",A,\",\",D,\",\",EE", "IF"};
+/// ER is not among them: reading clears it, so it is asked when EF says that there is something to be told.
+inline constexpr std::array<std::string_view, 7> startup_items{"PN", "VR", "BY", "AS", "ST", "VI,\",\",VM,\",\",A,\",\",D", "IF"};
 
 /// Codes of ER that stop an axis until they are reset; the others say that a line was refused.
 [[nodiscard]] bool is_fault_code(int code) noexcept;

@@ -24,7 +24,7 @@ Node::Want Node::wants(Instant now) const noexcept {
             break;
     }
     if (!stops_.empty() || leaving()) return Want::urgent;
-    if (clear_half_) return Want::other;
+    if (clear_half_ || (tidy_ && seen_ && !running_ && !mv_)) return Want::other;
     if (need_error_ || now >= next_poll_) return Want::other;
     if (job_.kind != JobKind::none) {
         return job_.at < job_.steps.size() && job_.steps[job_.at].what == Step::What::standstill ? Want::nothing : Want::other;
@@ -34,8 +34,8 @@ Node::Want Node::wants(Instant now) const noexcept {
 
 bool Node::wants_unmarked() const noexcept {
     if (phase_ == Phase::linking) return true;
-    if (phase_ != Phase::ready || !stops_.empty() || leaving() || need_error_) return false;
-    if (job_.kind == JobKind::none) return !queue_.empty();
+    if (phase_ != Phase::ready || !stops_.empty() || leaving() || need_error_ || !seen_) return false;
+    if (job_.kind == JobKind::none) return !queue_.empty() || clear_half_ || (tidy_ && !running_ && !mv_);
     if (job_.confirming || job_.at >= job_.steps.size()) return false;
     const auto what = job_.steps[job_.at].what;
     return what == Step::What::send || what == Step::What::bare || what == Step::What::block;
@@ -94,11 +94,13 @@ Request Node::next(Turn& t) {
                 note_mode_line(r.text);
                 return r;
             }
-            return ask(What::probe, manners_.ethernet ? "EM" : "EM,CK,ES");
+            // Perhaps stored, perhaps refused: the second question is one that cannot be refused.
+            return ask(What::probe, manners_.ethernet || suspected_ ? "EM" : "EM,CK,ES");
         case Phase::linking:
             return say(What::link, link_line_);
         case Phase::starting:
-            return ask(What::startup, std::string(startup_items[startup_at_]));
+            return ask(What::startup, std::string(startup_items[startup_at_]) +
+                                          (startup_items[startup_at_].starts_with("VI") && encoder_ ? ",\",\",EE" : ""));
         default:
             break;
     }
@@ -117,12 +119,22 @@ Request Node::next(Turn& t) {
         return r;
     }
     if (need_error_) return ask(What::error, "ER");
+    if (!seen_) {
+        // Before the first command: an error that stands from before must not count as its own.
+        next_poll_ = t.now + manners_.poll_period;
+        return ask(What::poll, poll_text());
+    }
     if (clear_half_ && job_.kind == JobKind::none) {
         clear_half_ = false;
         Command c;
         c.axis = axis_;
         c.body = Action{"program.clear", ""};
         plan(c, t);
+    }
+    if (tidy_ && !running_ && !mv_ && job_.kind == JobKind::none) {
+        tidy_ = false;
+        job_.kind = JobKind::tidy;
+        job_.add(Step::What::block, "L");
     }
     if (job_.kind == JobKind::none && !queue_.empty()) take_next(t);
     if (job_.kind != JobKind::none && job_.at < job_.steps.size()) {

@@ -144,6 +144,26 @@ std::string normal_form(std::string_view line) {
     return s;
 }
 
+StoredQuestions stored_questions(std::string_view listing) {
+    StoredQuestions found;
+    std::istringstream in{std::string(listing)};
+    for (std::string raw; std::getline(in, raw);) {
+        std::string_view line = trim(raw);
+        const auto digits = std::min(line.find_first_not_of("0123456789"), line.size());
+        const std::string_view address = line.substr(0, digits);
+        line = trim(line.substr(digits));
+        if (line.empty() || word_of(line) == "PG") continue;
+        const std::string text = normal_form(line);
+        if (text.size() > 5 && text.starts_with("PR\"#") && text[5] == '"') {
+            if (found.count++ == 0) found.address = address;
+            found.at_end = found.count == 1 || found.at_end;
+        } else if (found.count > 0) {
+            found.at_end = false;
+        }
+    }
+    return found;
+}
+
 std::vector<std::string> listed_lines(std::string_view listing) {
     std::vector<std::string> lines;
     std::istringstream in{std::string(listing)};

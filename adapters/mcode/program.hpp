@@ -26,4 +26,12 @@ inline constexpr std::size_t program_line_limit = 2000;
 /// Text of a listing without its addresses, lines of the program alone.
 [[nodiscard]] std::vector<std::string> listed_lines(std::string_view listing);
 
+/// Questions of this gateway (`PR "#x",...`) in a listing: a drive that was in program mode has stored them.
+struct StoredQuestions {
+    std::size_t count = 0;
+    bool at_end = false;  ///< nothing stands behind or between them
+    std::string address;  ///< of the first one; empty: the listing shows none
+};
+[[nodiscard]] StoredQuestions stored_questions(std::string_view listing);
+
 }  // namespace axisgate::mcode

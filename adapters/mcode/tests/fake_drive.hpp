@@ -21,6 +21,7 @@ struct FakeDrive {
     char name = 'a';
     int em = 0, ck = 0;
     bool awake = false, silent = false, in_program = false;
+    bool stuck = false;  ///< PG does not lead it out
     int er = 0, resets = 0;
     std::map<std::string, std::string> values{{"P", "0"},     {"V", "0"},         {"MV", "0"},      {"MP", "0"},      {"VC", "0"},
                                               {"DE", "1"},    {"BY", "0"},        {"ST", "0"},      {"LR", "0"},      {"AS", "0"},
@@ -93,7 +94,7 @@ struct FakeDrive {
             data += "99 PG";
             printed = true;
         } else if (word_of(s) == "PG") {
-            in_program = !in_program;  // PG toggles, whatever was meant
+            in_program = !in_program || stuck;  // PG toggles, whatever was meant
         } else if (s == "CP" || s == "CP 1") {
             program.clear();
         } else if (s.starts_with("MA ")) {

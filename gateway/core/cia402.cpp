@@ -272,7 +272,7 @@ AxisProfile::Decision AxisProfile::on_command(const CommandBody& body) {
     const auto faulty = [&] {
         return refuse(Reason::wrong_state, fmt::format("the axis is in fault (drive's code {}): reset the fault first", s.feedback.error_code));
     };
-    if (!present && !is_urgent(body)) return refuse(Reason::no_answer, "the drive does not answer");
+    if (!present && !is_urgent(body)) return refuse(Reason::no_answer, s.presence == Presence::offline ? "the drive does not answer" : "the drive has not said yet where it is");
     if (std::holds_alternative<Enable>(body)) {
         if (s.feedback.fault) return faulty();
         s.controlword = cw_switch_on | cw_enable_voltage | cw_quick_stop | cw_enable_operation;

@@ -129,7 +129,9 @@ void Engine::publish(Axis& a, Instant) {
     write(p.authority_holder, a.authority.holder().name);
     write(p.authority_commander, a.authority.commander().door == Door::none ? std::string() : a.authority.commander().text());
     p.presence = a.drive->serving;
-    const bool online = (a.drive->serving == Presence::device && a.drive->device_online) || (a.drive->serving == Presence::twin && a.drive->twin_online);
+    // An axis is online when it can be commanded: its drive answers, and has said where it is.
+    const bool answers = (a.drive->serving == Presence::device && a.drive->device_online) || (a.drive->serving == Presence::twin && a.drive->twin_online);
+    const bool online = answers && p.ever_seen;
     const auto put = [](std::uint16_t& word, std::uint16_t bit, bool on) {
         word = on ? static_cast<std::uint16_t>(word | bit) : static_cast<std::uint16_t>(word & ~bit);
     };

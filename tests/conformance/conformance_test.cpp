@@ -72,6 +72,17 @@ TEST_P(EveryFamily, ComesUpAndShowsThatItIsSimulated) {
     EXPECT_EQ(p.family_number, e.catalogue->number());
 }
 
+TEST_P(EveryFamily, WhatIsShownAsOnlineCanBeCommanded) {
+    // From the very step on in which it is shown; a script that waits for `online` must not be refused.
+    site = w.apply(w.make_site(e, "twin", 2));
+    for (const AxisId a : site->axis_ids) {
+        ASSERT_TRUE(w.run_until_true([&] { return (w.picture(a).flags & flag_online) != 0; }, 10s));
+        EXPECT_TRUE(w.picture(a).ever_seen);
+        const Result* r = w.wait(w.command(a, Enable{}, true), 5s);
+        ASSERT_TRUE(r && good(*r)) << (r ? r->text : "no result");
+    }
+}
+
 TEST_P(EveryFamily, EnableMoveStopDisable) {
     start();
     const std::int64_t home = w.picture(a1).position;

@@ -1,4 +1,5 @@
 """MCode from outside: a party line on a pseudo-terminal, driven as by hand; a program that curl stores and starts on the demo's drives."""
+import contextlib
 import json
 import pathlib
 import subprocess
@@ -54,32 +55,71 @@ def test_a_party_line_as_the_reference_describes_it(folder):
             until(lambda: port.ask(b"bPR P,MV\n", lambda had: had.endswith(b"\r\n")) == b"512000\r\n", 10, "the move's end")
 
 
+@contextlib.contextmanager
+def witness(folder, name):
+    """socat between the terminal `name` and a new one, `desk`. What crossed stands in the given lists when the witness has left."""
+    seen = {">": b"", "<": b""}
+    log = open(folder / "witness", "wb")
+    process = subprocess.Popen(["socat", "-x", f"pty,raw,echo=0,link={folder / 'desk'}", f"{folder / name},raw,echo=0"], stderr=log)
+    try:
+        until(lambda: (folder / "desk").exists(), 5, "the witness' terminal")
+        yield seen
+    finally:
+        process.terminate()
+        process.wait(5)
+        log.close()
+        way = None
+        for row in (folder / "witness").read_text().splitlines():
+            if row[:1] in "<>":
+                way = row[0]
+            elif row.startswith(" "):
+                seen[way] += bytes.fromhex(row)
+
+
 def test_a_witness_on_the_line_sees_the_bytes(folder):
     """socat stands between the twin and the terminal and writes down every byte of both directions."""
     with Process("twin", "mcode", "--line", f"pty:{folder / 'line'}", "--address", "!"):
         until(lambda: (folder / "line").exists(), 5, "the twin's terminal")
-        log = open(folder / "witness", "wb")
-        witness = subprocess.Popen(["socat", "-x", f"pty,raw,echo=0,link={folder / 'desk'}", f"{folder / 'line'},raw,echo=0"], stderr=log)
-        try:
-            until(lambda: (folder / "desk").exists(), 5, "the witness' terminal")
-            with Port(folder / "desk") as port:
-                end = lambda had: had.endswith(b">")
-                assert port.ask(b"PR P\r", end) == b"PR P\r\n0\r\n>"
-                assert port.ask(b"P=77\r", end) == b"P=77\r\n>"
-                assert port.ask(b"PR P\r", end) == b"PR P\r\n77\r\n>"
-        finally:
-            witness.terminate()
-            witness.wait(5)
-            log.close()
-    out, back, way = b"", b"", None
-    for row in (folder / "witness").read_text().splitlines():
-        if row[:1] in "<>":
-            way = row[0]
-        elif row.startswith(" "):
-            data = bytes.fromhex(row)
-            out, back = (out + data, back) if way == ">" else (out, back + data)
-    assert out == b"PR P\rP=77\rPR P\r", out
-    assert back == b"PR P\r\n0\r\n>P=77\r\n>PR P\r\n77\r\n>", back
+        with witness(folder, "line") as seen, Port(folder / "desk") as port:
+            end = lambda had: had.endswith(b">")
+            assert port.ask(b"PR P\r", end) == b"PR P\r\n0\r\n>"
+            assert port.ask(b"P=77\r", end) == b"P=77\r\n>"
+            assert port.ask(b"PR P\r", end) == b"PR P\r\n77\r\n>"
+    assert seen[">"] == b"PR P\rP=77\rPR P\r", seen
+    assert seen["<"] == b"PR P\r\n0\r\n>P=77\r\n>PR P\r\n77\r\n>", seen
+
+
+def test_the_gateway_on_a_serial_line_with_a_witness(folder):
+    """Real terminals from end to end: the gateway's serial line, socat in between, two drives of a party line at the other end."""
+    twin = f"pty:{folder / 'party'}?baud=115200"
+    with Process("twin", "mcode", "--line", twin, "--address", "a", "--address", "b"):
+        until(lambda: (folder / "party").exists(), 5, "the twins' terminal")
+        with witness(folder, "party") as seen:
+            site = {"lines": [{"name": "rs485", "uri": f"serial:{folder / 'desk'}?baud=115200", "family": "mcode", "bitrate": 115200}],
+                    "drives": [{"name": n, "line": "rs485", "address": n, "presence": "device"} for n in "ab"],
+                    "axes": [{"name": n, "drive": n, "number": i, "unit": "inc", "increments_per_unit": 1} for i, n in enumerate("ab", 1)]}
+            with Gateway(folder, site) as g:
+                for n in "ab":
+                    until(lambda: g.axis(n)["online"] and not g.axis(n)["simulated"], 15, f"drive {n} answers")
+                    assert g.command(n, {"command": "enable"})["result"] == "done"
+                for n, way in (("a", 10240), ("b", -20480)):
+                    move = {"command": "move_relative", "position": way, "velocity": 100000, "acceleration": 500000, "deceleration": 500000}
+                    assert g.command(n, move)["result"] == "done"
+                    until(lambda: g.axis(n)["position_increments"] == way, 5, f"axis {n} has arrived")
+                native = g.send("POST", "/drives/b/native", {"send": "PR P"}, 200)
+                assert "-20480" in native["reply"], native
+                with g.modbus() as m:
+                    assert m.read32(2) == 10240 and m.read32(64 + 2) == -20480
+                trace = g.get("/lines/rs485/trace?limit=5000")
+    lines = seen[">"].split(b"\n")
+    assert {line[:1] for line in lines if line} <= {b"a", b"b", b"*", b"^"}, "each line names its drive"
+    assert any(line.startswith(b"aM") and b"10240" in line for line in lines), lines[:60]
+    assert any(line.startswith(b"bM") and b"-20480" in line for line in lines), lines[:60]
+    assert seen["<"].count(b"-20480") >= 2 and b"10240" in seen["<"]
+    # What the gateway wrote down is what crossed the wire.
+    for to_drive, sign in ((True, ">"), (False, "<")):
+        told = b"".join(bytes.fromhex(f["data"]) for f in trace["frames"] if f["to_drive"] == to_drive)
+        assert len(told) > 200 and told in seen[sign], (sign, len(told), len(seen[sign]))
 
 
 def test_a_program_is_stored_started_and_stopped_by_http(folder):

@@ -202,7 +202,7 @@ private:
                 if (!s.target->given) return faulty(error_ != 0 ? error_ : unknown_name);
                 if (!tokens_.at_end()) {
                     if (!tokens_.take_sign(',')) return faulty(separator);
-                    s.condition = condition();
+                    if (!tokens_.at_end()) s.condition = condition();  // a blank condition is none [L2117]
                 }
                 return finish(std::move(s));
             case Word::OE:
@@ -363,8 +363,13 @@ private:
     }
 
     void fields(Statement& s) {
+        const bool may_be_blank = s.word == Word::MA || s.word == Word::MR;  // their further fields, which are 0 then [L4116]
         do {
-            s.fields.push_back(expression());
+            if (may_be_blank && !s.fields.empty() && (tokens_.at_end() || tokens_.is_sign(','))) {
+                s.fields.push_back({{Term{}}});
+            } else {
+                s.fields.push_back(expression());
+            }
         } while (error_ == 0 && s.fields.size() < 8 && tokens_.take_sign(','));
     }
 

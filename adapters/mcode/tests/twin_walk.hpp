@@ -36,8 +36,8 @@ inline void play_row(Wire& w, const Row& r, bool& spoken) {
         const auto gap = line.find(' ');
         const std::string name = line.substr(1, gap - 1);
         const double v = std::stod(line.substr(gap + 1));
-        const bool flag =
-            name == "stall" || name == "enable_input" || name.ends_with("_switch") || name == "limit_positive" || name == "limit_negative";
+        const bool flag = name == "stall" || name == "enable_input" || name.ends_with("_switch") || name == "limit_positive" ||
+                          name == "power" || name == "limit_negative";
         const bool mask = name.ends_with("inputs") || name.ends_with("_fault");
         w.hand(name, flag ? Value{v != 0} : mask ? Value{static_cast<std::int64_t>(v)} : Value{v});
         w.pass(milliseconds(1));

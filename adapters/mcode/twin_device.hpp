@@ -154,6 +154,7 @@ private:
     std::uint64_t nvm_revision_ = 0;
     bool powered_ = false;
     bool silent_ = false;
+    bool address_input_ = false;  ///< LMM: one of the hardware address inputs is active, and PY stays 1 [L5016]
 };
 
 }  // namespace axisgate::mcode::twin

@@ -229,7 +229,7 @@ int Device::write(Word word, std::span<const Number> fields) {
             return 0;
         case Word::PY:
             if (v != 0 && !comm_.flags.py) comm_.disarm();
-            comm_.flags.py = v != 0;
+            comm_.flags.py = v != 0 || address_input_;
             return 0;
         case Word::QD:
             comm_.flags.qd = v != 0;

@@ -43,6 +43,7 @@ void Device::factory_state(bool as_delivered) {
     for (std::size_t i = 0; i < 8; ++i)
         run_.real(i) = 0;
     comm_.flags = LinkFlags{};
+    comm_.flags.py = address_input_;
     bd_ = 96;
     for (const int code : {48, 96, 19, 38, 11}) {
         if (setup_.bit_rate == rate_of_code(code)) bd_ = code;  // a drive comes set to the rate of its line
@@ -112,7 +113,7 @@ void Device::restore(const NonVolatile& memory, bool programs) {
     f.dg = integer_in(memory, "DG", f.dg) != 0;
     f.em = static_cast<int>(std::clamp<std::int64_t>(integer_in(memory, "EM", f.em), 0, 3));
     f.es = static_cast<int>(std::clamp<std::int64_t>(integer_in(memory, "ES", f.es), 0, 3));
-    f.py = integer_in(memory, "PY", f.py) != 0;
+    f.py = integer_in(memory, "PY", f.py) != 0 || address_input_;
     f.qd = integer_in(memory, "QD", f.qd) != 0;
     if (const auto it = memory.find("DN"); it != memory.end()) {
         if (const auto* text = std::get_if<std::string>(&it->second); text != nullptr && text->size() == 1) f.dn = (*text)[0];

@@ -209,6 +209,7 @@ TEST(McodeManual, ProgramWords) {
                {"EX G1", ""}, {"IF=1", "!21"}, {"IF=0", "*"}, {"~20", "*"}, {"PR BY", "0"}, {"EX G1", ""}, {"", "*"},
                {"PR IF", "0"},  // L3404-3406
            })},
+          {"IV wants what can be written", program({"LB G1", "IV V", "IV ZZ", "IV K1", "PR IF", "E", "LB K1"}, {{"EX G1", "0"}, {"PR ER", "30"}})},  // L3661
           {"CL and RT", program({"LB K1", "CL X1", "PR \"back\"", "E", "LB X1", "PR \"in\"", "RT"}, {
                {"EX K1", "in|back"}, {"RT", "!46"}, {"CL X1", "!46"}, {"LB Z1", "!46"},  // L917-928, L2121
            })},

@@ -80,6 +80,23 @@ TEST(TwinWire, ASetupMaySentAgainButNoTypeTwice) {
     EXPECT_EQ(w.error_of("OS=2,17,0"), 6);
 }
 
+TEST(TwinWire, AnAddressInputOfTheModuleMakesPartyMode) {  // L5016
+    Wire w(lmm);
+    EXPECT_EQ(w.ask("PR PY"), "0");
+    w.hand("address_input", Value{true});
+    EXPECT_EQ(w.bytes("PR P\r"), "");
+    EXPECT_EQ(w.bytes("\n!PR PY\n"), "!PR PY<CR><LF>1<CR><LF>>");
+    EXPECT_EQ(w.bytes("!PY=0\n"), "!PY=0<CR><LF>>");
+    EXPECT_EQ(w.bytes("!PR PY\n"), "!PR PY<CR><LF>1<CR><LF>>") << "as long as it is active";
+    w.bytes("!FD\n");
+    EXPECT_EQ(w.bytes("\n!PR PY\n"), "!PR PY<CR><LF>1<CR><LF>>");
+    w.hand("address_input", Value{false});
+    w.bytes("!PY=0\n");
+    EXPECT_EQ(w.ask("PR PY"), "0");
+    Out out;
+    EXPECT_NE(Wire().device->set_hand("address_input", Value{true}, {}, out), "") << "only the module has them";
+}
+
 TEST(TwinWire, OneWordForEthernet) {
     for (const char* on : {"on", "true", "1"})
         EXPECT_TRUE(switched_on(on)) << on;

@@ -203,7 +203,7 @@ inline std::optional<bool> holds(const Check& t, const State& s) {
 
 /// One line of a program.
 struct Line {
-    enum class Kind { assign, declare, count, label, branch, call, back, end, print, angle, format };
+    enum class Kind { assign, declare, count, label, branch, call, back, end, print, angle, format, handler };
     Kind kind = Kind::end;
     char place = 'R';
     int index = 0;
@@ -236,6 +236,8 @@ inline std::string text_of(const Line& l) {
             return "RT";
         case Line::Kind::end:
             return "E";
+        case Line::Kind::handler:
+            return "OE " + l.label;
         case Line::Kind::angle:
             return l.flag ? "RA=1" : "RA=0";
         case Line::Kind::format:
@@ -251,10 +253,31 @@ inline std::string text_of(const Line& l) {
 
 /// Runs from the first line to E; false if it is not over after `most` lines.
 inline bool run(const std::vector<Line>& lines, State& s, int most) {
-    std::vector<std::size_t> calls;
-    for (std::int64_t& q : s.q)
-        q = 0;
+    struct Return {
+        std::size_t at;
+        bool from_handler;
+    };
+    std::vector<Return> calls;
+    std::optional<std::size_t> handler;
+    bool handling = false, failed = false;
+    const auto place_of_label = [&](const std::string& label) {
+        std::size_t at = 0;
+        while (lines[at].kind != Line::Kind::label || lines[at].label != label)
+            ++at;
+        return at;
+    };
+    for (int i = 0; i < 3; ++i)  // local variables; the fourth is global
+        s.q[i] = 0;
     for (std::size_t at = 0; at < lines.size() && most-- > 0;) {
+        if (failed) {
+            s.error = 21;
+            failed = false;
+            if (handler && !handling) {
+                calls.push_back({at, true});
+                handling = true;
+                at = *handler;
+            }
+        }
         const Line& l = lines[at++];
         switch (l.kind) {
             case Line::Kind::declare:
@@ -263,29 +286,31 @@ inline bool run(const std::vector<Line>& lines, State& s, int most) {
                 [[fallthrough]];
             case Line::Kind::assign: {
                 const auto v = value(l.sum, s, l.place == 'F');
-                if (!v || !put(s, l.place, l.index, *v)) s.error = 21;
+                failed = !v || !put(s, l.place, l.index, *v);
                 break;
             }
             case Line::Kind::count: {
                 const auto i = static_cast<std::size_t>(l.index);
                 const Figure now = l.place == 'R' ? whole(s.r[i] + l.by) : l.place == 'Q' ? whole(s.q[i] + l.by) : broken(s.f[i] + l.by);
-                if (!put(s, l.place, l.index, now)) s.error = 21;
+                failed = !put(s, l.place, l.index, now);
                 break;
             }
             case Line::Kind::branch:
             case Line::Kind::call: {
                 const auto yes = l.test ? holds(*l.test, s) : std::optional(true);
-                if (!yes) s.error = 21;
+                failed = !yes;
                 if (!yes || !*yes) break;
-                if (l.kind == Line::Kind::call) calls.push_back(at);
-                for (std::size_t i = 0; i < lines.size(); ++i) {
-                    if (lines[i].kind == Line::Kind::label && lines[i].label == l.label) at = i;
-                }
+                if (l.kind == Line::Kind::call) calls.push_back({at, false});
+                at = place_of_label(l.label);
                 break;
             }
             case Line::Kind::back:
-                at = calls.back();
+                at = calls.back().at;
+                if (calls.back().from_handler) handling = false;
                 calls.pop_back();
+                break;
+            case Line::Kind::handler:
+                handler = place_of_label(l.label);
                 break;
             case Line::Kind::end:
                 return true;

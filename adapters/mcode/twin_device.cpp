@@ -113,6 +113,7 @@ void Device::settle(Out& out) {
         }
         if (waiting_.empty()) command_due_ = never;
 
+        if (ending_ && paused_ && !moving()) stop_program();
         int slices = 0;
         while (!run_.idle() && !paused_) {
             if (ending_) {

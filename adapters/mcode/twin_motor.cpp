@@ -235,6 +235,10 @@ bool Motor::busy(bool any, Instant now) {
 void Motor::tell(bool error_flag, bool program_running, Instant) {
     error_flag_ = error_flag;
     program_running_ = program_running;
+    if (program_running) return;
+    // A program that was ended while it was paused takes its pause along.
+    paused_ = false;
+    after_pause_.reset();
 }
 
 TwinMechanics Motor::mechanics(Instant now) const {

@@ -203,13 +203,25 @@ TEST(McodeManual, ProgramWords) {
                {"R1=5", ""}, {"PR R1", "5"}, {"PR BY", "1"}, {"PS", "!40"}, {"RS", ""}, {"~50", "*"}, {"PR V", "~1000..100000"},
                {"~1000", "*"}, {"PR V", "200000"},              // L5203-5205
            })},
+          {"E ends a paused program", program({"LB G1", "SL 200000", "H 60000", "E"}, {
+               {"EX G1", ""}, {"~1000", "*"}, {"PS", ""}, {"E", ""}, {"PR BY", "1"}, {"~2000", "*"}, {"PR BY", "0"}, {"PR V", "0"},
+               {"RS", "!40"},  // L2531
+           })},
+          {"a pause ends with its program", program({"LB G1", "SL 200000", "H 60000", "E"}, {
+               {"IS=1,5,1", ""}, {"IS=2,7,0", ""}, {"JE=1", ""}, {"@inputs 14", ""}, {"EX G1", ""}, {"~1000", "*"}, {"PS", ""},
+               {"~2000", "*"}, {"$1B", "*"},
+               {"SL 50000", ""}, {"~500", "*"}, {"@inputs 15", ""}, {"~1000", "*"}, {"PR ER", "91"},
+               {"PR V", "0"},  // L776: not paused any more
+               {"~1000", "*"}, {"@inputs 12", ""}, {"~1000", "*"}, {"PR V", "768000"}, {"@inputs 14", ""},           // L778
+           })},
           {"IV and IF", program({"LB G1", "IV F1", "LB X2", "BR X2, IF=1", "PR F1", "E"}, {
                {"IV F1", "!46"}, {"EX G1", ""}, {"PR IF", "1"}, {"2.5", "*"}, {"~20", "*"}, {"PR F1", "2.500000"},
                {"PR BY", "0"},  // L3672-3674
                {"EX G1", ""}, {"IF=1", "!21"}, {"IF=0", "*"}, {"~20", "*"}, {"PR BY", "0"}, {"EX G1", ""}, {"", "*"},
                {"PR IF", "0"},  // L3404-3406
            })},
-          {"IV wants what can be written", program({"LB G1", "IV V", "IV ZZ", "IV K1", "PR IF", "E", "LB K1"}, {{"EX G1", "0"}, {"PR ER", "30"}})},  // L3661
+          {"IV wants what can be written", program({"LB G1", "IV V", "IV ZZ", "IV K1", "PR IF", "E", "LB K1"}, {{"EX G1", "0"},
+          {"PR ER", "30"}})},  // L3661
           {"CL and RT", program({"LB K1", "CL X1", "PR \"back\"", "E", "LB X1", "PR \"in\"", "RT"}, {
                {"EX K1", "in|back"}, {"RT", "!46"}, {"CL X1", "!46"}, {"LB Z1", "!46"},  // L917-928, L2121
            })},

@@ -94,7 +94,7 @@ void LineAdapter::configure(const LineSetup& setup, Instant now, Out& out) {
         if (up_) nodes_.back()->line_up(t);
     }
     setup_ = setup;
-    turn_ = 0;
+    turn_ = urgent_turn_ = 0;
     pump(t);
 }
 
@@ -194,6 +194,7 @@ void LineAdapter::on_frame(const Frame& frame, Instant now, Out& out) {
 
 void LineAdapter::start(Node& node, Turn& t) {
     Request r = node.next(t);
+    flight_ = {};
     Expect e;
     e.kind = r.kind;
     e.checksum = node.sums();
@@ -228,6 +229,10 @@ void LineAdapter::finish(Verdict v, Turn& t) {
     Node& node = *flight_.node;
     const Flight f = flight_;
     flight_ = {};
+    if (f.to_all) {
+        quiet_until_ = t.now + manners_.pause;
+        return;
+    }
     if (v == Verdict::waiting) {
         dirty_ = &node;
         dirty_until_ = t.now + 2 * manners_.reply_timeout;
@@ -249,14 +254,51 @@ void LineAdapter::finish(Verdict v, Turn& t) {
     node.ended(v, reader_, t);
 }
 
+/// Every drive in reach is to be stopped by the same line, and two or more have not heard it: it goes to `*` once [L5004], and each is
+/// then read. Not in single mode, nor with checksums in some drives only, nor when one drive shall go on: then one by one.
+/// A drive with DG = 0 answers [L2399]: that is over before the next question, whose mark no such answer has.
+bool LineAdapter::stop_all_at_once(Turn& t) {
+    std::string_view line;
+    Node* first = nullptr;
+    std::size_t unsent = 0;
+    for (const auto& n : nodes_) {
+        if (!n->in_reach()) continue;
+        const std::string_view own = n->stop_line();
+        if (own.empty() || !n->link().party() || (first && (own != line || n->sums() != first->sums()))) return false;
+        line = own;
+        if (!first) first = n.get();
+        unsent += n->stop_unsent() ? 1 : 0;
+    }
+    if (unsent < 2) return false;
+    const std::string bytes = request({'*', first->sums()}, line);
+    flight_ = {};
+    flight_.node = first;
+    flight_.purpose = Request::Purpose::stop;
+    flight_.kind = Expect::Kind::nothing;
+    flight_.to_all = true;
+    flight_.deadline = flight_.latest = t.now + wire(bytes.size()) + Duration{20ms};
+    reader_.begin({Expect::Kind::nothing, {}, false, false, false});
+    for (const auto& n : nodes_)
+        n->told_by_all();
+    for_each_run({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()},
+                 [&](const Frame& f) { t.out.send(f, Priority::urgent); });
+    return true;
+}
+
 void LineAdapter::pump(Turn& t) {
     if (!up_) return;
     // Each round starts an exchange or ends the loop; a node that only gives results does so a bounded number of times (its queue).
     for (std::size_t guard = 0; guard < 4 && !flight_.node && t.now >= quiet_until_; ++guard) {
+        if (stop_all_at_once(t)) return;
         Node* next = nullptr;
-        for (std::size_t i = 0; i < nodes_.size() && !next; ++i) {
-            Node& n = *nodes_[(turn_ + i) % nodes_.size()];
-            if (n.wants(t.now) == Node::Want::urgent) next = &n;
+        // Stops that no drive has heard yet go before the confirmation of those that are sent.
+        for (const bool unsent : {true, false}) {
+            for (std::size_t i = 0; i < nodes_.size() && !next; ++i) {
+                const std::size_t at = (urgent_turn_ + i) % nodes_.size();
+                if (nodes_[at]->wants(t.now) != Node::Want::urgent || (unsent && !nodes_[at]->stop_unsent())) continue;
+                next = nodes_[at].get();
+                urgent_turn_ = (at + 1) % nodes_.size();
+            }
         }
         // line.setup keeps the line to itself, but from a stop.
         for (std::size_t i = 0; i < nodes_.size() && next && next->naming(); ++i) {

@@ -29,6 +29,7 @@ private:
     void pump(Turn& t);
     void start(Node& node, Turn& t);
     void finish(Verdict v, Turn& t);
+    [[nodiscard]] bool stop_all_at_once(Turn& t);
     void stray(std::string_view bytes, Turn& t);
     void look_for_twice(std::string_view text, Turn& t);
     [[nodiscard]] bool held(const Node& n, Instant now) const noexcept;
@@ -39,12 +40,14 @@ private:
     AdapterCounters counters_;
     bool up_ = false;
     std::vector<std::unique_ptr<Node>> nodes_;
-    std::size_t turn_ = 0;  ///< whose turn is next
+    std::size_t turn_ = 0;         ///< whose turn is next
+    std::size_t urgent_turn_ = 0;  ///< among those with a stop
 
     struct Flight {
         Node* node = nullptr;  ///< null: the line is free
         Request::Purpose purpose = Request::Purpose::poll;
         Expect::Kind kind = Expect::Kind::query;
+        bool to_all = false;  ///< a line to `*`: nobody answers; `node` only keeps the line busy
         Instant deadline = never;
         Instant latest = never;
     } flight_;

@@ -197,7 +197,8 @@ void Node::ended(Verdict v, const ReplyReader& reader, Turn& t) {
                 if (ef_) {
                     need_error_ = true;
                     const Verdict said = !stops_.empty() && stops_.front().confirming ? stops_.front().said : job_.said;
-                    error_is_ours_ = said == Verdict::refused || !sums_ || quiet();  // an ACK means: no error [L2081]
+                    const bool to_all = !stops_.empty() && stops_.front().confirming && stops_.front().to_all;
+                    error_is_ours_ = said == Verdict::refused || !sums_ || quiet() || to_all;  // an ACK means: no error [L2081]
                     return;
                 }
                 last_error_ = 0;
@@ -439,7 +440,9 @@ void Node::error_read(Verdict v, const std::string& data, Turn& t) {
     need_error_ = false;
     ef_ = false;
     const bool waits = (!stops_.empty() && stops_.front().confirming) || (job_.kind != JobKind::none && job_.confirming);
-    const bool ours = waits && error_is_ours_;
+    // With a line to all nobody says whose error it is: a fault is told, and the stop is judged by what is read.
+    const bool fault_beside = !stops_.empty() && stops_.front().to_all && is_fault_code(static_cast<int>(*code));
+    const bool ours = waits && error_is_ours_ && !fault_beside;
     learn_error(static_cast<int>(*code), ours, t);
     if (!waits) return;
     if (!ours) last_error_ = is_fault_code(last_error_) ? last_error_ : last_error_;

@@ -70,6 +70,14 @@ public:
     [[nodiscard]] bool wants_unmarked() const noexcept;
     /// It gives a fresh drive its name: urgent, but behind stops.
     [[nodiscard]] bool naming() const noexcept { return job_.kind == JobKind::setup; }
+    /// It could hear a line to all drives now, or later: else it is away.
+    [[nodiscard]] bool in_reach() const noexcept { return phase_ != Phase::down && phase_ != Phase::absent; }
+    /// The line of its first stop, sent or not; empty: none waits, or it cannot be said to all (program mode).
+    [[nodiscard]] std::string_view stop_line() const noexcept;
+    /// Its stop has a line that has not been sent, or it must be led out of program mode before that.
+    [[nodiscard]] bool stop_unsent() const noexcept;
+    /// Its stop's line has gone to all drives, who say nothing: reading tells what became of it.
+    void told_by_all() noexcept;
     /// When it will want something without being asked again.
     [[nodiscard]] Instant due() const noexcept;
     [[nodiscard]] Request next(Turn& t);
@@ -144,6 +152,8 @@ private:
         int tries = 0;
         bool confirming = false;
         Verdict said = Verdict::waiting;
+        bool to_all = false;                ///< the line went to every drive at once: nobody acknowledges it
+        std::optional<std::int64_t> speed;  ///< to_all: read once since
     };
 
     // leaving.cpp
@@ -174,6 +184,7 @@ private:
     void result(const Command& c, Outcome o, Reason r, std::string text, Turn& t, std::int32_t code = 0, Value value = {});
     void fail_all(Reason reason, const std::string& text, Turn& t);
     void link_state(bool online, std::string text, Turn& t);
+    [[nodiscard]] std::optional<bool> heard_all(Stop& s, const std::string& line) const;
     void stop_over(Outcome o, Reason r, std::string text, Turn& t, std::int32_t code = 0);
     // jobs.cpp
     void cancel_motions(std::string_view by, Turn& t);

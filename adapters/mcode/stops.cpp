@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <utility>
 
 #include "adapters/mcode/node.hpp"
 
@@ -15,7 +17,34 @@ void Node::stop_ended(Verdict v, const ReplyReader&, Turn& t) {
     Stop& s = stops_.front();
     s.said = v == Verdict::answered ? Verdict::acknowledged : v;
     s.confirming = true;
+    s.to_all = false;
     if (v == Verdict::waiting) count_silence(t);
+}
+
+std::string_view Node::stop_line() const noexcept {
+    if (phase_ != Phase::ready || leaving() || stops_.empty()) return {};
+    const Stop& s = stops_.front();
+    return s.at == 0 ? std::string_view(s.lines[0]) : std::string_view();
+}
+
+bool Node::stop_unsent() const noexcept { return phase_ == Phase::ready && (leaving() || (!stops_.empty() && !stops_.front().confirming)); }
+
+void Node::told_by_all() noexcept {
+    if (stops_.empty() || stops_.front().confirming) return;
+    Stop& s = stops_.front();
+    s.confirming = s.to_all = true;
+    s.said = Verdict::acknowledged;
+    s.speed.reset();
+}
+
+/// Whether a line to all has reached this drive, by what was just read: off, at rest, or slower than a reading ago while its speed
+/// changes. Nothing: read again. false: it is said to this drive alone, with an acknowledgement.
+std::optional<bool> Node::heard_all(Stop& s, const std::string& line) const {
+    if (line == "DE=0") return !de_;
+    const std::int64_t speed = std::llabs(fb_.velocity);
+    if (speed == 0 && !vc_) return true;
+    if (const auto before = std::exchange(s.speed, speed)) return vc_ && speed < *before;
+    return vc_ ? std::nullopt : std::optional(false);
 }
 
 void Node::stop_over(Outcome o, Reason r, std::string text, Turn& t, std::int32_t code) {
@@ -33,6 +62,16 @@ void Node::confirmed(Turn& t) {
             s.lines[s.at] = link().party() && es_ != 3 ? "DE=0" : "ESC";
             s.confirming = false;
             return;
+        }
+        if (s.to_all && last_error_ == 0) {
+            const auto heard = heard_all(s, line);
+            if (!heard) return;
+            s.to_all = false;
+            if (!*heard) {
+                ++counters_.retries;
+                s.confirming = false;
+                return;
+            }
         }
         const bool off = line == "DE=0" && !de_;
         const bool harmless = last_error_ == 40 || last_error_ == 94;  // no program ran; nothing can move with the drive off

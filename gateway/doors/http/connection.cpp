@@ -16,14 +16,19 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace {
 constexpr std::size_t most_buffered = 64 * 1024;         // read ahead of the request that is answered
-constexpr std::size_t first_read_bytes = 4 * 1024;       // of a request over TLS; an idle connection holds them
+constexpr std::size_t first_read_bytes = 4 * 1024;       // of a request; an idle connection holds them
 constexpr std::uint8_t tls_handshake_record = 0x16;      // RFC 8446 5.1
 constexpr std::size_t least_bytes_per_ms = 16;           // an answer of 1 MiB may take about a minute more than the limit of a step
 constexpr std::size_t most_read_anyway = 64 * 1024;      // of a body that is refused
+constexpr std::size_t usual_head_bytes = 768;            // of an answer
 constexpr std::size_t most_discarded = 2 * 1024 * 1024;  // read and thrown away so that the last answer arrives
 
-/// RFC 9110 5.6.7: "Sun, 06 Nov 1994 08:49:37 GMT".
-std::string http_date(std::int64_t unix_s) {
+/// RFC 9110 5.6.7: "Sun, 06 Nov 1994 08:49:37 GMT". Made once per second and thread.
+const std::string& http_date(std::int64_t unix_s) {
+    thread_local std::int64_t made_for = -1;
+    thread_local std::string made;
+    if (made_for == unix_s && !made.empty()) return made;
+    made_for = unix_s;
     using std::chrono::days, std::chrono::floor, std::chrono::hh_mm_ss, std::chrono::sys_seconds, std::chrono::weekday,
         std::chrono::year_month_day;
     static constexpr std::array<std::string_view, 7> weekdays{"Sun", "Mon", "Tue", "Wed", "Thu", "Fri", "Sat"};
@@ -33,25 +38,32 @@ std::string http_date(std::int64_t unix_s) {
     const auto day = floor<days>(t);
     const year_month_day date{day};
     const hh_mm_ss time{t - day};
-    return fmt::format("{}, {:02} {} {:04} {:02}:{:02}:{:02} GMT", weekdays[weekday{day}.c_encoding()], static_cast<unsigned>(date.day()),
+    made = fmt::format("{}, {:02} {} {:04} {:02}:{:02}:{:02} GMT", weekdays[weekday{day}.c_encoding()], static_cast<unsigned>(date.day()),
                        months[static_cast<unsigned>(date.month()) - 1], static_cast<int>(date.year()), time.hours().count(),
                        time.minutes().count(), time.seconds().count());
+    return made;
 }
 }  // namespace
 
 std::string response_head(const Response& r, bool keep, std::int64_t now_unix_s) {
-    std::string s = fmt::format("HTTP/1.1 {} {}\r\n", r.status, phrase_of(r.status));
+    std::string s;
+    s.reserve(usual_head_bytes);
+    fmt::format_to(std::back_inserter(s), "HTTP/1.1 {} {}\r\n", r.status, phrase_of(r.status));
     for (const auto& [k, v] : r.headers.fields) {
         s += k;
         s += ": ";
         // A line end in a value would begin a header of its own.
-        for (const char c : v)
-            s += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? ' ' : c;
+        const auto begin = static_cast<std::ptrdiff_t>(s.size());
+        s += v;
+        std::replace_if(s.begin() + begin, s.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, ' ');
         s += "\r\n";
     }
-    if (r.status != 101 && r.status != 204 && r.status != 304) s += fmt::format("Content-Length: {}\r\n", r.body.size());
+    if (r.status != 101 && r.status != 204 && r.status != 304)
+        fmt::format_to(std::back_inserter(s), "Content-Length: {}\r\n", r.body.size());
     if (r.status != 101 && r.headers.get("Connection").empty()) s += keep ? "Connection: keep-alive\r\n" : "Connection: close\r\n";
-    s += fmt::format("Date: {}\r\nServer: axisgate\r\n\r\n", http_date(now_unix_s));
+    s += "Date: ";
+    s += http_date(now_unix_s);
+    s += "\r\nServer: axisgate\r\n\r\n";
     return s;
 }
 
@@ -106,11 +118,27 @@ void Connection::stop() {
 void Connection::abort() { close(); }
 
 void Connection::set_timer(std::chrono::nanoseconds after) {
-    timer_.expires_after(std::chrono::duration_cast<asio::steady_timer::duration>(after));
+    due_ = std::chrono::steady_clock::now() + std::chrono::duration_cast<asio::steady_timer::duration>(after);
+    if (!timer_runs_ || due_ < timer_due_) arm_timer();
+}
+
+void Connection::arm_timer() {
+    timer_runs_ = true;
+    timer_due_ = due_;
+    timer_.expires_at(due_);
     timer_.async_wait([self = weak_from_this(), serial = ++timer_serial_](ErrorCode ec) {
         const auto me = self.lock();
-        if (!ec && me && serial == me->timer_serial_) me->on_timer();
+        if (ec || !me || serial != me->timer_serial_) return;
+        me->timer_runs_ = false;
+        if (std::chrono::steady_clock::now() < me->due_) return me->arm_timer();
+        me->on_timer();
     });
+}
+
+void Connection::end_timer() {
+    timer_runs_ = false;
+    ++timer_serial_;
+    timer_.cancel();
 }
 
 void Connection::on_timer() {
@@ -153,20 +181,12 @@ void Connection::await_request() {
     phase_ = Phase::idle;
     since_ = std::chrono::steady_clock::now();
     set_timer(first_ ? host_->settings.header_limit : host_->settings.idle_limit);
-    if (socket_.secure()) {
-        // Bytes may be deciphered already while the socket below is silent: only reading tells.
-        socket_.async_read_some(buffer_.prepare(first_read_bytes), [self = shared_from_this()](ErrorCode ec, std::size_t bytes) {
-            if (self->phase_ != Phase::idle) return;
-            if (ec) return self->close();
-            self->host_->counters.bytes_in += bytes;
-            self->buffer_.commit(bytes);
-            self->read_header();
-        });
-        return;
-    }
-    socket_.socket().async_wait(Transport::Socket::wait_read, [self = shared_from_this()](ErrorCode ec) {
+    // Reading instead of waiting: over TLS bytes may be deciphered already while the socket below is silent, and plain it spares a call of
+    // the system per request. They are counted when the parser takes them.
+    socket_.async_read_some(buffer_.prepare(first_read_bytes), [self = shared_from_this()](ErrorCode ec, std::size_t bytes) {
         if (self->phase_ != Phase::idle) return;
         if (ec) return self->close();
+        self->buffer_.commit(bytes);
         self->read_header();
     });
 }
@@ -262,6 +282,7 @@ void Connection::take_head() {
     request_.method = method_named(std::string_view(m.method_string()));
     request_.target = std::string(m.target());
     request_.http_1_0 = m.version() < 11;
+    request_.headers.fields.reserve(16);
     for (const auto& f : m)
         request_.headers.fields.emplace_back(std::string(f.name_string()), std::string(f.value()));
     if (const auto length = parser_->content_length()) request_.announced_bytes = *length;
@@ -275,6 +296,7 @@ void Connection::refuse(Response response) {
     phase_ = Phase::answering;
     since_ = std::chrono::steady_clock::now();
     close_after_ = true;
+    route_ = host_->router.route_of(request_);
     answer(++serial_, std::move(response));
 }
 
@@ -287,6 +309,7 @@ void Connection::answer_request() {
     auto handled = host_->router.handle(request_, [self = weak_from_this(), serial](Response r) {
         if (const auto me = self.lock()) me->answer(serial, std::move(r));
     });
+    route_ = handled.route;
     if (handled.now) return answer(serial, std::move(*handled.now));
     at_limit_ = std::move(handled.at_limit);
     set_timer(handled.limit);
@@ -296,7 +319,7 @@ void Connection::answer(std::uint64_t serial, Response response) {
     if (phase_ != Phase::answering || serial != serial_) return;  // too late: the limit has answered already
     const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - since_).count();
     const auto method = request_.method == Method::other ? std::string_view("other") : name_of(request_.method);
-    host_->counters.answered(host_->router.route_of(request_), method, response.status, took_s);
+    host_->counters.answered(route_, method, response.status, took_s);
     const bool keep = !close_after_ && parser_->get().keep_alive() && !stopping_ && !host_->stopping;
     write(std::move(response), keep);
 }
@@ -335,8 +358,7 @@ void Connection::on_written(bool keep, bool upgraded) {
 }
 
 void Connection::upgrade() {
-    ++timer_serial_;
-    timer_.cancel();
+    end_timer();
     phase_ = Phase::closed;
     const auto data = static_cast<const std::uint8_t*>(buffer_.data().data());
     auto session = std::make_shared<WebSocketSession>(std::move(socket_), host_, std::move(request_));
@@ -370,8 +392,7 @@ void Connection::discard() {
 void Connection::close() {
     if (phase_ == Phase::closed) return;
     phase_ = Phase::closed;
-    ++timer_serial_;
-    timer_.cancel();
+    end_timer();
     ErrorCode ignored;
     socket_.close(ignored);
     host_->remove(this);

@@ -52,6 +52,8 @@ private:
     void linger();
     void discard();
     void set_timer(std::chrono::nanoseconds after);
+    void arm_timer();
+    void end_timer();
     void on_timer();
     void close();
 
@@ -59,10 +61,15 @@ private:
     std::shared_ptr<SessionHost> host_;
     std::string peer_;
     boost::asio::steady_timer timer_;
+    /// The limit of the phase is a value. The timer itself is only touched when it would come too late: when it comes too early, it is set
+    /// anew, so that a request costs none of the system's timers.
+    SteadyTime due_{}, timer_due_{};
+    bool timer_runs_ = false;
     std::uint64_t timer_serial_ = 0;
     boost::beast::flat_buffer buffer_;
     std::optional<Parser> parser_;
     Request request_;
+    std::string_view route_ = "none";  ///< of the request, for the counters
     std::optional<Response> at_limit_;
     std::uint64_t serial_ = 0;  ///< of the request that is answered; a late answer to another one is ignored
     SteadyTime since_{};        ///< phase idle: when it began; later: when the request was whole

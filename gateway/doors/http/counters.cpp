@@ -7,7 +7,7 @@
 namespace axisgate::http {
 
 void Counters::answered(std::string_view route, std::string_view method, unsigned status, double duration_s) {
-    ++requests[{std::string(route), std::string(method), status}];
+    ++requests[{route, method, status}];
     std::size_t i = 0;
     while (i < bucket_limits.size() && duration_s > bucket_limits[i])
         ++i;

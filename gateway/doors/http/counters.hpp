@@ -13,8 +13,8 @@
 namespace axisgate::http {
 
 struct Counters {
-    /// By route, method and status.
-    std::map<std::tuple<std::string, std::string, unsigned>, std::uint64_t> requests;
+    /// By route, method and status; the words are those of the router's table and live as long as the program.
+    std::map<std::tuple<std::string_view, std::string_view, unsigned>, std::uint64_t> requests;
     /// Time from the whole request to its answer, seconds; the last bucket is +Inf.
     static constexpr std::array<double, 7> bucket_limits{0.001, 0.005, 0.025, 0.1, 0.5, 2.5, 10.0};
     std::array<std::uint64_t, 8> buckets{};
@@ -31,6 +31,7 @@ struct Counters {
     std::uint64_t stream_requests_wrong = 0;
     std::map<std::uint16_t, std::uint64_t> stream_closed;  ///< by close code sent
 
+    /// `route`, `method`: words that live as long as the program.
     void answered(std::string_view route, std::string_view method, unsigned status, double duration_s);
     [[nodiscard]] std::string text() const;
 };

@@ -15,6 +15,7 @@
 #include "gateway/core/alarm.hpp"
 #include "gateway/core/gateway.hpp"
 #include "gateway/doors/http/axis_jobs.hpp"
+#include "gateway/doors/http/axis_texts.hpp"
 #include "gateway/doors/http/access_gate.hpp"
 #include "gateway/doors/http/change_queue.hpp"
 #include "gateway/doors/http/message.hpp"
@@ -38,6 +39,7 @@ struct Context {
     std::shared_ptr<AxisJobs> jobs = std::make_shared<AxisJobs>();           ///< many parameters of one axis, one after the other
     std::shared_ptr<AccessPort> access = nullptr;                            ///< users; without it this machine alone is let in
     std::shared_ptr<AlarmDesk> alarms{};                                     ///< the list of alarms; as with recipes
+    std::shared_ptr<AxisTexts> axis_texts = std::make_shared<AxisTexts>();   ///< what GET /axes/{name} answers
 };
 
 /// One request on its way. Lives only as long as the handler's call.

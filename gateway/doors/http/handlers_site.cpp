@@ -65,6 +65,13 @@ Handled get(Call& c, Collection collection) {
     const auto site = c.gateway().site();
     const auto i = find_in(site->site, collection, c.names[0]);
     if (!i) return nothing_named(item_name(collection), c.names[0]);
+    if (collection == Collection::axes) {
+        Response r;
+        r.headers.set("Content-Type", "application/json");
+        r.body = c.context.axis_texts->text(c.gateway(), site, *i);
+        put_revision(r, *site);
+        return r;
+    }
     Response r = json_response(document_of(c.gateway(), site, collection, *i));
     put_revision(r, *site);
     return r;

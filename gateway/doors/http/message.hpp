@@ -53,6 +53,7 @@ struct Handled {
     std::optional<Response> now;
     std::chrono::nanoseconds limit{};  ///< if `now` is empty: answer `at_limit` when this has passed without a call
     Response at_limit;
+    std::string_view route = "none";  ///< for a counter, set by the router: a path of its table, "static" for files, "none"
 
     Handled() = default;
     Handled(Response response) : now(std::move(response)) {}  // NOLINT(google-explicit-constructor): a response is an answer

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "gateway/doors/http/hosts.hpp"
 #include "gateway/doors/http/static_files.hpp"
@@ -136,33 +137,89 @@ constexpr std::array routes{
 
 constexpr std::array<Method, 5> told_methods{Method::get, Method::post, Method::put, Method::patch, Method::remove};
 
-/// The names in the `{...}` segments, if the path is the route's.
-std::optional<std::vector<std::string>> match(std::string_view path, const std::vector<std::string>& segments) {
-    std::vector<std::string> names;
-    path.remove_prefix(1);
-    for (std::size_t i = 0;; ++i) {
-        const auto slash = path.find('/');
-        const auto want = path.substr(0, slash);
-        if (i >= segments.size()) return std::nullopt;
-        if (want.starts_with('{')) {
-            if (segments[i].empty()) return std::nullopt;
-            names.push_back(segments[i]);
-        } else if (want != segments[i]) {
-            return std::nullopt;
-        }
-        if (slash == std::string_view::npos) return i + 1 == segments.size() ? std::optional(std::move(names)) : std::nullopt;
-        path.remove_prefix(slash + 1);
+/// One path of the table with all its routes, taken apart once.
+struct Shape {
+    std::string_view path;
+    std::vector<std::string_view> parts;
+    std::size_t names = 0;  ///< how many of them are `{...}`
+    std::vector<const Route*> routes;
+};
+
+bool is_name(std::string_view part) { return part.starts_with('{'); }
+
+std::vector<std::string_view> parts_of(std::string_view path) {
+    std::vector<std::string_view> parts;
+    for (path.remove_prefix(1);; path.remove_prefix(parts.back().size() + 1)) {
+        parts.push_back(path.substr(0, path.find('/')));
+        if (parts.back().size() == path.size()) return parts;
     }
 }
 
-/// The route path that a target means: of those that match, the one with the fewest names in it, so that /mappings/list is no mapping.
-std::string_view path_of(const std::vector<std::string>& segments) {
-    std::string_view best;
-    for (const auto& r : routes) {
-        if (r.path == best || !match(r.path, segments)) continue;
-        if (best.empty() || std::ranges::count(r.path, '{') < std::ranges::count(best, '{')) best = r.path;
+/// Shapes by their number of segments.
+std::vector<std::vector<Shape>> make_shapes() {
+    std::vector<std::vector<Shape>> all;
+    for (const Route& r : routes) {
+        auto parts = parts_of(r.path);
+        if (all.size() <= parts.size()) all.resize(parts.size() + 1);
+        auto& same_size = all[parts.size()];
+        auto shape = std::ranges::find(same_size, r.path, &Shape::path);
+        if (shape == same_size.end()) {
+            const auto names = static_cast<std::size_t>(std::ranges::count_if(parts, is_name));
+            same_size.push_back({r.path, std::move(parts), names, {}});
+            shape = std::prev(same_size.end());
+        }
+        shape->routes.push_back(&r);
+    }
+    return all;
+}
+
+bool fits(const Shape& shape, const std::vector<std::string>& segments) {
+    // From the end: there paths differ.
+    for (std::size_t i = segments.size(); i-- > 0;) {
+        if (is_name(shape.parts[i]) ? segments[i].empty() : shape.parts[i] != segments[i]) return false;
+    }
+    return true;
+}
+
+/// The path that a target means: of those that fit, the one with the fewest names in it, so that /mappings/list is no mapping.
+const Shape* shape_of(const std::vector<std::string>& segments) {
+    static const std::vector<std::vector<Shape>> shapes = make_shapes();
+    const Shape* best = nullptr;
+    if (segments.size() >= shapes.size()) return best;
+    for (const Shape& s : shapes[segments.size()]) {
+        if ((!best || s.names < best->names) && fits(s, segments)) best = &s;
     }
     return best;
+}
+
+/// What the `{...}` segments hold.
+std::vector<std::string> names_in(const Shape& shape, const std::vector<std::string>& segments) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        if (is_name(shape.parts[i])) names.push_back(segments[i]);
+    }
+    return names;
+}
+
+const Route* route_for(const Shape& shape, Method method) {
+    const auto it = std::ranges::find(shape.routes, method, &Route::method);
+    return it == shape.routes.end() ? nullptr : *it;
+}
+
+/// "GET, HEAD, PUT"
+std::string allowed_by(const Shape& shape) {
+    std::string allow;
+    for (const auto told : told_methods) {
+        if (!route_for(shape, told)) continue;
+        allow += fmt::format("{}{}", allow.empty() ? "" : ", ", told == Method::get ? "GET, HEAD" : name_of(told));
+    }
+    return allow;
+}
+
+std::string_view route_word(const std::optional<Target>& target) {
+    if (!target) return "none";
+    if (const Shape* shape = shape_of(target->segments)) return shape->path;
+    return target->segments[0] == "api" ? "none" : "static";
 }
 
 std::string_view media_given(Gives gives) {
@@ -284,7 +341,7 @@ std::size_t Router::most_bytes(const Route& route) const noexcept {
     return route.takes == Takes::bytes ? context_.settings.max_backup_bytes : context_.settings.max_body_bytes;
 }
 
-Router::Entry Router::enter(const Request& request, bool touch) const {
+Router::Entry Router::enter(const Request& request, std::optional<Target> target, bool touch) const {
     Entry e;
     const auto answer = [&e](Response r) {
         e.answer = std::move(r);
@@ -296,42 +353,29 @@ Router::Entry Router::enter(const Request& request, bool touch) const {
         r.status = 204;
         return answer(std::move(r));
     }
-    e.target = parse_target(request.target);
+    e.target = std::move(target);
     if (!e.target)
         return answer(problem(400, "bad_request", "the request target cannot be read: a path that begins with /, percent-encoded UTF-8"));
 
     const Method wanted = request.method == Method::head ? Method::get : request.method;
-    const std::string_view path = path_of(e.target->segments);
-    std::string allow;
-    for (const auto told : told_methods) {
-        for (const auto& r : routes) {
-            if (r.method != told || r.path != path) continue;
-            auto found = match(r.path, e.target->segments);
-            if (!found) continue;
-            allow += fmt::format("{}{}", allow.empty() ? "" : ", ", name_of(told) == "GET" ? "GET, HEAD" : name_of(told));
-            if (told == wanted) {
-                e.route = &r;
-                e.names = std::move(*found);
-            }
-        }
-    }
+    const Shape* shape = shape_of(e.target->segments);
+    e.route = shape ? route_for(*shape, wanted) : nullptr;
     const bool is_api = !e.target->segments.empty() && e.target->segments[0] == "api";
-    const bool is_file = allow.empty() && !is_api;
-    if (allow.empty() && is_api)
+    if (!shape && is_api)
         return answer(problem(404, "not_found", fmt::format("there is nothing at {}: see /api/v1/openapi.yaml", request.target)));
-    if (is_file) allow = "GET, HEAD";
-    if (request.method == Method::options) {
-        Response r;
-        r.status = 204;
-        r.headers.set("Allow", allow + ", OPTIONS");
-        return answer(std::move(r));
-    }
-    if (is_file && wanted == Method::get) return answer(static_file(context_.asset, *e.target, request.headers));
+    if (!shape && wanted == Method::get) return answer(static_file(context_.asset, *e.target, request.headers));
     if (!e.route) {
-        Response r = problem(405, "method_not_allowed", fmt::format("this takes {}, OPTIONS", allow));
-        r.headers.set("Allow", allow + ", OPTIONS");
+        const std::string allow = (shape ? allowed_by(*shape) : "GET, HEAD") + ", OPTIONS";
+        Response r;
+        if (request.method == Method::options) {
+            r.status = 204;
+        } else {
+            r = problem(405, "method_not_allowed", fmt::format("this takes {}", allow));
+        }
+        r.headers.set("Allow", allow);
         return answer(std::move(r));
     }
+    e.names = names_in(*shape, e.target->segments);
     // Who it is, and whether he may: before anything of the request is looked at further.
     e.identity = http::identify(context_.access.get(), request, context_.gateway.now_unix_ns(), touch);
     if (const Role needed = e.route->needed(); needed != Role::none) {
@@ -356,7 +400,7 @@ Admission Router::admit(const Request& head) const {
     Admission a;
     a.max_body_bytes = context_.settings.max_body_bytes;
     try {
-        Entry e = enter(head, false);
+        Entry e = enter(head, parse_target(head.target), false);
         if (e.route) a.max_body_bytes = most_bytes(*e.route);
         if (e.answer && e.answer->status >= 400) a.refusal = std::move(e.answer);
     } catch (const std::exception& x) {
@@ -366,8 +410,8 @@ Admission Router::admit(const Request& head) const {
     return a;
 }
 
-Handled Router::dispatch(const Request& request, const Respond& respond) const {
-    Entry e = enter(request, true);
+Handled Router::dispatch(const Request& request, std::optional<Target> target, const Respond& respond) const {
+    Entry e = enter(request, std::move(target), true);
     if (e.answer) return *std::move(e.answer);
     AccessPort* port = context_.access.get();
     if (!e.identity.token_to_keep.empty()) {
@@ -403,8 +447,11 @@ Handled Router::handle(const Request& request, Respond respond) const {
     once->respond = std::move(respond);
     const bool is_head = request.method == Method::head;
     Handled handled;
+    std::string_view route = "none";
     try {
-        handled = dispatch(request, [once, is_head](Response r) {
+        auto target = parse_target(request.target);
+        route = route_word(target);
+        handled = dispatch(request, std::move(target), [once, is_head](Response r) {
             if (once->answered) return;
             once->answered = true;
             if (once->inside) {
@@ -428,6 +475,7 @@ Handled Router::handle(const Request& request, Respond respond) const {
     } else {
         finish(handled.at_limit, is_head);
     }
+    handled.route = route;
     return handled;
 }
 
@@ -435,11 +483,6 @@ bool Router::may_still_watch(const Request& request) const {
     return http::identify(context_.access.get(), request, context_.gateway.now_unix_ns(), false).role >= Role::viewer;
 }
 
-std::string_view Router::route_of(const Request& request) const {
-    const auto target = parse_target(request.target);
-    if (!target) return "none";
-    if (const auto path = path_of(target->segments); !path.empty()) return path;
-    return target->segments[0] == "api" ? "none" : "static";
-}
+std::string_view Router::route_of(const Request& request) const { return route_word(parse_target(request.target)); }
 
 }  // namespace axisgate::http

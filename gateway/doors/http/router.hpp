@@ -75,8 +75,8 @@ public:
 
 private:
     struct Entry;
-    [[nodiscard]] Handled dispatch(const Request& request, const Respond& respond) const;
-    [[nodiscard]] Entry enter(const Request& head, bool touch) const;
+    [[nodiscard]] Handled dispatch(const Request& request, std::optional<Target> target, const Respond& respond) const;
+    [[nodiscard]] Entry enter(const Request& head, std::optional<Target> target, bool touch) const;
     [[nodiscard]] std::size_t most_bytes(const Route& route) const noexcept;
     [[nodiscard]] std::optional<Response> check_host(const Request& request) const;
     [[nodiscard]] static std::optional<Response> check_origin(const Request& request);

@@ -44,4 +44,8 @@ void Headers::set(std::string_view name, std::string value) {
     fields.emplace_back(std::string(name), std::move(value));
 }
 
+void Headers::remove(std::string_view name) {
+    std::erase_if(fields, [name](const auto& f) { return same_name(f.first, name); });
+}
+
 }  // namespace axisgate::http

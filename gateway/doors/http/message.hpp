@@ -25,6 +25,7 @@ struct Headers {
     [[nodiscard]] std::string_view get(std::string_view name) const noexcept;
     [[nodiscard]] std::size_t count(std::string_view name) const noexcept;
     void set(std::string_view name, std::string value);
+    void remove(std::string_view name);
 };
 
 struct Request {

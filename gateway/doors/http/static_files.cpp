@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "gateway/doors/http/problem.hpp"
+#include "gateway/doors/http/text.hpp"
 
 namespace axisgate::http {
 namespace {
@@ -26,6 +27,24 @@ bool is_hidden_or_upward(const Target& target) {
         return s.starts_with('.') || s.find('\\') != std::string::npos ||
                std::ranges::any_of(s, [](char c) { return static_cast<unsigned char>(c) < 0x20; });
     });
+}
+
+/// Whether an Accept-Encoding field takes gzip (RFC 9110 12.5.3): by its name, else by "*", and not with a quality of 0.
+bool takes_gzip(std::string_view field) {
+    bool by_star = false;
+    while (!field.empty()) {
+        const auto end = std::min(field.find(','), field.size());
+        const auto item = field.substr(0, end);
+        field.remove_prefix(std::min(end + 1, field.size()));
+        const auto mark = std::min(item.find(';'), item.size());
+        const std::string name = lower(trimmed(item.substr(0, mark)));
+        if (name != "gzip" && name != "x-gzip" && name != "*") continue;
+        const std::string quality = mark < item.size() ? lower(trimmed(item.substr(mark + 1))) : std::string();
+        const bool taken = !quality.starts_with("q=") || parse_number(std::string_view(quality).substr(2)).value_or(1) > 0;
+        if (name != "*") return taken;
+        by_star = taken;
+    }
+    return by_star;
 }
 }  // namespace
 
@@ -64,12 +83,22 @@ Response static_file(const AssetLookup& asset, const Target& target, const Heade
             404, "not_found",
             target.path == "/" ? "this build holds no page; the interface is described at /api/v1/openapi.yaml" : "there is no such file");
     }
+    // Packed when the page was built, and not again for each request. What comes packed is another representation: it has its own tag.
     Response r;
+    const auto packed = asset("web/dist" + path + ".gz");
+    if (packed.data() != nullptr) {
+        r.headers.set("Vary", "Accept-Encoding");
+        if (takes_gzip(headers.get("Accept-Encoding"))) {
+            r.headers.set("Content-Encoding", "gzip");
+            bytes = packed;
+        }
+    }
     const std::string tag = fmt::format("\"{:016x}\"", hash_of(bytes));
     r.headers.set("ETag", tag);
     r.headers.set("Cache-Control", "no-cache");  // kept, but asked for each time: the tag makes that cheap
     if (tag_listed(headers.get("If-None-Match"), tag, true)) {
         r.status = 304;
+        r.headers.remove("Content-Encoding");  // there is no content
         return r;
     }
     r.headers.set("Content-Type", std::string(media_for(path)));

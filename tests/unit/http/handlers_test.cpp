@@ -134,6 +134,29 @@ TEST_F(HttpTest, ErrorsThatTheCatalogueDoesNotKnow) {
     EXPECT_EQ(call("GET", "/api/v1/axes/slide").at("error"), R"({"code":50,"text":"not in the catalogue"})");
 }
 
+TEST_F(HttpTest, AnAxisIsTextOncePerPicture) {
+    gateway.set_picture("slide", standing(10, 1000));
+    const auto age = [&] { return std::stol(call("GET", "/api/v1/axes/slide").at("age_ms")); };
+    const auto first = age();
+    const int read = gateway.pictures_read;
+    gateway.now_ns += 250'000'000;
+    EXPECT_EQ(age(), first + 250) << "the same picture grows older";
+    EXPECT_EQ(gateway.pictures_read, read) << "and is not read again";
+    // What is given is what the list of all axes gives, member by member and in the same order.
+    const auto list = call("GET", "/api/v1/axes").array();
+    for (const auto& axis : list) {
+        const std::string name(axis.at("name").as_string());
+        EXPECT_EQ(call("GET", "/api/v1/axes/" + name).text, json_text(axis));
+    }
+    // Another picture, the same age.
+    gateway.set_picture("slide", standing(11, 1000));
+    EXPECT_EQ(call("GET", "/api/v1/axes/slide").at("position_increments"), "11");
+    EXPECT_EQ(call("GET", "/api/v1/axes/feeder").at("name"), "feeder") << "one axis' text is not another's";
+    // Another site, the same picture.
+    EXPECT_EQ(call("PATCH", "/api/v1/axes/slide", R"({"unit":"inch"})", {{"Content-Type", "application/json"}}).status, 200u);
+    EXPECT_EQ(call("GET", "/api/v1/axes/slide").at("unit"), "inch");
+}
+
 TEST_F(HttpTest, AgesAreNeverNegative) {
     gateway.set_picture("slide", standing(0, 5000));
     EXPECT_EQ(call("GET", "/api/v1/axes/slide").at("age_ms"), "0");

@@ -49,6 +49,8 @@ struct Harness {
     Settings settings;
     std::map<std::string, std::string, std::less<>> files{{"web/dist/index.html", "<html>page</html>"},
                                                           {"web/dist/assets/main.js", "let a = 1;"},
+                                                          {"web/dist/assets/big.js", "let big = 1;"},
+                                                          {"web/dist/assets/big.js.gz", "PACKED"},
                                                           {"web/dist/empty.txt", ""},
                                                           {"web/secret.txt", "not for the page"},
                                                           {"schema/openapi.yaml", "openapi: 3.0.3\n"}};

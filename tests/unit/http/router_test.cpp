@@ -212,6 +212,33 @@ TEST_F(HttpTest, AnAnswerFromInsideTheCallIsAnAnswerAtOnce) {
     EXPECT_TRUE(later.empty()) << "told once, not twice";
 }
 
+TEST_F(HttpTest, FilesGoPackedToWhoTakesThem) {
+    struct Case {
+        const char* field;
+        bool packed;
+    };
+    for (const auto& [field, packed] : {Case{"gzip, deflate, br", true}, Case{"br;q=1.0, GZIP ; q=0.5", true}, Case{"*", true}, Case{"", false},
+                                        Case{"br", false}, Case{"gzip;q=0", false}, Case{"gzip;q=0, *", false}, Case{"*;q=0", false}}) {
+        const auto a = call("GET", "/assets/big.js", "", {{"Accept-Encoding", field}});
+        EXPECT_EQ(a.status, 200u) << field;
+        EXPECT_EQ(a.text, packed ? "PACKED" : "let big = 1;") << field;
+        EXPECT_EQ(a.headers.get("Content-Encoding"), packed ? "gzip" : "") << field;
+        EXPECT_EQ(a.headers.get("Content-Type"), "text/javascript; charset=utf-8") << field;
+        EXPECT_EQ(a.headers.get("Vary"), "Accept-Encoding") << field;
+    }
+    const std::string plain(call("GET", "/assets/big.js").headers.get("ETag"));
+    const std::string packed(call("GET", "/assets/big.js", "", {{"Accept-Encoding", "gzip"}}).headers.get("ETag"));
+    EXPECT_NE(plain, packed);
+    const auto same = call("GET", "/assets/big.js", "", {{"Accept-Encoding", "gzip"}, {"If-None-Match", packed}});
+    EXPECT_EQ(same.status, 304u);
+    EXPECT_EQ(same.headers.get("Content-Encoding"), "");
+    EXPECT_EQ(same.headers.get("Vary"), "Accept-Encoding");
+    EXPECT_EQ(call("GET", "/assets/big.js", "", {{"Accept-Encoding", "gzip"}, {"If-None-Match", plain}}).status, 200u);
+    const auto small = call("GET", "/assets/main.js", "", {{"Accept-Encoding", "gzip"}});
+    EXPECT_EQ(small.text, "let a = 1;") << "there is no packed one";
+    EXPECT_EQ(small.headers.count("Vary"), 0u);
+}
+
 TEST_F(HttpTest, StaticFiles) {
     const auto page = call("GET", "/");
     EXPECT_EQ(page.status, 200u);

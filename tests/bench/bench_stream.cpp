@@ -48,7 +48,9 @@ double used_s(int pid) {
     return static_cast<double>(user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
 }
 
-bool send_all(int fd, std::string_view bytes) { return ::send(fd, bytes.data(), bytes.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size()); }
+bool send_all(int fd, std::string_view bytes) {
+    return ::send(fd, bytes.data(), bytes.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size());
+}
 
 /// A client's frame; its mask is zero, which masks nothing.
 std::string client_frame(int opcode, std::string_view payload) {
@@ -69,7 +71,8 @@ bool open_client(Client& c, Address address, int period_ms) {
     c.fd = connect_blocking(address);
     if (c.fd < 0) return false;
     const std::string host = "127.0.0.1:" + std::to_string(address.port);
-    if (!send_all(c.fd, "GET /api/v1/stream HTTP/1.1\r\nHost: " + host + "\r\nConnection: Upgrade\r\nUpgrade: websocket\r\nOrigin: http://" + host +
+    if (!send_all(c.fd, "GET /api/v1/stream HTTP/1.1\r\nHost: " + host +
+                            "\r\nConnection: Upgrade\r\nUpgrade: websocket\r\nOrigin: http://" + host +
                             "\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n\r\n"))
         return false;
     std::array<char, 4096> part{};
@@ -199,8 +202,8 @@ int run(Address program, int pid, int clients, int axes, int period_ms, double s
         messages += static_cast<double>(c.axes + c.others);
     }
     bool kept = say("processor time", used / most_processor, "<=", 1, "axisgate", used, "limit", most_processor, "of one core");
-    std::printf("    %-34s %.3f of one core before the clients came; %.0f messages/s, %.1f MB/s, %.2f us per message\n", "", alone, messages / took, bytes / took * 1e-6,
-                (used - alone) * took / messages * 1e6);
+    std::printf("    %-34s %.3f of one core before the clients came; %.0f messages/s, %.1f MB/s, %.2f us per message\n", "", alone,
+                messages / took, bytes / took * 1e-6, (used - alone) * took / messages * 1e6);
     kept &= say("states told, of those due (least)", least, ">=", least_told, "told", least * due / took, "due", due / took, "/s");
     kept &= say("longest silence of a client", gap / longest_gap_s, "<=", 1, "axisgate", gap, "limit", longest_gap_s, "s");
     std::printf(kept ? "all limits kept\n" : "NOT all limits kept\n");
@@ -213,9 +216,12 @@ int main(int argc, char** argv) {
     using namespace axisgate::bench;
     Address program;
     if (argc < 7 || !parse_address(argv[1], program)) {
-        std::fputs("bench_stream HOST:PORT PID CLIENTS AXES PERIOD_MS SECONDS: watches the program that listens there; its axes must move\n", stderr);
+        std::fputs(
+            "bench_stream HOST:PORT PID CLIENTS AXES PERIOD_MS SECONDS: watches the program that listens there; its axes must move\n",
+            stderr);
         return 2;
     }
     pin(1);
-    return run(program, std::atoi(argv[2]), std::clamp(std::atoi(argv[3]), 1, 1000), std::atoi(argv[4]), std::max(10, std::atoi(argv[5])), std::atof(argv[6]));
+    return run(program, std::atoi(argv[2]), std::clamp(std::atoi(argv[3]), 1, 1000), std::atoi(argv[4]), std::max(10, std::atoi(argv[5])),
+               std::atof(argv[6]));
 }

@@ -30,7 +30,9 @@ Answer answer_of(std::string_view head, std::string body) {
         const auto line = head.substr(0, end);
         head.remove_prefix(std::min(end + 2, head.size()));
         const auto colon = line.find(": ");
-        if (colon != std::string_view::npos) r.set(boost::beast::string_view(line.data(), colon), boost::beast::string_view(line.data() + colon + 2, line.size() - colon - 2));
+        if (colon != std::string_view::npos)
+            r.set(boost::beast::string_view(line.data(), colon),
+                  boost::beast::string_view(line.data() + colon + 2, line.size() - colon - 2));
     }
     r.body() = std::move(body);
     r.prepare_payload();
@@ -73,7 +75,8 @@ struct PlainHttpServer::State {
     tcp::acceptor acceptor{context, tcp::endpoint(asio::ip::address_v4::loopback(), 0)};
 };
 
-PlainHttpServer::PlainHttpServer(int cpu, int nice, const std::string& head, std::string body) : state_(std::make_unique<State>(answer_of(head, std::move(body)))) {
+PlainHttpServer::PlainHttpServer(int cpu, int nice, const std::string& head, std::string body)
+    : state_(std::make_unique<State>(answer_of(head, std::move(body)))) {
     address_.port = state_->acceptor.local_endpoint().port();
     state_->accept();
     thread_ = std::thread([this, cpu, nice] {

@@ -19,6 +19,7 @@ public:
     PlainHttpServer(const PlainHttpServer&) = delete;
     PlainHttpServer& operator=(const PlainHttpServer&) = delete;
     [[nodiscard]] Address address() const { return address_; }
+    [[nodiscard]] double used_seconds() { return processor_seconds(thread_); }
 
 private:
     struct State;

@@ -32,7 +32,8 @@ std::string AxisTexts::text(const Gateway& gateway, const std::shared_ptr<const 
     out.reserve(k.text.size() + 32);
     out = k.text;
     if (k.ever_seen) {
-        fmt::format_to(std::back_inserter(out), ",\"age_ms\":{}}}", std::max<std::int64_t>(0, (gateway.now_unix_ns() - k.at_unix_ns) / 1'000'000));
+        fmt::format_to(std::back_inserter(out), ",\"age_ms\":{}}}",
+                       std::max<std::int64_t>(0, (gateway.now_unix_ns() - k.at_unix_ns) / 1'000'000));
     } else {
         out += ",\"age_ms\":null}";
     }

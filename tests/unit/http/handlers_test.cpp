@@ -153,7 +153,7 @@ TEST_F(HttpTest, AnAxisIsTextOncePerPicture) {
     EXPECT_EQ(call("GET", "/api/v1/axes/slide").at("position_increments"), "11");
     EXPECT_EQ(call("GET", "/api/v1/axes/feeder").at("name"), "feeder") << "one axis' text is not another's";
     // Another site, the same picture.
-    EXPECT_EQ(call("PATCH", "/api/v1/axes/slide", R"({"unit":"inch"})", {{"Content-Type", "application/json"}}).status, 200u);
+    EXPECT_EQ(call("PATCH", "/api/v1/axes/slide", R"({"unit":"inch"})").status, 200u);
     EXPECT_EQ(call("GET", "/api/v1/axes/slide").at("unit"), "inch");
 }
 

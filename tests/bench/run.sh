@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# bench: runs every benchmark of a release build, in less than three minutes. For an idle machine; not a part of the ordinary tests.
-#   tests/bench/run.sh BUILD_DIR [NAME...]      NAME: round, write, mcode, program, modbus, modbus_program
-# In: BUILD_DIR/bench_* and BUILD_DIR/axisgate. Out: per figure the ratio, the limit it is measured against, and both figures; at the end
+# bench: runs every benchmark of a release build, in less than seven minutes. For an idle machine; not a part of the ordinary tests.
+#   tests/bench/run.sh BUILD_DIR [NAME...]      NAME: round, write, mcode, program, modbus, modbus_program, http, stream, page, scope
+# In: BUILD_DIR/bench_* and BUILD_DIR/axisgate; node and Chromium for what a browser shows. Out: per figure the ratio, the limit it is measured against, and both figures; at the end
 # "N passed, N failed", where what is beyond its limit has failed.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -43,5 +43,12 @@ bench mcode 20 "$(find_program bench_mcode)"
 bench program 60 /usr/bin/python3 "$here/bench_program.py" "$(find_program axisgate)"
 bench modbus_program 120 /usr/bin/python3 "$here/bench_modbus_program.py" "$(find_program axisgate)" "$(find_program bench_modbus)"
 bench modbus 100 "$(find_program bench_modbus)" --seconds 1.5
+bench http 60 /usr/bin/python3 "$here/bench_http_program.py" "$(find_program axisgate)" "$(find_program bench_http)"
+bench stream 60 /usr/bin/python3 "$here/bench_stream_program.py" "$(find_program axisgate)" "$(find_program bench_stream)"
+# What a browser shows. Chromium and the packages of tests/browser must be there; run.sh of that folder installs the latter.
+AXISGATE_BIN=$(realpath "$(find_program axisgate)")
+export AXISGATE_BIN
+bench page 60 node "$here/bench_page.mjs"
+bench scope 150 node "$here/bench_scope.mjs"
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ] && [ "$passed" -gt 0 ]

@@ -196,6 +196,15 @@ void Connection::read_header() {
     first_ = false;
     timed_out_ = false;
     set_timer(host_->settings.header_limit);
+    if (buffer_.size() > 0) {
+        // What is here is usually a whole request: no need to go through the loop for it.
+        ErrorCode ec;
+        parser_->eager(false);  // the header alone, as async_read_header does: its limits come before the body
+        const auto used = parser_->put(buffer_.data(), ec);
+        buffer_.consume(used);
+        host_->counters.bytes_in += used;
+        if (ec != beast::http::error::need_more) return on_header(ec);
+    }
     beast::http::async_read_header(socket_, buffer_, *parser_, [self = shared_from_this()](ErrorCode ec, std::size_t bytes) {
         self->host_->counters.bytes_in += bytes;
         self->on_header(ec);

@@ -135,7 +135,7 @@ TEST_F(HttpTest, ErrorsThatTheCatalogueDoesNotKnow) {
 }
 
 TEST_F(HttpTest, AnAxisIsTextOncePerPicture) {
-    gateway.set_picture("slide", standing(10, 1000));
+    gateway.set_picture("slide", standing(10, 100));
     const auto age = [&] { return std::stol(call("GET", "/api/v1/axes/slide").at("age_ms")); };
     const auto first = age();
     const int read = gateway.pictures_read;
@@ -149,7 +149,7 @@ TEST_F(HttpTest, AnAxisIsTextOncePerPicture) {
         EXPECT_EQ(call("GET", "/api/v1/axes/" + name).text, json_text(axis));
     }
     // Another picture, the same age.
-    gateway.set_picture("slide", standing(11, 1000));
+    gateway.set_picture("slide", standing(11, 100));
     EXPECT_EQ(call("GET", "/api/v1/axes/slide").at("position_increments"), "11");
     EXPECT_EQ(call("GET", "/api/v1/axes/feeder").at("name"), "feeder") << "one axis' text is not another's";
     // Another site, the same picture.

@@ -2,6 +2,8 @@
 // In: where the program listens, the axis. Out: per number of connections the ratio, the limit, and both figures; exit 1 if one is not
 // kept. The servers have one thread on one core and take turns in short slices, the load generator has the other core; the figure is the
 // median of the slices' ratios, so that what disturbs the machine disturbs both.
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -20,36 +22,40 @@ namespace {
 constexpr double least_rate = 0.8;  // of the bare server's
 constexpr int slices = 7;
 constexpr int server_cpu = 0, load_cpu = 1;
-constexpr int nice_of_the_door = 5;  // the program's thread for HTTP stands back by so much
 
 double median(std::vector<double> v) {
     std::nth_element(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2), v.end());
     return v[v.size() / 2];
 }
 
-/// Processor time that the program's thread for HTTP has used so far, s. Where it is not told: 0.
-double door_seconds(const std::string& pid) {
+/// The program's thread for HTTP; 0 if there is none.
+int door_thread(const std::string& pid) {
     std::error_code ec;
     for (const auto& task : std::filesystem::directory_iterator("/proc/" + pid + "/task", ec)) {
         std::string name;
         std::ifstream(task.path() / "comm") >> name;
-        if (name != "axisgate-warm") continue;
-        double ns = 0;
-        std::ifstream(task.path() / "schedstat") >> ns;
-        return ns * 1e-9;
+        if (name == "axisgate-warm") return std::atoi(task.path().filename().c_str());
     }
     return 0;
 }
 
+/// Processor time that it has used so far, s.
+double door_seconds(const std::string& pid, int thread) {
+    double ns = 0;
+    std::ifstream("/proc/" + pid + "/task/" + std::to_string(thread) + "/schedstat") >> ns;
+    return ns * 1e-9;
+}
+
 /// One number of connections; whether the limit is kept.
-bool compare(Address program, const std::string& pid, PlainHttpServer& plain, const std::string& path, int connections, double seconds) {
+bool compare(Address program, const std::string& pid, int thread, PlainHttpServer& plain, const std::string& path, int connections,
+             double seconds) {
     std::printf("GET %s, %d connections kept open, one request in flight each\n", path.c_str(), connections);
     HttpLoad a(program, path, connections), b(plain.address(), path, connections);
     std::vector<double> rate_a, rate_b, p99_a, p99_b, rates, p99s;
     const double slice = seconds / slices;
     (void)a.run(slice / 2);  // warm-up
     (void)b.run(slice / 2);
-    const double used_a = door_seconds(pid), used_b = plain.used_seconds();
+    const double used_a = door_seconds(pid, thread), used_b = plain.used_seconds();
     double answers_a = 0, answers_b = 0;
     for (int i = 0; i < slices; ++i) {
         const bool first = i % 2 == 0;
@@ -71,7 +77,8 @@ bool compare(Address program, const std::string& pid, PlainHttpServer& plain, co
     const bool kept = say("requests/s", median(rates), ">=", least_rate, "axisgate", median(rate_a), "bare Beast", median(rate_b), "/s");
     std::printf("    %-34s ratio %10.3f  (no limit)  axisgate %.1f us, bare Beast %.1f us\n", "p99", median(p99s), median(p99_a),
                 median(p99_b));
-    const double each_a = (door_seconds(pid) - used_a) / answers_a * 1e6, each_b = (plain.used_seconds() - used_b) / answers_b * 1e6;
+    const double each_a = (door_seconds(pid, thread) - used_a) / answers_a * 1e6,
+                 each_b = (plain.used_seconds() - used_b) / answers_b * 1e6;
     std::printf("    %-34s ratio %10.3f  (no limit)  axisgate %.2f us, bare Beast %.2f us per answer\n", "processor", each_a / each_b,
                 each_a, each_b);
     return kept;
@@ -95,10 +102,16 @@ int main(int argc, char** argv) {
         return 2;
     }
     std::printf("an answer of %zu bytes, %zu of them body\n", answer.head.size() + 4 + answer.body.size(), answer.body.size());
-    PlainHttpServer plain(server_cpu, nice_of_the_door, answer.head, answer.body);
+    const int thread = door_thread(argv[2]);
+    if (thread == 0) {
+        std::fprintf(stderr, "bench_http: process %s has no thread for HTTP\n", argv[2]);
+        return 2;
+    }
+    // As far back as the program's thread stands, or a busy machine would not disturb both alike.
+    PlainHttpServer plain(server_cpu, ::getpriority(PRIO_PROCESS, static_cast<id_t>(thread)), answer.head, answer.body);
     bool kept = true;
     for (const int connections : {1, 8, 32})
-        kept &= compare(program, argv[2], plain, path, connections, seconds);
+        kept &= compare(program, argv[2], thread, plain, path, connections, seconds);
     std::printf(kept ? "all limits kept\n" : "NOT all limits kept\n");
     return kept ? 0 : 1;
 }

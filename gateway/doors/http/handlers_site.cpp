@@ -67,6 +67,7 @@ Handled get(Call& c, Collection collection) {
     if (!i) return nothing_named(item_name(collection), c.names[0]);
     if (collection == Collection::axes) {
         Response r;
+        r.headers.fields.reserve(12);  // with what the router adds
         r.headers.set("Content-Type", "application/json");
         r.body = c.context.axis_texts->text(c.gateway(), site, *i);
         put_revision(r, *site);

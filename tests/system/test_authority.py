@@ -82,8 +82,9 @@ def test_two_programs_of_one_host_are_one_client_and_both_are_shown(folder):
         free = g.get("/axes/feeder/authority")
         assert (free["holder"], free["holder_text"], free["connections"]) == ("", "nobody", []), free
         with From(g.modbus_port, "127.0.0.2") as one, From(g.modbus_port, "127.0.0.2") as two, From(g.modbus_port, "127.0.0.3") as other:
-            one.write1(32, 0x06)
-            assert code_of(lambda: two.write1(32, 0x07)) == 0, "the same address is the same client"
+            for word in (0x06, 0x07, 0x0F):
+                one.write1(32, word)
+            assert code_of(lambda: two.write1(33, 1)) == 0, "the same address is the same client"
             assert code_of(lambda: other.write1(32, 0x0F)) == 6
             peers = sorted("%s:%d" % x.socket.getsockname() for x in (one, two))
             for a in (g.get("/axes/feeder/authority"), next(a for a in g.get("/authority")["axes"] if a["axis"] == "feeder")):

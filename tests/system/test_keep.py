@@ -57,7 +57,8 @@ def test_a_restore_leaves_the_address_of_the_drive_alone(gateway):
     for parameter, value in (("PP%5B7%5D", 21), ("PP%5B5%5D", 3), ("AC", 34567)):
         gateway.send("PUT", f"/axes/feeder/parameters/{parameter}", {"value": value})
     told = gateway.send("POST", "/axes/feeder/snapshots/1/restore", {"dry_run": True})
-    assert [c["parameter"] for c in told["changes"]] == ["AC"], told["changes"]
+    changes = {c["parameter"] for c in told["changes"]}
+    assert "AC" in changes and not changes & REACHED_BY["uim342"], changes
     left_out = {s["parameter"]: s["why"] for s in told["skipped"]}
     assert "include_addressing" in left_out["PP[7]"] and "node_id" in left_out["PP[7]"] and "include_addressing" in left_out["PP[5]"], left_out
     done = gateway.send("POST", "/axes/feeder/snapshots/1/restore", {"parameters": ["PP[7]", "AC"]})

@@ -337,7 +337,7 @@ def test_every_described_operation_exists(gateway):
             if o.id == "openStream":
                 continue
             body = None if o.request_schema is None else b"{}"
-            status = check(o, client.request(o.method, targets(o)[0] + "?dry_run=1", body), f"{o.method} {path}")
+            status = check(o, client.request(o.method, targets(o)[0] + ("?dry_run=1" if "dry_run" in [p["name"] for p in o.query()] else ""), body), f"{o.method} {path}")
             assert status not in (405, 501), f"{o.method} {path}: {status}"
             if o.method in ("DELETE", "PUT"):
                 gateway.send("PUT", "/site", DEMO)

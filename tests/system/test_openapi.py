@@ -3,6 +3,7 @@
 In: the description, the real program. Out: judgements by an independent reader of OpenAPI 3.0 (openapi.py). Ends with bad input of every kind.
 """
 import base64
+import copy
 import hashlib
 import http.client
 import json
@@ -498,13 +499,13 @@ def spoiled_body(o, dice):
             collect(body)
         if not places or dice.random() < 0.2:
             if isinstance(body, dict):
-                body[dice.choice(("zzz", "", "command", "name", "value", "__proto__", "n" * 400))] = dice.choice(ODD)
+                body[dice.choice(("zzz", "", "command", "name", "value", "__proto__", "n" * 400))] = copy.deepcopy(dice.choice(ODD))  # a list of its own: later turns spoil what is in it
             continue
         node, k = dice.choice(places)
         if dice.random() < 0.2:
             del node[k]
         else:
-            node[k] = dice.choice(ODD)
+            node[k] = copy.deepcopy(dice.choice(ODD))  # a list of its own: later turns spoil what is in it
 
     def tame(node):
         for k in (node if isinstance(node, dict) else range(len(node))):

@@ -2331,7 +2331,7 @@ export interface components {
             door: "none" | "modbus" | "ethernet_ip" | "http" | "dds" | "internal";
             /** @description empty: nobody; a Modbus client is its address, whatever the number of its connections */
             holder: string;
-            /** @description the holder in words */
+            /** @description the holder in words, with his door and the connections that he has */
             holder_text: string;
             /** @description of a holder by Modbus, as address and port; empty for others, and in the answers of PUT and of hand-over */
             connections: string[];

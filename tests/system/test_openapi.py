@@ -499,7 +499,7 @@ def spoiled_body(o, dice):
             collect(body)
         if not places or dice.random() < 0.2:
             if isinstance(body, dict):
-                body[dice.choice(("zzz", "", "command", "name", "value", "__proto__", "n" * 400))] = copy.deepcopy(dice.choice(ODD))  # a list of its own: later turns spoil what is in it
+                body[dice.choice(("zzz", "", "command", "name", "value", "__proto__", "n" * 400))] = copy.deepcopy(dice.choice(ODD))
             continue
         node, k = dice.choice(places)
         if dice.random() < 0.2:

@@ -141,3 +141,34 @@ def test_a_flood_of_a_viewer_ends_soon(gateway):
             pass
     assert sent < 32 * 1024 * 1024 and time.monotonic() - begun < 10, (sent, time.monotonic() - begun)
     assert gateway.request("GET", "/healthz")[0] == 200
+
+
+# What the body or whose it is decides beyond the role stands in tests of its own (tests/unit/http/roles_test.cpp).
+REFINED = {"commandAxis", "changePassword", "addToken", "removeToken", "signIn", "firstSignIn"}
+
+
+def test_each_role_against_each_operation(gateway):
+    """The description's roles are the program's: who is below is refused with the word for it, who is not is let in."""
+    who = clients(gateway)
+    checked = 0
+    operations = sorted(API.operations, key=lambda o: o.id == "signOut")
+    for o in operations:
+        needed = ROLES.index(role_of(o))
+        target = o.path
+        for name in o.names():
+            target = target.replace("{" + name + "}", "nothing-of-this-name")
+        for level, role in enumerate(ROLES):
+            client = Client(gateway, 20)
+            client.more = who[role]
+            headers = {"Content-Type": o.request_media[0]} if o.request_media else {}
+            status, _, body = client.request(o.method, target, b"{}" if o.request_media else None, headers)
+            client.close()
+            what = f"{o.id} as {role}: {status} {body[:200]!r}"
+            checked += 1
+            if level < needed:
+                assert status == (401 if role == "none" else 403), what
+                said = json.loads(body)
+                assert said["reason"] == ("sign_in" if role == "none" else "role") and ROLES[needed] in said["detail"], what
+            elif o.id not in REFINED:
+                assert status not in (401, 403), what
+    assert checked == len(ROLES) * len(API.operations) > 500

@@ -78,7 +78,7 @@ std::optional<Families> families_or_complain() {
     return families;
 }
 
-constexpr std::string_view parameter_fields[] = {"id", "name", "group", "type", "unit", "min", "max", "default", "access", "storage", "description", "addressing"};
+constexpr std::string_view parameter_fields[] = {"id", "name", "group", "type", "unit", "min", "max", "default", "access", "storage", "description"};
 }  // namespace
 
 int command_families(const std::string& format) {
@@ -132,7 +132,7 @@ int command_catalogue(const std::string& family, const std::string& what, const 
             json::object o;
             for (const auto& f : head) {
                 const auto* v = item.get_object().if_contains(f);
-                o[f] = v ? *v : f == "addressing" ? json::value(false) : json::value(nullptr);
+                o[f] = v ? *v : json::value(nullptr);
             }
             out.push_back(std::move(o));
         }

@@ -38,6 +38,54 @@ test('one page holds the axis, the other is refused with the name of the holder,
   await b.context().close();
 });
 
+test('a duplicated tab is a client of its own, a reload is not', async () => {
+  const a = await open(browser, `${program.url}/axes/feeder`);
+  await bar(a).getByRole('button', { name: 'Take', exact: true }).click();
+  await held(a, /Held by this page/);
+  // The new tab begins with a copy of the first one's session, as one does that was duplicated.
+  const [b] = await Promise.all([a.waitForEvent('popup'), a.evaluate(() => void globalThis.open(location.href))]);
+  const names = () => Promise.all([a, b].map((p) => p.evaluate(() => sessionStorage.getItem('axisgate.client'))));
+  await held(b, /Held by 127\.0\.0\.1/);
+  const [first, second] = await names();
+  assert.match(second, /^page-/);
+  assert.notEqual(first, second);
+  await b.getByRole('button', { name: 'Enable', exact: true }).click();
+  await until('the copy is refused', async () => { const t = await b.locator('.result').first().innerText(); return /refused.*127\.0\.0\.1/is.test(t) || t; });
+  await a.reload();
+  await held(a, /Held by this page/);
+  assert.deepEqual((await names()), [first, second]);
+  await bar(a).getByRole('button', { name: 'Release' }).click();
+  await held(b, /Nobody holds it/);
+  assert.deepEqual(a.faults(), []);
+  await a.context().close();
+});
+
+test('nothing moves when somebody takes an axis, on its tile and on its page', async () => {
+  const hold = (method, body) => fetch(`${program.url}/api/v1/axes/feeder/authority`, { method, headers: { 'content-type': 'application/json', 'x-client': 'hmi' }, ...(body ? { body } : {}) });
+  const places = (p) => p.evaluate(() => [...document.querySelectorAll('main button, main input, main .tile, main .tile-foot, main h2, main h3')].filter((e) => e.offsetParent !== null && !e.closest('.authority')).map((e) => {
+    const r = e.getBoundingClientRect();
+    return [e.getAttribute('aria-label') ?? (e.matches('h2, h3, button') ? e.textContent : e.className), Math.round(r.x), Math.round(r.y + scrollY), Math.round(r.width), Math.round(r.height)].join(' ');
+  }));
+  for (const [path, width] of [['/', 1440], ['/', 390], ['/axes/feeder', 1440], ['/axes/feeder', 390]]) {
+    const p = await open(browser, program.url + path, { viewport: { width, height: 900 } });
+    await p.locator('[data-axis=feeder] [data-live=true]').first().waitFor();
+    if (path !== '/') await p.locator('[data-parameter]').first().waitFor();
+    // The events at the end of a page grow; what stands above them may not move.
+    const still = async () => (await places(p)).filter((t) => !/Events|Write|Read /.test(t));
+    const before = await still();
+    const words = p.locator('[data-axis=feeder] [data-field=authority]').first();
+    await hold('PUT', '{"ttl_s":600}');
+    await until('it is told', async () => /Held by/.test(await words.innerText()));
+    assert.deepEqual(await still(), before, `${path} ${width}`);
+    const whole = await words.evaluate((e) => { const r = e.getBoundingClientRect(); const f = e.closest('.tile-foot, .authority').getBoundingClientRect(); return r.top >= f.top && r.bottom <= f.bottom; });
+    assert.equal(whole, true, 'the holder is in sight');
+    await hold('DELETE');
+    await until('it is free', async () => !/Held by/.test(await words.innerText()));
+    assert.deepEqual(await still(), before);
+    await p.context().close();
+  }
+});
+
 test('pictures of a held axis and of the users page', async () => {
   await fetch(`${program.url}/api/v1/axes/feeder/authority`, { method: 'PUT', headers: { 'content-type': 'application/json', 'x-client': 'hmi' }, body: '{"ttl_s":600}' });
   await pictures(browser, program.url, '/', 'authority-tiles', (p) => p.locator('[data-axis=feeder] [data-field=authority]').waitFor());

@@ -109,6 +109,41 @@ test('a table from a spreadsheet is checked row by row, tried, taken as one, and
   await until('both are gone', async () => (await all()).length === count);
 });
 
+test('a template is looked at first, added as a block at the next free place, and undone as one', async () => {
+  const f = page.getByRole('form', { name: 'Template' });
+  const before = await all();
+  await f.getByRole('button', { name: 'Add the block' }).click();
+  await until('an axis is asked for', async () => /Choose an axis/.test(await told('template-told')) || (await told('template-told')));
+  await f.getByLabel('Axis').selectOption('slide.x');
+  await f.getByLabel('Unit').fill('1');
+  await f.getByText('A whole number from 2 to 254.').waitFor();
+  assert.equal(await f.getByLabel('Unit').getAttribute('aria-invalid'), 'true');
+  await f.getByLabel('Unit').fill('2');
+  const free = Number(/(\d+)/.exec(await f.getByLabel('Address').getAttribute('placeholder'))[1]);
+  assert.ok(before.every((m) => m.unit !== 2 || m.address < free), 'the block begins behind what is there');
+  await f.getByRole('button', { name: 'Show what it adds' }).click();
+  await until('it is shown', async () => /mappings at .* of unit 2\. Nothing has been changed/.test(await told('template-told')) || (await told('template-told')));
+  const list = f.getByRole('list', { name: 'What would be added' });
+  const shown = await list.locator('li').count();
+  assert.match(await list.locator('li').first().innerText(), new RegExp(`^${free}: statusword of slide.x, u16, read`));
+  assert.ok(shown > 10, `${shown} are shown`);
+  assert.equal((await all()).length, before.length);
+  await f.getByLabel('Axis').focus();
+  await f.getByLabel('Address').press('Enter');
+  await until('it is there', async () => (await all()).length === before.length + shown || [(await all()).length, shown, await told('template-told')]);
+  const block = (await all()).filter((m) => !before.some((b) => b.id === m.id));
+  assert.ok(block.every((m) => m.axis === 'slide.x' && m.address >= free && m.address < free + 64));
+  assert.equal(Math.min(...block.map((m) => m.address)), free, JSON.stringify(block.slice(0, 3)));
+  await f.getByLabel('Address').fill(String(free));
+  await f.getByLabel('Axis').selectOption('feeder');
+  await f.getByRole('button', { name: 'Add the block' }).click();
+  await until('a taken place is refused', async () => /taken|conflict|overlap|mapping/i.test(await told('template-told')) || (await told('template-told')));
+  assert.equal((await all()).length, before.length + shown);
+  await f.getByLabel('Address').fill('');
+  await page.getByRole('button', { name: /^Undo: added the standard map/ }).click();
+  await until('it is gone as one', async () => (await all()).length === before.length || (await all()).length);
+});
+
 test('a row that only the gateway can refuse is marked in its line', async () => {
   await page.getByLabel('Table of mappings').fill('unit\taddress\taxis\tpoint\ttype\n2\t40\tslide.x\tno_such_parameter\ti32');
   const verdict = page.locator('[data-line="2"]');

@@ -78,6 +78,64 @@ test('what is wrong is said at its step, and the text is read only when it is JS
   await page.context().close();
 });
 
+test('parameters, tolerance, comment and the longest time are edited by form', async () => {
+  const page = await open(browser, `${program.url}/recipes/formed`);
+  const document = async () => JSON.parse(await page.getByLabel('The recipe as JSON').inputValue());
+  const set = async (label, value) => {
+    await page.getByLabel(label, { exact: true }).fill(value);
+    await page.getByLabel(label, { exact: true }).press('Tab');
+  };
+  await set('Name of the new parameter', 'two words');
+  await page.getByRole('button', { name: 'Add a parameter' }).click();
+  await page.getByText('A name has 1 to 64 letters').waitFor();
+  await page.getByLabel('Name of the new parameter').fill('far');
+  await page.getByLabel('Name of the new parameter').press('Enter');
+  for (const [what, value] of [['Default', '2'], ['Least', '0'], ['Most', '10'], ['Unit', 'mm'], ['What it is for', 'one way']]) await set(`Parameter far: ${what}`, value);
+  await page.getByLabel('Name of the new parameter').fill('who');
+  await page.getByRole('button', { name: 'Add a parameter' }).click();
+  await page.getByLabel('Parameter who: Type').selectOption('axis');
+  await set('Parameter who: Default', 'feeder');
+  assert.deepEqual((await document()).parameters, { far: { type: 'number', default: 2, min: 0, max: 10, unit: 'mm', description: 'one way' }, who: { type: 'axis', default: 'feeder' } });
+  const add = page.getByLabel('Add a step to steps');
+  await add.selectOption('enable');
+  await add.selectOption('command');
+  await add.selectOption('check');
+  await page.getByLabel('Step 2: Command', { exact: true }).selectOption('move_relative');
+  await set('Step 2: Position', '${far}');
+  await set('Step 2: Velocity', '50');
+  await set('Step 2: Comment', 'the way');
+  assert.equal(await page.getByLabel('Step 3: Tolerance').count(), 0, 'what is true or false has none');
+  await page.getByLabel('Step 3: What').selectOption('position');
+  await set('Step 3: Value', '${far}');
+  await set('Step 3: Tolerance', '0.5');
+  await set('Longest time of a run, s', '90');
+  // A new name goes into the steps, too.
+  await set('Parameter far: Name', 'distance');
+  const d = await document();
+  assert.deepEqual(d.steps[1], { command: { axis: 'feeder', command: 'move_relative', position: '${distance}', wait_s: 30, velocity: 50 }, comment: 'the way' });
+  assert.deepEqual(d.steps[2].check, { axis: 'feeder', point: 'position', is: '${distance}', tolerance: 0.5 });
+  assert.equal(d.timeout_s, 90);
+  // What the gateway does not like stands at the parameter.
+  await set('Parameter distance: Default', '99');
+  await page.locator('[data-recipe-parameter=distance].is-wrong').waitFor();
+  await set('Parameter distance: Default', '2');
+  await until('nothing is wrong', async () => (await page.locator('.is-wrong').count()) === 0);
+  await page.getByRole('button', { name: 'Save' }).click();
+  await page.getByText('Saved.').waitFor();
+  await page.getByLabel('Argument distance').fill('1.5');
+  await page.getByRole('button', { name: 'Run', exact: true }).click();
+  const run = async () => (await program.call('GET', '/recipes/formed/runs/1')).body;
+  await until('it has run', async () => { const r = await run(); return r.state === 'done' || [r.state, r.text, r.steps]; }, 30_000);
+  await page.getByLabel('Step 3: Comparison').selectOption('at_least');
+  assert.equal('tolerance' in (await document()).steps[2].check, false, 'a bound has no tolerance');
+  await page.getByRole('button', { name: 'Remove parameter who' }).click();
+  assert.deepEqual(Object.keys((await document()).parameters), ['distance']);
+  await program.command('feeder', { command: 'disable' });
+  await program.command('feeder', { command: 'set_position', position: 0 });
+  assert.deepEqual(page.faults(), []);
+  await page.context().close();
+});
+
 test('progress is live, and cancel stops the axis', async () => {
   const recipe = { steps: [{ enable: { axis: 'feeder' } }, { command: { axis: 'feeder', command: 'move_velocity', velocity: 3, acceleration: 100 } }, { wait_s: 600 }] };
   assert.equal((await program.call('PUT', '/recipes/endless', recipe)).status, 201);

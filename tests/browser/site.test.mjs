@@ -118,6 +118,57 @@ test('what is not kept is rolled back by itself, and by the button', async () =>
   await until('it is rolled back', async () => (await axis('feeder')).unit === 'deg');
 });
 
+test('a trial is counted down in the head of every part, for everybody; kept or taken back from there by who may', async () => {
+  if (!offersStage) return;
+  const { parts } = await import('./lib/parts.mjs');
+  const change = async (unit) => {
+    const document = await site();
+    document.axes.find((a) => a.name === 'feeder').unit = unit;
+    assert.equal((await program.call('POST', '/site/stage', document)).status, 200);
+    assert.equal((await program.call('POST', '/site/stage/apply', { confirm_within_s: 120 })).status, 200);
+  };
+  const other = await open(browser, program.url);
+  const trial = other.locator('[data-field=trial]');
+  const height = async () => (await other.locator('.top').boundingBox()).height;
+  await other.locator('[data-axis=feeder] [data-live=true]').waitFor();
+  const tall = await height();
+  assert.equal(await trial.count(), 0);
+  await change('inch');
+  await trial.waitFor();
+  assert.equal(await height(), tall, 'the head keeps its height');
+  const rest = async () => Number(/(\d+) s/.exec(await other.locator('[data-field=trial-rest]').innerText())[1]);
+  const first = await rest();
+  assert.ok(first > 100 && first <= 120, `${first} s`);
+  await until('it counts down', async () => (await rest()) < first || (await rest()));
+  for (const { path } of parts.filter((p) => p.name !== 'recipe')) {
+    for (const width of [1440, 390]) {
+      await other.setViewportSize({ width, height: 900 });
+      await other.goto(program.url + path);
+      await trial.waitFor();
+      for (const name of ['Keep the applied site', 'Roll back the applied site']) {
+        const box = await other.getByRole('button', { name }).boundingBox();
+        assert.ok(box && box.x >= 0 && box.x + box.width <= width && box.height >= 24, `${path} ${width}: ${name} at ${JSON.stringify(box)}`);
+      }
+    }
+  }
+  await shot(other, 'trial-390');
+  await other.getByRole('button', { name: 'Roll back the applied site' }).click();
+  await trial.waitFor({ state: 'detached' });
+  assert.equal((await axis('feeder')).unit, 'deg');
+  await change('inch');
+  await trial.waitFor();
+  await other.getByRole('button', { name: 'Keep the applied site' }).click();
+  await trial.waitFor({ state: 'detached' });
+  assert.equal((await axis('feeder')).unit, 'inch');
+  // Somebody else keeps it: the page that only looks on is told, though no revision changes.
+  await change('deg');
+  await trial.waitFor();
+  assert.equal((await program.call('POST', '/site/stage/confirm', {})).status, 200);
+  await trial.waitFor({ state: 'detached' });
+  assert.deepEqual(other.faults(), []);
+  await other.context().close();
+});
+
 test('a line, a drive and an axis are added by their forms and applied as one', async () => {
   await page.getByRole('button', { name: 'Add a line' }).click();
   const line = form('Add a line');
@@ -226,9 +277,9 @@ test('a backup goes out, or it is said that there is none; a restore is asked fo
     // A copy of everything is for administrators.
     const first = await page.context().request.post(`${program.url}/api/v1/session/first`, { data: { code: program.process.code, user: 'anna', password: 'correct-horse-9' } });
     assert.equal(first.status(), 200);
+    await page.reload();
     const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Backup of everything' }).click()]);
     assert.match(download.suggestedFilename(), /\.db$/);
-    await page.context().clearCookies();
   } else {
     await page.getByRole('button', { name: 'Backup of everything' }).click();
     await until('it is said', async () => /does not offer/.test(await told('files-told')) || (await told('files-told')));
@@ -238,6 +289,7 @@ test('a backup goes out, or it is said that there is none; a restore is asked fo
   await page.getByLabel('Restore a backup', { exact: true }).and(page.locator('input')).setInputFiles(file);
   await page.getByText('replaces site, mappings, parameters').waitFor();
   await page.getByRole('button', { name: 'Leave it' }).click();
+  await page.context().clearCookies();
   assert.deepEqual(page.faults(), []);
 });
 

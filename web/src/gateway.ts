@@ -10,6 +10,7 @@ import { Jog } from './state/jog';
 import { Session } from './state/session';
 import { kept } from './state/kept';
 import { Store } from './state/store';
+import { Tab, tabChannel } from './state/tab';
 
 const overviewPeriod_ms = 100;
 const closePeriod_ms = 50;
@@ -23,11 +24,13 @@ export class Gateway {
   readonly commander: Commander;
   readonly session: Session;
   readonly stream: Stream;
+  readonly tab: Tab;
   private readonly jogs = new Map<string, Jog>();
   private readonly extra = new Map<string, Set<(m: StreamMessage) => void>>();
 
   constructor(parts: { client?: Client; store?: Store; url?: string } = {}) {
-    this.client = parts.client ?? new Client('/api/v1', undefined, tabName());
+    this.tab = new Tab(kept('client'), parts.client ? null : tabChannel());
+    this.client = parts.client ?? new Client('/api/v1', undefined, () => this.tab.name.peek());
     this.store = parts.store ?? new Store({ schedule: beforeNextPicture });
     this.commander = new Commander(this.client, () => (this.store.connected.peek() ? this.session.mayNot('operator') : 'The page is not connected to the gateway.'));
     this.session = new Session(this.client, () => {
@@ -65,7 +68,7 @@ export class Gateway {
       void this.session.ask();
     });
     // Nobody is given no stream: it is not knocked for before the sign-in. A gateway that is slow to say who one is holds it up for a second at most.
-    void Promise.race([this.session.ask(), new Promise((r) => setTimeout(r, 1000))]).then(() => {
+    void Promise.race([Promise.all([this.session.ask(), this.tab.settled]), new Promise((r) => setTimeout(r, 1000))]).then(() => {
       if (!this.session.needed.peek()) this.stream.start();
     });
     addEventListener('online', () => this.stream.wake());
@@ -116,13 +119,6 @@ export class Gateway {
       }, listRetry_ms);
     }
   }
-}
-
-/** A name per tab, kept for its session: a reload is the same client. */
-function tabName(): string {
-  const name = kept('client');
-  if (!name.value) name.value = `page-${Math.floor(Math.random() * 36 ** 6).toString(36).padStart(6, '0')}`;
-  return name.value;
 }
 
 export function streamUrl(at: { protocol: string; host: string }): string {

@@ -27,7 +27,7 @@ startRouter();
 const gateway = new Gateway();
 gateway.start();
 // Who one is decides what is shown first; a gateway that does not answer keeps the stops off the screen for a second at most.
-await Promise.race([gateway.session.ask(), new Promise((r) => setTimeout(r, 1000))]);
+await Promise.race([Promise.all([gateway.session.ask(), gateway.tab.settled]), new Promise((r) => setTimeout(r, 1000))]);
 render(
   <GatewayProvider value={gateway}>
     <App />

@@ -1,7 +1,7 @@
 // Recipes as a tree that is edited: every change is a copy, what is typed becomes the value that it reads as, every step kind has its form.
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
-import { added, changed, documentOf, editable, freshStep, kindOf, moved, pointerOf, removed, runWord, stepKinds, typedOf, valueOf, type RecipeDocument } from '../src/words/recipe';
+import { added, changed, defaultOf, documentOf, editable, freshStep, kindOf, moved, parameterFault, pointerOf, removed, renamedParameter, runWord, stepKinds, takesTolerance, typedOf, valueOf, withoutParameter, withParameter, type RecipeDocument } from '../src/words/recipe';
 
 const recipe = (): RecipeDocument => ({
   steps: [{ enable: { axis: 'a' } }, { if: { condition: { axis: 'a', point: 'fault', is: true }, then: [{ wait_s: 1 }, { wait_s: 2 }], else: [] } }, { message: 'x' }],
@@ -46,4 +46,27 @@ it('reads text, or says what is wrong with it', () => {
 it('leaves out what the gateway adds', () => expect(editable({ name: 'x', changed_at: 'y', changed_by: null, steps: [] })).toEqual({ steps: [] }));
 it('has a word for every state', () => {
   for (const s of ['running', 'stopping', 'done', 'failed', 'cancelled', 'not_run']) expect(runWord(s).text.length).toBeGreaterThan(3);
+});
+
+describe('parameters', () => {
+  const d = (): RecipeDocument => ({ description: 'x', steps: [{ wait_s: '${t}' }, { repeat: { times: 2, steps: [{ message: 'for ${t} of ${total}' }] } }], parameters: { t: { type: 'number', default: 1, min: 0 }, total: { type: 'number' } } });
+  it('change member by member; what became nothing is taken away', () => {
+    expect(withParameter(d(), 't', { max: 9, min: undefined }).parameters?.t).toEqual({ type: 'number', default: 1, max: 9 });
+    expect(withParameter({ steps: [] }, 'new', { type: 'axis' })).toEqual({ parameters: { new: { type: 'axis' } }, steps: [] });
+    expect(Object.keys(withParameter({ steps: [] }, 'new', { type: 'axis' }))).toEqual(['parameters', 'steps']);
+  });
+  it('are renamed in their place, in every step, and no other with them', () => {
+    const r = renamedParameter(d(), 't', 'rest');
+    expect(Object.keys(r.parameters ?? {})).toEqual(['rest', 'total']);
+    expect(r.steps).toEqual([{ wait_s: '${rest}' }, { repeat: { times: 2, steps: [{ message: 'for ${rest} of ${total}' }] } }]);
+    expect(d().parameters?.t).toBeDefined();
+  });
+  it('leave no empty list behind', () => {
+    expect(withoutParameter(withoutParameter(d(), 't'), 'total').parameters).toBeUndefined();
+    expect(Object.keys(withoutParameter(d(), 't').parameters ?? {})).toEqual(['total']);
+  });
+  it.each([['', /1 to 64/], ['two words', /1 to 64/], ['t', /already/], ['speed.x', /^$/]])('may be called %j or not', (name, why) => expect(parameterFault(d(), name)).toMatch(why));
+  it('are at most 64', () => expect(parameterFault({ steps: [], parameters: Object.fromEntries(Array.from({ length: 64 }, (_, i) => [`p${i}`, { type: 'number' }])) }, 'one')).toMatch(/at most 64/));
+  it.each([['number', '2.5', 2.5], ['boolean', 'true', true], ['text', '12', '12'], ['axis', 'feeder', 'feeder'], ['number', ' ', undefined], ['text', '', undefined]])('of type %s have the default %j', (type, typed, value) => expect(defaultOf(type, typed)).toEqual(value));
+  it.each([['is', 6, true], ['is_not', 6, true], ['is', '${distance}', true], ['is', 'operation_enabled', false], ['is', true, false], ['at_least', 6, false]])('a comparison %s %j takes a tolerance: %j', (op, value, takes) => expect(takesTolerance(op, value)).toBe(takes));
 });

@@ -63,7 +63,7 @@ export class Program {
   }
 
   async run() {
-    const args = ['serve', '--data', this.data, '--site', this.site];
+    const args = ['serve', '--data', this.data, ...(this.site ? ['--site', this.site] : [])];
     for (const s of [`http.bind=127.0.0.1:${this.port}`, 'modbus.bind=127.0.0.1:0', 'enip.bind=127.0.0.1:0', ...(this.set ?? [])]) args.push('--set', s);
     this.process = await Process.run(args, /^ready .*?\bhttp=(\S+)/m);
     // Printed once, before `ready`, while no user exists.

@@ -49,8 +49,11 @@ export class Client {
     private readonly base = '/api/v1',
     private readonly fetcher: typeof fetch = (...a) => fetch(...a),
     /** X-Client: what makes all connections of one tab one client, which can hold an axis. */
-    readonly name = '',
+    private readonly named: string | (() => string) = '',
   ) {}
+  get name(): string {
+    return typeof this.named === 'string' ? this.named : this.named();
+  }
 
   about = () => this.call<About>('/about');
   axes = () => this.call<Axis[]>('/axes');
@@ -185,7 +188,8 @@ export class Client {
     try {
       const headers: Record<string, string> = { accept: 'application/json, application/problem+json' };
       const init: RequestInit = { method: options.method ?? 'GET', headers, signal: aborter.signal, cache: 'no-store' };
-      if (this.name) headers['x-client'] = this.name;
+      const name = this.name;
+      if (name) headers['x-client'] = name;
       if (this.csrf && init.method !== 'GET') headers['x-csrf-token'] = this.csrf;
       if (options.body !== undefined) {
         headers['content-type'] = 'application/json';

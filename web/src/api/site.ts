@@ -13,7 +13,7 @@ export interface StageDiff {
   after?: Record<string, unknown> | null;
 }
 export interface Stage {
-  state: 'none' | 'staged' | 'applied';
+  state: 'none' | 'staged' | 'applying' | 'applied' | 'rolling_back';
   id?: string | number | null;
   faults?: SiteFault[];
   diff?: StageDiff[];
@@ -21,7 +21,8 @@ export interface Stage {
   disturbs?: string[];
   /** ns since 1970, the gateway's clock; only while applied. */
   confirm_by?: number | null;
-  who?: string | null;
+  /** Who staged or applied it: the name and where from. */
+  by?: string | null;
 }
 export interface HistoryEntry {
   revision: number;

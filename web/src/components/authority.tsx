@@ -15,15 +15,19 @@ const ttl_s = 30;
 const renew_ms = 10_000;
 
 const useHeld = (entry: AxisEntry) => {
-  const { store, client } = useGateway();
+  const { store, tab } = useGateway();
   void tick.value; // the rest is counted down between two readings
-  return heldBy(entry.data, store.gatewayNow_ms(), client.name ?? '');
+  return heldBy(entry.data, store.gatewayNow_ms(), tab.name.value);
 };
 
-/** One line for a tile; nothing while nobody holds the axis. */
+/** One line for a tile; empty while nobody holds the axis, so that the place is there when somebody does. */
 export function HolderLine({ entry }: { entry: AxisEntry }) {
   const held = useHeld(entry);
-  return held.holder ? <p class="authority" data-field="authority">{heldWords(held)}</p> : null;
+  return (
+    <p class="holder" data-field="authority" title={held.holder ? heldWords(held) : undefined}>
+      {held.holder ? heldWords(held) : ''}
+    </p>
+  );
 }
 
 export function AuthorityBar({ entry }: { entry: AxisEntry }) {

@@ -10,6 +10,7 @@ import { duration } from '../words/time';
 import { Icon, type IconName } from './icon';
 import { lastKnownWords } from './axis-tile';
 import { StopAll } from './stop';
+import { Trial } from './trial';
 import { Who } from './who';
 
 const places: { path: string; text: string; icon: IconName; pages: Route['page'][] }[] = [
@@ -145,6 +146,7 @@ export function Strip() {
         <Counted n={n.offline} one="offline" many="offline" tone="warning" />
       </span>
       <span class={`strip-stop result-${stop.tone}`}>{stop.text}</span>
+      <Trial />
     </div>
   );
 }

@@ -6,7 +6,7 @@ import { asProblem } from '../api/problem';
 import { useGateway } from '../gateway';
 import { kept } from '../state/kept';
 import type { MappingBook } from '../state/mappings';
-import { nextFree } from '../words/mapping';
+import { nextFree, placeText, type Mapping } from '../words/mapping';
 import { parseNumber } from '../words/number';
 import { Choice, notOffered, quiet, Tell, TextField, toldOf, type Told } from './form';
 import { Section } from './section';
@@ -38,8 +38,9 @@ export function MappingTemplates({ book, door }: { book: MappingBook; door: Mapp
     try {
       if (dry) {
         const r = await door.template({ template: 'standard_map', axis: axis.value, unit: u, address: at, dry_run: true });
-        differences.value = r.differences ?? [];
-        told.value = { tone: 'good', text: `${differences.value.length} changes at ${at}–${at + blockWidth - 1} of unit ${u}. Nothing has been changed.` };
+        // A gateway says the block entry by entry, or as sentences.
+        differences.value = Array.isArray(r.mappings) ? (r.mappings as Mapping[]).map((m) => `${placeText(m)}: ${m.point} of ${m.axis}, ${m.type}, ${{ R: 'read', W: 'write', RW: 'read and write' }[m.access]}`) : (r.differences ?? []);
+        told.value = { tone: 'good', text: `${differences.value.length} mappings at ${at}–${at + blockWidth - 1} of unit ${u}. Nothing has been changed.` };
         return;
       }
     } catch (error) {

@@ -1,19 +1,19 @@
 // Site stage: what is waiting to be applied, and the way there: check, apply, keep, or roll back. In: the draft. Out: the draft's steps.
-// While an applied change waits to be kept, the rest of its time is shown each second, and spoken when it is short.
-import { signal, useSignal } from '@preact/signals';
-import { useEffect } from 'preact/hooks';
+// While an applied change waits to be kept, the rest of its time is shown each second; the head of the page speaks it when it is short.
+import { useSignal } from '@preact/signals';
 import { useGateway } from '../gateway';
 import type { SiteDraft } from '../state/site-draft';
 import { kept } from '../state/kept';
+import { barred } from '../state/session';
 import { differenceWords, sameDocument, type Difference } from '../words/site';
 import type { StageDiff } from '../api/site';
 import { parseNumber } from '../words/number';
 import { Tell, TextField } from './form';
 import { useBarred } from './gate';
 import { Icon } from './icon';
+import { keepBarred, useTrialRest } from './trial';
 
 const within = kept('site.within_s', '60');
-const second = signal(0);
 const mostShown = 200;
 
 export function DifferenceList({ list, label }: { list: readonly (Difference | StageDiff)[]; label: string }) {
@@ -30,20 +30,11 @@ export function DifferenceList({ list, label }: { list: readonly (Difference | S
 }
 
 export function SiteStage({ draft }: { draft: SiteDraft }) {
-  const { store } = useGateway();
+  const { session } = useGateway();
   const no = useBarred('engineer');
   const stage = draft.stage.value;
-  useEffect(() => {
-    if (stage.state !== 'applied') return;
-    const timer = setInterval(() => {
-      second.value += 1;
-      // The gateway itself ends the wait; ask it when the time is over.
-      if (left() <= 0) void draft.look();
-    }, 1000);
-    return () => clearInterval(timer);
-  }, [stage.state, stage.confirm_by]);
-  const left = () => (stage.confirm_by ? Math.ceil((stage.confirm_by / 1e6 - (Date.now() + store.clockOffset_ms)) / 1000) : 0);
-  void second.value;
+  const rest = useTrialRest(draft);
+  const keep = barred(keepBarred(draft, session));
 
   const changes = draft.changes.value;
   const theirs = draft.theirs.value;
@@ -56,17 +47,13 @@ export function SiteStage({ draft }: { draft: SiteDraft }) {
   const asked = useSignal(false);
 
   if (stage.state === 'applied') {
-    const rest = Math.max(0, left());
     return (
       <section class="card stage is-applied" aria-label="Applied change" data-field="stage" data-state="applied">
         <p class="stage-count" data-field="countdown">
           <Icon name="clock" /> The change is applied. {rest > 0 ? `It is rolled back by itself in ${rest} s.` : 'Its time is over.'}
         </p>
-        <p class="visually-hidden" role="alert">
-          {rest === 20 || rest === 10 ? `The change is rolled back in ${rest} seconds.` : ''}
-        </p>
         <div class="form-foot">
-          <button type="button" class="button primary" disabled={busy} onClick={() => void draft.confirm()}>
+          <button type="button" class="button primary" disabled={busy} {...keep} onClick={() => void draft.confirm()}>
             Keep
           </button>
           <button type="button" class="button" disabled={busy} {...no} onClick={() => void draft.rollBack()}>

@@ -26,6 +26,8 @@ export function StopAll() {
   useLayoutEffect(() => {
     const onKey = (event: KeyboardEvent) => {
       if (event.key !== 'Escape' || event.repeat || event.isComposing) return;
+      // A search field would clear itself: a stop changes nothing of what is typed.
+      if (event.target instanceof HTMLInputElement && event.target.type === 'search') event.preventDefault();
       void commander.stopAll(movingFirst());
     };
     // In the capturing phase: nothing on the page can swallow it.

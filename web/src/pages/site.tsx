@@ -3,8 +3,6 @@
 import { Why } from '../components/gate';
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
-import type { Client } from '../api/client';
-import { SiteDoor } from '../api/site';
 import { Empty } from '../components/lines';
 import { SiteEntries } from '../components/site-entries';
 import { SiteFiles, SiteHistory } from '../components/site-files';
@@ -15,20 +13,9 @@ import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
 import { kept } from '../state/kept';
 import { barred } from '../state/session';
-import { SiteDraft } from '../state/site-draft';
+import { draftOf } from '../state/site-draft';
 
 const wizard = kept('site.wizard');
-const drafts = new WeakMap<Client, { door: SiteDoor; draft: SiteDraft }>();
-function draftOf(client: Client) {
-  let d = drafts.get(client);
-  if (!d) {
-    const door = new SiteDoor(client);
-    drafts.set(client, (d = { door, draft: new SiteDraft(door) }));
-    d.draft.keep();
-  }
-  return d;
-}
-
 export function SitePage() {
   const { client, session, store } = useGateway();
   const { door, draft } = draftOf(client);

@@ -3,7 +3,8 @@
 // only when I say so. A gateway without staging gets the whole document at once, after a dry run; that there is no roll back is said.
 import { computed, effect, signal, type ReadonlySignal } from '@preact/signals';
 import { asProblem, type Problem } from '../api/problem';
-import type { SiteDoor, SiteFault, Stage } from '../api/site';
+import type { Client } from '../api/client';
+import { SiteDoor, type SiteFault, type Stage } from '../api/site';
 import { differenceOf, rebase, sameDocument, withEntry, withoutEntry, type Difference, type Entry, type Room, type Site } from '../words/site';
 import { kept } from './kept';
 
@@ -220,3 +221,15 @@ export class SiteDraft {
 }
 
 const faultWords = (n: number): string => (n === 1 ? 'One fault must be mended.' : `${n} faults must be mended.`);
+
+const drafts = new WeakMap<Client, { door: SiteDoor; draft: SiteDraft }>();
+/** The one draft of a page; the head and the part of the site look at the same stage. */
+export function draftOf(client: Client): { door: SiteDoor; draft: SiteDraft } {
+  let d = drafts.get(client);
+  if (!d) {
+    const door = new SiteDoor(client);
+    drafts.set(client, (d = { door, draft: new SiteDraft(door) }));
+    d.draft.keep();
+  }
+  return d;
+}

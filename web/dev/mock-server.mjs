@@ -1,6 +1,6 @@
 #!/usr/bin/env node
 // Mock server: the HTTP door of axisgate over the mock world, with the built page, for developing and testing the page alone.
-//   node dev/mock-server.mjs [--port 8090]
+//   node dev/mock-server.mjs [--port 8090] [--set users.local_role=viewer]
 // It also takes the command line of the program (`serve --data DIR --site FILE --set http.bind=ADDRESS:PORT`) and prints the same
 // `ready` line, so that the browser tests can run against it (AXISGATE_BIN=web/dev/mock-server.mjs). It stops on SIGTERM.
 import { createReadStream, readFileSync, statSync } from 'node:fs';
@@ -8,7 +8,10 @@ import { createServer } from 'node:http';
 import { extname, join, normalize } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { WebSocketServer } from 'ws';
+import { Access, roles } from './mock/access.mjs';
+import { Alarms } from './mock/alarms.mjs';
 import { Configuration } from './mock/configure.mjs';
+import { Recipes } from './mock/recipes.mjs';
 import { catalogue, demoSite, Refusal, World } from './mock/world.mjs';
 
 const dist = fileURLToPath(new URL('../dist', import.meta.url));
@@ -21,11 +24,16 @@ const types = { '.html': 'text/html; charset=utf-8', '.js': 'text/javascript; ch
 const o = readArguments(process.argv.slice(2));
 const world = new World(o.site ? JSON.parse(readFileSync(o.site, 'utf8')) : demoSite);
 const configuration = new Configuration(world);
+const alarms = new Alarms(world);
+const recipes = new Recipes(world);
+const access = new Access(o.localRole);
 
 let last = performance.now();
 setInterval(() => {
   const now = performance.now();
   world.step((now - last) / 1000);
+  recipes.step(now);
+  alarms.look();
   last = now;
 }, 10);
 
@@ -48,7 +56,12 @@ async function answer(request, response) {
   const who = `${request.socket.remoteAddress}:${request.socket.remotePort}`;
   const q = url.searchParams;
   const text = method === 'GET' ? '' : await textOf(request);
-  const configured = configuration.answer({ method, parts, q, text, who, match: String(request.headers['if-match'] ?? '') });
+  const identity = access.identify(request.headers);
+  const given = text.startsWith('{') ? readJson(text) : {};
+  access.check(identity, method, parts, given, String(request.headers['x-csrf-token'] ?? ''));
+  const client = [identity.user ?? request.socket.remoteAddress, request.headers['x-client']].filter(Boolean).join(' ');
+  const ask = { method, parts, q, text, who: identity.user ?? who, match: String(request.headers['if-match'] ?? ''), client };
+  const configured = access.answer(ask, identity) ?? alarms.answer(ask) ?? recipes.answer(ask) ?? configuration.answer(ask);
   if (configured) {
     const head = { 'content-type': configured.type ?? 'application/json', 'site-revision': String(world.revision), ...configured.head };
     response.writeHead(configured.status ?? 200, head);
@@ -67,9 +80,12 @@ async function answer(request, response) {
     return json(response, world.setHand(name, body()));
   }
   if (kind === 'drives' && name && what === 'native') return json(response, world.native(name, body()));
-  if (kind === 'axes' && !name) return json(response, [...world.axes.keys()].map((n) => world.axis(n)));
-  if (kind === 'axes' && name && !what) return json(response, { ...world.axis(name), age_ms: 3 });
-  if (kind === 'axes' && name && what === 'commands') return json(response, world.command(name, body(), who));
+  if (kind === 'axes' && !name) return json(response, [...world.axes.keys()].map(axisNow));
+  if (kind === 'axes' && name && !what) return json(response, { ...axisNow(name), age_ms: 3 });
+  if (kind === 'axes' && name && what === 'commands') {
+    access.mayCommand(name, client, given);
+    return json(response, world.command(name, body(), who));
+  }
   if (kind === 'axes' && name && what === 'parameters') {
     const axis = world.axisOf(name);
     if (!id) {
@@ -93,6 +109,11 @@ async function answer(request, response) {
     return json(response, { ticket: (world.ticket += 1), result: 'done', reason: '', axis: name, command: 'write_parameter', code: null, text: '', value });
   }
   throw new Refusal(404, 'not_found', `there is no ${method} ${path}`);
+}
+
+/** @param {string} name */
+function axisNow(name) {
+  return access.withHolder(world.axis(name));
 }
 
 /** @param {string} path @param {Response} response */
@@ -144,7 +165,7 @@ function problem(response, r) {
   response.end(JSON.stringify({ type: `urn:axisgate:problem:${r.reason}`, title: r.reason.replaceAll('_', ' '), status: r.status, detail: r.message, code: null, reason: r.reason, ...r.more }));
 }
 
-const sockets = new WebSocketServer({ server, path: '/api/v1/stream' });
+const sockets = new WebSocketServer({ server, path: '/api/v1/stream', verifyClient: (/** @type {{req: Request}} */ { req }) => access.identify(req.headers).role !== null });
 sockets.on('connection', (socket) => {
   /** @type {Map<string, {period: number, next: number}>} */
   const topics = new Map();
@@ -167,6 +188,11 @@ sockets.on('connection', (socket) => {
   };
   /** @param {string} topic @param {boolean} always */
   const look = (topic, always) => {
+    if (topic === 'alarms') {
+      if (always || alarmsTold !== alarms.change) tell('alarms', alarms.document());
+      alarmsTold = alarms.change;
+      return;
+    }
     const [kind, name, rest] = topic.split('/');
     if (rest === 'frames') {
       const frames = (world.frames.get(name ?? '') ?? []).filter((f) => always || f.sequence > (framesSent.get(topic) ?? 0));
@@ -174,7 +200,7 @@ sockets.on('connection', (socket) => {
       if (frames.length > 0 || always) tell(topic, { missed: 0, frames });
       return;
     }
-    if (kind === 'axes') for (const n of name === '*' ? world.axes.keys() : [name ?? '']) state(`axes/${n}`, world.axis(n), always);
+    if (kind === 'axes') for (const n of name === '*' ? world.axes.keys() : [name ?? '']) state(`axes/${n}`, axisNow(n), always);
     if (kind === 'drives') for (const n of name === '*' ? world.drives.keys() : [name ?? '']) state(`drives/${n}`, world.driveOf(n).document(), always);
     if (kind === 'lines') for (const l of world.site.lines) if (name === '*' || name === l.name) state(`lines/${l.name}`, world.line(l.name), always);
   };
@@ -186,6 +212,11 @@ sockets.on('connection', (socket) => {
     if (topics.has('site')) tell('site', { revision: world.revision });
   };
   world.siteListeners.push(onSite);
+  const onRun = (/** @type {import('../src/api/types').RecipeReport} */ r) => {
+    if (topics.has('recipes')) tell('recipes', r);
+  };
+  recipes.listeners.push(onRun);
+  let alarmsTold = 0;
   socket.on('message', (raw) => {
     const r = JSON.parse(String(raw));
     for (const t of r.unsubscribe ?? []) topics.delete(t);
@@ -207,10 +238,11 @@ sockets.on('connection', (socket) => {
     clearInterval(timer);
     world.listeners = world.listeners.filter((l) => l !== onEvent);
     world.siteListeners = world.siteListeners.filter((l) => l !== onSite);
+    recipes.listeners = recipes.listeners.filter((l) => l !== onRun);
   });
 });
 
-server.listen(o.port, o.host, () => console.log(`ready http=${address()} (mock)`));
+server.listen(o.port, o.host, () => console.log(`first sign-in: code ${access.code}\nready http=${address()} (mock)`));
 for (const s of ['SIGTERM', 'SIGINT']) {
   process.on(s, () => {
     for (const c of sockets.clients) c.close(1001, 'the gateway stops');
@@ -225,11 +257,13 @@ function address() {
 
 /** @param {string[]} given */
 function readArguments(given) {
-  const r = { host: '127.0.0.1', port: 8090, site: '' };
+  /** @type {{host: string, port: number, site: string, localRole: import('../src/api/types').Role | null}} */
+  const r = { host: '127.0.0.1', port: 8090, site: '', localRole: 'engineer' };
   for (let i = 0; i < given.length; i += 1) {
     const value = given[i + 1] ?? '';
     if (given[i] === '--port') r.port = Number(value);
     if (given[i] === '--site') r.site = value;
+    if (given[i] === '--set' && value.startsWith('users.local_role=')) r.localRole = roles.find((x) => value.endsWith(`=${x}`)) ?? null;
     if (given[i] === '--set' && value.startsWith('http.bind=')) {
       const at = value.lastIndexOf(':');
       r.host = value.slice('http.bind='.length, at);

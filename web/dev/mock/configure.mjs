@@ -3,7 +3,7 @@
 import { Refusal } from './world.mjs';
 
 /** @typedef {{status?: number, type?: string, head?: Record<string, string>, body?: any, text?: string}} Answer */
-/** @typedef {{method: string, parts: string[], q: URLSearchParams, text: string, who: string, match: string}} Ask */
+/** @typedef {{method: string, parts: string[], q: URLSearchParams, text: string, who: string, match: string, client?: string}} Ask */
 
 const columns = ['id', 'unit', 'table', 'address', 'axis', 'point', 'type', 'word_order', 'scale', 'offset', 'access', 'length', 'comment'];
 const points = [
@@ -232,16 +232,19 @@ export class Configuration {
     const l = this.world.line(line);
     if (method === 'POST') {
       const { from = 1, to = 10 } = text ? JSON.parse(text) : {};
-      this.scans.set(line, { begun: Date.now(), from, to });
-      return { status: 202, head: { location: `/api/v1/lines/${line}/scan` }, body: { state: 'running' } };
+      if (Number(to) < Number(from)) throw new Refusal(422, 'invalid', `the last address ${to} is before the first ${from}`);
+      this.scans.set(line, { begun: Date.now(), from: Number(from), to: Number(to), ended: 0 });
     }
     const s = this.scans.get(line);
-    if (!s) throw new Refusal(404, 'not_found', `line ${line} was not scanned`);
-    if (method === 'DELETE') this.scans.delete(line);
-    const progress = Math.min(1, (Date.now() - s.begun) / 800);
+    const of = s ? s.to - s.from + 1 : 0;
+    if (!s) return { body: { line, state: 'none', progress: 0, asked: 0, of, found: [], text: '' } };
+    const progress = Math.min(1, ((s.ended || Date.now()) - s.begun) / 800);
+    if (method === 'DELETE' && progress < 1) s.ended = Date.now();
+    const state = progress >= 1 ? 'done' : s.ended ? 'cancelled' : 'running';
     const known = [...this.world.drives.values()].find((d) => d.spec.line === line);
-    const found = progress < 1 ? [] : [{ address: known?.spec.address ?? 5, family: l.family, text: 'answers', known_as: known?.spec.name ?? null }, { address: 9, family: l.family, text: 'answers', known_as: null }];
-    return { body: { state: progress < 1 ? 'running' : 'done', progress, found, asked: Math.round(progress * (s.to - s.from + 1)), text: '' } };
+    const found = progress < 1 ? [] : [{ address: String(known?.spec.address ?? 5), family: l.family, text: 'answers', known_as: known?.spec.name ?? null }, { address: '9', family: l.family, text: 'answers', known_as: null }];
+    const body = { line, state, progress, found, asked: Math.round(progress * of), of, text: state === 'cancelled' ? 'ended by hand' : '' };
+    return method === 'POST' ? { status: 202, head: { location: `/api/v1/lines/${line}/scan` }, body } : { body };
   }
 
   /** @param {Ask} ask @param {string} name @returns {Answer} */

@@ -64,48 +64,50 @@ function ParameterRow({ name, document, change, faults }: RecipeParametersProps 
   );
   return (
     <div class={`step${faults.length > 0 ? ' is-wrong' : ''}`} data-recipe-parameter={name}>
-      <div class="step-fields">
-        <label class="step-field">
-          <span>Name</span>
-          <input
-            type="text"
-            class="mono"
-            autocomplete="off"
-            spellcheck={false}
-            aria-label={label('Name')}
-            aria-invalid={wrong.value !== '' || undefined}
-            value={name}
-            onChange={(e) => {
-              const typed = e.currentTarget.value.trim();
-              wrong.value = typed === name ? '' : parameterFault(document, typed);
-              if (wrong.peek() || typed === name) e.currentTarget.value = name;
-              else change(renamedParameter(document, name, typed));
-            }}
-          />
-        </label>
-        <label class="step-field">
-          <span>Type</span>
-          <select
-            aria-label={label('Type')}
-            value={p.type}
-            onChange={(e) => {
-              const type = e.currentTarget.value;
-              const numeric = type === 'number' || type === 'integer';
-              set({ type, default: defaultOf(type, typedOf(p.default)), ...(numeric ? {} : { min: undefined, max: undefined }) });
-            }}
-          >
-            {parameterTypes.map((t) => (
-              <option key={t} value={t}>
-                {t}
-              </option>
-            ))}
-          </select>
-        </label>
-        {field('Default', p.default, (t) => set({ default: defaultOf(p.type, t) }), p.type === 'axis' ? { list: 'recipe-axes' } : {})}
-        {isNumber && field('Least', p.min, (t) => set({ min: valueOf(t) }))}
-        {isNumber && field('Most', p.max, (t) => set({ max: valueOf(t) }))}
-        {isNumber && field('Unit', p.unit, (t) => set({ unit: t.trim() || undefined }))}
-        {field('What it is for', p.description, (t) => set({ description: t || undefined }), { wide: true })}
+      <div class="parameter-row">
+        <div class="step-fields">
+          <label class="step-field">
+            <span>Name</span>
+            <input
+              type="text"
+              class="mono"
+              autocomplete="off"
+              spellcheck={false}
+              aria-label={label('Name')}
+              aria-invalid={wrong.value !== '' || undefined}
+              value={name}
+              onChange={(e) => {
+                const typed = e.currentTarget.value.trim();
+                wrong.value = typed === name ? '' : parameterFault(document, typed);
+                if (wrong.peek() || typed === name) e.currentTarget.value = name;
+                else change(renamedParameter(document, name, typed));
+              }}
+            />
+          </label>
+          <label class="step-field">
+            <span>Type</span>
+            <select
+              aria-label={label('Type')}
+              value={p.type}
+              onChange={(e) => {
+                const type = e.currentTarget.value;
+                const numeric = type === 'number' || type === 'integer';
+                set({ type, default: defaultOf(type, typedOf(p.default)), ...(numeric ? {} : { min: undefined, max: undefined }) });
+              }}
+            >
+              {parameterTypes.map((t) => (
+                <option key={t} value={t}>
+                  {t}
+                </option>
+              ))}
+            </select>
+          </label>
+          {field('Default', p.default, (t) => set({ default: defaultOf(p.type, t) }), p.type === 'axis' ? { list: 'recipe-axes' } : {})}
+          {isNumber && field('Least', p.min, (t) => set({ min: valueOf(t) }))}
+          {isNumber && field('Most', p.max, (t) => set({ max: valueOf(t) }))}
+          {isNumber && field('Unit', p.unit, (t) => set({ unit: t.trim() || undefined }))}
+          {field('What it is for', p.description, (t) => set({ description: t || undefined }), { wide: true })}
+        </div>
         <button type="button" class="button small square" aria-label={`Remove parameter ${name}`} title="Remove" onClick={() => change(withoutParameter(document, name))}>
           <Icon name="remove" />
         </button>

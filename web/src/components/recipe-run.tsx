@@ -192,7 +192,7 @@ export function Report({ report: r }: { report: RecipeReport }) {
               <span class="report-what">
                 <b>{s.step}</b> {s.axis ?? ''}
                 {s.times > 1 && ` × ${s.times}`}
-                {s.value !== null && s.value !== undefined && <span class="mono"> = {typedOf(s.value)}</span>}
+                {s.value !== null && s.value !== undefined && <span class="mono"> = {typedOf(typeof s.value === 'number' ? Number(s.value.toPrecision(9)) : s.value)}</span>}
                 {s.text && <span> {s.text}</span>}
                 {s.comment && <i> {s.comment}</i>}
               </span>

@@ -87,18 +87,17 @@ function StepRow({ step, list, i, last }: { step: Step; list: Path; i: number; l
           </button>
         </span>
       </div>
-      {kind && (
-        <div class="step-fields">
-          {kind.condition && <ConditionFields kind={kind} path={path} title={title} />}
-          {kind.fields.map((f) => (
-            <StepInput key={f.key} field={f} path={f.key === '' ? [...path, kind.word] : [...path, kind.word, f.key]} value={f.key === '' ? body : (body as { [k: string]: Json } | null)?.[f.key]} title={title} />
-          ))}
-        </div>
-      )}
-      <label class="step-field step-comment">
-        <span class="visually-hidden">Comment</span>
-        <input type="text" autocomplete="off" aria-label={`${title}: Comment`} placeholder="comment" value={typedOf(step['comment'])} onChange={(e) => change(changed(document, [...path, 'comment'], () => e.currentTarget.value || undefined))} />
-      </label>
+      <div class="step-fields">
+        {kind?.condition && kind.condition !== 'until' && <ConditionFields kind={kind} path={path} title={title} />}
+        {kind?.fields.map((f) => (
+          <StepInput key={f.key} field={f} path={f.key === '' ? [...path, kind.word] : [...path, kind.word, f.key]} value={f.key === '' ? body : (body as { [k: string]: Json } | null)?.[f.key]} title={title} />
+        ))}
+        {kind?.condition === 'until' && <ConditionFields kind={kind} path={path} title={title} />}
+        <label class="step-field is-wide">
+          <span>Comment</span>
+          <input type="text" autocomplete="off" aria-label={`${title}: Comment`} placeholder="none" value={typedOf(step['comment'])} onChange={(e) => change(changed(document, [...path, 'comment'], () => e.currentTarget.value || undefined))} />
+        </label>
+      </div>
       {mine.map((f) => (
         <p key={f.pointer + f.text} class="step-fault">
           {f.text}. {f.remedy}.

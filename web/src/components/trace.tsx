@@ -95,6 +95,9 @@ export function Trace({ line }: { line: string }) {
   );
 }
 
+/** The reading without the bytes that stand beside it already. */
+const readingOf = (f: Frame, decoded: string) => (f.text !== '' && decoded.startsWith(`${f.text} `) ? decoded.slice(f.text.length + 1) : decoded);
+
 function Row({ frame: f, open, toggle }: { frame: Frame; open: boolean; toggle: () => void }) {
   return (
     <li class={open ? 'is-open' : undefined} data-sequence={f.sequence}>
@@ -103,7 +106,7 @@ function Row({ frame: f, open, toggle }: { frame: Frame; open: boolean; toggle: 
         <span class={f.to_drive ? 'to' : 'from'}>{f.to_drive ? '→ drive' : '← drive'}</span>
         <span>{f.simulated ? 'simulated' : 'cable'}</span>
         <span class="bytes">{f.text || f.data}</span>
-        <span class="reading">{f.decoded.join(' · ')}</span>
+        <span class="reading">{f.decoded.map((d) => readingOf(f, d)).join(' · ')}</span>
       </button>
       {open && <Details frame={f} />}
     </li>

@@ -29,6 +29,13 @@ const recipe = {
   ],
 };
 
+/** On the page of the part, with its documents. */
+export async function arrive(page, program, part) {
+  await page.goto(program.url + part.path);
+  await page.locator('main h1', { hasText: part.title }).first().waitFor();
+  await page.locator(part.ready).first().waitFor();
+}
+
 /** Mappings, a recipe with a run, a snapshot, an earlier site, a written parameter, a standing alarm. */
 export async function furnish(program) {
   const must = async (method, path, body, good = [200, 201, 202, 204]) => {

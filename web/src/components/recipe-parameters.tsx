@@ -4,6 +4,7 @@ import { useSignal } from '@preact/signals';
 import { defaultOf, parameterFault, parameterTypes, renamedParameter, typedOf, valueOf, withParameter, withoutParameter, type Json, type RecipeDocument, type RecipeParameter } from '../words/recipe';
 import { Icon } from './icon';
 import type { Fault } from './recipe-steps';
+import { Typed } from './typed';
 
 export interface RecipeParametersProps {
   document: RecipeDocument;
@@ -59,7 +60,7 @@ function ParameterRow({ name, document, change, faults }: RecipeParametersProps 
   const field = (what: string, value: unknown, put: (typed: string) => void, more: { wide?: boolean; list?: string } = {}) => (
     <label class={`step-field${more.wide ? ' is-wide' : ' is-narrow'}`}>
       <span>{what}</span>
-      <input type="text" autocomplete="off" spellcheck={false} aria-label={label(what)} list={more.list} placeholder="none" value={typedOf(value)} onChange={(e) => put(e.currentTarget.value)} />
+      <Typed spellcheck={false} aria-label={label(what)} list={more.list} placeholder="none" value={typedOf(value)} onDone={put} />
     </label>
   );
   return (
@@ -68,19 +69,16 @@ function ParameterRow({ name, document, change, faults }: RecipeParametersProps 
         <div class="step-fields">
           <label class="step-field">
             <span>Name</span>
-            <input
-              type="text"
+            <Typed
               class="mono"
-              autocomplete="off"
               spellcheck={false}
               aria-label={label('Name')}
               aria-invalid={wrong.value !== '' || undefined}
               value={name}
-              onChange={(e) => {
-                const typed = e.currentTarget.value.trim();
+              onDone={(text) => {
+                const typed = text.trim();
                 wrong.value = typed === name ? '' : parameterFault(document, typed);
-                if (wrong.peek() || typed === name) e.currentTarget.value = name;
-                else change(renamedParameter(document, name, typed));
+                if (!wrong.peek() && typed !== name) change(renamedParameter(document, name, typed));
               }}
             />
           </label>

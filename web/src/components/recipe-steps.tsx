@@ -5,6 +5,7 @@ import { useContext } from 'preact/hooks';
 import type { components } from '../api/schema';
 import { added, at, changed, commands, comparisons, freshStep, kindOf, moved, pointerOf, points, removed, stepKinds, takesTolerance, typedOf, valueOf, type Json, type Path, type RecipeDocument, type Step, type StepField, type StepKind } from '../words/recipe';
 import { Icon } from './icon';
+import { Typed } from './typed';
 
 export type Fault = components['schemas']['Fault'];
 export interface Editing {
@@ -95,7 +96,7 @@ function StepRow({ step, list, i, last }: { step: Step; list: Path; i: number; l
         {kind?.condition === 'until' && <ConditionFields kind={kind} path={path} title={title} />}
         <label class="step-field is-wide">
           <span>Comment</span>
-          <input type="text" autocomplete="off" aria-label={`${title}: Comment`} placeholder="none" value={typedOf(step['comment'])} onChange={(e) => change(changed(document, [...path, 'comment'], () => e.currentTarget.value || undefined))} />
+          <Typed aria-label={`${title}: Comment`} placeholder="none" value={typedOf(step['comment'])} onDone={(t) => change(changed(document, [...path, 'comment'], () => t || undefined))} />
         </label>
       </div>
       {mine.map((f) => (
@@ -135,16 +136,13 @@ function StepInput({ field, path, value, title }: { field: StepField; path: Path
   return (
     <label class={`step-field${field.kind === 'text' ? ' is-wide' : ''}`}>
       <span>{field.label}</span>
-      <input
-        type="text"
-        autocomplete="off"
+      <Typed
         spellcheck={false}
         list={field.kind === 'axis' ? 'recipe-axes' : undefined}
         aria-label={label}
         placeholder={field.optional ? 'none' : undefined}
         value={typedOf(value)}
-        onChange={(e) => {
-          const typed = e.currentTarget.value;
+        onDone={(typed) => {
           if (field.kind === 'text' || field.kind === 'axis') put(typed === '' && field.optional ? undefined : typed);
           else put(valueOf(typed));
         }}
@@ -179,7 +177,7 @@ function ConditionFields({ kind, path, title }: { kind: StepKind; path: Path; ti
       {kind.condition === 'until' && <span class="step-word">until</span>}
       <label class="step-field">
         <span>Axis</span>
-        <input type="text" list="recipe-axes" autocomplete="off" spellcheck={false} aria-label={`${title}: Axis`} value={typedOf(c['axis'])} onChange={(e) => set({ axis: e.currentTarget.value })} />
+        <Typed list="recipe-axes" spellcheck={false} aria-label={`${title}: Axis`} value={typedOf(c['axis'])} onDone={(t) => set({ axis: t })} />
       </label>
       <label class="step-field">
         <span>What</span>
@@ -200,7 +198,7 @@ function ConditionFields({ kind, path, title }: { kind: StepKind; path: Path; ti
       {'parameter' in c && (
         <label class="step-field">
           <span>Parameter</span>
-          <input type="text" autocomplete="off" spellcheck={false} aria-label={`${title}: Parameter`} value={typedOf(c['parameter'])} onChange={(e) => set({ parameter: e.currentTarget.value })} />
+          <Typed spellcheck={false} aria-label={`${title}: Parameter`} value={typedOf(c['parameter'])} onDone={(t) => set({ parameter: t })} />
         </label>
       )}
       <label class="step-field is-narrow">
@@ -215,21 +213,19 @@ function ConditionFields({ kind, path, title }: { kind: StepKind; path: Path; ti
       </label>
       <label class="step-field is-narrow">
         <span>Value</span>
-        <input type="text" autocomplete="off" spellcheck={false} aria-label={`${title}: Value`} value={typedOf(c[op])} onChange={(e) => set({ [op]: valueOf(e.currentTarget.value) ?? '' })} />
+        <Typed spellcheck={false} aria-label={`${title}: Value`} value={typedOf(c[op])} onDone={(t) => set({ [op]: valueOf(t) ?? '' })} />
       </label>
       {('tolerance' in c || takesTolerance(op, c[op])) && (
         <label class="step-field is-narrow">
           <span>Tolerance ±</span>
-          <input
-            type="text"
+          <Typed
             inputMode="decimal"
-            autocomplete="off"
             spellcheck={false}
             aria-label={`${title}: Tolerance`}
             placeholder="exact"
             value={typedOf(c['tolerance'])}
-            onChange={(e) => {
-              const tolerance = valueOf(e.currentTarget.value);
+            onDone={(typed) => {
+              const tolerance = valueOf(typed);
               if (tolerance === undefined) set({}, ['tolerance']);
               else set({ tolerance });
             }}

@@ -11,6 +11,7 @@ import { RunSection } from '../components/recipe-run';
 import { StepEditor, type Fault } from '../components/recipe-steps';
 import { RecipeParameters } from '../components/recipe-parameters';
 import { Section } from '../components/section';
+import { Typed } from '../components/typed';
 import { useGateway } from '../gateway';
 import { go, recipePath } from '../router';
 import { capital } from '../state/commander';
@@ -182,13 +183,12 @@ export function RecipePage({ name }: { name: string }) {
         <>
           <Gate need="engineer">
             <div class="recipe-bar">
-              <input
+              <Typed
                 class="recipe-description"
-                type="text"
                 aria-label="Description"
                 placeholder="What it does"
                 value={typeof d.description === 'string' ? d.description : ''}
-                onChange={(e) => put({ ...d, description: e.currentTarget.value })}
+                onDone={(t) => put({ ...d, description: t })}
               />
               <label class="select">
                 If it fails
@@ -199,16 +199,15 @@ export function RecipePage({ name }: { name: string }) {
               </label>
               <label class="select">
                 At most, s
-                <input
+                <Typed
                   class="recipe-limit"
-                  type="text"
                   inputMode="decimal"
                   aria-label="Longest time of a run, s"
                   placeholder="3600"
                   value={typeof d.timeout_s === 'number' ? String(d.timeout_s) : ''}
-                  onChange={(e) => {
+                  onDone={(t) => {
                     const { timeout_s: _, ...rest } = d;
-                    const typed = valueOf(e.currentTarget.value);
+                    const typed = valueOf(t);
                     put(typed === undefined ? { ...rest } : ({ ...rest, timeout_s: typed } as RecipeDocument));
                   }}
                 />

@@ -430,7 +430,7 @@ export class World {
       for (const [line, list] of this.frames) {
         for (const to_drive of [true, false]) {
           const data = to_drive ? '01' : '0100A3';
-          list.push({ sequence: (this.frameCount += 1), at: this.now(), to_drive, simulated: this.line(line).uri === 'twin', kind: 'can', id: 0x04280095, extended: true, remote: false, data, text: `04280095#${data}` });
+          list.push({ sequence: (this.frameCount += 1), at: this.now(), to_drive, simulated: this.line(line).uri === 'twin', kind: 'can', id: 0x04280095, extended: true, remote: false, data, text: `04280095#${data}`, decoded: [to_drive ? 'host -> 5 MS[0]' : '5 -> host MS[0] = 163'] });
         }
         list.splice(0, list.length - 200);
       }

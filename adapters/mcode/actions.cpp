@@ -79,6 +79,21 @@ void Node::query_answered(const std::string& data, Turn& t) {
     const auto* write = std::get_if<WriteParameter>(&b);
     const Parameter* p = catalogue_.parameter(read ? read->point : write ? write->point : Point{0xFFFF, 0});
     if (!p) return step_done(t);
+    if (write && job_.text == already_typed) {
+        const auto row = [](std::string_view s) {
+            std::string bare;
+            for (const char c : s)
+                if (c != ' ' && c != '\r') bare += c;
+            return bare;
+        };
+        const std::string have = '\n' + row(data) + '\n';
+        if (have.find('\n' + row(job_.steps[0].text) + '\n') == std::string::npos) {
+            return job_over(Outcome::refused, Reason::drive_refused,
+                            fmt::format("{}: {} was refused with error 6: a point has this type already; give that one type {} first",
+                                        name(), job_.steps[0].text, p->id == "IS" ? 0 : 16),
+                            t, 6);
+        }
+    }
     const auto v = value_of(*p, data);
     if (!v) {
         if (write) return job_over(Outcome::done, Reason::none, data, t, 0, write->value);
@@ -169,6 +184,31 @@ void Node::download_failed(std::string why, Turn& t) {
     clear_half_ = touched && phase_ == Phase::ready;
 }
 
+/// line.setup of a drive that stays in single mode: what it may lack is the line's rate for its next restart.
+void Node::plan_rate(const Action& a, Turn& t) {
+    const auto refuse = [&](Reason r, std::string why) { job_over(Outcome::refused, r, std::move(why), t); };
+    if (!a.argument.empty() && a.argument != "save") {
+        return refuse(Reason::out_of_range, fmt::format("line.setup {}: write save, or nothing", a.argument));
+    }
+    if (manners_.rate_code == 0) {
+        return refuse(Reason::not_supported,
+                      "a drive at address ! stays in single mode; the rate of this line is not known or none that a drive has");
+    }
+    if (phase_ != Phase::ready) {
+        return refuse(
+            Reason::wrong_state,
+            fmt::format("no drive answers at {} bit/s: one with its factory values speaks at 9600. Give the line baud=9600; there set the "
+                        "parameter BD, program.save, reset, and give the line its rate again",
+                        rate_of(manners_.rate_code)));
+    }
+    const bool save = a.argument == "save";
+    job_.add(Step::What::send, fmt::format("BD={}", manners_.rate_code));
+    if (save) job_.add(Step::What::send, "S");
+    job_.text = fmt::format("{} keeps {} bit/s{}", name(), rate_of(manners_.rate_code),
+                            save ? " over a restart: BD is saved" : "; program.save keeps it over a restart");
+    bd_ = manners_.rate_code;
+}
+
 void Node::plan_action(const Action& a, Turn& t) {
     const auto refuse = [&](Reason r, std::string why) { job_over(Outcome::refused, r, std::move(why), t); };
     const auto line = [&](std::string text, bool repeatable = true) { job_.add(Step::What::send, std::move(text), repeatable); };
@@ -219,9 +259,11 @@ void Node::plan_action(const Action& a, Turn& t) {
                 Reason::not_supported,
                 fmt::format("FD takes the name {} away and the drive leaves the party line: do it in single mode", setup_.address));
         }
+        if (fb_.moving || mv_) return refuse(Reason::wrong_state, fmt::format("{} moves: stop it first", name()));
+        job_.kind = JobKind::factory;
         line("FD", false);
     } else if (a.name == "line.setup") {
-        if (!link().party()) return refuse(Reason::not_supported, "a drive at address ! stays in single mode and needs no setting up");
+        if (!link().party()) return plan_rate(a, t);
         if (!a.argument.empty() && a.argument != "save") {
             return refuse(Reason::out_of_range, fmt::format("line.setup {}: write save, or nothing", a.argument));
         }

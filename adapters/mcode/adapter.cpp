@@ -45,6 +45,7 @@ void LineAdapter::take_manners(const LineSetup& setup, Turn& t) {
                                  fmt::format("option ethernet = {}: write on or off; off is used", ethernet), t.now});
     }
     manners_.alone = setup.drives.size() == 1;
+    manners_.rate_code = manners_.ethernet ? 0 : code_of(setup.bit_rate);
     const auto digit = [&](const char* name, int most, int otherwise) {
         const std::string text = option(setup.options, name, "");
         if (text.empty()) return otherwise;

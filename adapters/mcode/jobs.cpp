@@ -36,7 +36,7 @@ void Node::submit(const Command& c, Turn& t) {
         queue_.push_back(c);
         return;
     }
-    if (phase_ != Phase::ready) return result(c, Outcome::failed, Reason::no_answer, fmt::format("{} is not ready yet", name()), t);
+    // A drive that is being looked for or set up again may be moving: its stop waits for that, which ends in `ready` or `absent`.
     if (stops_.size() >= urgent_limit) return result(c, Outcome::refused, Reason::busy, "too many stops wait", t);
     cancel_motions(name_of(c.body), t);
     Stop s;
@@ -238,6 +238,19 @@ void Node::step_ended(Verdict v, const ReplyReader& r, Turn& t) {
         return;  // a stop has ended it
     }
     if (job_.kind == JobKind::setup) return step_done(t);
+    if (job_.kind == JobKind::factory && v != Verdict::refused) {
+        // Echo, checksum and name are the factory's now: no poll would be understood.
+        job_.give_up = t.now + 5s;
+        enabled_ = false;
+        fb_.referenced = fb_.homing_attained = fb_.target_reached = false;
+        motion_ = {};
+        tidy_ = clear_half_ = false;
+        derive(t);
+        emit(t);
+        begin_probing(t);
+        at_factory_rate_ = true;
+        return;
+    }
     if (job_.kind == JobKind::restart) {
         job_over(Outcome::done, Reason::none, fmt::format("{} restarts: it is looked for and set up again", name()), t);
         fail_all(Reason::interrupted, fmt::format("{} was restarted by reset", name()), t);
@@ -344,6 +357,7 @@ void Node::step_done(Turn& t) {
             job_.steps.clear();
             job_.at = 0;
             job_.give_up = t.now + 5s;
+            if (manners_.rate_code != 0) job_.add(Step::What::send, fmt::format("BD={}", manners_.rate_code));
             if (action && action->argument == "save") job_.add(Step::What::send, "S");
             return begin_probing(t);
         }

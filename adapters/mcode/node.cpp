@@ -117,7 +117,14 @@ void Node::came(Turn& t) {
     seen_ = false;
     link_state(true, identity_.empty() ? fmt::format("answers to {}", setup_.address) : identity_, t);
     next_poll_ = t.now;
+    at_factory_rate_ = false;
+    const std::string trouble = job_.kind == JobKind::named ? std::string() : rate_trouble();  // line.setup sets BD too
+    if (!trouble.empty()) note(Severity::warning, "bit_rate", 0, trouble, t);
     if (job_.kind == JobKind::named && job_.steps.empty()) job_over(Outcome::done, Reason::none, job_.text, t);
+    if (job_.kind == JobKind::factory) {
+        job_over(Outcome::done, Reason::none, fmt::format("{} has its factory values{}{}", name(), trouble.empty() ? "" : "; ", trouble),
+                 t);
+    }
 }
 
 std::string Node::not_understood() const {
@@ -132,10 +139,12 @@ void Node::count_silence(Turn& t) {
     if (phase_ == Phase::absent) {
         retry_pause_ = std::min(2 * retry_pause_, manners_.pause_max);
         next_probe_ = t.now + retry_pause_;
-        link_state(false, babble_ ? not_understood() : fmt::format("{} does not answer to {}", name(), setup_.address), t);
+        link_state(false, babble_ ? not_understood() : fmt::format("{} does not answer to {}{}", name(), setup_.address, factory_hint()),
+                   t);
     } else if (gone) {
-        go_absent(t,
-                  babble_ ? not_understood() : fmt::format("{} has not answered to {} {} times in a row", name(), setup_.address, silent_));
+        go_absent(t, babble_
+                         ? not_understood()
+                         : fmt::format("{} has not answered to {} {} times in a row{}", name(), setup_.address, silent_, factory_hint()));
     } else if (phase_ == Phase::probing) {
         next_probe_ = t.now;
     }
@@ -155,7 +164,8 @@ void Node::ended(Verdict v, const ReplyReader& reader, Turn& t) {
     babble_ = !heard && reader.raw().find("PR \"#") == std::string::npos && reader.raw().find_first_not_of("\r\n") != std::string::npos;
     const bool mode_line = mode_flight_;
     mode_line_ended(v);
-    if (job_.kind == JobKind::named && phase_ != Phase::ready && t.now >= job_.give_up) return go_absent(t, not_understood());
+    if ((job_.kind == JobKind::named || job_.kind == JobKind::factory) && phase_ != Phase::ready && t.now >= job_.give_up)
+        return go_absent(t, not_understood() + factory_hint());
     const bool seldom_refused = purpose_ == What::poll || purpose_ == What::confirm || purpose_ == What::error;
     if (seldom_refused && mode_ == Mode::immediate && v != Verdict::answered && reader.taken_without_answer()) {
         // Perhaps somebody has put it into program mode: asked before anything else is said, a stop included.
@@ -312,6 +322,8 @@ void Node::startup_ended(Verdict v, const std::string& data, Turn& t) {
         encoder_ = good;
     } else if (asks == "IF") {
         tells_input_ = good;
+    } else if (asks == "BD") {
+        bd_ = static_cast<int>(good ? whole(data).value_or(0) : 0);
     } else if (const auto f = split(data); good && f.size() == (encoder_ ? 5U : 4U)) {
         vi_ = user_vi_ = whole(f[0]).value_or(0);
         vm_ = whole(f[1]).value_or(0);
@@ -320,10 +332,13 @@ void Node::startup_ended(Verdict v, const std::string& data, Turn& t) {
         encoder_mode_ = encoder_ && whole(f[4]).value_or(0) == 1;
     }
     // Without an encoder ST and EE are errors; an open loop is asked for them only when no program can be disturbed by that.
-    const auto needless = [&](std::string_view item) { return (item == "AS" && knows_model_) || (item == "ST" && (encoder_ || running_)); };
-    while (startup_at_ + 1 < startup_items.size() && needless(startup_items[startup_at_ + 1]))
+    const auto needless = [&](std::string_view item) {
+        return (item == "AS" && knows_model_) || (item == "ST" && (encoder_ || running_)) || (item == "BD" && manners_.rate_code == 0);
+    };
+    do
         ++startup_at_;
-    if (++startup_at_ == startup_items.size()) came(t);
+    while (startup_at_ < startup_items.size() && needless(startup_items[startup_at_]));
+    if (startup_at_ == startup_items.size()) came(t);
 }
 
 bool Node::learn_poll(const std::string& data, Turn& t) {
@@ -434,10 +449,18 @@ void Node::error_read(Verdict v, const std::string& data, Turn& t) {
     const auto code = v == Verdict::answered ? whole(data) : std::nullopt;
     if (!code) {
         if (v == Verdict::waiting) count_silence(t);
-        if (v == Verdict::refused) need_error_ = false;
-        return;  // asked again
+        if (v == Verdict::refused || phase_ != Phase::ready) need_error_ = false;
+        if (!need_error_ || ++error_tries_ <= manners_.retries) return;  // asked again
+        // What is no number stays none: the polls go on, and who waits for it hears so.
+        need_error_ = false;
+        error_tries_ = 0;
+        const auto why = fmt::format("{} has an error and its code cannot be read", name());
+        if (!stops_.empty() && stops_.front().confirming) return stop_over(Outcome::failed, Reason::no_answer, why, t);
+        if (job_.kind != JobKind::none && job_.confirming) job_over(Outcome::failed, Reason::no_answer, why, t);
+        return;
     }
     need_error_ = false;
+    error_tries_ = 0;
     ef_ = false;
     const bool waits = (!stops_.empty() && stops_.front().confirming) || (job_.kind != JobKind::none && job_.confirming);
     // With a line to all nobody says whose error it is: a fault is told, and the stop is judged by what is read.

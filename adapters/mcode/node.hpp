@@ -2,7 +2,7 @@
 // In: commands, the outcome of its exchanges, time. Out: the next request when it has the line; feedback, results, links, notices.
 // Never sends by itself: the line asks it, and gives it one exchange at a time.
 // Written in: node.cpp (exchanges, presence, polls), node_next.cpp (what is sent), stops.cpp (stops, results, notices), leaving.cpp (out of
-// program mode), jobs.cpp (commands as steps), actions.cpp (parameters, native, programs).
+// program mode), rate.cpp (its bit rate), jobs.cpp (commands as steps), actions.cpp (parameters, native, programs).
 #pragma once
 
 #include <array>
@@ -37,7 +37,12 @@ struct Manners {
     int ck = 1;             ///< checksum mode wanted
     bool ethernet = false;  ///< MCode/TCP: no CK, no names [L1173-1191]
     bool alone = false;     ///< one drive on this line: CTRL+C can mean nobody else
+    int rate_code = 0;      ///< BD of the line's rate; 0: not known, or none of BD's [L1585]
 };
+
+/// bit/s of a BD code, 0 if there is none [L1585-1590, E-1]; and the code of a rate.
+[[nodiscard]] std::uint32_t rate_of(int code) noexcept;
+[[nodiscard]] int code_of(std::uint32_t rate) noexcept;
 
 /// What a node wants to send.
 struct Request {
@@ -113,9 +118,10 @@ private:
         list,
         upload,
         download,
-        setup,  ///< line.setup: the fresh drive gets its name
-        named,  ///< line.setup: it is looked for by its name, then saves if asked
-        tidy,   ///< removes the questions that were stored while it was in program mode
+        setup,    ///< line.setup: the fresh drive gets its name
+        named,    ///< line.setup: it is looked for by its name, then saves if asked
+        factory,  ///< FD, then it is looked for and set up again
+        tidy,     ///< removes the questions that were stored while it was in program mode
         restart
     };
     struct Step {
@@ -156,6 +162,8 @@ private:
         std::optional<std::int64_t> speed;  ///< to_all: read once since
     };
 
+    static constexpr std::string_view already_typed = "error 6";  ///< Job::text of a write that the drive answered so
+
     // leaving.cpp
     [[nodiscard]] bool leaving() const noexcept;
     [[nodiscard]] Request next_leave();
@@ -172,6 +180,8 @@ private:
     void came(Turn& t);
     void count_silence(Turn& t);
     [[nodiscard]] std::string not_understood() const;
+    [[nodiscard]] std::string rate_trouble() const;
+    [[nodiscard]] std::string factory_hint() const;
     void probe_ended(Verdict v, const std::string& data, Turn& t);
     void startup_ended(Verdict v, const std::string& data, Turn& t);
     void stop_ended(Verdict v, const ReplyReader& r, Turn& t);
@@ -202,6 +212,7 @@ private:
     void plan_read(const ReadParameter& r, Turn& t);
     void plan_write(const WriteParameter& w, Turn& t);
     void plan_native(const Native& n, Turn& t);
+    void plan_rate(const Action& a, Turn& t);
     void plan_action(const Action& a, Turn& t);
     void query_answered(const std::string& data, Turn& t);
     void block_ended(const ReplyReader& r, Turn& t);
@@ -227,11 +238,13 @@ private:
     int link_rounds_ = 0;
     std::string link_line_;  ///< EM=, CK= to be sent next
     std::size_t startup_at_ = 0;
-    bool tells_input_ = false;  ///< IF can be read
-    bool input_ = false;        ///< a program waits for a number (IV)
-    bool hmt_ = false;          ///< LMD closed loop: LR is there
-    bool encoder_ = true;       ///< ST and EE can be read
-    bool knows_model_ = false;  ///< by its part number
+    bool tells_input_ = false;      ///< IF can be read
+    bool input_ = false;            ///< a program waits for a number (IV)
+    bool hmt_ = false;              ///< LMD closed loop: LR is there
+    bool encoder_ = true;           ///< ST and EE can be read
+    bool knows_model_ = false;      ///< by its part number
+    int bd_ = 0;                    ///< BD as the drive has it; it acts at the next restart
+    bool at_factory_rate_ = false;  ///< FD was sent since it was heard last
     std::string identity_;
     Request::Purpose purpose_ = Request::Purpose::poll;
 
@@ -239,6 +252,7 @@ private:
     std::deque<Stop> stops_;
     Job job_;
     bool need_error_ = false;
+    int error_tries_ = 0;  ///< answers to ER that were none
     bool error_is_ours_ = false;
     /// Program mode, as far as this gateway has put the drive into it. It outlives absence: a drive that comes back may still be in it.
     enum class Mode : std::uint8_t { immediate, program, unknown };
@@ -277,7 +291,7 @@ private:
 
 /// Read one after the other when a drive was found; what it refuses is left unknown.
 /// ER is not among them: reading clears it, so it is asked when EF says that there is something to be told.
-inline constexpr std::array<std::string_view, 7> startup_items{"PN", "VR", "BY", "AS", "ST", "VI,\",\",VM,\",\",A,\",\",D", "IF"};
+inline constexpr std::array<std::string_view, 8> startup_items{"PN", "VR", "BY", "AS", "ST", "VI,\",\",VM,\",\",A,\",\",D", "IF", "BD"};
 
 /// Codes of ER that stop an axis until they are reset; the others say that a line was refused.
 [[nodiscard]] bool is_fault_code(int code) noexcept;

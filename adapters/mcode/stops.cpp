@@ -101,6 +101,12 @@ void Node::confirmed(Turn& t) {
     if (job_.kind == JobKind::none || !job_.confirming) return;
     job_.confirming = false;
     const std::string& line = job_.steps[job_.at].text;
+    if (last_error_ == 6 && job_.kind == JobKind::write && (line.starts_with("IS=") || line.starts_with("OS="))) {
+        // Another point has the type, or this one has it: what is read tells.
+        last_error_ = 0;
+        job_.text = already_typed;
+        return step_done(t);
+    }
     if (last_error_ != 0) {
         const ErrorCode* e = catalogue_.error(last_error_);
         const bool changed = job_.at > 0 && job_.kind == JobKind::move;

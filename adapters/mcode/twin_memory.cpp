@@ -46,7 +46,8 @@ void Device::factory_state(bool as_delivered) {
     comm_.flags.py = address_input_;
     bd_ = 96;
     for (const int code : {48, 96, 19, 38, 11}) {
-        if (setup_.bit_rate == rate_of_code(code)) bd_ = code;  // a drive comes set to the rate of its line
+        // A drive comes set to the rate of its line; FD gives it the factory's, for its next start [L1594, L2884].
+        if (as_delivered && setup_.bit_rate == rate_of_code(code)) bd_ = code;
     }
     if (as_delivered && setup_.name != '!') {
         comm_.flags.dn = setup_.name;

@@ -411,6 +411,52 @@ TEST(McodeAdapter, EveryTicketGetsOneResultWhenTheDriveOrTheLineGoes) {
         EXPECT_GT(std::ranges::count_if(b.results, [](const Result& r) { return r.reason == Reason::busy; }), 10);
     }
 }
+/// A drive that is looked for may be moving: its stop is kept and goes first.
+TEST(McodeAdapter, AStopWhileADriveIsLookedForIsSaidWhenItIsFound) {
+    for (const bool again : {false, true}) {
+        Bench b;
+        b.up();
+        if (again) {
+            b.run(2s);
+            b.adapter.on_line(false, b.now, b.out);
+            b.adapter.on_line(true, b.now, b.out);
+            b.drain();
+        }
+        const Ticket stop = b.command(Halt{});
+        EXPECT_EQ(b.result(stop), nullptr);
+        b.run(3s);
+        ASSERT_TRUE(b.result(stop)) << again;
+        EXPECT_EQ(b.result(stop)->outcome, Outcome::accepted) << b.result(stop)->text;
+        EXPECT_TRUE(has(b.drives[0].heard, "SL 0")) << again;
+    }
+    Bench b;
+    b.drives[0].silent = true;
+    b.up();
+    const Ticket stop = b.command(Halt{});
+    b.run(3s);
+    ASSERT_TRUE(b.result(stop));
+    EXPECT_EQ(b.result(stop)->reason, Reason::no_answer);
+}
+TEST(McodeAdapter, AnErrorCodeThatIsNoNumberHoldsNobodyUp) {
+    Bench b;
+    b.up();
+    b.run(2s);
+    ASSERT_EQ(b.wait(Enable{}).outcome, Outcome::done);
+    b.drives[0].er = 60;
+    b.drives[0].er_text = "many";
+    const auto before = b.drives[0].heard.size();
+    b.run(2s);
+    b.drives[0].values["P"] = "55";
+    b.run(500ms);
+    EXPECT_EQ(b.feedback[AxisId{0}].position, 55) << "polls go on";
+    EXPECT_LT(std::count_if(b.drives[0].heard.begin() + static_cast<std::ptrdiff_t>(before), b.drives[0].heard.end(),
+                            [](const std::string& l) { return l.ends_with(",ER"); }),
+              static_cast<std::ptrdiff_t>(b.drives[0].heard.size() - before) * 4 / 5);
+    EXPECT_TRUE(b.result(b.command(Halt{})) == nullptr);
+    b.run(3s);
+    EXPECT_NE(b.results.back().outcome, Outcome::done);
+    EXPECT_TRUE(b.online());
+}
 TEST(McodeAdapter, SingleModeAndPartyModeDoNotMix) {
     Bench b({'!', 'a'});
     b.up();

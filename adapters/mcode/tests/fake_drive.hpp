@@ -26,9 +26,11 @@ struct FakeDrive {
     std::map<std::string, std::string> values{{"P", "0"},     {"V", "0"},         {"MV", "0"},      {"MP", "0"},      {"VC", "0"},
                                               {"DE", "1"},    {"BY", "0"},        {"ST", "0"},      {"LR", "0"},      {"AS", "0"},
                                               {"VI", "1000"}, {"VM", "768000"},   {"A", "1000000"}, {"D", "1000000"}, {"EE", "0"},
-                                              {"IF", "0"},    {"PN", "LMDCM571"}, {"VR", "6.011"},  {"ES", "1"}};
+                                              {"IF", "0"},    {"PN", "LMDCM571"}, {"VR", "6.011"},  {"ES", "1"},      {"BD", "96"}};
     std::map<std::string, int> refuse;  ///< line -> error code
     std::set<std::string> lose;         ///< lines that are executed once and not answered
+    std::string er_text;                ///< what ER prints instead of its code, and stays
+    std::string deaf_after;             ///< says nothing any more after this line
     std::vector<std::string> heard, program;
     std::string buffer;
 
@@ -76,6 +78,7 @@ struct FakeDrive {
         if (name != '!') s.erase(0, 1);
         heard.push_back(s);
         const bool lost = lose.erase(s) > 0;
+        if (!deaf_after.empty() && s == deaf_after) silent = true;
         std::string data;
         bool printed = false;
         if (in_program && word_of(s) != "PG") {
@@ -147,8 +150,8 @@ struct FakeDrive {
             else if (i == "EF")
                 data += er ? "1" : "0";
             else if (i == "ER") {
-                data += std::to_string(er);
-                er = 0;
+                data += er_text.empty() ? std::to_string(er) : er_text;
+                if (er_text.empty()) er = 0;
             } else if (values.contains(i)) {
                 data += values[i];
             } else {

@@ -172,6 +172,27 @@ TEST(McodeLineFaults, TheSameAnswerTwiceIsReportedWithTheName) {
         b.notices, [](const Notice& n) { return n.drive == DriveId{0} && n.text.find("same name") != std::string::npos; }));
 }
 
+/// The second answer comes into the next exchange, in front of that one's answer.
+TEST(McodeLineFaults, TheSameAnswerTwiceIsReportedWhenItComesLate) {
+    LineBench b("a", rate);
+    b.run(5s);
+    ASSERT_TRUE(b.online());
+    b.put(0, 1111);
+    b.expect(0);
+    b.notices.clear();
+    std::string again;
+    b.on_cable = [&](std::string s) {
+        const std::string both = again + s;
+        again = s.starts_with('\x06') ? s.substr(1) : std::string();
+        return both;
+    };
+    b.run(500ms);
+    EXPECT_TRUE(std::ranges::any_of(
+        b.notices, [](const Notice& n) { return n.drive == DriveId{0} && n.text.find("same name") != std::string::npos; }));
+    EXPECT_EQ(b.wrong, 0);
+    EXPECT_TRUE(b.online());
+}
+
 TEST(McodeLineFaults, ASilentDriveIsNamedAndTheOtherGoesOn) {
     Fault b;
     b.hand(1, "silent", Value{true});

@@ -115,7 +115,7 @@ int Device::print(const Statement& s) {
             }
             read_error = read_error || t.operand.word == Word::ER;
         }
-        const Number n = run_.value(item.value, true, error);
+        const Number n = run_.value(item.value, false, error);  // only F registers calculate with fractions [L580]
         if (error != 0) return error;
         text += to_text(n, format_);
     }

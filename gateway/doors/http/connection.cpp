@@ -55,7 +55,8 @@ std::string response_head(const Response& r, bool keep, std::int64_t now_unix_s)
         // A line end in a value would begin a header of its own.
         const auto begin = static_cast<std::ptrdiff_t>(s.size());
         s += v;
-        std::replace_if(s.begin() + begin, s.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, ' ');
+        std::replace_if(
+            s.begin() + begin, s.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, ' ');
         s += "\r\n";
     }
     if (r.status != 101 && r.status != 204 && r.status != 304)

@@ -18,9 +18,8 @@ TEST_F(HttpTest, ProblemsHaveTheMembersOfRfc9457) {
 }
 
 TEST_F(HttpTest, UnknownPathsAreProblems) {
-    for (const auto* path :
-         {"/api", "/api/", "/api/v1", "/api/v1/", "/api/v2/axes", "/api/v1/recipe", "/api/v1/axes/feeder/nothing",
-          "/api/v1/axes/", "/api/v1/axes/feeder/", "/api/v1//axes", "/api/v1/axes/feeder/commands/1", "/api/v1/Axes"}) {
+    for (const auto* path : {"/api", "/api/", "/api/v1", "/api/v1/", "/api/v2/axes", "/api/v1/recipe", "/api/v1/axes/feeder/nothing",
+                             "/api/v1/axes/", "/api/v1/axes/feeder/", "/api/v1//axes", "/api/v1/axes/feeder/commands/1", "/api/v1/Axes"}) {
         for (const auto* method : {"GET", "POST", "OPTIONS"}) {
             const auto a = call(method, path, method == std::string_view("POST") ? "{}" : "");
             EXPECT_EQ(a.status, 404u) << method << " " << path;
@@ -217,8 +216,9 @@ TEST_F(HttpTest, FilesGoPackedToWhoTakesThem) {
         const char* field;
         bool packed;
     };
-    for (const auto& [field, packed] : {Case{"gzip, deflate, br", true}, Case{"br;q=1.0, GZIP ; q=0.5", true}, Case{"*", true}, Case{"", false},
-                                        Case{"br", false}, Case{"gzip;q=0", false}, Case{"gzip;q=0, *", false}, Case{"*;q=0", false}}) {
+    for (const auto& [field, packed] :
+         {Case{"gzip, deflate, br", true}, Case{"br;q=1.0, GZIP ; q=0.5", true}, Case{"*", true}, Case{"", false}, Case{"br", false},
+          Case{"gzip;q=0", false}, Case{"gzip;q=0, *", false}, Case{"*;q=0", false}}) {
         const auto a = call("GET", "/assets/big.js", "", {{"Accept-Encoding", field}});
         EXPECT_EQ(a.status, 200u) << field;
         EXPECT_EQ(a.text, packed ? "PACKED" : "let big = 1;") << field;

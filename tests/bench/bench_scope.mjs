@@ -46,6 +46,14 @@ async function emptyPage(browser) {
   return r;
 }
 
+/** Seconds that the page's main thread has been at work, all and in scripts: a busy machine changes them less than it does the frames. */
+async function worked_s(cdp) {
+  await cdp.send('Performance.enable');
+  const { metrics } = await cdp.send('Performance.getMetrics');
+  const of = (name) => metrics.find((m) => m.name === name)?.value ?? 0;
+  return { all: of('TaskDuration'), scripts: of('ScriptDuration') };
+}
+
 /** Bytes in use after the collector has been. */
 async function memory_MB(cdp) {
   await cdp.send('HeapProfiler.collectGarbage');
@@ -77,7 +85,9 @@ try {
   given.catch(() => {});
   await page.waitForTimeout(warmUp_s * 1000);
   const before_MB = await memory_MB(cdp);
+  const work = await worked_s(cdp);
   const busy = await countFrames(page, seconds);
+  const worked = await worked_s(cdp);
   const after_MB = await memory_MB(cdp);
   await given;
 
@@ -104,6 +114,8 @@ try {
   const words = (r) => `${r.total} frames in ${r.took_s.toFixed(1)} s, ${((r.late / r.took_s) * 60).toFixed(0)} late in a minute, longest ${r.longest_ms.toFixed(0)} ms`;
   console.log(`the scope, 4 channels at 1 kHz, ${seconds} s: ${words(busy)}`);
   console.log(`an empty page, before and after:        ${words(quiet)}`);
+  const share = (a, b) => (((b - a) / busy.took_s) * 100).toFixed(0);
+  console.log(`    the main thread was at work ${share(work.all, worked.all)} % of the time, ${share(work.scripts, worked.scripts)} % in scripts`);
   kept = sayOf('frames in time in a minute', inTime(busy), inTime(quiet), leastInTime, 'empty page', '/min') && kept;
   kept = say('samples that the page does not have', missing, 0, `of ${count}`) && kept;
   console.log(`    ${rows.length} rows were read back; ${wrong} of them are the drive's own, from before and after`);

@@ -81,7 +81,8 @@ TEST_F(Alarms, ListAndEventsAreNarrowedByState) {
     EXPECT_EQ(call("GET", fmt::format("/api/v1/events?state=active&since={}", two)).array().size(), 1u);
     EXPECT_EQ(call("GET", fmt::format("/api/v1/events?state=active&before={}", three)).array().at(0).at("id"), two);
     EXPECT_NE(call("GET", "/api/v1/events?state=shelved&format=csv").text.find("slide"), std::string::npos);
-    for (const auto* target : {"/api/v1/events?state=loud", "/api/v1/alarms?state=loud", "/api/v1/alarms?state=", "/api/v1/events?state=Active"}) {
+    for (const auto* target :
+         {"/api/v1/events?state=loud", "/api/v1/alarms?state=loud", "/api/v1/alarms?state=", "/api/v1/events?state=Active"}) {
         const auto a = call("GET", target);
         EXPECT_EQ(a.status, 400u) << target;
         EXPECT_EQ(a.at("detail"), "state must be active, cleared, unacknowledged, acknowledged or shelved") << target;

@@ -152,7 +152,9 @@ TEST_F(HttpServer, WhatIsNotHttp) {
               400},
              {"negative length", "POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: -1\r\n\r\n", 400},
              {"length that is none", "POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1x\r\n\r\n", 400},
-             {"bad chunk", "PUT /api/v1/site HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nTransfer-Encoding: chunked\r\n\r\nzz\r\n", 400},
+             {"bad chunk",
+              "PUT /api/v1/site HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nTransfer-Encoding: chunked\r\n\r\nzz\r\n",
+              400},
              {"NUL in a header", std::string("GET / HTTP/1.1\r\nHost: a\0b\r\n\r\n", 30), 400},
              {"other expectation", "POST / HTTP/1.1\r\nHost: localhost\r\nExpect: magic\r\nContent-Length: 2\r\n\r\n{}", 417}}) {
         Client c(door.port);

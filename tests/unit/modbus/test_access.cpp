@@ -114,28 +114,28 @@ TEST(ModbusAccess, AReadOnlyDoorTakesAStopByItselfAndNoOtherWrite) {
     Desk desk;
     desk.port.add_axis(1);
     desk.responder.set_read_only(true);
-    for (const auto& [what, pdu, answer, unit] : std::vector<ReadOnlyRow>{
-             {"read", "03 00 20 00 01", "03 02 00 00"},
-             {"quick stop", "06 00 20 00 02", "06 00 20 00 02"},
-             {"switch off", "06 00 20 00 00", "06 00 20 00 00"},
-             {"quick stop, unit 0", "06 00 20 00 02", "06 00 20 00 02", 0},
-             {"quick stop, unit 255", "06 00 20 00 02", "06 00 20 00 02", 255},
-             {"function 16, one register", "10 00 20 00 01 02 00 02", "10 00 20 00 01"},
-             {"enable", "06 00 20 00 0F", "86 01"},
-             {"ready", "06 00 20 00 06", "86 01"},
-             {"fault reset", "06 00 20 00 80", "86 01"},
-             {"stop with a fault reset", "06 00 20 00 82", "86 01"},
-             {"stop with a set-point", "06 00 20 00 12", "86 01"},
-             {"halt", "06 00 20 01 0F", "86 01"},
-             {"another register", "06 00 21 00 02", "86 01"},
-             {"a register that is none", "06 00 00 00 02", "86 01"},
-             {"stop and mode", "10 00 20 00 02 04 00 02 00 01", "90 01"},
-             {"wrong count of bytes", "10 00 20 00 01 03 00 02 00", "90 01"},
-             {"mask write", "16 00 20 00 00 00 02", "96 01"},
-             {"read and write", "17 00 00 00 01 00 20 00 01 02 00 02", "97 01"},
-             {"a coil", "05 00 00 FF 00", "85 01"},
-             {"an own map's unit", "06 00 20 00 02", "86 01", 2},
-             {"an axis that is not there", "06 FF E0 00 02", "86 0A"}}) {
+    for (const auto& [what, pdu, answer, unit] :
+         std::vector<ReadOnlyRow>{{"read", "03 00 20 00 01", "03 02 00 00"},
+                                  {"quick stop", "06 00 20 00 02", "06 00 20 00 02"},
+                                  {"switch off", "06 00 20 00 00", "06 00 20 00 00"},
+                                  {"quick stop, unit 0", "06 00 20 00 02", "06 00 20 00 02", 0},
+                                  {"quick stop, unit 255", "06 00 20 00 02", "06 00 20 00 02", 255},
+                                  {"function 16, one register", "10 00 20 00 01 02 00 02", "10 00 20 00 01"},
+                                  {"enable", "06 00 20 00 0F", "86 01"},
+                                  {"ready", "06 00 20 00 06", "86 01"},
+                                  {"fault reset", "06 00 20 00 80", "86 01"},
+                                  {"stop with a fault reset", "06 00 20 00 82", "86 01"},
+                                  {"stop with a set-point", "06 00 20 00 12", "86 01"},
+                                  {"halt", "06 00 20 01 0F", "86 01"},
+                                  {"another register", "06 00 21 00 02", "86 01"},
+                                  {"a register that is none", "06 00 00 00 02", "86 01"},
+                                  {"stop and mode", "10 00 20 00 02 04 00 02 00 01", "90 01"},
+                                  {"wrong count of bytes", "10 00 20 00 01 03 00 02 00", "90 01"},
+                                  {"mask write", "16 00 20 00 00 00 02", "96 01"},
+                                  {"read and write", "17 00 00 00 01 00 20 00 01 02 00 02", "97 01"},
+                                  {"a coil", "05 00 00 FF 00", "85 01"},
+                                  {"an own map's unit", "06 00 20 00 02", "86 01", 2},
+                                  {"an axis that is not there", "06 FF E0 00 02", "86 0A"}}) {
         EXPECT_EQ(desk.ask(pdu, unit), answer) << what;
     }
     desk.responder.set_read_only(false);

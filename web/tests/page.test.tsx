@@ -9,6 +9,7 @@ import type { Drive } from '../src/api/types';
 import { App } from '../src/app';
 import { Gateway, GatewayProvider } from '../src/gateway';
 import { route } from '../src/router';
+import { draftOf } from '../src/state/site-draft';
 import { Store } from '../src/state/store';
 import { axis, event, world } from './fixtures';
 
@@ -149,6 +150,52 @@ describe('controls', () => {
     globalThis.dispatchEvent(new Event('blur'));
     expect(client.command).toHaveBeenCalledTimes(4);
     expect(client.command).toHaveBeenLastCalledWith('feeder', { command: 'halt' }, true);
+  });
+});
+
+describe('a role', () => {
+  const as = async (role: 'viewer' | 'operator' | 'engineer', user: string | null = 'vera') => {
+    gateway.session.info.value = { user, role, via: user ? 'cookie' : 'local', csrf: null, expires_at: null, first_sign_in: false, roles: ['viewer', 'operator', 'engineer', 'administrator'] };
+    await tick();
+  };
+  it('that may not command sends nothing by Enter either, and is told why; its stops pass', async () => {
+    await as('viewer');
+    expect(button('Move to target of feeder').disabled).toBe(true);
+    expect(button('Enable feeder').title).toBe('This needs the role operator. Yours is viewer.');
+    expect(text('[data-field=barred]')).toContain('needs the role operator');
+    type(field('Target of feeder'), '5');
+    field('Target of feeder').dispatchEvent(new KeyboardEvent('keydown', { key: 'Enter', bubbles: true }));
+    await tick();
+    expect(client.command).not.toHaveBeenCalled();
+    expect(text('#result-feeder')).toBe('Move to 5 mm: not sent. This needs the role operator. Yours is viewer.');
+    button('Jog feeder forward while held').dispatchEvent(new PointerEvent('pointerdown', { button: 0, bubbles: true }));
+    expect(client.command).not.toHaveBeenCalled();
+    button('Halt feeder').click();
+    expect(client.command).toHaveBeenCalledWith('feeder', { command: 'halt' }, true);
+  });
+  it('that may is not barred', async () => {
+    await as('operator');
+    expect(button('Move to target of feeder').disabled).toBe(false);
+    expect(root.querySelector('[data-field=barred]')).toBeNull();
+  });
+  it('decides who can keep a site on trial: the one who applied it; anybody who may change it can take it back; all see it', async () => {
+    const { draft } = draftOf(gateway.client);
+    draft.stage.value = { state: 'applied', by: 'anna 10.0.0.7', confirm_by: (gateway.store.gatewayNow_ms() + 42_000) * 1e6 };
+    await as('viewer');
+    expect(text('[data-field=trial-rest]')).toMatch(/^Site on trial: 4[12] s$/);
+    const buttons = () => [button('Keep the applied site'), button('Roll back the applied site')].map((b) => b.disabled);
+    expect(buttons()).toEqual([true, true]);
+    await as('engineer', 'anne');
+    expect(buttons()).toEqual([true, false]);
+    expect(button('Keep the applied site').title).toBe('Only anna, who applied it, can keep it.');
+    await as('engineer', 'anna');
+    expect(buttons()).toEqual([false, false]);
+    route.value = { page: 'gateway' };
+    await tick();
+    expect(text('[data-field=trial-rest]')).toContain('Site on trial');
+    draft.stage.value = { state: 'none' };
+    await tick();
+    expect(root.querySelector('[data-field=trial]')).toBeNull();
   });
 });
 

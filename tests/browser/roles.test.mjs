@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { launch, open, until } from './lib/browser.mjs';
-import { furnish, parts } from './lib/parts.mjs';
+import { arrive, furnish, parts } from './lib/parts.mjs';
 import { Program } from './lib/program.mjs';
 
 let program, browser;
@@ -36,15 +36,13 @@ after(async () => {
 });
 
 /** Presses everything on a part that can be pressed and is no stop, and Enter in every field. What the gateway refused for the role. */
-async function pressAll(page, path) {
+async function pressAll(page, part) {
   const refused = [];
   const listen = (r) => {
     if (r.status() === 403) refused.push(`${r.request().method()} ${new URL(r.url()).pathname}`);
   };
   page.on('response', listen);
-  await page.goto(program.url + path);
-  await page.locator('main h1').first().waitFor();
-  await page.waitForLoadState('networkidle').catch(() => undefined);
+  await arrive(page, program, part);
   const done = new Set();
   for (let turn = 0; turn < 80; turn += 1) {
     const pressed = await page.evaluate((known) => {
@@ -143,9 +141,9 @@ for (const role of ['viewer', 'operator']) {
   test(`as ${role}, no button and no Enter on any part sends what the gateway refuses`, async () => {
     const page = await pageOf(role);
     let pressed = 0;
-    for (const { path } of parts) {
-      const r = await pressAll(page, path);
-      assert.deepEqual(r.refused, [], path);
+    for (const part of parts) {
+      const r = await pressAll(page, part);
+      assert.deepEqual(r.refused, [], part.path);
       pressed += r.pressed;
     }
     assert.ok(pressed > 20, `${pressed} buttons could be pressed`);

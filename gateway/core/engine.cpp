@@ -1,5 +1,5 @@
-// Engine, part one: routing. Commands down, frames up, one result per ticket.
-// In: see engine.hpp. Out: through EngineHost and the image. The site and presence are in engine_site.cpp, watching in engine_watch.cpp.
+// Engine, routing. Commands down, frames up, one result per ticket.
+// In: see engine.hpp. Out: through EngineHost and the image. The other parts are in engine_*.cpp.
 // Never blocks and never loops over more than what one call brought.
 #include "gateway/core/engine.hpp"
 

@@ -124,7 +124,7 @@ private:
     void begin_hold(Axis& axis, const Move& move, const Origin& origin);
     void check_hold(Axis& axis, Instant now);
 
-    // site and presence (engine_site.cpp)
+    // the site (engine_site.cpp), presence (engine_presence.cpp), time (engine_turn.cpp), questions (engine_ask.cpp)
     void build_line(LineUnit& unit, Instant now);
     void configure_side(Side& side, Instant now);
     [[nodiscard]] LineSetup setup_for(const LineUnit& unit, const Side& side) const;

@@ -1,4 +1,4 @@
-// Engine, part four: scans. Addresses that the site does not name are given to the line's adapter as drives without axes, a few at a time;
+// Engine, scans. Addresses that the site does not name are given to the line's adapter as drives without axes, a few at a time;
 // its own search for a drive is the question, its DriveLink the answer.
 // In: wishes, links, the passing of time. Out: reports. Bounds: one scan per line, 16 addresses at once, 2 s per address, the wish's own
 // limit. Never asks an address that the site has given to a drive, and ends when the site changes.

@@ -10,6 +10,8 @@ namespace axisgate {
 namespace {
 // At 64 commands per axis and 64 axes this is more than can be on the way; beyond it the write fails with a reason.
 constexpr std::size_t hot_ring = 8192;
+// A batch of this many rows is not gathered any longer.
+constexpr std::size_t gathered_at_most = 1024;
 }  // namespace
 
 Cold::Cold(Store& store, Answers answers)
@@ -28,6 +30,10 @@ void Cold::start() {
 
 void Cold::stop() {
     if (!thread_.joinable()) return;
+    boost::asio::post(io_, [this] {  // what is gathered is not waited for any longer
+        stopping_ = true;
+        if (write_at_ != never) write_at(monotonic_now());
+    });
     work_.reset();  // what is posted already is still done
     thread_.join();
 }
@@ -41,13 +47,23 @@ void Cold::take(ColdJob&& job) {
     if (auto* e = std::get_if<EventAt>(&job)) events_.push_back(std::move(*e));
     if (auto* s = std::get_if<ParameterSeen>(&job)) seen_.push_back(std::move(*s));
     if (auto* t = std::get_if<TwinMemory>(&job)) twins_.push_back(std::move(*t));
-    if (batch_posted_) return;
-    batch_posted_ = true;
-    boost::asio::post(io_, [this] { write_batch(); });
+    // Somebody waits for a parameter; a twin's memory is a drive's EEPROM: both go at once, and what was gathered goes with them.
+    const bool waited_for = !orders_.empty() || !twins_.empty() || events_.size() + seen_.size() >= gathered_at_most || stopping_;
+    write_at(waited_for ? Instant{} : written_ + cold_gathers);
+}
+
+/// Sets the one timer, or brings it forward: everything that the mailbox hands over in one go is one batch even when it is due at once.
+void Cold::write_at(Instant when) {
+    if (write_at_ <= when) return;
+    write_at_ = when;
+    timer_.expires_at(std::chrono::steady_clock::time_point(std::chrono::duration_cast<std::chrono::steady_clock::duration>(when.time_since_epoch())));
+    timer_.async_wait([this](const boost::system::error_code& moved) {
+        if (!moved && write_at_ <= monotonic_now()) write_batch();  // else it had rung already when it was moved
+    });
 }
 
 void Cold::write_batch() {
-    batch_posted_ = false;
+    write_at_ = never;
     auto orders = std::move(orders_);
     auto events_at = std::move(events_);
     auto seen = std::move(seen_);
@@ -57,6 +73,7 @@ void Cold::write_batch() {
     seen_.clear();
     twins_.clear();
     const Instant begun = monotonic_now();
+    written_ = begun;
 
     std::vector<ParameterWrite> writes;
     writes.reserve(orders.size());

@@ -1,10 +1,12 @@
 // Cold: the thread that waits for the disk, so that nobody else has to.
 // In: store orders, events, twin memories, sites, from the hot and the warm thread. Out: what was stored, or why not.
-// Never called back from inside another room: answers go through mailboxes.
+// Never called back from inside another room: answers go through mailboxes. Never writes oftener than it must: what nobody waits for is
+// gathered, so that a controller that sets a target every few milliseconds does not wear the disk with a transaction each.
 #pragma once
 
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <functional>
 #include <memory>
 #include <string>
@@ -33,6 +35,9 @@ struct Stored {
     std::string fault;  ///< empty: on disk
 };
 
+/// Between two transactions that hold only what nobody waits for (events, values seen): the first of a quiet time is written at once.
+inline constexpr Duration cold_gathers = std::chrono::milliseconds(50);
+
 class Cold {
 public:
     struct Answers {
@@ -58,6 +63,7 @@ public:
 
 private:
     void take(ColdJob&& job);
+    void write_at(Instant when);
     void write_batch();
 
     Store& store_;
@@ -69,7 +75,10 @@ private:
     std::vector<EventAt> events_;
     std::vector<ParameterSeen> seen_;
     std::vector<TwinMemory> twins_;
-    bool batch_posted_ = false;
+    boost::asio::steady_timer timer_{io_};
+    Instant write_at_ = never;   ///< when the batch that is gathered is written
+    Instant written_{};          ///< when the last one was
+    bool stopping_ = false;
     std::uint64_t next_event_id_ = 1;
     std::atomic<std::uint64_t> batches_{0}, faults_{0}, write_ns_{0};
     std::atomic<bool> healthy_{true};

@@ -16,6 +16,7 @@ constexpr std::size_t command_ring = 1024;
 constexpr std::size_t job_ring = 256;
 constexpr std::size_t stored_ring = 8192;
 constexpr int handlers_per_turn = 128;
+constexpr int turns_unannounced_limit = 8;
 constexpr Duration reports_period = std::chrono::milliseconds(100);
 constexpr Duration stop_limit = std::chrono::milliseconds(1500);
 }  // namespace
@@ -35,6 +36,7 @@ void Hot::start() {
     last_turn_ns_.store(ns_of(now()), std::memory_order_relaxed);
     thread_ = std::thread([this] {
         enter_thread("axisgate-hot", hot_stands_back);
+        take_short_turns();
         if (settings_.cpu >= 0) {
             cpu_set_t set;
             CPU_ZERO(&set);
@@ -59,6 +61,9 @@ void Hot::run() {
     while (!finished_) {
         end_turn();
         std::size_t ran = io_.poll_one();
+        // The other threads hear of it when this one has nothing more to send: to wake them first would put a system call, and on a busy
+        // processor their work, between a command and its frame.
+        if (ran == 0 || ++turns_unannounced_ >= turns_unannounced_limit) announce();
         if (ran == 0 && settings_.spin_us > 0) {
             const Instant until = now() + spin;
             // A door's own look is the shortest way to its clients; the loop as a whole is asked every fourth time.
@@ -84,6 +89,14 @@ void Hot::run() {
         }
     }
     end_turn();
+    announce();
+}
+
+void Hot::announce() {
+    turns_unannounced_ = 0;
+    if (out_.results) out_.results->announce();
+    if (out_.samples) out_.samples->announce();
+    if (out_.cold) out_.cold->announce();
 }
 
 void Hot::end_turn() {
@@ -110,9 +123,6 @@ void Hot::end_turn() {
         next_reports_ = t;
     }
     if (t >= next_reports_) publish_reports(t);
-    if (out_.results) out_.results->announce();
-    if (out_.samples) out_.samples->announce();
-    if (out_.cold) out_.cold->announce();
     turns_.fetch_add(1, std::memory_order_relaxed);
     last_turn_ns_.store(ns_of(t), std::memory_order_relaxed);
     const Instant next = std::min(engine_.deadline(), next_reports_);

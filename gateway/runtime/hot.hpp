@@ -95,6 +95,7 @@ public:
 private:
     void run();
     void end_turn();
+    void announce();
     void arm(Instant deadline);
     void publish_reports(Instant now);
 
@@ -125,6 +126,7 @@ private:
     std::function<void(const Sample&)> tap_;
     std::function<void(const SiteState&, std::vector<Mapping>)> take_mappings_;
     bool settled_ = false;
+    int turns_unannounced_ = 0;
     std::thread thread_;
 };
 

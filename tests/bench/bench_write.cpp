@@ -152,7 +152,8 @@ private:
 /// The gateway as a process of its own.
 class Program {
 public:
-    Program(const std::string& path, const std::string& folder, std::uint16_t drive_port) {
+    /// On the processors of `cpus`: the measuring thread never sleeps, and a thread that is put beside it would wait for the next tick.
+    Program(const std::string& path, const std::string& folder, std::uint16_t drive_port, const cpu_set_t& cpus) {
         std::ofstream(folder + "/site.json")
             << R"({"lines":[{"name":"l","uri":"tcp:127.0.0.1:)" << drive_port
             << R"(","family":"uim342"}],"drives":[{"name":"d","line":"l","address":5,"presence":"device"}],)"
@@ -162,6 +163,7 @@ public:
         pid_ = ::fork();
         if (pid_ == 0) {
             ::dup2(ends[1], 1);
+            (void)::sched_setaffinity(0, sizeof cpus, &cpus);
             const std::string data = folder + "/data", site = folder + "/site.json";
             ::execl(path.c_str(), path.c_str(), "serve", "--data", data.c_str(), "--site", site.c_str(), "--set", "http.bind=off", "--set",
                     "modbus.bind=127.0.0.1:0", "--set", "log.level=warning", nullptr);
@@ -320,7 +322,9 @@ int run(const std::string& program_path, int count) {
     if (!family || !catalogue) give_up("the family uim342 is not there");
 
     Drive drive({family, &*catalogue});
-    Program program(program_path, folder, drive.port());
+    cpu_set_t others = all;
+    if (processors > 1) CPU_CLR(static_cast<unsigned>(processors - 1), &others);
+    Program program(program_path, folder, drive.port(), others);
     // The measuring thread looks without sleeping, and keeps one processor for itself; the gateway has the others.
     if (processors > 1) {
         CPU_SET(static_cast<unsigned>(processors - 1), &own);

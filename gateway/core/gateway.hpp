@@ -213,6 +213,9 @@ public:
 
     // --- events --------------------------------------------------------------------------------------------------------
     [[nodiscard]] virtual std::vector<Event> events(const EventQuery& query) const = 0;
+    /// Calls `then` when events() tells of everything that has happened until now: what happened a moment ago may still be on its way to
+    /// the disk. At once if the gateway is too busy to say.
+    virtual void events_settled(std::function<void()> then) { then(); }
     virtual void listen(GatewayListener* listener) = 0;
     virtual void unlisten(GatewayListener* listener) = 0;
     /// Something that a door wants to be kept and streamed; id and time are filled in.

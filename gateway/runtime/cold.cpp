@@ -42,14 +42,27 @@ void Cold::run(std::function<void(Store&)> job) {
     boost::asio::post(io_, [this, job = std::move(job)] { job(store_); });
 }
 
+void Cold::flush(std::function<void()> then) {
+    boost::asio::post(io_, [this, then = std::move(then)] {
+        from_hot_.empty();
+        if (write_at_ != never) write_batch();
+        then();
+    });
+}
+
 void Cold::take(ColdJob&& job) {
+    bool urgent = stopping_;
     if (auto* o = std::get_if<StoreOrder>(&job)) orders_.push_back(std::move(*o));
-    if (auto* e = std::get_if<EventAt>(&job)) events_.push_back(std::move(*e));
+    if (auto* e = std::get_if<EventAt>(&job)) {
+        urgent = urgent || e->event.severity != Severity::info;
+        events_.push_back(std::move(*e));
+    }
     if (auto* s = std::get_if<ParameterSeen>(&job)) seen_.push_back(std::move(*s));
     if (auto* t = std::get_if<TwinMemory>(&job)) twins_.push_back(std::move(*t));
-    // Somebody waits for a parameter; a twin's memory is a drive's EEPROM: both go at once, and what was gathered goes with them.
-    const bool waited_for = !orders_.empty() || !twins_.empty() || events_.size() + seen_.size() >= gathered_at_most || stopping_;
-    write_at(waited_for ? Instant{} : written_ + cold_gathers);
+    // Somebody waits for a parameter; a twin's memory is a drive's EEPROM; a warning is for the page: they go at once, and what was
+    // gathered goes with them.
+    urgent = urgent || !orders_.empty() || !twins_.empty() || events_.size() + seen_.size() >= gathered_at_most;
+    write_at(urgent ? Instant{} : written_ + cold_gathers);
 }
 
 /// Sets the one timer, or brings it forward: everything that the mailbox hands over in one go is one batch even when it is due at once.

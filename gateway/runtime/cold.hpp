@@ -1,7 +1,8 @@
 // Cold: the thread that waits for the disk, so that nobody else has to.
 // In: store orders, events, twin memories, sites, from the hot and the warm thread. Out: what was stored, or why not.
 // Never called back from inside another room: answers go through mailboxes. Never writes oftener than it must: what nobody waits for is
-// gathered, so that a controller that sets a target every few milliseconds does not wear the disk with a transaction each.
+// gathered, so that a controller that sets a target every few milliseconds does not wear the disk with a transaction each. Never gathers
+// what somebody should see: a warning goes at once, and who reads events has them written first (`flush`).
 #pragma once
 
 #include <boost/asio/executor_work_guard.hpp>
@@ -53,6 +54,8 @@ public:
     [[nodiscard]] boost::asio::io_context& context() noexcept { return io_; }
     /// Runs a function on the cold thread (from the warm thread: sites, backups).
     void run(std::function<void(Store&)> job);
+    /// Writes what was pushed before, gathered or not, then calls `then` on the cold thread. From any thread.
+    void flush(std::function<void()> then);
     void start();
     /// Writes what is there and ends the thread.
     void stop();

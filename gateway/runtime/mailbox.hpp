@@ -39,17 +39,8 @@ public:
         unannounced_ = false;
         if (!on_its_way_.exchange(true, std::memory_order_acq_rel)) boost::asio::post(receiver_, [this] { empty(); });
     }
-    /// Items that found the ring full, since the start.
-    [[nodiscard]] std::uint64_t full() const noexcept { return full_.load(std::memory_order_relaxed); }
-
-    ~Mailbox() {
-        T* item = nullptr;
-        while (ring_.pop(item)) delete item;
-    }
-    Mailbox(const Mailbox&) = delete;
-    Mailbox& operator=(const Mailbox&) = delete;
-
-private:
+    /// Receiver's thread: the handler is called with each item that is there now. Done by itself after an announcement; called by the owner
+    /// where what was pushed must be seen although its announcement is still on its way.
     void empty() {
         // An exchange, not a store: a sender that found it true has pushed before, and its item is seen below.
         (void)on_its_way_.exchange(false, std::memory_order_acq_rel);
@@ -64,6 +55,17 @@ private:
         }
     }
 
+    /// Items that found the ring full, since the start.
+    [[nodiscard]] std::uint64_t full() const noexcept { return full_.load(std::memory_order_relaxed); }
+
+    ~Mailbox() {
+        T* item = nullptr;
+        while (ring_.pop(item)) delete item;
+    }
+    Mailbox(const Mailbox&) = delete;
+    Mailbox& operator=(const Mailbox&) = delete;
+
+private:
     boost::lockfree::spsc_queue<T*> ring_;
     boost::asio::any_io_executor receiver_;
     std::function<void(T&&)> handler_;

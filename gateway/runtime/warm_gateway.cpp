@@ -124,6 +124,14 @@ std::vector<Event> WarmGateway::events(const EventQuery& query) const {
     return rows ? std::move(*rows) : std::vector<Event>{};
 }
 
+/// By way of the hot thread, behind everything that it was asked to note, and then behind everything that it has handed to the cold one.
+void WarmGateway::events_settled(std::function<void()> then) {
+    const auto back = [this, then] { boost::asio::post(io_, then); };
+    auto job = [this, back](Engine&, Instant) { cold_.flush(back); };
+    if (!hot_.jobs().push(Hot::Job(std::move(job)))) return back();
+    hot_.jobs().announce();
+}
+
 LineReport WarmGateway::line_report(LineId line) const {
     const auto r = hot_.reports();
     return index_of(line) < r->lines.size() ? r->lines[index_of(line)] : LineReport{};

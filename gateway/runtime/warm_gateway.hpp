@@ -58,6 +58,7 @@ public:
     void hand(DriveId drive, std::function<void(std::optional<std::vector<HandItem>>)> then) override;
     void set_hand(DriveId drive, std::vector<std::pair<std::string, Value>> items, Origin origin, std::function<void(std::string)> then) override;
     [[nodiscard]] std::vector<Event> events(const EventQuery& query) const override;
+    void events_settled(std::function<void()> then) override;
     void listen(GatewayListener* listener) override { listeners_.push_back(listener); }
     void unlisten(GatewayListener* listener) override { std::erase(listeners_, listener); }
     void note(Event event) override;

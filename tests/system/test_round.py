@@ -138,6 +138,17 @@ def test_refusals_carry_reason_and_range(gateway):
     assert s == 404 and body["status"] == 404
 
 
+def test_who_has_commanded_finds_it_among_the_events_at_once(gateway):
+    """Events share their way to the disk; who asks for them has them all the same, in order and without gaps."""
+    last = gateway.get("/events?limit=1")[-1]["id"]
+    for i in range(20):
+        gateway.command("slide", {"command": "disable"})
+        new = gateway.get(f"/events?since={last}")
+        assert [e for e in new if e["kind"] == "command" and e["axis"] == "slide"], (i, new)
+        assert [e["id"] for e in new] == list(range(last + 1, last + 1 + len(new))), new
+        last = new[-1]["id"]
+
+
 def test_a_stall_by_the_hand_becomes_a_fault_that_can_be_reset(gateway):
     gateway.command("feeder", {"command": "enable"})
     gateway.command("feeder", {"command": "move_velocity", "velocity": 3}, wait=0)

@@ -79,9 +79,9 @@ std::string events_csv(const std::vector<Event>& events) {
 
 /// The events that raised the alarms of the list which are in that state now, the newest ones: an alarm has the id of its event. Bounded
 /// by the length of the list.
-std::vector<Event> events_of_alarms(const Call& c, const EventQuery& wanted, AlarmFilter state) {
+std::vector<Event> events_of_alarms(const Context& context, const EventQuery& wanted, AlarmFilter state) {
     std::vector<Event> out;
-    const auto& all = c.context.alarms->list().all();
+    const auto& all = context.alarms->list().all();
     for (auto it = all.rbegin(); it != all.rend() && out.size() < wanted.limit; ++it) {
         const auto id = it->first;
         if (!fits(it->second, state) || id <= wanted.since_id || (wanted.before_id != 0 && id >= wanted.before_id)) continue;
@@ -89,7 +89,7 @@ std::vector<Event> events_of_alarms(const Call& c, const EventQuery& wanted, Ala
         one.since_id = id - 1;
         one.before_id = id + 1;
         one.limit = 1;
-        for (auto& e : c.gateway().events(one))
+        for (auto& e : context.gateway.events(one))
             out.push_back(std::move(e));
     }
     return out;
@@ -110,6 +110,15 @@ std::string events_text(const std::vector<Event>& events) {
         out += line + "\n";
     }
     return out;
+}
+
+Response events_answer(const std::vector<Event>& events, EventForm form) {
+    if (form == EventForm::csv) return file("text/csv; charset=utf-8", "events.csv", events_csv(events));
+    if (form == EventForm::text) return file("text/plain; charset=utf-8", "events.txt", events_text(events));
+    json::array out;
+    for (const auto& e : events)
+        out.push_back(event_document(e));
+    return json_response(out);
 }
 }  // namespace
 
@@ -179,14 +188,13 @@ Handled list_events(Call& c) {
     const auto state = query_alarm_state(c, fault);
     const auto form = event_form(c, fault);
     if (fault) return *fault;
-    auto events = state ? events_of_alarms(c, query, *state) : c.gateway().events(query);
-    std::ranges::sort(events, {}, &Event::id);
-    if (*form == EventForm::csv) return file("text/csv; charset=utf-8", "events.csv", events_csv(events));
-    if (*form == EventForm::text) return file("text/plain; charset=utf-8", "events.txt", events_text(events));
-    json::array out;
-    for (const auto& e : events)
-        out.push_back(event_document(e));
-    return json_response(out);
+    // Who has just done something finds it here, even though events share their way to the disk.
+    c.gateway().events_settled([&context = c.context, query, state, form = *form, respond = c.respond] {
+        auto events = state ? events_of_alarms(context, query, *state) : context.gateway.events(query);
+        std::ranges::sort(events, {}, &Event::id);
+        respond(events_answer(events, form));
+    });
+    return {gateway_limit, problem(504, "no_answer", "the gateway did not say in time what has happened; ask again, and look at GET /health")};
 }
 
 }  // namespace axisgate::http

@@ -90,6 +90,25 @@ TEST(Cold, AWriteTakesWhatWasGatheredWithIt) {
     EXPECT_EQ(b.cold->batches(), 2u) << "the order and the event before it are one transaction";
 }
 
+TEST(Cold, WhoReadsEventsHasThemWrittenFirst) {
+    Bench b;
+    b.tell(1);
+    ASSERT_TRUE(b.until([&] { return b.events.size() == 1; }));
+    Event second;
+    second.kind = "command";
+    ASSERT_TRUE(b.cold->from_hot().push(EventAt{std::move(second), Instant{}}));  // and not announced
+    std::uint64_t seen = 0;
+    bool done = false;
+    b.cold->flush([&] {
+        const std::lock_guard hold(b.mutex);
+        seen = must(b.store->last_event_id());
+        done = true;
+        b.changed.notify_all();
+    });
+    ASSERT_TRUE(b.until([&] { return done; }));
+    EXPECT_EQ(seen, 2u);
+}
+
 TEST(Cold, WhatIsGatheredIsOnTheDiskWhenItHasStopped) {
     Bench b;
     b.tell(1);

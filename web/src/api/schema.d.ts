@@ -1206,7 +1206,7 @@ export interface paths {
         };
         /**
          * Alarms, writes, commands, line, presence and site changes; oldest first
-         * @description If there are more than `limit`, the newest ones. Ids count up without gaps.
+         * @description If there are more than `limit`, the newest ones. Ids count up without gaps. What was done before the question is in the answer.
          */
         get: operations["listEvents"];
         put?: never;
@@ -6384,6 +6384,7 @@ export interface operations {
                 };
             };
             400: components["responses"]["BadRequest"];
+            504: components["responses"]["NoAnswer"];
             default: components["responses"]["Problem"];
         };
     };

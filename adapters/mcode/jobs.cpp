@@ -45,6 +45,8 @@ void Node::submit(const Command& c, Turn& t) {
     if (job_.kind == JobKind::download) download_failed(fmt::format("{} came in between", name_of(c.body)), t);
     if (std::holds_alternative<Disable>(c.body)) {
         s.lines.emplace_back("DE=0");
+    } else if (torque_) {
+        s.lines = stop_of_torque();
     } else {
         s.lines.emplace_back("SL 0");
         if (std::holds_alternative<QuickStop>(c.body) && running_) {

@@ -343,8 +343,13 @@ void Node::startup_ended(Verdict v, const std::string& data, Turn& t) {
 
 bool Node::learn_poll(const std::string& data, Turn& t) {
     const auto f = split(data);
-    const std::size_t flags = 6U + (encoder_ ? 1U : 0U) + (hmt_ ? 1U : 0U) + (tells_input_ ? 1U : 0U);
-    if (f.size() != 3 || f[2].size() != flags || f[2].find_first_not_of("01") != std::string_view::npos) {
+    const std::size_t lr = 6U + (encoder_ ? 1U : 0U), as = lr + 1U;
+    const std::size_t flags = lr + (hmt_ ? 2U : 0U) + (tells_input_ ? 1U : 0U);
+    const auto fits = [&](std::size_t i) { return f[2][i] == '0' || f[2][i] == '1' || (hmt_ && i == as && f[2][i] >= '0' && f[2][i] <= '3'); };
+    bool whole_line = f.size() == 3 && f[2].size() == flags;
+    for (std::size_t i = 0; whole_line && i < flags; ++i)
+        whole_line = fits(i);
+    if (!whole_line) {
         ++counters_.garbled;
         return false;
     }
@@ -364,7 +369,8 @@ bool Node::learn_poll(const std::string& data, Turn& t) {
     ef_ = flag(4);
     running_ = flag(5);
     stalled_ = encoder_ && flag(6);
-    locked_ = hmt_ && flag(encoder_ ? 7 : 6);
+    locked_ = hmt_ && flag(lr);
+    torque_ = hmt_ && f[2][as] == '3';
     const bool waited = std::exchange(input_, tells_input_ && flag(flags - 1));
     if (input_ && !waited) {
         // No poll can be the number: it begins with PR. What is sent as native text and begins with a digit or a sign is.
@@ -391,7 +397,8 @@ bool Node::learn_poll(const std::string& data, Turn& t) {
 void Node::derive(Turn& t) {
     if (!de_) enabled_ = false;
     fb_.power = de_ && enabled_ ? AxisFeedback::Power::on : AxisFeedback::Power::off;
-    fb_.moving = mv_ && (fb_.velocity != 0 || vc_ || encoder_mode_ || motion_.kind == Motion::Kind::home);
+    // In torque mode V reads 0 whatever the shaft does [L5995].
+    fb_.moving = mv_ && (fb_.velocity != 0 || vc_ || encoder_mode_ || torque_ || motion_.kind == Motion::Kind::home);
     fb_.fault = fault_ != 0 || stalled_ || locked_;
     fb_.error_code = static_cast<std::uint16_t>(fault_ != 0 ? fault_ : stalled_ ? 86 : locked_ ? 104 : last_error_);
     fb_.internal_limit = last_error_ == 83 || last_error_ == 84;

@@ -162,6 +162,7 @@ private:
         std::optional<std::int64_t> speed;  ///< to_all: read once since
     };
 
+    static constexpr std::string_view escape_key = "ESC";  ///< Stop::lines: the character, not a line
     static constexpr std::string_view already_typed = "error 6";  ///< Job::text of a write that the drive answered so
 
     // leaving.cpp
@@ -196,6 +197,8 @@ private:
     void link_state(bool online, std::string text, Turn& t);
     [[nodiscard]] std::optional<bool> heard_all(Stop& s, const std::string& line) const;
     void stop_over(Outcome o, Reason r, std::string text, Turn& t, std::int32_t code = 0);
+    [[nodiscard]] std::string_view stop_at_once() const noexcept;
+    [[nodiscard]] std::vector<std::string> stop_of_torque() const;
     // jobs.cpp
     void cancel_motions(std::string_view by, Turn& t);
     [[nodiscard]] static bool is_motion(const CommandBody& b) noexcept;
@@ -273,6 +276,7 @@ private:
     AxisFeedback fb_;
     bool seen_ = false;
     bool enabled_ = false;  ///< by this gateway, since the drive was found
+    bool torque_ = false;  ///< AS = 3: the drive presses on by itself, and SL does not end that
     bool de_ = false, mv_ = false, mp_ = false, vc_ = false, ef_ = false, running_ = false, stalled_ = false, locked_ = false;
     int fault_ = 0;  ///< code that must be reset
     int last_error_ = 0;

@@ -56,7 +56,7 @@ Instant Node::due() const noexcept {
 std::string Node::poll_text() const {
     std::string s = R"(P,",",V,",",MV,MP,VC,DE,EF,BY)";
     if (encoder_) s += ",ST";
-    if (hmt_) s += ",LR";
+    if (hmt_) s += ",LR,AS";
     if (tells_input_) s += ",IF";
     return s;
 }
@@ -112,7 +112,7 @@ Request Node::next(Turn& t) {
             return ask(What::confirm, poll_text());
         }
         r = say(What::stop, s.lines[s.at]);
-        if (r.text == "ESC") {
+        if (r.text == escape_key) {
             r.raw = escape(link());
             r.kind = Expect::Kind::nothing;
         }

@@ -24,8 +24,14 @@ void Node::stop_ended(Verdict v, const ReplyReader&, Turn& t) {
 std::string_view Node::stop_line() const noexcept {
     if (phase_ != Phase::ready || leaving() || stops_.empty()) return {};
     const Stop& s = stops_.front();
-    return s.at == 0 ? std::string_view(s.lines[0]) : std::string_view();
+    return s.at == 0 && s.lines[0] != escape_key ? std::string_view(s.lines[0]) : std::string_view();
 }
+
+/// What stops without a ramp: the escape character if it can be meant for one drive alone, else the bridges.
+std::string_view Node::stop_at_once() const noexcept { return link().party() && es_ != 3 ? std::string_view("DE=0") : escape_key; }
+
+/// AS = 3 presses until AS is another mode, and AS changes at rest only [L7495, E-26].
+std::vector<std::string> Node::stop_of_torque() const { return {std::string(stop_at_once()), "AS=0"}; }
 
 bool Node::stop_unsent() const noexcept { return phase_ == Phase::ready && (leaving() || (!stops_.empty() && !stops_.front().confirming)); }
 
@@ -59,8 +65,15 @@ void Node::confirmed(Turn& t) {
         const std::string line = s.lines[s.at];
         if (last_error_ == 85 && line == "SL 0") {
             // During a homing only the escape character stops [L4106].
-            s.lines[s.at] = link().party() && es_ != 3 ? "DE=0" : "ESC";
+            s.lines[s.at] = stop_at_once();
             s.confirming = false;
+            return;
+        }
+        if (torque_ && line == "SL 0") {
+            // It went into torque mode since it was last asked: a program did that, or a native line.
+            s.lines = stop_of_torque();
+            s.at = 0;
+            s.confirming = s.to_all = false;
             return;
         }
         if (s.to_all && last_error_ == 0) {
@@ -82,7 +95,11 @@ void Node::confirmed(Turn& t) {
             if (++s.at < s.lines.size()) return;
             fb_.target_reached = false;
             motion_.ended = true;
-            if (line == "DE=0") enabled_ = false;
+            if (s.lines[0] == "DE=0") enabled_ = false;
+            if (line == "AS=0") {
+                vi_ = user_vi_ = vm_ = a_ = d_ = 0;  // the drive may have scaled them
+                note(Severity::warning, "torque", 0, fmt::format("{}: the stop has ended its torque mode: AS is 0 now, and 3 starts it again", name()), t);
+            }
             derive(t);
             emit(t);
             return stop_over(std::holds_alternative<Disable>(s.command.body) ? Outcome::done : Outcome::accepted, Reason::none, {}, t);

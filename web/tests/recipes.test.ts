@@ -1,7 +1,7 @@
 // Recipes as a tree that is edited: every change is a copy, what is typed becomes the value that it reads as, every step kind has its form.
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
-import { added, changed, defaultOf, documentOf, editable, freshStep, kindOf, moved, parameterFault, pointerOf, removed, renamedParameter, runWord, stepKinds, takesTolerance, typedOf, valueOf, withoutParameter, withParameter, type RecipeDocument } from '../src/words/recipe';
+import { added, changed, defaultOf, documentOf, editable, freshStep, kindOf, moved, parameterFault, pointerOf, removed, renamedParameter, runWord, stepKinds, takesTolerance, titleOf, typedOf, valueOf, withoutParameter, withParameter, type RecipeDocument } from '../src/words/recipe';
 
 const recipe = (): RecipeDocument => ({
   steps: [{ enable: { axis: 'a' } }, { if: { condition: { axis: 'a', point: 'fault', is: true }, then: [{ wait_s: 1 }, { wait_s: 2 }], else: [] } }, { message: 'x' }],
@@ -24,6 +24,13 @@ describe('editing', () => {
     expect(changed({ steps: [{ enable: { axis: 'a', wait_s: 5 } }] }, ['steps', 0, 'enable', 'wait_s'], () => undefined).steps[0]).toEqual({ enable: { axis: 'a' } });
   });
   it('names places as the gateway does', () => expect(pointerOf(['steps', 1, 'if', 'then', 0])).toBe('/steps/1/if/then/0'));
+  it.each([
+    [['steps', 1], 'Step 2'],
+    [['steps', 1, 'repeat', 'steps', 0], 'Step 2.1'],
+    [['steps', 1, 'if', 'then', 0], 'Step 2 then 1'],
+    [['steps', 1, 'if', 'else', 0], 'Step 2 else 1'],
+    [['steps', 1, 'if', 'else', 0, 'repeat', 'steps', 2], 'Step 2 else 1.3'],
+  ])('calls each step by a name of its own: %j', (path, name) => expect(titleOf(path)).toBe(name));
 });
 
 it.each([['5', 5], ['-1.5e3', -1500], ['true', true], ['false', false], ['${distance}', '${distance}'], ['0x10', '0x10'], ['', undefined], ['operation_enabled', 'operation_enabled']])('reads %s', (typed, value) => {

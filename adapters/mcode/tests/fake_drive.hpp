@@ -12,7 +12,7 @@
 #include <set>
 #include <sstream>
 
-#include "adapters/mcode/adapter.hpp"
+#include "adapters/mcode/tests/command_desk.hpp"
 
 namespace axisgate::mcode::test {
 using namespace std::chrono_literals;
@@ -178,21 +178,18 @@ inline const Catalogue& catalogue() {
 }
 
 /// One adapter with fake drives behind a wire that takes `delay`.
-struct Bench {
+struct Bench : CommandDesk<Bench> {
     LineAdapter adapter{catalogue()};
     std::vector<FakeDrive> drives;
     Instant now = at_ns(1'000'000'000);
     Duration delay = 2ms;
     Out out;
-    std::vector<Result> results;
-    std::vector<DriveLink> links;
     std::vector<Notice> notices;
     std::vector<std::string> sent;
     std::vector<std::pair<Instant, std::string>> coming;
     std::map<AxisId, AxisFeedback> feedback;
     std::vector<std::pair<Ticket, bool>> reached_at_result;
     LineSetup setup;
-    Ticket next = 1;
 
     explicit Bench(std::vector<char> names = {'a'}) {
         setup.id = LineId{0};
@@ -256,36 +253,6 @@ struct Bench {
             }
         }
         now = end;
-    }
-    Ticket command(CommandBody body, std::size_t axis = 0) {
-        Command c;
-        c.ticket = next++;
-        c.axis = AxisId{static_cast<std::uint16_t>(axis)};
-        c.body = std::move(body);
-        adapter.on_command(c, now, out);
-        drain();
-        return c.ticket;
-    }
-    const Result* result(Ticket t) const {
-        for (const auto& r : results) {
-            if (r.ticket == t) return &r;
-        }
-        return nullptr;
-    }
-    Result wait(CommandBody body, std::size_t axis = 0, Duration limit = 5s) {
-        const Ticket t = command(std::move(body), axis);
-        for (Duration d{}; d < limit && !result(t); d += 10ms)
-            run(10ms);
-        const Result* r = result(t);
-        if (!r) ADD_FAILURE() << "no result";
-        return r ? *r : Result{};
-    }
-    bool online(std::size_t drive = 0) const {
-        bool on = false;
-        for (const auto& l : links) {
-            if (l.drive == setup.drives[drive].id) on = l.online;
-        }
-        return on;
     }
 };
 

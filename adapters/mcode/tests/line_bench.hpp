@@ -12,7 +12,7 @@
 
 namespace axisgate::mcode::test {
 
-struct LineBench : LineEvents {
+struct LineBench : LineEvents, CommandDesk<LineBench> {
     struct Sent {
         Instant at;
         std::string bytes;
@@ -24,8 +24,6 @@ struct LineBench : LineEvents {
     Out out;
     std::vector<Sent> sent, late;
     std::uint64_t bytes_out = 0, bytes_in = 0, replies = 0;
-    std::vector<Result> results;
-    std::vector<DriveLink> links;
     std::vector<Notice> notices;
     std::map<AxisId, AxisFeedback> feedback;
     std::map<AxisId, Instant> seen;
@@ -35,7 +33,6 @@ struct LineBench : LineEvents {
     bool echo = false;                                 ///< a converter that gives the gateway its own bytes back
     std::function<std::string(std::string)> on_cable;  ///< what becomes of bytes to the gateway
     Duration hold{};                                   ///< they come so much later
-    Ticket next = 1;
 
     explicit LineBench(std::string_view names, std::uint32_t rate, std::map<std::string, std::string> options = {},
                        std::string_view twins = {}) {
@@ -139,36 +136,6 @@ struct LineBench : LineEvents {
             drain();
         }
         now = end;
-    }
-    Ticket command(CommandBody body, std::size_t axis = 0) {
-        Command c;
-        c.ticket = next++;
-        c.axis = AxisId{static_cast<std::uint16_t>(axis)};
-        c.body = std::move(body);
-        adapter.on_command(c, now, out);
-        drain();
-        return c.ticket;
-    }
-    const Result* result(Ticket t) const {
-        for (const auto& r : results) {
-            if (r.ticket == t) return &r;
-        }
-        return nullptr;
-    }
-    Result wait(CommandBody body, std::size_t axis = 0, Duration limit = 10s) {
-        const Ticket t = command(std::move(body), axis);
-        for (Duration d{}; d < limit && !result(t); d += 5ms)
-            run(5ms);
-        const Result* r = result(t);
-        if (!r) ADD_FAILURE() << "no result";
-        return r ? *r : Result{};
-    }
-    bool online(std::size_t drive = 0) const {
-        bool on = false;
-        for (const auto& l : links) {
-            if (l.drive == setup.drives[drive].id) on = l.online;
-        }
-        return on;
     }
 };
 

@@ -1,12 +1,9 @@
 // Fuzz: the PA-CONTROL twin: any memory, bytes, frames, times and hand.
 // In: the fuzzer's bytes. Out: nothing; laws: deadlines move on, the mechanics stay numbers, what it sends is one whole acknowledgement
 // with the right check, its memory survives power-off, and its revision tells of every change of it.
-#include <cmath>
-
 #include "adapters/pacontrol/twin.hpp"
 #include "gateway/core/family.hpp"
-#include "gateway/core/twin.hpp"
-#include "tests/fuzz/fuzz.hpp"
+#include "tests/fuzz/twin_laws.hpp"
 
 using namespace axisgate;
 using fuzz::require;
@@ -59,101 +56,44 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (in.ConsumeBool()) setup.options["reply_ms"] = std::to_string(in.ConsumeIntegral<std::uint8_t>());
     if (in.ConsumeBool()) setup.options["axis_modules"] = "on";
     if (in.ConsumeBool()) setup.options["programs"] = in.ConsumeRandomLengthString(40);
-    const auto twin = entry.family->make_twin(*entry.catalogue, setup);
-    Instant now = at_ns(1'000'000'000);
-    Out out;
-    std::uint64_t revision = 0;
-    NonVolatile memory;
-
-    const auto drain = [&] {
-        require(out.results.empty() && out.feedback.empty() && out.samples.empty(), "a twin gives frames alone");
-        require(out.frames.size() <= 1024, "one call gives a bounded amount");
-        for (const auto& tx : out.frames)
-            require(tx.frame.kind == Frame::Kind::bytes && acknowledgement(tx.frame.data()), "a twin sends whole acknowledgements");
-        out.clear();
-    };
-    const auto look = [&] {
-        for (int channel = 0; channel <= setup.axes + 1; ++channel) {
-            const auto m = twin->mechanics(channel, now);
-            require(std::isfinite(m.position) && std::isfinite(m.velocity), "the mechanics stay numbers");
-        }
-        require(twin->deadline() >= now, "a deadline is not past");
-        if (twin->non_volatile_revision() == revision) {
-            require(twin->non_volatile() == memory, "a changed memory has another revision");
-        } else {
-            require(twin->non_volatile_revision() > revision, "a revision grows");
-            revision = twin->non_volatile_revision();
-            memory = twin->non_volatile();
-        }
-    };
-    const auto pass = [&](Duration step) {
-        const Instant end = now + step;
-        int met = 0, standing = 0;
-        while (twin->deadline() <= end && met < 2000) {
-            const Instant due = std::max(now, twin->deadline());
-            standing = due == now ? standing + 1 : 0;
-            require(standing < 1000, "a deadline moves on");
-            now = due;
-            twin->on_deadline(now, out);
-            drain();
-            ++met;
-        }
-        now = end;
-        twin->on_deadline(now, out);
-        drain();
-    };
-    const auto restart = [&] {
-        const NonVolatile before = memory;
-        twin->power_on(before, now, out);
-        drain();
-        require(twin->non_volatile() == before, "a memory is kept over power-off as it is");
-        revision = twin->non_volatile_revision();
-        memory = twin->non_volatile();
-    };
+    fuzz::TwinRun twin(entry.family->make_twin(*entry.catalogue, setup), setup.axes, [](const Frame& f) {
+        require(f.kind == Frame::Kind::bytes && acknowledgement(f.data()), "a twin sends whole acknowledgements");
+    });
 
     constexpr std::array<const char*, 8> names{"N5",          "R7",     "M1024", "system.3", "axis1.parameter.6", "axis1.position",
                                                "axis2.shaft", "program"};
     NonVolatile first;
     for (int n = in.ConsumeIntegralInRange<int>(0, 8); n > 0; --n)
         first[in.ConsumeBool() ? in.PickValueInArray(names) : in.ConsumeRandomLengthString(12)] = fuzz::any_value(in);
-    twin->power_on(first, now, out);
-    drain();
-    revision = twin->non_volatile_revision();
-    memory = twin->non_volatile();
+    twin.power_on(first);
 
     for (int step = 0; step < 400 && in.remaining_bytes() > 0; ++step) {
         switch (in.ConsumeIntegralInRange<int>(0, 7)) {
             case 0: {
                 const auto bytes = in.ConsumeBytes<std::uint8_t>(in.ConsumeIntegralInRange<std::size_t>(1, 60));
-                twin->on_frame(Frame::run(bytes), now, out);
+                twin.frame(Frame::run(bytes));
                 break;
             }
             case 1:
             case 2:
             case 3:
-                twin->on_frame(Frame::run(request(in)), now, out);
+                twin.frame(Frame::run(request(in)));
                 break;
             case 4:
-                pass(fuzz::any_step(in));
+                twin.pass(fuzz::any_step(in));
                 break;
-            case 5: {
-                const auto items = twin->hand();
-                const auto& item = items[in.ConsumeIntegralInRange<std::size_t>(0, items.size() - 1)];
-                const std::string name = in.ConsumeIntegralInRange<int>(0, 15) ? item.name : in.ConsumeRandomLengthString(12);
-                (void)twin->set_hand(name, fuzz::any_value(in), now, out);
+            case 5:
+                twin.hand(in);
                 break;
-            }
             case 6:
-                if (in.ConsumeIntegralInRange<int>(0, 7) == 0) restart();
+                if (in.ConsumeIntegralInRange<int>(0, 7) == 0) twin.restart();
                 break;
             default: {
                 const std::array<std::uint8_t, 1> eot{4};
-                twin->on_frame(Frame::run(eot), now, out);
+                twin.frame(Frame::run(eot));
                 break;
             }
         }
-        drain();
-        look();
     }
     return 0;
 }

@@ -3,7 +3,7 @@
 import { createContext } from 'preact';
 import { useContext } from 'preact/hooks';
 import type { components } from '../api/schema';
-import { added, at, changed, commands, comparisons, freshStep, kindOf, moved, pointerOf, points, removed, stepKinds, takesTolerance, typedOf, valueOf, type Json, type Path, type RecipeDocument, type Step, type StepField, type StepKind } from '../words/recipe';
+import { added, at, changed, commands, comparisons, freshStep, kindOf, moved, pointerOf, points, removed, stepKinds, takesTolerance, titleOf, typedOf, valueOf, type Json, type Path, type RecipeDocument, type Step, type StepField, type StepKind } from '../words/recipe';
 import { Icon } from './icon';
 import { Typed } from './typed';
 
@@ -69,7 +69,7 @@ function StepRow({ step, list, i, last }: { step: Step; list: Path; i: number; l
   const pointer = pointerOf(path);
   const inner = kind?.lists?.map((l) => `${pointer}/${kind.word}/${l}/`) ?? [];
   const mine = faults.filter((f) => (f.pointer === pointer || f.pointer.startsWith(`${pointer}/`)) && !inner.some((p) => f.pointer.startsWith(p)));
-  const title = `Step ${path.filter((p) => typeof p === 'number').map((n) => Number(n) + 1).join('.')}`;
+  const title = titleOf(path);
   const body = kind ? step[kind.word] : undefined;
   return (
     <li class={`step${mine.length > 0 ? ' is-wrong' : ''}`} data-step={pointer}>

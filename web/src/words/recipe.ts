@@ -108,6 +108,13 @@ export function freshStep(word: string, axisName: string): Step {
 export type Path = (string | number)[];
 export const pointerOf = (path: Path): string => path.map((p) => `/${String(p).replaceAll('~', '~0').replaceAll('/', '~1')}`).join('');
 
+/** What a step is called: `Step 2.1` for the first within the second; the sides of an `if` by name, since both begin to count at 1. */
+export const titleOf = (path: Path): string =>
+  `Step ${path
+    .flatMap((p) => (typeof p === 'number' ? [String(p + 1)] : p === 'then' || p === 'else' ? [p] : []))
+    .join('.')
+    .replace(/\.(then|else)\./g, ' $1 ')}`;
+
 export function at(document: unknown, path: Path): unknown {
   return path.reduce<unknown>((o, key) => (o as Record<string | number, unknown> | undefined)?.[key], document);
 }

@@ -435,6 +435,7 @@ void Node::derive(Turn& t) {
 void Node::emit(Turn& t) {
     if (axis_ == no_axis || !seen_) return;
     fb_.at = t.now;
+    fb_.homing = motion_.kind == Motion::Kind::home && (!motion_.ended || zero_after_home_);
     t.out.feedback.push_back({axis_, fb_});
 }
 

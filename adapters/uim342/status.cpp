@@ -25,6 +25,7 @@ bool Node::moving_now() const noexcept { return fb_.moving || search_.running ||
 void Node::emit(Turn& t) {
     if (axis_ == no_axis || !status_known_ || !position_known_) return;
     fb_.at = t.now;
+    fb_.homing = searching();
     t.out.feedback.push_back({axis_, fb_});
 }
 

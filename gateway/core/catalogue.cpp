@@ -45,6 +45,12 @@ struct Reader {
         return std::string(v->get_string());
     }
 
+    bool flag(const json::object& o, std::string_view key, const std::string& where) {
+        const auto* v = o.if_contains(key);
+        if (v && !v->is_bool()) faults.push_back(fmt::format("{}.{}: write true or false", where, key));
+        return v && v->is_bool() && v->get_bool();
+    }
+
     Parameter parameter(const json::object& o, const std::string& where) {
         Parameter p;
         p.id = text(o, "id", where);
@@ -74,10 +80,8 @@ struct Reader {
                 }
             }
         }
-        if (const auto* v = o.if_contains("addressing")) {
-            if (!v->is_bool()) faults.push_back(where + ".addressing: write true or false");
-            p.addressing = v->is_bool() && v->get_bool();
-        }
+        p.addressing = flag(o, "addressing", where);
+        p.live = flag(o, "live", where);
         if (const auto* v = o.if_contains("first"); v && v->is_int64()) p.first = static_cast<std::uint16_t>(v->get_int64());
         if (const auto* v = o.if_contains("count"); v && v->is_int64()) p.count = static_cast<std::uint16_t>(v->get_int64());
         if (const auto* v = o.if_contains("wire"); v && v->is_object()) p.wire = v->get_object();

@@ -34,6 +34,9 @@ struct Parameter {
     /// By it the drive is reached: its address, name or group, or the speed and form of its line. Snapshots and tables are written back
     /// without it, unless it is asked for: a copied address leaves two drives that cannot be told apart, or one that nobody finds.
     bool addressing = false;
+    /// It acts at once instead of configuring: a switch, set-point, counter, selector, output or latched status that can be written, or a
+    /// variable of the user's program. Snapshots and tables are written back without it, unless it is asked for, and it is no difference.
+    bool live = false;
     std::string description;
     std::vector<std::pair<std::int64_t, std::string>> allowed;  ///< the only values, with their meaning; empty: min..max decides
     std::uint16_t first = 0;          ///< arrays: number of the first element ...

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 
@@ -60,6 +61,13 @@ void AxisProfile::order_on(State& s, Decision& d) {
     d.orders.emplace_back(Enable{});
 }
 
+void AxisProfile::order_off_blindly(State& s, Decision& d) {
+    forget_motion(s);
+    s.virtual_step = 0;
+    s.quick_stopped = false;
+    d.orders.emplace_back(Disable{});
+}
+
 void AxisProfile::order_off(State& s, Decision& d) {
     const bool off = s.feedback.power == AxisFeedback::Power::off && s.power_pending != 1;
     forget_motion(s);
@@ -108,8 +116,33 @@ void AxisProfile::settle(State& s) const {
                                     : PowerState::switch_on_disabled;
 }
 
+/// Nobody answers, or nobody has said yet where the axis is: it may be moving all the same. What stops is sent, and its answer is the
+/// drive's; everything else is refused, for there is nobody who could do it. False: refused, and `d` says why.
+bool AxisProfile::change_unheard(State& s, std::uint16_t before, std::uint16_t cw, Decision& d) const {
+    if (!(cw & cw_enable_voltage)) {
+        order_off_blindly(s, d);
+    } else if (!(cw & cw_quick_stop)) {
+        forget_motion(s);
+        d.orders.emplace_back(QuickStop{});
+    } else if ((cw & cw_halt) && !(before & cw_halt)) {
+        forget_motion(s);
+        s.halted = true;
+        d.orders.emplace_back(Halt{});
+    } else {
+        d = refuse(Reason::no_answer, s.presence == Presence::offline ? "the drive does not answer" : "the drive has not said yet where it is");
+        return false;
+    }
+    return true;
+}
+
 void AxisProfile::change_power(State& s, std::uint16_t cw, Decision& d) const {
     const bool so = cw & cw_switch_on, ev = cw & cw_enable_voltage, qs = cw & cw_quick_stop, eo = cw & cw_enable_operation;
+    const bool off_by_word = !ev || !qs || !so || !eo;
+    if (s.power_pending == 1 && off_by_word && s.state != PowerState::operation_enabled && s.state != PowerState::quick_stop_active) {
+        // On its way to being switched on: that is taken back, not waited for.
+        s.virtual_step = !ev || !qs ? 0 : !so ? 1 : 2;
+        return order_off(s, d);
+    }
     switch (s.state) {
         case PowerState::not_ready_to_switch_on:
         case PowerState::fault_reaction_active:
@@ -170,10 +203,12 @@ void AxisProfile::change_power(State& s, std::uint16_t cw, Decision& d) const {
 bool AxisProfile::change_motion(State& s, std::uint16_t before, std::uint16_t cw, const ProcessData& data, Decision& d) const {
     const std::uint16_t rising = cw & static_cast<std::uint16_t>(~before), falling = before & static_cast<std::uint16_t>(~cw);
     const bool enabled = s.state == PowerState::operation_enabled && s.power_pending != 0;
+    const auto ends = [](const CommandBody& o) { return is_urgent(o) || std::holds_alternative<ResetFault>(o); };
     if (falling & cw_new_setpoint) s.setpoint_acknowledged = false;
     if (!enabled || d.orders.size() > 0) {
-        // Not enabled, or the power state changes with this very word: an edge for a motion has nothing to act on.
-        if ((rising & cw_new_setpoint) && (s.mode == mode_profile_position || s.mode == mode_homing)) {
+        // Not enabled, or the power state changes with this very word: an edge for a motion has nothing to act on. A word that stops or
+        // resets is not refused for it: what ends a motion never depends on the bits that would begin one.
+        if ((rising & cw_new_setpoint) && std::ranges::none_of(d.orders, ends) && (s.mode == mode_profile_position || s.mode == mode_homing)) {
             d = refuse(Reason::wrong_state, fmt::format("a new set-point needs operation enabled; the axis is {}", name_of(s_.state)));
             return false;
         }
@@ -186,9 +221,12 @@ bool AxisProfile::change_motion(State& s, std::uint16_t before, std::uint16_t cw
         d.orders.emplace_back(Halt{});
     } else if (falling & cw_halt) {
         s.halted = false;
-        if (s.mode == mode_profile_position && s.active && !s.feedback.target_reached) d.orders.emplace_back(*s.active);
+        if (s.mode == mode_profile_position && s.active && !s.feedback.target_reached && !(rising & cw_new_setpoint)) {
+            d.orders.emplace_back(*s.active);
+            ++s.told_again;
+        }
     }
-    if (s.mode == mode_profile_position && (rising & cw_new_setpoint)) {
+    if (s.mode == mode_profile_position && (rising & cw_new_setpoint) && !(rising & cw_halt)) {
         if (s.halted) {
             d = refuse(Reason::wrong_state, "halt (bit 8 of the control word) is set: clear it first");
             return false;
@@ -212,8 +250,9 @@ bool AxisProfile::change_motion(State& s, std::uint16_t before, std::uint16_t cw
         }
     }
     if (s.mode == mode_homing) {
-        if (rising & cw_new_setpoint) d.orders.emplace_back(Home{s.homing_method});
-        if ((falling & cw_new_setpoint) && s.feedback.moving && !s.feedback.homing_attained) d.orders.emplace_back(Halt{});
+        if ((rising & cw_new_setpoint) && !(rising & cw_halt)) d.orders.emplace_back(Home{s.homing_method});
+        const bool under_way = s.feedback.homing || (s.feedback.moving && !s.feedback.homing_attained);
+        if ((falling & cw_new_setpoint) && under_way) d.orders.emplace_back(Halt{});
     }
     if (s.mode == mode_profile_velocity && !s.halted) {
         const bool released = falling & cw_halt;
@@ -256,6 +295,12 @@ AxisProfile::Decision AxisProfile::on_process_data(const ProcessData& data) {
     s.controlword = cw;
     Decision power;
     if (data.controlword) {
+        if (s.state == PowerState::not_ready_to_switch_on) {
+            if (!change_unheard(s, before, cw, power)) return power;
+            for (auto& o : power.orders) d.orders.push_back(std::move(o));
+            s_ = std::move(s);
+            return d;
+        }
         if ((cw & cw_fault_reset) && !(before & cw_fault_reset)) order_reset(s, power);
         change_power(s, cw, power);
     }
@@ -358,9 +403,12 @@ void AxisProfile::on_order_result(const CommandBody& order, bool good, Instant n
         if (good && s.feedback.power == AxisFeedback::Power::on) s.quick_stopped = true;
         settle(s);
     } else if (const auto* m = std::get_if<Move>(&order)) {
+        const bool again = s.told_again > 0;
+        if (again) --s.told_again;
         if (!good) return;
-        ++s.setpoints_accepted;
-        s.setpoint_acknowledged = true;
+        if (!again) ++s.setpoints_accepted;
+        // Bit 12 answers bit 4: whoever has not set it does not wait for it to fall.
+        s.setpoint_acknowledged = (s.controlword & cw_new_setpoint) != 0;
         if (m->kind == Move::Kind::velocity) {
             s.ordered_velocity = m->target;
             s.active.reset();
@@ -383,13 +431,14 @@ std::optional<CommandBody> AxisProfile::on_feedback(const AxisFeedback& feedback
     if (s.seen && f.at <= s.power_known_at) f.power = s.feedback.power;
     s.feedback = f;
     s.seen = true;
+    s.heard = s.presence;
     settle(s);
     if (s.state != PowerState::operation_enabled) return std::nullopt;
     if (f.target_reached && !f.moving) {
         if (s.buffered && !s.halted) {
             Move next = *s.buffered;
             s.buffered.reset();
-            --s.setpoints_accepted;  // counted again when the drive takes it
+            ++s.told_again;  // counted when it was buffered
             return CommandBody{next};
         }
         if (!s.halted) s.active.reset();
@@ -401,12 +450,25 @@ void AxisProfile::on_presence(Presence presence) {
     if (presence == s_.presence) return;
     s_.presence = presence;
     s_.seen = false;
-    s_.feedback = {};
+    // Of a drive that is silent the last values are kept, with their age; what it is doing now is not known. Another drive begins anew.
+    AxisFeedback last;
+    if (presence == Presence::offline || presence == s_.heard) {
+        last.position = s_.feedback.position;
+        last.position_demand = s_.feedback.position_demand;
+        last.velocity = s_.feedback.velocity;
+        last.error_code = s_.feedback.error_code;
+        last.native_status = s_.feedback.native_status;
+        last.at = s_.feedback.at;
+    } else {
+        s_.heard = Presence::offline;
+    }
+    s_.feedback = last;
     s_.power_pending = -1;
     s_.power_known_at = {};
     s_.virtual_step = 0;
     s_.quick_stopped = false;
     s_.controlword = 0;
+    s_.told_again = 0;
     forget_motion(s_);
     settle(s_);
 }
@@ -442,7 +504,7 @@ void AxisProfile::fill(AxisPicture& p) const noexcept {
             if (f.velocity == 0) sw |= sw_mode_12;
             break;
         case mode_homing:
-            reached = !f.moving;
+            reached = !f.moving && !f.homing;
             if (f.homing_attained) sw |= sw_mode_12;
             if (f.homing_error) sw |= sw_mode_13;
             break;
@@ -469,7 +531,8 @@ void AxisProfile::fill(AxisPicture& p) const noexcept {
     p.homing_method = s.homing_method;
     p.setpoints_accepted = s.setpoints_accepted;
     p.presence = s.presence;
-    p.ever_seen = s.seen;
+    p.ever_seen = s.heard != Presence::offline;
+    p.current = s.seen;
     p.at = f.at;
     std::uint16_t flags = 0;
     if (present) flags |= flag_online;

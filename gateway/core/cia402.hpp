@@ -51,7 +51,8 @@ public:
         std::string text;
     };
 
-    /// Registers 32..47: values are latched, then the control word is followed. Set-points act on edges, never on levels.
+    /// Registers 32..47: values are latched, then the control word is followed. Set-points act on edges, never on levels. A word that ends
+    /// a motion or the power is followed even if something else in it cannot be; without a drive that answers only such a word is sent.
     [[nodiscard]] Decision on_process_data(const ProcessData& data);
     /// The commands of POST /axes/{name}/commands (all bodies but ProcessData, parameters and the like).
     [[nodiscard]] Decision on_command(const CommandBody& body);
@@ -65,7 +66,7 @@ public:
     [[nodiscard]] PowerState state() const noexcept { return s_.state; }
     [[nodiscard]] const AxisFeedback& feedback() const noexcept { return s_.feedback; }
     [[nodiscard]] bool commanded() const noexcept;  ///< enabled, stopping, or about to be: a twin must not take over now
-    [[nodiscard]] bool at_rest() const noexcept { return !s_.feedback.moving; }
+    [[nodiscard]] bool at_rest() const noexcept { return !s_.feedback.moving && !s_.feedback.homing; }
     /// Writes everything that this class knows into the picture (stale and authority are the engine's).
     void fill(AxisPicture& picture) const noexcept;
 
@@ -74,7 +75,8 @@ private:
         PowerState state = PowerState::not_ready_to_switch_on;
         Presence presence = Presence::offline;
         AxisFeedback feedback;
-        bool seen = false;
+        bool seen = false;                        // since the present presence began
+        Presence heard = Presence::offline;      // whose feedback is kept: offline, nobody's
         std::uint16_t controlword = 0;
         std::int16_t mode = cia402::mode_none;
         std::int32_t target_position = 0;
@@ -89,6 +91,7 @@ private:
         Instant power_known_at{};                // feedback up to here may be older than the acknowledged power order
         bool quick_stopped = false;              // quick stop active until left by a control word or command
         bool setpoint_acknowledged = false;      // bit 12 in mode 1
+        int told_again = 0;                      // moves on their way to the drive that are no new set-points: after a halt, or buffered before
         bool halted = false;
         std::int64_t ordered_velocity = 0;       // mode 3: last velocity given to the drive
         std::optional<Move> active;              // motion that a halt interrupts and its end continues (absolute target)
@@ -97,12 +100,14 @@ private:
 
     [[nodiscard]] Decision refuse(Reason reason, std::string text) const;
     [[nodiscard]] Decision follow_controlword(State& s, std::uint16_t cw, const ProcessData& data) const;
+    [[nodiscard]] bool change_unheard(State& s, std::uint16_t before, std::uint16_t cw, Decision& d) const;
     void change_power(State& s, std::uint16_t cw, Decision& d) const;
     [[nodiscard]] bool change_motion(State& s, std::uint16_t before, std::uint16_t cw, const ProcessData& data, Decision& d) const;
     [[nodiscard]] Move with_profile(const State& s, Move m) const;
     void settle(State& s) const;
     static void order_on(State& s, Decision& d);
     static void order_off(State& s, Decision& d);
+    static void order_off_blindly(State& s, Decision& d);
     static void order_reset(State& s, Decision& d);
     static void forget_motion(State& s);
     State s_;

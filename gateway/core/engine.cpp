@@ -59,6 +59,9 @@ void Engine::Side::on_line_state(bool now_up, const std::string& text) { engine.
 /// Hands on what one call to an adapter gave back. Feedback goes before results: a client that hears "accepted" finds the image ready.
 void Engine::drain(Side& side, Out& out, Instant now) {
     side.touched();
+    for (const auto& n : out.notices) {  // why a search failed is known before the feedback says that it has
+        if (Axis* a = n.kind == "homing" ? axis(n.axis) : nullptr) a->homing_why = n.text;
+    }
     for (const auto& tx : out.frames) (void)side.line->send(tx.frame, tx.priority, now);  // a full queue is counted there
     for (const auto& l : out.links) link(side, l, now);
     for (const auto& f : out.feedback) feedback(side, f.axis, f.value, now);
@@ -90,6 +93,13 @@ void Engine::feedback(Side& side, AxisId id, const AxisFeedback& value, Instant 
     if (!a || a->drive->serving != (side.twin ? Presence::twin : Presence::device)) return;
     auto next = a->profile.on_feedback(value, now);
     a->stale = false;
+    if (bool& lost = a->drive->device_lost_while_commanded; lost && !side.twin) {
+        // It is back and has said that nothing is under way any more: its next silence is judged by what it does then.
+        lost = std::ranges::any_of(a->drive->axes, [&](AxisId x) {
+            const auto& p = axes_[index_of(x)]->profile;
+            return p.commanded() || p.state() == PowerState::not_ready_to_switch_on;
+        });
+    }
     if (value.fault != a->was_fault || (value.fault && value.error_code != a->last_error)) {
         Event e;
         e.axis = a->spec.name;
@@ -131,7 +141,7 @@ void Engine::publish(Axis& a, Instant) {
     p.presence = a.drive->serving;
     // An axis is online when it can be commanded: its drive answers, and has said where it is.
     const bool answers = (a.drive->serving == Presence::device && a.drive->device_online) || (a.drive->serving == Presence::twin && a.drive->twin_online);
-    const bool online = answers && p.ever_seen;
+    const bool online = answers && p.current;
     const auto put = [](std::uint16_t& word, std::uint16_t bit, bool on) {
         word = on ? static_cast<std::uint16_t>(word | bit) : static_cast<std::uint16_t>(word & ~bit);
     };
@@ -219,11 +229,30 @@ void Engine::on_command(Command c, Instant now) {
             probe.target = set->position;
             no = guard_move(probe, AxisLimits{}, 0);
         }
-        if (no) return refuse(c, no->reason, fmt::format("axis {}: {}", name, no->text));
+        // A block of registers whose word stops is not lost for a wrong value beside it: the stop is given, and the answer is about the value.
+        const auto refuse_values = [&](Reason reason, const std::string& text) {
+            if (stops && data && (data->target_position || data->target_velocity || data->profile_velocity || data->profile_acceleration ||
+                                  data->profile_deceleration || data->mode || data->homing_method)) {
+                Command only = c;
+                only.ticket = make_ticket(Door::internal, next_++);
+                ProcessData stop;
+                stop.controlword = data->controlword;
+                only.body = stop;
+                on_command(std::move(only), now);
+            }
+            refuse(c, reason, fmt::format("axis {}: {}", name, text));
+        };
+        if (no) return refuse_values(no->reason, no->text);
         if (hold_on(*a, c, now)) return;
         auto before = a->profile;
         auto decision = data ? a->profile.on_process_data(*data) : a->profile.on_command(c.body);
-        if (decision.refused) return refuse(c, decision.reason, fmt::format("axis {}: {}", name, decision.text));
+        if (decision.refused && decision.reason == Reason::no_answer) {
+            if (const Side* side = side_of(*a->drive); side && !side->up) {
+                decision.reason = Reason::line_down;
+                decision.text = fmt::format("line {} is down: {}", side->unit.spec.name, side->why);
+            }
+        }
+        if (decision.refused) return refuse_values(decision.reason, decision.text);
         if (data) {  // a set-point that starts with this word is checked as what it is
             for (const auto& o : decision.orders) {
                 if (const auto* m = std::get_if<Move>(&o)) no = guard_move(*m, a->limits, a->profile.feedback().position);
@@ -284,6 +313,7 @@ void Engine::give_order(Axis& a, Client* client, CommandBody body, Origin origin
     if (std::holds_alternative<Move>(body) || std::holds_alternative<Home>(body) || is_urgent(body)) {
         supersede(a, client ? client->number : 0, name_of(body), now);
         a.held = {};  // another motion, or a stop: nobody's finger holds this one
+        a.homing_why.clear();
         const auto* move = client ? std::get_if<Move>(&client->body) : nullptr;
         if (move && move->hold_ms) begin_hold(a, *move, client->origin);
     }

@@ -97,7 +97,7 @@ bool Engine::settled() const {
         if (!served) return false;
         // Whoever is told `ready` commands at once: an axis whose drive answers has also said where it is.
         const bool answers = d->serving == Presence::twin ? d->twin_online : d->device_online;
-        if (answers && !std::ranges::all_of(d->axes, [&](AxisId a) { return image_.picture(a).ever_seen; })) return false;
+        if (answers && !std::ranges::all_of(d->axes, [&](AxisId a) { return image_.picture(a).current; })) return false;
     }
     for (const auto& l : lines_) {
         if (l && l->real && !l->real->tried) return false;

@@ -108,6 +108,7 @@ struct Engine::Axis {
     AxisAuthority authority;
     bool stale = true;
     bool was_fault = false;
+    std::string homing_why;  ///< why the last search for a zero failed, by the adapter's notice
     std::uint16_t last_error = 0;
     std::vector<std::uint64_t> clients;  ///< commands on their way or being watched, oldest first; bounded
     std::map<Point, Value> stored;       ///< acknowledged writes, as the store has them

@@ -49,7 +49,7 @@ void Engine::housekeeping(Instant now) {
     for (const auto& slot : axes_) {
         if (!slot) continue;
         Axis& a = *slot;
-        const bool stale = now - a.profile.feedback().at > a.drive->line->stale_after || !image_.picture(a.id).ever_seen;
+        const bool stale = now - a.profile.feedback().at > a.drive->line->stale_after || !image_.picture(a.id).current;
         if (stale != a.stale) {
             a.stale = stale;
             publish(a, now);

@@ -90,12 +90,13 @@ void Engine::track(Axis& a, Instant now) {
             }
         } else if (std::holds_alternative<Home>(c.body)) {
             if (f.homing_error) {
-                fail(Reason::interrupted, fmt::format("axis {}: homing ended with an error, drive's code {}", a.spec.name, f.error_code));
-            } else if (f.homing_attained && !f.moving) {
+                fail(Reason::interrupted, a.homing_why.empty() ? fmt::format("axis {}: homing ended with an error, drive's code {}", a.spec.name, f.error_code)
+                                                               : fmt::format("axis {}: {}", a.spec.name, a.homing_why));
+            } else if (f.homing_attained && !f.moving && !f.homing) {
                 progress = Progress::done;
             } else if (f.fault) {
                 fail(Reason::interrupted, fmt::format("axis {}: fault during homing, drive's code {}", a.spec.name, f.error_code));
-            } else if (!f.moving && f.at - c.accepted_at > rest_before_interrupted) {
+            } else if (!f.moving && !f.homing && f.at - c.accepted_at > rest_before_interrupted) {
                 fail(Reason::interrupted, fmt::format("axis {}: homing has stopped before its end", a.spec.name));
             }
         } else if (const auto* move = std::get_if<Move>(&c.body)) {

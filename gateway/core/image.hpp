@@ -50,7 +50,8 @@ struct AxisPicture {
     std::array<char, 64> authority_holder{};     ///< the holder's name, ends with 0; empty: nobody
     std::array<char, 64> authority_commander{};  ///< who commanded last: "modbus 192.0.2.7"
     Presence presence = Presence::offline;
-    bool ever_seen = false;                ///< feedback has arrived at least once
+    bool ever_seen = false;                ///< feedback has arrived at least once: position, velocity, error code and `at` are the last ones
+    bool current = false;                  ///< it has, since who serves the axis has answered again
     Instant at{};                          ///< when the drive said it
 };
 static_assert(std::is_trivially_copyable_v<AxisPicture>);

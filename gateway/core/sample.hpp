@@ -40,6 +40,7 @@ struct AxisFeedback {
     bool warning = false;
     bool internal_limit = false;   ///< a limit (switch, software, torque) is active
     bool quick_stopping = false;   ///< the quick-stop ramp runs, or the drive is locked after it
+    bool homing = false;           ///< a search for the zero is under way, also while the axis stands between its parts
     bool homing_attained = false;
     bool homing_error = false;
     std::int64_t position = 0;         ///< actual position, increments

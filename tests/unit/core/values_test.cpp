@@ -89,6 +89,11 @@ TEST(Catalogue, WhatADriveIsReachedByIsMarkedAndNothingElse) {
     EXPECT_TRUE(faults.empty());
     for (const auto* wrong : {R"(, "addressing": 1)", R"(, "addressing": "yes")", R"(, "addressing": null)"}) EXPECT_FALSE(parse(wrong, faults)) << wrong;
     EXPECT_EQ(faults.size(), 3u);
+    faults.clear();
+    EXPECT_FALSE(parse("", faults)->parameters()[0].live);
+    EXPECT_TRUE(parse(R"(, "live": true)", faults)->parameters()[0].live);
+    EXPECT_FALSE(parse(R"(, "live": 1)", faults));
+    EXPECT_EQ(faults.size(), 1u);
 }
 TEST(Catalogue, EveryFaultOfAPageIsFound) {
     std::vector<std::string> faults;

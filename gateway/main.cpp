@@ -44,7 +44,7 @@ bool config_of(const Common& c, Config& config) {
     const auto sources = sources_of(c, good);
     std::vector<ConfigFault> faults;
     config = read_config(sources, faults);
-    for (const auto& f : faults) complain(fmt::format("{}: {}; {}", f.place, f.text, f.remedy));
+    for (const auto& f : faults) complain(f);
     return good && faults.empty();
 }
 
@@ -110,6 +110,16 @@ int main(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
         if (e.get_exit_code() == 0) return app.exit(e);
+        std::string names;
+        bool known = false;
+        for (const auto* s : app.get_subcommands({})) {
+            names += (names.empty() ? "" : ", ") + s->get_name();
+            known = known || (argc > 1 && s->get_name() == argv[1]);
+        }
+        if (argc > 1 && argv[1][0] != '-' && !known) {
+            complain(fmt::format("there is no command {}; commands: {}; see `axisgate help`", argv[1], names));
+            return exit_usage;
+        }
         complain(std::string(e.what()) + "; see `axisgate help`");
         return exit_usage;
     }
@@ -129,8 +139,7 @@ int main(int argc, char** argv) {
     if (*check) {
         bool good = true;
         const auto sources = sources_of(check_common, good);
-        const int code = command_check(sources, check_common.site_file);
-        return good ? code : exit_usage;
+        return command_check(sources, check_common.site_file, good);
     }
     if (*serve) {
         ServeOptions o;

@@ -341,6 +341,7 @@ private:
     struct Before {                ///< last seen before a silence, to tell a broken cable from a restart
         bool known = false, on = false, referenced = false;
         std::int64_t position = 0;
+        bool own_error = false;  ///< its error flag stood for something that it had refused to this gateway
     } before_;
     std::optional<std::uint32_t> ac_, dc_, ss_, sd_;
     std::optional<bool> time_ramps_;  ///< IC[4] = 1: AC and DC are ms

@@ -49,7 +49,7 @@ void Node::begin_probing(Turn& t) {
 }
 
 void Node::go_absent(Turn& t, std::string why, Duration pause) {
-    before_ = {status_known_ && position_known_, status_.on, fb_.referenced, fb_.position};
+    before_ = {status_known_ && position_known_, status_.on, fb_.referenced, fb_.position, cause_ == Cause::own};
     phase_ = Phase::absent;
     retry_pause_ = pause;
     next_probe_ = t.now + retry_pause_;
@@ -82,7 +82,8 @@ void Node::probe_answered(const Message& m, Turn& t) {
         t.out.samples.push_back({axis_, b.point, std::move(v), Quality::good, t.now});
     });
     status_known_ = position_known_ = false;
-    cause_ = Cause::none;
+    // A refusal of before the silence is no fault after it; a restart clears the flag, and then it says nothing.
+    cause_ = before_.known && before_.own_error ? Cause::own : Cause::none;
     alarm_ = 0;
     motion_ = {};
     prepared_ = false;

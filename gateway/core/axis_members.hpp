@@ -9,7 +9,7 @@
 
 namespace axisgate {
 
-inline constexpr std::array<std::string_view, 28> axis_state_members{"online",
+inline constexpr std::array<std::string_view, 29> axis_state_members{"online",
                                                                      "simulated",
                                                                      "stale",
                                                                      "presence",
@@ -25,6 +25,7 @@ inline constexpr std::array<std::string_view, 28> axis_state_members{"online",
                                                                      "warning",
                                                                      "internal_limit",
                                                                      "position",
+                                                                     "demand_known",
                                                                      "position_demand",
                                                                      "velocity",
                                                                      "target_position",

@@ -209,7 +209,7 @@ Catalogue::Checked Catalogue::check_write(Point point, const Value& value) const
         }
         return {*d, {}};
     }
-    const auto i = as_integer(value);
+    const auto i = p->type != ValueType::boolean && std::holds_alternative<bool>(value) ? std::nullopt : as_integer(value);
     if (!i) return {{}, fmt::format("{} takes a whole number, not {}", id, to_text(value))};
     if (!p->allowed.empty()) {
         std::string list;

@@ -533,6 +533,7 @@ void AxisProfile::fill(AxisPicture& p) const noexcept {
     p.presence = s.presence;
     p.ever_seen = s.heard != Presence::offline;
     p.current = s.seen;
+    p.demand_known = f.demand_known;
     p.at = f.at;
     std::uint16_t flags = 0;
     if (present) flags |= flag_online;

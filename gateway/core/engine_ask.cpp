@@ -45,8 +45,10 @@ DriveStatus Engine::drive_status(DriveId id) const {
     s.device_online = d->device_online;
     if ((d->serving == Presence::device && !d->device_online) || (d->serving == Presence::twin && !d->twin_online)) s.presence = Presence::offline;
     s.text = d->why;
-    s.silent_exchanges = d->device_link.silent_exchanges;
-    s.retry_pause_ms = milliseconds_of(d->device_link.retry_pause);
+    s.simulated = d->serving == Presence::twin;
+    const DriveLink& serving = s.simulated ? d->twin_link : d->device_link;
+    s.silent_exchanges = serving.silent_exchanges;
+    s.retry_pause_ms = milliseconds_of(serving.retry_pause);
     return s;
 }
 

@@ -78,7 +78,7 @@ struct Engine::Drive {
     bool device_online = false, twin_online = false;
     bool device_lost_while_commanded = false;
     Instant waiting_since{};               ///< when we began to wait for the device
-    DriveLink device_link;
+    DriveLink device_link, twin_link;
     std::string why = "not seen yet";
     std::uint64_t memory_revision = 0;
     NonVolatile memory;                    ///< what the twin starts from

@@ -47,7 +47,7 @@ void Engine::link(Side& side, const DriveLink& l, Instant now) {
     bool& online = side.twin ? d->twin_online : d->device_online;
     const bool changed = online != l.online;
     const bool mine = d->serving == (side.twin ? Presence::twin : Presence::device);
-    if (!side.twin) d->device_link = l;
+    (side.twin ? d->twin_link : d->device_link) = l;
     if (changed && !l.online && mine) {
         for (const AxisId id : d->axes) {
             if (axes_[index_of(id)]->profile.commanded()) d->device_lost_while_commanded = !side.twin;

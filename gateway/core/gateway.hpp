@@ -70,6 +70,7 @@ struct LiveParameter {
 
 struct DriveStatus {
     Presence presence = Presence::offline;   ///< who serves the axes now
+    bool simulated = false;                  ///< the twin serves them, whether it answers or not
     bool device_online = false;              ///< the real drive answers
     std::string text;                        ///< why it is so, for people
     std::uint32_t silent_exchanges = 0;

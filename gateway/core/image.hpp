@@ -51,6 +51,7 @@ struct AxisPicture {
     std::array<char, 64> authority_commander{};  ///< who commanded last: "modbus 192.0.2.7"
     Presence presence = Presence::offline;
     bool ever_seen = false;                ///< feedback has arrived at least once: position, velocity, error code and `at` are the last ones
+    bool demand_known = false;             ///< position_demand is the drive's own word; else it equals the position
     bool current = false;                  ///< it has, since who serves the axis has answered again
     Instant at{};                          ///< when the drive said it
 };

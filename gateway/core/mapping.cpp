@@ -62,7 +62,7 @@ constexpr std::array order_names{std::pair{std::string_view("high_first"), MapWo
                                  std::pair{std::string_view("low_first"), MapWordOrder::low_first}};
 
 using P = AxisPoint;
-constexpr std::array<AxisPointInfo, 29> points{{
+constexpr std::array<AxisPointInfo, 32> points{{
     {P::statusword, "statusword", false, "CiA 402 status word, with 8 simulated, 14 stale, 15 referenced"},
     {P::mode_display, "mode_display", false, "modes of operation display"},
     {P::position, "position", false, "position actual value, increments"},
@@ -92,6 +92,9 @@ constexpr std::array<AxisPointInfo, 29> points{{
     {P::warning, "warning", false, "a warning"},
     {P::position_units, "position_units", false, "position actual value in the axis' unit"},
     {P::velocity_units, "velocity_units", false, "velocity actual value in the axis' unit per second"},
+    {P::heartbeat, "heartbeat", false, "counts up each second"},
+    {P::family, "family", false, "number of the drive's family"},
+    {P::mapping_revision, "mapping_revision", false, "revision of the mapping (hash)"},
 }};
 
 constexpr bool is_bits(MapTable t) noexcept { return t == MapTable::coils || t == MapTable::discrete_inputs; }

@@ -60,7 +60,10 @@ enum class AxisPoint : std::uint8_t {
     fault,
     warning,
     position_units,
-    velocity_units
+    velocity_units,
+    heartbeat,
+    family,
+    mapping_revision
 };
 [[nodiscard]] std::string_view name_of(AxisPoint point) noexcept;
 [[nodiscard]] std::optional<AxisPoint> axis_point_named(std::string_view name) noexcept;

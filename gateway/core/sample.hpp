@@ -45,6 +45,7 @@ struct AxisFeedback {
     bool homing_error = false;
     std::int64_t position = 0;         ///< actual position, increments
     std::int64_t position_demand = 0;  ///< where the drive wants to be now; equals `position` if the drive does not say
+    bool demand_known = false;         ///< the drive says so; else nobody can tell a following error
     std::int64_t velocity = 0;         ///< actual velocity, increments/s
     std::uint16_t error_code = 0;      ///< the drive's own, 0 = none
     std::uint32_t native_status = 0;   ///< the drive's own status word(s), as its README says

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "gateway/core/image.hpp"
@@ -461,6 +462,58 @@ json::object to_json(const Site& site) {
     return {{"lines", std::move(lines)}, {"drives", std::move(drives)}, {"axes", std::move(axes)}, {"mappings", site.mappings}};
 }
 
+namespace {
+constexpr std::size_t most_mappings_told = 50;  // in one event
+
+/// A mapping for people: "m7 (unit 2 holding_registers 4, feeder.position)".
+std::string mapping_text(const json::object& m) {
+    const auto text = [&](const char* key) {
+        const auto* v = m.if_contains(key);
+        return !v ? std::string("?") : v->is_string() ? std::string(v->get_string()) : json::serialize(*v);
+    };
+    return fmt::format("{} (unit {} {} {}, {}.{})", text("id"), text("unit"), text("table"), text("address"), text("axis"), text("point"));
+}
+
+/// What was changed in which mapping; entries are told apart by their ids, which all have once a site is checked.
+void compare_mappings(const json::array& from, const json::array& to, std::vector<std::string>& out) {
+    const auto by_id = [](const json::array& list) {
+        std::map<std::string, const json::object*, std::less<>> all;
+        for (const auto& v : list) {
+            const auto* o = v.if_object();
+            const auto* id = o ? o->if_contains("id") : nullptr;
+            if (id && id->is_string()) all.emplace(std::string(id->get_string()), o);
+        }
+        return all;
+    };
+    const auto before = by_id(from), after = by_id(to);
+    const std::size_t had = out.size();
+    for (const auto& [id, x] : before) {
+        const auto it = after.find(id);
+        if (it == after.end()) {
+            out.push_back(fmt::format("mapping {}: removed", mapping_text(*x)));
+            continue;
+        }
+        for (const auto& [k, v] : *x) {
+            const auto* w = it->second->if_contains(k);
+            if (!w || *w != v)
+                out.push_back(fmt::format("mapping {}: {} {} -> {}", mapping_text(*x), std::string_view(k), json::serialize(v), w ? json::serialize(*w) : "not set"));
+        }
+        for (const auto& [k, w] : *it->second) {
+            if (!x->contains(k)) out.push_back(fmt::format("mapping {}: {} not set -> {}", mapping_text(*x), std::string_view(k), json::serialize(w)));
+        }
+    }
+    for (const auto& [id, y] : after) {
+        if (!before.contains(id)) out.push_back(fmt::format("mapping {}: added", mapping_text(*y)));
+    }
+    const std::size_t told = out.size() - had;
+    if (told == 0) out.push_back("mappings: put into another order");
+    if (told > most_mappings_told) {
+        out.resize(had + most_mappings_told);
+        out.push_back(fmt::format("and {} more changes of mappings", told - most_mappings_told));
+    }
+}
+}  // namespace
+
 std::vector<std::string> differences(const Site& from, const Site& to) {
     std::vector<std::string> out;
     const auto compare = [&](std::string_view what, const auto& a, const auto& b) {
@@ -486,7 +539,7 @@ std::vector<std::string> differences(const Site& from, const Site& to) {
     compare("line", from.lines, to.lines);
     compare("drive", from.drives, to.drives);
     compare("axis", from.axes, to.axes);
-    if (from.mappings != to.mappings) out.push_back(fmt::format("mappings: {} -> {} entries, or changed", from.mappings.size(), to.mappings.size()));
+    if (from.mappings != to.mappings) compare_mappings(from.mappings, to.mappings, out);
     return out;
 }
 

@@ -11,6 +11,7 @@
 #include "gateway/core/assets.hpp"
 #include "gateway/runtime/catalogues.hpp"
 #include "gateway/runtime/clock.hpp"
+#include "gateway/runtime/config_host.hpp"
 #include "gateway/runtime/site_file.hpp"
 #include "gateway/runtime/tls_files.hpp"
 #include "gateway/store/backup.hpp"
@@ -78,7 +79,8 @@ std::optional<Families> families_or_complain() {
     return families;
 }
 
-constexpr std::string_view parameter_fields[] = {"id", "name", "group", "type", "unit", "min", "max", "default", "access", "storage", "description"};
+constexpr std::string_view parameter_fields[] = {"id", "name", "group", "type", "unit", "min", "max", "default", "access", "storage", "description", "addressing", "live"};
+constexpr bool is_mark(std::string_view field) { return field == "addressing" || field == "live"; }
 }  // namespace
 
 int command_families(const std::string& format) {
@@ -132,7 +134,7 @@ int command_catalogue(const std::string& family, const std::string& what, const 
             json::object o;
             for (const auto& f : head) {
                 const auto* v = item.get_object().if_contains(f);
-                o[f] = v ? *v : json::value(nullptr);
+                o[f] = v ? *v : is_mark(f) ? json::value(false) : json::value(nullptr);
             }
             out.push_back(std::move(o));
         }
@@ -153,12 +155,15 @@ int command_catalogue(const std::string& family, const std::string& what, const 
     return exit_good;
 }
 
-int command_check(const ConfigSources& sources, const std::string& site_file) {
+void complain(const ConfigFault& f) { complain(fmt::format("{}{}: {}; {}", f.warning ? "warning: " : "", f.place, f.text, f.remedy)); }
+
+int command_check(const ConfigSources& sources, const std::string& site_file, bool all_read) {
     std::vector<ConfigFault> faults;
     const auto config = read_config(sources, faults);
     if (faults.empty()) faults = check_tls(config, unix_now_ns() / 1'000'000'000);
-    for (const auto& f : faults) complain(fmt::format("{}: {}; {}", f.place, f.text, f.remedy));
-    std::size_t count = faults.size();
+    for (auto& f : check_host(config)) faults.push_back(std::move(f));
+    for (const auto& f : faults) complain(f);
+    std::size_t count = (all_read ? 0u : 1u) + static_cast<std::size_t>(std::ranges::count(faults, false, &ConfigFault::warning));
     if (!site_file.empty()) {
         const auto families = families_or_complain();
         if (!families) return exit_failed;

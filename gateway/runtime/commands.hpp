@@ -21,8 +21,9 @@ struct ServeOptions {
 [[nodiscard]] int command_families(const std::string& format);
 [[nodiscard]] int command_catalogue(const std::string& family, const std::string& what, const std::string& format);
 [[nodiscard]] int command_decode(const std::string& family, const std::string& format, const std::string& file);
-/// Reads configuration and site as `serve` would; prints every fault with file, line and remedy.
-[[nodiscard]] int command_check(const ConfigSources& sources, const std::string& site_file);
+/// Reads configuration and site as `serve` would; prints every fault with file, line and remedy. `all_read` false: a file of the sources
+/// could not be read, which has been said already.
+[[nodiscard]] int command_check(const ConfigSources& sources, const std::string& site_file, bool all_read = true);
 [[nodiscard]] int command_backup(const Config& config, const std::string& file);
 [[nodiscard]] int command_restore(const Config& config, const std::string& file);
 
@@ -39,5 +40,7 @@ struct TwinOptions {
 
 /// "axisgate: TEXT" on standard error.
 void complain(const std::string& text);
+/// "PLACE: what is wrong; what to do", with "warning: " in front of what goes on without it.
+void complain(const ConfigFault& fault);
 
 }  // namespace axisgate

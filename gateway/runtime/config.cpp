@@ -23,9 +23,13 @@ namespace axisgate {
 namespace {
 using Fault = std::optional<std::string>;  // the remedy, if the text cannot be the value
 
+/// What a value may be written as in TOML: a number in place of a text is a slip ("port = 5"), and not the text "5".
+enum class Written : std::uint8_t { as_text, as_number, as_switch, as_list };
+
 struct Key {
     std::string_view section, name;
     std::function<Fault(Config&, const std::string&)> set;
+    Written written = Written::as_text;
 };
 
 Fault set_integer(std::int64_t& into, const std::string& s, std::int64_t low, std::int64_t high) {
@@ -84,9 +88,9 @@ const std::vector<Key>& keys() {
              }
              return "write none, viewer, operator, engineer or administrator";
          }},
-        {"users", "session_idle_min", [](Config& c, const std::string& s) { return set_integer(c.users_session_idle_min, s, 1, 1440); }},
-        {"users", "session_max_h", [](Config& c, const std::string& s) { return set_integer(c.users_session_max_h, s, 1, 720); }},
-        {"users", "new_code", [](Config& c, const std::string& s) { return set_bool(c.users_new_code, s); }},
+        {"users", "session_idle_min", [](Config& c, const std::string& s) { return set_integer(c.users_session_idle_min, s, 1, 1440); }, Written::as_number},
+        {"users", "session_max_h", [](Config& c, const std::string& s) { return set_integer(c.users_session_max_h, s, 1, 720); }, Written::as_number},
+        {"users", "new_code", [](Config& c, const std::string& s) { return set_bool(c.users_new_code, s); }, Written::as_switch},
         {"http", "allowed_hosts",
          [](Config& c, const std::string& s) -> Fault {
              c.http_allowed_hosts.clear();
@@ -96,7 +100,7 @@ const std::vector<Key>& keys() {
                  i = comma + 1;
              }
              return {};
-         }},
+         }, Written::as_list},
         {"modbus", "bind", [](Config& c, const std::string& s) { return set_bind(c.modbus_bind, s); }},
         {"modbus", "word_order",
          [](Config& c, const std::string& s) -> Fault {
@@ -104,8 +108,8 @@ const std::vector<Key>& keys() {
              c.modbus_low_word_first = s == "low_first";
              return {};
          }},
-        {"modbus", "idle_timeout_s", [](Config& c, const std::string& s) { return set_integer(c.modbus_idle_timeout_s, s, 1, 86400); }},
-        {"modbus", "max_connections", [](Config& c, const std::string& s) { return set_integer(c.modbus_max_connections, s, 1, 8192); }},
+        {"modbus", "idle_timeout_s", [](Config& c, const std::string& s) { return set_integer(c.modbus_idle_timeout_s, s, 1, 86400); }, Written::as_number},
+        {"modbus", "max_connections", [](Config& c, const std::string& s) { return set_integer(c.modbus_max_connections, s, 1, 8192); }, Written::as_number},
         {"modbus", "allow",
          [](Config& c, const std::string& s) -> Fault {
              c.modbus_allow = split_list(s);
@@ -113,7 +117,7 @@ const std::vector<Key>& keys() {
                  if (!modbus::parse_network(one)) return "write addresses or networks, such as [\"127.0.0.0/8\", \"192.168.1.20\", \"fd00::/8\"]";
              }
              return {};
-         }},
+         }, Written::as_list},
         {"modbus", "functions",
          [](Config& c, const std::string& s) -> Fault {
              c.modbus_functions = split_list(s);
@@ -122,13 +126,13 @@ const std::vector<Key>& keys() {
                  if (set_integer(ignored, one, 1, 127)) return "write function codes from 1 to 127, such as [3, 4, 6, 16]";
              }
              return {};
-         }},
-        {"modbus", "read_only", [](Config& c, const std::string& s) { return set_bool(c.modbus_read_only, s); }},
-        {"authority", "lease_s", [](Config& c, const std::string& s) { return set_integer(c.authority_lease_s, s, 1, 3600); }},
+         }, Written::as_list},
+        {"modbus", "read_only", [](Config& c, const std::string& s) { return set_bool(c.modbus_read_only, s); }, Written::as_switch},
+        {"authority", "lease_s", [](Config& c, const std::string& s) { return set_integer(c.authority_lease_s, s, 1, 3600); }, Written::as_number},
         {"modbus_rtu", "port", [](Config& c, const std::string& s) { return set_text(c.modbus_rtu_port, s); }},
         {"enip", "bind", [](Config& c, const std::string& s) { return set_bind(c.enip_bind, s); }},
-        {"dds", "enabled", [](Config& c, const std::string& s) { return set_bool(c.dds_enabled, s); }},
-        {"dds", "domain", [](Config& c, const std::string& s) { return set_integer(c.dds_domain, s, 0, 232); }},
+        {"dds", "enabled", [](Config& c, const std::string& s) { return set_bool(c.dds_enabled, s); }, Written::as_switch},
+        {"dds", "domain", [](Config& c, const std::string& s) { return set_integer(c.dds_domain, s, 0, 232); }, Written::as_number},
         {"log", "level",
          [](Config& c, const std::string& s) -> Fault {
              for (const auto* l : {"trace", "debug", "info", "warning", "error", "off"}) {
@@ -137,10 +141,10 @@ const std::vector<Key>& keys() {
              return "write trace, debug, info, warning, error or off";
          }},
         {"log", "file", [](Config& c, const std::string& s) { return set_text(c.log_file, s); }},
-        {"runtime", "spin_us", [](Config& c, const std::string& s) { return set_integer(c.spin_us, s, 0, 1000); }},
-        {"runtime", "hot_cpu", [](Config& c, const std::string& s) { return set_integer(c.hot_cpu, s, -1, 1023); }},
-        {"limits", "http_connections", [](Config& c, const std::string& s) { return set_integer(c.max_http_connections, s, 1, 8192); }},
-        {"limits", "trace_frames", [](Config& c, const std::string& s) { return set_integer(c.trace_frames, s, 64, 1'000'000); }},
+        {"runtime", "spin_us", [](Config& c, const std::string& s) { return set_integer(c.spin_us, s, 0, 1000); }, Written::as_number},
+        {"runtime", "hot_cpu", [](Config& c, const std::string& s) { return set_integer(c.hot_cpu, s, -1, 1023); }, Written::as_number},
+        {"limits", "http_connections", [](Config& c, const std::string& s) { return set_integer(c.max_http_connections, s, 1, 8192); }, Written::as_number},
+        {"limits", "trace_frames", [](Config& c, const std::string& s) { return set_integer(c.trace_frames, s, 64, 1'000'000); }, Written::as_number},
     };
     return list;
 }
@@ -163,6 +167,13 @@ const Key* find_key(std::string_view section, std::string_view name) {
         if (k.section == section && k.name == name) return &k;
     }
     return nullptr;
+}
+
+/// What to write, if the value is written as something that this key never is.
+Fault wrong_kind(const toml::node& node, Written written) {
+    if (written == Written::as_text && !node.is_string()) return "write a text in double quotes";
+    if (written == Written::as_list && !node.is_array() && !node.is_string()) return "write a list in square brackets";
+    return {};
 }
 
 std::optional<std::string> text_of(const toml::node& node) {
@@ -230,7 +241,10 @@ std::size_t line_of_foreign_letter(std::string_view text) {
     return 0;
 }
 
-void read_file(Config& c, const ConfigSources& sources, std::vector<ConfigFault>& faults) {
+/// Where each value that counts was written.
+using Places = std::map<const Key*, std::string>;
+
+void read_file(Config& c, const ConfigSources& sources, Places& places, std::vector<ConfigFault>& faults) {
     const auto place = [&](const toml::source_region& r) { return fmt::format("{}:{}", sources.file_name, r.begin.line); };
     // TOML knows no control characters but tab and line ends, and the parser does not take NUL as a fault but as a reason to end.
     for (std::size_t i = 0, line = 1; i < sources.file_text->size(); ++i) {
@@ -263,7 +277,9 @@ void read_file(Config& c, const ConfigSources& sources, std::vector<ConfigFault>
                 continue;
             }
             const auto text = text_of(value);
-            const Fault fault = text ? key->set(c, *text) : Fault("write a text, a number, true or false");
+            const auto kind = wrong_kind(value, key->written);
+            const Fault fault = !text ? Fault("write a text, a number, true or false") : kind ? kind : key->set(c, *text);
+            if (!fault) places[key] = place(value.source());
             if (fault) faults.push_back({place(value.source()), fmt::format("{}.{}: {} is not possible", section.str(), name.str(), text.value_or("this value")), *fault});
         }
     }
@@ -288,7 +304,8 @@ std::optional<HostPort> parse_host_port(std::string_view text) {
 
 Config read_config(const ConfigSources& sources, std::vector<ConfigFault>& faults) {
     Config c;
-    if (sources.file_text) read_file(c, sources, faults);
+    Places places;
+    if (sources.file_text) read_file(c, sources, places, faults);
     const auto apply = [&](std::string_view section, std::string_view name, const std::string& value, const std::string& place) {
         const Key* key = find_key(section, name);
         if (!key) {
@@ -296,7 +313,10 @@ Config read_config(const ConfigSources& sources, std::vector<ConfigFault>& fault
             faults.push_back({place, fmt::format("there is no key {}.{}", section, name), names.empty() ? "sections: " + known_names("") : "keys: " + names});
             return;
         }
-        if (const Fault fault = key->set(c, value)) faults.push_back({place, fmt::format("{}.{}: \"{}\" is not possible", section, name, value), *fault});
+        if (const Fault fault = key->set(c, value))
+            faults.push_back({place, fmt::format("{}.{}: \"{}\" is not possible", section, name, value), *fault});
+        else
+            places[key] = place;
     };
     for (const auto& entry : sources.environment) {
         constexpr std::string_view prefix = "AXISGATE_";
@@ -321,6 +341,9 @@ Config read_config(const ConfigSources& sources, std::vector<ConfigFault>& fault
         }
         apply(o.substr(0, dot), o.substr(dot + 1, equals - dot - 1), o.substr(equals + 1), "--set " + o.substr(0, equals));
     }
+    // Doors that the contract names and this version has not: never silently left out.
+    if (!c.modbus_rtu_port.empty()) faults.push_back({places[find_key("modbus_rtu", "port")], "modbus_rtu.port: this version has no Modbus RTU door", "leave the key out"});
+    if (c.dds_enabled) faults.push_back({places[find_key("dds", "enabled")], "dds.enabled: this version has no DDS door", "set it to false"});
     if (c.http_tls_cert.empty() != c.http_tls_key.empty()) {
         faults.push_back({sources.file_name.empty() ? "configuration" : sources.file_name, "http.tls_cert and http.tls_key go together", "give both or none"});
     }

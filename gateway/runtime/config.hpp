@@ -48,6 +48,7 @@ struct ConfigFault {
     std::string place;   ///< "axisgate.toml:12", "--set http.bind", "AXISGATE_HTTP_BIND"
     std::string text;
     std::string remedy;
+    bool warning = false;  ///< `serve` goes on without it
 };
 
 struct ConfigSources {

@@ -22,6 +22,7 @@
 #include "gateway/runtime/catalogues.hpp"
 #include "gateway/runtime/clock.hpp"
 #include "gateway/runtime/commands.hpp"
+#include "gateway/runtime/config_host.hpp"
 #include "gateway/runtime/files.hpp"
 #include "gateway/runtime/hot.hpp"
 #include "gateway/runtime/site_file.hpp"
@@ -368,12 +369,11 @@ void Service::take_down() {
 }  // namespace
 
 int command_serve(const ServeOptions& options) {
+    // The same words and the same exit code as `axisgate check`.
+    const auto wrong_here = check_host(options.config);
+    for (const auto& f : wrong_here) complain(f);
+    if (std::ranges::count(wrong_here, false, &ConfigFault::warning) > 0) return exit_usage;
     if (!open_log(options.config)) return exit_failed;
-    if (!options.config.modbus_rtu_port.empty() || options.config.dds_enabled) {
-        if (!options.config.modbus_rtu_port.empty()) complain("modbus_rtu.port: this version has no Modbus RTU door; leave the key out");
-        if (options.config.dds_enabled) complain("dds.enabled: this version has no DDS door; set it to false");
-        return exit_usage;
-    }
     // Before anything is opened: a certificate that does not hold is a fault of the configuration, as in `axisgate check`.
     if (const auto wrong = check_tls(options.config, unix_now_ns() / 1'000'000'000); !wrong.empty()) {
         for (const auto& f : wrong) complain(fmt::format("{}: {}; {}", f.place, f.text, f.remedy));

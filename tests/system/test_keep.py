@@ -1,5 +1,6 @@
 """What is kept and staged, on the real program: snapshots, a trial that takes itself back (also after a kill -9), registers as the HMI sees them, backups."""
 import copy
+import json
 import os
 import signal
 import time
@@ -77,6 +78,72 @@ def test_a_restore_leaves_the_address_of_the_drive_alone(gateway):
     assert [c["parameter"] for c in done["changed"]] == ["PP[5]"], done
 
 
+# What acts at once instead of configuring; outputs, program and trip words can only be written, so snapshots have none of them.
+ACTS_AT_ONCE = {"uim342": "MO JV SP PR PA MF DI",
+                "mcode": "P C1 C2 DE AS FL ST ER IF O1 O2 O3 OT TI TP TC TT TR TA TM TE R1 R2 R3 R4 F1 F2 F3 F4 F5 F6 F7 F8",
+                "pacontrol": "O OW M MW N R"}
+FAMILIES = {
+    "lines": [{"name": "can0", "uri": "twin", "family": "uim342", "bitrate": 1000000}, {"name": "com1", "uri": "twin", "family": "mcode"},
+              {"name": "com2", "uri": "twin", "family": "pacontrol"}],
+    "drives": [{"name": "uim342", "line": "can0", "address": 5}, {"name": "mcode", "line": "com1", "address": "!"}, {"name": "pacontrol", "line": "com2"}],
+    "axes": [{"name": n, "drive": n, "number": i + 1} for i, n in enumerate(["uim342", "mcode", "pacontrol"])], "mappings": []}
+
+
+def test_every_family_says_what_acts_at_once(gateway):
+    assert {f["name"] for f in gateway.get("/families")} == set(ACTS_AT_ONCE), "a new family says what acts at once"
+    for family, wanted in ACTS_AT_ONCE.items():
+        assert {p["id"] for p in gateway.get(f"/families/{family}/parameters") if p["live"]} == set(wanted.split()), family
+        _, out, _ = harness.run("catalogue", family, "parameters", "--format", "json", check=0)
+        assert {p["id"] for p in json.loads(out) if p["live"]} == set(wanted.split()), family
+
+
+def test_a_restore_neither_enables_nor_moves_the_origin(folder):
+    with harness.Gateway(folder, FAMILIES) as g:
+        for family in ACTS_AT_ONCE:
+            until(lambda: g.axis(family)["online"], 10, f"{family} is there")
+            g.command(family, {"command": "enable"})
+            if family == "pacontrol":
+                g.command(family, {"command": "home"}, wait=60)
+            g.send("POST", f"/axes/{family}/snapshots", {"name": "while enabled"}, 201)
+            g.command(family, {"command": "move_relative", "position": 1000, **({"velocity": 2000} if family == "uim342" else {})})
+            acts = f"/axes/{family}/snapshots/1/restore"
+            changes = g.send("POST", acts, {"dry_run": True})["changes"]
+            assert changes == [], (family, changes)
+            assert g.send("POST", acts, {}).get("changed") == [], family
+            g.command(family, {"command": "disable"})
+            before = g.axis(family)
+            assert before["state"] != "operation_enabled", (family, before)
+            report = g.send("POST", acts, {})
+            assert report["changed"] == [] and report["failed"] == [], (family, report)
+            would = {"uim342": {"MO", "PA"}, "mcode": {"P", "DE"}, "pacontrol": set()}[family]
+            for parameter in would:
+                g.get(f"/axes/{family}/parameters/{parameter}")  # what the drive says now
+            changes = g.send("POST", acts, {"dry_run": True, "include_live": True})["changes"]
+            assert would <= {c["parameter"] for c in changes}, ("it is these that would be written", changes)
+            assert g.send("POST", acts, {"dry_run": True})["changes"] == [], family
+            if family == "uim342":
+                with_device = g.get(f"/axes/{family}/snapshots/1/diff?with=device")
+                assert not [r for r in with_device["rows"] if r["writable"] and not r["same"]], with_device["rows"]
+                assert [r for r in with_device["live"] if r["parameter"] == "MO" and not r["same"]], with_device["live"]
+            time.sleep(1)
+            after = g.axis(family)
+            assert (after["state"], after["position_increments"]) == (before["state"], before["position_increments"]), (family, before, after)
+
+
+def test_an_enabled_axis_takes_no_restore(gateway):
+    gateway.send("POST", "/axes/feeder/snapshots", {"name": "before"}, 201)
+    was = gateway.get("/axes/feeder/parameters/AC")["value"]
+    gateway.send("PUT", "/axes/feeder/parameters/AC", {"value": was + 1})
+    gateway.command("feeder", {"command": "enable"})
+    refused = gateway.send("POST", "/axes/feeder/snapshots/1/restore", {}, 409)
+    assert "enabled" in refused["detail"] and "disable" in refused["detail"], refused
+    table = f"parameter,value\nAC,{was}\n".encode()
+    assert gateway.request("PUT", "/api/v1/axes/feeder/parameters.csv", table, {"Content-Type": "text/csv"})[0] == 409
+    gateway.command("feeder", {"command": "disable"})
+    done = gateway.send("POST", "/axes/feeder/snapshots/1/restore", {})
+    assert [c["parameter"] for c in done["changed"]] == ["AC"], done
+
+
 def test_an_unconfirmed_site_rolls_back_by_itself(gateway):
     before = gateway.get("/site")
     staged = gateway.send("POST", "/site/stage", changed_site())
@@ -123,6 +190,24 @@ def test_what_was_written_to_a_removed_axis_comes_back_with_it_until_its_removal
     gateway.send("POST", "/site/stage/confirm", None)
     gateway.send("PUT", "/site", site)
     assert written() is None, "confirmed: the next axis of that name begins anew"
+
+
+def test_what_one_client_staged_another_neither_replaces_nor_applies_nor_confirms_in_silence(gateway):
+    def ask(who, path, body, status=200):
+        s, answer, _ = gateway.request("POST", "/api/v1" + path, body, {"X-Client": who, "Content-Type": "application/json"})
+        assert s == status, (s, answer)
+        return answer
+    first = ask("anna", "/site/stage", changed_site())
+    assert gateway.get("/site/stage")["id"] == first["id"] and first["client"].endswith(" anna"), first
+    taken = ask("bert", "/site/stage", changed_site(), 409)
+    assert taken["type"].endswith("stage_taken") and "anna" in taken["detail"], taken
+    second = ask("bert", "/site/stage?replace=true", changed_site())
+    replaced = ask("anna", "/site/stage/apply", {"stage": first["id"], "confirm_within_s": 60}, 409)
+    assert replaced["type"].endswith("stage_replaced") and "bert" in replaced["detail"] and unit(gateway) == "mm", replaced
+    ask("bert", "/site/stage/apply", {"stage": second["id"], "confirm_within_s": 60})
+    assert unit(gateway) == "deg"
+    assert "bert" in ask("anna", "/site/stage/confirm", None, 409)["detail"]
+    assert ask("bert", "/site/stage/confirm", None)["state"] == "none"
 
 
 def killed(gateway):

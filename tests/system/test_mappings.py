@@ -86,3 +86,19 @@ def test_the_map_is_the_sites_and_its_revision_is_shown(gateway):
         except ModbusException as e:
             assert e.code == 0x0A
         assert m.read32(18, signed=False) == before
+
+
+def test_a_template_reads_like_the_standard_map_and_the_audit_says_what_changed(gateway):
+    made = gateway.send("POST", "/mappings/template", {"template": "standard_map", "axis": "slide", "unit": 2}, 201)["mappings"]
+    assert made[0]["address"] == 64 and gateway.get("/mappings/next-free?unit=2&words=64")["address"] == 128
+    with gateway.modbus() as m:
+        own, standard = m.read(64, 20, unit=2), m.read(64, 20)
+        quiet = [i for i in range(20) if i not in (12, 13, 14)]  # the age and the heartbeat count on between the two reads
+        assert [own[i] for i in quiet] == [standard[i] for i in quiet] and own[15] == 1, (own, standard)
+        assert 0 <= standard[14] - own[14] <= 1 and own[14] > 0
+        assert m.read(64 + 32, 13, unit=2) == m.read(64 + 32, 13)
+    gateway.send("PUT", "/mappings/m1", {"unit": 2, "table": "holding_registers", "address": 8, "axis": "feeder", "point": "position", "type": "i32"})
+    said = [e["text"] for e in gateway.get("/events?kind=site")][-1]
+    assert "mapping m1 (unit 2 holding_registers 0, feeder.position): address 0 -> 8" in said, said
+    gateway.send("DELETE", "/mappings/m1", None, 204)
+    assert "mapping m1 (unit 2 holding_registers 8, feeder.position): removed" in [e["text"] for e in gateway.get("/events?kind=site")][-1]

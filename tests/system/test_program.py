@@ -79,6 +79,27 @@ def test_check_names_every_fault_with_file_line_and_remedy(folder):
     assert run("check", "--site", str(site), check=0)
 
 
+def test_check_finds_what_serve_would_refuse_or_lose(folder):
+    toml = folder / "axisgate.toml"
+    for text, wanted in (("[modbus_rtu]\nport = \"/dev/ttyS9\"\n", ["axisgate.toml:2", "no Modbus RTU door"]), ("[dds]\nenabled = true\n", ["axisgate.toml:2", "no DDS door"]),
+                         ("[log]\nfile = \"/proc/none/x.log\"\n", ["log.file", "cannot open the log file"]), (f"[log]\nfile = \"{folder}\"\n", ["folder"]),
+                         ("[data]\ndir = 7\n[log]\nfile = 3\n[modbus_rtu]\nport = 5\n", ["axisgate.toml:2", "axisgate.toml:4", "axisgate.toml:6"])):
+        toml.write_text(text)
+        code, out, err = run("check", "--config", str(toml))
+        assert code == 2 and not out and all(w in err for w in wanted), (text, code, out, err)
+        assert all(";" in line for line in err.splitlines()), err
+        code, _, again = run("serve", "--config", str(toml), *([] if "dir = 7" in text else ["--data", str(folder / "d")]))
+        assert code == 2 and again == err, (text, again, err)
+    toml.write_text(f"[runtime]\nhot_cpu = 999\n[log]\nfile = \"{folder / 'new.log'}\"\n")
+    code, out, err = run("check", "--config", str(toml))
+    assert code == 0 and "no faults found" in out and "warning: runtime.hot_cpu" in err, (code, out, err)
+    assert not (folder / "new.log").exists(), "a check leaves nothing behind"
+    code, out, err = run("check", "--config", str(folder / "none.toml"))
+    assert code == 2 and not out and "none.toml" in err, (code, out, err)
+    code, out, err = run("bogus")
+    assert code == 2 and "bogus" in err and "serve" in err and not out, (code, out, err)
+
+
 def test_environment_and_set_override(folder):
     code, _, err = run("check", "--set", "http.bind=nowhere")
     assert code == 2 and "--set http.bind" in err

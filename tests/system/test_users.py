@@ -77,3 +77,27 @@ def test_the_code_is_shown_once_and_can_be_made_anew(folder):
         assert g.code and g.code != old
         first(g, 401, code=old)
         first(g)
+
+
+def test_a_session_that_has_ended_is_not_this_machine(folder):
+    with Gateway(folder) as g:
+        anna = first(g)
+        assert ask(g, "POST", "/users", {"name": "ben", "password": "a-long-sentence-1", "role": "viewer"}, anna)[0] == 201
+        s, session, head = g.request("POST", "/api/v1/session", {"user": "ben", "password": "a-long-sentence-1"})
+        ben = {"Cookie": head["Set-Cookie"].split(";")[0], "X-CSRF-Token": session["csrf"]}
+        assert ask(g, "PATCH", "/axes/feeder", {"unit": "m"}, ben)[0] == 403
+        assert ask(g, "DELETE", "/session", None, ben)[0] == 204
+        s, body, head = g.request("PATCH", "/api/v1/axes/feeder", {"unit": "m"}, ben)
+        assert s == 401 and body["type"].endswith("session_ended") and "Max-Age=0" in head["Set-Cookie"], (s, body, head)
+        assert g.stop() == 0
+    with Gateway(folder, None) as g:
+        for headers in (anna, ben):
+            s, body, head = g.request("GET", "/api/v1/axes", None, headers)
+            assert s == 401 and body["type"].endswith("session_ended") and "Max-Age=0" in head["Set-Cookie"], "a restart is no way round"
+            feed = {**headers, "Connection": "Upgrade", "Upgrade": "websocket", "Sec-WebSocket-Version": "13", "Sec-WebSocket-Key": "AAAAAAAAAAAAAAAAAAAAAA=="}
+            assert g.request("GET", "/api/v1/stream", None, feed)[0] == 401
+            s, session, head = g.request("GET", "/api/v1/session", None, headers)
+            assert s == 200 and session["role"] is None and session["ended"] and "Max-Age=0" in head["Set-Cookie"], session
+            assert g.request("GET", "/", None, headers)[0] == 200, "the page itself comes"
+            assert ask(g, "POST", "/session", {"user": "ben", "password": "a-long-sentence-1"}, headers)[0] == 200
+        assert ask(g, "GET", "/session")[1]["via"] == "local", "without a cookie: this machine"

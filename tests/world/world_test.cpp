@@ -259,6 +259,23 @@ TEST_P(PresenceStory, AnIdleAxisIsTakenOverWhenItsDeviceGoesAway) {
     EXPECT_TRUE(w.run_until_true([&] { return serves(Presence::device); }, 12s));
 }
 
+TEST_P(PresenceStory, ADeviceThatCameBackAtRestIsFollowedByItsTwinWhenItGoesAgain) {
+    start("auto", true);
+    ASSERT_TRUE(w.run_until_true([&] { return serves(Presence::device); }, 5s));
+    w.run_for(1s);
+    const Result* r = w.wait(w.command(a, Enable{}, true), 5s);
+    ASSERT_TRUE(r && good(*r)) << (r ? r->text : "none");
+    w.buses.at("line")->remove(d);  // its power fails while it is commanded
+    w.run_for(8s);
+    EXPECT_EQ(w.picture(a).flags & (flag_online | flag_simulated), 0);
+    plug();
+    ASSERT_TRUE(w.run_until_true([&] { return serves(Presence::device); }, 12s));
+    w.run_for(2s);
+    EXPECT_NE(power_state_of(w.picture(a).statusword), PowerState::operation_enabled);
+    w.buses.at("line")->remove(d);
+    EXPECT_TRUE(w.run_until_true([&] { return serves(Presence::twin); }, 10s)) << "nobody commands it: the first loss is over";
+}
+
 INSTANTIATE_TEST_SUITE_P(Families, PresenceStory, testing::ValuesIn(families().entries),
                          [](const testing::TestParamInfo<FamilyEntry>& i) { return std::string(i.param.family->name); });
 

@@ -71,6 +71,12 @@ Identity AccessDesk::identify(const Credentials& c, std::int64_t now_ns, bool to
         nobody.wrong_token = true;
         return nobody;
     }
+    if (!c.cookies.empty()) {
+        // Signed out, expired, or from before a restart: whoever was a viewer here does not become this machine by it.
+        Identity nobody;
+        nobody.session_ended = true;
+        return nobody;
+    }
     return local_identity(c, settings_.local_role);
 }
 

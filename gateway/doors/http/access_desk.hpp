@@ -57,6 +57,7 @@ struct Identity {
     std::string session;        ///< digest of its id
     std::int64_t expires_ns = 0;
     bool wrong_token = false;   ///< a token was shown that is none: the request is refused, also from this machine
+    bool session_ended = false; ///< a session cookie was shown that is none any more: refused too, who signed out is not this machine
     std::string token_to_keep;  ///< id of the token whose last use should be stored now
 };
 [[nodiscard]] std::string_view name_of(Identity::Via via) noexcept;
@@ -92,7 +93,7 @@ public:
     void load_code(std::string digest) { code_digest_ = std::move(digest); }
 
     // --- identities ----------------------------------------------------------------------------------------------------
-    /// Cookie, then token, then local access. `touch`: the request keeps the session awake.
+    /// Cookie, then token, then local access, the last only without a session cookie. `touch`: the request keeps the session awake.
     [[nodiscard]] Identity identify(const Credentials& credentials, std::int64_t now_ns, bool touch = true);
     [[nodiscard]] bool has_users() const noexcept { return !users_.empty(); }
     [[nodiscard]] const AccessSettings& settings() const noexcept { return settings_; }

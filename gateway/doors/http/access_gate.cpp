@@ -58,8 +58,17 @@ Identity identify(AccessPort* port, const Request& request, std::int64_t now_ns,
     return port->desk().identify(c, now_ns, touch);
 }
 
+std::string set_cookie(std::string_view value, bool secure, bool ends) {
+    return fmt::format("{}={}; HttpOnly; SameSite=Strict; Path=/{}{}", session_cookie, value, secure ? "; Secure" : "", ends ? "; Max-Age=0" : "");
+}
+
 std::optional<Response> refuse_below(const Identity& identity, Role needed) {
     if (identity.role >= needed) return std::nullopt;
+    if (identity.session_ended) {
+        Response r = problem(401, "session_ended", std::string(session_ended_text));
+        r.headers.set("WWW-Authenticate", R"(Bearer realm="axisgate")");
+        return r;
+    }
     if (identity.role == Role::none) {
         Response r = problem(401, identity.wrong_token ? "wrong_token" : "sign_in",
                              identity.wrong_token ? "this token is not known, has expired, or its user is disabled: make a new one on the page Users"

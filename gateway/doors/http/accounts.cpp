@@ -75,6 +75,7 @@ json::object session_document(AccessPort* port, const Identity& i) {
             {"via", name_of(i.via)},
             {"csrf", text_or_null(i.csrf)},
             {"expires_at", time_or_null(i.expires_ns)},
+            {"ended", i.session_ended ? json::value(session_ended_text) : json::value(nullptr)},
             {"first_sign_in", port && !port->desk().has_users()},
             {"roles", json::array{"viewer", "operator", "engineer", "administrator"}}};
 }

@@ -3,7 +3,17 @@
 
 #include <fmt/format.h>
 
+#include "gateway/core/cia402.hpp"
+
 namespace axisgate::http {
+
+std::string why_not_written(const AxisPicture& p) {
+    if ((p.flags & flag_moving) != 0) return "the axis moves: stop it and disable it";
+    const auto state = power_state_of(p.statusword);
+    const bool powered = state == PowerState::operation_enabled || state == PowerState::quick_stop_active;
+    if (powered && (p.flags & flag_online) != 0) return "the axis is enabled: disable it";
+    return {};
+}
 
 struct AxisJob : std::enable_shared_from_this<AxisJob> {
     Gateway& gateway;
@@ -55,8 +65,8 @@ struct AxisJob : std::enable_shared_from_this<AxisJob> {
         for (;;) {
             if (!end.broken_off.empty() || progress->done == points.size()) break;
             const JobPoint& p = points[progress->done];
-            if (write && (gateway.picture(id).flags & flag_moving) != 0) {
-                end.broken_off = fmt::format("{} of {} parameters were written when the axis began to move", progress->done, points.size());
+            if (const auto why = write ? why_not_written(gateway.picture(id)) : std::string(); !why.empty()) {
+                end.broken_off = fmt::format("{} of {} parameters were written, then {}", progress->done, points.size(), why);
                 break;
             }
             Command command;

@@ -1,4 +1,4 @@
-// Change queue: changes of the site one after the other, so that two clients who change it at once do not hinder one another.
+// Change queue: changes of one thing (the site, the recipes, the users) one after the other, so that two clients who change it at once do not hinder one another.
 // In: jobs, each with its own end. Out: they are run in order, the next when the one before has ended.
 // Bound: 64 wait; one more is refused. Never runs two at a time, and never recurses however many end at once.
 #pragma once

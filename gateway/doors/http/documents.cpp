@@ -115,12 +115,13 @@ json::object axis_document(const AxisView& v) {
     o["warning"] = flag(flag_warning);
     o["internal_limit"] = (p.statusword & cia402::sw_internal_limit) != 0;
     o["position"] = in_unit(p.position);
-    o["position_demand"] = in_unit(p.position_demand);
+    o["demand_known"] = p.demand_known;
+    o["position_demand"] = p.demand_known ? in_unit(p.position_demand) : json::value(nullptr);
     o["velocity"] = in_unit(p.velocity);
     o["target_position"] = in_unit(p.target_position);
     o["target_velocity"] = in_unit(p.target_velocity);
     o["position_increments"] = increments(p.position);
-    o["position_demand_increments"] = increments(p.position_demand);
+    o["position_demand_increments"] = p.demand_known ? increments(p.position_demand) : json::value(nullptr);
     o["velocity_increments"] = increments(p.velocity);
     o["target_position_increments"] = increments(p.target_position);
 
@@ -155,7 +156,7 @@ json::object drive_document(const SiteState& site, std::size_t index, const Driv
     o["axes"] = std::move(axes);
     o["status"] = json::object{{"presence", name_of(status.presence)},
                                {"online", status.presence != Presence::offline},
-                               {"simulated", status.presence == Presence::twin},
+                               {"simulated", status.simulated},
                                {"device_online", status.device_online},
                                {"text", status.text},
                                {"silent_exchanges", status.silent_exchanges},
@@ -228,6 +229,7 @@ json::object parameter_document(const Parameter& p, std::string_view id) {
                    {"access", name_of(p.access)},
                    {"storage", text_or_null(p.storage)},
                    {"addressing", p.addressing},
+                   {"live", p.live},
                    {"description", p.description}};
     if (p.allowed.empty()) {
         o["allowed"] = nullptr;

@@ -21,6 +21,7 @@
 #include "gateway/doors/http/message.hpp"
 #include "gateway/doors/http/problem.hpp"
 #include "gateway/doors/http/settings.hpp"
+#include "gateway/doors/http/stage_desk.hpp"
 #include "gateway/doors/http/text.hpp"
 
 namespace axisgate::http {
@@ -40,6 +41,7 @@ struct Context {
     std::shared_ptr<AccessPort> access = nullptr;                            ///< users; without it this machine alone is let in
     std::shared_ptr<AlarmDesk> alarms{};                                     ///< the list of alarms; as with recipes
     std::shared_ptr<AxisTexts> axis_texts = std::make_shared<AxisTexts>();   ///< what GET /axes/{name} answers
+    std::shared_ptr<StageDesk> stages = std::make_shared<StageDesk>();       ///< whose the staged site is
 };
 
 /// One request on its way. Lives only as long as the handler's call.
@@ -235,8 +237,13 @@ template <class Spec>
 [[nodiscard]] Response answer_of(const Result& result, std::string_view axis, std::string_view command);
 /// Writes checked values one after the other (handlers_snapshots.cpp); `more`: further members of the answer.
 [[nodiscard]] Handled write_parameters(Call& call, const AxisPlace& axis, std::vector<JobPoint> points, boost::json::object more);
-/// Why a parameter of the catalogue's `addressing` is left out when many are written back.
-[[nodiscard]] std::string why_addressing(const Parameter& parameter);
+/// What is written back only if it is asked for by name.
+struct WriteBack {
+    bool addressing = false;  ///< include_addressing
+    bool live = false;        ///< include_live
+};
+/// Why a parameter of the catalogue's `addressing` or `live` is left out when many are written back; empty: it is not.
+[[nodiscard]] std::string why_left_out(const Parameter& parameter, WriteBack wanted);
 /// A cell that a spreadsheet takes as text and not as a formula or as several cells.
 [[nodiscard]] std::string csv_cell(std::string_view text);
 /// `?state=` of alarms; nothing if it is not given (handlers_alarms.cpp).

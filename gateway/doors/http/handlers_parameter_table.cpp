@@ -128,7 +128,9 @@ Handled put_parameters_csv(Call& c) {
     if (!axis) return nothing_named("axis", c.names[0]);
     std::optional<Response> fault;
     const bool dry_run = query_flag(c, "dry_run", fault);
-    const bool include_addressing = query_flag(c, "include_addressing", fault);
+    WriteBack include;
+    include.addressing = query_flag(c, "include_addressing", fault);
+    include.live = query_flag(c, "include_live", fault);
     if (fault) return *fault;
     std::vector<Fault> faults;
     const auto wrong = [&](std::size_t line, std::string text) {
@@ -199,8 +201,8 @@ Handled put_parameters_csv(Call& c) {
             skip("has this value already");
             continue;
         }
-        if (p.addressing && !include_addressing) {
-            skip(why_addressing(p));
+        if (const auto why = why_left_out(p, include); !why.empty()) {
+            skip(why);
             continue;
         }
         changes.push_back(json::object{{"parameter", id}, {"from", to_json(now)}, {"to", to_json(checked.value)}});

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <boost/json/parse.hpp>
 
+#include "gateway/doors/http/change_queue.hpp"
 #include "gateway/doors/http/handlers.hpp"
 #include "gateway/doors/http/recipe_desk.hpp"
 #include "gateway/doors/http/recipe_steps.hpp"
@@ -55,6 +56,58 @@ std::optional<std::uint64_t> number_of(const Call& c) {
     return n ? std::optional(static_cast<std::uint64_t>(*n)) : std::nullopt;
 }
 
+/// Names one state of one document: another text, time or author is another tag.
+std::string tag_of(const Gateway::Document& d) {
+    std::uint64_t h = 14695981039346656037ull;  // FNV-1a, 64 bits: nothing depends on it being hard to forge
+    for (const auto& part : {d.text, d.who, std::to_string(d.at_unix_ns)}) {
+        for (const unsigned char x : part)
+            h = (h ^ x) * 1099511628211ull;
+        h = (h ^ 0xFF) * 1099511628211ull;
+    }
+    return fmt::format("\"{:016x}\"", h);
+}
+
+Response with_tag(Response r, const std::string& tag) {
+    r.headers.set("ETag", tag);
+    return r;
+}
+
+/// If-Match and If-None-Match of a request that changes a recipe, kept until its turn comes.
+struct Wanted {
+    std::string if_match, if_none_match;
+    explicit Wanted(const Call& c) : if_match(c.request.headers.get("If-Match")), if_none_match(c.request.headers.get("If-None-Match")) {}
+
+    /// 412 with what is there now, if it is not what was asked for.
+    [[nodiscard]] std::optional<Response> refuse(const std::string& name, const std::optional<Gateway::Document>& now) const {
+        const auto refused = [&](std::string text) {
+            Problem p{.status = 412, .reason = "precondition_failed", .detail = std::move(text)};
+            const auto o = now ? parsed(*now) : std::nullopt;
+            p.more["etag"] = now ? json::value(tag_of(*now)) : json::value(nullptr);
+            p.more["current"] = o ? json::value(shown(*now, *o)) : json::value(nullptr);
+            Response r = to_response(p);
+            return now ? with_tag(std::move(r), tag_of(*now)) : r;
+        };
+        if (!if_match.empty() && !now) return refused(fmt::format("there is no recipe {} any more: leave If-Match out to make it", name));
+        if (!if_match.empty() && !tag_listed(if_match, tag_of(*now), false))
+            return refused(fmt::format("recipe {} was changed by {} at {}: read it again; its ETag is {}, not {}", name,
+                                       now->who.empty() ? "somebody" : now->who, format_time(now->at_unix_ns), tag_of(*now), if_match));
+        if (!if_none_match.empty() && now && tag_listed(if_none_match, tag_of(*now), true))
+            return refused(fmt::format("there is a recipe {} already: choose another name, or send If-Match: {} to replace it", name, tag_of(*now)));
+        return std::nullopt;
+    }
+};
+
+Event told_of(const std::string& by, std::string text) {
+    Event e;
+    e.kind = "recipe";
+    e.who = by;
+    e.door = "http";
+    e.text = std::move(text);
+    return e;
+}
+
+Response too_busy() { return problem(503, "busy", "too many changes of recipes wait already: try again"); }
+
 Response no_run(const Call& c) { return problem(404, "not_found", fmt::format("recipe {} has no run {}", c.names[0], c.names[1])); }
 Response store_fault(const std::string& fault) { return problem(507, "not_stored", fault); }
 }  // namespace
@@ -70,6 +123,7 @@ Handled list_recipes(Call& c) {
         const auto recipe = read_recipe(*o, nullptr, none);
         const auto n = c.context.recipes->running(d.name);
         out.push_back(json::object{{"name", d.name},
+                                   {"etag", tag_of(d)},
                                    {"description", description ? *description : json::value("")},
                                    {"parameters", parameters ? *parameters : json::value(json::object())},
                                    {"steps", recipe ? recipe->count : 0},
@@ -83,7 +137,7 @@ Handled list_recipes(Call& c) {
 Handled get_recipe(Call& c) {
     auto found = find_recipe(c);
     if (!found) return nothing_named("recipe", c.names[0]);
-    return json_response(shown(found->first, std::move(found->second)));
+    return with_tag(json_response(shown(found->first, std::move(found->second))), tag_of(found->first));
 }
 
 Handled put_recipe(Call& c) {
@@ -101,49 +155,75 @@ Handled put_recipe(Call& c) {
     if (!faults.empty()) return invalid(in_body(faults));
     for (const auto* key : {"name", "changed_at", "changed_by"})
         document.erase(key);
-    const bool created = !c.gateway().document(kind, name);
-    if (created && c.gateway().documents(kind).size() >= RecipeDesk::most_recipes)
-        return problem(409, "too_many",
-                       fmt::format("there are {} recipes: delete those that are no longer needed", RecipeDesk::most_recipes));
     std::optional<Response> fault;
-    if (query_flag(c, "dry_run", fault)) return json_response(json::object{{"dry_run", true}, {"steps", recipe->count}});
+    const bool dry_run = query_flag(c, "dry_run", fault);
     if (fault) return *fault;
-    Gateway::Document d{name, json_text(document), c.origin().who ? *c.origin().who : "", c.gateway().now_unix_ns()};
-    Event e;
-    e.kind = "recipe";
-    e.who = d.who;
-    e.door = "http";
-    e.text = fmt::format("recipe {} {}", name, created ? "made" : "changed");
-    c.gateway().save_document(kind, d, [respond = c.respond, &gateway = c.gateway(), d, document, created, e](const std::string& why) {
-        if (!why.empty()) return respond(store_fault(why));
-        gateway.note(e);
-        Response r = json_response(shown(d, document), created ? 201 : 200);
-        if (created) r.headers.set("Location", "/api/v1/recipes/" + percent_encode(d.name));
-        respond(std::move(r));
+    const auto refused = [name, wanted = Wanted(c), &gateway = c.gateway()](bool& created) -> std::optional<Response> {
+        const auto now = gateway.document(kind, name);
+        created = !now;
+        if (auto refusal = wanted.refuse(name, now)) return refusal;
+        if (created && gateway.documents(kind).size() >= RecipeDesk::most_recipes)
+            return problem(409, "too_many", fmt::format("there are {} recipes: delete those that are no longer needed", RecipeDesk::most_recipes));
+        return std::nullopt;
+    };
+    if (dry_run) {
+        bool created = false;
+        if (auto refusal = refused(created)) return *refusal;
+        return json_response(json::object{{"dry_run", true}, {"steps", recipe->count}});
+    }
+    const bool taken = c.context.recipes->changes->run([refused, name, document, respond = c.respond, who = c.who(), &gateway = c.gateway()](std::function<void()> done) {
+        bool created = false;
+        if (auto refusal = refused(created)) {
+            respond(*std::move(refusal));
+            return done();
+        }
+        const Gateway::Document d{name, json_text(document), who, gateway.now_unix_ns()};
+        gateway.save_document(kind, d, [respond, &gateway, d, document, created, done](const std::string& why) {
+            if (why.empty()) {
+                gateway.note(told_of(d.who, fmt::format("recipe {} {}", d.name, created ? "made" : "changed")));
+                Response r = with_tag(json_response(shown(d, document), created ? 201 : 200), tag_of(d));
+                if (created) r.headers.set("Location", "/api/v1/recipes/" + percent_encode(d.name));
+                respond(std::move(r));
+            } else {
+                respond(store_fault(why));
+            }
+            done();
+        });
     });
+    if (!taken) return too_busy();
     return {gateway_limit, problem(504, "no_answer", "the store has not answered")};
 }
 
 Handled remove_recipe(Call& c) {
-    const auto found = find_recipe(c);
-    if (!found) return nothing_named("recipe", c.names[0]);
-    if (const auto n = c.context.recipes->running(c.names[0]); n != 0)
-        return problem(409, "running", fmt::format("recipe {} is running (run {}): cancel it first", c.names[0], n));
-    Event e;
-    e.kind = "recipe";
-    e.who = c.origin().who ? *c.origin().who : "";
-    e.door = "http";
-    e.text = fmt::format("recipe {} deleted", c.names[0]);
-    c.gateway().delete_document(
-        kind, c.names[0],
-        [respond = c.respond, &gateway = c.gateway(), desk = c.context.recipes, name = c.names[0], e](const std::string& why) {
-            if (!why.empty()) return respond(store_fault(why));
-            gateway.note(e);
-            desk->forget(name);
-            Response r;
-            r.status = 204;
-            respond(std::move(r));
+    if (!find_recipe(c)) return nothing_named("recipe", c.names[0]);
+    const bool taken = c.context.recipes->changes->run([name = c.names[0], wanted = Wanted(c), desk = c.context.recipes, respond = c.respond, who = c.who(),
+                                                        &gateway = c.gateway()](std::function<void()> done) {
+        const auto refusal = [&]() -> std::optional<Response> {
+            const auto now = gateway.document(kind, name);
+            if (!now) return nothing_named("recipe", name);
+            if (auto r = wanted.refuse(name, now)) return r;
+            if (const auto n = desk->running(name); n != 0)
+                return problem(409, "running", fmt::format("recipe {} is running (run {}): cancel it first", name, n));
+            return std::nullopt;
+        }();
+        if (refusal) {
+            respond(*refusal);
+            return done();
+        }
+        gateway.delete_document(kind, name, [respond, &gateway, desk, name, who, done](const std::string& why) {
+            if (why.empty()) {
+                gateway.note(told_of(who, fmt::format("recipe {} deleted", name)));
+                desk->forget(name);
+                Response r;
+                r.status = 204;
+                respond(std::move(r));
+            } else {
+                respond(store_fault(why));
+            }
+            done();
         });
+    });
+    if (!taken) return too_busy();
     return {gateway_limit, problem(504, "no_answer", "the store has not answered")};
 }
 

@@ -10,6 +10,7 @@
 
 #include "gateway/core/mapping.hpp"
 #include "gateway/doors/http/documents.hpp"
+#include "gateway/doors/http/register_lists.hpp"
 #include "gateway/doors/http/site_change.hpp"
 
 namespace axisgate::http {
@@ -50,6 +51,15 @@ std::vector<Mapping> mappings_of(const SiteState& site, const Families& families
     return parse_mappings(site.site.mappings, site.site, families, none).value_or(std::vector<Mapping>());
 }
 std::string revision_text(const SiteState& site) { return fmt::format("{:08x}", mapping_revision(site.site)); }
+
+/// What the point of a mapping is measured in, before scale and offset; empty: nothing.
+std::string unit_of_value(const Mapping& m, const SiteState& site, const Gateway& gateway) {
+    const auto* axis = site.site.axis(m.axis);
+    if (const auto* point = std::get_if<AxisPoint>(&m.what)) return std::string(unit_of(*point, axis ? std::string_view(axis->unit) : std::string_view()));
+    const auto place = find_axis(gateway, m.axis);
+    const auto* p = place && place->catalogue ? place->catalogue->parameter(std::get<Point>(m.what)) : nullptr;
+    return p ? p->unit : std::string();
+}
 
 /// The registers of the standard map that are values of their own, by offset.
 struct Standard {
@@ -122,132 +132,6 @@ json::array decoded(const SiteState& site, const Families& families, std::int64_
     return out;
 }
 
-std::string html(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            case '\'':
-                out += "&#39;";
-                break;
-            default:
-                out += c;
-        }
-    }
-    return out;
-}
-
-/// An identifier of IEC 61131-3: letters, digits and single underscores, not beginning with a digit.
-std::string st_name(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        if (std::isalnum(static_cast<unsigned char>(c)) != 0)
-            out += c;
-        else if (!out.empty() && out.back() != '_')
-            out += '_';
-    }
-    while (!out.empty() && out.back() == '_')
-        out.pop_back();
-    if (out.empty() || std::isdigit(static_cast<unsigned char>(out[0])) != 0) out.insert(0, "v_");
-    return out;
-}
-std::string st_type(const Mapping& m) {
-    switch (m.type) {
-        case MapType::boolean:
-            return "BOOL";
-        case MapType::u16:
-            return "UINT";
-        case MapType::i16:
-            return "INT";
-        case MapType::u32:
-            return "UDINT";
-        case MapType::i32:
-            return "DINT";
-        case MapType::f32:
-            return "REAL";
-        case MapType::u64:
-            return "ULINT";
-        case MapType::i64:
-            return "LINT";
-        case MapType::f64:
-            return "LREAL";
-        case MapType::string:
-            return fmt::format("STRING[{}]", 2 * m.length);
-    }
-    return "UINT";
-}
-/// No end of comment inside a comment.
-std::string st_comment(std::string_view text) {
-    std::string out;
-    for (const char c : text)
-        out += c == '*' || c == '(' || c == ')' || static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-    return out;
-}
-
-std::string list_csv(const std::vector<Mapping>& list, const std::string& revision) {
-    std::string s = "unit,table,address,registers,type,word_order,axis,point,scale,offset,access,comment,mapping_revision\r\n";
-    for (const auto& m : list) {
-        s += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", m.unit, name_of(m.table), m.address, m.size(), name_of(m.type),
-                         name_of(m.word_order), csv_cell(m.axis), csv_cell(m.point), m.scale, m.offset, name_of(m.access),
-                         csv_cell(m.comment), revision);
-    }
-    return s;
-}
-std::string list_html(const std::vector<Mapping>& list, const std::string& revision) {
-    std::string s = fmt::format(
-        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Register list {0}</title></head>\n<body><h1>Register "
-        "list</h1>\n"
-        "<p>Mapping revision {0} (registers 18 and 19). Addresses count from 0.</p>\n<table border=\"1\">\n<thead><tr>"
-        "<th>Unit</th><th>Table</th><th>Address</th><th>Registers</th><th>Type</th><th>Word "
-        "order</th><th>Axis</th><th>Point</th><th>Scale</th><th>Offset</th><th>Access</th><th>Comment</th>"
-        "</tr></thead>\n<tbody>\n",
-        revision);
-    for (const auto& m : list) {
-        s += fmt::format(
-            "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</"
-            "td><td>{}</td></tr>\n",
-            m.unit, name_of(m.table), m.address, m.size(), name_of(m.type), name_of(m.word_order), html(m.axis), html(m.point), m.scale,
-            m.offset, name_of(m.access), html(m.comment));
-    }
-    return s + "</tbody></table></body></html>\n";
-}
-std::string list_st(const std::vector<Mapping>& list, const std::string& revision) {
-    std::string s = fmt::format("(* Register list, mapping revision 16#{} (registers 18 and 19) *)\nTYPE\n", revision);
-    std::optional<std::pair<unsigned, MapTable>> open;
-    std::vector<std::string> used;
-    for (const auto& m : list) {
-        if (!open || open->first != m.unit || open->second != m.table) {
-            if (open) s += "  END_STRUCT;\n";
-            open.emplace(m.unit, m.table);
-            used.clear();
-            s += fmt::format("  Unit{}_{} : STRUCT\n", m.unit, name_of(m.table));
-        }
-        const std::string base = st_name(m.axis + "_" + m.point);
-        std::string name = base;
-        for (int n = 2; std::ranges::find(used, lower(name)) != used.end(); ++n)
-            name = fmt::format("{}_{}", base, n);
-        used.push_back(lower(name));
-        s += fmt::format("    {} : {}; (* {} {}, {}, scale {}, offset {}{} *)\n", name, st_type(m), name_of(m.table), m.address,
-                         name_of(m.word_order), m.scale, m.offset, m.comment.empty() ? std::string() : ": " + st_comment(m.comment));
-    }
-    if (open)
-        s += "  END_STRUCT;\n";
-    else
-        s += "  (* no mappings *)\n";
-    s += "END_TYPE\n";
-    return s;
-}
 }  // namespace
 
 Handled get_registers(Call& c) {
@@ -311,15 +195,20 @@ Handled get_mapping_list(Call& c) {
     if (!given && !liked) return problem(406, "not_acceptable", "this can be given as text/csv, text/html or text/plain");
     const auto format = given ? *given : formats[*liked];
     const auto revision = revision_text(*site);
+    std::vector<ListedMapping> rows;
+    for (auto& m : list) {
+        std::string unit = unit_of_value(m, *site, c.gateway());
+        rows.push_back({std::move(m), std::move(unit)});
+    }
     Response r;
     if (format == "csv") {
-        r.body = list_csv(list, revision);
+        r.body = list_csv(rows, revision);
         r.headers.set("Content-Type", "text/csv; charset=utf-8");
     } else if (format == "html") {
-        r.body = list_html(list, revision);
+        r.body = list_html(rows, revision);
         r.headers.set("Content-Type", "text/html; charset=utf-8");
     } else if (format == "st") {
-        r.body = list_st(list, revision);
+        r.body = list_st(rows, revision);
         r.headers.set("Content-Type", "text/plain; charset=utf-8");
         r.headers.set("Content-Disposition", "attachment; filename=\"registers.st\"");
     } else {
@@ -330,23 +219,35 @@ Handled get_mapping_list(Call& c) {
     return r;
 }
 
+namespace {
+/// The first place with so many free registers, or bits, in a row, at a multiple of `align`.
+std::optional<std::uint32_t> next_free(const Gateway& gateway, std::int64_t unit, MapTable table, std::uint32_t words, std::uint32_t align) {
+    auto list = mappings_of(*gateway.site(), gateway.families());
+    std::ranges::sort(list, {}, &Mapping::address);
+    std::uint32_t at = 0;
+    for (const auto& m : list) {
+        if (m.unit != unit || m.table != table) continue;
+        if (m.address >= at + words) break;
+        if (m.end() > at) at = (m.end() + align - 1) / align * align;
+    }
+    return at + words > 65536 ? std::nullopt : std::optional(at);
+}
+Response none_free(std::int64_t unit, std::int64_t words) {
+    return problem(409, "conflict", fmt::format("unit {} has no {} free places in a row", unit, words));
+}
+}  // namespace
+
 Handled get_next_free(Call& c) {
     std::optional<Response> fault;
     const auto unit = query_whole(c, "unit", 2, 254, 2, fault);
     const auto words = query_whole(c, "words", 1, 1024, 1, fault);
+    // A whole block of an axis begins where the standard map would have one.
+    const auto align = query_whole(c, "align", 1, 1024, words == registers_per_axis ? registers_per_axis : 1, fault);
     if (fault) return *fault;
     const auto table = table_named(c.target.query.get("table").value_or("holding_registers"));
     if (!table) return bad_query("table", "holding_registers, input_registers, coils or discrete_inputs");
-    auto list = mappings_of(*c.gateway().site(), c.gateway().families());
-    std::ranges::sort(list, {}, &Mapping::address);
-    std::uint32_t at = 0;
-    for (const auto& m : list) {
-        if (m.unit != unit || m.table != *table) continue;
-        if (m.address >= at + words) break;
-        at = std::max(at, m.end());
-    }
-    if (at + words > 65536) return problem(409, "conflict", fmt::format("unit {} has no {} free places in a row", unit, words));
-    return json_response(json::object{{"address", at}});
+    const auto at = next_free(c.gateway(), unit, *table, static_cast<std::uint32_t>(words), static_cast<std::uint32_t>(align));
+    return at ? json_response(json::object{{"address", *at}}) : none_free(unit, words);
 }
 
 Handled add_mapping_template(Call& c) {
@@ -368,14 +269,21 @@ Handled add_mapping_template(Call& c) {
         faults.push_back({"/template", "template must be standard_map", "write \"standard_map\""});
     const auto* axis = body.if_contains("axis");
     if (!axis || !axis->is_string()) faults.push_back({"/axis", "axis must be the name of an axis", "write its name"});
-    const auto unit = whole("unit", 2, 254), address = whole("address", 0, 65'535 - 48);
+    const auto unit = whole("unit", 2, 254);
+    const bool anywhere = !body.contains("address");
+    auto address = anywhere ? 0 : whole("address", 0, 65'535 - 48);
     const auto* dry = body.if_contains("dry_run");
     if (dry && !dry->is_bool()) faults.push_back({"/dry_run", "dry_run must be true or false", "write true or false"});
     if (!faults.empty()) return invalid(std::move(faults));
+    if (anywhere) {
+        const auto at = next_free(c.gateway(), unit, MapTable::holding_registers, registers_per_axis, registers_per_axis);
+        if (!at) return none_free(unit, registers_per_axis);
+        address = *at;
+    }
     json::array entries;
     for (const auto& s : standard) {
         const auto point = axis_point_named(s.point);
-        if (!point) continue;  // heartbeat, family and revision belong to the standard map alone
+        if (!point) continue;
         entries.push_back(json::object{{"unit", unit},
                                        {"table", "holding_registers"},
                                        {"address", address + s.offset},

@@ -8,10 +8,6 @@
 namespace axisgate::http {
 namespace json = boost::json;
 namespace {
-std::string cookie_of(std::string_view value, bool secure, bool ends) {
-    return fmt::format("{}={}; HttpOnly; SameSite=Strict; Path=/{}{}", session_cookie, value, secure ? "; Secure" : "", ends ? "; Max-Age=0" : "");
-}
-
 Response paused(std::int64_t pause_s) {
     Response r = problem(429, "locked_out", fmt::format("too many wrong attempts: come again in {} s", pause_s));
     r.headers.set("Retry-After", std::to_string(pause_s));
@@ -20,7 +16,7 @@ Response paused(std::int64_t pause_s) {
 
 Response signed_in(AccessPort& port, const AccessDesk::NewSession& session, bool secure) {
     Response r = json_response(session_document(&port, session.identity));
-    r.headers.set("Set-Cookie", cookie_of(session.id, secure, false));
+    r.headers.set("Set-Cookie", set_cookie(session.id, secure, false));
     return r;
 }
 
@@ -28,7 +24,12 @@ Response signed_in(AccessPort& port, const AccessDesk::NewSession& session, bool
 std::string shown_name(std::string_view typed) { return user_name_fault(typed).empty() ? std::string(typed) : "a name that is none"; }
 }  // namespace
 
-Handled get_session(Call& c) { return json_response(session_document(c.context.access.get(), c.identity)); }
+Handled get_session(Call& c) {
+    Response r = json_response(session_document(c.context.access.get(), c.identity));
+    // Said once: without the cookie the next request is this machine's again, as far as local access goes.
+    if (c.identity.session_ended) r.headers.set("Set-Cookie", set_cookie("", c.request.secure, true));
+    return r;
+}
 
 Handled sign_in(Call& c) {
     const auto port = c.context.access;
@@ -64,7 +65,9 @@ Handled sign_out(Call& c) {
     if (const auto port = c.context.access; port && c.identity.via == Identity::Via::cookie) {
         port->desk().sign_out(c.identity.session);
         tell_access(*port, c.who(), fmt::format("{} signed out", c.identity.user));
-        r.headers.set("Set-Cookie", cookie_of("", c.request.secure, true));
+        r.headers.set("Set-Cookie", set_cookie("", c.request.secure, true));
+    } else if (c.identity.session_ended) {
+        r.headers.set("Set-Cookie", set_cookie("", c.request.secure, true));
     }
     return r;
 }

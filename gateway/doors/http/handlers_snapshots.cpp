@@ -145,7 +145,7 @@ bool same(const Value& a, const Value& b) {
 }
 
 json::object diff_document(const Found& f, std::string_view with, const std::map<std::string, Value>& other) {
-    json::array rows;
+    json::array rows, live;
     std::set<std::string> ids;
     for (const auto& v : f.snapshot.parameters)
         ids.insert(v.parameter);
@@ -158,7 +158,9 @@ json::object diff_document(const Found& f, std::string_view with, const std::map
         const Value b = theirs == other.end() ? Value{} : theirs->second;
         const auto point = f.axis.catalogue ? f.axis.catalogue->find(id) : std::nullopt;
         const auto* p = point ? f.axis.catalogue->parameter(*point) : nullptr;
-        rows.push_back(json::object{{"parameter", id},
+        // What acts at once is shown apart: it is no setting, and that it is another now is no difference.
+        auto& list = p && p->live ? live : rows;
+        list.push_back(json::object{{"parameter", id},
                                     {"name", p ? json::value(p->name) : json::value()},
                                     {"unit", p ? text_or_null(p->unit) : json::value()},
                                     {"snapshot", to_json(a)},
@@ -166,7 +168,7 @@ json::object diff_document(const Found& f, std::string_view with, const std::map
                                     {"same", same(a, b)},
                                     {"writable", p && p->writable()}});
     }
-    return {{"with", with}, {"rows", std::move(rows)}};
+    return {{"with", with}, {"rows", std::move(rows)}, {"live", std::move(live)}};
 }
 std::map<std::string, Value> as_map(const std::vector<SnapshotValue>& list) {
     std::map<std::string, Value> out;
@@ -176,15 +178,18 @@ std::map<std::string, Value> as_map(const std::vector<SnapshotValue>& list) {
 }
 }  // namespace
 
-std::string why_addressing(const Parameter& p) {
-    return fmt::format("the drive is reached by it ({}): it is written only with include_addressing", p.name);
+std::string why_left_out(const Parameter& p, WriteBack wanted) {
+    if (p.addressing && !wanted.addressing)
+        return fmt::format("the drive is reached by it ({}): it is written only with include_addressing", p.name);
+    if (p.live && !wanted.live) return fmt::format("it acts at once and is no setting ({}): it is written only with include_live", p.name);
+    return {};
 }
 
 Handled write_parameters(Call& c, const AxisPlace& axis, std::vector<JobPoint> points, json::object more) {
     const std::string name = axis.spec().name;
-    if ((c.gateway().picture(axis.id()).flags & flag_moving) != 0)
+    if (const auto why = why_not_written(c.gateway().picture(axis.id())); !points.empty() && !why.empty())
         return to_response(Problem{
-            .status = 409, .reason = "wrong_state", .detail = "the axis moves: stop it before its parameters are written", .axis = name});
+            .status = 409, .reason = "wrong_state", .detail = fmt::format("{} before its parameters are written", why), .axis = name});
     const bool started =
         AxisJobs::start(c.context.jobs, c.gateway(), name, axis.id(), std::move(points), true, c.origin(),
                         [respond = c.respond, name, more = std::move(more)](JobEnd end) {
@@ -357,13 +362,14 @@ Handled restore_snapshot(Call& c) {
     if (fault) return *fault;
     const auto& body = c.body.get_object();
     std::vector<Fault> faults;
-    refuse_unknown(body, {"parameters", "dry_run", "include_addressing"}, faults);
+    refuse_unknown(body, {"parameters", "dry_run", "include_addressing", "include_live"}, faults);
     const auto flag = [&](std::string_view key) {
         const auto* v = body.if_contains(key);
         if (v && !v->is_bool()) faults.push_back({fmt::format("/{}", key), fmt::format("{} must be true or false", key), "write true or false"});
         return v && v->is_bool() && v->get_bool();
     };
-    const bool dry_run = flag("dry_run"), include_addressing = flag("include_addressing");
+    const bool dry_run = flag("dry_run");
+    const WriteBack include{flag("include_addressing"), flag("include_live")};
     std::optional<std::set<std::string>> wanted;
     if (const auto* list = body.if_contains("parameters"); list && list->is_array()) {
         wanted.emplace();
@@ -407,8 +413,8 @@ Handled restore_snapshot(Call& c) {
             skip("has this value already");
             continue;
         }
-        if (p->addressing && !include_addressing) {
-            skip(why_addressing(*p));
+        if (const auto why = why_left_out(*p, include); !why.empty()) {
+            skip(why);
             continue;
         }
         changes.push_back(json::object{{"parameter", v.parameter}, {"from", to_json(now)}, {"to", to_json(checked.value)}});

@@ -12,12 +12,14 @@ namespace json = boost::json;
 namespace {
 std::string tag_of(std::uint64_t revision) { return fmt::format("\"{}\"", revision); }
 
-Response stage_answer(Gateway& gateway, unsigned status = 200) {
+Response stage_answer(Gateway& gateway, const StageDesk& desk, unsigned status = 200) {
     const auto now = gateway.site();
     const auto& stage = gateway.site_stage();
     json::object o{{"state", name_of(stage.state())},
                    {"id", json::value()},
                    {"by", text_or_null(stage.by())},
+                   {"client", json::value()},
+                   {"staged_at", json::value()},
                    {"base_revision", json::value()},
                    {"revision", now->revision},
                    {"faults", json::array()},
@@ -25,7 +27,9 @@ Response stage_answer(Gateway& gateway, unsigned status = 200) {
                    {"disturbs", json::array()},
                    {"confirm_by", json::value()}};
     if (stage.state() != SiteStage::State::none) {
-        o["id"] = stage.id();
+        o["id"] = desk.id(stage);
+        o["client"] = text_or_null(desk.applier(stage).empty() ? desk.stager(stage) : desk.applier(stage));
+        if (const auto at = desk.at_unix_ns(stage); at != 0) o["staged_at"] = format_time(at);
         o["base_revision"] = stage.base_revision();
         if (stage.confirm_by_unix_ns() != 0) o["confirm_by"] = stage.confirm_by_unix_ns();
     }
@@ -44,27 +48,50 @@ Response stage_answer(Gateway& gateway, unsigned status = 200) {
 
 Response conflict(std::string text) { return problem(409, "conflict", std::move(text)); }
 
+/// "local 127.0.0.1 (client 127.0.0.1 tab-1) at 2026-11-21T16:30:00Z"
+std::string stager_text(const StageDesk& desk, const SiteStage& stage) {
+    const auto& client = desk.stager(stage);
+    const auto at = desk.at_unix_ns(stage);
+    return fmt::format("{}{}{}", stage.by(), client.empty() ? "" : fmt::format(" (client {})", client), at == 0 ? "" : " at " + format_time(at));
+}
+
+/// 409 if another client's stage waits: it is not replaced in silence.
+std::optional<Response> refuse_taken(const Call& c) {
+    const auto& stage = c.gateway().site_stage();
+    const auto& desk = *c.context.stages;
+    std::optional<Response> fault;
+    const bool replace = query_flag(c, "replace", fault);
+    if (fault || replace || stage.state() != SiteStage::State::staged || desk.stager(stage) == *c.origin().client) return fault;
+    Problem p{.status = 409,
+              .reason = "stage_taken",
+              .detail = fmt::format("{} has staged a site that is not applied yet: wait for it, or replace it with ?replace=true", stager_text(desk, stage))};
+    p.more["stage"] = desk.id(stage);
+    return to_response(p);
+}
+
 Handled stage_document(Call& c, const json::value& document) {
     const auto now = c.gateway().site();
+    if (auto refusal = refuse_taken(c)) return *refusal;
     if (auto refusal = precondition(c, *now, c.context.settings.require_if_match)) return *refusal;
     std::vector<SiteFault> faults;
     auto site = parse_site(document, c.gateway().families(), faults);
     if (!site) return invalid(faults_for(faults, "", true));
     if (auto fault = c.gateway().stage_site(std::move(*site), now->revision, c.origin()); !fault.empty()) return conflict(std::move(fault));
-    return stage_answer(c.gateway());
+    c.context.stages->staged(c.gateway().site_stage(), c.origin(), c.gateway().now_unix_ns());
+    return stage_answer(c.gateway(), *c.context.stages);
 }
 
-auto show_after(Gateway& gateway, Respond respond) {
-    return [&gateway, respond = std::move(respond)](const Gateway::SiteAnswer& answer) {
+auto show_after(Gateway& gateway, std::shared_ptr<StageDesk> desk, Respond respond) {
+    return [&gateway, desk = std::move(desk), respond = std::move(respond)](const Gateway::SiteAnswer& answer) {
         if (!answer.good) return respond(conflict(answer.fault));
-        respond(stage_answer(gateway));
+        respond(stage_answer(gateway, *desk));
     };
 }
 const char* const in_time = "it was not done in time: look at /site/stage before trying again";
 }  // namespace
 
 Handled stage_site(Call& c) { return stage_document(c, c.body); }
-Handled get_stage(Call& c) { return stage_answer(c.gateway()); }
+Handled get_stage(Call& c) { return stage_answer(c.gateway(), *c.context.stages); }
 
 Handled discard_stage(Call& c) {
     if (auto fault = c.gateway().discard_stage(); !fault.empty()) return conflict(std::move(fault));
@@ -76,8 +103,13 @@ Handled discard_stage(Call& c) {
 Handled apply_stage(Call& c) {
     std::vector<Fault> faults;
     std::int64_t within = 60;
+    std::optional<std::string> meant;
     for (const auto& [k, v] : c.body.get_object()) {
-        if (k != "confirm_within_s") {
+        if (k == "stage" && v.is_string()) {
+            meant = std::string(v.get_string());
+        } else if (k == "stage") {
+            faults.push_back({"/stage", "stage must be the id of a stage, a text", "write the id that POST /site/stage gave"});
+        } else if (k != "confirm_within_s") {
             faults.push_back({"/" + std::string(k), fmt::format("{} is not known here", std::string_view(k)), "leave it out"});
         } else if (v.is_int64() &&
                    (v.get_int64() == 0 || (v.get_int64() >= SiteStage::min_trial_s && v.get_int64() <= SiteStage::max_trial_s))) {
@@ -90,21 +122,40 @@ Handled apply_stage(Call& c) {
     }
     if (!faults.empty()) return invalid(std::move(faults));
     if (auto refusal = precondition(c, *c.gateway().site(), false)) return *refusal;
-    c.gateway().apply_stage(static_cast<std::uint32_t>(within), c.origin(), show_after(c.gateway(), c.respond));
+    const auto& stage = c.gateway().site_stage();
+    const auto& desk = c.context.stages;
+    if (const bool some = stage.state() != SiteStage::State::none; meant && (!some || *meant != desk->id(stage))) {
+        Problem p{.status = 409, .reason = "stage_replaced", .detail = {}};
+        p.detail = some ? fmt::format("the staged site is another than {}: {} staged it; nothing was applied, look at it first", *meant, stager_text(*desk, stage))
+                        : fmt::format("{} is not staged any more: it was applied or discarded; nothing was applied", *meant);
+        p.more["stage"] = some ? json::value(desk->id(stage)) : json::value(nullptr);
+        return to_response(p);
+    }
+    if (stage.state() == SiteStage::State::staged) desk->applied(stage, c.origin());
+    c.gateway().apply_stage(static_cast<std::uint32_t>(within), c.origin(), show_after(c.gateway(), desk, c.respond));
     return {gateway_limit, problem(504, "time_out", in_time)};
 }
 
 Handled confirm_stage(Call& c) {
-    if (auto fault = c.gateway().site_stage().check_confirm(c.who(), c.gateway().now_unix_ns()); !fault.empty())
-        return conflict(std::move(fault));
-    c.gateway().confirm_stage(c.origin(), [&gateway = c.gateway(), respond = c.respond](const std::string& fault) {
-        respond(fault.empty() ? stage_answer(gateway) : problem(507, "not_stored", fault));
+    const auto& stage = c.gateway().site_stage();
+    const auto& applier = c.context.stages->applier(stage);
+    Origin origin = c.origin();
+    const bool own = identity_of(*origin.who) == stage.by() && (applier.empty() || applier == *origin.client);
+    if (stage.state() == SiteStage::State::applied && !own) {
+        if (c.identity.role < Role::administrator)
+            return conflict(fmt::format("only {}{}, who applied the site, can confirm it, or an administrator", stage.by(),
+                                        applier.empty() ? "" : fmt::format(" (client {})", applier)));
+        origin.who = std::make_shared<const std::string>(acting_for(*origin.who, stage.by()));
+    }
+    if (auto fault = stage.check_confirm(*origin.who, c.gateway().now_unix_ns()); !fault.empty()) return conflict(std::move(fault));
+    c.gateway().confirm_stage(origin, [&gateway = c.gateway(), desk = c.context.stages, respond = c.respond](const std::string& fault) {
+        respond(fault.empty() ? stage_answer(gateway, *desk) : problem(507, "not_stored", fault));
     });
     return {gateway_limit, problem(504, "time_out", in_time)};
 }
 
 Handled roll_back_stage(Call& c) {
-    c.gateway().roll_back_stage(c.origin(), show_after(c.gateway(), c.respond));
+    c.gateway().roll_back_stage(c.origin(), show_after(c.gateway(), c.context.stages, c.respond));
     return {gateway_limit, problem(504, "time_out", in_time)};
 }
 

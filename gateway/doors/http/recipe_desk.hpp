@@ -15,6 +15,7 @@
 
 #include "gateway/core/gateway.hpp"
 #include "gateway/core/recipe_run.hpp"
+#include "gateway/doors/http/change_queue.hpp"
 #include "gateway/doors/http/problem.hpp"
 
 namespace axisgate::http {
@@ -27,6 +28,9 @@ public:
     static constexpr Duration tell_period = std::chrono::milliseconds(100);  ///< of the progress of one run
 
     RecipeDesk(Gateway& gateway, std::function<Instant()> clock) : gateway_(gateway), clock_(std::move(clock)) {}
+
+    /// Changes of the documents, one after the other: what If-Match asked for still holds when it is written.
+    const std::shared_ptr<ChangeQueue> changes = std::make_shared<ChangeQueue>();
 
     /// Called when deadline() may have changed by another cause than on_deadline.
     std::function<void()> rearm;

@@ -89,21 +89,21 @@ constexpr std::array routes{
     Route{"/api/v1/axes/{axis}/snapshots/{snapshot}/restore", Method::post, restore_snapshot, Takes::json},
     Route{"/api/v1/axes/{axis}/parameters/{parameter}/history", Method::get, get_parameter_history}.asks("limit"),
     Route{"/api/v1/axes/{axis}/parameters.csv", Method::get, get_parameters_csv, Takes::nothing, Gives::own},
-    Route{"/api/v1/axes/{axis}/parameters.csv", Method::put, put_parameters_csv, Takes::csv}.asks("dry_run include_addressing"),
+    Route{"/api/v1/axes/{axis}/parameters.csv", Method::put, put_parameters_csv, Takes::csv}.asks("dry_run include_addressing include_live"),
     Route{"/api/v1/site/stage", Method::get, get_stage},
-    Route{"/api/v1/site/stage", Method::post, stage_site, Takes::json},
+    Route{"/api/v1/site/stage", Method::post, stage_site, Takes::json}.asks("replace"),
     Route{"/api/v1/site/stage", Method::remove, discard_stage, Takes::nothing, Gives::nothing},
     Route{"/api/v1/site/stage/apply", Method::post, apply_stage, Takes::json},
     Route{"/api/v1/site/stage/confirm", Method::post, confirm_stage},
     Route{"/api/v1/site/stage/roll-back", Method::post, roll_back_stage},
     Route{"/api/v1/site/history", Method::get, list_site_history},
     Route{"/api/v1/site/history/{revision}", Method::get, get_site_revision},
-    Route{"/api/v1/site/history/{revision}/restore", Method::post, restore_site_revision},
+    Route{"/api/v1/site/history/{revision}/restore", Method::post, restore_site_revision}.asks("replace"),
     Route{"/api/v1/backup", Method::get, get_backup, Takes::nothing, Gives::own}.needs(Role::administrator),
     Route{"/api/v1/backup", Method::put, put_backup, Takes::bytes}.needs(Role::administrator),
     Route{"/api/v1/registers", Method::get, get_registers}.asks("unit table address count"),
     Route{"/api/v1/mappings/list", Method::get, get_mapping_list, Takes::nothing, Gives::own}.asks("format"),
-    Route{"/api/v1/mappings/next-free", Method::get, get_next_free}.asks("unit table words"),
+    Route{"/api/v1/mappings/next-free", Method::get, get_next_free}.asks("unit table words align"),
     Route{"/api/v1/mappings/template", Method::post, add_mapping_template, Takes::json},
     Route{"/api/v1/events", Method::get, list_events, Takes::nothing, Gives::own}.asks("since axis severity kind state before limit format"),
     Route{"/api/v1/alarms", Method::get, list_alarms}.asks("state"),
@@ -379,7 +379,10 @@ Router::Entry Router::enter(const Request& request, std::optional<Target> target
     // Who it is, and whether he may: before anything of the request is looked at further.
     e.identity = http::identify(context_.access.get(), request, context_.gateway.now_unix_ns(), touch);
     if (const Role needed = e.route->needed(); needed != Role::none) {
-        if (auto refusal = refuse_below(e.identity, needed)) return answer(*std::move(refusal));
+        if (auto refusal = refuse_below(e.identity, needed)) {
+            if (e.identity.session_ended) refusal->headers.set("Set-Cookie", set_cookie("", request.secure, true));
+            return answer(*std::move(refusal));
+        }
     }
     if (e.route->handler != sign_in && e.route->handler != first_sign_in) {
         if (auto refusal = check_csrf(e.identity, request)) return answer(*std::move(refusal));

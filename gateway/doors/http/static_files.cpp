@@ -46,6 +46,24 @@ bool takes_gzip(std::string_view field) {
     }
     return by_star;
 }
+
+/// Whether an Accept field names text/html itself, as browsers do when a page is opened: what asks for anything wants no page.
+bool asks_for_html(std::string_view field) {
+    while (!field.empty()) {
+        const auto end = std::min(field.find(','), field.size());
+        const auto item = field.substr(0, end);
+        field.remove_prefix(std::min(end + 1, field.size()));
+        const auto mark = std::min(item.find(';'), item.size());
+        if (lower(trimmed(item.substr(0, mark))) != "text/html") continue;
+        const std::string quality = mark < item.size() ? lower(trimmed(item.substr(mark + 1))) : std::string();
+        return !quality.starts_with("q=") || parse_number(std::string_view(quality).substr(2)).value_or(1) > 0;
+    }
+    return false;
+}
+bool is_address_of_page(const Target& target) {
+    constexpr std::array<std::string_view, 5> others{"api", "assets", "healthz", "readyz", "metrics"};
+    return std::ranges::find(others, std::string_view(target.segments.front())) == others.end();
+}
 }  // namespace
 
 std::string_view media_for(std::string_view path) noexcept {
@@ -74,20 +92,24 @@ Response static_file(const AssetLookup& asset, const Target& target, const Heade
     std::string path = target.path;
     if (path.ends_with('/')) path += "index.html";
     std::string_view bytes = asset ? asset("web/dist" + path) : std::string_view();
-    if (bytes.data() == nullptr && target.segments.back().find('.') == std::string::npos) {
+    // The page has addresses of its own, with names in them ("/axes/portal.x"): whoever opens one in a browser gets the page.
+    const bool opened = bytes.data() == nullptr && is_address_of_page(target) && asks_for_html(headers.get("Accept"));
+    if (opened) {
         path = "/index.html";
         bytes = asset ? asset("web/dist/index.html") : std::string_view();
     }
     if (bytes.data() == nullptr) {
         return problem(
             404, "not_found",
-            target.path == "/" ? "this build holds no page; the interface is described at /api/v1/openapi.yaml" : "there is no such file");
+            target.path == "/" || opened ? "this build holds no page; the interface is described at /api/v1/openapi.yaml"
+                                         : fmt::format("there is no {} here: the interface is at /api/v1, described by /api/v1/openapi.yaml", target.path));
     }
     // Packed when the page was built, and not again for each request. What comes packed is another representation: it has its own tag.
     Response r;
+    if (opened) r.headers.set("Vary", "Accept");
     const auto packed = asset("web/dist" + path + ".gz");
     if (packed.data() != nullptr) {
-        r.headers.set("Vary", "Accept-Encoding");
+        r.headers.set("Vary", opened ? "Accept, Accept-Encoding" : "Accept-Encoding");
         if (takes_gzip(headers.get("Accept-Encoding"))) {
             r.headers.set("Content-Encoding", "gzip");
             bytes = packed;

@@ -11,7 +11,8 @@
 
 namespace axisgate::http {
 
-/// Files are looked up under web/dist/. A path whose last segment has no dot and that is no file is a route of the page: index.html.
+/// Files are looked up under web/dist/. A path that is no file, and not of the interface or of the page's own files, is an address of the
+/// page for whoever names text/html in Accept: index.html.
 [[nodiscard]] Response static_file(const AssetLookup& asset, const Target& target, const Headers& headers);
 
 /// Media type by the name's ending; application/octet-stream for unknown ones.

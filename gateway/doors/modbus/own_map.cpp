@@ -28,7 +28,7 @@ Table table_of(MapTable t) noexcept {
     return Table::holding_registers;
 }
 
-Value axis_value(const AxisPicture& p, AxisPoint point, double increments_per_unit, Instant now) {
+Value axis_value(const Image& image, const AxisPicture& p, AxisPoint point, double increments_per_unit, Instant now) {
     const auto whole = [](auto n) { return Value{static_cast<std::int64_t>(n)}; };
     const auto flag = [&](std::uint16_t f) { return Value{(p.flags & f) != 0}; };
     switch (point) {
@@ -90,6 +90,12 @@ Value axis_value(const AxisPicture& p, AxisPoint point, double increments_per_un
             return static_cast<double>(p.position) / increments_per_unit;
         case AxisPoint::velocity_units:
             return static_cast<double>(p.velocity) / increments_per_unit;
+        case AxisPoint::heartbeat:
+            return whole(heartbeat(now));
+        case AxisPoint::family:
+            return whole(p.family_number);
+        case AxisPoint::mapping_revision:
+            return whole(image.mapping_revision);
     }
     return {};
 }
@@ -161,7 +167,7 @@ Exception OwnMap::value_of(const Place& place, Instant now, Value& value) {
     const AxisPicture& picture = port_.image().picture(place.at.axis);
     if (picture.number == 0) return Exception::no_path;
     if (const auto* point = std::get_if<AxisPoint>(&place.at.mapping.what)) {
-        value = axis_value(picture, *point, place.at.increments_per_unit, now);
+        value = axis_value(port_.image(), picture, *point, place.at.increments_per_unit, now);
         return Exception::none;
     }
     if ((picture.flags & flag_online) == 0) return Exception::no_answer;

@@ -7,7 +7,7 @@ namespace {
 // --- drives -----------------------------------------------------------------------------------------------------------
 
 TEST_F(HttpTest, DriveAndLineDocuments) {
-    gateway.drive_states[gateway.drive("feeder")] = {Presence::twin, false, "the device does not answer", 4, 800};
+    gateway.drive_states[gateway.drive("feeder")] = {Presence::twin, true, false, "the device does not answer", 4, 800};
     const auto d = call("GET", "/api/v1/drives/feeder");
     EXPECT_EQ(d.at("presence"), "auto") << "the rule";
     EXPECT_EQ(d.at("family"), "demo");
@@ -36,12 +36,12 @@ TEST_F(HttpTest, Native) {
     const auto& native = std::get<Native>(gateway.submitted[0].body);
     EXPECT_TRUE(native.is_text);
     EXPECT_EQ(std::string(native.send.begin(), native.send.end()), "PR P");
-    gateway.now_ns += 7'900'000;
+    gateway.now_ns += 125'900;
     Result r = good_result(Outcome::done);
     r.text = "51200";
     r.bytes = {0x35, 0x0D};
     gateway.finish(r);
-    EXPECT_EQ(answered().text, R"({"reply":"51200","reply_hex":"350D","took_ms":7})");
+    EXPECT_EQ(answered().text, R"({"reply":"51200","reply_hex":"350D","took_ms":0.125})");
 
     call("POST", "/api/v1/drives/feeder/native", R"({"send_hex":"95 00"})");
     const auto& hex = std::get<Native>(gateway.submitted[1].body);
@@ -98,7 +98,7 @@ TEST_F(HttpTest, Hand) {
 }
 
 TEST_F(HttpTest, NoHandForRealDrives) {
-    gateway.drive_states[gateway.drive("feeder")] = {Presence::device, true, "answers", 0, 0};
+    gateway.drive_states[gateway.drive("feeder")] = {Presence::device, false, true, "answers", 0, 0};
     for (const auto& a : {call("GET", "/api/v1/drives/feeder/hand"), call("PATCH", "/api/v1/drives/feeder/hand", R"({"stall":true})")}) {
         EXPECT_EQ(a.status, 409u);
         EXPECT_EQ(a.at("reason"), "not_simulated");

@@ -354,7 +354,10 @@ public:
         stage.applied(true);
         then({true, "", site_});
     }
-    void confirm_stage(Origin, std::function<void(std::string)> then) override {
+    std::string confirmed_by;
+    void confirm_stage(Origin o, std::function<void(std::string)> then) override {
+        if (auto fault = stage.check_confirm(*o.who, now_ns); !fault.empty()) return then(fault);
+        confirmed_by = *o.who;
         stage.confirmed();
         then("");
     }
@@ -409,6 +412,7 @@ inline AxisPicture standing(std::int64_t position, std::int64_t at_ms = 600) {
     p.family_number = 7;
     p.position = position;
     p.position_demand = position;
+    p.demand_known = true;
     p.statusword = 0x9637;  // operation enabled, simulated, remote, target reached, set-point acknowledged, referenced
     p.mode_display = 1;
     p.flags = flag_online | flag_simulated | flag_referenced | flag_target_reached;

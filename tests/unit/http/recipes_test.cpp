@@ -58,6 +58,35 @@ TEST_F(Recipes, ADocumentIsKeptAsItWasPut) {
     EXPECT_EQ(call("PUT", "/api/v1/recipes/warm-up", simple).status, 507u);
 }
 
+TEST_F(Recipes, AChangeCanBeTiedToWhatWasRead) {
+    const auto made = call("PUT", "/api/v1/recipes/warm-up", simple, {{"If-None-Match", "*"}});
+    ASSERT_EQ(made.status, 201u) << made.text;
+    const std::string first(made.headers.get("ETag"));
+    EXPECT_EQ(first.size(), 18u);
+    EXPECT_EQ(call("GET", "/api/v1/recipes/warm-up").headers.get("ETag"), first);
+    EXPECT_EQ(call("GET", "/api/v1/recipes").array().at(0).at("etag"), json::value(first));
+    EXPECT_EQ(call("PUT", "/api/v1/recipes/warm-up", simple, {{"If-None-Match", "*"}}).status, 412u) << "there is one";
+    gateway.now_ns += 1'000'000'000;
+    const auto changed = call("PUT", "/api/v1/recipes/warm-up", R"({"steps":[{"wait_s":2}]})", {{"If-Match", first}});
+    ASSERT_EQ(changed.status, 200u) << changed.text;
+    const std::string second(changed.headers.get("ETag"));
+    EXPECT_NE(second, first);
+    for (const auto* method : {"PUT", "DELETE"}) {
+        const auto stale = call(method, "/api/v1/recipes/warm-up", std::string_view(method) == "PUT" ? simple : "", {{"If-Match", first}});
+        EXPECT_EQ(stale.status, 412u) << method;
+        EXPECT_EQ(stale.headers.get("ETag"), second) << method;
+        EXPECT_EQ(stale.at("etag"), second);
+        EXPECT_EQ(json_text(stale.object().at("current").at("steps")), R"([{"wait_s":2}])") << "what is there now";
+        EXPECT_NE(stale.at("detail").find(second), std::string::npos) << stale.text;
+    }
+    EXPECT_EQ(call("PUT", "/api/v1/recipes/warm-up?dry_run=1", simple, {{"If-Match", first}}).status, 412u);
+    EXPECT_EQ(call("PUT", "/api/v1/recipes/none", simple, {{"If-Match", "*"}}).status, 412u) << "deleted meanwhile: not made again";
+    EXPECT_EQ(call("PUT", "/api/v1/recipes/warm-up", simple, {{"If-Match", "\"x\", " + second}}).status, 200u) << "one of a list";
+    EXPECT_EQ(call("PUT", "/api/v1/recipes/warm-up", simple).status, 200u) << "without the headers as ever";
+    const std::string third(call("GET", "/api/v1/recipes/warm-up").headers.get("ETag"));
+    EXPECT_EQ(call("DELETE", "/api/v1/recipes/warm-up", "", {{"If-Match", third}}).status, 204u);
+}
+
 TEST_F(Recipes, FaultsHavePointersIntoTheBody) {
     const auto a = call("PUT", "/api/v1/recipes/x", R"({"steps":[{"command":{"axis":"any","command":"fly"}},{"enable":{}}]})");
     EXPECT_EQ(a.status, 422u);

@@ -188,6 +188,47 @@ TEST_F(AccessTest, AChangeOverACookieNeedsItsToken) {
     EXPECT_TRUE(gateway.submitted.empty());
 }
 
+TEST_F(AccessTest, WhoseSessionHasEndedIsNotThisMachine) {
+    auto headers = as("viewer");
+    ASSERT_EQ(from("127.0.0.1:5", "PUT", "/api/v1/site", "{}", headers).status, 403u) << "a viewer, also on this machine";
+    ASSERT_EQ(from(far_peer, "DELETE", "/api/v1/session", "", headers).status, 204u);
+    const auto expires = [](const Answer& a) {
+        const auto cookie = a.headers.get("Set-Cookie");
+        return cookie.starts_with("axisgate_session=;") && cookie.find("Max-Age=0") != std::string_view::npos;
+    };
+    for (const auto& [method, target] : {std::pair{"GET", "/api/v1/axes"}, {"PUT", "/api/v1/site"}, {"GET", "/api/v1/stream"}, {"GET", "/metrics"}}) {
+        const auto a = from("127.0.0.1:5", method, target, std::string_view(method) == "PUT" ? "{}" : "", headers);
+        EXPECT_EQ(a.status, 401u) << target << a.text;
+        EXPECT_EQ(a.at("type"), "urn:axisgate:problem:session_ended") << target;
+        EXPECT_TRUE(expires(a)) << target << a.headers.get("Set-Cookie");
+    }
+    Request watching = request("GET", "/api/v1/stream", {}, headers);
+    EXPECT_FALSE(door.may_still_watch(watching)) << "a live feed does not go on as this machine";
+    const auto session = from("127.0.0.1:5", "GET", "/api/v1/session", "", headers);
+    EXPECT_EQ(session.status, 200u);
+    EXPECT_EQ(session.at("via"), "none");
+    EXPECT_NE(session.at("ended").find("has ended"), std::string::npos) << session.text;
+    EXPECT_TRUE(expires(session));
+    EXPECT_EQ(from("127.0.0.1:5", "GET", "/", "", headers).at("reason"), "not_found") << "the page's files ask nobody (this door has none)";
+    EXPECT_EQ(from("127.0.0.1:5", "GET", "/healthz", "", headers).status, 200u);
+    EXPECT_TRUE(expires(from("127.0.0.1:5", "DELETE", "/api/v1/session", "", headers)));
+    EXPECT_EQ(from("127.0.0.1:5", "POST", "/api/v1/session", R"({"user":"viewer","password":"secret viewer"})", headers).status, 200u);
+    EXPECT_EQ(from("127.0.0.1:5", "GET", "/api/v1/axes", "", {{"Cookie", "axisgate_session=; other=1"}}).at("reason"), "session_ended");
+    EXPECT_EQ(from("127.0.0.1:5", "GET", "/api/v1/axes", "", {{"Cookie", "other=1"}}).status, 200u) << "no session cookie at all: this machine";
+    EXPECT_EQ(from("127.0.0.1:5", "GET", "/api/v1/session").at("ended"), "null");
+}
+
+TEST_F(AccessTest, AnAdministratorConfirmsWhatAnotherApplied) {
+    const std::string site = R"({"lines":[],"drives":[],"axes":[],"mappings":[]})";
+    ASSERT_EQ(from("127.0.0.1:5", "POST", "/api/v1/site/stage", site).status, 200u);
+    ASSERT_EQ(from("127.0.0.1:5", "POST", "/api/v1/site/stage/apply", "{}").status, 200u);
+    EXPECT_EQ(from(far_peer, "POST", "/api/v1/site/stage/confirm", "", as("engineer")).status, 409u);
+    EXPECT_EQ(from("127.0.0.1:5", "POST", "/api/v1/site/stage/confirm", "", {{"X-Client", "other"}}).status, 409u);
+    const auto kept = from(far_peer, "POST", "/api/v1/site/stage/confirm", "", as("administrator"));
+    EXPECT_EQ(kept.status, 200u) << kept.text;
+    EXPECT_EQ(gateway.confirmed_by, "administrator 192.0.2.7:5123 for local 127.0.0.1");
+}
+
 TEST_F(AccessTest, LocalAccessIsAnEngineerAndAProxyIsNot) {
     EXPECT_EQ(from("127.0.0.1:5", "GET", "/api/v1/session").at("via"), "local");
     EXPECT_EQ(from("127.0.0.1:5", "GET", "/api/v1/session").at("role"), "engineer");

@@ -246,8 +246,19 @@ TEST_F(HttpTest, StaticFiles) {
     EXPECT_EQ(page.headers.get("Content-Type"), "text/html; charset=utf-8");
     const std::string tag(page.headers.get("ETag"));
     EXPECT_EQ(tag.size(), 18u);
-    for (const auto* route : {"/axes", "/axes/feeder", "/a/b/c", "/index.html", "/assets"})
-        EXPECT_EQ(call("GET", route).text, page.text) << route;
+    const std::vector<std::pair<std::string, std::string>> browser{{"Accept", "text/html,application/xhtml+xml,application/xml;q=0.9,*/*;q=0.8"}};
+    for (const auto* route : {"/axes", "/axes/feeder", "/a/b/c", "/index.html", "/axes/portal.x", "/lines/com1.js?tab=2", "/missing.js"})
+        EXPECT_EQ(call("GET", route, "", browser).text, page.text) << route;
+    EXPECT_EQ(call("GET", "/axes/portal.x", "", browser).headers.get("Vary"), "Accept");
+    for (const auto* route : {"/nope", "/axes", "/axes/portal.x"}) {
+        for (const auto* accept : {"*/*", "application/json", "", "text/html;q=0", "text/*"}) {
+            const auto none = call("GET", route, "", {{"Accept", accept}});
+            EXPECT_EQ(none.status, 404u) << route << accept;
+            EXPECT_EQ(none.headers.get("Content-Type"), "application/problem+json");
+        }
+    }
+    for (const auto* route : {"/assets", "/assets/missing.js", "/api", "/api/v1/nothing", "/healthz/x", "/readyz/x", "/metrics/x"})
+        EXPECT_EQ(call("GET", route, "", browser).status, 404u) << route;
     const auto js = call("GET", "/assets/main.js");
     EXPECT_EQ(js.text, "let a = 1;");
     EXPECT_EQ(js.headers.get("Content-Type"), "text/javascript; charset=utf-8");

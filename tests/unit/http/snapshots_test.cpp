@@ -19,6 +19,11 @@ protected:
         auto a = call(method, std::move(target), std::move(body), std::move(headers));
         return a.status != 0 ? a : answered();
     }
+    static AxisPicture switched_off() {
+        auto p = standing(0);
+        p.statusword = 0x9650;
+        return p;
+    }
     static std::string stage_body(const char* unit) {
         return std::string(R"({"lines":[{"name":"can0","uri":"twin","family":"demo"}],"drives":[{"name":"feeder","line":"can0","address":5}],"axes":[{"name":"feeder","drive":"feeder","number":1,"unit":")") + unit +
                R"("}],"mappings":[]})";
@@ -74,7 +79,7 @@ TEST_F(Keep, RestoreWritesWhatDiffersAndNotWhileMoving) {
     gateway.set_picture("feeder", moving);
     EXPECT_EQ(call("POST", "/api/v1/axes/feeder/snapshots/1/restore", "{}").status, 409u);
     EXPECT_TRUE(gateway.submitted.empty());
-    gateway.set_picture("feeder", standing(0));
+    gateway.set_picture("feeder", switched_off());
     drive_answers();
     const auto a = do_call("POST", "/api/v1/axes/feeder/snapshots/1/restore", "{}");
     ASSERT_EQ(a.status, 200u) << a.text;
@@ -127,6 +132,56 @@ TEST_F(Keep, WhatTheDriveIsReachedByIsLeftOutUnlessAskedFor) {
     EXPECT_EQ(do_call("PUT", "/api/v1/axes/feeder/parameters/PP%5B2%5D", R"({"value":8})").status, 200u) << "by itself it is written as ever";
 }
 
+TEST_F(Keep, WhatActsAtOnceIsLeftOutUnlessAskedFor) {
+    std::string text(catalogue_text);
+    text.insert(text.find(R"({"id": "PP")"), R"({"id": "MO", "name": "motor_on", "group": "motor", "type": "u8", "min": 0, "max": 1, "access": "RW", "live": true, "description": "Switches."},)");
+    std::vector<std::string> faults;
+    gateway.catalogue = *Catalogue::parse(text, faults);
+    AxisSnapshot s;
+    s.n = 1;
+    s.parameters = {{"AC", std::int64_t{30000}}, {"MO", std::int64_t{1}}};
+    gateway.kept_snapshots["feeder"].push_back(s);
+    gateway.stored_values["feeder"] = {{"MO", std::int64_t{0}, {}, "", "", 0}};
+    gateway.set_picture("feeder", switched_off());
+    drive_answers();
+    const auto restore = [this](std::string body) { return do_call("POST", "/api/v1/axes/feeder/snapshots/1/restore", std::move(body)); };
+    const auto table = [this](std::string query) {
+        return do_call("PUT", "/api/v1/axes/feeder/parameters.csv" + query, "parameter,value\nAC,30001\nMO,1\n", {{"Content-Type", "text/csv"}});
+    };
+    const std::string left_out = R"({"parameter":"MO","why":"it acts at once and is no setting (motor_on): it is written only with include_live"})";
+    for (const auto& a : {restore(R"({"dry_run":true})"), restore("{}"), restore(R"({"parameters":["MO"]})"), restore(R"({"include_addressing":true})"),
+                          table("?dry_run=1"), table(""), table("?include_live=0&include_addressing=1")}) {
+        ASSERT_EQ(a.status, 200u) << a.text;
+        EXPECT_NE(a.text.find(left_out), std::string::npos) << a.text;
+    }
+    for (const auto& c : gateway.submitted)
+        EXPECT_EQ(std::get<WriteParameter>(c.body).point, *gateway.catalogue.find("AC"));
+    const auto diff = call("GET", "/api/v1/axes/feeder/snapshots/1/diff?with=stored");
+    ASSERT_EQ(diff.object().at("rows").get_array().size(), 1u) << diff.text;
+    EXPECT_EQ(diff.object().at("rows").at(0).at("parameter"), "AC");
+    EXPECT_EQ(diff.object().at("live").at(0).at("parameter"), "MO");
+    EXPECT_EQ(restore(R"({"include_live":true})").object().at("changed").get_array().size(), 2u);
+    EXPECT_EQ(table("?include_live=1").object().at("changed").get_array().size(), 2u);
+    EXPECT_EQ(restore(R"({"include_live":1})").status, 422u);
+    EXPECT_EQ(table("?include_live=maybe").status, 400u);
+}
+
+TEST_F(Keep, AnEnabledAxisTakesNoRestoreAndNoTableUnlessNothingWouldBeWritten) {
+    AxisSnapshot s;
+    s.n = 1;
+    s.parameters = {{"AC", std::int64_t{30000}}, {"ML", std::string("x")}};
+    gateway.kept_snapshots["feeder"].push_back(s);
+    gateway.set_picture("feeder", standing(0));
+    drive_answers();
+    const auto refused = call("POST", "/api/v1/axes/feeder/snapshots/1/restore", "{}");
+    EXPECT_EQ(refused.status, 409u) << refused.text;
+    EXPECT_NE(refused.at("detail").find("the axis is enabled: disable it"), std::string::npos) << refused.text;
+    EXPECT_EQ(call("PUT", "/api/v1/axes/feeder/parameters.csv", "parameter,value\nAC,30000\n", {{"Content-Type", "text/csv"}}).status, 409u);
+    EXPECT_TRUE(gateway.submitted.empty());
+    EXPECT_EQ(do_call("POST", "/api/v1/axes/feeder/snapshots/1/restore", R"({"parameters":["ML"]})").status, 200u) << "nothing would be written";
+    EXPECT_EQ(call("POST", "/api/v1/axes/feeder/snapshots/1/restore", R"({"dry_run":true})").status, 200u);
+}
+
 TEST_F(Keep, AStagedSiteIsShownAppliedAndRolledBack) {
     const auto staged = call("POST", "/api/v1/site/stage", stage_body("deg"), {{"If-Match", "\"1\""}});
     ASSERT_EQ(staged.status, 200u) << staged.text;
@@ -147,6 +202,38 @@ TEST_F(Keep, AStagedSiteIsShownAppliedAndRolledBack) {
     EXPECT_EQ(do_call("POST", "/api/v1/site/stage/roll-back").at("state"), "none");
     EXPECT_EQ(gateway.site()->site.axes.size(), 2u);
     EXPECT_EQ(do_call("POST", "/api/v1/site/stage/apply", "{}").status, 409u) << "nothing is staged";
+}
+
+TEST_F(Keep, AnotherClientsStageIsNotReplacedOrAppliedInSilence) {
+    using Fields = std::vector<std::pair<std::string, std::string>>;
+    const Fields anna{{"X-Client", "anna"}}, bert{{"X-Client", "bert"}};
+    const auto first = call("POST", "/api/v1/site/stage", stage_body("deg"), anna);
+    ASSERT_EQ(first.status, 200u) << first.text;
+    EXPECT_EQ(first.at("client"), "127.0.0.1 anna");
+    EXPECT_TRUE(first.object().at("id").is_string()) << first.text;
+    EXPECT_EQ(call("GET", "/api/v1/site/stage").at("id"), first.at("id"));
+    const auto taken = call("POST", "/api/v1/site/stage", stage_body("m"), bert);
+    EXPECT_EQ(taken.status, 409u);
+    EXPECT_EQ(taken.at("type"), "urn:axisgate:problem:stage_taken");
+    EXPECT_NE(taken.at("detail").find("127.0.0.1 anna"), std::string::npos) << taken.text;
+    EXPECT_EQ(call("POST", "/api/v1/site/stage?replace=maybe", stage_body("m"), bert).status, 400u);
+    EXPECT_EQ(call("POST", "/api/v1/site/stage", stage_body("mm"), anna).status, 200u) << "one's own is replaced as ever";
+    const auto second = call("POST", "/api/v1/site/stage?replace=true", stage_body("m"), bert);
+    ASSERT_EQ(second.status, 200u) << second.text;
+    EXPECT_NE(second.at("id"), first.at("id"));
+    const auto apply = [&](std::string id, const Fields& who) { return do_call("POST", "/api/v1/site/stage/apply", R"({"stage":")" + id + R"("})", who); };
+    const auto replaced = apply(first.at("id"), anna);
+    EXPECT_EQ(replaced.status, 409u);
+    EXPECT_EQ(replaced.at("type"), "urn:axisgate:problem:stage_replaced");
+    EXPECT_NE(replaced.at("detail").find("127.0.0.1 bert"), std::string::npos) << replaced.text;
+    EXPECT_EQ(gateway.site()->revision, 1u) << "nothing was applied";
+    EXPECT_EQ(call("POST", "/api/v1/site/stage/apply", R"({"stage":7})").status, 422u);
+    ASSERT_EQ(apply(second.at("id"), bert).status, 200u);
+    const auto confirm = call("POST", "/api/v1/site/stage/confirm", "", anna);
+    EXPECT_EQ(confirm.status, 409u) << "only the client that applied it";
+    EXPECT_NE(confirm.at("detail").find("127.0.0.1 bert"), std::string::npos) << confirm.text;
+    EXPECT_EQ(do_call("POST", "/api/v1/site/stage/confirm", "", bert).status, 200u);
+    EXPECT_EQ(apply(second.at("id"), bert).status, 409u) << "it is not staged any more";
 }
 
 TEST_F(Keep, RegistersAreTheDoorsOwnAnswer) {

@@ -312,7 +312,7 @@ TEST_F(StreamHubTest, DrivesAndLinesAreLookedAtFourTimesASecondAtMost) {
     }
     EXPECT_GE(messages, 3);
     EXPECT_LE(messages, 4);
-    gateway.drive_states[gateway.drive("slide")] = {Presence::twin, false, "the device does not answer", 4, 200};
+    gateway.drive_states[gateway.drive("slide")] = {Presence::twin, true, false, "the device does not answer", 4, 200};
     pass(300);
     const auto got = taken();
     ASSERT_FALSE(got.empty());

@@ -23,15 +23,15 @@ TEST(Config, DefaultsAreLoopback) {
 TEST(Config, SetBeatsEnvironmentBeatsFile) {
     ConfigSources s;
     s.file_name = "f.toml";
-    s.file_text = "[modbus]\nbind = \"127.0.0.1:1\"\nidle_timeout_s = 7\n[modbus_rtu]\nport = \"/dev/x\"\n[http]\nallowed_hosts = [\"a\", \"b\"]\n";
-    s.environment = {"AXISGATE_MODBUS_BIND=127.0.0.1:2", "AXISGATE_MODBUS_RTU_PORT=/dev/y", "AXISGATE_SOMETHING_ELSE=1", "PATH=/bin"};
+    s.file_text = "[modbus]\nbind = \"127.0.0.1:1\"\nidle_timeout_s = 7\n[log]\nfile = \"/dev/x\"\n[http]\nallowed_hosts = [\"a\", \"b\"]\n";
+    s.environment = {"AXISGATE_MODBUS_BIND=127.0.0.1:2", "AXISGATE_LOG_FILE=/dev/y", "AXISGATE_SOMETHING_ELSE=1", "PATH=/bin"};
     s.overrides = {"modbus.bind=127.0.0.1:3", "http.bind=off"};
     std::vector<ConfigFault> faults;
     const Config c = read_config(s, faults);
     EXPECT_TRUE(faults.empty()) << faults[0].text;
     EXPECT_EQ(c.modbus_bind, "127.0.0.1:3");
     EXPECT_EQ(c.modbus_idle_timeout_s, 7);
-    EXPECT_EQ(c.modbus_rtu_port, "/dev/y");
+    EXPECT_EQ(c.log_file, "/dev/y");
     EXPECT_EQ(c.http_bind, "");
     EXPECT_EQ(c.http_allowed_hosts, (std::vector<std::string>{"a", "b"}));
 }
@@ -57,6 +57,29 @@ TEST(Config, EveryFaultAtOnceWithLineAndRemedy) {
     (void)read_config(s, faults);
     ASSERT_FALSE(faults.empty());
     EXPECT_EQ(faults[0].place, "f.toml:1");
+}
+
+TEST(Config, WhatThisVersionHasNotAndWhatIsWrittenAsAnotherKindIsAFault) {
+    ConfigSources s;
+    s.file_name = "f.toml";
+    s.file_text = "[data]\ndir = 7\n[log]\nfile = 3\n[modbus_rtu]\nport = 5\n[dds]\nenabled = true\n[http]\nallowed_hosts = 4\n";
+    s.environment = {"AXISGATE_MODBUS_RTU_PORT=/dev/y"};
+    std::vector<ConfigFault> faults;
+    (void)read_config(s, faults);
+    std::vector<std::string> places;
+    for (const auto& f : faults) {
+        places.push_back(f.place);
+        EXPECT_FALSE(f.remedy.empty()) << f.text;
+    }
+    for (const auto* p : {"f.toml:2", "f.toml:4", "f.toml:6", "f.toml:8", "f.toml:10", "AXISGATE_MODBUS_RTU_PORT"})
+        EXPECT_NE(std::find(places.begin(), places.end(), p), places.end()) << p;
+    EXPECT_EQ(faults.size(), 6u);
+    s.file_text = "[dds]\nenabled = true\n";
+    s.environment.clear();
+    s.overrides = {"dds.enabled=false", "data.dir=7"};
+    faults.clear();
+    EXPECT_EQ(read_config(s, faults).data_dir, "7") << "on the command line all is text";
+    EXPECT_TRUE(faults.empty()) << "what is overridden does not count";
 }
 
 TEST(Config, HostAndPort) {

@@ -932,7 +932,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** Writes what differs to the drive, one parameter at a time; refused while the axis moves */
+        /** Writes what differs to the drive, one parameter at a time; refused while the axis moves or is enabled, unless nothing would be written */
         post: operations["restoreSnapshot"];
         delete?: never;
         options?: never;
@@ -977,7 +977,7 @@ export interface paths {
         };
         /** Parameters as a table for a spreadsheet */
         get: operations["exportParameters"];
-        /** Writes the values of a table; nothing is written if one line is wrong */
+        /** Writes the values of a table; nothing is written if one line is wrong, and nothing while the axis is enabled */
         put: operations["importParameters"];
         post?: never;
         delete?: never;
@@ -996,7 +996,7 @@ export interface paths {
         /** The staged site, if there is one */
         get: operations["getStage"];
         put?: never;
-        /** Stages a whole site; what was staged before is replaced */
+        /** Stages a whole site; what was staged before is replaced, another client's only if `replace` says so (409 `stage_taken`) */
         post: operations["stageSite"];
         /** Discards the staged site */
         delete: operations["discardStage"];
@@ -1031,7 +1031,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** Keeps the applied site; only who applied it may */
+        /** Keeps the applied site; only the client that applied it may, or an administrator */
         post: operations["confirmStage"];
         delete?: never;
         options?: never;
@@ -1563,6 +1563,8 @@ export interface components {
         SnapshotDiff: {
             with: string;
             rows: components["schemas"]["DiffRow"][];
+            /** @description apart: what acts at once (`live` of a parameter) is no setting, and that it is another now is no difference */
+            live: components["schemas"]["DiffRow"][];
         };
         DiffRow: {
             parameter: string;
@@ -1581,6 +1583,11 @@ export interface components {
              * @default false
              */
             include_addressing?: boolean;
+            /**
+             * @description also what acts at once instead of configuring (`live` of a parameter); without it that is in `skipped`
+             * @default false
+             */
+            include_live?: boolean;
         };
         WriteReport: {
             dry_run: boolean;
@@ -1612,8 +1619,17 @@ export interface components {
         Stage: {
             /** @enum {string} */
             state: "none" | "staged" | "applying" | "applied" | "rolling_back";
-            id: number | null;
+            /**
+             * @description another one for each stage; `stage` of apply
+             * @example k3f9Qa-2
+             */
+            id: string | null;
+            /** @description who staged or applied it */
             by: string | null;
+            /** @description the client that staged or applied it: the user or the host, with its X-Client */
+            client: string | null;
+            /** Format: date-time */
+            staged_at: string | null;
             base_revision: number | null;
             revision: number;
             faults: components["schemas"]["Fault"][];
@@ -1632,6 +1648,8 @@ export interface components {
         ApplyRequest: {
             /** @default 60 */
             confirm_within_s?: number;
+            /** @description `id` of the stage that is meant: 409 `stage_replaced` if another one, or none, is staged now */
+            stage?: string;
         };
         SiteRevision: {
             revision: number;
@@ -1670,7 +1688,8 @@ export interface components {
             template: "standard_map";
             axis: string;
             unit: number;
-            address: number;
+            /** @description left out: the next multiple of 64 with 64 free registers */
+            address?: number;
             dry_run?: boolean;
         };
         TemplateAnswer: {
@@ -1840,6 +1859,8 @@ export interface components {
             storage: string | null;
             /** @description the drive is reached by it (address, name, group, speed or form of its line): snapshots and tables are written back without it unless they say include_addressing */
             addressing: boolean;
+            /** @description it acts at once instead of configuring (a switch, set-point, counter, selector, output, latched status, or a variable of the program in the drive): snapshots and tables are written back without it unless they say include_live, and comparisons show it apart */
+            live: boolean;
             description: string;
             /** @description the only values that are allowed, with their meaning; null where min and max decide */
             allowed: {
@@ -2046,6 +2067,8 @@ export interface components {
             readonly internal_limit: boolean;
             /** @description in `unit`; null until the drive has said it */
             readonly position: number | null;
+            /** @description whether the drive says where it wants to be at each moment; if not, position_demand is null and nobody can tell a following error */
+            readonly demand_known: boolean;
             readonly position_demand: number | null;
             /** @description unit/s */
             readonly velocity: number | null;
@@ -2208,6 +2231,7 @@ export interface components {
         NativeReply: {
             reply: string;
             reply_hex: string;
+            /** @description milliseconds, with fractions */
             took_ms: number;
         };
         /**
@@ -2263,6 +2287,8 @@ export interface components {
             csrf: string | null;
             /** Format: date-time */
             expires_at: string | null;
+            /** @description why whoever asks is signed out, when he came with the cookie of a session that has ended; the answer takes the cookie away */
+            ended: string | null;
             /** @description no user exists yet */
             first_sign_in: boolean;
             /** @description all roles, lowest first */
@@ -2709,6 +2735,8 @@ export interface components {
         };
         RecipeEntry: {
             name: string;
+            /** @description names this state of the recipe, for If-Match */
+            etag: string;
             description: string;
             parameters: {
                 [key: string]: components["schemas"]["RecipeParameter"];
@@ -2988,6 +3016,16 @@ export interface components {
                 "application/problem+json": components["schemas"]["Problem"];
             };
         };
+        /** @description the recipe is another than `If-Match` or `If-None-Match` says; `current` and `etag` are what is there now */
+        RecipePreconditionFailed: {
+            headers: {
+                ETag: components["headers"]["RecipeETag"];
+                [name: string]: unknown;
+            };
+            content: {
+                "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
         /** @description the gateway is configured to demand `If-Match` */
         PreconditionRequired: {
             headers: {
@@ -3104,6 +3142,12 @@ export interface components {
         run: number;
         /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
         ifMatch: string;
+        /** @description 1 replaces a stage of another client that is not applied yet */
+        replaceStage: components["schemas"]["Flag"];
+        /** @description the recipe is changed only if it is still the one with this `ETag`, or (`*`) if there is one; else 412 with what is there now */
+        recipeIfMatch: string;
+        /** @description `*`: the recipe is made only if there is none of this name; else 412 with what is there now */
+        recipeIfNoneMatch: string;
         /** @description 1 removes also what hangs on it (drives of a line, axes of a drive, mappings of an axis) */
         cascade: components["schemas"]["Flag"];
         /** @description seconds to wait until the command is done */
@@ -3116,6 +3160,11 @@ export interface components {
          * @example "3"
          */
         ETag: string;
+        /**
+         * @description names this state of the recipe; for `If-Match`
+         * @example "9f86d081884c7d65"
+         */
+        RecipeETag: string;
         /** @description the revision of the site; in quotes it is the entity tag that `If-Match` takes */
         SiteRevision: number;
         /** @description where the new entry is */
@@ -3992,7 +4041,7 @@ export interface operations {
                      * @example {
                      *       "reply": "51200",
                      *       "reply_hex": "35313230300D",
-                     *       "took_ms": 7
+                     *       "took_ms": 7.125
                      *     }
                      */
                     "application/json": components["schemas"]["NativeReply"];
@@ -5258,6 +5307,7 @@ export interface operations {
             /** @description the recipe */
             200: {
                 headers: {
+                    ETag: components["headers"]["RecipeETag"];
                     [name: string]: unknown;
                 };
                 content: {
@@ -5274,7 +5324,12 @@ export interface operations {
                 /** @description 1 checks the document and keeps nothing */
                 dry_run?: components["schemas"]["Flag"];
             };
-            header?: never;
+            header?: {
+                /** @description the recipe is changed only if it is still the one with this `ETag`, or (`*`) if there is one; else 412 with what is there now */
+                "If-Match"?: components["parameters"]["recipeIfMatch"];
+                /** @description `*`: the recipe is made only if there is none of this name; else 412 with what is there now */
+                "If-None-Match"?: components["parameters"]["recipeIfNoneMatch"];
+            };
             path: {
                 /**
                  * @description 1 to 64 letters, digits, - _ .
@@ -5354,6 +5409,7 @@ export interface operations {
             /** @description replaced; with `dry_run` what was found */
             200: {
                 headers: {
+                    ETag: components["headers"]["RecipeETag"];
                     [name: string]: unknown;
                 };
                 content: {
@@ -5364,6 +5420,7 @@ export interface operations {
             201: {
                 headers: {
                     Location?: string;
+                    ETag: components["headers"]["RecipeETag"];
                     [name: string]: unknown;
                 };
                 content: {
@@ -5373,6 +5430,7 @@ export interface operations {
             400: components["responses"]["BadRequest"];
             403: components["responses"]["Forbidden"];
             409: components["responses"]["Conflict"];
+            412: components["responses"]["RecipePreconditionFailed"];
             415: components["responses"]["UnsupportedMediaType"];
             422: components["responses"]["Unprocessable"];
             507: components["responses"]["NotStored"];
@@ -5382,7 +5440,12 @@ export interface operations {
     removeRecipe: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description the recipe is changed only if it is still the one with this `ETag`, or (`*`) if there is one; else 412 with what is there now */
+                "If-Match"?: components["parameters"]["recipeIfMatch"];
+                /** @description `*`: the recipe is made only if there is none of this name; else 412 with what is there now */
+                "If-None-Match"?: components["parameters"]["recipeIfNoneMatch"];
+            };
             path: {
                 /**
                  * @description 1 to 64 letters, digits, - _ .
@@ -5404,6 +5467,7 @@ export interface operations {
             403: components["responses"]["Forbidden"];
             404: components["responses"]["NotFound"];
             409: components["responses"]["Conflict"];
+            412: components["responses"]["RecipePreconditionFailed"];
             default: components["responses"]["Problem"];
         };
     };
@@ -5861,6 +5925,8 @@ export interface operations {
                 dry_run?: components["schemas"]["Flag"];
                 /** @description 1 writes also what the drive is reached by (`addressing` of a parameter); without it that is in `skipped` */
                 include_addressing?: components["schemas"]["Flag"];
+                /** @description 1 writes also what acts at once instead of configuring (`live` of a parameter); without it that is in `skipped` */
+                include_live?: components["schemas"]["Flag"];
             };
             header?: never;
             path: {
@@ -5929,7 +5995,10 @@ export interface operations {
     };
     stageSite: {
         parameters: {
-            query?: never;
+            query?: {
+                /** @description 1 replaces a stage of another client that is not applied yet */
+                replace?: components["parameters"]["replaceStage"];
+            };
             header?: {
                 /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
                 "If-Match"?: components["parameters"]["ifMatch"];
@@ -6123,7 +6192,10 @@ export interface operations {
     };
     restoreSiteRevision: {
         parameters: {
-            query?: never;
+            query?: {
+                /** @description 1 replaces a stage of another client that is not applied yet */
+                replace?: components["parameters"]["replaceStage"];
+            };
             header?: {
                 /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
                 "If-Match"?: components["parameters"]["ifMatch"];
@@ -6236,7 +6308,7 @@ export interface operations {
     getMappingList: {
         parameters: {
             query?: {
-                /** @description table, page, or IEC 61131-3 structure */
+                /** @description table (`register_number` counts from 1, as 40001 does; `engineering_unit` is the point's, before scale and offset), page, or IEC 61131-3 structures, one for each run of addresses without a gap */
                 format?: "csv" | "html" | "st";
             };
             header?: never;
@@ -6270,6 +6342,8 @@ export interface operations {
                 table?: "holding_registers" | "input_registers" | "coils" | "discrete_inputs";
                 /** @description registers or bits */
                 words?: number;
+                /** @description the place is a multiple of it; left out, 64 for 64 words (the block of an axis), else 1 */
+                align?: number;
             };
             header?: never;
             path?: never;

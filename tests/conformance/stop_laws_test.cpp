@@ -1,0 +1,139 @@
+// Conformance: stops by registers, for every family: to a drive that hears and is not heard, beside a wrong value, and what is shown then.
+// In: all_families(). Out: laws of the engine and the CiA 402 profile, on twins. Never names a family.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "tests/world/world.hpp"
+
+namespace axisgate::test {
+namespace {
+using namespace std::chrono_literals;
+
+class StopLaws : public testing::TestWithParam<FamilyEntry> {
+protected:
+    const FamilyEntry& e = GetParam();
+    std::unique_ptr<World> world = std::make_unique<World>();
+    std::shared_ptr<const SiteState> site;
+    AxisId a = no_axis;
+    DriveId d = no_drive;
+
+    ProcessData word(std::uint16_t cw) const {
+        ProcessData data;
+        data.controlword = cw;
+        return data;
+    }
+    const Result* write(const ProcessData& data) { return world->wait(world->command(a, data), 10s); }
+    double speed() { return std::fabs(world->engine.twin(d)->mechanics(1, world->now).velocity); }
+    void hand(const std::string& name, const Value& v) { ASSERT_EQ(world->engine.set_hand(d, {{name, v}}, {}, world->now), ""); }
+
+    /// Enabled by registers, and turning in mode 3.
+    void turn() {
+        site = world->apply(world->make_site(e, "twin", 1));
+        a = site->axis_ids.at(0);
+        d = site->drive_ids.at(0);
+        ASSERT_TRUE(world->run_until_true([&] { return (world->picture(a).flags & flag_online) != 0; }, 10s));
+        world->run_for(1s);
+        ProcessData mode;
+        mode.mode = cia402::mode_profile_velocity;
+        mode.profile_acceleration = mode.profile_deceleration = 20000;
+        ASSERT_TRUE(good(*write(mode)));
+        for (const int cw : {0x06, 0x07, 0x0F}) {
+            const Result* r = write(word(static_cast<std::uint16_t>(cw)));
+            ASSERT_TRUE(r && good(*r)) << (r ? r->text : "no result");
+        }
+        ProcessData go;
+        go.target_velocity = 4000;
+        const Result* r = write(go);
+        ASSERT_TRUE(r && good(*r)) << (r ? r->text : "no result");
+        ASSERT_TRUE(world->run_until_true([&] { return (world->picture(a).flags & flag_moving) != 0 && world->picture(a).velocity != 0; }, 5s));
+        ASSERT_TRUE(world->run_until_true([&] { return speed() > 1000; }, 5s));
+        world->run_for(500ms);
+    }
+    void fall_silent() {
+        hand("silent", Value{true});
+        ASSERT_TRUE(world->run_until_true([&] { return !(world->picture(a).flags & flag_online); }, 20s));
+    }
+};
+
+TEST_P(StopLaws, AStopReachesADriveThatHearsAndIsNotHeard) {
+    for (const int cw : {0x0B, 0x00, 0x1B}) {
+        world = std::make_unique<World>();
+        turn();
+        fall_silent();
+        ASSERT_GT(speed(), 1000) << "it goes on";
+        const Result* r = write(word(static_cast<std::uint16_t>(cw)));
+        ASSERT_TRUE(r) << "an answer within the time";
+        EXPECT_FALSE(good(*r)) << "nobody has acknowledged it";
+        EXPECT_EQ(r->reason, Reason::no_answer);
+        EXPECT_TRUE(world->run_until_true([&] { return speed() == 0; }, 5s)) << "but it was heard: control word " << cw;
+    }
+}
+
+TEST_P(StopLaws, WhatSwitchesOnIsRefusedWhileNobodyAnswers) {
+    turn();
+    fall_silent();
+    const auto last = world->picture(a);
+    for (const int cw : {0x06, 0x07, 0x0F, 0x1F, 0x86}) {
+        const Result* r = write(word(static_cast<std::uint16_t>(cw)));
+        ASSERT_TRUE(r);
+        EXPECT_EQ(r->outcome, Outcome::refused) << cw;
+        EXPECT_EQ(r->reason, Reason::no_answer) << cw;
+    }
+    EXPECT_EQ(world->picture(a).controlword, 0);
+    // What it said last stays, with its age; what it does now is not known.
+    EXPECT_TRUE(last.ever_seen);
+    EXPECT_EQ(world->picture(a).position, last.position);
+    EXPECT_EQ(world->picture(a).at, last.at);
+    EXPECT_NE(last.position, 0);
+    EXPECT_EQ(world->picture(a).flags & (flag_online | flag_moving | flag_target_reached), 0);
+    EXPECT_NE(world->picture(a).flags & flag_stale, 0);
+    hand("silent", Value{false});
+    EXPECT_TRUE(world->run_until_true([&] { return (world->picture(a).flags & (flag_online | flag_stale)) == flag_online; }, 20s));
+    EXPECT_GT(world->picture(a).at, last.at);
+}
+
+TEST_P(StopLaws, AWrongValueBesideAStopDoesNotKeepItBack) {
+    for (const int cw : {0x0B, 0x10F, 0x00}) {
+        for (const bool bad_mode : {true, false}) {
+            world = std::make_unique<World>();
+            turn();
+            ProcessData data = word(static_cast<std::uint16_t>(cw));
+            if (bad_mode) {
+                data.mode = 9;
+            } else {
+                data.target_velocity = std::numeric_limits<std::int32_t>::min();
+            }
+            const Result* r = write(data);
+            ASSERT_TRUE(r);
+            EXPECT_EQ(r->reason, Reason::out_of_range) << cw;
+            EXPECT_TRUE(world->run_until_true([&] { return speed() == 0; }, 5s)) << cw;
+        }
+    }
+}
+
+TEST_P(StopLaws, AStopOnALineThatIsDownSaysSo) {
+    turn();
+    world->apply(Site{});
+    world->results.clear();
+    site = world->apply(world->make_site(e, e.family->uses_can ? "can:x" : "tcp:127.0.0.1:1", 1, "device"));
+    a = site->axis_ids.at(0);
+    world->run_for(500ms);
+    world->cables.at("line")->cut(world->now);
+    world->run_for(2s);
+    for (const int cw : {0x00, 0x0B, 0x06, 0x0F}) {
+        const Result* r = write(word(static_cast<std::uint16_t>(cw)));
+        ASSERT_TRUE(r);
+        EXPECT_EQ(r->outcome, Outcome::refused) << cw;
+        EXPECT_EQ(r->reason, Reason::line_down) << cw << " " << r->text;
+        EXPECT_NE(r->text.find("line"), std::string::npos) << r->text;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, StopLaws, testing::ValuesIn(families().entries),
+                         [](const testing::TestParamInfo<FamilyEntry>& i) { return std::string(i.param.family->name); });
+
+}  // namespace
+}  // namespace axisgate::test

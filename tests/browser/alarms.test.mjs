@@ -106,11 +106,12 @@ test('events are filtered by kind, axis and text, and saved as shown', async () 
   await page.getByLabel('Text in the event').fill('no such text');
   await page.getByRole('heading', { name: /Events: 0 shown/ }).waitFor();
   await page.getByLabel('Text in the event').fill('');
-  for (const [name, first] of [['Save as CSV', /^id,at,severity/], ['Save as text', /alarm +fault +slide\.x/]]) {
-    const [file] = await Promise.all([page.waitForEvent('download'), page.getByRole('link', { name }).click()]);
+  for (const [name, first] of [['Save 1 as CSV', /^id,at,severity/], ['Save 1 as text', /alarm +fault +slide\.x/]]) {
+    const [file] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name }).click()]);
     const text = readFileSync(await file.path(), 'utf8');
     assert.match(text, first);
     assert.ok(!text.includes('feeder'), 'only what was asked for');
+    assert.equal(text.trim().split('\n').length - (/CSV/.test(name) ? 1 : 0), 1, 'as many as are shown');
   }
   assert.deepEqual(page.faults(), []);
   await page.context().close();

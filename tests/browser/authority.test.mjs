@@ -29,6 +29,7 @@ test('one page holds the axis, the other is refused with the name of the holder,
   await bar(b).getByRole('button', { name: 'Take over' }).click();
   await held(b, /Held by this page/);
   await held(a, /Held by 127\.0\.0\.1/);
+  await until('"Taken." is not said any more', async () => /has it now/.test(await a.locator('[data-field=authority-told]').innerText()));
   await a.getByRole('button', { name: 'Stop feeder' }).click();
   await until('a stop is taken from anybody', async () => /accepted/i.test(await a.locator('.result').first().innerText()));
   await bar(b).getByRole('button', { name: 'Release' }).click();
@@ -36,6 +37,39 @@ test('one page holds the axis, the other is refused with the name of the holder,
   assert.deepEqual([...a.faults(), ...b.faults()], []);
   await a.context().close();
   await b.context().close();
+});
+
+test('the holder hands the axis over, to a client of the list or a typed one', async () => {
+  const a = await open(browser, `${program.url}/axes/feeder`);
+  await bar(a).getByRole('button', { name: 'Take', exact: true }).click();
+  await held(a, /Held by this page/);
+  await program.call('PUT', '/axes/slide.x/authority', { ttl_s: 60 });
+  await bar(a).getByRole('button', { name: 'Hand over …' }).click();
+  const form = a.getByRole('form', { name: 'Hand feeder over' });
+  await form.getByRole('button', { name: /^http 127\.0\.0\.1/ }).waitFor();
+  await form.getByLabel('To').fill('modbus 127.0.0.1');
+  await form.getByRole('button', { name: 'Hand over', exact: true }).click();
+  await held(a, /Held by 127\.0\.0\.1[^]*Handed over to modbus 127\.0\.0\.1\./);
+  await bar(a).getByRole('button', { name: 'Take over' }).click();
+  await bar(a).getByRole('button', { name: 'Release' }).click();
+  await held(a, /Nobody holds it/);
+  assert.deepEqual(a.faults(), []);
+  await a.context().close();
+});
+
+test('the Modbus door tells its rules, and is made read-only and writable again', async () => {
+  const a = await open(browser, `${program.url}/gateway`);
+  const writing = a.locator('[data-field=modbus-writing]');
+  await until('it is told', async () => (await writing.innerText()) === 'allowed');
+  assert.match(await a.locator('[data-field=modbus-functions]').innerText(), /all that the door knows|3 read holding registers/);
+  assert.match(await a.locator('[data-field=modbus-allow]').innerText(), /\S/);
+  await a.getByRole('button', { name: 'Make it read-only' }).click();
+  await until('it is read-only', async () => /read-only/.test(await writing.innerText()));
+  assert.equal((await program.call('GET', '/modbus')).body.read_only, true);
+  await a.getByRole('button', { name: 'Allow writing' }).click();
+  await until('it is not', async () => (await writing.innerText()) === 'allowed');
+  assert.deepEqual(a.faults(), []);
+  await a.context().close();
 });
 
 test('a duplicated tab is a client of its own, a reload is not', async () => {
@@ -69,7 +103,7 @@ test('nothing moves when somebody takes an axis, on its tile and on its page', a
   for (const [path, width] of [['/', 1440], ['/', 390], ['/axes/feeder', 1440], ['/axes/feeder', 390]]) {
     const p = await open(browser, program.url + path, { viewport: { width, height: 900 } });
     await p.locator('[data-axis=feeder] [data-live=true]').first().waitFor();
-    if (path !== '/') await p.locator('[data-parameter]').first().waitFor();
+    if (path !== '/') await Promise.all(['[data-parameter]', '[data-hand]'].map((s) => p.locator(s).first().waitFor()));
     // The events at the end of a page grow; what stands above them may not move.
     const still = async () => (await places(p)).filter((t) => !/Events|Write|Read /.test(t));
     const before = await still();

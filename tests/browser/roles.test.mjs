@@ -74,7 +74,7 @@ async function pressAll(page, part) {
 const reads = [
   ['/site', 'link', 'Export the site'], ['/site', 'button', /^Difference to revision/], ['/mappings', 'button', 'Look'], ['/mappings', 'link', 'Export CSV'],
   ['/axes/feeder/parameters', 'button', 'Export CSV'], ['/axes/feeder/parameters', 'button', /^Read (all|shown)/], ['/axes/feeder/parameters', 'button', 'Compare'],
-  ['/events', 'link', 'Save as CSV'], ['/lines/can0', 'link', 'candump'], ['/axes/feeder', 'button', 'Quick stop'], ['/axes/feeder', 'button', 'Disable'],
+  ['/events', 'button', /^Save \d+ as CSV/], ['/lines/can0', 'link', 'candump'], ['/axes/feeder', 'button', 'Quick stop'], ['/axes/feeder', 'button', 'Disable'],
 ];
 const changes = [
   ['/', 'button', 'Enable feeder', 'operator'], ['/', 'button', 'Move to target of feeder', 'operator'], ['/axes/feeder', 'button', 'Take', 'operator'], ['/axes/feeder', 'button', 'Home', 'operator'],

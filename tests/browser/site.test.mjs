@@ -121,17 +121,24 @@ test('what is not kept is rolled back by itself, and by the button', async () =>
 test('a trial is counted down in the head of every part, for everybody; kept or taken back from there by who may', async () => {
   if (!offersStage) return;
   const { parts } = await import('./lib/parts.mjs');
+  const other = await open(browser, program.url);
+  // What that page applies, that page can keep; somebody else can only take it back.
+  let me = '';
+  const post = async (path, body) => {
+    const r = await fetch(`${program.url}/api/v1${path}`, { method: 'POST', headers: { 'content-type': 'application/json', 'x-client': me }, body: JSON.stringify(body) });
+    assert.equal(r.status, 200, await r.text());
+  };
   const change = async (unit) => {
     const document = await site();
     document.axes.find((a) => a.name === 'feeder').unit = unit;
-    assert.equal((await program.call('POST', '/site/stage', document)).status, 200);
-    assert.equal((await program.call('POST', '/site/stage/apply', { confirm_within_s: 120 })).status, 200);
+    await post('/site/stage?replace=true', document);
+    await post('/site/stage/apply', { confirm_within_s: 120 });
   };
-  const other = await open(browser, program.url);
   const trial = other.locator('[data-field=trial]');
   const height = async () => (await other.locator('.top').boundingBox()).height;
   await other.locator('[data-axis=feeder] [data-live=true]').waitFor();
   const tall = await height();
+  me = await other.evaluate(() => sessionStorage.getItem('axisgate.client'));
   assert.equal(await trial.count(), 0);
   await change('inch');
   await trial.waitFor();
@@ -163,7 +170,7 @@ test('a trial is counted down in the head of every part, for everybody; kept or 
   // Somebody else keeps it: the page that only looks on is told, though no revision changes.
   await change('deg');
   await trial.waitFor();
-  assert.equal((await program.call('POST', '/site/stage/confirm', {})).status, 200);
+  await post('/site/stage/confirm', {});
   await trial.waitFor({ state: 'detached' });
   assert.deepEqual(other.faults(), []);
   await other.context().close();
@@ -262,6 +269,46 @@ test('applied states can be looked at and restored, or it is said that there are
   assert.equal((await axis('feeder')).unit, 'deg');
 });
 
+test('what another client has staged is neither taken away nor applied unseen; what was typed stays', async (t) => {
+  const other = async (change, replace = false) => {
+    const document = await site();
+    change(document);
+    const r = await fetch(`${program.url}/api/v1/site/stage${replace ? '?replace=true' : ''}`, { method: 'POST', headers: { 'content-type': 'application/json', 'x-client': 'bert' }, body: JSON.stringify(document) });
+    return { status: r.status, body: await r.json() };
+  };
+  const first = await other((s) => (s.axes.find((a) => a.name === 'slide.x').velocity_max = 91));
+  if (typeof first.body.id !== 'string') {
+    await program.call('DELETE', '/site/stage');
+    return t.skip('this gateway does not tell one stage from another');
+  }
+  await page.getByRole('button', { name: 'Change axis feeder' }).click();
+  await form('Change axis feeder').getByLabel('Unit', { exact: true }).fill('cm');
+  await form('Change axis feeder').getByRole('button', { name: 'Take into the draft' }).click();
+  await stage().getByRole('button', { name: 'Check', exact: true }).click();
+  const rival = page.locator('[data-field=rival]');
+  await rival.waitFor();
+  assert.match(await rival.innerText(), /slide\.x: velocity max .* → 91/);
+  await shot(page, 'site-stage-taken', { fullPage: true });
+  await rival.getByRole('button', { name: 'Check mine instead' }).click();
+  await until('mine is checked', async () => /^Checked/.test(await told('stage-told')) || (await told('stage-told')));
+  await page.route('**/api/v1/site/stage', (r) => (r.request().method() === 'GET' ? r.abort() : r.fallback())); // the page has not looked again yet
+  assert.equal((await other((s) => (s.axes.find((a) => a.name === 'slide.x').velocity_max = 92), true)).status, 200);
+  await page.unroute('**/api/v1/site/stage');
+  await stage().getByRole('button', { name: 'Apply', exact: true }).click().catch(() => undefined);
+  await rival.waitFor();
+  assert.match(await rival.innerText(), /→ 92/);
+  assert.notEqual((await axis('slide.x')).velocity_max, 92);
+  assert.notEqual((await axis('feeder')).unit, 'cm');
+  await rival.getByRole('button', { name: 'Take theirs into view' }).click();
+  await stage().getByRole('button', { name: 'Apply theirs' }).click();
+  await until('theirs is applied', async () => /^Applied/.test(await told('stage-told')) || (await told('stage-told')));
+  await keepIt();
+  assert.equal((await axis('slide.x')).velocity_max, 92);
+  assert.match(await page.locator('.site-diff[aria-label="What would change"]').innerText(), /→ cm/);
+  await page.getByRole('button', { name: 'Drop …' }).click();
+  await page.getByRole('button', { name: 'Drop all changes' }).click();
+});
+
 test('a line is scanned and what is found becomes a drive, or it is said that there is no scan', async () => {
   await page.getByRole('button', { name: 'Scan can0' }).click();
   const scan = form('Scan line can0');
@@ -293,10 +340,15 @@ test('a backup goes out, or it is said that there is none; a restore is asked fo
   assert.deepEqual(page.faults(), []);
 });
 
-test('from an empty site to a moving axis, by the wizard, by keyboard', async () => {
-  const empty = await Program.start({ site: { lines: [], drives: [], axes: [], mappings: [] } });
+test('from a new data directory to a moving axis: overview, wizard, by keyboard', async () => {
+  const empty = await Program.start({ site: null });
   try {
-    const p = await open(browser, `${empty.url}/site`);
+    const p = await open(browser, `${empty.url}/gateway`);
+    await p.getByText('Site revision').waitFor();
+    await p.getByRole('link', { name: 'axisgate, overview' }).click();
+    await p.getByText('No axis is configured.').waitFor();
+    await shot(p, 'overview-empty');
+    await p.getByRole('link', { name: 'Begin with the wizard' }).click();
     const wizard = (n) => p.locator(`.wizard[data-step="${n}"]`);
     await wizard(1).waitFor();
     await p.getByLabel('Family').selectOption('uim342');
@@ -304,6 +356,8 @@ test('from an empty site to a moving axis, by the wizard, by keyboard', async ()
     await wizard(2).waitFor();
     await p.getByLabel('Name').press('Enter');
     await wizard(3).waitFor();
+    await p.getByLabel('Name').press('Enter');
+    await p.getByText('How many increments make one mm?').waitFor();
     await p.getByLabel('Increments per unit').fill('0');
     await p.getByText('Above 0.').waitFor();
     await p.getByLabel('Increments per unit').fill('3200');
@@ -314,6 +368,18 @@ test('from an empty site to a moving axis, by the wizard, by keyboard', async ()
     await p.getByRole('button', { name: 'Check', exact: true }).click();
     const apply = p.getByRole('button', { name: 'Apply', exact: true });
     await until('it can be applied', async () => !(await apply.isDisabled()));
+    if (offersStage) {
+      await p.getByLabel('Keep within, s').fill('5');
+      await apply.click();
+      await p.getByRole('button', { name: 'Go on to moving first' }).click();
+      await p.getByText('rolled back because nobody pressed Keep').waitFor({ timeout: 20_000 });
+      await shot(p, 'site-wizard-rolled-back', { fullPage: true });
+      await p.getByRole('button', { name: 'Apply again' }).click();
+      await wizard(4).waitFor();
+      await p.getByLabel('Keep within, s').fill('60');
+      await p.getByRole('button', { name: 'Check', exact: true }).click();
+      await until('it can be applied again', async () => !(await apply.isDisabled()));
+    }
     await apply.click();
     if (offersStage) await p.getByRole('button', { name: 'Keep', exact: true }).click();
     await p.getByRole('button', { name: 'Go on to moving first' }).click();

@@ -1,7 +1,7 @@
 // Users on the page of the real program: first sign-in with the printed code, users and tokens, what a role may not do, the way back after a lost session.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { launch, open, pictures, until } from './lib/browser.mjs';
+import { launch, open, shot, pictures, until } from './lib/browser.mjs';
 import { Program } from './lib/program.mjs';
 
 const password = 'a long enough phrase';
@@ -94,5 +94,25 @@ test('a session that ended leads to the sign-in, and back to what was typed', as
   await signIn(eva, 'vera');
   await eva.getByRole('heading', { name: 'feeder', exact: true }).waitFor();
   assert.equal(await eva.getByLabel('Target', { exact: true }).inputValue(), '42');
+  await eva.context().close();
+});
+
+test('a restart ends all sessions: the page says so, and keeps what was typed', async (t) => {
+  const eva = await open(browser, `${program.url}/axes/feeder`);
+  await signIn(eva, 'vera');
+  await eva.getByLabel('Target', { exact: true }).fill('43');
+  eva.expectLoss(true);
+  await program.stop();
+  await program.run();
+  await until('it is told', async () => (await eva.getByRole('heading', { name: 'Sign in' }).count()) === 1 || /Live/.test(await text(eva, 'connection')), 20_000);
+  if ((await eva.getByRole('heading', { name: 'Sign in' }).count()) === 0) return t.skip('sessions outlive a restart here');
+  if ((await eva.locator('[data-field=session-ended]').count()) === 1) {
+    assert.match(await text(eva, 'session-ended'), /Your session has ended: .*restarted/);
+    assert.match(await text(eva, 'strip'), /session has ended/);
+    await shot(eva, 'session-ended');
+  }
+  await signIn(eva, 'vera');
+  await eva.getByRole('heading', { name: 'feeder', exact: true }).waitFor();
+  assert.equal(await eva.getByLabel('Target', { exact: true }).inputValue(), '43');
   await eva.context().close();
 });

@@ -130,16 +130,19 @@ def test_a_restore_neither_enables_nor_moves_the_origin(folder):
             assert (after["state"], after["position_increments"]) == (before["state"], before["position_increments"]), (family, before, after)
 
 
-def test_an_enabled_axis_takes_no_restore(gateway):
+def test_a_moving_axis_takes_no_restore(gateway):
     gateway.send("POST", "/axes/feeder/snapshots", {"name": "before"}, 201)
     was = gateway.get("/axes/feeder/parameters/AC")["value"]
     gateway.send("PUT", "/axes/feeder/parameters/AC", {"value": was + 1})
     gateway.command("feeder", {"command": "enable"})
+    gateway.command("feeder", {"command": "move_velocity", "velocity": 3}, wait=0)
+    until(lambda: gateway.axis()["moving"], 5, "moving")
     refused = gateway.send("POST", "/axes/feeder/snapshots/1/restore", {}, 409)
-    assert "enabled" in refused["detail"] and "disable" in refused["detail"], refused
+    assert "moves" in refused["detail"] and "stop" in refused["detail"], refused
     table = f"parameter,value\nAC,{was}\n".encode()
     assert gateway.request("PUT", "/api/v1/axes/feeder/parameters.csv", table, {"Content-Type": "text/csv"})[0] == 409
-    gateway.command("feeder", {"command": "disable"})
+    gateway.command("feeder", {"command": "halt"})
+    until(lambda: not gateway.axis()["moving"], 5, "at rest")
     done = gateway.send("POST", "/axes/feeder/snapshots/1/restore", {})
     assert [c["parameter"] for c in done["changed"]] == ["AC"], done
 

@@ -54,7 +54,7 @@ export class Gateway {
     effect(() => {
       const { phase, epoch } = this.store.connection.value;
       const revision = this.store.siteRevision.value;
-      if (phase !== 'live' || revision === 0 || `${epoch}/${revision}` === listedFor) return;
+      if (phase !== 'live' || revision === null || `${epoch}/${revision}` === listedFor) return;
       const fresh = !listedFor.startsWith(`${epoch}/`);
       listedFor = `${epoch}/${revision}`;
       void this.list(epoch, fresh);
@@ -62,9 +62,11 @@ export class Gateway {
     // A connection that was lost may be a session that has ended; a gateway that is back may be another one.
     let askedFor = '';
     effect(() => {
-      const { phase, epoch } = this.store.connection.value;
-      if (phase === 'connecting' || askedFor === `${phase}/${epoch}`) return;
-      askedFor = `${phase}/${epoch}`;
+      const { phase, epoch, attempts } = this.store.connection.value;
+      // Each refused attempt anew: a gateway that was away when it was asked for the first time refuses the stream of a session that it does not know.
+      const asking = `${phase}/${epoch}/${attempts}`;
+      if (phase === 'connecting' || askedFor === asking) return;
+      askedFor = asking;
       void this.session.ask();
     });
     // Nobody is given no stream: it is not knocked for before the sign-in. A gateway that is slow to say who one is holds it up for a second at most.
@@ -112,6 +114,9 @@ export class Gateway {
       const [events, about] = await Promise.all([this.client.events({ limit: 200 }), this.client.about()]);
       this.store.setEvents(events);
       this.store.about.value = about;
+      // Only words: a gateway that does not say them is no worse.
+      const families = await Promise.resolve(this.client.families?.()).catch(() => undefined);
+      if (families) this.store.familyTitles.value = new Map(families.flatMap((f) => (typeof (f.title ?? f.maker) === 'string' ? [[f.name, String(f.title ?? f.maker)]] : [])));
     } catch {
       // The stream is up but REST did not answer. As long as the connection is the same, ask again.
       setTimeout(() => {

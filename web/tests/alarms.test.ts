@@ -2,7 +2,7 @@
 import { describe, expect, it } from 'vitest';
 import type { Alarm, Drive, Line } from '../src/api/types';
 import { Store } from '../src/state/store';
-import { alarmWord, canAcknowledge, exportPath, passes, subjectOf, whatIsWrong } from '../src/words/alarm';
+import { alarmWord, canAcknowledge, asked, eventFile, gathered, passes, subjectOf, whatIsWrong } from '../src/words/alarm';
 import { axis, event, world } from './fixtures';
 
 const alarm = (change: Partial<Alarm> = {}): Alarm => ({
@@ -50,9 +50,20 @@ describe('events', () => {
       expect(passes(e, f)).toBe(wanted);
     }
   });
-  it('are saved by the same filter', () => {
-    expect(exportPath(all, 'csv')).toBe('/api/v1/events?format=csv&limit=1000');
-    expect(exportPath({ least: 'alarm', axis: 'x y', kind: 'fault', text: '' }, 'text')).toBe('/api/v1/events?format=text&limit=1000&severity=alarm&axis=x+y&kind=fault');
+  it('are gathered once each, newest first, and saved as they are shown, by the text too', () => {
+    const had = [event(1, { text: 'stalled' }), event(2, { text: 'other' }), event(3, { text: 'stalled, again', code: 8, who: 'anna', severity: 'alarm', kind: 'fault' })];
+    const f = { ...all, text: 'stall' };
+    expect(asked({ least: 'alarm', axis: 'x y', kind: 'fault', text: 'stall' })).toEqual({ severity: 'alarm', axis: 'x y', kind: 'fault' });
+    const shown = gathered(had, [had[2]!, event(4, { text: 'STALL' })], f, 1000);
+    expect(shown.map((e) => e.id)).toEqual([4, 3, 1]);
+    expect(gathered(had, [], all, 2).map((e) => e.id)).toEqual([3, 2]);
+    const csv = eventFile(shown, 'csv').trim().split('\n');
+    expect(csv[0]).toBe('id,at,severity,kind,axis,drive,line,code,text,who,door,parameter,old,new');
+    expect(csv.slice(1).map((l) => l.split(',')[0])).toEqual(['1', '3', '4']);
+    expect(csv[2]).toContain('8,"stalled, again",anna');
+    const lines = eventFile(shown, 'text').trim().split('\n');
+    expect(lines).toHaveLength(3);
+    expect(lines[1]).toMatch(/ alarm   fault        feeder           stalled, again \(code 8\) by anna$/);
   });
 });
 

@@ -1,7 +1,8 @@
 // Mappings in words and numbers: places, conflicts, gaps, checks, live values, raw words. All pure.
 import { describe, expect, it } from 'vitest';
-import { cellsOf, checkTexts, conflictsOf, decodeWords, differenceText, gridOf, neighbourText, nextFree, oneBased, pointValue, registerValue, spansOf, textsOf, widthOf, type Known, type Mapping, type Texts } from '../src/words/mapping';
-import { csvOfSpecs, readTable } from '../src/words/mapping-table';
+import { cellsOf, checkTexts, conflictsOf, decodeWords, differenceText, gridOf, neighbourText, nextFree, oneBased, pointValue, registerValue, signWarning, spansOf, textsOf, widthOf, type Known, type Mapping, type Texts } from '../src/words/mapping';
+import { bitName, notMapped } from '../src/words/register-map';
+import { catalogueMissing, csvOfSpecs, readTable } from '../src/words/mapping-table';
 import { csvOf, mostRows, rowsOf } from '../src/words/table-text';
 import { axis } from './fixtures';
 
@@ -143,4 +144,31 @@ describe('values', () => {
     [[0x4142, 0x4300], 'string', 'high_first', 'ABC'],
     [[1], 'i32', 'high_first', null],
   ] as const)('%o as %s, %s is %s', (words, type, order, value) => expect(decodeWords(words, type, order)).toBe(value));
+});
+
+describe('before it is mapped, and where nothing is', () => {
+  it('warns of a point that can be negative in a type that cannot', () => {
+    expect(signWarning({ point: 'position', type: 'u32', offset: 0 })).toBe('position can be negative, and u32 holds no negative value: reading it then is an exception. i32 holds it.');
+    for (const fine of [{ point: 'position', type: 'i32', offset: 0 }, { point: 'statusword', type: 'u16', offset: 0 }, { point: 'position_units', type: 'u16', offset: 500 }, { point: 'position', type: 'f32', offset: 0 }]) expect(signWarning(fine)).toBe('');
+  });
+  it('names the places of a span that are not mapped', () => {
+    const span = { unit: 2, table: 'holding_registers' as const, address: 0, count: 10 };
+    expect(notMapped(span, [m('a', 0), m('b', 4, 'u16')], [])).toBe('2–3, 5–9');
+    expect(notMapped({ ...span, count: 2 }, [m('a', 0)], [])).toBe('');
+    expect(notMapped({ ...span, unit: 1, address: 60, count: 8 }, [], [{ number: 1 }])).toBe('64–67');
+  });
+  it('says what the bits of the standard map are', () => {
+    const axes = [{ name: 'feeder', number: 1 }, { name: 'lift', number: 2 }];
+    expect(bitName(4, axes)).toBe('feeder: flag moving');
+    expect(bitName(64 + 19, axes)).toBe('lift: status word, bit 3, Fault');
+    expect(bitName(40, axes)).toBe('feeder: not used');
+    expect(bitName(128, axes)).toBe('');
+  });
+});
+
+it('rows of a table wait for the catalogue before they are called good', () => {
+  const spec = { unit: 2, table: 'holding_registers' as const, address: 0, axis: 'slide.x', point: 'AC', type: 'i32' as const };
+  expect(catalogueMissing([spec], { ...known, points: [] })).toBe('Waiting for the list of points …');
+  expect(catalogueMissing([spec], known)).toBe('Waiting for the parameters of slide.x …');
+  expect(catalogueMissing([{ ...spec, axis: 'feeder' }, { ...spec, point: 'position' }], known)).toBe('');
 });

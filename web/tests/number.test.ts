@@ -1,6 +1,6 @@
 // Numbers: what is typed and what is shown. Table-driven.
 import { describe, expect, it } from 'vitest';
-import { decimalsOf, formatExact, formatNumber, parseNumber } from '../src/words/number';
+import { decimalsOf, formatExact, formatNumber, parseNumber, tickLabels } from '../src/words/number';
 import { clockTime, duration } from '../src/words/time';
 
 describe('parseNumber', () => {
@@ -35,5 +35,16 @@ describe('times', () => {
     expect(clockTime(new Date(2026, 0, 2, 14, 3, 7).toISOString(), now)).toBe('14:03:07');
     expect(clockTime(new Date(2026, 0, 1, 14, 3, 7).toISOString(), now)).toBe('2026-01-01 14:03:07');
     expect(clockTime('nonsense', now)).toBe('nonsense');
+  });
+});
+
+describe('labels of a scale', () => {
+  it.each([[[0, 10, 20]], [[0, 0.25, 0.5]], [[0.00001, 0.00002, 0.00003]], [[5e-7, 10e-7, 15e-7]], [[1234.5678, 1234.5679, 1234.568]]])('%j are all different', (at) => {
+    expect(new Set(tickLabels(at)).size).toBe(at.length);
+  });
+  it('are no longer than they need to be', () => {
+    expect(tickLabels([0, 10, 20])).toEqual(['0', '10', '20']);
+    expect(tickLabels([0, 0.25, 0.5])).toEqual(['0.00', '0.25', '0.50']);
+    expect(tickLabels([0, 0.00002])).toEqual(['0.00000', '0.00002']);
   });
 });

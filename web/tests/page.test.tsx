@@ -32,7 +32,7 @@ beforeEach(async () => {
   route.value = { page: 'overview' };
   root = document.createElement('div');
   document.body.append(root);
-  client = { command: vi.fn(() => new Promise(() => undefined)), dropWaitingCommands: vi.fn(), parameters: vi.fn(async () => []), whole: vi.fn(async () => { throw new Problem('answered', 'the store is shut', 503); }), call: vi.fn(async () => { throw new Problem('answered', 'there is nothing', 404); }), hand: vi.fn(async () => []) };
+  client = { command: vi.fn(() => new Promise(() => undefined)), dropWaitingCommands: vi.fn(), parameters: vi.fn(async () => []), whole: vi.fn(async () => { throw new Problem('answered', 'the store is shut', 503); }), call: vi.fn(async () => { throw new Problem('answered', 'there is nothing', 404); }), hand: vi.fn(async () => []), events: vi.fn(async () => []), modbus: vi.fn(async () => { throw new Problem('answered', 'there is nothing', 404); }) };
   gateway = new Gateway({ client: client as unknown as Client, store: new Store(), url: 'ws://nowhere/' });
   gateway.store.setConnection(live());
   gateway.store.setLists({ axes: [axis({ name: 'feeder', number: 1 })], drives: [world().driveOf('feeder').document() as Drive], lines: [] }, 1);
@@ -155,7 +155,7 @@ describe('controls', () => {
 
 describe('a role', () => {
   const as = async (role: 'viewer' | 'operator' | 'engineer', user: string | null = 'vera') => {
-    gateway.session.info.value = { user, role, via: user ? 'cookie' : 'local', csrf: null, expires_at: null, first_sign_in: false, roles: ['viewer', 'operator', 'engineer', 'administrator'] };
+    gateway.session.info.value = { user, role, via: user ? 'cookie' : 'local', csrf: null, expires_at: null, ended: null, first_sign_in: false, roles: ['viewer', 'operator', 'engineer', 'administrator'] };
     await tick();
   };
   it('that may not command sends nothing by Enter either, and is told why; its stops pass', async () => {
@@ -190,12 +190,63 @@ describe('a role', () => {
     expect(button('Keep the applied site').title).toBe('Only anna, who applied it, can keep it.');
     await as('engineer', 'anna');
     expect(buttons()).toEqual([false, false]);
+    draft.stage.value = { ...draft.stage.value, client: 'anna 10.0.0.7 page-000000' };
+    await tick();
+    expect(buttons()).toEqual([true, false]);
+    expect(button('Keep the applied site').title).toBe('Only the page of anna that applied it, or an administrator, can keep it.');
+    draft.stage.value = { ...draft.stage.value, client: `anna ${gateway.tab.name.value}` };
+    await tick();
+    expect(buttons()).toEqual([false, false]);
     route.value = { page: 'gateway' };
     await tick();
     expect(text('[data-field=trial-rest]')).toContain('Site on trial');
     draft.stage.value = { state: 'none' };
     await tick();
     expect(root.querySelector('[data-field=trial]')).toBeNull();
+  });
+});
+
+describe('a gateway that has never had a site', () => {
+  it('is told from one that has not answered yet: its revision is 0', async () => {
+    for (const list of ['axes', 'drives', 'lines', 'events']) client[list] = vi.fn(async () => []);
+    client.about = vi.fn(async () => ({ families: [] }));
+    vi.spyOn(gateway.stream, 'start').mockImplementation(() => undefined);
+    gateway.start();
+    await tick();
+    expect(client.axes).not.toHaveBeenCalled();
+    gateway.store.take({ topic: 'site', at: 1, data: { revision: 0 } });
+    await vi.waitFor(() => expect(text('[data-field=no-axis]')).toContain('No axis is configured.'));
+    expect(root.querySelector('[data-field=no-axis] a')?.getAttribute('href')).toBe('/site');
+    gateway.session.info.value = { user: 'vera', role: 'viewer', via: 'cookie', csrf: null, expires_at: null, ended: null, first_sign_in: false, roles: [] };
+    await tick();
+    expect(text('[data-field=no-axis]')).toContain('needs the role engineer');
+  });
+});
+
+describe('what is small', () => {
+  it('a target is typed in decimal: 0x10 is refused in words, and nothing is sent', async () => {
+    type(field('Target of feeder'), '0x10');
+    button('Move to target of feeder').click();
+    await tick();
+    expect(text('.tile [id^=result]')).toContain('is a hexadecimal number');
+    expect(client.command).not.toHaveBeenCalled();
+    type(field('Target of feeder'), '');
+  });
+  it('the line under the name of an axis begins with its number, and is whole in its title', () => {
+    expect(text('[data-axis=feeder] .tile-head .where')).toContain('no. 1 · ');
+    expect(root.querySelector('[data-axis=feeder] .tile-head .where span[title^=Axis]')?.getAttribute('title')).toMatch(/^Axis number 1, family .*, line .*, drive /);
+  });
+  it('what may be entered for the twin is text that can be unfolded, not only a tooltip', async () => {
+    client.hand = vi.fn(async () => [{ name: 'inject_error', value: 0, writable: true, description: '0 or one of 2, 8, 11', options: [] }]);
+    route.value = { page: 'axis', name: 'feeder' };
+    await vi.waitFor(() => expect(text('[data-hand=inject_error] details summary')).toBe('What may be entered: Inject error'));
+    expect(text('[data-hand=inject_error] details')).toContain('0 or one of 2, 8, 11');
+  });
+  it('demand and following error of a drive that does not say are barred, with the reason in sight', async () => {
+    route.value = { page: 'axis', name: 'feeder' };
+    tell({ position: 1, demand_known: false }, 5000);
+    await vi.waitFor(() => expect(text('[data-field=demand-unknown]')).toContain('this drive does not say where it wants to be'));
+    expect([button('Demand'), button('Following error'), button('Position')].map((b) => [b.disabled, b.title])).toEqual([[true, 'this drive does not say where it wants to be'], [true, 'this drive does not say where it wants to be'], [false, '']]);
   });
 });
 

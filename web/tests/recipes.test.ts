@@ -1,7 +1,7 @@
 // Recipes as a tree that is edited: every change is a copy, what is typed becomes the value that it reads as, every step kind has its form.
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
-import { added, changed, defaultOf, documentOf, editable, freshStep, kindOf, moved, parameterFault, pointerOf, removed, renamedParameter, runWord, stepKinds, takesTolerance, titleOf, typedOf, valueOf, withoutParameter, withParameter, type RecipeDocument } from '../src/words/recipe';
+import { fieldsOfStep, unitOfField, withCommand, added, changed, defaultOf, documentOf, editable, freshStep, kindOf, moved, parameterFault, pointerOf, removed, renamedParameter, runWord, stepKinds, takesTolerance, titleOf, typedOf, valueOf, withoutParameter, withParameter, type RecipeDocument } from '../src/words/recipe';
 
 const recipe = (): RecipeDocument => ({
   steps: [{ enable: { axis: 'a' } }, { if: { condition: { axis: 'a', point: 'fault', is: true }, then: [{ wait_s: 1 }, { wait_s: 2 }], else: [] } }, { message: 'x' }],
@@ -76,4 +76,19 @@ describe('parameters', () => {
   it('are at most 64', () => expect(parameterFault({ steps: [], parameters: Object.fromEntries(Array.from({ length: 64 }, (_, i) => [`p${i}`, { type: 'number' }])) }, 'one')).toMatch(/at most 64/));
   it.each([['number', '2.5', 2.5], ['boolean', 'true', true], ['text', '12', '12'], ['axis', 'feeder', 'feeder'], ['number', ' ', undefined], ['text', '', undefined]])('of type %s have the default %j', (type, typed, value) => expect(defaultOf(type, typed)).toEqual(value));
   it.each([['is', 6, true], ['is_not', 6, true], ['is', '${distance}', true], ['is', 'operation_enabled', false], ['is', true, false], ['at_least', 6, false]])('a comparison %s %j takes a tolerance: %j', (op, value, takes) => expect(takesTolerance(op, value)).toBe(takes));
+});
+
+describe('a command step', () => {
+  const kind = stepKinds.find((k) => k.word === 'command')!;
+  const keys = (body: object) => fieldsOfStep(kind, body).map((f) => f.key);
+  it('has motion fields only where the command takes them', () => {
+    expect(keys({ command: 'move_absolute' })).toEqual(['axis', 'command', 'position', 'velocity', 'acceleration', 'deceleration', 'wait_s']);
+    for (const command of ['reset_fault', 'enable', 'disable', 'halt', 'quick_stop']) expect(keys({ command })).toEqual(['axis', 'command', 'wait_s']);
+    expect(keys({ command: 'halt', velocity: 3 })).toContain('velocity'); // what stands in the document is seen
+  });
+  it('loses what another command does not take', () => expect(withCommand({ axis: 'a', command: 'move_absolute', position: 1, velocity: 2, wait_s: 3 }, 'reset_fault')).toEqual({ axis: 'a', command: 'reset_fault', wait_s: 3 }));
+  it('tells what its fields are counted in', () => {
+    expect(['position', 'velocity', 'acceleration', 'wait_s'].map((k) => unitOfField(k, 'mm'))).toEqual(['mm', 'mm/s', 'mm/s²', '']);
+    expect(unitOfField('position', null)).toBe('units');
+  });
 });

@@ -1,7 +1,9 @@
 // The scope's rules: peaks survive thinning, triggers fire once and hold, cursors read between samples, CSV is what was seen.
 import { describe, expect, it } from 'vitest';
-import { crossing, csvOf, followingError, Trigger, valueAt, type TriggerSetting } from '../src/state/scope';
+import { crossing, csvOf, followingError, needsDemand, Trigger, valueAt, type TriggerSetting } from '../src/state/scope';
+import { Store } from '../src/state/store';
 import { Trail } from '../src/state/trail';
+import { axis } from './fixtures';
 
 const sample = (at_ms: number, position: number | null, demand: number | null = position) => ({ at_ms, position, velocity: position === null ? null : 1, target: null, demand });
 const rising: TriggerSetting = { mode: 'single', channel: 'position', edge: 'rising', level: 5 };
@@ -79,6 +81,25 @@ describe('readings', () => {
     expect(valueAt(c, 'position', 0.5)).toBeNull();
     expect(valueAt(c, 'position', 2.5)).toBe(10);
     expect(valueAt(c, 'position', 3.5)).toBeNull();
+  });
+  it('of a target are as it was set, never a ramp between two', () => {
+    const steps = new Trail();
+    for (const [at, target] of [[1000, 0], [2000, 10]] as const) steps.add({ ...sample(at, at / 1000), target });
+    const s = steps.since(0);
+    expect(valueAt(s, 'target', 1.99)).toBe(0);
+    expect(valueAt(s, 'target', 2)).toBe(10);
+    expect(crossing(s, { ...rising, channel: 'target' }, 0)).toBe(2);
+  });
+  it('of a drive that does not say where it wants to be have neither demand nor following error', () => {
+    const store = new Store();
+    const tell = (at: number, more: object) => store.take({ topic: 'axes/feeder', at: at * 1e6, data: { ...axis({ name: 'feeder', position: 3 }), position_demand: 0, ...more } });
+    tell(1000, { demand_known: false });
+    const silent = store.trail('feeder').since(0);
+    expect([silent.demand, followingError(silent)]).toEqual([[null], [null]]);
+    expect(csvOf(silent, 'feeder', 'mm').split('\r\n')[1]).toMatch(/^[^,]*,0,3,,[^,]*,,/);
+    tell(2000, {});
+    expect(store.trail('feeder').since(0).demand.at(-1)).toBe(0);
+    expect(['position', 'demand', 'velocity', 'error', 'target'].filter((c) => needsDemand(c as never))).toEqual(['demand', 'error']);
   });
   it('as CSV have a head with units, a point as decimal sign, and nothing where nothing was known', () => {
     const lines = csvOf(c, 'a,b', 'mm').split('\r\n');

@@ -4,9 +4,9 @@ import { Client } from '../src/api/client';
 import type { SessionInfo } from '../src/api/types';
 import { passwordFault, Session, signInWords, userFault, whoWords } from '../src/state/session';
 import { asProblem, Problem } from '../src/api/problem';
-import { heldBy, heldWords } from '../src/words/authority';
+import { handOverChoices, heldBy, heldWords } from '../src/words/authority';
 
-const info = (change: Partial<SessionInfo> = {}): SessionInfo => ({ user: 'anna', role: 'engineer', via: 'cookie', csrf: 'c1', expires_at: null, first_sign_in: false, roles: ['viewer', 'operator', 'engineer', 'administrator'], ...change });
+const info = (change: Partial<SessionInfo> = {}): SessionInfo => ({ user: 'anna', role: 'engineer', via: 'cookie', csrf: 'c1', expires_at: null, ended: null, first_sign_in: false, roles: ['viewer', 'operator', 'engineer', 'administrator'], ...change });
 const nobody = info({ user: null, role: null, via: 'none', csrf: null });
 const answer = (body: unknown, status = 200, head: Record<string, string> = {}) => new Response(status === 204 ? null : JSON.stringify(body), { status, headers: { 'content-type': 'application/json', ...head } });
 
@@ -43,6 +43,49 @@ describe('requests', () => {
   });
 });
 
+describe('a session that has ended', () => {
+  const local = info({ user: null, via: 'local', csrf: null });
+  const signedIn = async (then: () => Response, path = '/axes') => {
+    let over = false;
+    let told = false;
+    const made_ = made((url, init) => {
+      if (init.method === 'POST') {
+        over = false;
+        return answer(info());
+      }
+      if (!over) return answer(url.endsWith('/session') ? info() : {});
+      if (url.endsWith(path) && !told) {
+        told = true;
+        return then();
+      }
+      return answer(url.endsWith('/session') ? local : {});
+    });
+    await made_.session.ask();
+    over = true;
+    return made_;
+  };
+  const refused = () => answer({ type: 'urn:axisgate:problem:session_ended', status: 401, detail: 'the session has ended', reason: 'session_ended' }, 401);
+
+  it('is told in words, keeps the page behind the sign-in, and offers to go on where local access exists', async () => {
+    const { client, session } = await signedIn(refused);
+    await client.axes().catch(() => undefined);
+    await vi.waitFor(() => expect(session.mayGoOn.value).toBe(true));
+    expect(session.needed.value).toBe(true);
+    expect(session.ended.value).toBe('Your session has ended: it was ended elsewhere, it expired, or the gateway was restarted. Sign in again; what you typed is kept.');
+    expect(await session.signIn('anna', 'x')).toBeNull();
+    expect(session.needed.value).toBe(false);
+  });
+  it('is told by the answer about the session too, and by a cookie that is gone', async () => {
+    const a = await signedIn(() => answer({ ...info({ user: null, role: null, via: 'none', csrf: null }), ended: 'the gateway was restarted' }), '/session');
+    await a.session.ask();
+    await vi.waitFor(() => expect(a.session.mayGoOn.value).toBe(true));
+    expect(a.session.ended.value).toContain('the gateway was restarted');
+    const b = await signedIn(() => answer(local), '/session');
+    await b.session.ask();
+    expect(b.session.ended.value).toContain('it was ended elsewhere, it expired, or the gateway was restarted.');
+  });
+});
+
 describe('session', () => {
   it('signs in and out, and says that one is another', async () => {
     let now = nobody;
@@ -57,6 +100,7 @@ describe('session', () => {
     expect(session.needed.value).toBe(false);
     expect(client.csrf).toBe('c1');
     expect(await session.signOut()).toBeNull();
+    expect(session.ended.value).toBe('');
     expect(session.needed.value).toBe(true);
     expect(client.csrf).toBeNull();
     expect(changed).toHaveBeenCalledTimes(2);
@@ -118,4 +162,9 @@ describe('authority', () => {
     expect(heldWords(held)).toBe(words);
     expect(held.mine).toBe(mine);
   });
+});
+
+it('a lease can be given to who holds another axis or is connected by Modbus, not to the page itself', () => {
+  const held = [{ door: 'http', holder: 'anna page-abc123' }, { door: 'http', holder: 'bert page-000000' }, { door: 'none', holder: '' }];
+  expect(handOverChoices(held, ['192.0.2.7:50012', '192.0.2.7:50013', '[2001:db8::1]:502'], 'page-abc123')).toEqual(['http bert page-000000', 'modbus 192.0.2.7', 'modbus 2001:db8::1']);
 });

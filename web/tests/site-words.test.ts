@@ -39,6 +39,7 @@ describe('an entry', () => {
     ['axes', { name: 'a', drive: 'feeder', number: '0', channel: '2' }, 'number', 'From 1 to 1024'],
     ['axes', { name: 'a', drive: 'feeder', number: '1.5', channel: '2' }, 'number', 'whole'],
     ['axes', { name: 'a', drive: 'feeder', number: '9', channel: '2', increments_per_unit: '0' }, 'increments_per_unit', 'Above 0'],
+    ['axes', { name: 'a', drive: 'feeder', number: '9', channel: '2', unit: 'mm', increments_per_unit: '' }, 'increments_per_unit', 'How many increments make one mm?'],
     ['axes', { name: 'a', drive: 'feeder', number: '9', channel: '2', position_min: '5', position_max: '5' }, 'position_max', 'above the lowest'],
     ['axes', { name: 'a', drive: 'feeder', number: '9', channel: '2', velocity_max: '1,5' }, 'velocity_max', 'point'],
   ] as [Room, Texts, string, string][])('%s %o is refused at its field', (room, change, key, why) => {

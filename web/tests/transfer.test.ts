@@ -1,7 +1,7 @@
 // Parameters as CSV and JSON, out and in, and two sets of values side by side. All pure.
 import { describe, expect, it } from 'vitest';
 import type { AxisParameter } from '../src/api/types';
-import { compareWith, csvOfParameters, isMarked, jsonOfParameters, readTransfer } from '../src/words/transfer';
+import { compareWith, csvOfParameters, isMarked, jsonOfParameters, readTransfer, leftOut } from '../src/words/transfer';
 import { world } from './fixtures';
 
 const w = world();
@@ -51,4 +51,8 @@ describe('marks', () => {
     ['all', p, true], ['changed', p, true], ['changed', { ...p, value: 20000 }, false], ['changed', { ...p, value: null }, false], ['unsaved', p, false],
     ['unsaved', { ...p, stored: 6 }, true], ['written', p, false], ['writable', p, true], ['writable', { ...p, access: 'R' as const }, false],
   ] as const)('%s', (mark, parameter, yes) => expect(isMarked(parameter, mark)).toBe(yes));
+});
+
+it('what is left out is counted by its reason', () => {
+  expect(leftOut([{ parameter: 'a', why: 'read only' }, { parameter: 'b', why: 'address' }, { parameter: 'c', why: 'read only' }])).toEqual([{ why: 'read only', parameters: ['a', 'c'] }, { why: 'address', parameters: ['b'] }]);
 });

@@ -3,16 +3,11 @@
 
 #include <fmt/format.h>
 
-#include "gateway/core/cia402.hpp"
 
 namespace axisgate::http {
 
 std::string why_not_written(const AxisPicture& p) {
-    if ((p.flags & flag_moving) != 0) return "the axis moves: stop it and disable it";
-    const auto state = power_state_of(p.statusword);
-    const bool powered = state == PowerState::operation_enabled || state == PowerState::quick_stop_active;
-    if (powered && (p.flags & flag_online) != 0) return "the axis is enabled: disable it";
-    return {};
+    return (p.flags & flag_moving) != 0 ? "the axis moves: stop it" : "";
 }
 
 struct AxisJob : std::enable_shared_from_this<AxisJob> {

@@ -31,7 +31,7 @@ struct JobEnd {
     bool silent = false;                ///< broken off because the drive or its line did not answer
 };
 
-/// Why many parameters are not written to an axis now ("the axis is enabled: disable it"); empty: they may be.
+/// Why many parameters are not written to an axis now ("the axis moves: stop it"); empty: they may be.
 [[nodiscard]] std::string why_not_written(const AxisPicture& picture);
 
 /// The newest job of each axis.

@@ -49,12 +49,12 @@ export class Process {
 }
 
 export class Program {
-  /** `site`: a document in place of site.json. */
+  /** `site`: a document in place of site.json; null: none at all, a data directory that is really new. */
   /** `set`: more settings, such as users.local_role=none. */
   static async start({ site: document, set = [] } = {}) {
     const p = new Program();
     p.data = mkdtempSync(join(tmpdir(), 'axisgate-browser-'));
-    p.site = site;
+    p.site = document === null ? null : site;
     p.set = set;
     if (document) writeFileSync((p.site = join(p.data, 'site.json')), JSON.stringify(document));
     p.port = await freePort(); // chosen here, so that a restart has the same address

@@ -166,16 +166,18 @@ TEST_F(Keep, WhatActsAtOnceIsLeftOutUnlessAskedFor) {
     EXPECT_EQ(table("?include_live=maybe").status, 400u);
 }
 
-TEST_F(Keep, AnEnabledAxisTakesNoRestoreAndNoTableUnlessNothingWouldBeWritten) {
+TEST_F(Keep, AMovingAxisTakesNoRestoreAndNoTableUnlessNothingWouldBeWritten) {
     AxisSnapshot s;
     s.n = 1;
     s.parameters = {{"AC", std::int64_t{30000}}, {"ML", std::string("x")}};
     gateway.kept_snapshots["feeder"].push_back(s);
-    gateway.set_picture("feeder", standing(0));
+    AxisPicture moving = standing(0);
+    moving.flags |= flag_moving;
+    gateway.set_picture("feeder", moving);
     drive_answers();
     const auto refused = call("POST", "/api/v1/axes/feeder/snapshots/1/restore", "{}");
     EXPECT_EQ(refused.status, 409u) << refused.text;
-    EXPECT_NE(refused.at("detail").find("the axis is enabled: disable it"), std::string::npos) << refused.text;
+    EXPECT_NE(refused.at("detail").find("the axis moves: stop it"), std::string::npos) << refused.text;
     EXPECT_EQ(call("PUT", "/api/v1/axes/feeder/parameters.csv", "parameter,value\nAC,30000\n", {{"Content-Type", "text/csv"}}).status, 409u);
     EXPECT_TRUE(gateway.submitted.empty());
     EXPECT_EQ(do_call("POST", "/api/v1/axes/feeder/snapshots/1/restore", R"({"parameters":["ML"]})").status, 200u) << "nothing would be written";

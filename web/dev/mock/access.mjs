@@ -72,7 +72,7 @@ export class Access {
   }
 
   /** @param {Identity} who @returns {SessionInfo} */
-  info = (who) => ({ user: who.user, role: who.role, via: who.via, csrf: who.csrf, expires_at: null, first_sign_in: this.users.size === 0, roles });
+  info = (who) => ({ user: who.user, role: who.role, via: who.via, csrf: who.csrf, expires_at: null, ended: null, first_sign_in: this.users.size === 0, roles });
 
   /** @param {Ask} ask @param {Identity} who @returns {Answer} */
   session({ method, parts, text }, who) {

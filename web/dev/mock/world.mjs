@@ -68,7 +68,7 @@ export const catalogue = [
 ].map((row) => {
   const [id, name, group, type, unit, min, max, fallback, access, description, allowed, first, count] = /** @type {any[]} */ (row);
   return {
-    id, name, group, type, unit, min, max, default: fallback, access, storage: access === 'R' ? null : 'flash', addressing: id === 'PP', description,
+    id, name, group, type, unit, min, max, default: fallback, access, storage: access === 'R' ? null : 'flash', addressing: id === 'PP', live: false, description,
     allowed: allowed ? allowed.map((/** @type {[number, string]} */ [value, meaning]) => ({ value, meaning })) : null,
     first: first ?? null, count: count ?? null,
   };
@@ -177,7 +177,7 @@ class MockAxis {
       warning: false,
       internal_limit: false,
       position: online || this.setpoints > 0 ? unit(this.position) : null,
-      position_demand: unit(this.position),
+      demand_known: true, position_demand: unit(this.position),
       velocity: online ? unit(this.velocity) : null,
       target_position: this.setpoints > 0 ? unit(this.target) : null,
       target_velocity: 0,

@@ -4,7 +4,7 @@
 // Never retries a command: a move that was perhaps taken must not be said twice.
 import { asProblem, Problem, problemOf } from './problem';
 import type {
-  About, Alarm, AlarmList, Axis, AxisParameter, Command, CommandAnswer, Drive, GatewayEvent, HandItem, Line, NativeReply,
+  About, Alarm, AlarmList, Axis, AxisParameter, Command, CommandAnswer, Drive, GatewayEvent, HandItem, Line, ModbusDoor, NativeReply,
   RecipeCheck, RecipeEntry, RecipeReport, RecipeReportHead, ScanReport, Value,
 } from './types';
 
@@ -41,7 +41,7 @@ export class Client {
   /** Goes with every change, also with stops, while the session has one. */
   csrf: string | null = null;
   /** The gateway knows nobody here any more. */
-  onUnauthorized: (() => void) | undefined;
+  onUnauthorized: ((problem: Problem) => void) | undefined;
   private running = 0;
   private waiting: Waiting[] = [];
 
@@ -56,9 +56,14 @@ export class Client {
   }
 
   about = () => this.call<About>('/about');
+  /** What the catalogues say of whole families; maker and title are not promised. */
+  families = () => this.call<{ name: string; title?: unknown; maker?: unknown }[]>('/families');
   axes = () => this.call<Axis[]>('/axes');
   drives = () => this.call<Drive[]>('/drives');
   lines = () => this.call<Line[]>('/lines');
+
+  modbus = () => this.call<ModbusDoor>('/modbus');
+  setModbus = (read_only: boolean) => this.call<ModbusDoor>('/modbus', { method: 'PATCH', body: { read_only } });
 
   alarms = () => this.call<AlarmList>('/alarms');
   acknowledgeAlarm = (id: number, comment: string) => this.call<Alarm>(`/alarms/${id}/acknowledge`, { method: 'POST', body: comment ? { comment } : {} });
@@ -106,10 +111,8 @@ export class Client {
     this.call<Record<string, Value>>(`/drives/${part(drive)}/hand`, { method: 'PATCH', body: change });
 
   recipes = () => this.call<RecipeEntry[]>('/recipes');
-  recipe = (name: string) => this.call<Record<string, unknown>>(`/recipes/${part(name)}`);
-  /** `dryRun`: it is checked and not kept. */
-  putRecipe = (name: string, document: object, dryRun: boolean) => this.call<unknown>(`/recipes/${part(name)}${dryRun ? '?dry_run=1' : ''}`, { method: 'PUT', body: document });
-  removeRecipe = (name: string) => this.call<undefined>(`/recipes/${part(name)}`, { method: 'DELETE' });
+  /** Finds what is wrong; keeps nothing. */
+  checkRecipe = (name: string, document: object) => this.call<unknown>(`/recipes/${part(name)}?dry_run=1`, { method: 'PUT', body: document });
   runRecipe = (name: string, given: object) => this.call<RecipeReport>(`/recipes/${part(name)}/run`, { method: 'POST', body: { arguments: given } });
   checkRun = (name: string, given: object) => this.call<RecipeCheck>(`/recipes/${part(name)}/run`, { method: 'POST', body: { arguments: given, dry_run: true } });
   recipeRuns = (name: string) => this.call<RecipeReportHead[]>(`/recipes/${part(name)}/runs`);
@@ -204,8 +207,11 @@ export class Client {
         init.priority = 'high';
       }
       const response = await this.fetcher(this.base + path, init);
-      if (response.status === 401 && !path.startsWith('/session')) this.onUnauthorized?.();
-      if (!response.ok) throw await problemOf(response);
+      if (!response.ok) {
+        const problem = await problemOf(response);
+        if (response.status === 401 && (!path.startsWith('/session') || problem.is('session_ended'))) this.onUnauthorized?.(problem);
+        throw problem;
+      }
       return await read(response);
     } catch (error) {
       if (error instanceof Problem) throw error;

@@ -27,6 +27,11 @@ export class Problem extends Error {
     return this.document.reason ?? this.kind;
   }
 
+  /** Whether it is of this type, such as `stage_taken`. */
+  is(type: string): boolean {
+    return this.document.reason === type || (this.document.type ?? '').endsWith(`:${type}`) || (this.document.type ?? '').endsWith(`/${type}`);
+  }
+
   /** The gateway's sentence, every fault of a document that is wrong, and the drive's own code. */
   get words(): string {
     const faults = (this.document.faults ?? []).map((f) => f.text).filter((t) => t && !this.message.includes(t));

@@ -932,7 +932,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** Writes what differs to the drive, one parameter at a time; refused while the axis moves or is enabled, unless nothing would be written */
+        /** Writes what differs to the drive, one parameter at a time; refused while the axis moves, unless nothing would be written */
         post: operations["restoreSnapshot"];
         delete?: never;
         options?: never;
@@ -977,7 +977,7 @@ export interface paths {
         };
         /** Parameters as a table for a spreadsheet */
         get: operations["exportParameters"];
-        /** Writes the values of a table; nothing is written if one line is wrong, and nothing while the axis is enabled */
+        /** Writes the values of a table; nothing is written if one line is wrong, and nothing while the axis moves */
         put: operations["importParameters"];
         post?: never;
         delete?: never;

@@ -14,6 +14,7 @@ export interface StageDiff {
 }
 export interface Stage {
   state: 'none' | 'staged' | 'applying' | 'applied' | 'rolling_back';
+  /** Text: apply takes it, so that only what was shown is applied. A number: an older gateway, which cannot be asked for that. */
   id?: string | number | null;
   faults?: SiteFault[];
   diff?: StageDiff[];
@@ -23,6 +24,8 @@ export interface Stage {
   confirm_by?: number | null;
   /** Who staged or applied it: the name and where from. */
   by?: string | null;
+  /** The client that did, with its X-Client; it alone, or an administrator, can keep what was applied. */
+  client?: string | null;
 }
 export interface HistoryEntry {
   revision: number;
@@ -52,9 +55,12 @@ export class SiteDoor {
     this.client.call<SiteChange>(`/site${how.dryRun ? '?dry_run=1' : ''}`, { method: 'PUT', body: site, headers: how.tag ? { 'if-match': how.tag } : {} });
 
   stage = () => this.client.call<Stage>('/site/stage');
-  putStage = (site: Site, tag: string) => this.client.call<Stage>('/site/stage', { method: 'POST', body: site, headers: tag ? { 'if-match': tag } : {} });
+  /** `replace`: also in place of what another client has staged. */
+  putStage = (site: Site, tag: string, replace = false) => this.client.call<Stage>(`/site/stage${replace ? '?replace=true' : ''}`, { method: 'POST', body: site, headers: tag ? { 'if-match': tag } : {} });
   discard = () => this.client.call<unknown>('/site/stage', { method: 'DELETE' });
-  apply = (confirm_within_s: number) => this.client.call<Partial<Stage>>('/site/stage/apply', { method: 'POST', body: { confirm_within_s }, timeout_ms: 60_000 });
+  /** `stage`: the id of the stage that was shown; another one is not applied. Empty: whatever is staged, at an older gateway. */
+  apply = (confirm_within_s: number, stage = '') =>
+    this.client.call<Partial<Stage>>('/site/stage/apply', { method: 'POST', body: stage ? { confirm_within_s, stage } : { confirm_within_s }, timeout_ms: 60_000 });
   confirm = () => this.client.call<unknown>('/site/stage/confirm', { method: 'POST', body: {} });
   rollBack = () => this.client.call<unknown>('/site/stage/roll-back', { method: 'POST', body: {}, timeout_ms: 60_000 });
 

@@ -1,6 +1,6 @@
-// Authority: who holds an axis and for how long still; taking it, giving it back, taking it over. In: the axis. Out: words and three buttons.
+// Authority: who holds an axis and for how long still; taking it, giving it back or to another client, taking it over. In: the axis. Out: words, buttons.
 // While this page holds the axis and is open and connected, it renews; hidden or closed it does not, so the axis is free a little later.
-import { useEffect } from 'preact/hooks';
+import { useEffect, useRef } from 'preact/hooks';
 import { useSignal } from '@preact/signals';
 import { asProblem } from '../api/problem';
 import type { Authority } from '../api/types';
@@ -8,8 +8,8 @@ import { useGateway } from '../gateway';
 import { tick } from '../state/clock';
 import { barred } from '../state/session';
 import type { AxisEntry } from '../state/store';
-import { heldBy, heldWords } from '../words/authority';
-import { quiet, Tell, type Told } from './form';
+import { handOverChoices, heldBy, heldWords, holderName } from '../words/authority';
+import { quiet, Tell, TextField, type Told } from './form';
 
 const ttl_s = 30;
 const renew_ms = 10_000;
@@ -46,6 +46,13 @@ export function AuthorityBar({ entry }: { entry: AxisEntry }) {
   };
   const take = (take_over: boolean) => client.call<Authority>(path, { method: 'PUT', body: { ttl_s, take_over } });
   const mine = held.mine;
+  const was = useRef(false);
+  useEffect(() => {
+    // "Taken." is true only as long as nobody else has taken it.
+    if (was.current && !mine && /^Taken/.test(told.peek().text)) told.value = held.holder ? { tone: 'refused', text: `${holderName(held.holder)} has it now.` } : quiet;
+    was.current = mine;
+  }, [mine, held.holder]);
+  const giving = useSignal(false);
   useEffect(() => {
     if (!mine) return;
     const timer = setInterval(() => {
@@ -68,12 +75,58 @@ export function AuthorityBar({ entry }: { entry: AxisEntry }) {
           Release
         </button>
       )}
+      {mine && (
+        <button type="button" class="button small" aria-expanded={giving.value} {...barred(session.mayNot('operator'))} onClick={() => (giving.value = !giving.value)}>
+          Hand over …
+        </button>
+      )}
       {held.holder !== '' && !mine && (
         <button type="button" class="button small" {...barred(session.mayNot('engineer'))} onClick={() => void act('Taken over', () => take(true))}>
           Take over
         </button>
       )}
       <Tell told={told.value} field="authority-told" />
+      {mine && giving.value && (
+        <HandOver
+          name={name}
+          give={async (to) => {
+            await act(`Handed over to ${to}`, () => client.call(`${path}/hand-over`, { method: 'POST', body: { to } }));
+            if (told.peek().tone === 'good') giving.value = false;
+          }}
+        />
+      )}
     </div>
+  );
+}
+
+/** To whom: chosen from the clients that the gateway knows, or typed. */
+function HandOver({ name, give }: { name: string; give: (to: string) => Promise<void> }) {
+  const { client, tab } = useGateway();
+  const to = useSignal('');
+  const offers = useSignal<string[]>([]);
+  useEffect(() => {
+    const held = client.call<{ axes: Authority[] }>('/authority').then((l) => l.axes, () => []);
+    const peers = client.modbus().then((d) => d.connections.map((c) => c.peer), () => []);
+    void Promise.all([held, peers]).then(([h, p]) => (offers.value = handOverChoices(h, p, tab.name.peek())));
+  }, [client]);
+  return (
+    <form
+      class="form-foot hand-over"
+      aria-label={`Hand ${name} over`}
+      onSubmit={(e) => {
+        e.preventDefault();
+        if (to.peek().trim()) void give(to.peek().trim());
+      }}
+    >
+      <TextField label="To" value={to.value} onText={(t) => (to.value = t)} offers={offers.value.map((value) => ({ value }))} placeholder="modbus 192.0.2.7" hint="a door and its client: modbus, http, ethernet_ip or dds, and the address or name" />
+      {offers.value.slice(0, 6).map((o) => (
+        <button key={o} type="button" class="button small quiet" onClick={() => (to.value = o)}>
+          {o}
+        </button>
+      ))}
+      <button type="submit" class="button small" disabled={to.value.trim() === ''}>
+        Hand over
+      </button>
+    </form>
   );
 }

@@ -6,7 +6,7 @@ import type { Axis, Command } from '../api/types';
 import { useGateway } from '../gateway';
 import { kept } from '../state/kept';
 import { unitOf } from '../words/axis';
-import { parseNumber } from '../words/number';
+import { parseQuantity } from '../words/number';
 import { Field } from './field';
 import { Icon } from './icon';
 import { useBarred, Why } from './gate';
@@ -28,7 +28,7 @@ export function useControls(axis: Axis) {
   const unit = unitOf(axis);
 
   const read = (which: Which, words: string, need: 'any' | 'positive'): number | null => {
-    const parsed = parseNumber(fields[which].value);
+    const parsed = parseQuantity(fields[which].value);
     let why = parsed.good ? '' : parsed.why;
     if (parsed.good && need === 'positive' && parsed.value <= 0) why = 'It must be greater than 0; the buttons give the direction.';
     wrong.value = why ? which : '';

@@ -90,8 +90,8 @@ function TileHead({ entry }: { entry: EntrySignal }) {
       </h3>
       <p class="where">
         <Mark mark={markOf(axis)} />
-        <span>
-          {axis.family} · {axis.line} · axis {axis.number}
+        <span title={`Axis number ${axis.number}, family ${axis.family}, line ${axis.line}, drive ${axis.drive}`}>
+          no. {axis.number} · {axis.family} · {axis.line}
         </span>
       </p>
       <StopButton axis={axis.name} urgent={axis.moving} />

@@ -4,6 +4,7 @@ import type { GatewayEvent, Severity } from '../api/types';
 import { axisPath } from '../router';
 import { clockTime } from '../words/time';
 import { Icon, type IconName } from './icon';
+import { memo } from './memo';
 
 const marks: Record<Severity, { icon: IconName; text: string; tone: string }> = {
   info: { icon: 'info', text: 'Info', tone: 'muted' },
@@ -16,7 +17,7 @@ function subject(e: GatewayEvent) {
   return e.drive ?? e.line ?? null;
 }
 
-export function EventItem({ event }: { event: GatewayEvent }) {
+function ItemView({ event }: { event: GatewayEvent }) {
   const m = marks[event.severity];
   const about = subject(event);
   const change = event.parameter ? `${event.parameter}: ${event.old ?? 'not known'} → ${event.new ?? ''}` : '';
@@ -39,6 +40,9 @@ export function EventItem({ event }: { event: GatewayEvent }) {
     </li>
   );
 }
+
+/** An event never changes: a thousand of them are drawn once. */
+export const EventItem = memo(ItemView, (a, b) => a.event === b.event);
 
 export function EventList({ events, limit }: { events: GatewayEvent[]; limit: number }) {
   if (events.length === 0) return <p class="empty"><Icon name="info" /> Nothing has happened yet.</p>;

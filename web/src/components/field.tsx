@@ -41,7 +41,7 @@ export function Field({ label, longLabel, unit, text, wrong, describedBy, placeh
             }
           }}
         />
-        <span class="unit" aria-hidden="true">
+        <span class="unit" aria-hidden="true" title={unit}>
           {unit}
         </span>
       </span>

@@ -106,7 +106,7 @@ export function Strip() {
     const said = commander.stopReport.value;
     return (
       <div class="strip" data-field="strip">
-        <span class="strip-text">Not signed in: no values are shown.</span>
+        <span class="strip-text">{gateway.session.ended.value ? 'Your session has ended: no values are shown until you sign in again.' : 'Not signed in: no values are shown. This gateway serves nobody without a sign-in.'}</span>
         <span class={`strip-stop result-${said.tone}`}>{said.text}</span>
       </div>
     );

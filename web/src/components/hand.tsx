@@ -84,10 +84,19 @@ function HandRow({ item, set }: { item: HandItem; set: (name: string, value: Val
     typed.value = null;
   };
   return (
-    <li title={item.description} data-hand={item.name}>
+    <li data-hand={item.name}>
       <span class="hand-name">
         {label}
         {wrong.value && <span class="flag"> {wrong.value}</span>}
+        {item.description && (
+          <details class="hand-more">
+            <summary>
+              {item.writable && typeof item.value !== 'boolean' ? 'What may be entered' : 'What it is'}
+              <span class="visually-hidden">: {label}</span>
+            </summary>
+            <span class="where">{item.description}</span>
+          </details>
+        )}
       </span>
       {typeof item.value === 'boolean' ? (
         <button type="button" class="switch" role="switch" aria-checked={item.value} aria-label={label} disabled={!item.writable} onClick={() => set(item.name, !item.value)}>

@@ -4,8 +4,11 @@ import { signal, useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import type { MappingDoor, Registers } from '../api/mappings';
 import { asProblem } from '../api/problem';
+import type { Axis } from '../api/types';
+import { useGateway } from '../gateway';
 import { kept } from '../state/kept';
 import { decodeWords, oneBased, tableOf, tables, types, widthOf, type Mapping, type RegisterType, type Table } from '../words/mapping';
+import { bitName, isStandard, notMapped } from '../words/register-map';
 import { formatExact, parseNumber } from '../words/number';
 import { Choice, notOffered, TextField } from './form';
 import { Section } from './section';
@@ -24,7 +27,8 @@ const within = (text: string, min: number, max: number): number | null => {
   return p.good && Number.isInteger(p.value) && p.value >= min && p.value <= max ? p.value : null;
 };
 
-export function HmiView({ door }: { door: MappingDoor }) {
+export function HmiView({ door, rows }: { door: MappingDoor; rows: readonly Mapping[] }) {
+  const { store } = useGateway();
   const answer = useSignal<Registers | null>(null);
   const why = useSignal('');
   const waiting = useSignal(false);
@@ -62,6 +66,8 @@ export function HmiView({ door }: { door: MappingDoor }) {
   }, [following.value, unit.value, table.value, address.value, count.value]);
 
   const a = answer.value;
+  const axes = store.axisNames.value.flatMap((n) => store.axis(n)?.peek().data ?? []);
+  const gaps = a?.exception && at.unit !== null && at.address !== null && at.count !== null ? notMapped({ unit: at.unit, table: table.value as Table, address: at.address, count: at.count }, rows, axes) : '';
   return (
     <Section title="What does the HMI see?" class="hmi">
       <form
@@ -93,16 +99,16 @@ export function HmiView({ door }: { door: MappingDoor }) {
             {following.value ? 'Following each second' : 'Follow'}
           </button>
           <p class={`tell result-${why.value ? 'refused' : 'none'}`} role="status" data-field="hmi-told">
-            {why.value || (a?.exception ? `The Modbus door answers exception ${a.exception.code}: ${a.exception.text}.` : waiting.value && !a ? 'Asking …' : '')}
+            {why.value || (a?.exception ? `The Modbus door answers exception ${a.exception.code}: ${a.exception.text}.${gaps ? ` Not mapped: ${gaps}.` : ''}` : waiting.value && !a ? 'Asking …' : '')}
           </p>
         </div>
-        {a && !a.exception && <Answer a={a} />}
+        {a && !a.exception && <Answer a={a} axes={axes} />}
       </form>
     </Section>
   );
 }
 
-function Answer({ a }: { a: Registers }) {
+function Answer({ a, axes }: { a: Registers; axes: readonly Axis[] }) {
   const raw = a.words ?? (a.bits ?? []).map(Number);
   const bits = a.words === undefined;
   const named = new Map((a.decoded ?? []).map((d) => [d.address, d]));
@@ -132,7 +138,7 @@ function Answer({ a }: { a: Registers }) {
                 {!bits && <td data-label="Hex" class="mono">{w.toString(16).toUpperCase().padStart(4, '0')}</td>}
                 <td data-label={bits ? 'Bit' : 'u16'} class="num mono">{w}</td>
                 {!bits && <td data-label={`as ${type}`} class="num mono">{shown(decodeWords(type === 'string' ? raw.slice(i) : raw.slice(i, i + widthOf(type)), type, order.value as Mapping['word_order']))}</td>}
-                <td data-label="What it is">{d ? <>{d.name ?? d.mapping} <span class="where mono">{d.type}</span></> : <span class="where">–</span>}</td>
+                <td data-label="What it is">{d ? <>{d.name ?? d.mapping} <span class="where mono">{d.type}</span></> : <span class={bits && isStandard(a.unit) ? '' : 'where'}>{(bits && isStandard(a.unit) && bitName(at, axes)) || '–'}</span>}</td>
                 <td data-label="Decoded" class="num">{d ? <><span class="mono">{shown(d.value)}</span> <span class="unit">{d.unit ?? ''}</span> {d.text}</> : ''}</td>
               </tr>
             );

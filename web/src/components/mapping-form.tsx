@@ -6,7 +6,7 @@ import { useEffect, useRef } from 'preact/hooks';
 import { useGateway } from '../gateway';
 import { kept } from '../state/kept';
 import type { Clash, MappingBook } from '../state/mappings';
-import { checkTexts, conflictsOf, emptyTexts, fields, neighbourText, nextFree, oneBased, placeText, tables, textsOf, types, widthOf, type Field, type Known, type Mapping, type Texts } from '../words/mapping';
+import { checkTexts, conflictsOf, emptyTexts, fields, neighbourText, nextFree, oneBased, placeText, signWarning, tables, textsOf, types, widthOf, type Field, type Known, type Mapping, type Texts } from '../words/mapping';
 import { Choice, quiet, Tell, TextField, toldOf, type Told } from './form';
 import { Section } from './section';
 
@@ -66,6 +66,8 @@ export function MappingForm({ book, known, editing, done }: MappingFormProps) {
   };
   const taken = conflicts.length > 0 ? `Taken by ${conflicts.slice(0, 3).map((c) => `${c.id} (${c.point} of ${c.axis}, ${placeText(c)})`).join(', ')}${conflicts.length > 3 ? ` and ${conflicts.length - 3} more` : ''}.` : undefined;
 
+  const warning = signWarning({ point: texts.point.trim(), type: texts.type, offset: Number(texts.offset) || 0 });
+
   const send = async (opened: Mapping | null) => {
     touched.value = true;
     if (!spec || conflicts.length > 0) {
@@ -119,7 +121,7 @@ export function MappingForm({ book, known, editing, done }: MappingFormProps) {
             fault={shown('address') ?? taken}
             hint={placed ? `${place.address}${width > 1 ? `–${place.address + width - 1}` : ''} is ${oneBased(place.table, place.address)} counted from 1. Free: ${neighbourText(place, book.rows.value, editing?.id)}.` : 'counted from 0'}
           />
-          <Choice label="Type" value={texts.type} onChoice={set('type')} fault={shown('type')} choices={(bits ? (['bool'] as const) : types).map((t) => ({ value: t, text: t }))} />
+          <Choice label="Type" value={texts.type} onChoice={set('type')} fault={shown('type')} hint={warning === '' ? undefined : <span class="flag" data-field="sign-warning">{warning}</span>} choices={(bits ? (['bool'] as const) : types).map((t) => ({ value: t, text: t }))} />
           {texts.type === 'string' && <TextField label="Length" number value={texts.length} onText={set('length')} fault={shown('length')} placeholder="16" hint="registers" />}
           {width > 1 && texts.type !== 'string' && <Choice label="Word order" value={texts.word_order} onChoice={set('word_order')} choices={[{ value: 'high_first', text: 'high word first' }, { value: 'low_first', text: 'low word first' }]} />}
           {texts.type !== 'string' && !bits && <TextField label="Scale" number value={texts.scale} onText={set('scale')} fault={shown('scale')} hint="register = value × scale + offset" />}

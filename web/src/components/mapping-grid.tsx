@@ -3,8 +3,9 @@
 // Modbus door's own answers, once a second; what is not live is said to be so. Draws at most 400 rows at once.
 import { useSignal, type ReadonlySignal } from '@preact/signals';
 import { useGateway } from '../gateway';
-import { gridOf, oneBased, placeText, pointUnit, pointValue, registerValue, tableOf, type Mapping, type Table } from '../words/mapping';
+import { gridOf, oneBased, placeText, pointUnit, pointValue, tableOf, type Mapping, type Table } from '../words/mapping';
 import { formatExact } from '../words/number';
+import type { Heard } from '../state/register-look';
 import { axisPath } from '../router';
 import { useBarred } from './gate';
 import { Icon } from './icon';
@@ -13,11 +14,6 @@ import { memo } from './memo';
 
 const rowsAtOnce = 400;
 
-export interface Heard {
-  words: number[] | null;
-  value: number | string | boolean | null | undefined;
-  text: string;
-}
 
 export interface GridProps {
   rows: readonly Mapping[];
@@ -123,6 +119,12 @@ export function scaleText(m: Pick<Mapping, 'scale' | 'offset'>): string {
 }
 
 const valueWords = (v: number | string | boolean): string => (typeof v === 'number' ? formatExact(Number.isInteger(v) ? v : Number(v.toPrecision(7))) : typeof v === 'boolean' ? (v ? 'on' : 'off') : v);
+/** What the Modbus door itself has said, and nothing that is reckoned from elsewhere. */
+function InRegister({ m, h }: { m: Mapping; h: Heard | undefined }) {
+  if (h?.words) return <span class="mono">{tableOf(m.table).bits ? h.words.join(' ') : hexWords(h.words)}</span>;
+  return h?.text ? <span class="flag">{h.text}</span> : <span class="where">{m.access === 'W' ? 'written only' : 'not read yet'}</span>;
+}
+
 export const hexWords = (words: readonly number[]): string => words.map((w) => w.toString(16).toUpperCase().padStart(4, '0')).join(' ');
 
 function LiveCells({ m, heard }: { m: Mapping; heard: ReadonlySignal<ReadonlyMap<string, Heard>> }) {
@@ -136,7 +138,6 @@ function LiveCells({ m, heard }: { m: Mapping; heard: ReadonlySignal<ReadonlyMap
   const live = fromAxis === undefined ? h !== undefined && store.connected.value && h.text === '' : trust === 'live';
   const unit = axis ? pointUnit(axis, m.point) : '';
   const known = value !== null && value !== undefined;
-  const raw = h?.words ? hexWords(h.words) : known && typeof value !== 'string' ? formatExact(registerValue(value, m)) : '';
   return (
     <>
       <td class="num" data-label="Value" data-field="value" data-live={live}>
@@ -146,10 +147,12 @@ function LiveCells({ m, heard }: { m: Mapping; heard: ReadonlySignal<ReadonlyMap
             {!live && <span class="flag"> {trust === 'live' ? 'not live' : trust}</span>}
           </span>
         ) : (
-          <span class="where">{h?.text || 'not known'}</span>
+          <span class="where">not known</span>
         )}
       </td>
-      <td class="num mono raw" data-label="In the register">{raw || <span class="where">–</span>}</td>
+      <td class="num raw" data-label="In the register" data-field="in-register">
+        <InRegister m={m} h={h} />
+      </td>
     </>
   );
 }

@@ -6,7 +6,7 @@ import { Problem } from '../api/problem';
 import { useGateway } from '../gateway';
 import { kept } from '../state/kept';
 import type { MappingBook } from '../state/mappings';
-import { csvOfSpecs, readTable } from '../words/mapping-table';
+import { catalogueMissing, csvOfSpecs, readTable } from '../words/mapping-table';
 import { placeText, tableOf, type Known } from '../words/mapping';
 import { quiet, Tell, toldOf, type Told } from './form';
 import { Section } from './section';
@@ -23,7 +23,9 @@ export function MappingPaste({ book, known }: { book: MappingBook; known: Known 
   const rows = book.rows.value;
   const read = useMemo(() => readTable(text.value, known, replace.value ? [] : rows), [text.value, known, replace.value, rows]);
   const bad = read.rows.filter((r) => r.faults.length > 0).length;
-  const specs = read.rows.flatMap((r) => (r.spec ? [r.spec] : []));
+  const specs = read.rows.flatMap((r) => (r.spec && r.faults.length === 0 ? [r.spec] : []));
+  // Before the catalogue is there a point that does not exist would pass as good.
+  const waits = catalogueMissing(specs, known);
   const checked = report.value?.for === text.value && report.value.lines.size === 0;
 
   const take = async (file: File | undefined) => {
@@ -84,17 +86,17 @@ export function MappingPaste({ book, known }: { book: MappingBook; known: Known 
           <label class="check">
             <input type="checkbox" checked={replace.value} onChange={(e) => (replace.value = e.currentTarget.checked)} /> in place of all mappings
           </label>
-          <button type="button" class="button" disabled={specs.length === 0 || bad > 0} onClick={() => void dryRun()}>
+          <button type="button" class="button" disabled={specs.length === 0 || bad > 0 || waits !== ''} onClick={() => void dryRun()}>
             Check with the gateway
           </button>
-          <button type="button" class="button primary" disabled={specs.length === 0 || bad > 0 || !checked} onClick={() => void send()}>
+          <button type="button" class="button primary" disabled={specs.length === 0 || bad > 0 || waits !== '' || !checked} onClick={() => void send()}>
             {replace.value ? `Replace all by ${count(specs.length, 'row')}` : `Add ${count(specs.length, 'row')}`}
           </button>
           <Tell told={told.value} field="table-told" />
         </div>
         {read.rows.length > 0 && (
           <p class={`form-told${bad > 0 || read.problem ? ' is-fault' : ''}`} role="status" data-field="table-count">
-            {read.problem || (bad > 0 ? `${bad} of ${count(read.rows.length, 'row')} must be mended before anything is sent.` : `${count(read.rows.length, 'row')}, none of them with a fault that this page can see.`)}
+            {read.problem || waits || (bad > 0 ? `${bad} of ${count(read.rows.length, 'row')} must be mended before anything is sent.` : `${count(read.rows.length, 'row')}, none of them with a fault that this page can see.`)}
           </p>
         )}
         {report.value && report.value.for === text.value && report.value.differences.length > 0 && (
@@ -124,7 +126,7 @@ export function MappingPaste({ book, known }: { book: MappingBook; known: Known 
                       <th scope="row" class="mono">{r.line}</th>
                       <td data-label="Place">{r.spec ? `unit ${r.spec.unit}, ${tableOf(r.spec.table ?? 'holding_registers').short.toLowerCase()} ${placeText({ type: 'i32', ...r.spec })}` : <span class="mono">{r.texts.address || '–'}</span>}</td>
                       <td data-label="Point">{[r.texts.axis, r.texts.point].filter(Boolean).join(' ') || '–'}</td>
-                      <td data-label="Verdict">{faults.length > 0 ? <span class="fault-text">{faults.join(' ')}</span> : <span class="good-text">good</span>}</td>
+                      <td data-label="Verdict">{faults.length > 0 ? <span class="fault-text">{faults.join(' ')}</span> : waits !== '' ? <span class="where">waits</span> : <span class="good-text">good</span>}</td>
                     </tr>
                   );
                 })}

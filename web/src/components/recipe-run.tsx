@@ -13,6 +13,7 @@ import { Icon } from './icon';
 import { Pill } from './pill';
 import { Section } from './section';
 
+const begun = (n: number) => `Run ${n} has begun.`;
 const isOver = (state: string) => state !== 'running' && state !== 'stopping';
 
 export function RunSection({ name, parameters, saved }: { name: string; parameters: NonNullable<RecipeDocument['parameters']>; saved: boolean }) {
@@ -43,7 +44,10 @@ export function RunSection({ name, parameters, saved }: { name: string; paramete
       const r = m.data as RecipeReport;
       if (r?.recipe !== name) return;
       report.value = r;
-      if (isOver(r.state)) void refresh();
+      if (!isOver(r.state)) return;
+      // "Run 1 has begun." is no news any more: its report says how it ended.
+      if (result.peek().text === begun(r.n)) result.value = { tone: 'none', text: '' };
+      void refresh();
     });
     return () => {
       here = false;
@@ -68,7 +72,7 @@ export function RunSection({ name, parameters, saved }: { name: string; paramete
         result.value = { tone: 'good', text: `Can run: ${c.steps} steps, commands ${c.axes?.join(', ') || 'no axis'}.` };
       } else {
         report.value = await client.runRecipe(name, given());
-        result.value = { tone: 'good', text: `Run ${report.peek()?.n} has begun.` };
+        result.value = { tone: 'good', text: isOver(report.peek()?.state ?? '') ? '' : begun(report.peek()?.n ?? 0) };
       }
     } catch (error) {
       result.value = { tone: 'refused', text: capital(asProblem(error).words) };

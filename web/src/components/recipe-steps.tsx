@@ -3,7 +3,7 @@
 import { createContext } from 'preact';
 import { useContext } from 'preact/hooks';
 import type { components } from '../api/schema';
-import { added, at, changed, commands, comparisons, freshStep, kindOf, moved, pointerOf, points, removed, stepKinds, takesTolerance, titleOf, typedOf, valueOf, type Json, type Path, type RecipeDocument, type Step, type StepField, type StepKind } from '../words/recipe';
+import { added, at, changed, commands, comparisons, fieldsOfStep, freshStep, kindOf, moved, pointerOf, points, removed, stepKinds, takesTolerance, titleOf, typedOf, unitOfField, valueOf, withCommand, type Json, type Path, type RecipeDocument, type Step, type StepField, type StepKind } from '../words/recipe';
 import { Icon } from './icon';
 import { Typed } from './typed';
 
@@ -12,6 +12,8 @@ export interface Editing {
   document: RecipeDocument;
   change: (next: RecipeDocument) => void;
   axes: string[];
+  /** Unit of an axis; null: there is none of this name (yet), such as a parameter of the recipe. */
+  unitOf: (axis: string) => string | null;
   faults: Fault[];
 }
 const Context = createContext<Editing | null>(null);
@@ -63,7 +65,7 @@ function StepList({ path, name }: { path: Path; name: string }) {
 }
 
 function StepRow({ step, list, i, last }: { step: Step; list: Path; i: number; last: boolean }) {
-  const { document, change, faults } = useEditing();
+  const { document, change, faults, unitOf } = useEditing();
   const kind = kindOf(step);
   const path = [...list, i];
   const pointer = pointerOf(path);
@@ -90,8 +92,8 @@ function StepRow({ step, list, i, last }: { step: Step; list: Path; i: number; l
       </div>
       <div class="step-fields">
         {kind?.condition && kind.condition !== 'until' && <ConditionFields kind={kind} path={path} title={title} />}
-        {kind?.fields.map((f) => (
-          <StepInput key={f.key} field={f} path={f.key === '' ? [...path, kind.word] : [...path, kind.word, f.key]} value={f.key === '' ? body : (body as { [k: string]: Json } | null)?.[f.key]} title={title} />
+        {kind && fieldsOfStep(kind, body).map((f) => (
+          <StepInput key={f.key} field={f} path={f.key === '' ? [...path, kind.word] : [...path, kind.word, f.key]} value={f.key === '' ? body : (body as { [k: string]: Json } | null)?.[f.key]} title={title} unit={kind.word === 'command' ? unitOfField(f.key, unitOf(typedOf((body as { [k: string]: Json } | null)?.['axis']))) : ''} />
         ))}
         {kind?.condition === 'until' && <ConditionFields kind={kind} path={path} title={title} />}
         <label class="step-field is-wide">
@@ -114,7 +116,7 @@ function StepRow({ step, list, i, last }: { step: Step; list: Path; i: number; l
   );
 }
 
-function StepInput({ field, path, value, title }: { field: StepField; path: Path; value: unknown; title: string }) {
+function StepInput({ field, path, value, title, unit }: { field: StepField; path: Path; value: unknown; title: string; unit: string }) {
   const { document, change } = useEditing();
   const put = (v: Json | undefined) => change(changed(document, path, () => (v === undefined && !field.optional ? '' : v)));
   const label = `${title}: ${field.label}`;
@@ -123,7 +125,12 @@ function StepInput({ field, path, value, title }: { field: StepField; path: Path
     return (
       <label class="step-field">
         <span>{field.label}</span>
-        <select aria-label={label} value={typedOf(value)} onChange={(e) => put(e.currentTarget.value === '' ? undefined : e.currentTarget.value)}>
+        <select aria-label={label} value={typedOf(value)} onChange={(e) => {
+            const to = e.currentTarget.value;
+            if (field.kind === 'command') change(changed(document, path.slice(0, -1), (body: { [k: string]: Json }) => withCommand(body, to)));
+            else put(to === '' ? undefined : to);
+          }}
+        >
           {choices.map((c) => (
             <option key={c} value={c}>
               {c === '' ? 'as mapped' : c}
@@ -135,7 +142,10 @@ function StepInput({ field, path, value, title }: { field: StepField; path: Path
   }
   return (
     <label class={`step-field${field.kind === 'text' ? ' is-wide' : ''}`}>
-      <span>{field.label}</span>
+      <span>
+        {field.label}
+        {unit && <span class="unit">, {unit}</span>}
+      </span>
       <Typed
         spellcheck={false}
         list={field.kind === 'axis' ? 'recipe-axes' : undefined}

@@ -2,15 +2,17 @@
 // right; two cursors with their readings; a trigger; the picture as CSV. Follows the gateway's clock; holds still when told to, or when the
 // trigger has fired; a gap stays a gap. Redrawn at most 20 times a second (once with reduced motion), with at most two rows per pixel.
 import { useEffect, useRef } from 'preact/hooks';
-import { computed, signal, type Signal } from '@preact/signals';
+import { computed, signal, useComputed, type Signal } from '@preact/signals';
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
 import { useGateway } from '../gateway';
 import { kept } from '../state/kept';
-import { channels, columnOf, csvOf, Trigger, valueAt, type Channel, type TriggerSetting } from '../state/scope';
+import { channels, columnOf, csvOf, needsDemand, Trigger, valueAt, type Channel, type TriggerSetting } from '../state/scope';
+import { barred } from '../state/session';
 import { dark } from '../state/theme';
 import type { Trail, TrailColumns } from '../state/trail';
-import { formatNumber, parseNumber } from '../words/number';
+import { demandKnown } from '../words/axis';
+import { formatNumber, parseNumber, tickLabels } from '../words/number';
 
 const windows = [2, 10, 30, 120] as const;
 const chosen = kept('scope.window', '30', 'browser');
@@ -24,6 +26,7 @@ const scaleOf: Record<Channel, string> = { position: 'p', demand: 'p', target: '
 const colorOf: Record<Channel, string> = { position: '--series-1', velocity: '--series-2', target: '--series-3', demand: '--series-4', error: '--series-5' };
 /** From the bottom up: what matters most is drawn last. */
 const drawn: Channel[] = ['target', 'demand', 'error', 'velocity', 'position'];
+const notSaid = 'this drive does not say where it wants to be';
 const perSecond = (c: Channel, unit: string) => (c === 'velocity' ? `${unit}/s` : unit);
 
 /** What the component keeps between two pictures. */
@@ -64,8 +67,10 @@ export function Scope({ axis, unit }: { axis: string; unit: string }) {
   view.current ??= new View();
   const v = view.current;
   const isDark = dark.value; // a new theme makes a new plot
-  const seen = visible.value;
-  const key = shown.value;
+  // What the drive does not say is not drawn, whatever was chosen for another axis.
+  const known = useComputed(() => demandKnown(store.axis(axis)?.value.data ?? {})).value;
+  const seen = new Set([...visible.value].filter((c) => known || !needsDemand(c as Channel)));
+  const key = [...seen].join(',');
   const now = () => (Date.now() + store.clockOffset_ms) / 1000;
   const seconds = () => Number(chosen.peek()) || 30;
 
@@ -136,7 +141,7 @@ export function Scope({ axis, unit }: { axis: string; unit: string }) {
       <div class="scope-head">
         <div class="group scope-channels" role="group" aria-label="Channels">
           {channels.map((c) => (
-            <button key={c} type="button" class={`button small key key-${c}`} aria-pressed={seen.has(c)} onClick={() => toggle(c)}>
+            <button key={c} type="button" class={`button small key key-${c}`} aria-pressed={seen.has(c)} {...barred(!known && needsDemand(c) ? notSaid : '')} onClick={() => toggle(c)}>
               {names[c]}
             </button>
           ))}
@@ -163,8 +168,13 @@ export function Scope({ axis, unit }: { axis: string; unit: string }) {
         aria-label={`Scope of ${axis}, the last ${chosen.value} seconds. Arrow keys move the cursor ${v.active.value === 0 ? 'A' : 'B'}, Delete takes it away.`}
         onKeyDown={move}
       />
-      <Cursors view={v} trail={() => store.trail(axis)} unit={unit} />
-      <TriggerBar view={v} unit={unit} now={now} />
+      {!known && (
+        <p class="where scope-why" data-field="demand-unknown">
+          Demand and following error: {notSaid}.
+        </p>
+      )}
+      <Cursors view={v} trail={() => store.trail(axis)} unit={unit} seen={seen} />
+      <TriggerBar view={v} unit={unit} now={now} known={known} />
     </div>
   );
 }
@@ -195,7 +205,14 @@ function optionsFor(host: HTMLElement, list: Channel[], view: View, unit: string
   const axisStyle = { stroke: color('--text-3'), font: '11px ' + getComputedStyle(host).fontFamily, grid, ticks: { show: false } };
   const has = (scale: string) => list.some((c) => scaleOf[c] === scale);
   const side = (scale: string, right: boolean, size: number): uPlot.Axis[] =>
-    has(scale) ? [{ ...axisStyle, scale, size, space: 44, side: right ? 1 : 3, grid: right ? { show: false } : grid, values: (_u: uPlot, at: number[]) => ticks(at) }] : [];
+    has(scale) ? [{ ...axisStyle, ...named(scale), scale, size, space: 44, side: right ? 1 : 3, grid: right ? { show: false } : grid, values: (_u: uPlot, at: number[]) => tickLabels(at) }] : [];
+  // The side says what it measures, in the colour of its line; of several on one side the most important one gives the colour.
+  const named = (scale: string) => {
+    const own = channels.filter((c) => scaleOf[c] === scale && list.includes(c));
+    const ink = color(colorOf[own[0] as Channel]);
+    return { stroke: ink, label: `${own.map((c) => names[c]).join(', ')}, ${perSecond(own[0] as Channel, unit)}`, labelSize: 20, labelGap: 0, labelFont: axisStyle.font };
+  };
+  const stepped = uPlot.paths.stepped?.({ align: 1 });
   const marks = [color('--accent'), color('--text-2')];
   return {
     width: host.clientWidth || 600,
@@ -211,7 +228,7 @@ function optionsFor(host: HTMLElement, list: Channel[], view: View, unit: string
     },
     series: [
       {},
-      ...list.map((c) => ({ scale: scaleOf[c], label: `${names[c]}, ${perSecond(c, unit)}`, stroke: color(colorOf[c]), width: c === 'position' ? 2 : 1.25, points: { show: false }, ...(c === 'target' ? { dash: [4, 4] } : {}) })),
+      ...list.map((c) => ({ scale: scaleOf[c], label: `${names[c]}, ${perSecond(c, unit)}`, stroke: color(colorOf[c]), width: c === 'position' ? 2 : 1.25, points: { show: false }, ...(c === 'target' ? { dash: [4, 4], ...(stepped ? { paths: stepped } : {}) } : {}) })),
     ],
     axes: [
       { ...axisStyle, size: 26, splits: (_u, _i, min, max) => Array.from({ length: 6 }, (_, i) => max - ((max - min) * (5 - i)) / 5), values: (u, at) => at.map((t) => secondsBefore(t, u.scales.x?.max ?? t)) },
@@ -244,7 +261,7 @@ function optionsFor(host: HTMLElement, list: Channel[], view: View, unit: string
 }
 
 /** What the two cursors read, and the difference. */
-function Cursors({ view, trail, unit }: { view: View; trail: () => Trail; unit: string }) {
+function Cursors({ view, trail, unit, seen }: { view: View; trail: () => Trail; unit: string; seen: ReadonlySet<string> }) {
   const [a, b] = [view.cursors[0].value, view.cursors[1].value];
   const buttons = (
     <div class="group" role="group" aria-label="Cursor that a click or the arrow keys place">
@@ -269,7 +286,7 @@ function Cursors({ view, trail, unit }: { view: View; trail: () => Trail; unit: 
   const times = [a, b].filter((t) => t !== null) as number[];
   const c = trail().since(Math.min(...times) * 1000 - 60_000, Math.max(...times) * 1000 + 60_000);
   const read = (t: number | null, channel: Channel) => (t === null ? null : valueAt(c, channel, t));
-  const shownChannels = channels.filter((x) => visible.value.has(x));
+  const shownChannels = channels.filter((x) => seen.has(x));
   const clock = (t: number | null) => (t === null ? '–' : new Date(t * 1000).toISOString().slice(11, 23));
   return (
     <div class="scope-cursors">
@@ -322,7 +339,7 @@ function Cursors({ view, trail, unit }: { view: View; trail: () => Trail; unit: 
 
 const triggerWords = { off: '', waiting: 'Waiting for the trigger', fired: 'Triggered, recording', shown: 'Held by the trigger' } as const;
 
-function TriggerBar({ view, unit, now }: { view: View; unit: string; now: () => number }) {
+function TriggerBar({ view, unit, now, known }: { view: View; unit: string; now: () => number; known: boolean }) {
   const typed = useRef(signal('0')).current;
   const setting = view.trigger.value;
   const change = (part: Partial<TriggerSetting>) => {
@@ -346,7 +363,7 @@ function TriggerBar({ view, unit, now }: { view: View; unit: string; now: () => 
             <span>when</span>
             <select value={setting.channel} onChange={(e) => change({ channel: e.currentTarget.value as Channel })}>
               {channels.map((c) => (
-                <option key={c} value={c}>
+                <option key={c} value={c} disabled={!known && needsDemand(c)}>
                   {names[c].toLowerCase()}
                 </option>
               ))}
@@ -400,11 +417,4 @@ function spread(low: number | null, high: number | null, withZero = false, least
 const secondsBefore = (t: number, end: number): string => {
   const s = Math.round((t - end) * 10) / 10;
   return s === 0 ? '0 s' : `${s < 0 ? '−' : ''}${Math.abs(s) < 10 ? Math.abs(s).toFixed(1).replace(/\.0$/, '') : Math.abs(Math.round(s))} s`;
-};
-
-const ticks = (at: number[]): string[] => {
-  const step = at.length > 1 ? Math.abs((at[1] as number) - (at[0] as number)) : 1;
-  let decimals = 0;
-  while (decimals < 4 && Math.abs(step * 10 ** decimals - Math.round(step * 10 ** decimals)) > 1e-6) decimals += 1;
-  return at.map((v) => formatNumber(v, decimals));
 };

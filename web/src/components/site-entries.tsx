@@ -196,7 +196,7 @@ export function EntryField({ f, site, text, fault, onText }: FieldProps) {
   switch (f.kind) {
     case 'line': return <Choice {...common} value={text} onChoice={onText} choices={names(site.lines)} />;
     case 'drive': return <Choice {...common} value={text} onChoice={onText} choices={names(site.drives)} />;
-    case 'family': return <Choice {...common} value={text} onChoice={onText} choices={[{ value: '', text: 'choose' }, ...(store.about.value?.families ?? []).map((n) => ({ value: n, text: n }))]} />;
+    case 'family': return <Choice {...common} value={text} onChoice={onText} choices={[{ value: '', text: 'choose' }, ...(store.about.value?.families ?? []).map((n) => ({ value: n, text: store.familyTitles.value.get(n) ? `${store.familyTitles.value.get(n)} (${n})` : n }))]} />;
     case 'choice': return <Choice {...common} value={text} onChoice={onText} choices={f.choices ?? []} />;
     default:
       return (

@@ -101,7 +101,7 @@ export function SiteFiles({ draft, door }: { draft: SiteDraft; door: SiteDoor })
         {copy.value && (
           <div class="form-foot ask" role="group" aria-label="Restore a backup">
             <span>
-              {copy.value.name} ({size(copy.value.size)}) replaces site, mappings, parameters, snapshots and events of this gateway.
+              {copy.value.name} ({size(copy.value.size)}) replaces site, mappings, parameters, snapshots, recipes, events, users and tokens of this gateway: who signs in after it signs in as the copy knows them.
             </span>
             <button type="button" class="button" {...noCopy} onClick={() => void restore()}>
               Replace everything
@@ -168,6 +168,17 @@ export function SiteHistory({ draft, door }: { draft: SiteDraft; door: SiteDoor 
                 <p class="where">
                   {clockTime(h.at)} {h.who ?? ''} · {size(h.bytes)}
                 </p>
+                {draft.askRestore.value === h.revision && (
+                  <p class="form-foot ask" role="group" aria-label={`Restore revision ${h.revision}`}>
+                    <span>{draft.changes.value.length === 1 ? 'One change of yours is' : `${draft.changes.value.length} changes of yours are`} not applied; restoring puts revision {h.revision} in their place.</span>
+                    <button type="button" class="button small" {...no} onClick={() => void draft.restore(h.revision, true)}>
+                      Drop mine and restore
+                    </button>
+                    <button type="button" class="button small quiet" onClick={() => (draft.askRestore.value = null)}>
+                      Keep mine
+                    </button>
+                  </p>
+                )}
                 {shown.value?.revision === h.revision && (shown.value.changes.length === 0 ? <p class="where">It is the site that is in force.</p> : <DifferenceList list={shown.value.changes} label={`What revision ${h.revision} would change`} />)}
               </li>
             ))}

@@ -2,7 +2,7 @@
 // While an applied change waits to be kept, the rest of its time is shown each second; the head of the page speaks it when it is short.
 import { useSignal } from '@preact/signals';
 import { useGateway } from '../gateway';
-import type { SiteDraft } from '../state/site-draft';
+import { stagerOf, type SiteDraft } from '../state/site-draft';
 import { kept } from '../state/kept';
 import { barred } from '../state/session';
 import { differenceWords, sameDocument, type Difference } from '../words/site';
@@ -30,11 +30,11 @@ export function DifferenceList({ list, label }: { list: readonly (Difference | S
 }
 
 export function SiteStage({ draft }: { draft: SiteDraft }) {
-  const { session } = useGateway();
+  const { session, tab } = useGateway();
   const no = useBarred('engineer');
   const stage = draft.stage.value;
   const rest = useTrialRest(draft);
-  const keep = barred(keepBarred(draft, session));
+  const keep = barred(keepBarred(draft, session, tab.name.value));
 
   const changes = draft.changes.value;
   const theirs = draft.theirs.value;
@@ -43,7 +43,11 @@ export function SiteStage({ draft }: { draft: SiteDraft }) {
   const s = parseNumber(within.value);
   const seconds = s.good && Number.isInteger(s.value) && (s.value === 0 || (s.value >= 5 && s.value <= 600)) ? s.value : null;
   const busy = draft.told.value.tone === 'busy';
+  const rival = draft.rival.value;
+  const inView = rival?.inView === true && stage.state === 'staged';
   const foreign = stage.state === 'staged' && !checked;
+  const ready = inView ? (stage.faults?.length ?? 0) === 0 : checked && faults.length === 0 && theirs === null && changes.length > 0;
+  const list = inView ? (stage.faults ?? []) : checked ? faults : [];
   const asked = useSignal(false);
 
   if (stage.state === 'applied') {
@@ -83,15 +87,40 @@ export function SiteStage({ draft }: { draft: SiteDraft }) {
           </div>
         </div>
       )}
+      {foreign && (rival || changes.length === 0) && (
+        <div class="theirs" role="group" aria-label="What is staged" data-field="rival">
+          <p class="stage-count">
+            <Icon name="triangle" /> {stagerOf(stage)} has staged this; nothing of it is in force yet.
+            {changes.length > 0 && ' What you typed is kept.'}
+          </p>
+          <DifferenceList list={stage.diff ?? []} label="What is staged" />
+          <div class="form-foot">
+            {changes.length > 0 && (
+              <button type="button" class="button" disabled={busy || theirs !== null} {...no} onClick={() => void draft.check(true)}>
+                Check mine instead
+              </button>
+            )}
+            {inView ? (
+              <button type="button" class="button quiet" onClick={() => draft.view(false)}>
+                {changes.length > 0 ? 'Back to mine' : 'Leave it'}
+              </button>
+            ) : (
+              <button type="button" class="button" {...no} onClick={() => draft.view(true)}>
+                Take theirs into view
+              </button>
+            )}
+          </div>
+        </div>
+      )}
       <p class="stage-count" role="status">
+        {inView ? 'In view is what somebody else has staged: Apply applies that. ' : ''}
         {changes.length === 0 ? 'Nothing is changed.' : `${changes.length === 1 ? '1 change is' : `${changes.length} changes are`} waiting; nothing has been sent to the drives.`}
-        {foreign && ' A change is staged at the gateway; checking yours takes its place.'}
+        {foreign && !rival && changes.length > 0 && ' A change is staged at the gateway; checking yours takes its place.'}
       </p>
-      {changes.length > 0 && <DifferenceList list={changes} label="What would change" />}
-      {foreign && changes.length === 0 && <DifferenceList list={stage.diff ?? []} label="What is staged" />}
-      {faults.length > 0 && checked && (
+      {changes.length > 0 && <DifferenceList list={changes} label={inView ? 'What waits in your draft' : 'What would change'} />}
+      {list.length > 0 && (
         <ul class="stage-faults" aria-label="Faults">
-          {faults.slice(0, 50).map((f) => (
+          {list.slice(0, 50).map((f) => (
             <li key={f.pointer + f.text} class="fault-text">
               <span class="mono">{f.pointer}</span> {f.text}: {f.remedy}
             </li>
@@ -100,15 +129,21 @@ export function SiteStage({ draft }: { draft: SiteDraft }) {
       )}
       {checked && draft.disturbs.value.length > 0 && <p class="form-told">Applying disturbs for a moment: {draft.disturbs.value.join(', ')}.</p>}
       <div class="form-foot">
-        {changes.length > 0 && (
+        {changes.length > 0 && !inView && (
+          <button type="button" class={`button${ready ? '' : ' primary'}`} disabled={busy || theirs !== null} {...no} onClick={() => void draft.check()}>
+            Check
+          </button>
+        )}
+        {(changes.length > 0 || inView) && (
           <>
-            <button type="button" class={`button${checked && faults.length === 0 ? '' : ' primary'}`} disabled={busy || theirs !== null} {...no} onClick={() => void draft.check()}>
-              Check
-            </button>
             {draft.offersStage.value !== false && <TextField label="Keep within, s" class="within" number value={within.value} onText={(t) => (within.value = t)} fault={seconds === null ? '5 to 600; 0: no roll back.' : undefined} />}
-            <button type="button" class="button primary" disabled={busy || !checked || faults.length > 0 || seconds === null || theirs !== null} {...no} onClick={() => void draft.apply(seconds ?? 60)}>
-              Apply
+            <button type="button" class="button primary" disabled={busy || !ready || seconds === null} {...no} onClick={() => void draft.apply(seconds ?? 60)}>
+              Apply{inView ? ' theirs' : ''}
             </button>
+          </>
+        )}
+        {changes.length > 0 && !inView && (
+          <>
             {asked.value ? (
               <>
                 <button type="button" class="button" onClick={() => { asked.value = false; draft.drop(); }}>
@@ -130,7 +165,12 @@ export function SiteStage({ draft }: { draft: SiteDraft }) {
             Discard what is staged
           </button>
         )}
-        <Tell told={draft.told.value} field="stage-told" />
+        {draft.rolledBack.value && changes.length === 0 && (
+          <button type="button" class="button" {...no} onClick={() => draft.again()}>
+            Put it into the draft again
+          </button>
+        )}
+        <Tell told={changes.length === 0 && /^Checked/.test(draft.told.value.text) ? { tone: 'none', text: '' } : draft.told.value} field="stage-told" />
       </div>
       {draft.offersStage.value === false && changes.length > 0 && <p class="form-told">This gateway does not offer staging: an applied change stays, there is no roll back by itself.</p>}
     </section>

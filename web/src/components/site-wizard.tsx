@@ -6,7 +6,8 @@ import type { SiteDoor } from '../api/site';
 import { useGateway } from '../gateway';
 import { kept } from '../state/kept';
 import type { SiteDraft } from '../state/site-draft';
-import { checkEntry, fieldsOf, freeName, freeNumber, withEntry, type Room, type Texts } from '../words/site';
+import { checkEntry, fieldsOf, freeName, freeNumber, sameDocument, withEntry, type Room, type Texts } from '../words/site';
+import { quiet } from './form';
 import { AxisTile } from './axis-tile';
 import { ScanPanel } from './site-scan';
 import { EntryField } from './site-entries';
@@ -34,7 +35,10 @@ export function SiteWizard({ draft, door, leave }: { draft: SiteDraft; door: Sit
   };
   const axis = chosen.axes.value;
   const applied = (draft.base.value.axes ?? []).some((a) => a.name === axis) && store.axisNames.value.includes(axis);
-  const line = (draft.base.value.lines ?? []).find((l) => l.name === chosen.lines.value);
+  const meant = (draft.draft.value.lines ?? []).find((l) => l.name === chosen.lines.value);
+  const line = (draft.base.value.lines ?? []).find((l) => l.name === chosen.lines.value && sameDocument(l, meant));
+  const lineFirst = useSignal(false);
+  const onTrial = draft.stage.value.state === 'applied';
   return (
     <section class="card wizard" aria-labelledby="wizard-head" data-step={at + 1}>
       <header class="wizard-head">
@@ -54,6 +58,17 @@ export function SiteWizard({ draft, door, leave }: { draft: SiteDraft; door: Sit
       </header>
       {at < 3 && <StepForm key={at} room={order[at] as Room} draft={draft} back={at > 0 ? () => go(at - 1) : null} next={() => go(at + 1)} />}
       {at === 1 && line && line.uri !== 'twin' && <ScanPanel line={line} door={door} draft={draft} />}
+      {at === 1 && meant && meant.uri !== 'twin' && !line && (
+        <div class="form-foot" data-field="scan-later">
+          <p class="where">
+            Scanning asks the line itself, so {meant.name} must be in force first. Apply the line alone now, then scan here; or describe the drive above without a scan: its address stands in the drive's papers.
+          </p>
+          <button type="button" class="button" aria-expanded={lineFirst.value} onClick={() => (lineFirst.value = !lineFirst.value)}>
+            Apply the line first
+          </button>
+        </div>
+      )}
+      {at === 1 && ((lineFirst.value && !line) || onTrial) && <SiteStage draft={draft} />}
       {at === 3 && (
         <>
           <SiteStage draft={draft} />
@@ -70,16 +85,40 @@ export function SiteWizard({ draft, door, leave }: { draft: SiteDraft; door: Sit
       )}
       {at === 4 && (
         <>
-          {draft.stage.value.state === 'applied' && <SiteStage draft={draft} />}
-          <p class="where">Enable the axis, then move it: a short distance first. Escape stops all axes.</p>
-          {applied ? <AxisTile name={axis} bare={false} /> : <p class="empty">{axis} is not there.</p>}
+          {onTrial && <SiteStage draft={draft} />}
+          {applied ? (
+            <>
+              <p class="where">Enable the axis, then move it: a short distance first. Escape stops all axes.</p>
+              <AxisTile name={axis} bare={false} />
+            </>
+          ) : (
+            <p class="empty" role="status" data-field="not-there">
+              {draft.rolledBack.value ? `The change was rolled back because nobody pressed Keep in time, so ${axis} is not in force. What you typed can be applied again.` : `${axis || 'The axis'} is not in force: go back and apply it.`}
+            </p>
+          )}
           <div class="form-foot">
+            <button type="button" class="button" onClick={() => go(3)}>
+              Back
+            </button>
+            {!applied && draft.rolledBack.value && (
+              <button
+                type="button"
+                class="button primary"
+                onClick={() => {
+                  draft.again();
+                  go(3);
+                }}
+              >
+                Apply again
+              </button>
+            )}
             <button
               type="button"
-              class="button primary"
+              class={`button${applied ? ' primary' : ''}`}
               onClick={() => {
                 for (const c of Object.values(chosen)) c.value = '';
                 step.value = '0';
+                draft.told.value = quiet;
                 leave();
               }}
             >

@@ -10,6 +10,7 @@ import { capital } from '../state/commander';
 import { kept } from '../state/kept';
 import { valueText } from '../words/parameter';
 import { clockTime } from '../words/time';
+import { leftOut } from '../words/transfer';
 import { Choice, notOffered, quiet, Tell, TextField, type Told } from './form';
 import { Empty } from './lines';
 import { Section } from './section';
@@ -185,7 +186,7 @@ export function Snapshots({ axis, onList }: { axis: string; onList: (list: Snaps
                 </li>
               ))}
             </ul>
-            {(r.report.skipped?.length ?? 0) > 0 && <p class="where">Left out: {r.report.skipped?.map((s) => `${s.parameter} (${s.why})`).join(', ')}</p>}
+            {(r.report.skipped?.length ?? 0) > 0 && <LeftOut skipped={r.report.skipped ?? []} />}
             <div class="form-foot">
               <button type="button" class="button primary" disabled={r.chosen.size === 0} {...no} onClick={restore}>
                 Write {r.chosen.size} to the drive
@@ -198,5 +199,23 @@ export function Snapshots({ axis, onList }: { axis: string; onList: (list: Snaps
         )}
       </form>
     </Section>
+  );
+}
+
+function LeftOut({ skipped }: { skipped: { parameter: string; why: string }[] }) {
+  const groups = leftOut(skipped);
+  return (
+    <details class="where" data-field="left-out">
+      <summary>
+        Left out: {skipped.length} ({groups.map((g) => `${g.parameters.length} ${g.why}`).join('; ')})
+      </summary>
+      <ul>
+        {groups.map((g) => (
+          <li key={g.why}>
+            {g.why}: <span class="mono">{g.parameters.join(', ')}</span>
+          </li>
+        ))}
+      </ul>
+    </details>
   );
 }

@@ -16,7 +16,7 @@ const ends = [
 ];
 
 export function Tokens() {
-  const { client, session } = useGateway();
+  const { client, session, store } = useGateway();
   const info = session.info.value;
   const [tokens, setTokens] = useState<Token[]>([]);
   const [made, setMade] = useState<MadeToken | null>(null);
@@ -72,7 +72,7 @@ export function Tokens() {
             <span class="access-name">
               <b>{t.name}</b>{' '}
               <span class="access-more">
-                {t.role} · {t.owner} · {t.expires_at ? `ends ${clockTime(t.expires_at)}` : 'does not end'} · {t.last_used_at ? `used ${clockTime(t.last_used_at)}` : 'never used'}
+                {t.role} · {t.owner} · {t.expires_at ? `${Date.parse(t.expires_at) <= store.gatewayNow_ms() ? 'expired' : 'ends'} ${clockTime(t.expires_at)}` : 'does not end'} · {t.last_used_at ? `used ${clockTime(t.last_used_at)}` : 'never used'}
               </span>
             </span>
             <span class="access-acts">

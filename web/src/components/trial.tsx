@@ -21,17 +21,19 @@ export function useTrialRest(draft: SiteDraft): number {
 }
 
 /** Why this page may not keep it; the gateway takes that from who applied it alone. */
-export function keepBarred(draft: SiteDraft, session: Session): string {
+export function keepBarred(draft: SiteDraft, session: Session, tab = ''): string {
   const role = session.mayNot('engineer', 'Keeping the site');
   const by = draft.stage.value.by ?? '';
   const info = session.info.value;
-  if (role || !by || !info) return role;
+  if (role || !by || !info || info.role === 'administrator') return role;
+  const client = draft.stage.value.client ?? '';
+  if (client && tab) return client === tab || client.endsWith(` ${tab}`) ? '' : `Only the page of ${by.split(' ')[0]} that applied it, or an administrator, can keep it.`;
   const me = info.user ?? (info.via === 'local' ? 'local' : '');
   return !me || by === me || by.startsWith(`${me} `) ? '' : `Only ${by.split(' ')[0]}, who applied it, can keep it.`;
 }
 
 export function Trial() {
-  const { client, session, store } = useGateway();
+  const { client, session, store, tab } = useGateway();
   const { draft } = draftOf(client);
   const epoch = store.connection.value.epoch;
   const revision = store.siteRevision.value;
@@ -57,7 +59,7 @@ export function Trial() {
     busy.value = false;
   };
   const mayNot = session.mayNot('engineer', 'Rolling the site back');
-  const mayNotKeep = keepBarred(draft, session);
+  const mayNotKeep = keepBarred(draft, session, tab.name.value);
   const off = (why: string) => ({ disabled: busy.value || why !== '', ...(why ? { title: why, 'aria-description': why } : {}) });
   return (
     <span class="trial" role="group" aria-label="Site on trial" data-field="trial">

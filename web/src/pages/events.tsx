@@ -1,22 +1,46 @@
-// Events and alarms: what waits for somebody, and what happened, newest first, by severity, axis, kind and text; both as files.
-// In: the store (at most the 500 newest events; the files have up to 1000). Out: a page.
+// Events and alarms: what waits for somebody, and what happened, newest first, by severity, axis, kind and text; as files exactly what is shown.
+// In: the gateway's newest 1000 that fit, and the store's for what has come since. Out: a page.
+import { useSignal } from '@preact/signals';
+import { useEffect } from 'preact/hooks';
+import type { GatewayEvent } from '../api/types';
 import { AlarmSection } from '../components/alarms';
 import { EventList } from '../components/events';
 import { Section } from '../components/section';
 import { useGateway } from '../gateway';
 import { kept } from '../state/kept';
-import { exportPath, passes } from '../words/alarm';
+import { asked, eventFile, gathered } from '../words/alarm';
 
 const least = kept('events.severity', 'info');
 const axis = kept('events.axis');
 const kind = kept('events.kind');
 const text = kept('events.text');
+/** As many as the gateway gives at once. */
+const most = 1000;
+
+function save(events: readonly GatewayEvent[], format: 'csv' | 'text'): void {
+  const url = URL.createObjectURL(new Blob([eventFile(events, format)], { type: format === 'csv' ? 'text/csv' : 'text/plain' }));
+  const link = document.createElement('a');
+  link.href = url;
+  link.download = format === 'csv' ? 'events.csv' : 'events.txt';
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(url), 10_000);
+}
 
 export function EventsPage() {
-  const { store } = useGateway();
+  const { client, store } = useGateway();
+  const had = useSignal<{ list: GatewayEvent[]; more: boolean }>({ list: [], more: false });
+  const epoch = store.connection.value.epoch;
   const filter = { least: least.value, axis: axis.value, kind: kind.value, text: text.value };
-  const shown = store.events.value.filter((e) => passes(e, filter));
-  const kinds = [...new Set([...store.events.value.map((e) => e.kind), ...(kind.value ? [kind.value] : [])])].sort();
+  useEffect(() => {
+    if (epoch === 0) return;
+    let here = true;
+    client.events({ limit: most, ...asked(filter) }).then((list) => here && (had.value = { list, more: list.length >= most }), () => undefined);
+    return () => {
+      here = false;
+    };
+  }, [client, epoch, least.value, axis.value, kind.value]);
+  const shown = gathered(had.value.list, store.events.value, filter, most);
+  const kinds = [...new Set([...had.value.list, ...store.events.value].map((e) => e.kind).concat( ...kind.value ? [kind.value] : []))].sort();
   return (
     <main class="page narrow">
       <h1 tabIndex={-1}>Events and alarms</h1>
@@ -55,16 +79,21 @@ export function EventsPage() {
           </label>
           <input class="search" type="search" placeholder="Text" aria-label="Text in the event" value={text.value} onInput={(e) => (text.value = e.currentTarget.value)} />
           <span class="event-files">
-            <a class="button" href={exportPath(filter, 'csv')} download="events.csv">
-              Save as CSV
-            </a>
-            <a class="button" href={exportPath(filter, 'text')} download="events.txt">
-              Save as text
-            </a>
+            <button type="button" class="button" onClick={() => save(shown, 'csv')}>
+              Save {shown.length} as CSV
+            </button>
+            <button type="button" class="button" onClick={() => save(shown, 'text')}>
+              Save {shown.length} as text
+            </button>
           </span>
         </div>
+        {had.value.more && (
+          <p class="where" data-field="more-events">
+            There are more than {most}: these are {text.value.trim() ? `what fits among the newest ${most}` : `the newest ${most}`}. Choose severity, axis or kind to reach further back, or ask the API for pages (GET /api/v1/events?before=).
+          </p>
+        )}
         <div class="card">
-          <EventList events={shown} limit={500} />
+          <EventList events={shown} limit={most} />
         </div>
       </Section>
     </main>

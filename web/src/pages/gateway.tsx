@@ -1,5 +1,6 @@
-// Gateway: the program itself: version, doors and their addresses, families, keys. In: /about. Out: a page.
+// Gateway: the program itself: version, doors and their addresses, the Modbus door's rules, families, keys. In: /about, /modbus. Out: a page.
 import { Empty } from '../components/lines';
+import { ModbusDoor } from '../components/modbus-door';
 import { Section } from '../components/section';
 import { useGateway } from '../gateway';
 import { setTheme, theme, type Theme } from '../state/theme';
@@ -17,7 +18,7 @@ export function GatewayPage() {
             <dl class="card facts">
               <div><dt>Version</dt><dd class="mono">{about.version}</dd></div>
               <div><dt>Running for</dt><dd>{duration(about.uptime_s * 1000)} when this page connected</dd></div>
-              <div><dt>Site revision</dt><dd class="mono">{store.siteRevision.value}</dd></div>
+              <div><dt>Site revision</dt><dd class="mono">{store.siteRevision.value ?? 'not told yet'}</dd></div>
               <div><dt>Families</dt><dd class="mono">{about.families.join(', ') || 'none'}</dd></div>
             </dl>
           </Section>
@@ -28,6 +29,7 @@ export function GatewayPage() {
               ))}
             </dl>
           </Section>
+          <ModbusDoor />
         </>
       ) : (
         <Empty text="Waiting for the gateway." />

@@ -2,14 +2,14 @@
 // door, the axis stream. Out: a page. Registers of the shown table are read once a second where the gateway offers it; at most 8 spans a second.
 import { signal, useSignal, type Signal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
-import { MappingDoor, type Registers } from '../api/mappings';
+import { MappingDoor } from '../api/mappings';
 import { asProblem } from '../api/problem';
 import { notOffered, quiet, Tell, toldOf, type Told } from '../components/form';
 import { Gate, useBarred, Why } from '../components/gate';
 import { HmiView } from '../components/hmi-view';
 import { Empty } from '../components/lines';
 import { addAt, MappingForm } from '../components/mapping-form';
-import { MappingGrid, type Heard } from '../components/mapping-grid';
+import { MappingGrid } from '../components/mapping-grid';
 import { ListLinks, PrintedList } from '../components/mapping-list';
 import { MappingPaste } from '../components/mapping-paste';
 import { MappingTemplates } from '../components/mapping-templates';
@@ -17,29 +17,14 @@ import { Section } from '../components/section';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
 import { kept } from '../state/kept';
-import { MappingBook } from '../state/mappings';
-import { spansOf, tables, widthOf, type Known, type Mapping, type Table } from '../words/mapping';
+import { MappingBook, uncapital } from '../state/mappings';
+import { lookAt, type Heard } from '../state/register-look';
+import { spansOf, tables, type Known, type Mapping, type Table } from '../words/mapping';
 
 const unitShown = kept('mappings.unit', '2');
 const tableShown = kept('mappings.table', 'holding_registers');
 const poll_ms = 1000;
 const spansAtOnce = 8;
-
-/** What a read said about each mapping in it. */
-function heardOf(r: Registers, rows: readonly Mapping[], into: Map<string, Heard>): void {
-  const raw = r.words ?? (r.bits ?? []).map(Number);
-  for (const m of rows) {
-    const at = m.address - r.address;
-    const width = widthOf(m.type, m.length);
-    if (at < 0 || at >= Math.max(raw.length, 1)) continue;
-    if (r.exception) {
-      into.set(m.id, { words: null, value: undefined, text: `exception ${r.exception.code}: ${r.exception.text}` });
-      continue;
-    }
-    const decoded = r.decoded?.find((d) => d.mapping === m.id || (d.mapping === undefined && d.address === m.address));
-    into.set(m.id, { words: raw.slice(at, at + width), value: decoded?.value, text: '' });
-  }
-}
 
 export function MappingsPage() {
   const { client, store } = useGateway();
@@ -76,7 +61,7 @@ export function MappingsPage() {
           const s = spans[(turn + i) % spans.length]!;
           const own = shown.filter((m) => m.address >= s.address && m.address < s.address + s.count);
           try {
-            heardOf(await door.registers({ unit, table, ...s }, end.signal), own, next);
+            await lookAt(door, own, next, end.signal);
             registers.value = 'there';
           } catch (error) {
             if (end.signal.aborted) return;
@@ -137,7 +122,7 @@ export function MappingsPage() {
     >
       <h1 tabIndex={-1}>Mappings</h1>
       <p class="where">
-        {book.state.value === 'there' && `${rows.length} of at most 4096. `}Mapping revision <span class="mono" data-field="hash">{book.hash.value || 'not told here by this gateway'}</span>; registers 18 and 19 of each axis show it. Unit 1 is the{' '}
+        {(book.state.value === 'there' || rows.length > 0) && `${rows.length} of at most 4096${store.connected.value ? '' : ', as last known'}. `}Mapping revision <span class="mono" data-field="hash">{book.hash.value || 'not told here by this gateway'}</span>; registers 18 and 19 of each axis show it. Unit 1 is the{' '}
         standard map and not changed here.
       </p>
       <Section
@@ -163,7 +148,7 @@ export function MappingsPage() {
               ))}
             </div>
             <button type="button" class="button" disabled={!last} title={last ? `${last.words} (Ctrl Z)` : 'Nothing was changed by this page yet'} {...no} onClick={() => void undo()}>
-              Undo{last ? `: ${last.words.toLowerCase()}` : ''}
+              Undo{last ? `: ${uncapital(last.words)}` : ''}
             </button>
           </>
         }
@@ -196,7 +181,7 @@ export function MappingsPage() {
         <MappingTemplates book={book} door={door} />
         <MappingPaste book={book} known={known} />
       </Gate>
-      <HmiView door={door} />
+      <HmiView door={door} rows={rows} />
       <PrintedList rows={rows} hash={book.hash.value} />
     </main>
   );

@@ -75,10 +75,28 @@ function Axes() {
       ) : all.length > 0 ? (
         <Empty text={`No axis matches “${filter.value}”.`} />
       ) : store.listed.value ? (
-        <Empty text="No axis is configured." />
+        <NoAxis />
       ) : (
         <Empty text="Waiting for the gateway." />
       )}
     </Section>
+  );
+}
+
+/** An empty site, and the way out of it for who may go it. */
+function NoAxis() {
+  const { session } = useGateway();
+  const why = session.mayNot('engineer', 'Setting up lines, drives and axes');
+  return (
+    <p class="empty" data-field="no-axis">
+      No axis is configured.{' '}
+      {why ? (
+        why
+      ) : (
+        <a href="/site" onClick={() => (kept('site.wizard').value = 'open')}>
+          Begin with the wizard: from a line to a moving axis
+        </a>
+      )}
+    </p>
   );
 }

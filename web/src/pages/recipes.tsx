@@ -2,7 +2,7 @@
 // In: the documents of the gateway. Out: changed documents, only when they are saved. The forms always show the last text that was JSON.
 import { Gate, useBarred, Why } from '../components/gate';
 import { useSignal, type Signal } from '@preact/signals';
-import { useEffect } from 'preact/hooks';
+import { useEffect, useMemo } from 'preact/hooks';
 import { asProblem, Problem } from '../api/problem';
 import type { RecipeEntry } from '../api/types';
 import { Empty } from '../components/lines';
@@ -15,7 +15,9 @@ import { Typed } from '../components/typed';
 import { useGateway } from '../gateway';
 import { go, recipePath } from '../router';
 import { capital } from '../state/commander';
-import { documentOf, editable, runWord, valueOf, type RecipeDocument } from '../words/recipe';
+import { RecipeFile, type RecipeClash } from '../state/recipe-file';
+import { documentOf, recipeDifferences, runWord, valueOf, type RecipeDocument } from '../words/recipe';
+import { unitOf } from '../words/axis';
 import { clockTime } from '../words/time';
 
 const checkAfter_ms = 300;
@@ -100,6 +102,8 @@ export function RecipePage({ name }: { name: string }) {
   const faults: Signal<Fault[]> = useSignal([]);
   const stored = useSignal('');
   const result = useSignal<{ tone: 'none' | 'good' | 'refused'; text: string }>({ tone: 'none', text: '' });
+  const file = useMemo(() => new RecipeFile(client, name), [client, name]);
+  const clash: Signal<(RecipeClash & { act: 'save' | 'remove' }) | null> = useSignal(null);
   const put = (d: RecipeDocument) => {
     document.value = d;
     text.value = textOf(d);
@@ -107,18 +111,13 @@ export function RecipePage({ name }: { name: string }) {
   };
   useEffect(() => {
     let here = true;
-    client.recipe(name).then(
+    file.read().then(
       (d) => {
         if (!here) return;
-        put(editable(d as unknown as RecipeDocument));
-        stored.value = text.peek();
+        put(d ?? { description: '', steps: [] });
+        if (d) stored.value = text.peek();
       },
-      (error) => {
-        if (!here) return;
-        const p = asProblem(error);
-        if (p.status === 404) put({ description: '', steps: [] });
-        else result.value = { tone: 'refused', text: capital(p.words) };
-      },
+      (error) => here && (result.value = { tone: 'refused', text: capital(asProblem(error).words) }),
     );
     return () => {
       here = false;
@@ -132,7 +131,7 @@ export function RecipePage({ name }: { name: string }) {
     if (!d || d.steps.length === 0 || textFault.peek() || no.disabled) return;
     let here = true;
     const timer = setTimeout(() => {
-      client.putRecipe(name, d, true).then(
+      client.checkRecipe(name, d).then(
         () => here && (faults.value = []),
         (e) => here && (faults.value = e instanceof Problem ? ((e.document.faults ?? []) as Fault[]) : []),
       );
@@ -147,29 +146,35 @@ export function RecipePage({ name }: { name: string }) {
     const d = document.peek();
     if (!d || textFault.peek()) return;
     const sent = text.peek();
-    try {
-      await client.putRecipe(name, d, false);
+    const outcome = await file.save(d);
+    clash.value = outcome.good || !outcome.clash ? null : { ...outcome.clash, act: 'save' };
+    if (outcome.good) {
       stored.value = sent;
       faults.value = [];
       result.value = { tone: 'good', text: 'Saved.' };
-    } catch (error) {
-      const p = asProblem(error);
-      faults.value = (p.document.faults ?? []) as Fault[];
-      result.value = { tone: 'refused', text: capital(p.message) };
+    } else if (!outcome.clash) {
+      faults.value = (outcome.problem.document.faults ?? []) as Fault[];
+      result.value = { tone: 'refused', text: capital(outcome.problem.message) };
     }
+  };
+  /** Goes on from what somebody else has made of it. */
+  const adopt = () => {
+    const now = clash.peek()?.now ?? null;
+    clash.value = null;
+    put(now ?? { description: '', steps: [] });
+    stored.value = now ? text.peek() : '';
+    result.value = { tone: 'none', text: 'In view is what the gateway has now.' };
   };
   const sure = useSignal(false);
   const remove = async () => {
-    if (!sure.peek()) {
+    if (!sure.peek() && clash.peek()?.act !== 'remove') {
       sure.value = true;
       return;
     }
-    try {
-      if (stored.peek()) await client.removeRecipe(name);
-      go('/recipes');
-    } catch (error) {
-      result.value = { tone: 'refused', text: capital(asProblem(error).words) };
-    }
+    const outcome = file.there ? await file.remove() : ({ good: true } as const);
+    if (outcome.good) return go('/recipes');
+    clash.value = outcome.clash ? { ...outcome.clash, act: 'remove' } : null;
+    result.value = { tone: 'refused', text: capital(outcome.problem.words) };
   };
   const d = document.value;
   const unsaved = d !== null && text.value !== stored.value;
@@ -212,7 +217,7 @@ export function RecipePage({ name }: { name: string }) {
                   }}
                 />
               </label>
-              <button type="button" class="button primary" disabled={!unsaved || textFault.value !== ''} {...no} onClick={() => void save()}>
+              <button type="button" class="button primary" disabled={!unsaved || textFault.value !== '' || clash.value !== null} {...no} onClick={() => void save()}>
                 Save
               </button>
               <button type="button" class="button" {...no} onClick={() => void remove()} onBlur={() => (sure.value = false)}>
@@ -221,8 +226,30 @@ export function RecipePage({ name }: { name: string }) {
             </div>
           </Gate>
           <p class={`result result-${result.value.tone}`} role="status">
-            <span>{unsaved ? 'Not saved yet.' : result.value.text}</span>
+            <span>{clash.value ? `${clash.value.text} What you typed is kept.` : unsaved && result.value.tone !== 'refused' ? 'Not saved yet.' : result.value.text}</span>
           </p>
+          {clash.value && (
+            <div class="theirs card form" role="group" aria-label="Somebody else's change" data-field="recipe-clash">
+              <p class="where">From what the gateway has now to what you typed:</p>
+              <ul class="differences" aria-label="What differs">
+                {recipeDifferences(clash.value.now ?? {}, d)
+                  .slice(0, 50)
+                  .map((t) => (
+                    <li key={t} class="mono">
+                      {t}
+                    </li>
+                  ))}
+              </ul>
+              <div class="form-foot">
+                <button type="button" class="button" {...no} onClick={() => void (clash.value?.act === 'remove' ? remove() : save())}>
+                  {clash.value.act === 'remove' ? 'Delete it all the same' : 'Save mine all the same'}
+                </button>
+                <button type="button" class="button" onClick={adopt}>
+                  Take theirs
+                </button>
+              </div>
+            </div>
+          )}
           <div class="recipe-sides">
             <Gate need="engineer" silent>
               <div>
@@ -233,7 +260,7 @@ export function RecipePage({ name }: { name: string }) {
                 </Section>
                 <Section title="Steps">
                   <div class="card recipe-card">
-                    <StepEditor document={d} change={put} axes={store.axisNames.value} faults={faults.value} />
+                    <StepEditor document={d} change={put} axes={store.axisNames.value} unitOf={(n) => (store.axis(n) ? unitOf(store.axis(n)!.peek().data) : null)} faults={faults.value} />
                     {faults.value
                       .filter((f) => !f.pointer.startsWith('/steps/') && !Object.keys(d.parameters ?? {}).some((p) => f.pointer === `/parameters/${p}` || f.pointer.startsWith(`/parameters/${p}/`)))
                       .map((f) => (

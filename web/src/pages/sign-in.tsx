@@ -10,6 +10,7 @@ import { passwordFault, signInWords, userFault } from '../state/session';
 export function SignInPage() {
   const { session } = useGateway();
   const first = session.info.value?.first_sign_in ?? false;
+  const ended = session.ended.value;
   const user = kept('typed.user');
   const [code, setCode] = useState('');
   const [password, setPassword] = useState('');
@@ -25,8 +26,11 @@ export function SignInPage() {
     if (fault) return setTold({ tone: 'refused', text: fault });
     setTold({ tone: 'busy', text: 'Signing in …' });
     const problem = await (first ? session.first(code.trim(), user.value, password) : session.signIn(user.value, password));
-    setPassword('');
-    setSecond('');
+    // A wrong code says nothing about the passwords: typed twice, they stay.
+    if (!problem || !first) {
+      setPassword('');
+      setSecond('');
+    }
     if (problem) return setTold({ tone: 'refused', text: signInWords(problem) });
     setTold({ tone: 'good', text: 'Signed in.' });
     if (route.peek().page === 'sign-in') go('/');
@@ -37,6 +41,11 @@ export function SignInPage() {
         {first ? 'First sign-in' : 'Sign in'}
       </h1>
       <form class="form card" aria-label={first ? 'First sign-in' : 'Sign in'} onSubmit={(e) => void send(e)}>
+        {ended && (
+          <p class="sign-in-ended" role="alert" data-field="session-ended">
+            {ended}
+          </p>
+        )}
         {first && <p>No user exists yet. The gateway printed a code on its standard output when it started for the first time. Whoever has it makes the first administrator here.</p>}
         {first && <TextField label="Code" value={code} onText={setCode} mono placeholder="K7QF-2M9D-XW3E-8HTR" />}
         <TextField label="Name" value={user.value} onText={(t) => (user.value = t)} fill="username" hint={first ? 'a-z, 0-9, point, _ - and @; at most 64' : undefined} />
@@ -46,6 +55,11 @@ export function SignInPage() {
           <button type="submit" class="button primary">
             {first ? 'Make the first administrator' : 'Sign in'}
           </button>
+          {session.mayGoOn.value && (
+            <button type="button" class="button" onClick={() => location.reload()}>
+              Go on without signing in
+            </button>
+          )}
           <Tell told={told} field="sign-in-told" />
         </div>
       </form>

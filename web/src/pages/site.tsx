@@ -16,6 +16,7 @@ import { barred } from '../state/session';
 import { draftOf } from '../state/site-draft';
 
 const wizard = kept('site.wizard');
+const lookAgain_ms = 3_000;
 export function SitePage() {
   const { client, session, store } = useGateway();
   const { door, draft } = draftOf(client);
@@ -25,6 +26,16 @@ export function SitePage() {
   useEffect(() => {
     if (epoch > 0) void draft.load();
   }, [draft, epoch, revision]);
+
+  // Another client may replace or take away what is staged; that changes no revision.
+  const staged = draft.stage.value.state === 'staged';
+  useEffect(() => {
+    if (!staged) return;
+    const timer = setInterval(() => {
+      if (!document.hidden && store.connected.peek()) void draft.look();
+    }, lookAgain_ms);
+    return () => clearInterval(timer);
+  }, [draft, staged]);
 
   const site = draft.draft.value;
   const empty = (draft.base.value.axes ?? []).length === 0;

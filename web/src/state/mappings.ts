@@ -99,7 +99,7 @@ export class MappingBook {
       await this.door.table(csvOf([columns, ...restored.map(cellsOf)]), { replace: true, dryRun: false, revision: now.revision });
       this.changes.value = this.changes.peek().slice(0, -1);
       await this.read();
-      return { good: true, text: `Undone: ${lower(last.words)}.` };
+      return { good: true, text: `Undone: ${uncapital(last.words)}.` };
     } catch (error) {
       const problem = asProblem(error);
       return { good: false, text: `Not undone: ${problem.words}`, problem };
@@ -143,4 +143,5 @@ class ClashError extends Error {
     super(clash.text);
   }
 }
-const lower = (s: string) => s.charAt(0).toLowerCase() + s.slice(1);
+/** Names of points and parameters keep their capitals. */
+export const uncapital = (s: string) => s.charAt(0).toLowerCase() + s.slice(1);

@@ -38,6 +38,7 @@ export function crossing(c: TrailColumns, setting: TriggerSetting, after_s: numb
     const fires = setting.edge === 'rising' ? a < setting.level && b >= setting.level : a > setting.level && b <= setting.level;
     if (!fires) continue;
     const t0 = c.at[i - 1] as number;
+    if (setting.channel === 'target') return t1; // a target is set, it does not drift
     const t = t0 + ((setting.level - a) / (b - a)) * (t1 - t0);
     if (t > after_s) return t;
   }
@@ -74,7 +75,10 @@ export class Trigger {
   }
 }
 
-/** What a channel was at an instant: on the straight line between its neighbours; null in a gap or outside the recording. */
+/** Where the drive does not say where it wants to be, these two are not known. */
+export const needsDemand = (c: Channel): boolean => c === 'demand' || c === 'error';
+
+/** What a channel was at an instant: on the straight line between its neighbours, a target as it was set; null in a gap or outside the recording. */
 export function valueAt(c: TrailColumns, channel: Channel, t: number): number | null {
   const n = c.at.length;
   if (n === 0 || t < (c.at[0] as number)) return null;
@@ -88,7 +92,7 @@ export function valueAt(c: TrailColumns, channel: Channel, t: number): number | 
   const i = low - 1;
   const v = columnOf(c, channel);
   const a = v[i] ?? null;
-  if (i + 1 >= n || a === null) return a;
+  if (i + 1 >= n || a === null || channel === 'target') return a;
   const b = v[i + 1] ?? null;
   if (b === null) return a;
   const [t0, t1] = [c.at[i] as number, c.at[i + 1] as number];

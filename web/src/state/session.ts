@@ -13,17 +13,26 @@ export class Session {
   /** null: the gateway has not said yet, or is older than the page. */
   readonly info = signal<SessionInfo | null>(null);
   /** The page has to be left for the sign-in: the gateway knows nobody here. */
-  readonly needed = computed(() => this.info.value !== null && this.info.value.role === null);
+  readonly needed = computed(() => this.ended.value !== '' || (this.info.value !== null && this.info.value.role === null));
+  /** Why one is signed out without having asked for it; empty: one is not. What was typed waits behind the sign-in. */
+  readonly ended = signal('');
+  /** After an ended session: the gateway serves this machine without a sign-in too. */
+  readonly mayGoOn = computed(() => this.ended.value !== '' && this.info.value?.via === 'local' && this.info.value.role !== null);
   private asking: Promise<void> | null = null;
   private again = false;
   private change = 0;
+  /** Signing out on purpose is no end that has to be told. */
+  private leaving = false;
 
   constructor(
     private readonly client: Caller,
     /** Who one is has changed: the stream has to be opened anew. */
     private readonly onChange: () => void = () => undefined,
   ) {
-    client.onUnauthorized = () => void this.ask();
+    client.onUnauthorized = (problem) => {
+      if (problem.is('session_ended')) this.end(problem.words);
+      void this.ask();
+    };
   }
 
   /** One question at a time; asked meanwhile, it is asked once more afterwards. */
@@ -54,9 +63,23 @@ export class Session {
 
   private set(info: SessionInfo): void {
     const old = this.info.peek();
+    // The answer that tells the end takes the cookie away: who one is without it is asked at once.
+    if (info.ended) {
+      this.end(info.ended);
+      this.again = true;
+    } else if (old?.via === 'cookie' && info.via !== 'cookie' && !this.leaving) {
+      this.end('');
+    }
     this.client.csrf = info.csrf;
     this.info.value = info;
     if (old && (old.user !== info.user || old.role !== info.role || old.via !== info.via)) this.onChange();
+  }
+
+  private end(why: string): void {
+    if (this.ended.peek() !== '') return;
+    const known = why && !/session has ended/.test(why) ? why : 'it was ended elsewhere, it expired, or the gateway was restarted';
+    this.ended.value = `Your session has ended: ${known.replace(/[.\s]+$/, '')}. Sign in again; what you typed is kept.`;
+    this.onChange();
   }
 
   signIn = (user: string, password: string) => this.enter('/session', { user, password });
@@ -66,7 +89,10 @@ export class Session {
     try {
       const info = await this.client.call<SessionInfo>(path, { method: 'POST', body });
       this.change += 1;
+      const again = this.ended.peek() !== '';
+      this.ended.value = '';
       this.set(info);
+      if (again) this.onChange();
       return null;
     } catch (error) {
       const problem = asProblem(error);
@@ -83,7 +109,9 @@ export class Session {
     }
     this.change += 1;
     this.client.csrf = null;
+    this.leaving = true;
     await this.ask();
+    this.leaving = false;
     return null;
   }
 

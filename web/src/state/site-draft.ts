@@ -1,11 +1,12 @@
 // Site draft: what is typed for the site, until it is applied; what the gateway says of it; and the way through stage, apply, keep or roll back.
 // In: the HTTP door. Out: signals. The draft survives a change of page and a reload. Another person's change is shown, and mine are put on top of it
-// only when I say so. A gateway without staging gets the whole document at once, after a dry run; that there is no roll back is said.
+// only when I say so; only what was shown is applied, and what is typed meanwhile stays. A gateway without staging gets the whole document at once, after a dry run; that there is no roll back is said.
 import { computed, effect, signal, type ReadonlySignal } from '@preact/signals';
 import { asProblem, type Problem } from '../api/problem';
 import type { Client } from '../api/client';
 import { SiteDoor, type SiteFault, type Stage } from '../api/site';
 import { differenceOf, rebase, sameDocument, withEntry, withoutEntry, type Difference, type Entry, type Room, type Site } from '../words/site';
+import { holderName } from '../words/authority';
 import { kept } from './kept';
 
 export interface Told {
@@ -13,6 +14,10 @@ export interface Told {
   text: string;
 }
 const none: Stage = { state: 'none' };
+const quiet: Told = { tone: 'none', text: '' };
+/** Empty: an older gateway, where a stage cannot be told from another one. */
+const idOf = (stage: Stage): string => (typeof stage.id === 'string' ? stage.id : '');
+export const stagerOf = (stage: Stage): string => (stage.by && stage.by !== 'local' ? holderName(stage.by) : 'Somebody else');
 const absent = (p: Problem) => p.status === 404 || p.status === 405 || p.status === 501;
 
 export class SiteDraft {
@@ -31,8 +36,18 @@ export class SiteDraft {
   readonly faults = signal<SiteFault[]>([]);
   readonly checked = signal<Site | null>(null);
   readonly disturbs = signal<string[]>([]);
-  readonly told = signal<Told>({ tone: 'none', text: '' });
+  readonly told = signal<Told>(quiet);
+  /** Somebody else's stage stands in the way of mine: what is staged, and whether it is in view to be applied. */
+  readonly rival = signal<{ inView: boolean } | null>(null);
+  /** A revision that is to be restored over changes that are not applied: it is asked for first. */
+  readonly askRestore = signal<number | null>(null);
+  /** What was applied and rolled back because nobody kept it. */
+  readonly rolledBack = signal<Site | null>(null);
   private tag = '';
+  /** The stage that this page has shown. */
+  private shown = '';
+  private applied: Site | null = null;
+  private moving = false;
   private readonly store = kept('site.draft');
 
   constructor(private readonly door: SiteDoor) {
@@ -53,8 +68,11 @@ export class SiteDraft {
   }
 
   async load(): Promise<void> {
+    if (this.moving) return; // what comes of it is read at its end
+    if (this.stage.peek().state === 'applied') await this.look();
     try {
       const { site, tag } = await this.door.read();
+      if (this.moving) return;
       const fresh = this.tag === '' || this.changes.peek().length === 0;
       if (fresh || sameDocument(site, this.draft.peek())) {
         this.take(site, tag);
@@ -72,26 +90,54 @@ export class SiteDraft {
 
   /** What the gateway has staged or applied. */
   async look(): Promise<void> {
-    if (this.offersStage.peek() === false) return;
+    if (this.offersStage.peek() === false || this.moving) return;
     try {
-      const before = this.stage.peek().state;
-      this.stage.value = await this.door.stage();
+      const before = this.stage.peek();
+      const now = await this.door.stage();
+      if (this.moving) return;
+      this.stage.value = now;
       this.offersStage.value = true;
-      if (before === 'applied' && this.stage.peek().state === 'none') await this.load();
+      if (now.state === 'none') {
+        this.rival.value = null;
+        if (before.state !== 'none' && this.told.peek().tone !== 'busy') this.told.value = quiet;
+      } else if (now.state === 'staged' && idOf(now) !== '' && idOf(now) !== this.shown && before.state === 'staged' && idOf(before) === this.shown && this.shown !== '') {
+        // Mine was replaced: it is said before somebody presses Apply.
+        this.contest(`${stagerOf(now)} has staged something else in place of what you checked.`);
+      }
+      if (before.state === 'applied' && (now.state === 'none' || now.state === 'staged')) await this.ended();
     } catch (error) {
       if (absent(asProblem(error))) this.offersStage.value = false;
     }
   }
 
+  /** A trial is over without a word from this page: kept by somebody, or rolled back. */
+  private async ended(): Promise<void> {
+    const applied = this.applied;
+    this.applied = null;
+    const { site, tag } = await this.door.read();
+    this.move(site, tag, this.base.peek());
+    if (!applied || sameDocument(site, applied)) return;
+    this.rolledBack.value = applied;
+    this.told.value = { tone: 'refused', text: 'Rolled back by itself: nobody pressed Keep in time.' };
+  }
+
+  /** Puts what was rolled back into the draft again, to be checked and applied anew. */
+  again(): void {
+    const site = this.rolledBack.peek();
+    if (site) this.edit(site);
+  }
+
   edit(site: Site): void {
     this.draft.value = site;
-    this.told.value = { tone: 'none', text: '' };
+    this.rolledBack.value = null;
+    this.told.value = quiet;
   }
   put = (room: Room, entry: Entry, own: string | null) => this.edit(withEntry(this.draft.peek(), room, entry, own));
   remove = (room: Room, name: string) => this.edit(withoutEntry(this.draft.peek(), room, name));
   drop(): void {
     this.draft.value = this.base.peek();
     this.clear();
+    this.rival.value = null;
   }
 
   /** Goes on from somebody else's site: with my changes on top, or without them. */
@@ -109,14 +155,15 @@ export class SiteDraft {
     };
   }
 
-  async check(): Promise<boolean> {
+  /** `replace`: also in place of what somebody else has staged. */
+  async check(replace = false): Promise<boolean> {
     const draft = this.draft.peek();
     return this.tell('Checking …', async () => {
       if (this.offersStage.peek() !== false) {
         try {
-          const stage = await this.door.putStage(draft, this.tag);
+          const stage = await this.door.putStage(draft, this.tag, replace);
           this.offersStage.value = true;
-          this.stage.value = { ...stage, state: stage.state ?? 'staged' };
+          this.mine(stage);
           this.judge(draft, stage.faults ?? [], stage.disturbs ?? []);
           return this.verdict();
         } catch (error) {
@@ -131,54 +178,94 @@ export class SiteDraft {
   }
 
   async apply(confirm_within_s: number): Promise<boolean> {
-    const draft = this.draft.peek();
-    return this.tell('Applying …', async () => {
+    const sent = this.checked.peek() ?? this.draft.peek();
+    return this.step('Applying …', async () => {
       if (this.offersStage.peek() === false) {
-        await this.door.replace(draft, { dryRun: false, tag: this.tag });
+        await this.door.replace(sent, { dryRun: false, tag: this.tag });
         const { site, tag } = await this.door.read();
-        this.take(site, tag);
+        this.move(site, tag, sent);
         return 'Applied. This gateway does not roll back by itself.';
       }
-      const r = await this.door.apply(confirm_within_s);
+      const theirs = this.rival.peek()?.inView === true;
+      const r = await this.door.apply(confirm_within_s, this.shown);
       const stage = await this.door.stage().catch(() => ({ ...this.stage.peek(), ...r, state: confirm_within_s > 0 ? ('applied' as const) : ('none' as const) }));
       this.stage.value = r.confirm_by && !stage.confirm_by ? { ...stage, confirm_by: r.confirm_by } : stage;
+      this.rival.value = null;
       const { site, tag } = await this.door.read();
-      this.take(site, tag);
-      return this.stage.peek().state === 'applied' ? 'Applied. Keep it, or it is rolled back by itself.' : 'Applied.';
+      this.move(site, tag, theirs ? this.base.peek() : sent);
+      const waits = this.stage.peek().state === 'applied';
+      this.applied = waits ? site : null;
+      return waits ? 'Applied. Keep it, or it is rolled back by itself.' : 'Applied.';
     });
   }
 
   confirm = () =>
-    this.tell('Keeping …', async () => {
+    this.step('Keeping …', async () => {
       await this.door.confirm();
       this.stage.value = none;
+      this.applied = null;
       return 'Kept.';
     });
   rollBack = () =>
-    this.tell('Rolling back …', async () => {
+    this.step('Rolling back …', async () => {
       await this.door.rollBack();
       this.stage.value = none;
+      this.applied = null;
       const { site, tag } = await this.door.read();
-      this.take(site, tag);
+      this.move(site, tag, this.base.peek());
       return 'Rolled back: the site is as it was before.';
     });
   discard = () =>
     this.tell('Discarding …', async () => {
       await this.door.discard();
       this.stage.value = none;
+      this.rival.value = null;
       this.clear();
       return 'Nothing is staged now. What you typed is still there.';
     });
-  restore = (revision: number) =>
-    this.tell('Staging …', async () => {
-      const stage = await this.door.restore(revision);
+  /** `sure`: changes that are not applied may go. */
+  async restore(revision: number, sure = false): Promise<boolean> {
+    if (!sure && this.changes.peek().length > 0) {
+      this.askRestore.value = revision;
+      return false;
+    }
+    this.askRestore.value = null;
+    return this.tell('Staging …', async () => {
       const document = await this.door.old(revision);
-      this.draft.value = document;
-      this.stage.value = { ...stage, state: stage.state ?? 'staged' };
-      this.judge(document, stage.faults ?? [], stage.disturbs ?? []);
+      try {
+        const stage = await this.door.restore(revision);
+        this.edit(document);
+        this.mine(stage);
+        this.judge(document, stage.faults ?? [], stage.disturbs ?? []);
+      } catch (error) {
+        // The way on is the same as for every draft: check it in place of theirs.
+        if (asProblem(error).is('stage_taken')) this.edit(document);
+        throw error;
+      }
       return `Revision ${revision} is staged; nothing has been applied yet.`;
     });
+  }
 
+  /** What somebody else has staged is looked at and can be applied; what I typed waits. Or back to mine. */
+  view(theirs: boolean): void {
+    this.rival.value = { inView: theirs };
+    this.shown = theirs ? idOf(this.stage.peek()) : '';
+    this.checked.value = null;
+    this.told.value = quiet;
+  }
+
+  /** The stage in the gateway is what this page has checked. */
+  private mine(stage: Stage): void {
+    this.stage.value = { ...stage, state: stage.state ?? 'staged' };
+    this.shown = idOf(stage);
+    this.rival.value = null;
+  }
+  private contest(text: string): void {
+    this.rival.value = { inView: false };
+    this.shown = '';
+    this.checked.value = null;
+    this.told.value = { tone: 'refused', text };
+  }
   private verdict(): string {
     const n = this.faults.peek().length;
     if (n > 0) throw new Error(faultWords(n));
@@ -193,7 +280,13 @@ export class SiteDraft {
     this.judge({}, [], []);
     this.checked.value = null;
     this.theirs.value = null;
-    this.told.value = { tone: 'none', text: '' };
+    this.told.value = quiet;
+  }
+  /** The site in force is another one now; what was typed since `from` is put on top of it. */
+  private move(site: Site, tag: string, from: Site): void {
+    const typed = this.draft.peek();
+    this.take(site, tag);
+    if (!sameDocument(typed, from)) this.draft.value = rebase(from, typed, site).site;
   }
   private take(site: Site, tag: string): void {
     this.tag = tag;
@@ -203,8 +296,14 @@ export class SiteDraft {
     this.checked.value = null;
     this.faults.value = [];
   }
+  /** A step that changes the site in force: nothing is read from outside before its end. */
+  private async step(busy: string, act: () => Promise<string>): Promise<boolean> {
+    this.moving = true;
+    return this.tell(busy, () => act().finally(() => (this.moving = false)));
+  }
   private async tell(busy: string, act: () => Promise<string>): Promise<boolean> {
     this.told.value = { tone: 'busy', text: busy };
+    this.rolledBack.value = null;
     try {
       this.told.value = { tone: 'good', text: await act() };
       return true;
@@ -215,7 +314,20 @@ export class SiteDraft {
       const n = p.document.faults?.length ?? 0;
       const words = n > 0 ? faultWords(n) : p.kind === 'unreachable' && error instanceof Error ? error.message : p.status === 412 ? 'Somebody else has changed the site meanwhile; what you typed is kept.' : p.words;
       this.told.value = { tone: 'refused', text: words.charAt(0).toUpperCase() + words.slice(1) };
+      if (p.is('stage_replaced') || p.is('stage_taken')) await this.meet(p);
       return false;
+    }
+  }
+  /** Somebody else's stage stands where mine should: it is read, to be shown. */
+  private async meet(p: Problem): Promise<void> {
+    const stage = await this.door.stage().catch(() => null);
+    if (stage) this.stage.value = stage;
+    if (stage?.state === 'none') {
+      this.checked.value = null;
+      this.shown = '';
+      this.told.value = { tone: 'refused', text: 'Nothing was applied: what you checked is not staged any more. Check it again.' };
+    } else {
+      this.contest(`${p.is('stage_replaced') ? 'Nothing was applied: ' : ''}${stage ? stagerOf(stage) : 'somebody else'} has staged another change. What you typed is kept.`);
     }
   }
 }

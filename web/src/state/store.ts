@@ -5,6 +5,7 @@
 import { batch, computed, signal, type ReadonlySignal, type Signal } from '@preact/signals';
 import type { StreamMessage, StreamState } from '../api/stream';
 import type { About, AlarmList, Axis, Drive, GatewayEvent, Line } from '../api/types';
+import { demandKnown } from '../words/axis';
 import { Trail } from './trail';
 
 export interface Known<T> {
@@ -89,7 +90,10 @@ export class Store {
   readonly connection = signal<StreamState>({ phase: 'connecting', epoch: 0, lastLiveAt: 0, retryAt: 0, attempts: 0, why: '' });
   readonly connected: ReadonlySignal<boolean> = computed(() => this.connection.value.phase === 'live');
   readonly about = signal<About | null>(null);
-  readonly siteRevision = signal(0);
+  /** Families by name, as their makers call them; empty where the gateway does not say. */
+  readonly familyTitles = signal<ReadonlyMap<string, string>>(new Map());
+  /** null: not told yet. 0 is the real revision of a gateway that has never had a site. */
+  readonly siteRevision = signal<number | null>(null);
   /** The lists have come at least once: an empty page is then really an empty site. */
   readonly listed = signal(false);
   /** Newest first. */
@@ -244,7 +248,7 @@ export class Store {
     if (axis === null) {
       this.trails.delete(name);
     } else if (axis.online && !axis.stale) {
-      this.trail(name).add({ at_ms: message.at / 1e6, position: axis.position, velocity: axis.velocity, target: axis.target_position, demand: axis.position_demand });
+      this.trail(name).add({ at_ms: message.at / 1e6, position: axis.position, velocity: axis.velocity, target: axis.target_position, demand: demandKnown(axis) ? axis.position_demand : null });
     } else {
       this.trail(name).gap();
     }

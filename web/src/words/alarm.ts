@@ -3,6 +3,7 @@
 import type { Alarm, Axis, Drive, GatewayEvent, Line } from '../api/types';
 import { axisPath, linePath } from '../router';
 import type { Word } from './axis';
+import { csvOf } from './table-text';
 
 export function alarmWord(alarm: Pick<Alarm, 'state' | 'severity'>): Word {
   const tone = alarm.severity === 'alarm' ? 'fault' : 'warning';
@@ -74,11 +75,26 @@ export function passes(e: GatewayEvent, f: EventFilter): boolean {
   return wanted === '' || [e.text, e.kind, e.axis, e.drive, e.line, e.who, e.parameter].some((s) => s?.toLowerCase().includes(wanted));
 }
 
-/** The same filter for the export; the text is the page's own and stays here. */
-export function exportPath(f: EventFilter, format: 'csv' | 'text'): string {
-  const q = new URLSearchParams({ format, limit: '1000' });
-  if (f.least !== 'info' && f.least !== '') q.set('severity', f.least);
-  if (f.axis) q.set('axis', f.axis);
-  if (f.kind) q.set('kind', f.kind);
-  return `/api/v1/events?${q}`;
+/** What the gateway can filter by itself; the text is looked for here, in what it answers. */
+export const asked = (f: EventFilter): { severity?: string; axis: string; kind: string } => ({ ...(f.least !== 'info' && f.least !== '' ? { severity: f.least } : {}), axis: f.axis, kind: f.kind });
+
+/** Newest first, each once, at most so many: what the gateway had and what has come since. */
+export function gathered(had: readonly GatewayEvent[], since: readonly GatewayEvent[], f: EventFilter, most: number): GatewayEvent[] {
+  const byId = new Map<number, GatewayEvent>();
+  for (const e of [...had, ...since]) if (passes(e, f)) byId.set(e.id, e);
+  return [...byId.values()].sort((a, b) => b.id - a.id).slice(0, most);
+}
+
+const eventColumns = ['id', 'at', 'severity', 'kind', 'axis', 'drive', 'line', 'code', 'text', 'who', 'door', 'parameter', 'old', 'new'] as const;
+/** Exactly these events as a file, oldest first, in the form in which the gateway writes them. */
+export function eventFile(events: readonly GatewayEvent[], format: 'csv' | 'text'): string {
+  const rows = [...events].sort((a, b) => a.id - b.id);
+  if (format === 'csv') return csvOf([eventColumns, ...rows.map((e) => eventColumns.map((c) => (c === 'code' && !e.code ? '' : String(e[c] ?? ''))))]);
+  return rows
+    .map((e) => {
+      const change = e.parameter ? ` [${e.parameter}: ${e.old ?? ''} -> ${e.new ?? ''}]` : '';
+      const line = `${e.at} ${e.severity.padEnd(7)} ${e.kind.padEnd(12)} ${(e.axis ?? e.drive ?? e.line ?? '-').padEnd(16)} ${e.text}${change}${e.code ? ` (code ${e.code})` : ''}${e.who ? ` by ${e.who}` : ''}`;
+      return `${line.replace(/[\u0000-\u001f\u007f]/g, ' ')}\n`;
+    })
+    .join('');
 }

@@ -18,6 +18,12 @@ export function heldBy(axis: Pick<Axis, 'authority_holder' | 'authority_until'>,
 /** "anna page-1a2b3c" is anna to people. */
 export const holderName = (holder: string): string => holder.replace(/ page-[0-9a-z]{6}$/, '');
 
+/** Whom a lease can be given to, as the gateway names them: who holds or held another axis, and who is connected by Modbus. Never the page itself. */
+export function handOverChoices(held: readonly { door: string; holder: string }[], peers: readonly string[], tab: string): string[] {
+  const all = [...held.filter((h) => h.holder !== '' && h.door !== 'none').map((h) => `${h.door} ${h.holder}`), ...peers.map((p) => `modbus ${p.replace(/:\d+$/, '').replace(/^\[(.*)\]$/, '$1')}`)];
+  return [...new Set(all)].filter((c) => tab === '' || !c.endsWith(` ${tab}`)).sort();
+}
+
 export function heldWords(h: Held): string {
   if (!h.holder) return 'Nobody holds it';
   return `${h.mine ? 'Held by this page' : `Held by ${holderName(h.holder)}`}, ${h.rest_s > 0 ? `${h.rest_s} s left` : 'about to end'}`;

@@ -56,6 +56,9 @@ export function markOf(axis: Axis): { text: string; kind: 'real' | 'simulated' |
   return { text: 'NO DRIVE', kind: 'none', long: 'Neither a drive nor its model answers' };
 }
 
+/** Some drives do not say where they want to be just now: then demand and following error are nothing that could be shown. A gateway that does not tell says they do. */
+export const demandKnown = (axis: object): boolean => (axis as { demand_known?: boolean }).demand_known !== false;
+
 export const unitOf = (axis: Pick<Axis, 'unit'>): string => axis.unit || 'inc';
 
 export const positionText = (axis: Axis): string => formatNumber(axis.position, decimalsOf(axis.increments_per_unit));

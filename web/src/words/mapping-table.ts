@@ -66,3 +66,12 @@ export function readTable(text: string, known: Known, present: readonly Mapping[
 }
 
 export const csvOfSpecs = (specs: readonly MappingSpec[]): string => csvOf([columns, ...specs.map((s) => cellsOf(s as Partial<Mapping>))]);
+
+/** What has to be known before rows can be called good: the points, and the parameters of an axis whose rows name none of them. Empty: all is there. */
+export function catalogueMissing(specs: readonly MappingSpec[], known: Known): string {
+  if (specs.length === 0) return '';
+  if (known.points.length === 0) return 'Waiting for the list of points …';
+  const simple = new Set(known.points.map((p) => p.point));
+  const open = [...new Set(specs.filter((s) => !simple.has(s.point)).map((s) => s.axis ?? ''))].filter((a) => known.parameters(a) === null);
+  return open.length > 0 ? `Waiting for the parameters of ${open.join(', ')} …` : '';
+}

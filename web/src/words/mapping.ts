@@ -2,6 +2,7 @@
 // In: mappings, text, points. Out: specifications, faults per field, live values. Pure. The gateway checks all of it again.
 import type { components } from '../api/schema';
 import type { Axis } from '../api/types';
+import { demandKnown } from './axis';
 import { parseNumber } from './number';
 
 type Schemas = components['schemas'];
@@ -223,7 +224,7 @@ export function pointValue(axis: Axis, point: string): number | boolean | null |
     case 'mode_display': return axis.mode_number;
     case 'position': return axis.position_increments;
     case 'velocity': return axis.velocity_increments;
-    case 'position_demand': return axis.position_demand_increments;
+    case 'position_demand': return demandKnown(axis) ? axis.position_demand_increments : null;
     case 'error_code': return axis.error.code;
     case 'native_status': return axis.native;
     case 'setpoints_accepted': return axis.setpoints_accepted;
@@ -252,6 +253,14 @@ export function pointUnit(axis: Pick<Axis, 'unit'>, point: string): string {
 export function registerValue(value: number | boolean, m: Pick<Mapping, 'type' | 'scale' | 'offset'>): number {
   const n = Number(value) * m.scale + m.offset;
   return m.type === 'f32' ? Math.fround(n) : m.type === 'f64' ? n : m.type === 'bool' ? Number(n !== 0) : Math.round(n);
+}
+
+const signedPoints = new Set(['position', 'velocity', 'position_demand', 'position_units', 'velocity_units', 'target_position', 'target_velocity', 'mode_display', 'mode', 'homing_method']);
+const signedOf: Partial<Record<RegisterType, RegisterType>> = { u16: 'i16', u32: 'i32', u64: 'i64' };
+/** What to think of before a point that can be negative goes into a type that cannot; empty: nothing. An offset may be meant to lift it. */
+export function signWarning(m: { point: string; type: string; offset: number }): string {
+  const better = signedOf[m.type as RegisterType];
+  return better && m.offset <= 0 && signedPoints.has(m.point) ? `${m.point} can be negative, and ${m.type} holds no negative value: reading it then is an exception. ${better} holds it.` : '';
 }
 
 /** Reads raw words as a type, as an HMI does. */

@@ -16,6 +16,12 @@ export function parseNumber(text: string): Parsed {
   return Number.isFinite(value) ? { good: true, value } : { good: false, why: 'This number is too large.' };
 }
 
+/** A quantity with a unit: as parseNumber, but "0x10" is no distance that anybody means. */
+export function parseQuantity(text: string): Parsed {
+  if (/^\s*[+\-\u2212\u2013]?0x/i.test(text)) return { good: false, why: `“${text.trim()}” is a hexadecimal number: write a quantity in decimal.` };
+  return parseNumber(text);
+}
+
 /** Places after the point that the resolution of the axis is worth: 0 to 3. */
 export function decimalsOf(increments_per_unit: number): number {
   if (!(increments_per_unit > 0) || increments_per_unit <= 1) return 0;
@@ -30,6 +36,15 @@ export function formatNumber(value: number | null | undefined, decimals: number)
   const [whole = '', fraction] = fixed.split('.');
   const grouped = whole.length > 4 ? whole.replace(/\B(?=(\d{3})+$)/g, '\u202f') : whole;
   return sign + grouped + (fraction === undefined ? '' : `.${fraction}`);
+}
+
+/** Labels of a scale: as many places as its steps need to be told apart, however small they are. */
+export function tickLabels(at: readonly number[]): string[] {
+  const step = at.length > 1 ? Math.abs((at[1] as number) - (at[0] as number)) : 1;
+  let decimals = step > 0 ? Math.max(0, -Math.floor(Math.log10(step) + 1e-9)) : 0;
+  // 0.25 needs one place more than its size says.
+  if (step > 0 && Math.abs(step * 10 ** decimals - Math.round(step * 10 ** decimals)) > 1e-6) decimals += 1;
+  return at.map((v) => formatNumber(v, Math.min(12, decimals)));
 }
 
 /** As short as it can be said exactly: for ranges, defaults, parameter values. */

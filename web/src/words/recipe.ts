@@ -88,6 +88,27 @@ export const comparisons: { key: string; label: string }[] = [
 ];
 export const commands = ['move_absolute', 'move_relative', 'move_velocity', 'set_position', 'halt', 'quick_stop', 'reset_fault', 'enable', 'disable', 'home'];
 
+const motion = ['velocity', 'acceleration', 'deceleration'];
+const takes: Record<string, readonly string[]> = { move_absolute: ['position', ...motion], move_relative: ['position', ...motion], move_velocity: motion, set_position: ['position'] };
+/** The fields that a step has use for; a field that is not of its command is shown only while something stands in it. */
+export function fieldsOfStep(kind: StepKind, body: unknown): StepField[] {
+  if (kind.word !== 'command') return kind.fields;
+  const there = (body ?? {}) as Record<string, unknown>;
+  const own = takes[String(there.command)] ?? [];
+  const moves = [...motion, 'position'];
+  return kind.fields.filter((f) => !moves.includes(f.key) || own.includes(f.key) || there[f.key] !== undefined);
+}
+/** The body of a command step under another command: what that one does not take is gone. */
+export function withCommand(body: { [key: string]: Json }, command: string): { [key: string]: Json } {
+  const own = takes[command] ?? [];
+  return Object.fromEntries(Object.entries({ ...body, command }).filter(([k]) => ![...motion, 'position'].includes(k) || own.includes(k)));
+}
+/** What a motion field is counted in; the unit of an axis that is known, else the word. */
+export function unitOfField(key: string, unit: string | null): string {
+  const u = unit ?? 'units';
+  return key === 'position' ? u : key === 'velocity' ? `${u}/s` : key === 'acceleration' || key === 'deceleration' ? `${u}/s²` : '';
+}
+
 export function kindOf(step: Step): StepKind | undefined {
   return stepKinds.find((k) => k.word in step);
 }
@@ -217,6 +238,16 @@ export function documentOf(text: string): { document: RecipeDocument } | { fault
   } catch (error) {
     return { fault: error instanceof Error ? error.message : 'This is not JSON.' };
   }
+}
+/** What differs between two recipes, by place: "/steps/2/wait_s: 1 → 2". */
+export function recipeDifferences(before: unknown, after: unknown, place = ''): string[] {
+  if (JSON.stringify(before) === JSON.stringify(after)) return [];
+  const inner = (v: unknown): v is Record<string, unknown> => typeof v === 'object' && v !== null;
+  if (inner(before) && inner(after) && Array.isArray(before) === Array.isArray(after)) {
+    return [...new Set([...Object.keys(before), ...Object.keys(after)])].flatMap((k) => recipeDifferences(before[k], after[k], `${place}/${k}`));
+  }
+  const said = (v: unknown) => (v === undefined ? 'nothing' : JSON.stringify(v));
+  return [`${place}: ${said(before)} → ${said(after)}`];
 }
 /** Without what the gateway adds by itself. */
 export function editable(document: RecipeDocument): RecipeDocument {

@@ -67,7 +67,7 @@ export const fieldsOf: Record<Room, readonly FieldSpec[]> = {
     { key: 'channel', label: 'Channel', kind: 'integer', min: 1, max: 256, placeholder: '1' },
     { key: 'number', label: 'Number', kind: 'integer', required: true, min: 1, max: 1024, hint: 'place in the register map' },
     { key: 'unit', label: 'Unit', kind: 'text', placeholder: 'increments', hint: 'such as mm or deg' },
-    { key: 'increments_per_unit', label: 'Increments per unit', kind: 'number', above: 0, placeholder: '1' },
+    { key: 'increments_per_unit', label: 'Increments per unit', kind: 'number', above: 0, hint: 'how many increments of the drive make one unit' },
     { key: 'position_min', label: 'Lowest position', kind: 'number', hint: 'software limit, in unit' },
     { key: 'position_max', label: 'Highest position', kind: 'number', hint: 'software limit, in unit' },
     { key: 'velocity_max', label: 'Highest speed', kind: 'number', above: 0, hint: 'unit/s' },
@@ -161,6 +161,9 @@ export function checkEntry(room: Room, texts: Texts, site: Site, own: Entry | nu
     if (entry.drive !== undefined && !(site.drives ?? []).some((d) => d.name === entry.drive)) faults.drive ??= `There is no drive ${String(entry.drive)}.`;
     taken('number', 'This number has', (e) => e.number === entry.number);
     taken('channel', 'This channel of the drive has', (e) => e.drive === entry.drive && (e.channel ?? 1) === (entry.channel ?? 1));
+    // Left empty it would be 1, and every move would be wrong by the whole factor.
+    const unit = String(entry.unit ?? '').trim();
+    if (!['', 'inc', 'increments'].includes(unit) && entry.increments_per_unit === undefined) faults.increments_per_unit ??= `How many increments make one ${unit}?`;
     const { position_min: low, position_max: high } = entry as { position_min?: number; position_max?: number };
     if (low !== undefined && high !== undefined && low >= high) faults.position_max ??= 'The highest position lies above the lowest.';
   }

@@ -124,3 +124,10 @@ export function isMarked(p: AxisParameter, mark: Marked): boolean {
     case 'writable': return p.access !== 'R';
   }
 }
+
+/** What a restore leaves out, by reason, most first. */
+export function leftOut(skipped: readonly { parameter: string; why: string }[]): { why: string; parameters: string[] }[] {
+  const by = new Map<string, string[]>();
+  for (const s of skipped) by.set(s.why, [...(by.get(s.why) ?? []), s.parameter]);
+  return [...by].map(([why, parameters]) => ({ why, parameters })).sort((a, b) => b.parameters.length - a.parameters.length);
+}

@@ -1,0 +1,38 @@
+// Register look: what the Modbus door answers for a run of mappings. In: the door, a span without gaps and its mappings. Out: per mapping its raw words
+// and what they mean, or its own exception. An exception for a whole span says nothing about each of it: the span is halved until every mapping
+// has its own answer. At most `most` requests for one look; what was not reached keeps what was said before.
+import type { MappingDoor, Registers } from '../api/mappings';
+import { widthOf, type Mapping } from '../words/mapping';
+
+export interface Heard {
+  words: number[] | null;
+  value: number | string | boolean | null | undefined;
+  /** Why there are no words: the exception, or what went wrong. */
+  text: string;
+}
+
+export async function lookAt(door: Pick<MappingDoor, 'registers'>, own: readonly Mapping[], into: Map<string, Heard>, end: AbortSignal, most = 64): Promise<void> {
+  let left = most;
+  const read = async (rows: readonly Mapping[]): Promise<void> => {
+    const first = rows[0];
+    if (!first || left === 0 || end.aborted) return;
+    left -= 1;
+    const count = rows.reduce((n, m) => Math.max(n, m.address + widthOf(m.type, m.length)), 0) - first.address;
+    const r = await door.registers({ unit: first.unit, table: first.table, address: first.address, count }, end);
+    if (r.exception && rows.length > 1) {
+      const half = Math.ceil(rows.length / 2);
+      await read(rows.slice(0, half));
+      return read(rows.slice(half));
+    }
+    for (const m of rows) into.set(m.id, heardOf(r, m));
+  };
+  await read([...own].sort((a, b) => a.address - b.address));
+}
+
+function heardOf(r: Registers, m: Mapping): Heard {
+  if (r.exception) return { words: null, value: undefined, text: `exception ${r.exception.code}: ${r.exception.text}` };
+  const raw = r.words ?? (r.bits ?? []).map(Number);
+  const at = m.address - r.address;
+  const decoded = r.decoded?.find((d) => d.mapping === m.id || (d.mapping === undefined && d.address === m.address));
+  return { words: raw.slice(at, at + widthOf(m.type, m.length)), value: decoded?.value, text: '' };
+}

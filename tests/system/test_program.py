@@ -33,7 +33,7 @@ def test_families_and_catalogue():
     wanted = {"id", "name", "group", "type", "unit", "min", "max", "default", "access", "storage", "description"}
     assert len(parameters) >= 93
     for p in parameters:
-        assert set(p) == wanted, p
+        assert set(p) == wanted | {"addressing", "live"}, p
         assert p["access"] in ("R", "W", "RW")
     rows = list(csv.reader(io.StringIO(run("catalogue", "uim342", "parameters", "--format", "csv", check=0)[1])))
     assert rows[0][0] == "id" and len(rows) == len(parameters) + 1

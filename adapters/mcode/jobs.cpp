@@ -27,7 +27,7 @@ void Node::submit(const Command& c, Turn& t) {
         plan(c, t);
         return;
     }
-    if (phase_ == Phase::absent) {
+    if (phase_ == Phase::absent && !is_urgent(c.body)) {
         return result(c, Outcome::failed, Reason::no_answer, fmt::format("{} does not answer to {}", name(), setup_.address), t);
     }
     if (!is_urgent(c.body)) {

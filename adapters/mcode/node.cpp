@@ -98,7 +98,13 @@ void Node::go_absent(Turn& t, std::string why) {
     motion_ = {};
     zero_after_home_ = false;
     tidy_ = tidy_ || job_.kind == JobKind::tidy;
+    // A stop that was not confirmed is said once more to a drive that may only not be heard.
+    auto stops = std::move(stops_);
+    stops_.clear();
     fail_all(Reason::no_answer, why, t);
+    stops_ = std::move(stops);
+    for (Stop& s : stops_)
+        s.confirming = s.to_all = false;
     link_state(false, std::move(why), t);
 }
 
@@ -109,6 +115,7 @@ void Node::link_state(bool is_online, std::string text, Turn& t) {
 
 void Node::came(Turn& t) {
     phase_ = Phase::ready;
+    known_sums_ = sums_;
     enabled_ = false;
     retry_pause_ = {};
     motion_ = {};

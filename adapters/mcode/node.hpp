@@ -236,7 +236,8 @@ private:
     Duration retry_pause_{};
     Instant next_probe_ = never, next_poll_ = never;
     bool shown_online_ = false;
-    bool sums_ = false;  ///< requests carry a checksum
+    bool sums_ = false;        ///< requests carry a checksum
+    bool known_sums_ = false;  ///< they did when it answered last
     int em_ = 1, ck_ = 0, es_ = 1;
     int link_rounds_ = 0;
     std::string link_line_;  ///< EM=, CK= to be sent next

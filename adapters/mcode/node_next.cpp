@@ -15,6 +15,7 @@ Node::Want Node::wants(Instant now) const noexcept {
             return Want::nothing;
         case Phase::probing:
         case Phase::absent:
+            if (phase_ == Phase::absent && !stops_.empty()) return Want::urgent;
             if (job_.kind == JobKind::setup) return Want::urgent;  // nothing for others in between: the fresh drive would take it too
             return now >= next_probe_ ? Want::other : Want::nothing;
         case Phase::linking:
@@ -87,6 +88,18 @@ Request Node::next(Turn& t) {
         case Phase::probing:
         case Phase::absent:
             r.wake = true;
+            if (phase_ == Phase::absent && !stops_.empty()) {
+                // Perhaps it hears: a stop is sent all the same, with and without checksum, since nobody says which it would take.
+                const Stop& s = stops_.front();
+                r = say(What::stop, s.lines.front());
+                for (const auto& line : s.lines) {
+                    for (const bool sums : {known_sums_, !known_sums_})
+                        if (!sums || !manners_.ethernet) r.raw += line == escape_key ? escape(link()) : request({link().name, sums}, line);
+                }
+                r.kind = Expect::Kind::nothing;
+                r.wake = true;
+                return r;
+            }
             if (mode_ == Mode::program) {
                 // It went away in program mode, where a probe is stored and not answered.
                 r = say(What::probe, "PG");

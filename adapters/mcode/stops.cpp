@@ -15,6 +15,12 @@ using namespace std::chrono_literals;
 void Node::stop_ended(Verdict v, const ReplyReader&, Turn& t) {
     if (stops_.empty()) return;
     Stop& s = stops_.front();
+    if (phase_ == Phase::absent) {
+        return stop_over(Outcome::failed, Reason::no_answer,
+                         fmt::format("{} does not answer to {}; {} was sent all the same, whether it was heard is not known", name(), setup_.address,
+                                     s.lines.back()),
+                         t);
+    }
     s.said = v == Verdict::answered ? Verdict::acknowledged : v;
     s.confirming = true;
     s.to_all = false;

@@ -6,11 +6,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <sstream>
 
 #include "adapters/mcode/node.hpp"
 #include "adapters/mcode/program.hpp"
 
 namespace axisgate::mcode {
+using namespace std::chrono_literals;
+
 namespace {
 std::string_view form_of(const Parameter& p) {
     const auto* f = p.wire.if_contains("form");
@@ -74,6 +77,18 @@ void Node::plan_write(const WriteParameter& write, Turn& t) {
 }
 
 void Node::query_answered(const std::string& data, Turn& t) {
+    if (job_.kind == JobKind::relearn) {
+        learn_values(data);
+        return job_over(Outcome::done, Reason::none, {}, t);
+    }
+    if (job_.kind == JobKind::download) {
+        std::istringstream rows(data);
+        const std::string want = normal_form(job_.steps[job_.at - 1].text);
+        for (std::string row; std::getline(rows, row);) {
+            if (normal_form(row).starts_with(want)) return step_done(t);
+        }
+        return setting_refused("was refused with error 6: a point has this type already", t);
+    }
     const CommandBody& b = job_.command.body;
     const auto* read = std::get_if<ReadParameter>(&b);
     const auto* write = std::get_if<WriteParameter>(&b);
@@ -89,8 +104,8 @@ void Node::query_answered(const std::string& data, Turn& t) {
         const std::string have = '\n' + row(data) + '\n';
         if (have.find('\n' + row(job_.steps[0].text) + '\n') == std::string::npos) {
             return job_over(Outcome::refused, Reason::drive_refused,
-                            fmt::format("{}: {} was refused with error 6: a point has this type already; give that one type {} first",
-                                        name(), job_.steps[0].text, p->id == "IS" ? 0 : 16),
+                            fmt::format("{}: {} was refused with error 6: a point has this type already; give it type {} first", name(),
+                                        job_.steps[0].text, p->id == "IS" ? 0 : 16),
                             t, 6);
         }
     }
@@ -109,7 +124,10 @@ void Node::query_answered(const std::string& data, Turn& t) {
     if (number && w == "A") a_ = *number;
     if (number && w == "D") d_ = *number;
     if (number && w == "EE") encoder_mode_ = *number == 1;
-    if (write && (w == "MS" || w == "EE" || w == "AS")) vi_ = user_vi_ = vm_ = a_ = d_ = 0;  // the drive has scaled them [L4293]
+    if (write && (w == "MS" || w == "EE" || w == "AS")) {
+        vi_ = user_vi_ = vm_ = a_ = d_ = 0;  // the drive has scaled them [L4293]
+        relearn_ = true;
+    }
     if (w == "ER" && number && *number == 0 && last_error_ != 0) {
         // The gateway has read the code already, and reading clears it in the drive.
         return job_over(Outcome::done, Reason::none, {}, t, 0, Value{static_cast<std::int64_t>(last_error_)});
@@ -145,6 +163,7 @@ void Node::block_ended(const ReplyReader& r, Turn& t) {
         return job_over(Outcome::refused, Reason::drive_refused, fmt::format("{} refused {}", name(), job_.steps[job_.at].text), t);
     }
     if (job_.kind == JobKind::tidy) return tidy_up(text, t);
+    if (job_.kind == JobKind::clear) return clear_if_half(text, t);
     if (job_.kind == JobKind::upload) {
         std::string program;
         for (const auto& l : listed_lines(text))
@@ -152,36 +171,95 @@ void Node::block_ended(const ReplyReader& r, Turn& t) {
         return job_over(Outcome::done, Reason::none, program, t, 0, Value{program});
     }
     if (job_.kind == JobKind::download) {
-        const auto have = listed_lines(text);
-        std::vector<std::string> want, got;
-        for (const auto& l : job_.program) {
-            const auto w = word_of(l);
-            if (w != "PG" && w != "VA") want.push_back(normal_form(l));
+        std::size_t count = 0;
+        if (const auto why = listing_fault(job_.program, text, count); !why.empty()) {
+            return job_over(Outcome::failed, Reason::drive_refused,
+                            fmt::format("{}: {}: the program memory holds an incomplete program, download again", name(), why), t);
         }
-        for (const auto& l : have) {
-            const auto w = word_of(l);
-            if (w != "PG" && w != "VA") got.push_back(normal_form(l));
-        }
-        for (std::size_t i = 0; i < want.size(); ++i) {
-            if (i < got.size() && got[i] == want[i]) continue;
-            return job_over(
-                Outcome::failed, Reason::drive_refused,
-                fmt::format("{}: statement {} is {} in the drive, not {}: the program memory holds an incomplete program, download again",
-                            name(), i + 1, i < got.size() ? got[i] : "missing", want[i]),
-                t);
-        }
-        return job_over(Outcome::done, Reason::none, fmt::format("{} statements stored and verified; program.save keeps them", want.size()),
-                        t);
+        const auto& lines = job_.program;
+        const bool saved = !lines.empty() && lines.back().kind == ProgramLine::Kind::setting && word_of(lines.back().text) == "S";
+        return job_over(
+            Outcome::done, Reason::none,
+            fmt::format("{} statements stored and verified; {}", count, saved ? "its line S has saved them" : "program.save keeps them"),
+            t);
     }
     job_over(Outcome::done, Reason::none, text, t, 0, Value{text});
 }
 
 void Node::download_failed(std::string why, Turn& t) {
     const bool touched = job_.memory_touched;
+    if (touched) keep_half();
+    relearn_ = relearn_ || touched;
     job_over(Outcome::failed, Reason::interrupted,
              fmt::format("{}: {}{}", name(), why, touched ? "; the program memory is cleared or incomplete: download again" : ""), t);
-    // Program mode is left first (leaving.cpp); CP then removes the half, behind every stop that waits.
-    clear_half_ = touched && phase_ == Phase::ready;
+}
+
+/// Program mode is left first (leaving.cpp); CP then removes the half, behind every stop that waits, also when the drive was away.
+void Node::keep_half() {
+    clear_half_ = true;
+    half_was_away_ = false;
+    half_.clear();
+    for (std::size_t i = 0; i <= job_.at && i < job_.steps.size(); ++i) {
+        const Step& s = job_.steps[i];
+        if (s.what == Step::What::bare && word_of(s.text) != "PG" && word_of(s.text) != "VA") half_.push_back(normal_form(s.text));
+    }
+}
+
+/// A line outside of PG and PG. Before them the memory is empty, behind them it holds the program; only between two parts there is a half.
+void Node::setting_refused(const std::string& why, Turn& t) {
+    const Step step = job_.steps[job_.at];
+    const auto is_part = [](const Step& s) { return s.what == Step::What::bare; };
+    const auto here = job_.steps.begin() + static_cast<std::ptrdiff_t>(job_.at);
+    const bool begun = std::any_of(job_.steps.begin(), here, is_part), more = std::any_of(here, job_.steps.end(), is_part);
+    if (begun && more) keep_half();
+    relearn_ = true;
+    const int code = last_error_;
+    const ErrorCode* e = catalogue_.error(code);
+    job_over(Outcome::failed, code != 0 ? Reason::drive_refused : Reason::no_answer,
+             fmt::format(
+                 "{}: line {}: {} {}{}; {}", name(), step.line, step.what == Step::What::query ? job_.steps[job_.at - 1].text : step.text,
+                 why, code != 0 && e ? ", " + e->text : std::string(),
+                 begun && !more ? "the program before it is stored" : "the program memory is cleared or incomplete: download again"),
+             t, code);
+}
+
+/// Actions for which the drive must not move: behind a stop or the end of a move MV stays 1 for MT + HT, which is waited for.
+/// false: it moves, and the job is over.
+bool Node::wait_for_rest(Turn& t) {
+    if (!mv_ && !fb_.moving) return true;
+    const bool homes = motion_.kind == Motion::Kind::home && !motion_.ended;
+    if (torque_ || homes || (!stopping_ && (fb_.velocity != 0 || vc_))) {
+        job_over(Outcome::refused, Reason::wrong_state, fmt::format("{} moves: stop it first", name()), t);
+        return false;
+    }
+    job_.add(Step::What::standstill, "standstill");
+    job_.give_up = t.now + 70s;  // MT + HT are 65.535 s at most [L3241]
+    next_poll_ = t.now;
+    return true;
+}
+
+void Node::plan_download(const Action& a, Turn& t) {
+    if (running_) {
+        return job_over(Outcome::refused, Reason::wrong_state, fmt::format("a program runs in {}: end it first (program.end)", name()), t);
+    }
+    auto checked = check_program(a.argument, Language(catalogue_));
+    if (!checked.fault.empty()) {
+        return job_over(Outcome::refused, Reason::out_of_range, fmt::format("the program was not sent; {}", checked.fault), t);
+    }
+    if (!wait_for_rest(t)) return;
+    job_.kind = JobKind::download;
+    mode_doubt_ = false;
+    tidy_ = false;
+    job_.add(Step::What::send, "CP 1");
+    for (const auto& l : checked.lines) {
+        const bool setting = l.kind == ProgramLine::Kind::setting;
+        const auto w = word_of(l.text);
+        job_.add(setting ? Step::What::send : Step::What::bare, l.text, setting && w != "IC" && w != "DC");
+        job_.steps.back().line = l.number;
+        relearn_ = relearn_ || setting;
+    }
+    job_.add(Step::What::block, "L");
+    job_.program = std::move(checked.lines);
 }
 
 /// line.setup of a drive that stays in single mode: what it may lack is the line's rate for its next restart.
@@ -211,7 +289,14 @@ void Node::plan_rate(const Action& a, Turn& t) {
 
 void Node::plan_action(const Action& a, Turn& t) {
     const auto refuse = [&](Reason r, std::string why) { job_over(Outcome::refused, r, std::move(why), t); };
-    const auto line = [&](std::string text, bool repeatable = true) { job_.add(Step::What::send, std::move(text), repeatable); };
+    const auto line = [&](std::string text, bool repeatable = true) {
+        const auto w = word_of(text);
+        // Refused by the drive while MV is 1, which a finished move leaves behind; what really moves is the drive's to refuse.
+        const bool at_rest = w == "S" || w == "CP" || w == "IP" || w == "SC";
+        const bool goes = torque_ || (motion_.kind == Motion::Kind::home && !motion_.ended) || (!stopping_ && (fb_.velocity != 0 || vc_));
+        if (at_rest && mv_ && !goes) (void)wait_for_rest(t);
+        job_.add(Step::What::send, std::move(text), repeatable);
+    };
     if (a.name == "program.list") {
         job_.kind = JobKind::list;
         job_.add(Step::What::block, a.argument.empty() ? "L" : fmt::format("L {}", a.argument));
@@ -219,21 +304,7 @@ void Node::plan_action(const Action& a, Turn& t) {
         job_.kind = JobKind::upload;
         job_.add(Step::What::block, "L");
     } else if (a.name == "program.download") {
-        if (fb_.moving || mv_) return refuse(Reason::wrong_state, fmt::format("{} moves: stop it first", name()));
-        if (running_) return refuse(Reason::wrong_state, fmt::format("a program runs in {}: end it first (program.end)", name()));
-        auto checked = check_program(a.argument, [&](const std::string& w) {
-            return std::ranges::any_of(catalogue_.commands(), [&](const CatalogueCommand& c) { return c.id == w; }) ||
-                   catalogue_.find(w).has_value();
-        });
-        if (!checked.fault.empty()) return refuse(Reason::out_of_range, fmt::format("the program was not sent; {}", checked.fault));
-        job_.kind = JobKind::download;
-        mode_doubt_ = false;
-        tidy_ = false;
-        job_.program = checked.lines;
-        job_.add(Step::What::send, "CP 1");
-        for (auto& l : checked.lines)
-            job_.add(Step::What::bare, std::move(l), false);
-        job_.add(Step::What::block, "L");
+        return plan_download(a, t);
     } else if (a.name == "program.start") {
         line(fmt::format("EX {}", a.argument.empty() ? "1" : a.argument), false);
     } else if (a.name == "program.pause") {
@@ -259,7 +330,7 @@ void Node::plan_action(const Action& a, Turn& t) {
                 Reason::not_supported,
                 fmt::format("FD takes the name {} away and the drive leaves the party line: do it in single mode", setup_.address));
         }
-        if (fb_.moving || mv_) return refuse(Reason::wrong_state, fmt::format("{} moves: stop it first", name()));
+        if (!wait_for_rest(t)) return;
         job_.kind = JobKind::factory;
         line("FD", false);
     } else if (a.name == "line.setup") {

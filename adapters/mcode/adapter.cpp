@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <utility>
 
 #include "gateway/core/wire_time.hpp"
 
@@ -75,6 +76,8 @@ void LineAdapter::configure(const LineSetup& setup, Instant now, Out& out) {
         }
         if (dirty_ == n.get()) dirty_ = nullptr;
         if (answered_ == n.get()) answered_ = nullptr;
+        for (auto& m : missed_)
+            if (m.node == n.get()) m = {};
     }
     nodes_ = std::move(kept);
     const bool alone = setup.drives.size() == 1;
@@ -107,6 +110,8 @@ void LineAdapter::on_line(bool up, Instant now, Out& out) {
     stray_.clear();
     dirty_ = nullptr;
     answered_ = nullptr;
+    missed_ = {};
+    resync_ = true;
     dirty_until_ = quiet_until_ = now;
     for (auto& n : nodes_)
         up ? n->line_up(t) : n->line_down(t, "the line went down");
@@ -135,35 +140,69 @@ void LineAdapter::on_command(const Command& c, Instant now, Out& out) {
 
 void LineAdapter::stray(std::string_view bytes, Turn& t) {
     for (const char c : bytes) {
-        if (c != lf && stray_.size() < 256) {
+        if (c == lf) {
+            stray_line(t);
+        } else if (c != ack && c != nak && c != '\0' && stray_.size() < 256) {
+            // A checksum stands before CR; what goes on behind such a byte was spoiled before it.
+            if (c != cr && !stray_.empty() && static_cast<std::uint8_t>(stray_.back()) > 0x7E) stray_.clear();
             stray_ += c;
-            continue;
         }
-        // Whole lines that nobody asked for: output of a program, or an answer that came too late.
-        Node* from = nullptr;
-        for (auto& n : nodes_) {
-            if (n->runs_program() || nodes_.size() == 1) from = from ? from : n.get();
-        }
-        ++counters_.unexpected;
-        if (!stray_.empty() && stray_.front() == '#') {
-            look_for_twice(stray_, t);
-        } else if (from) {
-            from->foreign(stray_, t);
-        }
-        stray_.clear();
     }
 }
 
-/// The mark of an answered question again, and not as part of an echo: somebody else has answered it too.
-void LineAdapter::look_for_twice(std::string_view text, Turn& t) {
-    if (!answered_ || answered_mark_.empty()) return;
-    const auto at = text.find(answered_mark_);
-    if (at == std::string_view::npos || at + answered_mark_.size() >= text.size() || text[at + answered_mark_.size()] == '"') return;
-    answered_->note(Severity::warning, "protocol", 0,
-                    fmt::format("{} answered the same question twice: two drives may have the same name {}", answered_->name(),
-                                answered_->setup().address),
-                    t);
-    answered_mark_.clear();
+/// A whole line that nobody asked for: output of a program, an answer that came too late or twice; or nothing but an acknowledgement.
+void LineAdapter::stray_line(Turn& t) {
+    std::string_view line = stray_;
+    while (!line.empty() && (line.front() == '>' || line.front() == '?' || line.front() == cr))
+        line.remove_prefix(1);
+    while (!line.empty() && line.back() == cr)
+        line.remove_suffix(1);
+    if (!line.empty() && !marked(line, t)) {
+        ++counters_.unexpected;
+        Node* from = nodes_.size() == 1 ? nodes_.front().get() : nullptr;
+        for (auto& n : nodes_) {
+            if (!from && n->may_print(t.now)) from = n.get();
+        }
+        if (from) from->foreign(line, t);
+    }
+    stray_.clear();
+}
+
+/// It begins with the mark of a question: one that was answered already (two drives have one name), or one that was given up.
+bool LineAdapter::marked(std::string_view line, Turn& t) {
+    if (line.size() < 3 || line[0] != '#' || line[2] == '"') return false;
+    if (answered_ && line.starts_with(answered_mark_) && !answered_mark_.empty()) {
+        answered_->trouble(Trouble::Kind::twice, t);
+        answered_mark_.clear();
+        return true;
+    }
+    const auto at = marks.find(line[1]);
+    if (at == std::string_view::npos || !missed_[at].node || t.now - missed_[at].at > 10s) return false;
+    ++counters_.unexpected;
+    missed_[at].node->trouble(Trouble::Kind::late, t);
+    missed_[at] = {};
+    return true;
+}
+
+/// What an exchange has brought beside its answer: its echo is taken out, the rest is as if nobody had been asked.
+void LineAdapter::gather(const ReplyReader& reader, Verdict v, Turn& t) {
+    const bool settled = v != Verdict::waiting && v != Verdict::garbled && flight_.kind != Expect::Kind::nothing;
+    std::string before = settled && v != Verdict::refused ? reader.before() : reader.raw();
+    for (auto at = flight_.sent.empty() ? std::string::npos : before.find(flight_.sent); at != std::string::npos;
+         at = before.find(flight_.sent, at)) {
+        before.erase(at, flight_.sent.size());
+    }
+    // A drive gives its line back without its name [L6840-6860].
+    const std::string_view nameless = std::string_view(flight_.sent).substr(flight_.sent.empty() ? 0 : 1);
+    if (before.starts_with(nameless)) before.erase(0, nameless.size());
+    if (settled || std::ranges::any_of(nodes_, [&](const auto& n) { return n->may_print(t.now); })) stray(before, t);
+    if (settled && v != Verdict::refused) {
+        if (flight_.kind == Expect::Kind::query) {
+            answered_mark_ = fmt::format("#{}", marks[mark_]);
+            answered_ = flight_.node;
+        }
+        stray(reader.behind(), t);
+    }
 }
 
 void LineAdapter::on_frame(const Frame& frame, Instant now, Out& out) {
@@ -212,7 +251,12 @@ void LineAdapter::start(Node& node, Turn& t) {
         bytes = request(node.link(), r.text);
     }
     if (r.kind == Expect::Kind::command && node.quiet()) e.kind = Expect::Kind::nothing;
-    if (r.wake && node.link().party()) bytes.insert(bytes.begin(), lf);
+    if (!bytes.empty()) flight_.sent = bytes.substr(0, bytes.size() - (r.raw.empty() ? 1 : 0));
+    // A LF ends what was cut off; where nothing was it does no harm (E-68).
+    const bool lead = node.link().party() && !node.naming() && (r.wake || resync_);
+    if (lead) bytes.insert(bytes.begin(), lf);
+    resync_ = resync_ && !lead;
+    node.led(lead || !node.link().party());
     flight_.node = &node;
     flight_.purpose = r.purpose;
     flight_.kind = e.kind;
@@ -228,7 +272,8 @@ void LineAdapter::start(Node& node, Turn& t) {
 
 void LineAdapter::finish(Verdict v, Turn& t) {
     Node& node = *flight_.node;
-    const Flight f = flight_;
+    if (flight_.kind != Expect::Kind::block) gather(reader_, v, t);
+    const Flight f = std::move(flight_);
     flight_ = {};
     if (f.to_all) {
         quiet_until_ = t.now + manners_.pause;
@@ -237,21 +282,16 @@ void LineAdapter::finish(Verdict v, Turn& t) {
     if (v == Verdict::waiting) {
         dirty_ = &node;
         dirty_until_ = t.now + 2 * manners_.reply_timeout;
+        resync_ = true;
+        if (f.kind == Expect::Kind::query) missed_[mark_] = {&node, t.now};
+        for (const auto& n : nodes_) {
+            if (!node.away()) n->line_missed();
+        }
     } else if (f.kind == Expect::Kind::query && v == Verdict::answered && dirty_ == &node) {
         dirty_ = nullptr;  // a drive answers in order: nothing older can come any more
         dirty_until_ = t.now;
     }
     quiet_until_ = t.now + manners_.pause;
-    if (v == Verdict::answered && f.kind == Expect::Kind::query && !reader_.before().empty()) {
-        const std::string& before = reader_.before();
-        if (before.find("\r\n") != std::string::npos && before.size() > 3 && node.runs_program()) node.foreign(before, t);
-    }
-    look_for_twice(reader_.before(), t);
-    if (f.kind == Expect::Kind::query && v == Verdict::answered) {
-        answered_mark_ = fmt::format("#{}", marks[mark_]);
-        answered_ = &node;
-        look_for_twice(reader_.behind(), t);
-    }
     node.ended(v, reader_, t);
 }
 
@@ -271,8 +311,10 @@ bool LineAdapter::stop_all_at_once(Turn& t) {
         unsent += n->stop_unsent() ? 1 : 0;
     }
     if (unsent < 2) return false;
-    const std::string bytes = request({'*', first->sums()}, line);
+    std::string bytes = request({'*', first->sums()}, line);
     flight_ = {};
+    flight_.sent = bytes.substr(0, bytes.size() - 1);
+    if (std::exchange(resync_, false)) bytes.insert(bytes.begin(), lf);
     flight_.node = first;
     flight_.purpose = Request::Purpose::stop;
     flight_.kind = Expect::Kind::nothing;

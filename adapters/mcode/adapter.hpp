@@ -4,6 +4,7 @@
 // Never sends while an answer is waited for.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -31,7 +32,9 @@ private:
     void finish(Verdict v, Turn& t);
     [[nodiscard]] bool stop_all_at_once(Turn& t);
     void stray(std::string_view bytes, Turn& t);
-    void look_for_twice(std::string_view text, Turn& t);
+    void stray_line(Turn& t);
+    void gather(const ReplyReader& reader, Verdict v, Turn& t);
+    [[nodiscard]] bool marked(std::string_view line, Turn& t);
     [[nodiscard]] bool held(const Node& n, Instant now) const noexcept;
 
     const Catalogue& catalogue_;
@@ -47,6 +50,7 @@ private:
         Node* node = nullptr;  ///< null: the line is free
         Request::Purpose purpose = Request::Purpose::poll;
         Expect::Kind kind = Expect::Kind::query;
+        std::string sent;     ///< what its echo would be
         bool to_all = false;  ///< a line to `*`: nobody answers; `node` only keeps the line busy
         Instant deadline = never;
         Instant latest = never;
@@ -58,7 +62,13 @@ private:
     Instant quiet_until_{};      ///< LineManners::pause
     Instant dirty_until_{};      ///< answers of an exchange that was given up may come until then
     const Node* dirty_ = nullptr;
-    std::string stray_;  ///< bytes while nobody was asked, at most 256
+    std::string stray_;    ///< text that nobody asked for, up to its line end, at most 256
+    bool resync_ = false;  ///< a line end may be lost: the next request on a party line begins with one
+    struct Missed {
+        Node* node = nullptr;
+        Instant at{};
+    };
+    std::array<Missed, 62> missed_{};  ///< by mark: questions that were given up
 };
 
 }  // namespace axisgate::mcode

@@ -41,12 +41,14 @@ Verdict ReplyReader::look(bool over) {
                 if (at == std::string_view::npos) return Verdict::waiting;
                 if (expect_.prompt && !over && (at + 1 >= all.size() || !is_prompt(all.back()))) return Verdict::waiting;
                 before_ = all.substr(0, at);
+                behind_ = all.substr(at + 1);
                 return all[at] == ack ? Verdict::acknowledged : Verdict::refused;
             }
             const auto at = all.find("\r\n");
             if (at == std::string_view::npos) return Verdict::waiting;
             if (expect_.prompt && !over && !is_prompt(all.back())) return Verdict::waiting;
             before_ = all.substr(0, at);
+            behind_ = all.substr(at + 2);
             return expect_.prompt && all.back() == '?' ? Verdict::refused : Verdict::acknowledged;
         }
         case Expect::Kind::query:
@@ -120,7 +122,10 @@ bool ReplyReader::taken_without_answer() const {
 
 std::string plain_text(std::string_view raw, std::string_view sent, bool with_checksum) {
     std::string s(raw);
-    // An echo stands at the beginning of a line and ends it; the request may be as short as L, a letter of many answers.
+    // An echo stands at the beginning of a line and ends it; the request may be as short as L, a letter of many answers. A drive gives it
+    // back without its name [L6840-6860], a converter with it.
+    const bool named = s.find(sent) == std::string::npos && sent.size() > 1 && s.starts_with(sent.substr(1));
+    if (named) sent.remove_prefix(1);
     for (auto at = sent.empty() ? std::string::npos : s.find(sent); at != std::string::npos; at = s.find(sent, at + 1)) {
         const auto end = at + sent.size();
         const auto control = [&](std::size_t i) { return static_cast<std::uint8_t>(s[i]) < 0x20; };

@@ -45,10 +45,10 @@ public:
     [[nodiscard]] const std::string& data() const noexcept { return data_; }
     /// Everything that came, for native exchanges.
     [[nodiscard]] const std::string& raw() const noexcept { return raw_; }
-    /// What came before the answer and is none: output of programs, noise.
+    /// What came before the answer and is none: echo, output of programs, noise.
     [[nodiscard]] const std::string& before() const noexcept { return before_; }
 
-    /// Question: what came behind its answer in the same run.
+    /// What came behind the answer in the same run: output of programs, prompts.
     [[nodiscard]] const std::string& behind() const noexcept { return behind_; }
     /// Question: a NAK has come and no data: refused, unless data follow soon (then the NAK was noise).
     [[nodiscard]] bool maybe_refused() const noexcept { return maybe_refused_; }

@@ -216,6 +216,7 @@ void Node::plan_home(const Home& h, Turn& t) {
 void Node::began_motion(Turn& t) {
     motion_ = {};
     motion_.ended = false;
+    stopping_ = false;
     const std::string& line = job_.steps[job_.at].text;
     if (job_.kind == JobKind::home) {
         motion_.kind = Motion::Kind::home;
@@ -266,6 +267,7 @@ void Node::step_ended(Verdict v, const ReplyReader& r, Turn& t) {
         return begin_probing(t);
     }
     Step& step = job_.steps[job_.at];
+    if (job_.kind == JobKind::native && !r.raw().empty()) job_.bytes.assign(r.raw().begin(), r.raw().end());
     switch (step.what) {
         case Step::What::send:
             job_.said = v;
@@ -275,8 +277,8 @@ void Node::step_ended(Verdict v, const ReplyReader& r, Turn& t) {
         case Step::What::bare:
             if (v == Verdict::acknowledged || v == Verdict::answered) return step_done(t);
             mode_doubt_ = v == Verdict::waiting;
-            return download_failed(v == Verdict::refused ? fmt::format("the drive refused line {}: {}", job_.at, step.text)
-                                                         : fmt::format("line {} was not acknowledged: {}", job_.at, step.text),
+            return download_failed(fmt::format("{}{} {}", step.line != 0 ? fmt::format("line {}: ", step.line) : std::string(), step.text,
+                                               v == Verdict::refused ? "was refused by the drive" : "was not acknowledged"),
                                    t);
         case Step::What::query:
             if (v == Verdict::answered) return query_answered(r.data(), t);
@@ -349,6 +351,11 @@ void Node::step_done(Turn& t) {
             derive(t);
             emit(t);
             break;
+        case JobKind::clear:
+            half_.clear();
+            half_was_away_ = false;
+            note(Severity::info, "program", 0, fmt::format("{}: the half that a broken download has left was removed (CP)", name()), t);
+            return job_over(Outcome::done, Reason::none, {}, t);
         case JobKind::tidy:
             note(Severity::info, "program_mode", 0, job_.text, t);
             return job_over(Outcome::done, Reason::none, {}, t);
@@ -378,9 +385,15 @@ void Node::job_over(Outcome o, Reason r, std::string text, Turn& t, std::int32_t
                          name(), text),
              t);
     }
+    if (bad && job_.kind == JobKind::clear) {
+        note(Severity::warning, "program", code,
+             fmt::format("{}: the half of a broken download stays in its program memory: it could not be removed, {}", name(), text), t);
+    }
     if (bad && job_.kind == JobKind::move) vi_ = vm_ = a_ = d_ = 0;  // not known any more: set again next time
+    auto bytes = std::move(job_.bytes);
     job_ = {};
     result(c, o, r, std::move(text), t, code, std::move(value));
+    if (!bytes.empty() && c.ticket != no_ticket) t.out.results.back().bytes = std::move(bytes);
 }
 
 }  // namespace axisgate::mcode

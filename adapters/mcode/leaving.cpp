@@ -20,6 +20,7 @@ Request Node::next_leave() {
     Request r;
     r.purpose = purpose_ = Request::Purpose::leave;
     r.urgent = true;
+    r.wake = true;  // what stands half in its buffer ends before this
     purpose_was_question_ = mode_ != Mode::program;
     if (mode_ == Mode::program) {
         r.text = "PG";
@@ -34,6 +35,7 @@ Request Node::next_leave() {
 void Node::note_mode_line(std::string_view line) {
     if (word_of(line) != "PG") return;
     mode_flight_ = true;
+    evidence_ = 0;
     mode_before_ = mode_;
     mode_ = Mode::unknown;
 }
@@ -61,10 +63,14 @@ void Node::leave_ended(Verdict v, const ReplyReader& r, Turn& t) {
         if (v == Verdict::answered) {
             mode_ = Mode::immediate;
             mode_doubt_ = suspected_ = false;
-        } else if (suspected_ ? r.taken_without_answer() : !nak_came && v != Verdict::garbled) {
+            evidence_ = 0;
+        } else if (suspected_ || !sums_ ? r.taken_without_answer() : !nak_came && v != Verdict::garbled) {
             ++stored_;
-            mode_ = Mode::program;  // taken and not answered: it was stored
-            if (suspected_ && !found_) found_in_program();
+            evidence_ += led_ ? 1 : 0;
+            if (proven(2)) {
+                mode_ = Mode::program;  // taken and not answered: it was stored
+                if (suspected_ && !found_) found_in_program();
+            }
         }
     }
     if (mode_ == Mode::immediate) {
@@ -79,12 +85,16 @@ void Node::leave_ended(Verdict v, const ReplyReader& r, Turn& t) {
 }
 
 /// A probe that was taken and not answered, twice: the drive is in program mode. Once may be an answer that was lost, or a refusal.
-/// Silent drives are not led out on suspicion: EM = 2 acknowledges nothing, and PG would put one that is only away into program mode.
+/// Without checksums a line end may be another drive's, whose half line was ended, and two lines that were joined because an end was lost
+/// look like one that prints nothing. So it takes questions in a row, each behind a LF of our own, and no time-out between them: what the
+/// first has ended or joined cannot be in the way of the last. Silent drives are not led out on suspicion: EM = 2 acknowledges nothing, and
+/// PG would put one that is only away into program mode.
 bool Node::probe_tells_mode(Verdict v, const ReplyReader& r, Turn& t) {
     if (v == Verdict::answered) {
         const bool short_question = std::exchange(suspected_, false) && r.data().size() == 1 && !manners_.ethernet;
         mode_ = Mode::immediate;
         mode_doubt_ = false;
+        evidence_ = 0;
         if (found_) {
             led_out(t);
             leave_rounds_ = 0;
@@ -104,6 +114,7 @@ bool Node::probe_tells_mode(Verdict v, const ReplyReader& r, Turn& t) {
         if (mode_ == Mode::immediate) suspected_ = false;
         return false;
     }
+    evidence_ += led_ ? 1 : 0;
     if (mode_ == Mode::immediate && !suspected_) {
         suspected_ = true;
         stored_ = 1;
@@ -111,14 +122,22 @@ bool Node::probe_tells_mode(Verdict v, const ReplyReader& r, Turn& t) {
         return true;
     }
     ++stored_;
-    if (suspected_ && !found_) found_in_program();
-    mode_ = Mode::program;
-    next_probe_ = t.now;
-    if (++leave_rounds_ < 4) return true;
-    // Each question is stored: from here on one comes with each of the pauses of a drive that is away.
-    leave_rounds_ = 3;
+    const bool in_vain = leave_rounds_ >= 3 && evidence_ == 1;  // PG was said, and the question behind it was stored again
+    if (!in_vain && proven(found_ ? 2 : 3)) {
+        if (suspected_ && !found_) found_in_program();
+        mode_ = Mode::program;
+        next_probe_ = t.now;
+        ++leave_rounds_;
+        return true;
+    }
+    if (!in_vain && stored_ % 4 != 0) {
+        next_probe_ = t.now;
+        return true;
+    }
+    // Each question is stored: from here on they come with the pauses of a drive that is away.
     retry_pause_ = std::min(retry_pause_ == Duration{} ? manners_.pause_min : 2 * retry_pause_, manners_.pause_max);
-    go_absent(t, fmt::format("{} is in program mode and does not leave it: power it off and on, or use its maker's tool", name()));
+    go_absent(t, in_vain ? fmt::format("{} is in program mode and does not leave it: power it off and on, or use its maker's tool", name())
+                         : not_understood());
     return true;
 }
 
@@ -140,6 +159,27 @@ void Node::led_out(Turn& t) {
                      "program text; its program stays, with {} question{} of this gateway (PR \"#...) behind the last line",
                      name(), stored_, stored_ == 1 ? "" : "s"),
          t);
+}
+
+/// The drive was away: it may have restarted with the program that it had saved, which is none of this gateway's business.
+void Node::clear_if_half(std::string_view listing, Turn& t) {
+    std::size_t i = 0;
+    for (const auto& l : listed_lines(listing)) {
+        const auto w = word_of(l);
+        const std::string have = normal_form(l);
+        if (w == "PG" || w == "VA" || have.starts_with("PR\"#")) continue;
+        // The last one may have been cut off.
+        if (i + 1 < half_.size() ? have == half_[i] : i + 1 == half_.size() && half_[i].starts_with(have)) {
+            ++i;
+            continue;
+        }
+        note(Severity::info, "program", 0,
+             fmt::format("{}: a download has broken off, but its program memory holds another program now: that is left alone", name()), t);
+        half_.clear();
+        return job_over(Outcome::done, Reason::none, {}, t);
+    }
+    job_.add(Step::What::send, "CP");
+    step_done(t);
 }
 
 void Node::tidy_up(std::string_view listing, Turn& t) {

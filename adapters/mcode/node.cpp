@@ -68,6 +68,10 @@ void Node::line_up(Turn& t) { begin_probing(t); }
 
 void Node::line_down(Turn& t, std::string_view why) {
     fail_all(Reason::line_down, std::string(why), t);
+    half_was_away_ = half_was_away_ || clear_half_;
+    mode_flight_ = false;                               // a PG that nobody can answer any more: the mode stays unknown
+    if (mode_ == Mode::program) mode_ = Mode::unknown;  // it may restart meanwhile: PG would put it into program mode then
+    lost_ = 0;
     phase_ = Phase::down;
     if (shown_online_) link_state(false, std::string(why), t);
     seen_ = enabled_ = false;
@@ -105,6 +109,9 @@ void Node::go_absent(Turn& t, std::string why) {
     stops_ = std::move(stops);
     for (Stop& s : stops_)
         s.confirming = s.to_all = false;
+    half_was_away_ = half_was_away_ || clear_half_;
+    if (mode_ == Mode::program) mode_ = Mode::unknown;  // it may restart meanwhile
+    lost_ = 0;
     link_state(false, std::move(why), t);
 }
 
@@ -167,6 +174,14 @@ void Node::ended(Verdict v, const ReplyReader& reader, Turn& t) {
         if (v != Verdict::refused) ++counters_.exchanges;
         silent_ = 0;
     }
+    if (phase_ == Phase::ready) {
+        const bool begun = reader.raw().find('#') != std::string::npos && reader.raw().find("PR \"#") == std::string::npos;
+        if (v == Verdict::garbled || (!heard && begun)) trouble(heard ? Trouble::Kind::garbled : Trouble::Kind::cut, t);
+        if (!heard && !begun) ++lost_;
+        // Without an answer it may be going away, which is told otherwise: they count when it is heard again.
+        for (; heard && lost_ > 0; --lost_)
+            trouble(Trouble::Kind::lost, t);
+    }
     // An echo is silence; anything else is somebody who is not understood.
     babble_ = !heard && reader.raw().find("PR \"#") == std::string::npos && reader.raw().find_first_not_of("\r\n") != std::string::npos;
     const bool mode_line = mode_flight_;
@@ -179,6 +194,7 @@ void Node::ended(Verdict v, const ReplyReader& reader, Turn& t) {
         mode_ = Mode::unknown;
         suspected_ = true;
         stored_ = 1;
+        evidence_ = 0;
     }
     switch (purpose_) {
         case What::leave:
@@ -331,12 +347,8 @@ void Node::startup_ended(Verdict v, const std::string& data, Turn& t) {
         tells_input_ = good;
     } else if (asks == "BD") {
         bd_ = static_cast<int>(good ? whole(data).value_or(0) : 0);
-    } else if (const auto f = split(data); good && f.size() == (encoder_ ? 5U : 4U)) {
-        vi_ = user_vi_ = whole(f[0]).value_or(0);
-        vm_ = whole(f[1]).value_or(0);
-        a_ = whole(f[2]).value_or(0);
-        d_ = whole(f[3]).value_or(0);
-        encoder_mode_ = encoder_ && whole(f[4]).value_or(0) == 1;
+    } else if (good) {
+        learn_values(data);
     }
     // Without an encoder ST and EE are errors; an open loop is asked for them only when no program can be disturbed by that.
     const auto needless = [&](std::string_view item) {
@@ -348,11 +360,23 @@ void Node::startup_ended(Verdict v, const std::string& data, Turn& t) {
     if (startup_at_ == startup_items.size()) came(t);
 }
 
+void Node::learn_values(std::string_view data) {
+    const auto f = split(data);
+    if (f.size() != (encoder_ ? 5U : 4U)) return;
+    vi_ = user_vi_ = whole(f[0]).value_or(0);
+    vm_ = whole(f[1]).value_or(0);
+    a_ = whole(f[2]).value_or(0);
+    d_ = whole(f[3]).value_or(0);
+    encoder_mode_ = encoder_ && whole(f[4]).value_or(0) == 1;
+}
+
 bool Node::learn_poll(const std::string& data, Turn& t) {
     const auto f = split(data);
     const std::size_t lr = 6U + (encoder_ ? 1U : 0U), as = lr + 1U;
     const std::size_t flags = lr + (hmt_ ? 2U : 0U) + (tells_input_ ? 1U : 0U);
-    const auto fits = [&](std::size_t i) { return f[2][i] == '0' || f[2][i] == '1' || (hmt_ && i == as && f[2][i] >= '0' && f[2][i] <= '3'); };
+    const auto fits = [&](std::size_t i) {
+        return f[2][i] == '0' || f[2][i] == '1' || (hmt_ && i == as && f[2][i] >= '0' && f[2][i] <= '3');
+    };
     bool whole_line = f.size() == 3 && f[2].size() == flags;
     for (std::size_t i = 0; whole_line && i < flags; ++i)
         whole_line = fits(i);
@@ -375,6 +399,8 @@ bool Node::learn_poll(const std::string& data, Turn& t) {
     de_ = flag(3);
     ef_ = flag(4);
     running_ = flag(5);
+    if (running_) prints_until_ = t.now + 2s;
+    if (!mv_) stopping_ = false;
     stalled_ = encoder_ && flag(6);
     locked_ = hmt_ && flag(lr);
     torque_ = hmt_ && f[2][as] == '3';
@@ -399,51 +425,6 @@ bool Node::learn_poll(const std::string& data, Turn& t) {
         }
     }
     return true;
-}
-
-void Node::derive(Turn& t) {
-    if (!de_) enabled_ = false;
-    fb_.power = de_ && enabled_ ? AxisFeedback::Power::on : AxisFeedback::Power::off;
-    // In torque mode V reads 0 whatever the shaft does [L5995].
-    fb_.moving = mv_ && (fb_.velocity != 0 || vc_ || encoder_mode_ || torque_ || motion_.kind == Motion::Kind::home);
-    fb_.fault = fault_ != 0 || stalled_ || locked_;
-    fb_.error_code = static_cast<std::uint16_t>(fault_ != 0 ? fault_ : stalled_ ? 86 : locked_ ? 104 : last_error_);
-    fb_.internal_limit = last_error_ == 83 || last_error_ == 84;
-    fb_.warning = last_error_ == 71 || fb_.internal_limit;
-    fb_.native_status = (mv_ ? 1U : 0U) | (mp_ ? 2U : 0U) | (vc_ ? 4U : 0U) | (de_ ? 8U : 0U) | (ef_ ? 16U : 0U) | (running_ ? 32U : 0U) |
-                        (stalled_ ? 64U : 0U) | (locked_ ? 128U : 0U) | (input_ ? 256U : 0U);
-    if (motion_.ended) {
-        if (fb_.moving) fb_.target_reached = false;  // a program, or somebody else, moves it
-        return;
-    }
-    if (motion_.kind == Motion::Kind::position && !fb_.moving && (!encoder_mode_ || !mv_)) {
-        if (fb_.position == motion_.target ||
-            (encoder_mode_ && !fb_.fault && std::llabs(fb_.position - motion_.target) <= 65000 && !mv_ && !ef_)) {
-            fb_.target_reached = true;
-            motion_.ended = true;
-        } else if (!mv_) {
-            motion_.ended = true;
-        }
-    } else if (motion_.kind == Motion::Kind::home && !mv_) {
-        motion_.ended = true;
-        if (ef_ || fb_.fault) {
-            fb_.homing_error = true;
-        } else {
-            zero_after_home_ = true;
-            Command c;
-            c.axis = axis_;
-            c.body = SetPosition{0};
-            queue_.push_front(std::move(c));
-        }
-    }
-    (void)t;
-}
-
-void Node::emit(Turn& t) {
-    if (axis_ == no_axis || !seen_) return;
-    fb_.at = t.now;
-    fb_.homing = motion_.kind == Motion::Kind::home && (!motion_.ended || zero_after_home_);
-    t.out.feedback.push_back({axis_, fb_});
 }
 
 void Node::learn_error(int code, bool ours, Turn& t) {

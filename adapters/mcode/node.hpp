@@ -1,8 +1,9 @@
 // Node: one drive: finding it, setting its link, its polls, its queue of commands and their steps, and what is known of its axis.
 // In: commands, the outcome of its exchanges, time. Out: the next request when it has the line; feedback, results, links, notices.
 // Never sends by itself: the line asks it, and gives it one exchange at a time.
-// Written in: node.cpp (exchanges, presence, polls), node_next.cpp (what is sent), stops.cpp (stops, results, notices), leaving.cpp (out of
-// program mode), rate.cpp (its bit rate), jobs.cpp (commands as steps), actions.cpp (parameters, native, programs).
+// Written in: node.cpp (exchanges, presence, polls), node_next.cpp (what is sent), state.cpp (its axis), stops.cpp (stops, results,
+// notices), leaving.cpp (out of program mode), rate.cpp (its bit rate), jobs.cpp (commands as steps), actions.cpp (parameters, native,
+// programs).
 #pragma once
 
 #include <array>
@@ -12,6 +13,8 @@
 #include <vector>
 
 #include "adapters/mcode/framing.hpp"
+#include "adapters/mcode/program.hpp"
+#include "adapters/mcode/trouble.hpp"
 #include "adapters/mcode/wire.hpp"
 #include "gateway/core/adapter.hpp"
 #include "gateway/core/catalogue.hpp"
@@ -94,7 +97,15 @@ public:
     [[nodiscard]] const DriveSetup& setup() const noexcept { return setup_; }
     [[nodiscard]] const std::string& name() const noexcept { return setup_.name; }
     [[nodiscard]] AxisId axis() const noexcept { return axis_; }
-    [[nodiscard]] bool runs_program() const noexcept { return running_; }
+    /// Text that nobody asked for may be its output: a program runs in it, or has run a moment ago.
+    [[nodiscard]] bool may_print(Instant now) const noexcept { return running_ || now < prints_until_; }
+    /// The line before its request: whether a LF of the gateway's own stands before it, so that nothing can be joined with it.
+    void led(bool by_own_end) noexcept { led_ = by_own_end; }
+    /// Somebody on the line did not answer: the end of a line may be lost, so what has been seen of program mode proves nothing.
+    void line_missed() noexcept { evidence_ = 0; }
+    [[nodiscard]] bool away() const noexcept { return phase_ == Phase::absent; }
+    /// An answer was late, cut, spoiled or lost, or came twice: told when it happens again and again.
+    void trouble(Trouble::Kind kind, Turn& t);
     [[nodiscard]] bool prompts() const noexcept { return em_ == 0; }
     [[nodiscard]] bool sums() const noexcept { return sums_; }
     /// It takes lines without a word: EM = 2, or CK = 2 while a program runs [L2082, L2664].
@@ -121,6 +132,8 @@ private:
         setup,    ///< line.setup: the fresh drive gets its name
         named,    ///< line.setup: it is looked for by its name, then saves if asked
         factory,  ///< FD, then it is looked for and set up again
+        clear,    ///< removes the half that a broken download has left
+        relearn,  ///< reads VI, VM, A, D and EE again: the drive may have scaled them
         tidy,     ///< removes the questions that were stored while it was in program mode
         restart
     };
@@ -136,6 +149,7 @@ private:
         std::string text;
         bool repeatable = true;
         bool end_mark = false;
+        std::size_t line = 0;  ///< of the user's program text; 0: not from there
     };
     struct Job {
         JobKind kind = JobKind::none;
@@ -146,10 +160,13 @@ private:
         bool confirming = false;
         Verdict said = Verdict::waiting;
         bool memory_touched = false;  ///< download: the program memory has been cleared
-        std::vector<std::string> program;
+        std::vector<ProgramLine> program;
         std::string text;
+        std::vector<std::uint8_t> bytes;  ///< native: what came back
         Instant give_up = never;
-        void add(Step::What what, std::string line, bool repeatable = true) { steps.push_back({what, std::move(line), repeatable, false}); }
+        void add(Step::What what, std::string line, bool repeatable = true) {
+            steps.push_back({what, std::move(line), repeatable, false, 0});
+        }
     };
     struct Stop {
         Command command;
@@ -162,7 +179,7 @@ private:
         std::optional<std::int64_t> speed;  ///< to_all: read once since
     };
 
-    static constexpr std::string_view escape_key = "ESC";  ///< Stop::lines: the character, not a line
+    static constexpr std::string_view escape_key = "ESC";         ///< Stop::lines: the character, not a line
     static constexpr std::string_view already_typed = "error 6";  ///< Job::text of a write that the drive answered so
 
     // leaving.cpp
@@ -173,6 +190,8 @@ private:
     void leave_ended(Verdict v, const ReplyReader& r, Turn& t);
     [[nodiscard]] bool probe_tells_mode(Verdict v, const ReplyReader& r, Turn& t);
     void found_in_program();
+    [[nodiscard]] bool proven(int questions) const noexcept { return sums_ || evidence_ >= questions; }
+    void clear_if_half(std::string_view listing, Turn& t);
     void led_out(Turn& t);
     void tidy_up(std::string_view listing, Turn& t);
     // node.cpp
@@ -189,6 +208,7 @@ private:
     void error_read(Verdict v, const std::string& data, Turn& t);
     [[nodiscard]] bool learn_poll(const std::string& data, Turn& t);
     [[nodiscard]] std::string poll_text() const;
+    [[nodiscard]] std::string values_text() const;
     void learn_error(int code, bool ours, Turn& t);
     void emit(Turn& t);
     void derive(Turn& t);
@@ -220,6 +240,11 @@ private:
     void query_answered(const std::string& data, Turn& t);
     void block_ended(const ReplyReader& r, Turn& t);
     void download_failed(std::string why, Turn& t);
+    void setting_refused(const std::string& why, Turn& t);
+    void plan_download(const Action& a, Turn& t);
+    [[nodiscard]] bool wait_for_rest(Turn& t);
+    void keep_half();
+    void learn_values(std::string_view data);
     [[nodiscard]] std::string word(const Parameter& p) const;
     [[nodiscard]] std::optional<Value> value_of(const Parameter& p, std::string_view text) const;
 
@@ -267,17 +292,26 @@ private:
     bool purpose_was_question_ = false;   ///< leave: the exchange in flight asks for the mode
     int leave_rounds_ = 0;                ///< at 12 without success the drive is given up as absent
     bool suspected_ = false;              ///< a question was taken and not answered, and this gateway has sent no PG
+    int evidence_ = 0;                    ///< questions since then that were taken and not answered, each behind a LF of our own
+    bool led_ = false;                    ///< the one in flight is such a question
     bool found_ = false;                  ///< it is certain: somebody else has left it in program mode
     int stored_ = 0;                      ///< questions that it may have stored since
     bool tidy_ = false;                   ///< they are to be removed, at rest
     bool own_trouble_ = false;            ///< looking for it may have raised an error in it: that one is no news
     bool clear_half_ = false;             ///< a download broke off: CP removes what it left, behind every stop
+    bool half_was_away_ = false;          ///< the drive was out of reach since: it may have restarted with another program
+    std::vector<std::string> half_;       ///< what that download had sent, as a listing is compared
+    bool relearn_ = false;                ///< VI, VM, A, D or EE may be others than is known
+    bool stopping_ = false;               ///< a stop was accepted, and rest has not been seen since
+    std::uint32_t lost_ = 0;              ///< questions without an answer since it was heard last
+    Instant prints_until_{};              ///< output of a program may still come
+    Trouble trouble_, twice_{1};
 
     // what is known
     AxisFeedback fb_;
     bool seen_ = false;
     bool enabled_ = false;  ///< by this gateway, since the drive was found
-    bool torque_ = false;  ///< AS = 3: the drive presses on by itself, and SL does not end that
+    bool torque_ = false;   ///< AS = 3: the drive presses on by itself, and SL does not end that
     bool de_ = false, mv_ = false, mp_ = false, vc_ = false, ef_ = false, running_ = false, stalled_ = false, locked_ = false;
     int fault_ = 0;  ///< code that must be reset
     int last_error_ = 0;

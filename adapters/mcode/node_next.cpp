@@ -25,7 +25,8 @@ Node::Want Node::wants(Instant now) const noexcept {
             break;
     }
     if (!stops_.empty() || leaving()) return Want::urgent;
-    if (clear_half_ || (tidy_ && seen_ && !running_ && !mv_)) return Want::other;
+    if ((clear_half_ || tidy_) && seen_ && !running_ && !mv_) return Want::other;
+    if (relearn_ && seen_) return Want::other;
     if (need_error_ || now >= next_poll_) return Want::other;
     if (job_.kind != JobKind::none) {
         return job_.at < job_.steps.size() && job_.steps[job_.at].what == Step::What::standstill ? Want::nothing : Want::other;
@@ -36,7 +37,7 @@ Node::Want Node::wants(Instant now) const noexcept {
 bool Node::wants_unmarked() const noexcept {
     if (phase_ == Phase::linking) return true;
     if (phase_ != Phase::ready || !stops_.empty() || leaving() || need_error_ || !seen_) return false;
-    if (job_.kind == JobKind::none) return !queue_.empty() || clear_half_ || (tidy_ && !running_ && !mv_);
+    if (job_.kind == JobKind::none) return !queue_.empty() || ((clear_half_ || tidy_) && !running_ && !mv_);
     if (job_.confirming || job_.at >= job_.steps.size()) return false;
     const auto what = job_.steps[job_.at].what;
     return what == Step::What::send || what == Step::What::bare || what == Step::What::block;
@@ -61,6 +62,8 @@ std::string Node::poll_text() const {
     if (tells_input_) s += ",IF";
     return s;
 }
+
+std::string Node::values_text() const { return std::string(R"(VI,",",VM,",",A,",",D)") + (encoder_ ? R"(,",",EE)" : ""); }
 
 Request Node::next(Turn& t) {
     Request r;
@@ -112,8 +115,8 @@ Request Node::next(Turn& t) {
         case Phase::linking:
             return say(What::link, link_line_);
         case Phase::starting:
-            return ask(What::startup, std::string(startup_items[startup_at_]) +
-                                          (startup_items[startup_at_].starts_with("VI") && encoder_ ? ",\",\",EE" : ""));
+            return ask(What::startup,
+                       startup_items[startup_at_].starts_with("VI") ? values_text() : std::string(startup_items[startup_at_]));
         default:
             break;
     }
@@ -137,17 +140,21 @@ Request Node::next(Turn& t) {
         next_poll_ = t.now + manners_.poll_period;
         return ask(What::poll, poll_text());
     }
-    if (clear_half_ && job_.kind == JobKind::none) {
+    if (clear_half_ && !running_ && !mv_ && job_.kind == JobKind::none) {
         clear_half_ = false;
-        Command c;
-        c.axis = axis_;
-        c.body = Action{"program.clear", ""};
-        plan(c, t);
+        job_.kind = JobKind::clear;
+        if (half_was_away_) job_.add(Step::What::block, "L");
+        if (!half_was_away_) job_.add(Step::What::send, "CP");
     }
     if (tidy_ && !running_ && !mv_ && job_.kind == JobKind::none) {
         tidy_ = false;
         job_.kind = JobKind::tidy;
         job_.add(Step::What::block, "L");
+    }
+    if (relearn_ && job_.kind == JobKind::none) {
+        relearn_ = false;
+        job_.kind = JobKind::relearn;
+        job_.add(Step::What::query, values_text());
     }
     if (job_.kind == JobKind::none && !queue_.empty()) take_next(t);
     if (job_.kind != JobKind::none && job_.at < job_.steps.size()) {
@@ -157,8 +164,10 @@ Request Node::next(Turn& t) {
             case Step::What::send:
             case Step::What::bare:
                 r = say(What::step, step.text);
+                if (word_of(step.text) == "EX") prints_until_ = t.now + 3s;
                 if (job_.kind == JobKind::download) {
                     job_.memory_touched = true;  // CP 1 is its first line
+                    clear_half_ = false;
                     note_mode_line(step.text);
                 }
                 if (job_.kind == JobKind::restart) {

@@ -17,8 +17,8 @@ void Node::stop_ended(Verdict v, const ReplyReader&, Turn& t) {
     Stop& s = stops_.front();
     if (phase_ == Phase::absent) {
         return stop_over(Outcome::failed, Reason::no_answer,
-                         fmt::format("{} does not answer to {}; {} was sent all the same, whether it was heard is not known", name(), setup_.address,
-                                     s.lines.back()),
+                         fmt::format("{} does not answer to {}; {} was sent all the same, whether it was heard is not known", name(),
+                                     setup_.address, s.lines.back()),
                          t);
     }
     s.said = v == Verdict::answered ? Verdict::acknowledged : v;
@@ -101,10 +101,13 @@ void Node::confirmed(Turn& t) {
             if (++s.at < s.lines.size()) return;
             fb_.target_reached = false;
             motion_.ended = true;
+            stopping_ = true;
             if (s.lines[0] == "DE=0") enabled_ = false;
             if (line == "AS=0") {
                 vi_ = user_vi_ = vm_ = a_ = d_ = 0;  // the drive may have scaled them
-                note(Severity::warning, "torque", 0, fmt::format("{}: the stop has ended its torque mode: AS is 0 now, and 3 starts it again", name()), t);
+                relearn_ = true;
+                note(Severity::warning, "torque", 0,
+                     fmt::format("{}: the stop has ended its torque mode: AS is 0 now, and 3 starts it again", name()), t);
             }
             derive(t);
             emit(t);
@@ -130,6 +133,21 @@ void Node::confirmed(Turn& t) {
         job_.text = already_typed;
         return step_done(t);
     }
+    if (job_.kind == JobKind::download && job_.steps[job_.at].line != 0) {
+        if (last_error_ == 6) {
+            // A point has this type: perhaps as the line wants it. What is read tells.
+            last_error_ = 0;
+            Step s = job_.steps[job_.at];
+            s.what = Step::What::query;
+            s.text = word_of(line);
+            s.end_mark = true;
+            job_.steps.insert(job_.steps.begin() + static_cast<std::ptrdiff_t>(job_.at) + 1, std::move(s));
+            return step_done(t);
+        }
+        const bool again = last_error_ == 28 && job_.tries > 0;  // VA that was done, and whose acknowledgement was lost
+        if (last_error_ != 0 && !again) return setting_refused(fmt::format("was refused with error {}", last_error_), t);
+        if (again) last_error_ = 0, job_.said = Verdict::acknowledged;
+    }
     if (last_error_ != 0) {
         const ErrorCode* e = catalogue_.error(last_error_);
         const bool changed = job_.at > 0 && job_.kind == JobKind::move;
@@ -143,6 +161,7 @@ void Node::confirmed(Turn& t) {
         ++counters_.retries;
         return;
     }
+    if (job_.kind == JobKind::download && job_.steps[job_.at].line != 0) return setting_refused("was not acknowledged", t);
     job_over(Outcome::failed, Reason::no_answer, fmt::format("{} did not acknowledge {}", name(), line), t);
 }
 
@@ -163,6 +182,8 @@ void Node::fail_all(Reason reason, const std::string& text, Turn& t) {
         std::string said = text;
         if (job_.memory_touched) said += "; the program memory is cleared or incomplete: download again";
         if (job_.kind == JobKind::named) said += "; no fresh drive took the name, or more than one did: power up one alone";
+        if (job_.memory_touched) keep_half();
+        if (job_.kind == JobKind::clear) clear_half_ = true;
         const Command c = job_.command;
         job_ = {};
         result(c, Outcome::failed, reason, std::move(said), t);
@@ -186,6 +207,19 @@ void Node::note(Severity severity, std::string_view kind, std::int32_t code, std
         --notice_tokens_;
     }
     t.out.notices.push_back({severity, setup_.id, axis_, std::string(kind), code, std::move(text), t.now});
+}
+
+void Node::trouble(Trouble::Kind kind, Turn& t) {
+    const bool doubled = kind == Trouble::Kind::twice;
+    const std::string counts = (doubled ? twice_ : trouble_).add(kind, t.now);
+    if (counts.empty()) return;
+    note(
+        Severity::warning, "protocol", 0,
+        doubled
+            ? fmt::format("{} answered the same question twice ({}): two drives may have the same name {}", name(), counts, setup_.address)
+            : fmt::format("{}: answers of the drive at {} are spoiled again and again ({}): look at its cable, its rate and its reply time",
+                          name(), setup_.address, counts),
+        t);
 }
 
 void Node::foreign(std::string_view text, Turn& t) {

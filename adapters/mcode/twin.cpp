@@ -15,6 +15,8 @@ std::unique_ptr<Twin> make_twin(const Catalogue&, const TwinSetup& setup) {
     d.product = product == "LMM" ? twin::lmm : product == "LMDO" ? twin::lmdo : twin::lmdc;
     d.ethernet = switched_on(option(setup.options, "ethernet", "off"));
     d.bit_rate = setup.bit_rate;
+    d.pad = switched_on(option(setup.options, "pad", "off"));
+    d.base_two = option(setup.options, "log_base", "e") == "2";
     if (setup.address.size() == 1) d.name = setup.address[0];
     const std::string nema = option(setup.options, "nema", "23");
     m.product = d.product;

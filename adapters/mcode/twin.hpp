@@ -21,7 +21,10 @@ namespace axisgate::mcode {
 /// `setup.options`: the line's and the drive's; other names are left alone:
 ///   "product"   "LMDC" (default, closed loop), "LMDO" (open loop), "LMM" (motion module)
 ///   "ethernet"  "on" (also "true", "1"; default "off"): MCode over TCP or UDP 503; the commands of the serial link are refused with error
-///   37 [L1173-1191] "nema"      "17", "23" (default), "34"
+///   37 [L1173-1191]
+///   "nema"      "17", "23" (default), "34"
+///   "pad"       "on": real numbers are filled with blanks to the width of PF; default "off", as every printed reply is (E-12)
+///   "log_base"  "2": LO is the logarithm to base 2; default "e", the only printed figure (E-15)
 [[nodiscard]] std::unique_ptr<Twin> make_twin(const Catalogue& catalogue, const TwinSetup& setup);
 
 }  // namespace axisgate::mcode

@@ -67,7 +67,8 @@ LinkEvent Comm::receive(std::uint8_t byte, std::string& echo) {
     line_ += c;
     const bool mine = !flags.py || (armed_ && addressed(line_[0]));
     const bool quiet = flags.py && line_[0] != flags.dn && flags.dg;
-    if (mine && flags.em == 0 && !quiet) echo += c;
+    const bool name = flags.py && line_.size() == 1;
+    if (mine && !name && flags.em == 0 && !quiet) echo += c;
     const std::size_t limit = line_limit + (flags.py ? 1 : 0) + (flags.ck > 0 ? 1 : 0);
     if (line_.size() > limit) {
         clear();
@@ -121,7 +122,8 @@ std::string Comm::reply(const Command& c, std::optional<std::string_view> data, 
     if (c.silent) return out;
     const bool sum = c.flags.ck > 0;
     const int em = c.flags.em;
-    if (em == 3) out += c.as_received;
+    // The command as it came, without the name in front of it: tables 7.2 and 7.4 echo (command) where (DN) (command) was sent.
+    if (em == 3) out += c.flags.py && !c.as_received.empty() ? c.as_received.substr(1) : c.as_received;
     if (em != 2) {
         if (!sum) {
             out += "\r\n";

@@ -76,7 +76,7 @@ private:
     [[nodiscard]] bool addressed(char first) const noexcept;
     LinkEvent finish();
 
-    std::string line_;  // bounded by the limit below
+    std::string line_;    // bounded by the limit below
     bool armed_ = false;  // party mode: the first LF has come
     bool discarding_ = false;
     bool stepping_ = false;

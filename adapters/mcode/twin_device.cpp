@@ -11,7 +11,9 @@
 namespace axisgate::mcode::twin {
 
 Device::Device(DeviceSetup setup, std::unique_ptr<Mechanism> motor)
-    : setup_(std::move(setup)), motor_(std::move(motor)), run_(program_, *this) {}
+    : setup_(std::move(setup)), motor_(std::move(motor)), run_(program_, *this) {
+    run_.base_two(setup_.base_two);
+}
 
 bool Device::deaf() const noexcept {
     if (!powered_ || upgrading_) return true;

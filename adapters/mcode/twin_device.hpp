@@ -31,6 +31,8 @@ struct DeviceSetup {
     bool ethernet = false;
     std::uint32_t bit_rate = 0;  ///< of the line; 0: every rate fits
     char name = '!';             ///< anything else: DN is that, and PY = 1, in the state the drive comes with
+    bool pad = false;            ///< PF fills up to its width (E-12)
+    bool base_two = false;       ///< LO has base 2, else it is the natural logarithm (E-15)
     std::string part_number = "LMDCM571";
     std::string serial_number = "0000000001";
 };

@@ -70,10 +70,10 @@ int Inputs::set_up(std::span<const std::int64_t> f, Instant now) {
     if (is_clock(type)) {
         if (n < 2) return wrong_type;
         if (fitted_ < input_count) return wrong_clock;
-    } else if (type != InputType::general) {
-        const auto other = with_type(type);
-        // "An IO already set": another one. The listings of setups are sent again to drives that hold them, so the same again is no fault.
-        if (other && *other != n) return already_so;
+    } else if (type != InputType::general && type_[n] == type) {
+        // This point has it already; other points may have it too. General is free: listing 9.3 sets it on points that have it. So are
+        // the clocks, since setting one of the pair sets the other.
+        return already_so;
     }
     type_[n] = type;
     high_[n] = high;
@@ -191,8 +191,10 @@ std::optional<std::size_t> Inputs::with_type(InputType type) const noexcept {
 }
 
 bool Inputs::active(InputType type) const noexcept {
-    const auto i = with_type(type);
-    return i && active_[*i];
+    for (std::size_t i = 0; i < fitted_; ++i) {
+        if (type_[i] == type && active_[i]) return true;
+    }
+    return false;
 }
 
 Instant Inputs::deadline() const noexcept { return *std::ranges::min_element(due_); }
@@ -272,11 +274,7 @@ int Outputs::set_up(std::span<const std::int64_t> f) {
         default:
             break;
     }
-    if (type != OutputType::general) {
-        for (std::size_t i = 0; i < output_count; ++i) {
-            if (type_[i] == type && i != n) return already_so;
-        }
-    }
+    if (type != OutputType::general && type_[n] == type) return already_so;
     type_[n] = type;
     high_[n] = type == OutputType::trip ? false : high;  // the trip output is active low only [L4629]
     return 0;

@@ -58,6 +58,7 @@ void Device::factory_state(bool as_delivered) {
     ne_ = false;
     radians_ = true;
     format_ = {};
+    format_.pad = setup_.pad;
     on_error_.reset();
     break_at_.reset();
     trips_ = {};

@@ -31,26 +31,6 @@ constexpr std::array saved{
 };
 constexpr std::array step_angles{0.45, 0.72, 0.9, 1.8, 1.875, 2.0, 2.5, 3.6, 5.0};
 
-/// Words that need an encoder; an LMD open loop has none.
-bool needs_encoder(Word w) noexcept {
-    switch (w) {
-        case Word::C2:
-        case Word::DB:
-        case Word::EE:
-        case Word::FS:
-        case Word::HF:
-        case Word::HI:
-        case Word::I6:
-        case Word::PM:
-        case Word::SF:
-        case Word::SM:
-        case Word::ST:
-            return true;
-        default:
-            return false;
-    }
-}
-
 std::int64_t wrapped(double v) noexcept {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(static_cast<std::uint64_t>(static_cast<std::int64_t>(nearest(v)))));
 }
@@ -65,7 +45,6 @@ void Motor::defaults() noexcept {
 
 int Motor::available(Word w) const noexcept {
     if ((info(w).products & setup_.product) == 0) return not_available;
-    if ((setup_.product & lmdo) != 0 && needs_encoder(w)) return not_available;
     if (setup_.frame_size == 17) {
         if (w == Word::O1 || w == Word::O2 || w == Word::FC || w == Word::I4 || w == Word::D4) return not_available;
     }

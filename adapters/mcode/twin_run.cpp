@@ -19,7 +19,7 @@ bool fits_int32(std::int64_t v) noexcept {
 /// R1 to R4 are symmetric, other than user variables [L5076].
 bool fits_register(std::int64_t v) noexcept { return fits_int32(v) && v != std::numeric_limits<std::int32_t>::min(); }
 
-Number function(Word f, const Number& n, bool radians, int& error) {
+Number function(Word f, const Number& n, bool radians, bool base_two, int& error) {
     const double x = n.as_double();
     const double to_radians = radians ? 1.0 : 3.141592653589793 / 180.0;
     double r = 0;
@@ -49,7 +49,7 @@ Number function(Word f, const Number& n, bool radians, int& error) {
             r = std::sqrt(x);
             break;
         case Word::LO:
-            r = std::log(x);  // the only printed figure is the natural logarithm [E-15]
+            r = base_two ? std::log2(x) : std::log(x);  // the only printed figure is the natural logarithm [E-15]
             break;
         default:
             r = std::log10(x);
@@ -114,7 +114,7 @@ Number Run::value(const Expression& e, bool real, int& error) {
         if (t.function) {
             int unreadable = 0;
             const bool radians = host_.read(Word::RA, unreadable).truth();
-            n = function(*t.function, n, radians, error);
+            n = function(*t.function, n, radians, base_two_, error);
         }
         for (auto sign = t.prefix.rbegin(); sign != t.prefix.rend(); ++sign)
             n = *sign == '-' ? negative(n) : Number::of(static_cast<std::int32_t>(~static_cast<std::uint32_t>(n.as_integer())));
@@ -169,7 +169,7 @@ int Run::store(SymbolId symbol, const Number& n) {
 int Run::count(const Statement& s, int by) {
     if (s.symbol != no_symbol) {
         Symbol& v = program_.symbols().at(s.symbol);
-        if (v.kind != Symbol::Kind::global && v.kind != Symbol::Kind::local) return unknown_name;
+        if (v.kind != Symbol::Kind::global && v.kind != Symbol::Kind::local) return read_only;  // unspecified counts as that [L2336]
         return store(s.symbol, Number::of(std::int64_t{v.value} + by));
     }
     const Operand& o = s.fields[0].terms[0].operand;

@@ -41,6 +41,9 @@ public:
     [[nodiscard]] std::int32_t& integer(std::size_t i) noexcept { return integers_[i]; }
     [[nodiscard]] double& real(std::size_t i) noexcept { return reals_[i]; }
 
+    /// LO has base 2, not e (E-15).
+    void base_two(bool on) noexcept { base_two_ = on; }
+
     // --- expressions
     [[nodiscard]] Number value(const Expression& e, bool real, int& error);
     [[nodiscard]] bool holds(const Condition& c, int& error);
@@ -84,6 +87,7 @@ private:
     Host& host_;
     std::array<std::int32_t, 4> integers_{};
     std::array<double, 8> reals_{};
+    bool base_two_ = false;
     State state_ = State::idle;
     std::size_t next_ = 0;
     Instant until_{};

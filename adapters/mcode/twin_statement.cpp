@@ -255,6 +255,7 @@ private:
             s.fields.push_back(std::move(e));
         } else {
             s.symbol = symbol(t.text);
+            if (error_ == unknown_name && s.word != Word::IV) error_ = 25;
         }
         return finish(std::move(s));
     }

@@ -71,7 +71,10 @@ std::string to_text(const Number& n, const PrintFormat& format) {
     std::array<char, 352> buffer{};
     const int size = format.scientific ? std::snprintf(buffer.data(), buffer.size(), "%.*E", format.decimals, n.d)
                                        : std::snprintf(buffer.data(), buffer.size(), "%.*f", format.decimals, n.d);
-    return std::string(buffer.data(), static_cast<std::size_t>(size < 0 ? 0 : size));
+    std::string s(buffer.data(), static_cast<std::size_t>(size < 0 ? 0 : size));
+    const auto width = static_cast<std::size_t>(format.width);
+    if (format.pad && s.size() < width) s.insert(format.left ? s.size() : 0, width - s.size(), ' ');
+    return s;
 }
 
 }  // namespace axisgate::mcode::twin

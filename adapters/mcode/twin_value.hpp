@@ -35,10 +35,11 @@ struct PrintFormat {
     int decimals = 6;
     bool scientific = false;
     bool left = false;
+    bool pad = false;  ///< of the model: see to_text
     auto operator<=>(const PrintFormat&) const = default;
 };
-/// Digits of a value: integers plain, doubles by `format`. The width is kept and never cuts or pads: every printed reply of the manual
-/// is unpadded.
+/// Digits of a value: integers plain, doubles by `format`. The width is kept and never cuts, nor pads unless the model is made so
+/// (E-12): every printed reply of the manual is unpadded.
 [[nodiscard]] std::string to_text(const Number& n, const PrintFormat& format);
 
 }  // namespace axisgate::mcode::twin

@@ -22,7 +22,7 @@ enum class Owner : std::uint8_t { language, motor };
 
 /// Products as bits. Ethernet and the 42 mm frame are properties beside the product.
 inline constexpr std::uint8_t lmdo = 1, lmdc = 2, lmm = 4;
-inline constexpr std::uint8_t lmd = lmdo | lmdc, every = lmd | lmm;
+inline constexpr std::uint8_t lmd = lmdo | lmdc, every = lmd | lmm, encoder = lmdc | lmm;
 
 struct WordInfo {
     std::string_view text;
@@ -57,7 +57,7 @@ struct WordInfo {
     X(BR, instruction, none, language, 0, 1, every, 0, 0, 0) \
     X(BY, flag, ro, language, 1, 1, every, 0, 0, 0) \
     X(C1, variable, rw, motor, 1, 1, every, 1, -2147483648.0, 2147483647.0) \
-    X(C2, variable, rw, motor, 1, 1, every, 1, -2147483648.0, 2147483647.0) \
+    X(C2, variable, rw, motor, 1, 1, encoder, 1, -2147483648.0, 2147483647.0) \
     X(CB, variable, rw, motor, 1, 1, lmdc, 1, 0, 3) \
     X(CE, flag, rw, language, 1, 1, every, 1, 0, 2) \
     X(CF, instruction, none, motor, 1, 1, lmdc, 0, 0, 0) \
@@ -73,7 +73,7 @@ struct WordInfo {
     X(D3, variable, rw, motor, 1, 1, every, 1, 0, 255) \
     X(D4, variable, rw, motor, 1, 1, every, 1, 0, 255) \
     X(D5, variable, rw, motor, 1, 1, every, 1, 0, 1000) \
-    X(DB, variable, rw, motor, 1, 1, every, 1, 0, 65000) \
+    X(DB, variable, rw, motor, 1, 1, encoder, 1, 0, 65000) \
     X(DC, instruction, none, language, 1, 1, every, 0, 0, 0) \
     X(DE, flag, rw, motor, 1, 1, every, 1, 0, 1) \
     X(DG, flag, rw, language, 1, 1, every, 1, 0, 1) \
@@ -81,7 +81,7 @@ struct WordInfo {
     X(DN, variable, rw, language, 1, 1, every, 0, 0, 0) \
     X(DT, variable, rw, motor, 1, 1, every, 1, 1, 3) \
     X(E, instruction, none, language, 1, 1, every, 0, 0, 0) \
-    X(EE, flag, rw, motor, 1, 1, every, 1, 0, 1) \
+    X(EE, flag, rw, motor, 1, 1, encoder, 1, 0, 1) \
     X(EF, flag, ro, language, 1, 1, every, 0, 0, 0) \
     X(EL, variable, rw, motor, 1, 1, lmm, 1, 1, 2000) \
     X(EM, flag, rw, language, 1, 1, every, 1, 0, 3) \
@@ -100,12 +100,12 @@ struct WordInfo {
     X(FD, instruction, none, language, 1, 0, every, 0, 0, 0) \
     X(FL, flag, rw, motor, 1, 1, lmd, 1, 0, 1) \
     X(FM, variable, rw, motor, 1, 1, every, 1, 0, 9) \
-    X(FS, variable, rw, motor, 1, 1, every, 1, -25600, 25600) \
+    X(FS, variable, rw, motor, 1, 1, encoder, 1, -25600, 25600) \
     X(FT, reserved, none, language, 0, 0, every, 0, 0, 0) \
     X(H, instruction, none, language, 0, 1, every, 0, 0, 0) \
     X(HC, variable, rw, motor, 1, 1, every, 1, 0, 100) \
-    X(HF, instruction, none, motor, 1, 1, every, 0, 0, 0) \
-    X(HI, instruction, none, motor, 1, 1, every, 0, 0, 0) \
+    X(HF, instruction, none, motor, 1, 1, encoder, 0, 0, 0) \
+    X(HI, instruction, none, motor, 1, 1, encoder, 0, 0, 0) \
     X(HM, instruction, none, motor, 1, 1, every, 0, 0, 0) \
     X(HT, variable, rw, motor, 1, 1, every, 0, 0, 0) \
     X(I1, variable, ro, motor, 1, 1, every, 0, 0, 0) \
@@ -113,7 +113,7 @@ struct WordInfo {
     X(I3, variable, ro, motor, 1, 1, every, 0, 0, 0) \
     X(I4, variable, ro, motor, 1, 1, every, 0, 0, 0) \
     X(I5, variable, ro, motor, 1, 1, every, 0, 0, 0) \
-    X(I6, variable, ro, motor, 1, 1, every, 0, 0, 0) \
+    X(I6, variable, ro, motor, 1, 1, encoder, 0, 0, 0) \
     X(I7, reserved, none, language, 0, 0, every, 0, 0, 0) \
     X(I8, reserved, none, language, 0, 0, every, 0, 0, 0) \
     X(I9, reserved, none, language, 0, 0, every, 0, 0, 0) \
@@ -164,7 +164,7 @@ struct WordInfo {
     X(PG, instruction, none, language, 1, 1, every, 0, 0, 0) \
     X(PI, math, ro, language, 0, 0, every, 0, 0, 0) \
     X(PK, reserved, none, language, 0, 0, every, 0, 0, 0) \
-    X(PM, flag, rw, motor, 1, 1, every, 1, 0, 1) \
+    X(PM, flag, rw, motor, 1, 1, encoder, 1, 0, 1) \
     X(PN, keyword, ro, language, 1, 1, every, 0, 0, 0) \
     X(PR, instruction, none, language, 1, 1, every, 0, 0, 0) \
     X(PS, instruction, none, language, 1, 1, every, 0, 0, 0) \
@@ -183,13 +183,13 @@ struct WordInfo {
     X(S, instruction, none, language, 1, 1, every, 0, 0, 0) \
     X(SA, variable, rw, motor, 1, 1, lmm, 0, 0, 0) \
     X(SC, instruction, none, motor, 1, 1, lmdc, 0, 0, 0) \
-    X(SF, variable, rw, motor, 1, 1, every, 1, 0, 65000) \
+    X(SF, variable, rw, motor, 1, 1, encoder, 1, 0, 65000) \
     X(SI, math, none, language, 0, 0, every, 0, 0, 0) \
     X(SL, instruction, none, motor, 1, 1, every, 0, 0, 0) \
-    X(SM, variable, rw, motor, 1, 1, every, 1, 0, 1) \
+    X(SM, variable, rw, motor, 1, 1, encoder, 1, 0, 1) \
     X(SN, keyword, ro, language, 1, 1, every, 0, 0, 0) \
     X(SQ, math, none, language, 0, 0, every, 0, 0, 0) \
-    X(ST, flag, rw, motor, 1, 1, every, 1, 0, 0) \
+    X(ST, flag, rw, motor, 1, 1, encoder, 1, 0, 0) \
     X(SU, keyword, none, language, 0, 1, every, 0, 0, 0) \
     X(S_, math, none, language, 0, 0, every, 0, 0, 0) \
     X(TA, trip, none, motor, 1, 1, lmdc, 0, 0, 0) \

@@ -120,7 +120,7 @@ struct FakeDrive {
         }
         if (lost) return {};
         std::string out;
-        if (was_em == 0 || was_em == 3) out += received;
+        if (was_em == 0 || was_em == 3) out += name == '!' ? received : received.substr(1);  // without the name [L6840-6860]
         if (was_em != 2) out += was_ck > 0 ? std::string(1, good ? '\x06' : '\x15') : "\r\n";
         if (printed) out += data + (was_ck > 0 ? std::string(1, sum(data)) : std::string()) + "\r\n";
         if (was_em == 0) out += er ? '?' : '>';

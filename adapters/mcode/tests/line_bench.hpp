@@ -32,6 +32,7 @@ struct LineBench : LineEvents, CommandDesk<LineBench> {
     int wrong = 0;
     bool echo = false;                                 ///< a converter that gives the gateway its own bytes back
     std::function<std::string(std::string)> on_cable;  ///< what becomes of bytes to the gateway
+    std::function<std::string(std::string)> on_way;    ///< what becomes of bytes to the drives
     Duration hold{};                                   ///< they come so much later
 
     explicit LineBench(std::string_view names, std::uint32_t rate, std::map<std::string, std::string> options = {},
@@ -114,7 +115,13 @@ struct LineBench : LineEvents, CommandDesk<LineBench> {
         for (const auto& tx : frames) {
             const std::string bytes(reinterpret_cast<const char*>(tx.frame.data().data()), tx.frame.size);
             sent.push_back({now, bytes});
-            EXPECT_TRUE(bus->send(tx.frame, tx.priority, now));
+            if (!on_way) {
+                EXPECT_TRUE(bus->send(tx.frame, tx.priority, now));
+                continue;
+            }
+            const std::string rest = on_way(bytes);
+            if (rest.empty()) continue;
+            EXPECT_TRUE(bus->send(Frame::run({reinterpret_cast<const std::uint8_t*>(rest.data()), rest.size()}), tx.priority, now));
         }
     }
     void run(Duration d) {

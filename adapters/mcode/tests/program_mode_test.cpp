@@ -3,6 +3,8 @@
 // event; no stop and no command that became program text.
 #include <fmt/format.h>
 
+#include <random>
+
 #include "adapters/mcode/program.hpp"
 #include "adapters/mcode/tests/line_bench.hpp"
 
@@ -140,6 +142,80 @@ TEST(McodeProgramMode, ARefusedQuestionIsNoProgramMode) {
         EXPECT_TRUE(b.online(0));
         EXPECT_TRUE(b.online(1));
         EXPECT_TRUE(b.told("program_mode").empty());
+    }
+}
+
+/// Ends of lines that are lost join two requests, and the refusal of that looks like a line that prints nothing. PG would put a drive that
+/// is not in program mode into it, and what is said next over its program.
+TEST(McodeProgramMode, LostLineEndsAreNoProgramMode) {
+    for (const std::string_view names : {"ab", "!"}) {
+        for (const int em : {0, 1, 2, 3}) {
+            for (const int ck : {0, 1, 2}) {
+                for (const bool each : {false, true}) {
+                    const auto what = fmt::format("{} em {} ck {} each {}", names, em, ck, each);
+                    Typist b(names, 115200, {{"em", std::to_string(em)}, {"ck", std::to_string(ck)}});
+                    b.run(6s);
+                    ASSERT_TRUE(b.online()) << what;
+                    ASSERT_EQ(b.wait(Action{"program.download", "PG 1\nLB A1\nPR \"hello\"\nE\nPG"}).outcome, Outcome::done) << what;
+                    // Where bytes collide some become CTRL+C: a drive that restarts has it still.
+                    ASSERT_EQ(b.wait(Action{"program.save", ""}).outcome, Outcome::done) << what;
+                    b.run(1s);
+                    const auto before = b.sent.size();
+                    std::mt19937 dice(em * 10U + static_cast<unsigned>(ck) + names.size());
+                    b.on_way = [&](std::string s) {
+                        const char end = names == "!" ? '\r' : '\n';
+                        const bool all = dice() % 100 < 12;
+                        std::string out;
+                        for (const char c : s)
+                            if (c != end || !(each ? dice() % 100 < 12 : all)) out += c;
+                        return out;
+                    };
+                    const Instant end = b.now + 60s;
+                    for (int i = 0; b.now < end; ++i) {
+                        b.command(ReadParameter{*catalogue().find("A")}, 0);
+                        if (names.size() > 1) b.command(ReadParameter{*catalogue().find("R1")}, 1);
+                        if (i % 7 == 0) b.command(WriteParameter{*catalogue().find("R2"), Value{std::int64_t{i}}}, 0);
+                        b.run(100ms);
+                    }
+                    b.on_way = nullptr;
+                    b.run(12s);
+                    for (auto i = before; i < b.sent.size(); ++i)
+                        ASSERT_EQ(b.sent[i].bytes.find("PG"), std::string::npos) << what;
+                    ASSERT_TRUE(b.online()) << what;
+                    const Result r = b.wait(Action{"program.upload", ""});
+                    EXPECT_EQ(r.outcome, Outcome::done) << r.text;
+                    EXPECT_EQ(r.text, "LB A1\nPR \"hello\"\nE\n") << what;
+                }
+            }
+        }
+    }
+}
+
+/// And one that is in it is led out all the same, as soon as the line allows.
+TEST(McodeProgramMode, OverABadLineADriveIsLedOutToo) {
+    for (const int em : {1, 3}) {
+        for (const int ck : {0, 1}) {
+            const auto what = fmt::format("em {} ck {}", em, ck);
+            Typist b("ab", 115200, {{"em", std::to_string(em)}, {"ck", std::to_string(ck)}});
+            b.run(6s);
+            ASSERT_TRUE(b.online()) << what;
+            std::mt19937 dice(3);
+            b.adapter.on_line(false, b.now, b.out);
+            b.drain();
+            b.open_program(0, ck > 0);
+            b.adapter.on_line(true, b.now, b.out);
+            b.drain();
+            b.on_way = [&](std::string s) {
+                if (dice() % 100 < 12) std::erase(s, '\n');
+                return s;
+            };
+            b.run(20s);
+            b.on_way = nullptr;
+            b.run(5s);
+            ASSERT_TRUE(b.online()) << what;
+            EXPECT_GE(b.told("program_mode").size(), 1U) << what;
+            EXPECT_EQ(b.wait(Action{"program.end", ""}).outcome, Outcome::refused) << what << ": it is obeyed again";
+        }
     }
 }
 

@@ -111,6 +111,33 @@ TEST(McodeIndexed, VoltagesAndTemperaturesAreReadOneByOne) {
     }
 }
 
+/// E-12, E-15: what the manual leaves open can be chosen.
+TEST(McodeModel, PaddingAndTheBaseOfLoAreOptions) {
+    for (const bool on : {false, true}) {
+        LineBench b("!", 19200,
+                    on ? std::map<std::string, std::string>{{"pad", "on"}, {"log_base", "2"}} : std::map<std::string, std::string>{});
+        b.run(4s);
+        const auto ask = [&](std::string_view s) { return b.wait(Native{{s.begin(), s.end()}, true}).text; };
+        EXPECT_EQ(ask("PR \"[\",F1,\"]\""), on ? "[  0.000000]" : "[0.000000]");
+        (void)ask("PF=12,3,0,1");
+        EXPECT_EQ(ask("PR \"[\",F1,\"]\""), on ? "[0.000       ]" : "[0.000]");
+        (void)ask("F1=LO 51200");
+        EXPECT_EQ(ask("PR \"[\",F1").substr(1, 6), on ? "15.644" : "10.843");
+    }
+}
+
+/// An open loop has no encoder, and none of its words.
+TEST(McodeModel, AnOpenLoopHasNoWordsOfAnEncoder) {
+    LineBench b("!", 19200, {{"product", "LMDO"}});
+    b.run(4s);
+    for (const char* w : {"ST=1", "ST=0", "C2=5", "DB=70000", "EE=1", "HI 1"}) {
+        const std::string_view s = w;
+        const Result r = b.wait(Native{{s.begin(), s.end()}, true});
+        EXPECT_EQ(r.code, 37) << w << r.text;
+        EXPECT_FALSE(r.bytes.empty()) << "what came back, for reply_hex";
+    }
+}
+
 /// Error 6 has two readings: this point has the type, or another one has it. What the drive shows decides.
 TEST(McodeIoSetup, ErrorSixIsNoErrorWhereTheSettingIsInForce) {
     const auto is = catalogue().find("IS");
@@ -127,9 +154,9 @@ TEST(McodeIoSetup, ErrorSixIsNoErrorWhereTheSettingIsInForce) {
     EXPECT_NE(other.text.find("type 0 first"), std::string::npos) << other.text;
     LineBench twin("a", 19200);
     twin.run(4s);
-    for (const char* v : {"1,1,0", "1,1,0", "1,1,1"})
+    for (const char* v : {"1,1,0", "1,1,0", "2,1,0"})
         EXPECT_EQ(twin.wait(WriteParameter{*is, Value{std::string(v)}}).outcome, Outcome::done) << v;
-    EXPECT_EQ(twin.wait(WriteParameter{*is, Value{std::string("2,1,0")}}).code, 6);
+    EXPECT_EQ(twin.wait(WriteParameter{*is, Value{std::string("1,1,1")}}).code, 6) << "the level alone cannot be changed";
 }
 
 }  // namespace

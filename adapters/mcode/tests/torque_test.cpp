@@ -8,7 +8,8 @@ namespace axisgate::mcode::test {
 namespace {
 
 struct Press : LineBench {
-    explicit Press(std::string_view names = "ab", std::map<std::string, std::string> options = {}) : LineBench(names, 19200, std::move(options)) {
+    explicit Press(std::string_view names = "ab", std::map<std::string, std::string> options = {})
+        : LineBench(names, 19200, std::move(options)) {
         run(8s);
         for (std::size_t i = 0; i < setup.drives.size(); ++i) {
             EXPECT_EQ(wait(Enable{}, i).outcome, Outcome::done) << i;

@@ -64,15 +64,15 @@ INSTANTIATE_TEST_SUITE_P(AllSixteen, Shapes,
                          ::testing::Values(Shape{0, false, 0, "A=1000<CR><LF>>", "PR A<CR><LF>1000<CR><LF>>"},
                                            Shape{1, false, 0, "<CR><LF>", "<CR><LF>1000<CR><LF>"}, Shape{2, false, 0, "", "1000<CR><LF>"},
                                            Shape{3, false, 0, "A=1000<CR><LF>", "PR A<CR><LF>1000<CR><LF>"},
-                                           Shape{0, true, 0, "aA=1000<CR><LF>>", "aPR A<CR><LF>1000<CR><LF>>"},
+                                           Shape{0, true, 0, "A=1000<CR><LF>>", "PR A<CR><LF>1000<CR><LF>>"},
                                            Shape{1, true, 0, "<CR><LF>", "<CR><LF>1000<CR><LF>"}, Shape{2, true, 0, "", "1000<CR><LF>"},
-                                           Shape{3, true, 0, "aA=1000<CR><LF>", "aPR A<CR><LF>1000<CR><LF>"},
+                                           Shape{3, true, 0, "A=1000<CR><LF>", "PR A<CR><LF>1000<CR><LF>"},
                                            Shape{0, false, 1, "A=1000<C1><ACK>>", "PR A<FD><ACK>1000<BF><CR><LF>>"},
                                            Shape{1, false, 1, "<ACK>", "<ACK>1000<BF><CR><LF>"}, Shape{2, false, 1, "", "1000<BF><CR><LF>"},
                                            Shape{3, false, 1, "A=1000<C1><ACK>", "PR A<FD><ACK>1000<BF><CR><LF>"},
-                                           Shape{0, true, 1, "aA=1000<E0><ACK>>", "aPR A<9C><ACK>1000<BF><CR><LF>>"},
+                                           Shape{0, true, 1, "A=1000<E0><ACK>>", "PR A<9C><ACK>1000<BF><CR><LF>>"},
                                            Shape{1, true, 1, "<ACK>", "<ACK>1000<BF><CR><LF>"}, Shape{2, true, 1, "", "1000<BF><CR><LF>"},
-                                           Shape{3, true, 1, "aA=1000<E0><ACK>", "aPR A<9C><ACK>1000<BF><CR><LF>"}),
+                                           Shape{3, true, 1, "A=1000<E0><ACK>", "PR A<9C><ACK>1000<BF><CR><LF>"}),
                          [](const auto& row) {
                              return "em" + std::to_string(row.param.em) + (row.param.py ? "_party" : "_single") + "_ck" +
                                     std::to_string(row.param.ck);
@@ -83,7 +83,7 @@ TEST(TwinComm, PartyModeWaitsForTheFirstLineFeed) {  // trap 1
     EXPECT_EQ(shown(b.send("PY=1\r")), "PY=1<CR><LF>>");
     EXPECT_EQ(b.send("!PR P"), "");
     EXPECT_EQ(b.send("\n"), "");
-    EXPECT_EQ(shown(b.send("!PR P\n")), "!PR P<CR><LF>0<CR><LF>>");
+    EXPECT_EQ(shown(b.send("!PR P\n")), "PR P<CR><LF>0<CR><LF>>");
     EXPECT_EQ(b.send("PR P\r"), "") << "without its name";
     b.send("\n");
     b.send("*PY=0\n");
@@ -96,14 +96,14 @@ TEST(TwinComm, GlobalCommandsAreSilentUnlessToldOtherwise) {  // trap 2
     Bench b(s);
     b.send("\n");
     EXPECT_EQ(b.send("*A=5000\n"), "");
-    EXPECT_EQ(shown(b.send("aPR A\n")), "aPR A<CR><LF>5000<CR><LF>>");
+    EXPECT_EQ(shown(b.send("aPR A\n")), "PR A<CR><LF>5000<CR><LF>>");
     b.send("aDG=0\n");
-    EXPECT_EQ(shown(b.send("*A=6000\n")), "*A=6000<CR><LF>>");
+    EXPECT_EQ(shown(b.send("*A=6000\n")), "A=6000<CR><LF>>");
     EXPECT_EQ(b.send("^A=7000\n"), "") << "QD = 0: not one of the group";
-    EXPECT_EQ(shown(b.send("aPR A\n")), "aPR A<CR><LF>6000<CR><LF>>");
+    EXPECT_EQ(shown(b.send("aPR A\n")), "PR A<CR><LF>6000<CR><LF>>");
     b.send("aQD=1\n");
     b.send("^A=7000\n");
-    EXPECT_EQ(shown(b.send("aPR A\n")), "aPR A<CR><LF>7000<CR><LF>>");
+    EXPECT_EQ(shown(b.send("aPR A\n")), "PR A<CR><LF>7000<CR><LF>>");
     EXPECT_EQ(b.send("bPR A\n"), "");
     EXPECT_EQ(b.send("APR A\n"), "") << "names are case sensitive";
 }
@@ -260,7 +260,7 @@ TEST(TwinComm, NeighboursAnswersAreNotCommands) {
     b.send("\n");
     b.send("\x06");
     b.send("\r\n12345\xBF\r\n");
-    EXPECT_EQ(shown(b.send("bPR A\n")), "bPR A<CR><LF>1000000<CR><LF>>");
+    EXPECT_EQ(shown(b.send("bPR A\n")), "PR A<CR><LF>1000000<CR><LF>>");
 }
 
 TEST(TwinComm, NinthWaitingLineIsLostWithError63) {
@@ -277,8 +277,9 @@ TEST(TwinComm, NinthWaitingLineIsLostWithError63) {
 // Text of neighbours is passed over in runs: that must be the same as taking each byte alone.
 TEST(TwinComm, BytesInARunAreTheSameAsBytesOneByOne) {
     std::mt19937 random(5);
-    const std::array<std::string, 14> pieces{"aPR A\n",   "bPR A\n",   "*A=7\n",  "^A=9\n",        "\x06",   "b0123456789",       "\n",
-                                             "0.5\r\n>", "cA=1\bX\n", "\x1b",    "b\x1b PR A\n", "aPR A\b", "bPR\x03 A\raPR P\n", std::string(40, 'x')};
+    const std::array<std::string, 14> pieces{
+        "aPR A\n",  "bPR A\n",   "*A=7\n", "^A=9\n",       "\x06",    "b0123456789",        "\n",
+        "0.5\r\n>", "cA=1\bX\n", "\x1b",   "b\x1b PR A\n", "aPR A\b", "bPR\x03 A\raPR P\n", std::string(40, 'x')};
     std::size_t commands = 0, passed_over = 0, overruns = 0;
     for (unsigned round = 0; round < 500; ++round) {
         Comm in_runs, one_by_one;

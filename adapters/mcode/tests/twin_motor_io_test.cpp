@@ -15,9 +15,10 @@ TEST(McodePoints, InputSetupHasItsCodes) {
         int code;
     };
     const Row rows[] = {
-        {{1, 0, 0}, 0},  {{1, 1, 0}, 0},  {{1, 1, 0}, 0},  {{1, 1, 1}, 0},  {{2, 1, 0}, 6},  {{2, 12, 0}, 8}, {{2, 13, 0}, 8},
-        {{1, 9, 0}, 8},  {{1, 10, 0}, 8}, {{1, 16, 0}, 8}, {{7, 0, 0}, 10}, {{0, 0, 0}, 10}, {{1, 2, 2}, 21}, {{1}, 21},
-        {{1, 12, 1}, 0}, {{5, 9, 1}, 0},  {{5, 8, 0}, 8},  {{5, 10, 1}, 0}, {{6, 1}, 0},     {{6, 2}, 21},
+        {{1, 0, 0}, 0},  {{1, 1, 0}, 0},  {{1, 1, 0}, 6},  {{1, 1, 1}, 6}, {{2, 1, 0}, 0},  {{2, 0, 0}, 0},
+        {{2, 0, 0}, 0},  {{2, 12, 0}, 8}, {{2, 13, 0}, 8}, {{1, 9, 0}, 8}, {{1, 10, 0}, 8}, {{1, 16, 0}, 8},
+        {{7, 0, 0}, 10}, {{0, 0, 0}, 10}, {{1, 2, 2}, 21}, {{1}, 21},      {{1, 12, 1}, 0}, {{5, 9, 1}, 0},
+        {{5, 8, 0}, 8},  {{5, 10, 1}, 0}, {{6, 1}, 0},     {{6, 2}, 21},
     };
     for (const Row& r : rows)
         EXPECT_EQ(b.set("IS", r.is), r.code) << r.is[0] << ',' << (r.is.size() > 1 ? r.is[1] : -1);
@@ -138,8 +139,10 @@ TEST(McodePoints, JogRunsAtVmWhileItsInputIsActive) {
 TEST(McodePoints, OutputSetupHasItsCodesAndOutputsShowTheirFunction) {
     MotorBench b;
     EXPECT_EQ(b.set("OS", {1, 17, 1}), 0);
-    EXPECT_EQ(b.set("OS", {1, 17, 1}), 0) << "the same again";
-    EXPECT_EQ(b.set("OS", {2, 17, 1}), 6);
+    EXPECT_EQ(b.set("OS", {1, 17, 1}), 6) << "the point has it already";
+    EXPECT_EQ(b.set("OS", {2, 17, 1}), 0) << "another one may have it too";
+    EXPECT_EQ(b.set("OS", {2, 16, 0}), 0);
+    EXPECT_EQ(b.set("OS", {2, 16, 0}), 0) << "free (listing 9.3)";
     EXPECT_EQ(b.set("OS", {4, 16, 1}), 10);
     EXPECT_EQ(b.set("OS", {2, 22, 1}), 8);
     EXPECT_EQ(b.set("OS", {2, 28, 1}), 8);

@@ -15,7 +15,7 @@ TEST(TwinWire, FactoryDefaultsOnAPartyLineEndTheNameAndTheParty) {
     Wire w(lmdc, 'a');
     EXPECT_EQ(w.bytes("\n"), "");
     w.bytes("aA=5000\n");
-    EXPECT_EQ(w.bytes("aFD\n"), "aFD<CR><LF>>") << "the answer has the shape that the line had";
+    EXPECT_EQ(w.bytes("aFD\n"), "FD<CR><LF>>") << "the answer has the shape that the line had";
     EXPECT_EQ(w.bytes("PR DN\r"), "PR DN<CR><LF>!<CR><LF>>");
     EXPECT_EQ(w.ask("PR PY"), "0");
     EXPECT_EQ(w.ask("PR A"), "1000000");
@@ -24,7 +24,7 @@ TEST(TwinWire, FactoryDefaultsOnAPartyLineEndTheNameAndTheParty) {
     EXPECT_EQ(after.ask("PR DN"), "!") << "also after the power comes back";
     after.bytes("PY=1\r");
     after.bytes("\n");
-    EXPECT_EQ(after.bytes("!PR PY\n"), "!PR PY<CR><LF>1<CR><LF>>");
+    EXPECT_EQ(after.bytes("!PR PY\n"), "PR PY<CR><LF>1<CR><LF>>");
 }
 
 TEST(TwinWire, TripOnTimeCapturesThePositionOfItsInstant) {
@@ -71,13 +71,15 @@ TEST(TwinWire, NamesAndSuppliesAreThoseOfTheProduct) {
     EXPECT_EQ(Wire(lmm).ask("PR VT"), "1, 48") << "no auxiliary supply: status 1 is normal, and its field is missing";
 }
 
-TEST(TwinWire, ASetupMaySentAgainButNoTypeTwice) {
+TEST(TwinWire, APointIsNotGivenTheTypeThatItHas) {  // L8456: "IS/OS to the type the point already has"
     Wire w;
-    for (const char* line : {"IS=1,1,0", "IS=1,1,0", "IS=1,1,1", "OS=1,17,1", "OS=1,17,1", "IS=1,12,0", "IS=1,12,0"})
+    for (const char* line :
+         {"IS=1,1,0", "IS=2,1,0", "OS=1,17,1", "OS=2,17,0", "IS=3,0,0", "IS=3,0,0", "OS=3,16,0", "IS=3,13,1", "IS=4,13,1"})
         EXPECT_EQ(w.error_of(line), 0) << line;
-    EXPECT_EQ(w.error_of("IS=2,1,0"), 0);
-    EXPECT_EQ(w.error_of("IS=3,1,0"), 6);
-    EXPECT_EQ(w.error_of("OS=2,17,0"), 6);
+    for (const char* line : {"IS=1,1,0", "IS=1,1,1", "OS=1,17,1"})
+        EXPECT_EQ(w.error_of(line), 6) << line;
+    EXPECT_EQ(w.error_of("IS=1,0,0"), 0);
+    EXPECT_EQ(w.error_of("IS=1,1,1"), 0);
 }
 
 TEST(TwinWire, AnAddressInputOfTheModuleMakesPartyMode) {  // L5016
@@ -85,11 +87,11 @@ TEST(TwinWire, AnAddressInputOfTheModuleMakesPartyMode) {  // L5016
     EXPECT_EQ(w.ask("PR PY"), "0");
     w.hand("address_input", Value{true});
     EXPECT_EQ(w.bytes("PR P\r"), "");
-    EXPECT_EQ(w.bytes("\n!PR PY\n"), "!PR PY<CR><LF>1<CR><LF>>");
-    EXPECT_EQ(w.bytes("!PY=0\n"), "!PY=0<CR><LF>>");
-    EXPECT_EQ(w.bytes("!PR PY\n"), "!PR PY<CR><LF>1<CR><LF>>") << "as long as it is active";
+    EXPECT_EQ(w.bytes("\n!PR PY\n"), "PR PY<CR><LF>1<CR><LF>>");
+    EXPECT_EQ(w.bytes("!PY=0\n"), "PY=0<CR><LF>>");
+    EXPECT_EQ(w.bytes("!PR PY\n"), "PR PY<CR><LF>1<CR><LF>>") << "as long as it is active";
     w.bytes("!FD\n");
-    EXPECT_EQ(w.bytes("\n!PR PY\n"), "!PR PY<CR><LF>1<CR><LF>>");
+    EXPECT_EQ(w.bytes("\n!PR PY\n"), "PR PY<CR><LF>1<CR><LF>>");
     w.hand("address_input", Value{false});
     w.bytes("!PY=0\n");
     EXPECT_EQ(w.ask("PR PY"), "0");

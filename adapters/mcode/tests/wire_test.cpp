@@ -3,7 +3,6 @@
 
 #include "adapters/mcode/decoder.hpp"
 #include "adapters/mcode/framing.hpp"
-#include "adapters/mcode/program.hpp"
 #include "adapters/mcode/wire.hpp"
 
 namespace axisgate::mcode {
@@ -134,33 +133,6 @@ TEST(Framing, PlainText) {
                          "42\x9A\r\n",
                          "aPR P\x8D", true),
               "42");
-}
-
-TEST(Program, FaultsHaveTheirLine) {
-    const auto known = [](const std::string& w) {
-        return w == "MA" || w == "H" || w == "BR" || w == "E" || w == "P" || w == "A" || w == "R1";
-    };
-    struct Row {
-        const char* text;
-        const char* fault;
-    };
-    for (const Row& r : {Row{"PG 1\nLB AA\nMX 1\nPG", "line 3"}, Row{"PG 1\nLB AA\nMA 1\nLB aa\nPG", "line 4: label AA stands in line 2"},
-                         Row{"PG 1\nMA 1\nE", "line 1: PG opens"}, Row{"PG 1\nBR ZZ\nPG", "line 2: there is no label ZZ"},
-                         Row{"PG 1\nMA 1        ' a comment that is far too long for the sixty-four characters of a line\nPG", "line 2"},
-                         Row{"PG 1\nMA \x01\nPG", "line 2"}, Row{"PG 1\nLB MA\nPG", "line 2: MA is a word"}, Row{"", "line 1"},
-                         Row{"PG 1\n7\nPG", "line 2"}}) {
-        const auto p = check_program(r.text, known);
-        EXPECT_NE(p.fault.find(r.fault), std::string::npos) << r.text << ": " << p.fault;
-        EXPECT_TRUE(p.lines.empty());
-    }
-}
-TEST(Program, GoodTextIsSentAsItStands) {
-    const auto known = [](const std::string& w) { return w == "MA" || w == "H"; };
-    const auto p = check_program("VA Q1=25\r\nLB K1\nMA Q1 'go\nH\nQ1=3\nBR k1,Q1<5\n\n' only a comment\n", known);
-    EXPECT_EQ(p.fault, "");
-    EXPECT_EQ(p.lines, (std::vector<std::string>{"PG 1", "VA Q1=25", "LB K1", "MA Q1 'go", "H", "Q1=3", "BR k1,Q1<5", "PG"}));
-    EXPECT_EQ(normal_form("ma  q1 'x"), normal_form("MA Q1"));
-    EXPECT_NE(normal_form("PR \"a b\""), normal_form("PR \"ab\""));
 }
 
 std::vector<std::string> decode(LineDecoder& d, std::string_view s, std::optional<bool> down) {

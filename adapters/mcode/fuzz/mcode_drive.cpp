@@ -11,7 +11,7 @@ namespace {
 
 /// A line that the drive might be sent: words, operators and numbers in an order that is often right.
 std::string any_line(FuzzedDataProvider& in, char name) {
-    constexpr std::array<const char*, 64> words{
+    constexpr std::array words{
         "MA ",   "MR ",    "SL ",  "HM ",    "HI ",  "H ",    "PR ",   "PG ",  "PG",   "E",     "S",     "EX 1", "EX M1", "LB M1",  "BR 1",   "BR M1,R1<5",
         "CL M1", "RT",     "OE 1", "VA Q1=", "R1=",  "R2=R1*", "P=",   "C1=",  "VI=",  "VM=",   "A=",    "D=",   "AS=",   "EE=",    "PY=",    "EM=",
         "CK=",   "DN=\"b\"", "DE=", "ES=",   "CE=",  "TI 1,",  "TP 1,", "TT 1,", "TE=", "IS=1,", "OS=1,", "LM=", "JE=",   "SM=",    "PM=",    "SF=",

@@ -24,7 +24,11 @@ test('the scope: channels, a trigger that holds, cursors that read, a recording 
   await page.locator('.scope canvas').waitFor();
   await program.command('feeder', { command: 'enable' });
   await until('enabled', async () => (await program.axis('feeder')).state === 'operation_enabled');
-  await page.getByRole('button', { name: 'Following error', exact: true }).click();
+  // None of the families says where it wants to be at each moment: barred with the reason, also in words, and nothing is invented for it.
+  for (const name of ['Demand', 'Following error']) {
+    assert.ok(await page.locator('.scope').getByRole('button', { name, exact: true }).isDisabled(), name);
+  }
+  assert.match(await page.locator('.scope').innerText(), /does not say where it wants to be/);
   await page.getByRole('group', { name: 'Time shown' }).getByRole('button', { name: '2 s' }).click();
 
   const start = (await program.axis('feeder')).position;
@@ -55,6 +59,8 @@ test('the scope: channels, a trigger that holds, cursors that read, a recording 
   const lines = readFileSync(await download.path(), 'utf8').trim().split('\r\n');
   assert.match(download.suggestedFilename(), /^feeder-.*\.csv$/);
   assert.match(lines[0], /^time,seconds,feeder\.position \[mm\],/);
+  const at = lines[0].split(',').findIndex((h) => h.includes('following_error'));
+  assert.ok(lines.slice(1).every((l) => l.split(',')[at] === ''), 'no following error is written that nobody has told');
   const positions = lines.slice(1).map((l) => Number(l.split(',')[2]));
   assert.ok(Math.max(...positions) - Math.min(...positions) > 15, `${positions.length} rows, ${Math.min(...positions)} to ${Math.max(...positions)}`);
 

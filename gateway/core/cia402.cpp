@@ -61,6 +61,7 @@ void AxisProfile::order_on(State& s, Decision& d) {
     d.orders.emplace_back(Enable{});
 }
 
+/// Said even if the drive seems to be off, or is not heard.
 void AxisProfile::order_off_blindly(State& s, Decision& d) {
     forget_motion(s);
     s.virtual_step = 0;
@@ -327,11 +328,8 @@ AxisProfile::Decision AxisProfile::on_command(const CommandBody& body) {
         }
     } else if (std::holds_alternative<Disable>(body)) {
         s.controlword = 0;
-        s.virtual_step = 0;
-        forget_motion(s);
-        s.quick_stopped = false;
         s.power_pending = 0;
-        d.orders.emplace_back(Disable{});  // said again even if the drive seems to be off
+        order_off_blindly(s, d);
     } else if (std::holds_alternative<QuickStop>(body)) {
         s.controlword &= static_cast<std::uint16_t>(~cw_quick_stop);
         forget_motion(s);

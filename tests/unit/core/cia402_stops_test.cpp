@@ -22,6 +22,12 @@ bool has(const AxisProfile::Decision& d) {
     return std::ranges::any_of(d.orders, [](const CommandBody& o) { return std::holds_alternative<T>(o); });
 }
 
+/// Nobody answers any more, perhaps out of the middle of its work.
+void fall_silent(Bench& b, bool enabled_before) {
+    if (enabled_before) b.enable(mode_profile_position);
+    b.profile.on_presence(Presence::offline);
+}
+
 void moving_to(Bench& b, std::int32_t target, std::uint16_t word = 0x1F) {
     ProcessData d;
     d.target_position = target;
@@ -98,8 +104,7 @@ TEST(Cia402Stops, WithoutAnAnswerOnlyWhatStopsIsSent) {
     for (const bool seen_before : {false, true}) {
         for (const std::uint16_t word : words({0x00, 0x01, 0x05, 0x02, 0x0B, 0x1B, 0x10, 0x10F, 0x106})) {
             Bench b;
-            if (seen_before) b.enable(mode_profile_position);
-            b.profile.on_presence(Presence::offline);
+            fall_silent(b, seen_before);
             ProcessData d;
             d.controlword = word;
             const auto r = b.profile.on_process_data(d);
@@ -111,8 +116,7 @@ TEST(Cia402Stops, WithoutAnAnswerOnlyWhatStopsIsSent) {
         }
         for (const std::uint16_t word : words({0x06, 0x07, 0x0F, 0x1F, 0x86, 0x8F, 0x9F})) {
             Bench b;
-            if (seen_before) b.enable(mode_profile_position);
-            b.profile.on_presence(Presence::offline);
+            fall_silent(b, seen_before);
             ProcessData d;
             d.controlword = word;
             const auto r = b.profile.on_process_data(d);

@@ -81,6 +81,10 @@ void Node::query_answered(const std::string& data, Turn& t) {
         learn_values(data);
         return job_over(Outcome::done, Reason::none, {}, t);
     }
+    if (job_.kind == JobKind::shape) {
+        aim_.shape(data == "0,1,1");
+        return job_over(Outcome::done, Reason::none, {}, t);
+    }
     if (job_.kind == JobKind::download) {
         std::istringstream rows(data);
         const std::string want = normal_form(job_.steps[job_.at - 1].text);
@@ -119,6 +123,7 @@ void Node::query_answered(const std::string& data, Turn& t) {
     t.out.samples.push_back({axis_, point, *v, Quality::good, t.now});
     const std::string w = word(*p);
     const auto number = as_integer(*v);
+    if (number) aim_.value(w, *number);
     if (number && w == "VI") vi_ = user_vi_ = *number;
     if (number && w == "VM") vm_ = *number;
     if (number && w == "A") a_ = *number;
@@ -126,6 +131,7 @@ void Node::query_answered(const std::string& data, Turn& t) {
     if (number && w == "EE") encoder_mode_ = *number == 1;
     if (write && (w == "MS" || w == "EE" || w == "AS")) {
         vi_ = user_vi_ = vm_ = a_ = d_ = 0;  // the drive has scaled them [L4293]
+        aim_.knows({0, 0, 0, 0, encoder_mode_});
         relearn_ = true;
     }
     if (w == "ER" && number && *number == 0 && last_error_ != 0) {

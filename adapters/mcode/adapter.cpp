@@ -257,6 +257,7 @@ void LineAdapter::start(Node& node, Turn& t) {
     if (lead) bytes.insert(bytes.begin(), lf);
     resync_ = resync_ && !lead;
     node.led(lead || !node.link().party());
+    node.heard_at(t.now + wire(bytes.size()));
     flight_.node = &node;
     flight_.purpose = r.purpose;
     flight_.kind = e.kind;
@@ -322,7 +323,7 @@ bool LineAdapter::stop_all_at_once(Turn& t) {
     flight_.deadline = flight_.latest = t.now + wire(bytes.size()) + Duration{20ms};
     reader_.begin({Expect::Kind::nothing, {}, false, false, false});
     for (const auto& n : nodes_)
-        n->told_by_all();
+        n->told_by_all(t.now + wire(bytes.size()));
     for_each_run({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()},
                  [&](const Frame& f) { t.out.send(f, Priority::urgent); });
     return true;

@@ -62,6 +62,7 @@ void Node::cancel_motions(std::string_view by, Turn& t) {
     zero_after_home_ = false;
     if (job_.kind == JobKind::move || job_.kind == JobKind::home) {
         const Command c = job_.command;
+        if (job_.kind == JobKind::move) relearn_ = true;  // what it had planned to set may not have been
         job_ = {};
         result(c, Outcome::failed, Reason::interrupted, fmt::format("{}: ended by {}", name(), by), t);
     }
@@ -238,10 +239,12 @@ void Node::began_motion(Turn& t) {
 void Node::step_ended(Verdict v, const ReplyReader& r, Turn& t) {
     if (job_.kind == JobKind::none || job_.at >= job_.steps.size()) {
         if (v == Verdict::waiting) count_silence(t);
-        return;  // a stop has ended it
+        aim_.forget();  // the line was in flight when a stop has ended its job: it may have been a motion
+        return;
     }
     if (job_.kind == JobKind::setup) return step_done(t);
     if (job_.kind == JobKind::factory && v != Verdict::refused) {
+        aim_lost();
         // Echo, checksum and name are the factory's now: no poll would be understood.
         job_.give_up = t.now + 5s;
         enabled_ = false;
@@ -255,6 +258,7 @@ void Node::step_ended(Verdict v, const ReplyReader& r, Turn& t) {
         return;
     }
     if (job_.kind == JobKind::restart) {
+        aim_lost();
         job_over(Outcome::done, Reason::none, fmt::format("{} restarts: it is looked for and set up again", name()), t);
         fail_all(Reason::interrupted, fmt::format("{} was restarted by reset", name()), t);
         enabled_ = false;
@@ -272,6 +276,7 @@ void Node::step_ended(Verdict v, const ReplyReader& r, Turn& t) {
         case Step::What::send:
             job_.said = v;
             job_.confirming = true;
+            step_said(step, v);
             if (v == Verdict::waiting && !quiet()) count_silence(t);
             return;
         case Step::What::bare:
@@ -390,6 +395,7 @@ void Node::job_over(Outcome o, Reason r, std::string text, Turn& t, std::int32_t
              fmt::format("{}: the half of a broken download stays in its program memory: it could not be removed, {}", name(), text), t);
     }
     if (bad && job_.kind == JobKind::move) vi_ = vm_ = a_ = d_ = 0;  // not known any more: set again next time
+    if (bad && job_.kind == JobKind::shape) shape_refused_ = true;
     auto bytes = std::move(job_.bytes);
     job_ = {};
     result(c, o, r, std::move(text), t, code, std::move(value));

@@ -75,6 +75,7 @@ void Node::line_down(Turn& t, std::string_view why) {
     phase_ = Phase::down;
     if (shown_online_) link_state(false, std::string(why), t);
     seen_ = enabled_ = false;
+    aim_lost();
 }
 
 void Node::remove(Turn& t, std::string_view why) { fail_all(Reason::line_down, std::string(why), t); }
@@ -100,6 +101,7 @@ void Node::go_absent(Turn& t, std::string why) {
     enabled_ = false;
     fb_.referenced = fb_.homing_attained = false;
     motion_ = {};
+    aim_lost();
     zero_after_home_ = false;
     tidy_ = tidy_ || job_.kind == JobKind::tidy;
     // A stop that was not confirmed is said once more to a drive that may only not be heard.
@@ -129,6 +131,8 @@ void Node::came(Turn& t) {
     fault_ = 0;
     fb_.target_reached = fb_.homing_error = false;
     seen_ = false;
+    aim_lost();
+    aim_.knows({vi_, vm_, a_, d_, encoder_mode_});
     link_state(true, identity_.empty() ? fmt::format("answers to {}", setup_.address) : identity_, t);
     next_poll_ = t.now;
     at_factory_rate_ = false;
@@ -196,6 +200,7 @@ void Node::ended(Verdict v, const ReplyReader& reader, Turn& t) {
         stored_ = 1;
         evidence_ = 0;
     }
+    if ((purpose_ == What::poll || purpose_ == What::confirm) && v != Verdict::answered) lag_missed(t.now);
     switch (purpose_) {
         case What::leave:
             return leave_ended(v, reader, t);
@@ -261,7 +266,7 @@ void Node::ended(Verdict v, const ReplyReader& reader, Turn& t) {
             } else if (v == Verdict::refused) {
                 // One may be noise. Two: its link has changed; a restart has brought back EM and CK of its memory.
                 next_poll_ = t.now;
-                if (++poll_refusals_ < 2) return;
+                if (asks_lag_ || ++poll_refusals_ < 2) return;  // with LL: the next without it tells
                 poll_refusals_ = 0;
                 phase_ = Phase::probing;
                 next_probe_ = t.now;
@@ -336,6 +341,10 @@ void Node::startup_ended(Verdict v, const std::string& data, Turn& t) {
         encoder_ = closed || module;
         knows_model_ = closed || open || module;
     } else if (asks == "VR") {
+        // "LMMCM 6.002, Hw: 3.2" [L6192]
+        const auto digit = std::min(data.find_first_of("0123456789"), data.size());
+        const auto major = good ? whole(std::string_view(data).substr(digit, data.find('.', digit) - digit)) : std::nullopt;
+        old_firmware_ = major && *major < 6;
         if (good && !data.empty()) identity_ += fmt::format("{}firmware {}", identity_.empty() ? "" : ", ", data);
     } else if (asks == "BY") {
         running_ = good && data == "1";
@@ -363,11 +372,14 @@ void Node::startup_ended(Verdict v, const std::string& data, Turn& t) {
 void Node::learn_values(std::string_view data) {
     const auto f = split(data);
     if (f.size() != (encoder_ ? 5U : 4U)) return;
-    vi_ = user_vi_ = whole(f[0]).value_or(0);
+    const auto vi = whole(f[0]).value_or(0);
+    if (vi != vi_) user_vi_ = vi;  // else it is as a slow move has left it
+    vi_ = vi;
     vm_ = whole(f[1]).value_or(0);
     a_ = whole(f[2]).value_or(0);
     d_ = whole(f[3]).value_or(0);
     encoder_mode_ = encoder_ && whole(f[4]).value_or(0) == 1;
+    aim_.knows({vi_, vm_, a_, d_, encoder_mode_});
 }
 
 bool Node::learn_poll(const std::string& data, Turn& t) {
@@ -377,21 +389,18 @@ bool Node::learn_poll(const std::string& data, Turn& t) {
     const auto fits = [&](std::size_t i) {
         return f[2][i] == '0' || f[2][i] == '1' || (hmt_ && i == as && f[2][i] >= '0' && f[2][i] <= '3');
     };
-    bool whole_line = f.size() == 3 && f[2].size() == flags;
+    bool whole_line = f.size() == (asks_lag_ ? 4U : 3U) && f[2].size() == flags;
     for (std::size_t i = 0; whole_line && i < flags; ++i)
         whole_line = fits(i);
-    if (!whole_line) {
-        ++counters_.garbled;
-        return false;
-    }
-    const auto p = whole(f[0]), v = whole(f[1]);
-    if (!p || !v) {
+    const auto number = [&](std::size_t i) { return whole_line ? whole(f[i]) : std::nullopt; };
+    const auto p = number(0), v = number(1), lag = asks_lag_ ? number(3) : std::nullopt;
+    if (!p || !v || (asks_lag_ && !lag)) {
+        lag_missed(t.now);
         ++counters_.garbled;
         return false;
     }
     const auto flag = [&](std::size_t i) { return f[2][i] == '1'; };
     fb_.position = *p;
-    fb_.position_demand = *p;
     fb_.velocity = *v;
     mv_ = flag(0);
     mp_ = flag(1);
@@ -403,7 +412,12 @@ bool Node::learn_poll(const std::string& data, Turn& t) {
     if (!mv_) stopping_ = false;
     stalled_ = encoder_ && flag(6);
     locked_ = hmt_ && flag(lr);
-    torque_ = hmt_ && f[2][as] == '3';
+    hmt_mode_ = hmt_ ? f[2][as] - '0' : 0;
+    torque_ = hmt_mode_ == 3;
+    if (asks_lag_) lag_misses_ = 0;
+    aim(lag);
+    program_ran_ = program_ran_ || running_;
+    if (!running_ && std::exchange(program_ran_, false)) relearn_ = true;
     const bool waited = std::exchange(input_, tells_input_ && flag(flags - 1));
     if (input_ && !waited) {
         // No poll can be the number: it begins with PR. What is sent as native text and begins with a digit or a sign is.
@@ -432,6 +446,8 @@ void Node::learn_error(int code, bool ours, Turn& t) {
     const std::string text = e ? e->text : std::string("a code that the catalogue does not have");
     last_error_ = code;
     if (is_fault_code(code)) fault_ = code;
+    // SM says whether a stall (86) ends the motion, and the flags tell that.
+    if (!ours && code != 86 && (is_fault_code(code) || code == 83 || code == 84 || code == 91)) aim_.ended(t.now);
     const bool no_news = std::exchange(own_trouble_, false) && !is_fault_code(code);
     if (!ours && !no_news && code != 0) {
         note(is_fault_code(code) ? Severity::alarm : Severity::warning, "error", code, fmt::format("{}: error {}, {}", name(), code, text),

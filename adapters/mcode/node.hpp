@@ -3,7 +3,7 @@
 // Never sends by itself: the line asks it, and gives it one exchange at a time.
 // Written in: node.cpp (exchanges, presence, polls), node_next.cpp (what is sent), state.cpp (its axis), stops.cpp (stops, results,
 // notices), leaving.cpp (out of program mode), rate.cpp (its bit rate), jobs.cpp (commands as steps), actions.cpp (parameters, native,
-// programs).
+// programs); aim.cpp is where its axis should be.
 #pragma once
 
 #include <array>
@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "adapters/mcode/aim.hpp"
 #include "adapters/mcode/framing.hpp"
 #include "adapters/mcode/program.hpp"
 #include "adapters/mcode/trouble.hpp"
@@ -85,7 +86,7 @@ public:
     /// Its stop has a line that has not been sent, or it must be led out of program mode before that.
     [[nodiscard]] bool stop_unsent() const noexcept;
     /// Its stop's line has gone to all drives, who say nothing: reading tells what became of it.
-    void told_by_all() noexcept;
+    void told_by_all(Instant heard);
     /// When it will want something without being asked again.
     [[nodiscard]] Instant due() const noexcept;
     [[nodiscard]] Request next(Turn& t);
@@ -101,6 +102,8 @@ public:
     [[nodiscard]] bool may_print(Instant now) const noexcept { return running_ || now < prints_until_; }
     /// The line before its request: whether a LF of the gateway's own stands before it, so that nothing can be joined with it.
     void led(bool by_own_end) noexcept { led_ = by_own_end; }
+    /// The line, as its request goes out: when the drive has all of it. Bytes of its echo or answer tell less: their number differs.
+    void heard_at(Instant at) noexcept { heard_at_ = at; }
     /// Somebody on the line did not answer: the end of a line may be lost, so what has been seen of program mode proves nothing.
     void line_missed() noexcept { evidence_ = 0; }
     [[nodiscard]] bool away() const noexcept { return phase_ == Phase::absent; }
@@ -134,6 +137,7 @@ private:
         factory,  ///< FD, then it is looked for and set up again
         clear,    ///< removes the half that a broken download has left
         relearn,  ///< reads VI, VM, A, D and EE again: the drive may have scaled them
+        shape,    ///< reads what makes a motion another than a trapezoid
         tidy,     ///< removes the questions that were stored while it was in program mode
         restart
     };
@@ -207,11 +211,15 @@ private:
     void stop_ended(Verdict v, const ReplyReader& r, Turn& t);
     void error_read(Verdict v, const std::string& data, Turn& t);
     [[nodiscard]] bool learn_poll(const std::string& data, Turn& t);
-    [[nodiscard]] std::string poll_text() const;
+    [[nodiscard]] std::string poll_text(Instant now);
     [[nodiscard]] std::string values_text() const;
     void learn_error(int code, bool ours, Turn& t);
     void emit(Turn& t);
     void derive(Turn& t);
+    void aim(std::optional<std::int64_t> lag);
+    void aim_lost() noexcept;
+    void step_said(const Step& step, Verdict v);
+    void lag_missed(Instant now) noexcept;
     void result(const Command& c, Outcome o, Reason r, std::string text, Turn& t, std::int32_t code = 0, Value value = {});
     void fail_all(Reason reason, const std::string& text, Turn& t);
     void link_state(bool online, std::string text, Turn& t);
@@ -312,6 +320,7 @@ private:
     bool seen_ = false;
     bool enabled_ = false;  ///< by this gateway, since the drive was found
     bool torque_ = false;   ///< AS = 3: the drive presses on by itself, and SL does not end that
+    int hmt_mode_ = 0;      ///< AS
     bool de_ = false, mv_ = false, mp_ = false, vc_ = false, ef_ = false, running_ = false, stalled_ = false, locked_ = false;
     int fault_ = 0;  ///< code that must be reset
     int last_error_ = 0;
@@ -324,6 +333,14 @@ private:
         bool ended = true;
     } motion_;
     bool zero_after_home_ = false;
+    Aim aim_;
+    Instant heard_at_{};
+    bool program_ran_ = false;    ///< it may have set VI, VM, A, D or EE
+    bool old_firmware_ = false;   ///< below 6: linear ramps and no backlash [L1030, L1031]
+    bool shape_refused_ = false;  ///< it does not tell them
+    bool asks_lag_ = false;       ///< LL is in the poll in flight
+    int lag_misses_ = 0;          ///< such polls in a row without an answer: two, and LL is left out for a while
+    Instant lag_again_{};
     int notice_tokens_ = 20;
     Instant notice_refilled_{};
 };

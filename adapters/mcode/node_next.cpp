@@ -26,7 +26,7 @@ Node::Want Node::wants(Instant now) const noexcept {
     }
     if (!stops_.empty() || leaving()) return Want::urgent;
     if ((clear_half_ || tidy_) && seen_ && !running_ && !mv_) return Want::other;
-    if (relearn_ && seen_) return Want::other;
+    if ((relearn_ || (aim_.wants_shape() && !shape_refused_)) && seen_ && job_.kind == JobKind::none) return Want::other;
     if (need_error_ || now >= next_poll_) return Want::other;
     if (job_.kind != JobKind::none) {
         return job_.at < job_.steps.size() && job_.steps[job_.at].what == Step::What::standstill ? Want::nothing : Want::other;
@@ -55,11 +55,14 @@ Instant Node::due() const noexcept {
     }
 }
 
-std::string Node::poll_text() const {
+std::string Node::poll_text(Instant now) {
     std::string s = R"(P,",",V,",",MV,MP,VC,DE,EF,BY)";
     if (encoder_) s += ",ST";
     if (hmt_) s += ",LR,AS";
     if (tells_input_) s += ",IF";
+    // Only where it means something: LL is 0 or not measured in the other modes [L3872].
+    asks_lag_ = (hmt_mode_ == 1 || hmt_mode_ == 2) && !encoder_mode_ && (lag_misses_ < 2 || now >= lag_again_);
+    if (asks_lag_) s += R"(,",",LL)";
     return s;
 }
 
@@ -125,7 +128,7 @@ Request Node::next(Turn& t) {
         Stop& s = stops_.front();
         if (s.confirming) {
             if (need_error_) return ask(What::error, "ER");
-            return ask(What::confirm, poll_text());
+            return ask(What::confirm, poll_text(t.now));
         }
         r = say(What::stop, s.lines[s.at]);
         if (r.text == escape_key) {
@@ -138,7 +141,7 @@ Request Node::next(Turn& t) {
     if (!seen_) {
         // Before the first command: an error that stands from before must not count as its own.
         next_poll_ = t.now + manners_.poll_period;
-        return ask(What::poll, poll_text());
+        return ask(What::poll, poll_text(t.now));
     }
     if (clear_half_ && !running_ && !mv_ && job_.kind == JobKind::none) {
         clear_half_ = false;
@@ -155,11 +158,14 @@ Request Node::next(Turn& t) {
         relearn_ = false;
         job_.kind = JobKind::relearn;
         job_.add(Step::What::query, values_text());
+    } else if (aim_.wants_shape() && !shape_refused_ && job_.kind == JobKind::none) {
+        job_.kind = JobKind::shape;
+        job_.add(Step::What::query, R"(BE,",",AT,",",DT)");
     }
     if (job_.kind == JobKind::none && !queue_.empty()) take_next(t);
     if (job_.kind != JobKind::none && job_.at < job_.steps.size()) {
         const Step& step = job_.steps[job_.at];
-        if (job_.confirming) return ask(What::confirm, poll_text());
+        if (job_.confirming) return ask(What::confirm, poll_text(t.now));
         switch (step.what) {
             case Step::What::send:
             case Step::What::bare:
@@ -187,7 +193,7 @@ Request Node::next(Turn& t) {
         }
     }
     next_poll_ = t.now + manners_.poll_period;
-    return ask(What::poll, poll_text());
+    return ask(What::poll, poll_text(t.now));
 }
 
 }  // namespace axisgate::mcode

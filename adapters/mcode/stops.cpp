@@ -21,6 +21,10 @@ void Node::stop_ended(Verdict v, const ReplyReader&, Turn& t) {
                                      setup_.address, s.lines.back()),
                          t);
     }
+    const std::string& line = s.lines[s.at];
+    if (v == Verdict::refused) aim_.refused();
+    if (v == Verdict::waiting || v == Verdict::garbled) aim_.doubt(line);
+    if (v == Verdict::acknowledged || v == Verdict::answered) aim_.said(line, heard_at_, true);
     s.said = v == Verdict::answered ? Verdict::acknowledged : v;
     s.confirming = true;
     s.to_all = false;
@@ -41,9 +45,10 @@ std::vector<std::string> Node::stop_of_torque() const { return {std::string(stop
 
 bool Node::stop_unsent() const noexcept { return phase_ == Phase::ready && (leaving() || (!stops_.empty() && !stops_.front().confirming)); }
 
-void Node::told_by_all() noexcept {
+void Node::told_by_all(Instant heard) {
     if (stops_.empty() || stops_.front().confirming) return;
     Stop& s = stops_.front();
+    aim_.said(s.lines[s.at], heard, true);  // who proves not to have heard it loses its demand
     s.confirming = s.to_all = true;
     s.said = Verdict::acknowledged;
     s.speed.reset();
@@ -87,11 +92,13 @@ void Node::confirmed(Turn& t) {
             if (!heard) return;
             s.to_all = false;
             if (!*heard) {
+                aim_.forget();
                 ++counters_.retries;
                 s.confirming = false;
                 return;
             }
         }
+        if (last_error_ != 0) aim_.withdraw();
         const bool off = line == "DE=0" && !de_;
         const bool harmless = last_error_ == 40 || last_error_ == 94;  // no program ran; nothing can move with the drive off
         const bool taken = s.said == Verdict::acknowledged && last_error_ == 0 && (line != "DE=0" || off);
@@ -126,6 +133,7 @@ void Node::confirmed(Turn& t) {
     }
     if (job_.kind == JobKind::none || !job_.confirming) return;
     job_.confirming = false;
+    if (last_error_ != 0) aim_.withdraw();
     const std::string& line = job_.steps[job_.at].text;
     if (last_error_ == 6 && job_.kind == JobKind::write && (line.starts_with("IS=") || line.starts_with("OS="))) {
         // Another point has the type, or this one has it: what is read tells.

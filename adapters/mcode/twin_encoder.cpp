@@ -39,6 +39,14 @@ Travel Motor::position(Instant now) const noexcept { return feedback() ? rotor(n
 
 double Motor::lag(Instant now) const noexcept { return command_.at(now).position - rotor(now).position; }
 
+/// A reversal turns within one profile; after its end the last direction holds.
+int Motor::command_way(Instant now) const noexcept {
+    const Instant end = command_.end();
+    const Instant moves = now < end || end == Instant::min() ? now : end - std::chrono::microseconds(1);
+    const double v = command_.at(moves).velocity;
+    return v < 0 ? -1 : v > 0 ? 1 : way_;
+}
+
 double Motor::c1(Instant now) const noexcept {
     const double pulses = hmt_mode() != 0 ? rotor(now).position : command_.at(now).position;
     return c1_.base + (pulses - c1_.at) * steps_per_turn() / units_per_turn();

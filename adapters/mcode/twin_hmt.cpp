@@ -179,7 +179,7 @@ double Motor::bound() const noexcept {
 
 void Motor::judge_lag(Instant now) {
     if (hmt_mode() != 1 && hmt_mode() != 2) return;
-    const double owed = lag(now) * way_;  // lag positive, lead negative [L3868-3874]
+    const double owed = this->owed(now);
     constexpr double slack = 1e-6;
     const bool at_bounds = rotor_state_ == Rotor::held && std::abs(owed) >= bound() - slack;
     if (at_bounds && !hmt_.at_bounds) {

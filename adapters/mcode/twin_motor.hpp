@@ -92,6 +92,9 @@ private:
     /// What P counts: the rotor with an encoder in use, else the command.
     [[nodiscard]] Travel position(Instant now) const noexcept;
     [[nodiscard]] double lag(Instant now) const noexcept;
+    /// LL: lag positive, lead negative, seen in the direction of the command [L3868-3874].
+    [[nodiscard]] double owed(Instant now) const noexcept { return lag(now) * command_way(now); }
+    [[nodiscard]] int command_way(Instant now) const noexcept;
     [[nodiscard]] double c1(Instant now) const noexcept;
     [[nodiscard]] double c2(Instant now) const noexcept;
     [[nodiscard]] double turns(Instant now) const noexcept;
@@ -220,7 +223,7 @@ private:
     Profile catch_up_ = Profile::rest(0);
     Instant meeting_ = never;
     Counter c1_, c2_, shaft_;
-    int way_ = 1;                ///< of the present or last motion: LL counts lag in it as positive
+    int way_ = 1;                ///< in which the present motion began, or the last one ended
     std::int64_t captured_ = 0;  ///< PC
     bool stall_flag_ = false;    ///< ST
     bool stall_told_ = false;

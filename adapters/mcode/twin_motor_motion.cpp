@@ -220,6 +220,7 @@ void Motor::freeze(Instant now) {
 
 void Motor::steps_over(Instant now) {
     judge_cams(now);
+    way_ = command_way(now);
     if (task_ == Task::homing) {
         home_leg_over(now);
         return;

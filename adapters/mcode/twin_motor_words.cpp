@@ -82,7 +82,7 @@ Number Motor::read(Word w, Instant now, int& error) {
         case Word::LR:
             return flag(hmt_.locked);
         case Word::LL:
-            return Number::of(hmt_mode() == 0 ? 0 : wrapped(lag(now) * way_));
+            return Number::of(hmt_mode() == 0 ? 0 : wrapped(owed(now)));
         case Word::AF:
             return Number::of(status(now));
         case Word::FS:

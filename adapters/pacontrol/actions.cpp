@@ -185,7 +185,7 @@ void Control::run_single(Axis& a, const Reply* reply, Turn& t) {
         learn_position(a, number_of(*reply).value_or(0), t);
         Motion m;
         m.kind = j.step == 20 ? Motion::Kind::manual : Motion::Kind::position;
-        m.target = increments_of(real_of(j.text).value_or(0)) + (j.at == 1 ? a.fb.position : 0);
+        m.target = increments_of(real_of(j.text).value_or(0)) + (j.at == 1 ? a.counter : 0);
         m.conditional = j.step == 11;
         begin_motion(a, m, t);
         if (j.step == 20) a.renew_at = t.now + std::chrono::milliseconds(400);
@@ -208,12 +208,6 @@ void Control::run_single(Axis& a, const Reply* reply, Turn& t) {
         case code::measuring_off:
             a.status = -1;  // read anew at once; nothing is refused for what was
             poll_soon(PollKind::status, a);
-            break;
-        case code::set_speed:
-            a.speed = increments_of(real_of(j.request.data).value_or(0));
-            break;
-        case code::set_acceleration:
-            a.acceleration = increments_of(real_of(j.request.data).value_or(0));
             break;
         case code::no_reference:
         case code::position_null:
@@ -240,7 +234,7 @@ void Control::run_single(Axis& a, const Reply* reply, Turn& t) {
             begin_motion(
                 a,
                 {by_hand ? Motion::Kind::manual : Motion::Kind::position,
-                 increments_of(real_of(j.request.data).value_or(0)) + (by ? a.fb.position : 0), a.condition_set, false, exchanges_},
+                 increments_of(real_of(j.request.data).value_or(0)) + (by ? a.counter : 0), a.condition_set, false, exchanges_},
                 t);
             break;
         }

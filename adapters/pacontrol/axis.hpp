@@ -3,6 +3,7 @@
 // Never unbounded: every list has its limit beside it, and Control says what happens at it.
 #pragma once
 
+#include <array>
 #include <deque>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 
 #include "adapters/pacontrol/elements.hpp"
 #include "gateway/core/adapter.hpp"
+#include "gateway/core/demand.hpp"
 
 namespace axisgate::pacontrol {
 
@@ -61,6 +63,38 @@ struct Wait {
     std::int64_t value = 0;
 };
 
+/// Where the axis should be (demand.cpp): by the control's own word where it has one (1915), else by the orders that it acknowledged.
+struct Aim {
+    enum Parameter : std::uint8_t { traverse_speed, start_stop_speed, acceleration, gear };
+    static constexpr std::array<std::uint8_t, 4> numbers{0x01, 0x05, 0x06, 0x07};  ///< of the axis parameters [L2214-L2220]
+    struct Known {
+        bool read = false;            ///< asked and answered, be it by a refusal
+        std::optional<double> value;  ///< AE, AE/s, AE/s2; gear: AE per motor revolution
+    };
+    std::array<Known, numbers.size()> parameters;  ///< as they were in home position: nothing else can be asked there or changes them
+    std::uint8_t next_parameter = 0;               ///< to be read anew
+
+    Demand demand;               ///< increments
+    DemandRamps ramps;           ///< of the motion under way, and of its stop
+    double target = 0;           ///< increments
+    std::int64_t shown = 0;      ///< the demand at the instant of the position that was told last; orders since then do not change it
+    bool fresh = false;          ///< a position came since
+    bool guided = false;         ///< on, ONLINE, in order: the axis is where orders have put it
+    bool settle = true;          ///< once it stands the demand is where it stands
+    bool stands = false;         ///< 1911 has said so since `settle` was set
+    bool speed_doubted = false;  ///< an override was sent and not acknowledged
+    bool ramp_doubted = false;
+
+    std::optional<double> lag;      ///< 1915, microsteps
+    bool lag_steady = true;         ///< the last two answers were alike: a position between two answers may be told with the older one
+    bool lag_new = false;           ///< answered since the last position
+    bool lag_pairs = false;         ///< answered just before the position that is told now
+    bool lag_missing = false;       ///< the control does not tell it of this axis: asked no more
+    bool lag_due = false;           ///< stands anew: asked once
+    bool lag_turn = false;          ///< of the two that share a place in the cycle it is 1915's turn
+    std::uint8_t lag_refusals = 0;  ///< in a row, as inadmissible
+};
+
 struct Axis {
     static constexpr std::size_t queue_limit = 64;  ///< one more is refused as busy
     static constexpr std::size_t wait_limit = 16;   ///< one more is answered `accepted`, and watched by its door
@@ -68,6 +102,7 @@ struct Axis {
     AxisId id = no_axis;
     int channel = 1;
     AxisFeedback fb;
+    std::int64_t counter = 0;  ///< 190C as it was last told, increments
     bool position_known = false;
     bool missing = false;  ///< the control says 20h: it has no such axis
     bool on = false;       ///< 0A97 acknowledged since ONLINE began
@@ -79,7 +114,8 @@ struct Axis {
     bool running = false;
     Motion motion;
     std::optional<std::int64_t> speed, acceleration;  ///< overrides in force, increments/s and /s2
-    Instant renew_at = never;                         ///< manual move: next 0A92
+    Aim aim;
+    Instant renew_at = never;  ///< manual move: next 0A92
     bool condition_set = false;
     bool prepared = false;
     Request prepared_request;

@@ -15,7 +15,8 @@ namespace axisgate::pacontrol {
 namespace code {
 inline constexpr std::uint16_t stop = 0x0600, start_auto = 0x0602, start_online = 0x0603, put_output = 0x0902, get_input = 0x1900,
                                reset_error = 0x0909, get_state = 0x190B, position = 0x190C, speed = 0x190D, status_axis = 0x1910,
-                               running_axes = 0x1911, area_min = 0x1913, area_max = 0x1914, extended_status = 0x1921, system_flag = 0x1934,
+                               running_axes = 0x1911, area_min = 0x1913, area_max = 0x1914, following_error = 0x1915,
+                               extended_status = 0x1921, system_flag = 0x1934, put_axis_parameter = 0x0800, axis_parameter = 0x1800,
                                abort_auto = 0x0A41, abort_online = 0x0A81, no_reference = 0x0A83, reference = 0x0A84,
                                position_null = 0x0A85, set_position = 0x0A86, move_absolute_wait = 0x0A87, move_relative_wait = 0x0A89,
                                set_speed = 0x0A8D, set_acceleration = 0x0A8E, manual_absolute = 0x0A90, manual_relative = 0x0A91,

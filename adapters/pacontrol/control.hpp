@@ -2,7 +2,8 @@
 // In: commands, acknowledgements, the passing of time. Out: frames, feedback, samples, results, links, notices.
 // Never has two commands on the line, and while end of processing is outstanding sends nothing but polls and the stops that pass.
 // Written in several files: control.cpp whose turn it is, exchange.cpp one exchange and its failures, presence.cpp finding and losing,
-// status.cpp what the control says, polls.cpp, mode.cpp ONLINE and AUTOMATIC, motion.cpp, stop.cpp, values.cpp, actions.cpp.
+// status.cpp what the control says, demand.cpp where axes should be, polls.cpp, mode.cpp ONLINE and AUTOMATIC, motion.cpp, stop.cpp,
+// values.cpp, actions.cpp.
 #pragma once
 
 #include <array>
@@ -69,10 +70,11 @@ public:
 private:
     enum class Phase : std::uint8_t { down, probing, absent, ready };
     enum class Purpose : std::uint8_t { none, probe, barrier, look, job, processing, stop, renew, give_back, poll };
-    enum class PollKind : std::uint8_t { running, position, speed, status, extended, referenced };
+    enum class PollKind : std::uint8_t { running, position, speed, status, extended, referenced, following, parameter };
     struct Poll {
         PollKind kind = PollKind::running;
         std::size_t axis = 0;
+        std::uint8_t parameter = 0;  ///< Aim::Parameter
     };
     struct Exchange {
         Purpose purpose = Purpose::none;
@@ -139,7 +141,7 @@ private:
     void learn_running(std::uint32_t mask, Turn& t);
     void learn_status(Axis& a, int status, Turn& t);
     void learn_position(Axis& a, double units, Turn& t);
-    void derive(Axis& a);
+    void derive(Axis& a, Instant now);
     void emit(Axis& a, Turn& t);
     void emit_all(Turn& t);
     void begin_motion(Axis& a, Motion motion, Turn& t);
@@ -153,8 +155,29 @@ private:
     void notice(Severity severity, std::string_view kind, std::int32_t code, std::string text, Turn& t, AxisId axis = no_axis);
     void sample(const Axis& a, Point point, const Value& value, Turn& t);
 
+    // demand.cpp
+    void follow(const Exchange& exchange, const Reply& reply, Turn& t);
+    void not_acknowledged(const Request& request);
+    void ordered(Axis& a, double start, double target, Turn& t);
+    void brake(Axis& a, Turn& t);
+    void doubt(Axis& a);
+    void guide(Axis& a);
+    void show_demand(Axis& a, Instant now);
+    void seen_running(Axis& a, Turn& t);
+    void seen_standing(Axis& a);
+    void rest(Axis& a, std::int64_t position);
+    [[nodiscard]] static std::int64_t following_error(const Axis& a) noexcept;
+    [[nodiscard]] static bool tells_following_error(const Axis& a) noexcept;
+    void following_answered(Axis& a, double microsteps_behind);
+    void following_refused(Axis& a, const Reply& reply);
+    [[nodiscard]] bool parameters_readable(Instant now) const noexcept;
+    void parameters_may_have_changed();
+    void plan_parameters(Turn& t);
+    void parameter_answered(Axis& a, std::uint8_t which, const Reply& reply, Turn& t);
+
     // polls.cpp
     void plan_cycle(Turn& t);
+    void poll_standing(Axis& a);
     [[nodiscard]] bool poll_wanted(Instant now) const noexcept;
     void send_next_poll(Turn& t);
     void poll_answered(const Poll& poll, const Reply& reply, Turn& t);
@@ -277,6 +300,7 @@ private:
     std::deque<Poll> polls_;
     Instant cycle_at_{};
     std::size_t slow_at_ = 0, idle_at_ = 0, job_at_ = 0;
+    Instant parameters_at_{};  ///< not before: the control has just refused to tell them
     std::uint8_t commands_in_a_row_ = 0;
 };
 

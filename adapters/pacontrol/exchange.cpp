@@ -143,6 +143,7 @@ void Control::answered(const Reply& reply, Turn& t) {
     exchange_.request = x.request;  // read by what follows; not active
     exchange_.eot = x.eot;
     learn(reply, t);
+    follow(x, reply, t);
     switch (x.purpose) {
         case Purpose::none:
         case Purpose::probe:
@@ -249,6 +250,7 @@ void Control::silent(Turn& t) {
     const Exchange x = std::exchange(exchange_, Exchange{});
     ++counters_.timeouts;
     out_of_step_ = true;
+    if (!x.eot && (x.purpose == Purpose::job || x.purpose == Purpose::stop)) not_acknowledged(x.request);
     switch (x.purpose) {
         case Purpose::none:
         case Purpose::poll:

@@ -84,11 +84,9 @@ void Control::run_move(Axis& a, const Reply* reply, Turn& t) {
                 j.step = 1;
                 break;
             case code::set_speed:
-                a.speed = speed;
                 j.step = 3;
                 break;
             case code::set_acceleration:
-                a.acceleration = ramp;
                 j.step = 4;
                 break;
             case code::area_min:
@@ -101,7 +99,7 @@ void Control::run_move(Axis& a, const Reply* reply, Turn& t) {
                 learn_position(a, number_of(*reply).value_or(0), t);
                 Motion motion;
                 motion.kind = m.kind == Move::Kind::velocity ? Motion::Kind::velocity : Motion::Kind::position;
-                motion.target = m.kind == Move::Kind::relative ? a.fb.position + m.target : m.target;
+                motion.target = m.kind == Move::Kind::relative ? a.counter + m.target : m.target;
                 motion.conditional = a.condition_set;
                 begin_motion(a, motion, t);
                 const Command c = j.command;
@@ -185,7 +183,10 @@ void Control::run_home(Axis& a, const Reply* reply, Turn& t) {
         return ask(a, code::position, ch, t);
     }
     if (j.step == 2) {
-        if (reply->quit == 0) a.fb.position = increments_of(number_of(*reply).value_or(0));
+        if (reply->quit == 0) {
+            a.counter = increments_of(number_of(*reply).value_or(0));
+            a.aim.fresh = true;
+        }
         j.step = 3;
         if (!system_flags_missing_) return ask(a, {code::system_flag, referenced_flag + ch, false, "0"});
     }
@@ -260,7 +261,7 @@ void Control::run_together(Axis& a, const Reply* reply, Turn& t) {
         }
         learn_position(x, number_of(*reply).value_or(0), t);
         Motion m = x.prepared_motion;
-        if (j.request.code == code::move_relative) m.target += x.fb.position;
+        if (j.request.code == code::move_relative) m.target += x.counter;
         m.conditional = x.condition_set;
         begin_motion(x, m, t);
         ++j.at;

@@ -1,5 +1,5 @@
 // Control, part polls: what is asked again and again, in which order, and what the answers say.
-// In: turns on the line. Out: 1911 (who runs), positions, speeds of those that run, and one slow thing per cycle.
+// In: turns on the line. Out: 1911 (who runs), positions, speeds or following errors of those that run, and one slow thing per cycle.
 // Never asks for what the control has said it does not have.
 #include <fmt/format.h>
 
@@ -31,10 +31,16 @@ void Control::plan_cycle(Turn& t) {
             polls_.push_back({a.extended_missing ? PollKind::status : PollKind::extended, i});
         } else if (a.motion.final_due) {
             polls_.push_back({PollKind::status, i});
+            if (tells_following_error(a)) polls_.push_back({PollKind::following, i});
             polls_.push_back({PollKind::position, i});
         } else if (a.running || a.motion.active() || !a.position_known) {
+            // Following error and speed share a place, so that the cycle takes no longer for it; the position it belongs to comes next.
+            a.aim.lag_turn = tells_following_error(a) && !a.aim.lag_turn;
+            if (a.aim.lag_turn) polls_.push_back({PollKind::following, i});
             polls_.push_back({PollKind::position, i});
-            polls_.push_back({PollKind::speed, i});
+            if (!a.aim.lag_turn) polls_.push_back({PollKind::speed, i});
+        } else if (a.aim.lag_due && tells_following_error(a)) {
+            polls_.push_back({PollKind::following, i});
         }
     }
     if (!first_cycle_) {
@@ -42,19 +48,25 @@ void Control::plan_cycle(Turn& t) {
         for (std::size_t k = 0; k < n && !idle_done; ++k) {
             idle_at_ = (idle_at_ + 1) % n;
             if (!here(idle_at_) || axes_[idle_at_].running) continue;
-            polls_.push_back({PollKind::position, idle_at_});
+            Axis& a = axes_[idle_at_];
+            a.aim.lag_turn = tells_following_error(a) && !a.aim.lag_turn;  // a held axis may be pushed without its counter moving
+            polls_.push_back({a.aim.lag_turn ? PollKind::following : PollKind::position, idle_at_});
             idle_done = true;
         }
-        for (std::size_t k = 0; k < 2 * n; ++k) {
-            slow_at_ = (slow_at_ + 1) % (2 * n);
-            const std::size_t i = slow_at_ / 2;
-            if (!here(i) || (slow_at_ % 2 == 1 && system_flags_missing_)) continue;
-            polls_.push_back({slow_at_ % 2 == 1           ? PollKind::referenced
-                              : axes_[i].extended_missing ? PollKind::status
-                                                          : PollKind::extended,
-                              i});
+        for (std::size_t k = 0; k < 3 * n; ++k) {
+            slow_at_ = (slow_at_ + 1) % (3 * n);
+            const std::size_t i = slow_at_ / 3, what = slow_at_ % 3;
+            if (!here(i) || (what == 1 && system_flags_missing_) || (what == 2 && !parameters_readable(t.now))) continue;
+            if (what == 2) {
+                std::uint8_t& next = axes_[i].aim.next_parameter;
+                polls_.push_back({PollKind::parameter, i, next});
+                next = static_cast<std::uint8_t>((next + 1u) % Aim::numbers.size());
+            } else {
+                polls_.push_back({what == 1 ? PollKind::referenced : axes_[i].extended_missing ? PollKind::status : PollKind::extended, i});
+            }
             break;
         }
+        plan_parameters(t);
     }
     first_cycle_ = false;
 }
@@ -62,6 +74,12 @@ void Control::plan_cycle(Turn& t) {
 void Control::poll_soon(PollKind kind, const Axis& a) {
     std::erase_if(polls_, [&](const Poll& p) { return p.kind == kind && p.axis == place(a); });
     polls_.push_front({kind, place(a)});
+}
+
+/// Of an axis that has come to rest: what it is behind, then where it is.
+void Control::poll_standing(Axis& a) {
+    poll_soon(PollKind::position, a);
+    if (tells_following_error(a)) poll_soon(PollKind::following, a);
 }
 
 void Control::send_next_poll(Turn& t) {
@@ -89,6 +107,12 @@ void Control::send_next_poll(Turn& t) {
         case PollKind::referenced:
             r = {code::system_flag, referenced_flag + axis, false, "0"};
             break;
+        case PollKind::following:
+            r = {code::following_error, axis, true, "0"};
+            break;
+        case PollKind::parameter:
+            r = {code::axis_parameter, axis << 8 | Aim::numbers[p.parameter], true, "0"};
+            break;
     }
     send(Purpose::poll, r, p.axis, Priority::poll, t);
     exchange_.poll = p;
@@ -96,7 +120,9 @@ void Control::send_next_poll(Turn& t) {
 
 void Control::poll_answered(const Poll& p, const Reply& reply, Turn& t) {
     Axis& a = axes_[p.axis];
+    if (p.kind == PollKind::parameter) parameter_answered(a, p.parameter, reply, t);
     if (reply.quit != 0) {
+        if (p.kind == PollKind::following) following_refused(a, reply);
         ++counters_.refused;
         if (reply.quit == quit::axis_unknown && !a.missing) {
             a.missing = true;
@@ -119,7 +145,7 @@ void Control::poll_answered(const Poll& p, const Reply& reply, Turn& t) {
             a.fb.velocity = increments_of(v);
             if (a.motion.kind == Motion::Kind::velocity || a.motion.kind == Motion::Kind::position) {
                 // Whether the control gives the speed a sign is not said [L2885]: the direction of a commanded motion is known.
-                const bool down = a.motion.kind == Motion::Kind::velocity ? a.motion.target < 0 : a.motion.target < a.fb.position;
+                const bool down = a.motion.kind == Motion::Kind::velocity ? a.motion.target < 0 : a.motion.target < a.counter;
                 a.fb.velocity = down ? -std::llabs(a.fb.velocity) : std::llabs(a.fb.velocity);
             }
             return emit(a, t);
@@ -132,6 +158,12 @@ void Control::poll_answered(const Poll& p, const Reply& reply, Turn& t) {
             // Byte 0, the highest: power pack ready; 1 positive and 2 negative limit switch (1: free); 3 axis status [L3164-L3194].
             a.limits = static_cast<int>((n >> 24 & 1u) | (n >> 16 & 1u) << 1 | (n >> 8 & 1u) << 2);
             learn_status(a, static_cast<int>(n & 0xFFu), t);
+            return;
+        case PollKind::following:
+            following_answered(a, v);
+            if (!a.running) emit(a, t);  // of one that runs the position is asked next: they are told together
+            return;
+        case PollKind::parameter:
             return;
         case PollKind::position:
             break;
@@ -158,8 +190,10 @@ void Control::poll_answered(const Poll& p, const Reply& reply, Turn& t) {
         reached = false;
         why = m.conditional ? "the condition has ended it" : "the manual move was not renewed in time, or was stopped";
     }
-    a.fb.position = position;
+    a.counter = position;
+    a.aim.fresh = true;
     a.running = false;
+    rest(a, reached && m.kind == Motion::Kind::position ? m.target : position);
     end_motion(a, reached, a.status == 4 && error_ != 0 ? Reason::drive_refused : Reason::interrupted,
                fmt::format("axis {} has stopped at {}, target {}: {}", a.channel, axis_text(position), axis_text(m.target), why), t);
     if (!reached)

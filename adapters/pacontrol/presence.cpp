@@ -29,9 +29,9 @@ void Control::forget() {
     polls_.clear();
     first_cycle_ = true;
     for (Axis& a : axes_) {
-        const auto position = a.fb.position;
         a.fb = {};
-        a.fb.position = a.fb.position_demand = position;
+        a.fb.position = a.fb.position_demand = a.counter;
+        a.aim = {};
         a.position_known = a.missing = a.on = a.quick_stopped = a.running = a.prepared = a.condition_set = a.extended_missing = false;
         a.status = a.limits = -1;
         a.motion = {};

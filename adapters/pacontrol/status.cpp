@@ -59,6 +59,7 @@ void Control::mode_changed(int before, Turn& t) {
     cycle_at_ = std::min(cycle_at_, t.now);
     if (before < 0) return;  // just found
     if (is_online(before) && !is_online(mode_)) return left_online(before, t);
+    if (is_home(mode_) && !is_home(before)) parameters_may_have_changed();
     if (is_malfunction(mode_) && !is_malfunction(before)) {
         notice(Severity::alarm, "mode", mode_, fmt::format("operating status is now {}", status_text(mode_)), t);
     } else if (mode_ == status::online_stop || (mode_ == status::online_stopped && before == status::online)) {
@@ -97,7 +98,7 @@ void Control::left_online(int before, Turn& t) {
 
 // --- axes ------------------------------------------------------------------------------------------------------------------------
 
-void Control::derive(Axis& a) {
+void Control::derive(Axis& a, Instant now) {
     AxisFeedback& f = a.fb;
     f.power = mode_ < 0 ? AxisFeedback::Power::unknown : a.on && is_online(mode_) ? AxisFeedback::Power::on : AxisFeedback::Power::off;
     f.fault = error_ != 0 || is_malfunction(mode_) || a.status == 4;
@@ -108,7 +109,7 @@ void Control::derive(Axis& a) {
     f.internal_limit = a.limits >= 0 && (a.limits & 6) != 6;
     f.quick_stopping = a.on && (mode_ == status::online_stop || mode_ == status::online_stopped);
     f.warning = a.limits >= 0 && a.on && !(a.limits & 1);
-    f.position_demand = f.position;                               // the control does not say where it wants to be
+    show_demand(a, now);
     const int status = a.status < 0 && a.running ? 1 : a.status;  // 1911 says as much as 1910 of an axis that moves
     f.native_status = static_cast<std::uint32_t>(mode_ & 0xFF) | static_cast<std::uint32_t>(status & 0xFF) << 8 |
                       static_cast<std::uint32_t>(a.limits & 0xFF) << 16;
@@ -116,7 +117,7 @@ void Control::derive(Axis& a) {
 
 void Control::emit(Axis& a, Turn& t) {
     if (a.id == no_axis || !a.position_known || phase_ != Phase::ready) return;
-    derive(a);
+    derive(a, t.now);
     a.fb.at = t.now;
     t.out.feedback.push_back({a.id, a.fb});
     check_waits(a, t);
@@ -128,11 +129,13 @@ void Control::emit_all(Turn& t) {
 }
 
 void Control::learn_position(Axis& a, double units, Turn& t) {
-    a.fb.position = increments_of(units);
+    a.counter = increments_of(units);
+    a.aim.fresh = true;
+    if (a.aim.stands && a.aim.settle && !a.running && !a.motion.active()) rest(a, a.counter);
     const bool first = !a.position_known;
     a.position_known = true;
     if (first && !a.lost.empty()) {
-        notice(Severity::warning, "motion", 0, fmt::format("{}; the position read back is {}", a.lost, axis_text(a.fb.position)), t, a.id);
+        notice(Severity::warning, "motion", 0, fmt::format("{}; the position read back is {}", a.lost, axis_text(a.counter)), t, a.id);
         a.lost.clear();
     }
     emit(a, t);
@@ -147,15 +150,17 @@ void Control::learn_running(std::uint32_t mask, Turn& t) {
         if (a.running != was) wake_ = true;
         if (a.running) {
             a.motion.final_due = false;
+            seen_running(a, t);
         } else if (motion_seen && a.motion.begun < exchanges_ && !a.motion.final_due) {
             // It stands, and was asked after the motion had begun. Status and position first, then everybody hears of its end.
             a.motion.final_due = true;
             a.status = -1;
-            poll_soon(PollKind::position, a);
+            poll_standing(a);
             poll_soon(PollKind::status, a);
         } else if (was && !motion_seen) {
-            poll_soon(PollKind::position, a);
+            poll_standing(a);
         }
+        if (!a.running) seen_standing(a);
         emit(a, t);
     }
 }

@@ -100,7 +100,8 @@ void Node::search_next(Turn& t) {
     if (!search_.checking) {  // BG was acknowledged
         search_.running = true;
         job_.active = false;
-        begin_motion(Motion::Kind::velocity, 0, t);
+        begin_motion(Motion{.kind = Motion::Kind::velocity}, t);
+        forget_demand();  // the switch ends it, and may call the place 0
         if (!search_.command.until_done) {
             result(search_.command.ticket, Outcome::accepted, Reason::none, "", t);
             search_.command.ticket = no_ticket;

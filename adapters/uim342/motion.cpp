@@ -225,7 +225,7 @@ void Node::job_silent(Turn& t) {
     }
     if (job_.kind == JobKind::search) return search_over(false, Reason::no_answer, std::move(text), t);
     job_over(Outcome::failed, Reason::no_answer, text, t);
-    if (step.message.function() == cw::BG) begin_motion(Motion::Kind::unknown, 0, t);
+    if (step.message.function() == cw::BG) begin_unknown_motion(t);
     poll_now(t);
 }
 
@@ -248,7 +248,7 @@ void Node::job_done(Turn& t) {
             const Command c = job_.command;
             const Motion m = prepared_motion_;
             job_.active = false;
-            begin_motion(m.kind, m.target, t);
+            begin_motion(m, t);
             return accepted(c.ticket, c.until_done, m.kind == Motion::Kind::velocity ? WaitFor::speed : WaitFor::target, m.target, "", t);
         }
         case JobKind::search:
@@ -344,7 +344,7 @@ void Node::done_origin(Turn& t) {
     fb_.referenced = true;
     fb_.homing_error = false;
     if (std::holds_alternative<Home>(job_.command.body)) fb_.homing_attained = true;
-    fb_.position = fb_.position_demand = 0;  // "clear the position counter" [L1508], and it was acknowledged
+    demand_rests(fb_.position = 0);  // "clear the position counter" [L1508], and it was acknowledged
     motion_ = {};
     derive(t);
     emit(t);
@@ -418,6 +418,7 @@ void Node::plan_move(const Move& move, Turn& t) {
         if (v && (down ? dc_ : ac_) != *v) job_.add(msg_set(which, *v));
     }
     job_.text = std::move(text);
+    job_.wanted = speed;
     switch (move.kind) {
         case Move::Kind::absolute:
             job_.add(msg_set(cw::PA, move.target));
@@ -442,6 +443,7 @@ void Node::done_move(Turn& t) {
              : move.kind == Move::Kind::relative ? Motion::Kind::relative
                                                  : Motion::Kind::velocity;
     m.target = move.target;
+    m.speed = job_.wanted;
     std::string text = std::move(job_.text);
     job_.active = false;
     if (move.prepare_only) {
@@ -450,7 +452,7 @@ void Node::done_move(Turn& t) {
         if (!text.empty()) text += "; ";
         return result(c.ticket, Outcome::accepted, Reason::none, text + "prepared: start_together starts it", t);
     }
-    begin_motion(m.kind, m.target, t);
+    begin_motion(m, t);
     accepted(c.ticket, c.until_done, m.kind == Motion::Kind::velocity ? WaitFor::speed : WaitFor::target, m.target, std::move(text), t);
 }
 
@@ -467,9 +469,9 @@ void Node::begun_by_group(bool until_done, Turn& t) {
     if (job_.active && job_.kind == JobKind::together) job_.active = false;
     broadcast_until_ = t.now + 4 * bus_.manners.reply_timeout;  // it may wait in the line's queue behind other frames
     if (prepared_) {
-        begin_motion(prepared_motion_.kind, prepared_motion_.target, t);
+        begin_motion(prepared_motion_, t);
     } else {
-        begin_motion(Motion::Kind::unknown, 0, t);
+        begin_unknown_motion(t);
     }
     part_pending_ = true;
     part_until_done_ = until_done;

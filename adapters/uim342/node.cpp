@@ -348,7 +348,7 @@ void Node::exchange_answered(const Message& m, Turn& t) {
             break;
         case Purpose::orphan:
             // The motion of a job that a stop has ended: it may have begun, and the stop is repeated behind it.
-            if (e.message.function() == cw::BG) begin_motion(Motion::Kind::unknown, 0, t);
+            if (e.message.function() == cw::BG) begin_unknown_motion(t);
             break;
         case Purpose::probe:
         case Purpose::poll:

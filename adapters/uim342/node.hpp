@@ -2,7 +2,8 @@
 // In: commands, messages from the drive, the passing of time, a place in the line's window. Out: frames, feedback, samples, results.
 // Never asks two things at once (stops excepted), never sends before it was given a place (stops excepted).
 // Written in several files: node.cpp the exchanges, startup.cpp finding and reading the drive, status.cpp what it says of itself,
-// stop.cpp what overtakes, motion.cpp the verbs of CiA 402, homing.cpp the search for a switch, values.cpp parameters and native.
+// stop.cpp what overtakes, motion.cpp the verbs of CiA 402, homing.cpp the search for a switch, values.cpp parameters and native,
+// demand.cpp where the axis should be.
 #pragma once
 
 #include <deque>
@@ -12,6 +13,7 @@
 
 #include "adapters/uim342/bus.hpp"
 #include "adapters/uim342/exchange.hpp"
+#include "gateway/core/demand.hpp"
 
 namespace axisgate::uim342 {
 
@@ -154,6 +156,7 @@ private:
         bool seen_moving = true;  ///< STOP = 0 was seen since its BG
         Instant begun{};
         Instant stood_since = never;  ///< standing, not (yet) in position
+        std::int64_t speed = 0;       ///< absolute and relative: SP as sent, pulse/s; 0: not known
     };
     /// What homing changed in RAM and will put back.
     struct Restore {
@@ -201,7 +204,8 @@ private:
     void derive(Turn& t);
     void emit(Turn& t);
     void suspect_restart(Turn& t, bool zero_lost, std::string why);
-    void begin_motion(Motion::Kind kind, std::int64_t target, Turn& t);
+    void begin_motion(const Motion& motion, Turn& t);
+    void begin_unknown_motion(Turn& t) { begin_motion(Motion{.kind = Motion::Kind::unknown}, t); }
     void check_waits(Turn& t);
     void end_waits(bool motions_only, Reason reason, const std::string& text, Turn& t);
     void add_wait(WaitFor what, Ticket ticket, std::int64_t value, Turn& t);
@@ -222,6 +226,15 @@ private:
     void supervise(bool soft, Turn& t);
     void supervision_due(Turn& t);
     void interrupt_motions(std::string_view by, bool power_off, Turn& t);
+
+    // demand.cpp: where the axis should be
+    [[nodiscard]] std::optional<DemandRamps> demand_ramps(std::int64_t speed) const noexcept;
+    void demand_begins(const Motion& motion, Instant now) noexcept;
+    void demand_stops(bool soft, Instant now) noexcept;
+    void demand_rests(std::int64_t position) noexcept;
+    void forget_demand() noexcept;
+    void demand_at_status(bool started_by_itself, Instant now) noexcept;
+    void demand_at_position(Instant now) noexcept;
 
     // motion.cpp: the verbs, and the run of jobs
     void take_next(Turn& t);
@@ -346,6 +359,8 @@ private:
     std::optional<std::uint32_t> ac_, dc_, ss_, sd_;
     std::optional<bool> time_ramps_;  ///< IC[4] = 1: AC and DC are ms
     std::optional<bool> auto_on_, absolute_encoder_, battery_ok_, notifies_;
+    std::optional<bool> closed_loop_;  ///< IC[6]
+    Demand demand_;
     std::optional<std::uint8_t> group_;
     std::array<std::optional<std::uint16_t>, 3> il_, tg_;
     std::optional<std::uint32_t> ptp_speed_;

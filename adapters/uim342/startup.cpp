@@ -86,6 +86,7 @@ void Node::probe_answered(const Message& m, Turn& t) {
     cause_ = before_.known && before_.own_error ? Cause::own : Cause::none;
     alarm_ = 0;
     motion_ = {};
+    forget_demand();
     prepared_ = false;
     stop_ramp_ = false;
     fb_.target_reached = false;
@@ -113,6 +114,7 @@ void Node::begin_reading(Turn& t, bool from_nothing) {
     absolute_encoder_.reset();
     battery_ok_.reset();
     notifies_.reset();
+    closed_loop_.reset();
     ptp_speed_.reset();
 }
 

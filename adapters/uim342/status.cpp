@@ -75,6 +75,7 @@ void Node::learn(const Message& request, const Message& answer, std::uint8_t mf,
             if (index == 0) auto_on_ = *value != 0;
             if (index == 4) time_ramps_ = *value != 0;
             if (index == 5) absolute_encoder_ = *value != 0;
+            if (index == 6) closed_loop_ = *value != 0;
             break;
         case cw::QE:
             if (index == 3) battery_ok_ = *value != 0;
@@ -148,6 +149,7 @@ void Node::on_status(const Message& m, Turn& t) {
     power_expected_ = status_.on;
     const AxisFeedback old = fb_;
     derive(t);
+    demand_at_status(had && before.stop && !status_.stop, t.now);
     if (old.power != fb_.power || old.moving != fb_.moving || old.target_reached != fb_.target_reached || old.fault != fb_.fault ||
         old.warning != fb_.warning || old.quick_stopping != fb_.quick_stopping || old.native_status != fb_.native_status) {
         emit(t);
@@ -167,8 +169,8 @@ void Node::on_speed(const Message& m, Turn& t) {
                       !status_.on && fb_.velocity == 0 && absolute_encoder_ != true;
     fb_.velocity = get_i24(&m.d[1]);
     fb_.position = position;
-    fb_.position_demand = position;  // DV[4] is the end of the motion, not where the drive wants to be now
     position_known_ = true;
+    demand_at_position(t.now);
     if (lost) {
         suspect_restart(t, true, "the position of the standing axis fell to 0: it was restarted, or somebody else has set its origin");
     }
@@ -274,6 +276,8 @@ void Node::on_notification(const Message& m, Turn& t) {
             notice(Severity::info, "input", n.code, fmt::format("IN{} {}", n.input, n.rising ? "rising" : "falling"), t);
             if (!online()) return;
             (n.input == 1 ? status_.in1 : n.input == 2 ? status_.in2 : status_.in3) = n.rising;
+            // Its action may stop the axis, start it, or call the place 0: only an input that is known to have none changes nothing.
+            if (const auto& il = il_[static_cast<std::size_t>(n.input - 1)]; !il || (*il & 0x7F7F) != 0) forget_demand();
             set_bit(status_.raw, 0x08u << (n.input - 1), n.rising);
             fb_.native_status = status_.raw;
             emit(t);
@@ -295,8 +299,9 @@ void Node::on_notification(const Message& m, Turn& t) {
         status_.stop = status_.paif = true;
         set_bit(status_.raw, 0x0300, true);
         fb_.velocity = 0;
-        fb_.position = fb_.position_demand = n.position;
+        fb_.position = n.position;
         derive(t);
+        demand_at_position(t.now);
         emit(t);
         check_waits(t);
     }
@@ -306,6 +311,7 @@ void Node::on_notification(const Message& m, Turn& t) {
 /// What was known of its RAM may be wrong now: reads it again while the axis stays in use.
 void Node::suspect_restart(Turn& t, bool zero_lost, std::string why) {
     if (zero_lost) fb_.referenced = fb_.homing_attained = false;
+    forget_demand();
     notice(Severity::warning, "presence", 0, why + "; its values are read again", t);
     if (!startup_pending()) begin_reading(t, false);
 }
@@ -313,9 +319,13 @@ void Node::suspect_restart(Turn& t, bool zero_lost, std::string why) {
 // --- motions and "done" ----------------------------------------------------------------------------------------------------------
 
 /// The drive has acknowledged the start of a motion.
-void Node::begin_motion(Motion::Kind kind, std::int64_t target, Turn& t) {
+void Node::begin_motion(const Motion& motion, Turn& t) {
     end_waits(true, Reason::interrupted, "another motion of the same axis began", t);
-    motion_ = {kind, target, false, t.now, never};
+    demand_begins(motion, t.now);
+    motion_ = motion;
+    motion_.seen_moving = false;
+    motion_.begun = t.now;
+    motion_.stood_since = never;
     stop_ramp_ = false;
     prepared_ = false;
     supervise_at_ = never;

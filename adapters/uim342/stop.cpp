@@ -75,6 +75,7 @@ void Node::add_stop(Stop wanted, Turn& t) {
     Message m = wanted.kind == StopKind::off ? msg_set(cw::MO, 0) : msg_act(cw::ST);
     m.cw &= static_cast<std::uint8_t>(~ack_bit);
     bus_.transmit(m, Priority::urgent, t);
+    forget_demand();
     const std::string text = fmt::format("sent, but not watched: {} stops wait for their acknowledgement already", urgent_limit);
     result(wanted.ticket, Outcome::failed, Reason::busy, text, t);
     if (wanted.part) bus_.part_done(*this, {false, Reason::busy, 0, text}, t);
@@ -142,6 +143,7 @@ void Node::stop_answered(Stop& s, const Message& m, Turn& t) {
                                  t);
         }
         motion_ = {};
+        forget_demand();
         poll_now(t);
         return stop_finished(s, Outcome::accepted, Reason::none, "", 0, t);
     }
@@ -149,6 +151,7 @@ void Node::stop_answered(Stop& s, const Message& m, Turn& t) {
         s.step = 1;
         return send_stop(s, msg_act(cw::BG), 0, t);
     }
+    demand_stops(s.soft, t.now);
     if (s.soft) {
         motion_ = {Motion::Kind::velocity, 0, true, t.now, never};
         status_.paif = false;
@@ -181,6 +184,7 @@ void Node::stop_silent(Stop& s, Turn& t) {
         return bus_.transmit(s.message, Priority::urgent, t);
     }
     late_.add(mark_of(s.message));
+    forget_demand();
     if (s.soft) return harden(s, fmt::format("{} was not acknowledged", describe_request(s.message)), s.step == 1, t);
     stop_finished(
         s, Outcome::failed, Reason::no_answer,

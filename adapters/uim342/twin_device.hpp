@@ -138,6 +138,7 @@ private:
     bool silent_ = false;
     bool encoder_error_ = false;
     bool battery_low_ = false;
+    double temperature_ = 25;  ///< deg C, of the motor
     Alarm injected_ = Alarm::none;
 
     // Since boot.

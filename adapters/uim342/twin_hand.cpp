@@ -2,7 +2,9 @@
 // In: names and values. Out: what they cause on the wire, or why they make no sense.
 // Never writes a register.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
 #include "adapters/uim342/twin_device.hpp"
 
@@ -30,6 +32,17 @@ bool known_alarm(std::int64_t code) {
     }
 }
 
+/// Where a machine would have them: the drive knows inputs alone, and IL[0..2] say what a change of each does.
+struct Switch {
+    std::string_view name;
+    unsigned bit;
+    std::string_view text;
+};
+constexpr std::array switches{
+    Switch{"home_switch", 0, "a switch at IN1 (bit 0 of inputs), true: high; IL[0] says what the drive does"},
+    Switch{"limit_positive", 1, "a switch at IN2 (bit 1 of inputs), true: high; IL[1] says what the drive does"},
+    Switch{"limit_negative", 2, "a switch at IN3 (bit 2 of inputs), true: high; IL[2] says what the drive does"}};
+
 }  // namespace
 
 std::vector<HandItem> Device::hand() const {
@@ -41,6 +54,10 @@ std::vector<HandItem> Device::hand() const {
     items.push_back({"inputs", std::int64_t{inputs_.applied()}, true,
                      "levels of IN1 (bit 0), IN2 (bit 1), IN3 (bit 2), sampled each ms. Limit and home switches are wired here: the drive "
                      "has no input of its own for them, IL[0..2] say what a level change does"});
+    for (const Switch& x : switches)
+        items.push_back({std::string(x.name), ((inputs_.applied() >> x.bit) & 1u) != 0, true, std::string(x.text)});
+    items.push_back({"temperature", temperature_, true,
+                     "of the motor, deg C; nothing follows from it: the manual gives the drive neither a reading nor an alarm of it"});
     items.push_back({"inject_error", static_cast<std::int64_t>(injected_), true,
                      "an alarm: 10 emergency stop and lock, 25 overspeed, 26 lower limit, 27 upper limit, 29 stall, 30 encoder error, "
                      "31 battery low; sent once, 0 ends the condition"});
@@ -94,6 +111,19 @@ std::string Device::set_condition(const std::string& name, const Value& value, I
         inputs_.apply(static_cast<std::uint8_t>(*number), now);
         return {};
     }
+    for (const Switch& x : switches) {
+        if (name != x.name) continue;
+        if (!flag) return want_flag;
+        const unsigned rest = inputs_.applied() & ~(1u << x.bit);
+        inputs_.apply(static_cast<std::uint8_t>(*flag ? rest | 1u << x.bit : rest), now);
+        return {};
+    }
+    if (name == "temperature") {
+        const auto degrees = as_number(value);
+        if (!degrees || !(*degrees >= -50 && *degrees <= 200)) return "temperature: " + to_text(value) + " is not -50..200 deg C";
+        temperature_ = *degrees;
+        return {};
+    }
     if (name == "inject_error") {
         if (!number || (*number != 0 && !known_alarm(*number)))
             return "inject_error: " + to_text(value) +
@@ -126,7 +156,8 @@ std::string Device::set_condition(const std::string& name, const Value& value, I
         axis_.displace(*there);
         return {};
     }
-    return "there is no '" + name + "' here; power, silent, stall, inputs, inject_error, lost_pulses, encoder_error, battery_low, position";
+    return "there is no '" + name + "' here; power, silent, stall, inputs, home_switch, limit_positive, limit_negative, temperature, inject_error, lost_pulses, "
+           "encoder_error, battery_low, position";
 }
 
 /// An alarm is sent once when it comes in; the ones that the drive acts upon act.

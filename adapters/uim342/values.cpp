@@ -161,16 +161,16 @@ void Node::native_answered(const Step& step, const Message* answer, Turn& t) {
     if (!s.empty()) s += "; ";
     if (!answer) {
         s += describe_request(step.message) + " sent";
-        if (step.message.function() == cw::BG) begin_motion(Motion::Kind::unknown, 0, t);
+        if (step.message.function() == cw::BG) begin_unknown_motion(t);
         return;
     }
     s += describe_answer(*answer);
     job_.bytes.insert(job_.bytes.end(), {answer->cw, answer->dl});
     job_.bytes.insert(job_.bytes.end(), answer->d.begin(), answer->d.begin() + answer->dl);
-    if (step.message.function() == cw::BG) begin_motion(Motion::Kind::unknown, 0, t);
+    if (step.message.function() == cw::BG) begin_unknown_motion(t);
     if (step.message.function() == cw::OG) {
         fb_.referenced = true;
-        fb_.position = fb_.position_demand = 0;
+        demand_rests(fb_.position = 0);
         emit(t);
     }
     poll_now(t);

@@ -41,6 +41,21 @@ void AxisAuthority::give(const AuthorityClient& who, Duration lease, Instant now
     if (holder_ != who || !held(now)) since_ = now;
     holder_ = who;
     until_ = now + lease;
+    for_any_of_user_ = false;
+}
+
+bool AxisAuthority::mine(const AuthorityClient& who) const noexcept {
+    if (holder_ == who) return true;
+    return for_any_of_user_ && holder_.door == who.door && who.name.size() > holder_.name.size() && who.name.starts_with(holder_.name) &&
+           who.name[holder_.name.size()] == ' ';
+}
+
+/// Who was named by the user alone is this client from now on. True: it was not before.
+bool AxisAuthority::bind(const AuthorityClient& who) noexcept {
+    for_any_of_user_ = false;
+    if (holder_ == who) return false;
+    holder_ = who;
+    return true;
 }
 
 Verdict AxisAuthority::refusal(Instant now) const {
@@ -51,18 +66,19 @@ Verdict AxisAuthority::refusal(Instant now) const {
 }
 
 Verdict AxisAuthority::may(const AuthorityClient& who, Instant now) const {
-    if (held(now) && holder_ != who) return refusal(now);
+    if (held(now) && !mine(who)) return refusal(now);
     return {};
 }
 
 Verdict AxisAuthority::command(const AuthorityClient& who, AuthorityMode mode, Duration lease, Instant now) {
-    if (held(now) && holder_ != who) return refusal(now);
+    if (held(now) && !mine(who)) return refusal(now);
     Verdict v;
-    const bool mine = held(now);
+    const bool held_already = held(now);
+    if (held_already && bind(who)) v = {true, Change::renewed, "held by " + who.text()};
     if (mode == AuthorityMode::lease) {
         // A lease that was taken for longer is not made shorter by a command.
-        give(who, mine ? std::max(lease, until_ - now) : lease, now);
-        if (!mine) v = {true, Change::taken, "held by " + who.text()};
+        give(who, held_already ? std::max(lease, until_ - now) : lease, now);
+        if (!held_already) v = {true, Change::taken, "held by " + who.text()};
     }
     if (commander_ != who) {
         if (v.change == Change::none) {
@@ -75,7 +91,8 @@ Verdict AxisAuthority::command(const AuthorityClient& who, AuthorityMode mode, D
 }
 
 Verdict AxisAuthority::take(const AuthorityClient& who, Duration lease, bool take_over, Instant now) {
-    if (held(now) && holder_ == who) {
+    if (held(now) && mine(who)) {
+        (void)bind(who);
         give(who, lease, now);
         return {true, Change::renewed, "renewed by " + who.text()};
     }
@@ -88,7 +105,7 @@ Verdict AxisAuthority::take(const AuthorityClient& who, Duration lease, bool tak
 
 Verdict AxisAuthority::release(const AuthorityClient& who, Instant now) {
     if (!held(now)) return {};
-    if (holder_ != who) return refusal(now);
+    if (!mine(who)) return refusal(now);
     holder_ = {};
     until_ = {};
     return {true, Change::released, "released by " + who.text()};
@@ -96,7 +113,7 @@ Verdict AxisAuthority::release(const AuthorityClient& who, Instant now) {
 
 Verdict AxisAuthority::hand_over(const AuthorityClient& who, std::string_view to, Duration lease, Instant now) {
     if (!held(now)) return {false, Change::none, "nobody holds it: take it first"};
-    if (holder_ != who) return refusal(now);
+    if (!mine(who)) return refusal(now);
     AuthorityClient next{who.door, {}};
     for (const Door d : std::array{Door::modbus, Door::ethernet_ip, Door::http, Door::dds}) {
         const auto word = axisgate::name_of(d);
@@ -109,6 +126,7 @@ Verdict AxisAuthority::hand_over(const AuthorityClient& who, std::string_view to
     next.name = cut(to);
     if (next.name.empty()) return {false, Change::none, "name the client that shall hold it, such as \"modbus 192.0.2.7\""};
     give(next, lease, now);
+    for_any_of_user_ = true;
     return {true, Change::handed_over, fmt::format("handed over to {} by {}", next.text(), who.text())};
 }
 

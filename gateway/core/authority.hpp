@@ -48,7 +48,8 @@ public:
     [[nodiscard]] Verdict take(const AuthorityClient& who, Duration lease, bool take_over, Instant now);
     /// The holder gives it up; anybody may release what nobody holds.
     [[nodiscard]] Verdict release(const AuthorityClient& who, Instant now);
-    /// The holder names the next one, "DOOR NAME" or NAME alone (then of the same door). It has `lease` from now on.
+    /// The holder names the next one, "DOOR NAME" or NAME alone (then of the same door). It has `lease` from now on. Who is named by the
+    /// user alone ("http anne") is whichever client of that user comes first ("anne page-3f"): it holds the axis from then on.
     [[nodiscard]] Verdict hand_over(const AuthorityClient& who, std::string_view to, Duration lease, Instant now);
     /// Ends a lease whose time is over.
     [[nodiscard]] Verdict expire(Instant now);
@@ -62,11 +63,14 @@ public:
     [[nodiscard]] Door door() const noexcept { return holder_.door != Door::none ? holder_.door : commander_.door; }
 
 private:
+    [[nodiscard]] bool mine(const AuthorityClient& who) const noexcept;
+    bool bind(const AuthorityClient& who) noexcept;
     void give(const AuthorityClient& who, Duration lease, Instant now);
     [[nodiscard]] Verdict refusal(Instant now) const;
 
     AuthorityClient holder_, commander_;
     Instant since_{}, until_{};
+    bool for_any_of_user_ = false;  ///< handed over, and not used yet
 };
 
 }  // namespace axisgate

@@ -155,6 +155,12 @@ std::optional<Catalogue> Catalogue::parse(std::string_view text, std::vector<std
     return c;
 }
 
+int Catalogue::most_channels() const noexcept {
+    const auto* c = document_.if_contains("channels");
+    const auto* max = c && c->is_object() ? c->get_object().if_contains("max") : nullptr;
+    return max && max->is_int64() ? static_cast<int>(max->get_int64()) : 1;
+}
+
 const Parameter* Catalogue::parameter(Point point) const noexcept {
     if (point.parameter >= parameters_.size()) return nullptr;
     const Parameter& p = parameters_[point.parameter];

@@ -72,6 +72,8 @@ public:
     [[nodiscard]] std::span<const Parameter> parameters() const noexcept { return parameters_; }
     [[nodiscard]] std::span<const CatalogueCommand> commands() const noexcept { return commands_; }
     [[nodiscard]] std::span<const ErrorCode> errors() const noexcept { return errors_; }
+    /// How many axes one drive can have: the page's "channels"; 1 if it does not say.
+    [[nodiscard]] int most_channels() const noexcept;
     /// The document itself, for doors that show more than the fields above.
     [[nodiscard]] const boost::json::object& document() const noexcept { return document_; }
 

@@ -452,7 +452,6 @@ void AxisProfile::on_presence(Presence presence) {
     AxisFeedback last;
     if (presence == Presence::offline || presence == s_.heard) {
         last.position = s_.feedback.position;
-        last.position_demand = s_.feedback.position_demand;
         last.velocity = s_.feedback.velocity;
         last.error_code = s_.feedback.error_code;
         last.native_status = s_.feedback.native_status;
@@ -515,7 +514,8 @@ void AxisProfile::fill(AxisPicture& p) const noexcept {
     p.statusword = sw;
     p.mode_display = s.mode;
     p.position = f.position;
-    p.position_demand = f.position_demand;
+    p.demand_source = f.demand_source;
+    p.position_demand = p.following_error_known() ? f.position_demand : f.position;
     p.velocity = f.velocity;
     p.native_status = f.native_status;
     p.error_code = f.error_code;
@@ -531,7 +531,6 @@ void AxisProfile::fill(AxisPicture& p) const noexcept {
     p.presence = s.presence;
     p.ever_seen = s.heard != Presence::offline;
     p.current = s.seen;
-    p.demand_known = f.demand_known;
     p.at = f.at;
     std::uint16_t flags = 0;
     if (present) flags |= flag_online;

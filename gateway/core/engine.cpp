@@ -66,9 +66,12 @@ void Engine::drain(Side& side, Out& out, Instant now) {
     for (const auto& l : out.links) link(side, l, now);
     for (const auto& f : out.feedback) feedback(side, f.axis, f.value, now);
     const Presence mine = side.twin ? Presence::twin : Presence::device;
-    for (const auto& s : out.samples) {
-        const Axis* a = axis(s.axis);
-        if (a && a->drive->serving == mine) host_.on_sample(s);
+    for (auto& s : out.samples) {
+        Axis* a = axis(s.axis);
+        if (!a || a->drive->serving != mine) continue;
+        s.source = a->source;
+        a->said[s.point] = s.value;
+        host_.on_sample(s);
     }
     for (const auto& n : out.notices) {
         if (is_probe(n.drive)) continue;  // the report of the scan says what there is to say
@@ -119,6 +122,7 @@ void Engine::feedback(Side& side, AxisId id, const AxisFeedback& value, Instant 
         a->last_error = value.error_code;
         event(std::move(e), now);
     }
+    check_run(*a, now);
     publish(*a, now);
     if (next) give_order(*a, nullptr, std::move(*next), {}, now);
     track(*a, now);
@@ -129,6 +133,7 @@ void Engine::publish(Axis& a, Instant) {
     a.profile.fill(p);
     p.number = static_cast<std::uint16_t>(a.spec.number);
     p.family_number = a.drive->line->family.catalogue->number();
+    p.source = a.source;
     p.authority = a.authority.door();
     p.authority_since = a.authority.since();
     p.authority_until = a.authority.until();
@@ -147,6 +152,7 @@ void Engine::publish(Axis& a, Instant) {
     };
     const bool simulated = a.drive->serving == Presence::twin, stale = a.stale || !online;
     put(p.flags, flag_online, online);
+    if (a.at_limit) p.statusword |= cia402::sw_internal_limit;
     put(p.flags, flag_simulated, simulated);
     put(p.flags, flag_stale, stale);
     put(p.statusword, cia402::sw_simulated, simulated);
@@ -291,6 +297,8 @@ void Engine::on_command(Command c, Instant now) {
     client->until_done = c.until_done;
     client->waiting = orders.size();
     client->result.outcome = Outcome::accepted;
+    if (const auto* data = std::get_if<ProcessData>(&client->body); data && data->controlword && (*data->controlword & cia402::cw_new_setpoint))
+        a->setpoint_ticket = client->ticket;
     Client& ref = *client;
     a->clients.push_back(ref.number);
     clients_.emplace(ref.number, std::move(client));
@@ -313,6 +321,9 @@ void Engine::give_order(Axis& a, Client* client, CommandBody body, Origin origin
     if (std::holds_alternative<Move>(body) || std::holds_alternative<Home>(body) || is_urgent(body)) {
         supersede(a, client ? client->number : 0, name_of(body), now);
         a.held = {};  // another motion, or a stop: nobody's finger holds this one
+        a.run = {};
+        a.at_limit = false;
+        if (const auto* m = std::get_if<Move>(&body); m && m->kind == Move::Kind::velocity) a.run = {m->target, m->deceleration.value_or(0), a.profile.feedback().position, now};
         a.homing_why.clear();
         const auto* move = client ? std::get_if<Move>(&client->body) : nullptr;
         if (move && move->hold_ms) begin_hold(a, *move, client->origin);
@@ -323,6 +334,14 @@ void Engine::give_order(Axis& a, Client* client, CommandBody body, Origin origin
     record.axis = a.id;
     record.body = body;
     record.given_at = now;
+    if (const auto* write = std::get_if<WriteParameter>(&body)) {
+        // Looked at now: the acknowledgement may come with the new value said already.
+        const auto said = a.said.find(write->point), stored = a.stored.find(write->point);
+        if (said != a.said.end() && known(said->second))
+            record.before = said->second;
+        else if (stored != a.stored.end())
+            record.before = stored->second;
+    }
     orders_.emplace(ticket, std::move(record));
     Side* side = side_of(*a.drive);
     if (!side || !side->up) {
@@ -366,10 +385,23 @@ void Engine::order_result(const Result& given, Instant now) {
         order.parameter = cat.id_of(write->point);
         order.storage = cat.parameter(write->point)->storage;
         order.value = known(r.value) ? r.value : write->value;
-        if (const auto old = a->stored.find(write->point); old != a->stored.end()) order.previous = old->second;
+        order.previous = record.before;
         if (const auto c = clients_.find(record.client); c != clients_.end()) order.origin = c->second->origin;
         r.value = order.value;
         record.kept = r;
+        for (auto& [ticket, other] : orders_) {  // those given behind it find what it left
+            const auto* later = std::get_if<WriteParameter>(&other.body);
+            if (later && ticket != given.ticket && other.axis == record.axis && later->point == write->point && !known(other.kept.value)) other.before = order.value;
+        }
+        // The drive has it, whether the disk takes it or not.
+        Sample s;
+        s.axis = record.axis;
+        s.point = write->point;
+        s.value = order.value;
+        s.at = now;
+        s.source = a->source;
+        a->said[s.point] = s.value;
+        host_.on_sample(s);
         save_twin_memory(*a->drive);  // a twin's EEPROM goes to disk along with the value that it took
         host_.on_store(std::move(order));
         return;
@@ -378,11 +410,20 @@ void Engine::order_result(const Result& given, Instant now) {
     const std::uint64_t number = record.client;
     orders_.erase(it);
     if (!a) return;
+    const auto owner = clients_.find(number);
+    // A set-point that had to wait begins by an order of the engine's own: it is still the motion of whoever gave it.
+    const Ticket mover = owner != clients_.end() ? owner->second->ticket : a->setpoint_ticket;
     if (std::holds_alternative<StartTogether>(body)) {
         for (const AxisId id : std::get<StartTogether>(body).axes) {
-            if (Axis* other = axis(id)) publish(*other, now);
+            if (Axis* other = axis(id)) {
+                if (is_good) image_.picture(id).motion_ticket = mover;
+                publish(*other, now);
+            }
         }
     }
+    if (const auto* move = std::get_if<Move>(&body); is_good && ((move && !move->prepare_only) || std::holds_alternative<Home>(body)))
+        image_.picture(a->id).motion_ticket = mover;
+    if (is_good && is_urgent(body)) image_.picture(a->id).motion_ticket = no_ticket;
     a->profile.on_order_result(body, is_good, now);
     if (std::holds_alternative<Move>(body)) {
         if (!is_good)
@@ -436,7 +477,7 @@ void Engine::on_stored(Ticket order, const std::string& fault, Instant now) {
         e.kind = "write";
         e.axis = a->spec.name;
         e.parameter = a->drive->line->family.catalogue->id_of(write.point);
-        if (const auto old = a->stored.find(write.point); old != a->stored.end()) e.old_value = to_text(old->second);
+        if (known(record.before)) e.old_value = to_text(record.before);
         e.new_value = to_text(r.value);
         if (fault.empty()) {
             a->stored[write.point] = r.value;
@@ -451,14 +492,7 @@ void Engine::on_stored(Ticket order, const std::string& fault, Instant now) {
             e.door = std::string(name_of(c->second->origin.door));
         }
         event(e, now);
-        if (fault.empty()) {
-            Sample s;
-            s.axis = record.axis;
-            s.point = write.point;
-            s.value = r.value;
-            s.at = now;
-            host_.on_sample(s);
-        } else {
+        if (!fault.empty()) {
             r.outcome = Outcome::failed;
             r.reason = Reason::not_stored;
             r.text = e.text;

@@ -123,20 +123,25 @@ private:
     [[nodiscard]] bool hold_on(Axis& axis, const Command& command, Instant now);
     void begin_hold(Axis& axis, const Move& move, const Origin& origin);
     void check_hold(Axis& axis, Instant now);
+    void check_run(Axis& axis, Instant now);
 
     // the site (engine_site.cpp), presence (engine_presence.cpp), time (engine_turn.cpp), questions (engine_ask.cpp)
     void build_line(LineUnit& unit, Instant now);
+    void tell_options(std::span<LineUnit* const> lines, std::span<Drive* const> drives, Instant now);
     void configure_side(Side& side, Instant now);
     [[nodiscard]] LineSetup setup_for(const LineUnit& unit, const Side& side) const;
     void line_state(Side& side, bool up, const std::string& why, Instant now);
     void link(Side& side, const DriveLink& link, Instant now);
     void decide_presence(Drive& drive, Instant now);
     void serve(Drive& drive, Presence by, std::string why, Instant now);
+    void plug_in_twin(Drive& drive, Instant now);
+    void refit_twin(Drive& drive, Instant now);
     void begin_handback(Drive& drive, Instant now);
     bool handback_result(const Result& result, Instant now);
     void housekeeping(Instant now);
     void save_twin_memory(Drive& drive);
     void drop_axis(Axis& axis, std::string_view why, Instant now);
+    void new_source(Axis& axis);
 
     // scans (engine_scan.cpp)
     [[nodiscard]] static bool is_probe(DriveId id) noexcept;
@@ -165,6 +170,7 @@ private:
     Instant now_{};
     Instant next_housekeeping_{};
     std::size_t trace_frames_;
+    std::uint32_t sources_ = 0;
     Duration lease_ = std::chrono::seconds(30);
     bool closing_ = false;
 };

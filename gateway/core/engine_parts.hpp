@@ -80,6 +80,7 @@ struct Engine::Drive {
     Instant waiting_since{};               ///< when we began to wait for the device
     DriveLink device_link, twin_link;
     std::string why = "not seen yet";
+    int twin_axes = 1;  ///< that the running twin was built with
     std::uint64_t memory_revision = 0;
     NonVolatile memory;                    ///< what the twin starts from
     /// The device is back: its parameters are read and compared before it gets its axes again.
@@ -105,6 +106,16 @@ struct Engine::Axis {
         std::int64_t velocity = 0;  ///< increments/s
         AuthorityClient who;
     } held;
+    /// The velocity move under way, watched at the site's limits of position.
+    struct Run {
+        std::int64_t velocity = 0;      ///< increments/s; 0: none
+        std::int64_t deceleration = 0;  ///< increments/s^2; 0: the drive's own, not known here
+        std::int64_t position = 0;      ///< as last told, and when it became that
+        Instant since{};
+        double round_s = 0;             ///< between the last two positions: how late the next may be, and a halt on the same line
+    } run;
+    Ticket setpoint_ticket = no_ticket;  ///< the set-point that came last by a control word: it may wait and begin later, without its client
+    bool at_limit = false;  ///< a velocity move was ended at a limit, and no motion has begun since
     AxisAuthority authority;
     bool stale = true;
     bool was_fault = false;
@@ -112,6 +123,8 @@ struct Engine::Axis {
     std::uint16_t last_error = 0;
     std::vector<std::uint64_t> clients;  ///< commands on their way or being watched, oldest first; bounded
     std::map<Point, Value> stored;       ///< acknowledged writes, as the store has them
+    std::map<Point, Value> said;         ///< what who speaks for it said last; bounded by the catalogue
+    std::uint32_t source = 0;            ///< AxisPicture::source
 };
 
 /// One client's command on its way.
@@ -134,6 +147,7 @@ struct Engine::OrderRecord {
     CommandBody body;
     DriveId handback = no_drive;
     Result kept;               ///< what the drive said, while the store works
+    Value before;              ///< of a write: what was there, as far as it is known
     Instant given_at{};
 };
 

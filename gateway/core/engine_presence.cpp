@@ -120,6 +120,8 @@ void Engine::serve(Drive& d, Presence by, std::string why, Instant now) {
     d.device_lost_while_commanded = false;
     d.serving = by;
     d.why = why;
+    for (const AxisId id : d.axes)
+        new_source(*axes_[index_of(id)]);  // before it says its first word
     if (by == Presence::twin) {
         if (!unit.twins) {
             unit.twins = std::make_unique<Side>(*this, unit, true);
@@ -137,16 +139,7 @@ void Engine::serve(Drive& d, Presence by, std::string why, Instant now) {
             configure_side(*unit.twins, now);
             unit.twins->line->open(*unit.twins, now);
         }
-        TwinSetup t;
-        t.address = d.spec.address;
-        for (const AxisId id : d.axes) t.axes = std::max(t.axes, axes_[index_of(id)]->spec.channel);
-        t.kind = unit.kind;
-        t.bit_rate = unit.spec.bitrate;
-        t.options = d.spec.options;
-        for (const auto& [k, v] : unit.spec.options) t.options.emplace(k, v);
-        unit.twins->touched();
-        unit.twins->bus->add(d.id, unit.family.family->make_twin(*unit.family.catalogue, t), d.memory, now);
-        d.memory_revision = unit.twins->bus->twin(d.id)->non_volatile_revision();
+        plug_in_twin(d, now);
     } else if (before == Presence::twin && unit.twins) {
         d.memory = unit.twins->bus->twin(d.id)->non_volatile();
         unit.twins->bus->remove(d.id);
@@ -170,6 +163,38 @@ void Engine::serve(Drive& d, Presence by, std::string why, Instant now) {
     e.drive = d.spec.name;
     e.line = unit.spec.name;
     e.text = fmt::format("drive {}: {} ({})", d.spec.name, by == Presence::twin ? "simulated by its twin" : "the real drive serves", why);
+    event(std::move(e), now);
+}
+
+/// On the line's bus of twins, with the channels that the site uses.
+void Engine::plug_in_twin(Drive& d, Instant now) {
+    LineUnit& unit = *d.line;
+    TwinSetup t;
+    t.address = d.spec.address;
+    for (const AxisId id : d.axes) t.axes = std::max(t.axes, axes_[index_of(id)]->spec.channel);
+    t.kind = unit.kind;
+    t.bit_rate = unit.spec.bitrate;
+    t.options = d.spec.options;
+    for (const auto& [k, v] : unit.spec.options) t.options.emplace(k, v);
+    unit.twins->touched();
+    unit.twins->bus->add(d.id, unit.family.family->make_twin(*unit.family.catalogue, t), d.memory, now);
+    d.memory_revision = unit.twins->bus->twin(d.id)->non_volatile_revision();
+    d.twin_axes = t.axes;
+}
+
+/// A channel was configured that the running twin does not have: it is built anew, as a real drive would be switched off to fit one.
+void Engine::refit_twin(Drive& d, Instant now) {
+    LineUnit& unit = *d.line;
+    const bool fits = std::ranges::all_of(d.axes, [&](AxisId id) { return axes_[index_of(id)]->spec.channel <= d.twin_axes; });
+    if (d.serving != Presence::twin || fits) return;
+    d.memory = unit.twins->bus->twin(d.id)->non_volatile();
+    unit.twins->bus->remove(d.id);
+    plug_in_twin(d, now);
+    Event e;
+    e.kind = "presence";
+    e.drive = d.spec.name;
+    e.line = unit.spec.name;
+    e.text = fmt::format("drive {}: its twin was started anew with {} axes", d.spec.name, d.twin_axes);
     event(std::move(e), now);
 }
 

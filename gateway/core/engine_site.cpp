@@ -8,6 +8,7 @@
 #include "gateway/core/engine.hpp"
 #include "gateway/core/engine_parts.hpp"
 #include "gateway/core/line_uri.hpp"
+#include "gateway/core/options.hpp"
 
 namespace axisgate {
 namespace {
@@ -91,6 +92,14 @@ void Engine::drop_axis(Axis& a, std::string_view why, Instant now) {
     }
     std::erase_if(orders_, [&](const auto& entry) { return entry.second.axis == a.id; });
     image_.picture(a.id) = AxisPicture{};
+    image_.publish(a.id);
+}
+
+/// Another drive, channel or twin speaks for the axis: all that was said until now is forgotten, here and by who reads the image.
+void Engine::new_source(Axis& a) {
+    a.source = ++sources_;
+    a.said.clear();
+    image_.picture(a.id).source = a.source;
     image_.publish(a.id);
 }
 
@@ -204,6 +213,7 @@ std::shared_ptr<const SiteState> Engine::apply_site(Site site, SiteMemory memory
                 if (d && d->spec.name == a.drive) slot->drive = d.get();
             }
             slot->drive->axes.push_back(id);
+            new_source(*slot);
             changed_lines.push_back(slot->drive->line);
             if (slot->drive->serving != Presence::offline) slot->profile.on_presence(slot->drive->serving);
             if (const auto m = memory.stored.find(a.name); m != memory.stored.end()) {
@@ -224,6 +234,9 @@ std::shared_ptr<const SiteState> Engine::apply_site(Site site, SiteMemory memory
     site_ = state;
 
     // 3. put it to work. Adapters of lines that stay are told the new set of drives; fresh lines are opened.
+    for (const auto& d : drives_) {
+        if (d) refit_twin(*d, now);
+    }
     for (const auto& unit : lines_) {
         if (!unit || std::ranges::find(fresh_lines, unit.get()) != fresh_lines.end()) continue;
         if (unit->real) configure_side(*unit->real, now);
@@ -231,10 +244,27 @@ std::shared_ptr<const SiteState> Engine::apply_site(Site site, SiteMemory memory
     }
     for (LineUnit* unit : fresh_lines) build_line(*unit, now);
     for (Drive* d : fresh_drives) decide_presence(*d, now);
+    tell_options(fresh_lines, fresh_drives, now);
     for (const auto& a : axes_) {
         if (a) publish(*a, now);
     }
     return site_;
+}
+
+/// Options that nobody reads as they stand: said once, of what is new. What an adapter reads it complains of itself.
+void Engine::tell_options(std::span<LineUnit* const> lines, std::span<Drive* const> drives, Instant now) {
+    for (const OptionFault& f : check_options(site_->site, families_)) {
+        const bool fresh = f.drive.empty() ? std::ranges::any_of(lines, [&](const LineUnit* l) { return l->spec.name == f.line; })
+                                           : std::ranges::any_of(drives, [&](const Drive* d) { return d->spec.name == f.drive; });
+        if (!fresh || f.adapter_says) continue;
+        Event e;
+        e.severity = Severity::warning;
+        e.kind = "setup";
+        e.line = f.line;
+        e.drive = f.drive;
+        e.text = f.text + "; it counts as not given";
+        event(std::move(e), now);
+    }
 }
 
 }  // namespace axisgate

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "gateway/core/engine.hpp"
 #include "gateway/core/engine_parts.hpp"
@@ -191,6 +193,34 @@ void Engine::check_hold(Axis& a, Instant now) {
     auto decision = a.profile.on_command(Halt{});
     for (auto& o : decision.orders)
         give_order(a, nullptr, std::move(o), {}, now);
+}
+
+/// A velocity move has no target that could be checked beforehand: it is halted so that it comes to rest at the site's limit, as far as its
+/// ramp is known: early by that, by the wait for the next position, and by the halt's way down the line, which takes about as long.
+void Engine::check_run(Axis& a, Instant now) {
+    const AxisFeedback& f = a.profile.feedback();
+    if (f.position != a.run.position) {
+        a.run.position = f.position;
+        a.run.round_s = std::clamp(std::chrono::duration<double>(f.at - std::exchange(a.run.since, f.at)).count(), 0.0, 1.0);
+    }
+    if (a.run.velocity == 0 || !f.moving || f.velocity == 0) return;
+    const bool up = f.velocity > 0;
+    const auto& limit = up ? a.limits.position_max : a.limits.position_min;
+    if (!limit) return;
+    const double speed = std::fabs(static_cast<double>(f.velocity)), rate = static_cast<double>(a.run.deceleration);
+    const double needed = 2 * speed * a.run.round_s + (rate > 0 ? speed * speed / (2 * rate) : 0);
+    const double left = static_cast<double>(up ? *limit - f.position : f.position - *limit);
+    if (left > needed) return;
+    Event e;
+    e.severity = Severity::warning;
+    e.kind = "limit";
+    e.axis = a.spec.name;
+    e.text = fmt::format("the velocity move is halted at the axis' {} {}", up ? "position_max" : "position_min", in_unit(*limit, a.limits));
+    event(std::move(e), now);
+    auto decision = a.profile.on_command(Halt{});
+    for (auto& o : decision.orders)
+        give_order(a, nullptr, std::move(o), {}, now);
+    a.at_limit = true;
 }
 
 void Engine::shut_down(Instant now) {

@@ -104,6 +104,7 @@ struct SnapshotInfo {
     std::string who;
     std::int64_t at_unix_ns = 0;
     std::uint64_t values = 0;  ///< how many
+    std::string family;        ///< of the drive that it was taken from; empty: not known
 };
 struct AxisSnapshot : SnapshotInfo {
     std::vector<SnapshotValue> parameters;  ///< in order of parameter id
@@ -242,8 +243,8 @@ public:
     /// `then`: its number, or 0 and why it could not be stored.
     virtual void save_snapshot(AxisSnapshot snapshot, std::string axis, std::function<void(std::uint32_t n, std::string fault)> then) = 0;
     virtual void delete_snapshot(std::string axis, std::uint32_t n, std::function<void(std::string fault)> then) = 0;
-    /// Newest first, without the documents; at most as many as the store keeps (50).
-    [[nodiscard]] virtual std::vector<SiteRevision> site_history() const = 0;
+    /// Newest first, without the documents, at most `limit`; with `before` those of smaller numbers.
+    [[nodiscard]] virtual std::vector<SiteRevision> site_history(std::size_t limit, std::uint64_t before) const = 0;
     [[nodiscard]] virtual std::optional<SiteRevision> site_revision(std::uint64_t revision) const = 0;
 
     // --- staged changes of the site ------------------------------------------------------------------------------------
@@ -263,8 +264,19 @@ public:
     // --- the database as one file --------------------------------------------------------------------------------------
     /// A whole, checked copy of the database, or nothing and why.
     virtual void backup(std::function<void(std::optional<std::string> bytes, std::string fault)> then) = 0;
-    /// Checks a backup and lays it down to be taken at the next start; empty, or why not.
+    /// Checks a backup and lays it down to be taken at the next start; empty, or why not. Faults name no path.
     virtual void restore(std::string bytes, Origin origin, std::function<void(std::string fault)> then) = 0;
+    /// A backup that was laid down and waits for the next start.
+    struct WaitingBackup {
+        std::int64_t at_unix_ns = 0;
+        std::string who;                  ///< empty: not known
+        std::uint64_t bytes = 0;
+        int version = 0;                  ///< of the database's structure; 0: not known
+        std::uint64_t site_revision = 0;  ///< in force in it; 0: none, or not known
+    };
+    virtual void waiting_backup(std::function<void(std::optional<WaitingBackup>)> then) = 0;
+    /// Takes it away again: empty, or why not; nothing waits: "none".
+    virtual void cancel_restore(Origin origin, std::function<void(std::string fault)> then) = 0;
 };
 
 }  // namespace axisgate

@@ -16,11 +16,6 @@ std::optional<std::int64_t> increments(const std::optional<double>& v, double sc
     return std::llround(x);
 }
 
-std::string in_unit(std::int64_t increments, const AxisLimits& l, std::string_view per = {}) {
-    if (l.unit.empty()) return fmt::format("{} increments{}", increments, per);
-    return fmt::format("{:.6g} {}{}", static_cast<double>(increments) / l.increments_per_unit, l.unit, per);
-}
-
 std::optional<Refusal> check_position(std::int64_t target, const AxisLimits& l) {
     constexpr std::int64_t low = std::numeric_limits<std::int32_t>::min(), high = std::numeric_limits<std::int32_t>::max();
     if (target < low || target > high) {
@@ -44,6 +39,11 @@ std::optional<Refusal> check_rate(std::string_view what, std::optional<std::int6
 }
 }  // namespace
 
+std::string in_unit(std::int64_t increments, const AxisLimits& l, std::string_view per) {
+    if (l.unit.empty()) return fmt::format("{} increments{}", increments, per);
+    return fmt::format("{:.6g} {}{}", static_cast<double>(increments) / l.increments_per_unit, l.unit, per);
+}
+
 AxisLimits AxisLimits::of(const AxisSpec& a) {
     AxisLimits l;
     l.increments_per_unit = a.increments_per_unit;
@@ -61,6 +61,11 @@ std::optional<Refusal> guard_move(const Move& m, const AxisLimits& l, std::int64
         if (m.target < -high || m.target > high) return Refusal{Reason::out_of_range, fmt::format("velocity {} is outside -{}..{} increments/s", m.target, high, high)};
         if (l.velocity_max && std::llabs(m.target) > *l.velocity_max) {
             return Refusal{Reason::out_of_range, fmt::format("velocity {} is above the axis' limit of {}", in_unit(m.target, l, "/s"), in_unit(*l.velocity_max, l, "/s"))};
+        }
+        if ((m.target > 0 && l.position_max && position >= *l.position_max) || (m.target < 0 && l.position_min && position <= *l.position_min)) {
+            const bool up = m.target > 0;
+            return Refusal{Reason::out_of_range, fmt::format("the axis is at {}, its {} is {}: it may only move the other way", in_unit(position, l),
+                                                             up ? "position_max" : "position_min", in_unit(up ? *l.position_max : *l.position_min, l))};
         }
     } else {
         std::int64_t target = m.target;
@@ -84,7 +89,9 @@ std::optional<Refusal> guard_process_data(const ProcessData& d, const AxisLimits
         Move m;
         m.kind = Move::Kind::velocity;
         m.target = *d.target_velocity;
-        return guard_move(m, l, 0);
+        AxisLimits rates = l;  // whether it leads out of the limits is asked when it moves the axis
+        rates.position_min = rates.position_max = std::nullopt;
+        return guard_move(m, rates, 0);
     }
     return std::nullopt;
 }

@@ -26,7 +26,10 @@ struct Refusal {
     std::string text;
 };
 
-/// `position`: the axis' actual position in increments, for relative moves.
+/// "12.5 mm", or increments where the axis has no unit.
+[[nodiscard]] std::string in_unit(std::int64_t increments, const AxisLimits& limits, std::string_view per = {});
+
+/// `position`: the axis' actual position in increments, for relative moves and for velocity moves that would lead out of the limits.
 [[nodiscard]] std::optional<Refusal> guard_move(const Move& move, const AxisLimits& limits, std::int64_t position);
 /// Registers 32..47 before they are latched: speeds, accelerations and the absolute target when a set-point starts with this word.
 [[nodiscard]] std::optional<Refusal> guard_process_data(const ProcessData& data, const AxisLimits& limits);

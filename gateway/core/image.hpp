@@ -14,6 +14,7 @@
 #include "gateway/core/command.hpp"
 #include "gateway/core/ids.hpp"
 #include "gateway/core/instant.hpp"
+#include "gateway/core/sample.hpp"
 
 namespace axisgate {
 
@@ -26,7 +27,7 @@ struct AxisPicture {
     std::uint16_t family_number = 0;
     // what the drive says
     std::int64_t position = 0;        ///< increments
-    std::int64_t position_demand = 0; ///< increments
+    std::int64_t position_demand = 0; ///< increments; equals the position unless the drive says it or it is computed
     std::int64_t velocity = 0;        ///< increments/s
     std::uint32_t native_status = 0;
     std::uint16_t error_code = 0;     ///< the drive's own
@@ -51,9 +52,17 @@ struct AxisPicture {
     std::array<char, 64> authority_commander{};  ///< who commanded last: "modbus 192.0.2.7"
     Presence presence = Presence::offline;
     bool ever_seen = false;                ///< feedback has arrived at least once: position, velocity, error code and `at` are the last ones
-    bool demand_known = false;             ///< position_demand is the drive's own word; else it equals the position
+    DemandSource demand_source = DemandSource::none;  ///< whose word position_demand is
     bool current = false;                  ///< it has, since who serves the axis has answered again
     Instant at{};                          ///< when the drive said it
+    std::uint32_t source = 0;              ///< another number when another drive, channel or twin speaks for the axis: what was said before is not its word
+    /// The command whose motion the drive took last; no_ticket: none yet, or a stop after it.
+    Ticket motion_ticket = no_ticket;
+
+    /// Somebody says where the axis should be, and something else where it is.
+    [[nodiscard]] constexpr bool following_error_known() const noexcept { return demand_source == DemandSource::drive || demand_source == DemandSource::computed; }
+    /// Demand less position (CiA 402 60F4h), increments; 0 while it is not known.
+    [[nodiscard]] constexpr std::int64_t following_error() const noexcept { return position_demand - position; }
 };
 static_assert(std::is_trivially_copyable_v<AxisPicture>);
 

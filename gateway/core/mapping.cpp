@@ -62,12 +62,13 @@ constexpr std::array order_names{std::pair{std::string_view("high_first"), MapWo
                                  std::pair{std::string_view("low_first"), MapWordOrder::low_first}};
 
 using P = AxisPoint;
-constexpr std::array<AxisPointInfo, 32> points{{
+constexpr std::array<AxisPointInfo, 33> points{{
     {P::statusword, "statusword", false, "CiA 402 status word, with 8 simulated, 14 stale, 15 referenced"},
     {P::mode_display, "mode_display", false, "modes of operation display"},
     {P::position, "position", false, "position actual value, increments"},
     {P::velocity, "velocity", false, "velocity actual value, increments/s"},
-    {P::position_demand, "position_demand", false, "position demand value, increments"},
+    {P::position_demand, "position_demand", false, "position demand value, increments; the position while nobody says another"},
+    {P::following_error, "following_error", false, "following error actual value: demand less position, increments; 0 while it is not known"},
     {P::error_code, "error_code", false, "the drive's own error code, 0 = none"},
     {P::flags, "flags", false, "0 online, 1 simulated, 2 stale, 3 referenced, 4 moving, 5 target reached, 6 fault, 7 warning"},
     {P::native_status, "native_status", false, "the drive's own status"},
@@ -236,9 +237,10 @@ std::span<const AxisPointInfo> axis_points() noexcept { return points; }
 
 std::optional<AxisPoint> axis_point_named(std::string_view name) noexcept {
     // CiA 402's longer names are known too.
-    constexpr std::array<std::pair<std::string_view, AxisPoint>, 6> longer{{{"position_actual_value", P::position},
+    constexpr std::array<std::pair<std::string_view, AxisPoint>, 7> longer{{{"position_actual_value", P::position},
                                                                             {"velocity_actual_value", P::velocity},
                                                                             {"position_demand_value", P::position_demand},
+                                                                            {"following_error_actual_value", P::following_error},
                                                                             {"modes_of_operation", P::mode},
                                                                             {"modes_of_operation_display", P::mode_display},
                                                                             {"position_increments", P::position}}};

@@ -37,6 +37,7 @@ enum class AxisPoint : std::uint8_t {
     position,
     velocity,
     position_demand,
+    following_error,
     error_code,
     flags,
     native_status,
@@ -114,7 +115,8 @@ struct CsvFault {
     std::size_t line = 0;  ///< 1-based
     std::string text;
 };
-/// `lines`: the line of each entry.
+/// The rows that can be read, with the line of each in `lines`, and the faults of those that cannot: only without any may the rows be used;
+/// with some they still tell what else is wrong with the file. Nothing if the columns cannot be read. `faults` comes empty.
 [[nodiscard]] std::optional<boost::json::array> mappings_from_csv(std::string_view csv, std::vector<std::size_t>& lines,
                                                                   std::vector<CsvFault>& faults);
 

@@ -1,6 +1,6 @@
 // Mapping, CSV: the whole list for a spreadsheet and back (RFC 4180: commas, quotes doubled, CR LF or LF).
-// In: text. Out: JSON entries for parse_mappings, or every faulty line. A semicolon as separator is understood, too: spreadsheets of many
-// countries write it.
+// In: text. Out: JSON entries for parse_mappings, and every faulty line. A semicolon as separator, and then a comma in numbers, is understood,
+// too: spreadsheets of many countries write it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -80,7 +80,6 @@ std::string mappings_to_csv(std::span<const Mapping> mappings) {
 }
 
 std::optional<json::array> mappings_from_csv(std::string_view csv, std::vector<std::size_t>& line_of, std::vector<CsvFault>& faults) {
-    const std::size_t before = faults.size();
     if (csv.starts_with("\xEF\xBB\xBF")) csv.remove_prefix(3);
     const auto first_end = csv.find('\n');
     const std::string_view first = csv.substr(0, first_end);
@@ -98,9 +97,10 @@ std::optional<json::array> mappings_from_csv(std::string_view csv, std::vector<s
                                              h)});
         if (std::ranges::count(*header, h) > 1) faults.push_back({1, fmt::format("the column {} is there twice", h)});
     }
+    if (!faults.empty()) return std::nullopt;
     json::array out;
     line += lines;
-    while (!csv.empty() && faults.size() < before + 1000) {
+    while (!csv.empty() && faults.size() < 1000) {
         const auto cells = record(csv, separator, lines);
         const std::size_t here = line;
         line += lines;
@@ -114,6 +114,7 @@ std::optional<json::array> mappings_from_csv(std::string_view csv, std::vector<s
             continue;
         }
         json::object o;
+        bool good = true;
         for (std::size_t i = 0; i < cells->size(); ++i) {
             std::string cell = (*cells)[i];
             const std::string& column = (*header)[i];
@@ -123,14 +124,17 @@ std::optional<json::array> mappings_from_csv(std::string_view csv, std::vector<s
                 o[column] = cell;
                 continue;
             }
+            if (separator == ';' && std::ranges::count(cell, ',') == 1 && cell.find('.') == std::string::npos) std::ranges::replace(cell, ',', '.');
             double number = 0;
             const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
             if (error != std::errc() || end != cell.data() + cell.size()) {
-                faults.push_back({here, fmt::format("{}: \"{}\" is no number", column, cell)});
+                faults.push_back({here, fmt::format("{}: \"{}\" is no number", column, (*cells)[i])});
+                good = false;
                 continue;
             }
             o[column] = number;
         }
+        if (!good) continue;
         out.push_back(std::move(o));
         line_of.push_back(here);
         if (out.size() > most_mappings) {
@@ -138,7 +142,6 @@ std::optional<json::array> mappings_from_csv(std::string_view csv, std::vector<s
             break;
         }
     }
-    if (faults.size() != before) return std::nullopt;
     return out;
 }
 

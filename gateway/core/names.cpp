@@ -50,6 +50,16 @@ std::string_view name_of(Reason reason) noexcept {
     return "internal";
 }
 
+std::string_view name_of(DemandSource source) noexcept {
+    switch (source) {
+        case DemandSource::none: return "none";
+        case DemandSource::drive: return "drive";
+        case DemandSource::computed: return "computed";
+        case DemandSource::open_loop: return "open_loop";
+    }
+    return "none";
+}
+
 std::string_view name_of(Severity severity) noexcept {
     switch (severity) {
         case Severity::info: return "info";

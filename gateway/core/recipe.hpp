@@ -22,6 +22,7 @@ inline constexpr std::int64_t most_recipe_repeats = 10'000;  ///< of one `repeat
 inline constexpr std::size_t most_recipe_parameters = 64;
 inline constexpr std::size_t most_recipe_text_bytes = 4096;   ///< one text: a value, a message, a comment
 inline constexpr std::size_t most_recipe_bytes = 256 * 1024;  ///< the document
+inline constexpr std::size_t most_recipe_label_bytes = 200;   ///< one line; a longer one is cut and ends with "..."
 inline constexpr double most_recipe_seconds = 86'400;         ///< of the run, and of every wait
 
 /// What a wait, a check, an `if` or an `until` looks at.
@@ -72,6 +73,8 @@ struct RecipeStep {
 };
 /// The step's word in the document: "set_parameter", "if", ...
 [[nodiscard]] std::string_view name_of(RecipeStep::Kind kind) noexcept;
+/// What people call it: "Step 4.3 (pass 2 of 5): set_parameter AC of feeder = 20000". `pass`: of the repeats around it; may be empty.
+[[nodiscard]] std::string label_of(const RecipeStep& step, std::string_view pass);
 /// Whether it can set its axis in motion.
 [[nodiscard]] bool is_motion(const RecipeStep& step) noexcept;
 

@@ -40,6 +40,16 @@ std::string token(std::string_view key) {
     return s;
 }
 
+/// The same words stand under a field of a form, where nobody writes quotes: they say what such a text looks like.
+std::string example(std::string_view key) {
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 6> examples{
+        {{"axis", "feeder"}, {"parameter", "AC"}, {"command", "halt"}, {"name", "program.start"}, {"point", "position"}, {"on_failure", "halt"}}};
+    for (const auto& [k, word] : examples) {
+        if (k == key) return fmt::format(", such as \"{}\"", word);
+    }
+    return {};
+}
+
 bool good_name(std::string_view s) {
     return !s.empty() && s.size() <= 64 && std::ranges::all_of(s, [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
@@ -206,7 +216,7 @@ public:
             return {};
         }
         if (!v->is_string() || (required && v->get_string().empty())) {
-            fault(at + "/" + std::string(key), fmt::format("{} must be a text", key), "write it in quotes");
+            fault(at + "/" + std::string(key), fmt::format("{} must be a text{}", key, example(key)), "fill it in");
             return {};
         }
         return std::string(v->get_string());
@@ -326,7 +336,7 @@ public:
             const json::object wrapped{{"value", put_in(*member, in)}};
             const auto& x = wrapped.at("value");
             if (s.kind == Kind::message) {
-                if (!member->is_string()) fault(in, "message must be a text", "write it in quotes");
+                if (!member->is_string()) fault(in, "message must be a text, such as \"tool changed\"", "fill it in");
                 s.text = x.is_string() ? std::string(x.get_string()) : json::serialize(x);
             } else {
                 const double d = x.is_number() ? x.to_number<double>() : -1;

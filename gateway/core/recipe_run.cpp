@@ -21,6 +21,16 @@ bool is_stop(const RecipeStep& s) {
     const auto* c = s.kind == Kind::command ? s.body.if_contains("command") : nullptr;
     return c && (*c == "halt" || *c == "quick_stop" || *c == "disable");
 }
+bool is_prepared(const RecipeStep& s) {
+    const auto* p = s.kind == Kind::command ? s.body.if_contains("prepare") : nullptr;
+    return p && p->is_bool() && p->get_bool();
+}
+/// At a target: of an action or a register nobody knows.
+bool ends_itself(const RecipeStep& s) {
+    if (s.kind == Kind::home) return true;
+    const auto* c = s.kind == Kind::command ? s.body.if_contains("command") : nullptr;
+    return c && *c != "move_velocity";
+}
 }  // namespace
 
 std::string_view name_of(RecipeRun::State state) noexcept {
@@ -97,7 +107,7 @@ void RecipeRun::turn(Instant now, const RecipeWorld& world, std::vector<RecipeRe
             return;
         }
     }
-    if (state_ == State::stopping) give_stops(now, requests);
+    if (state_ == State::stopping) give_stops(now, world, requests);
 }
 
 /// True: something has happened, look again. False: nothing more to do before due_ or an answer.
@@ -167,6 +177,11 @@ void RecipeRun::begin(const RecipeStep& s, Instant now, std::vector<RecipeReques
     row.ended = {};
     row.text.clear();
     row.value = nullptr;
+    row.pass.clear();
+    for (const auto& level : levels_) {
+        if (level.owner && level.owner->kind == Kind::repeat)
+            row.pass += fmt::format("{}{} of {}", row.pass.empty() ? "" : ", ", level.owner->times - level.rounds + 1, level.owner->times);
+    }
     ++row.times;
     ++revision_;
     current_ = &s;
@@ -188,7 +203,6 @@ void RecipeRun::begin(const RecipeStep& s, Instant now, std::vector<RecipeReques
         case Kind::action:
         case Kind::write_register:
             if (s.kind == Kind::message) step_limit_ = now + std::chrono::seconds(30);
-            if (is_motion(s) && !s.axis.empty()) in_motion_.insert(s.axis);  // from now on: its answer may be lost, its motion is not
             ask(RecipeRequest::What::step, s, now, requests);
             return;
         case Kind::wait_for:
@@ -265,6 +279,7 @@ void RecipeRun::take_answer(Instant now) {
     waiting_for_ = 0;
     const RecipeStep& s = *current_;
     RecipeRow& row = rows_[s.row];
+    if (!s.condition) take_motion(s, a.good, a.motion, now);
     if (!a.good) {
         if (s.kind == Kind::wait_for && now < step_limit_) {  // a drive that does not answer now may yet
             row.text = a.text;
@@ -277,8 +292,33 @@ void RecipeRun::take_answer(Instant now) {
     if (s.condition) return judge(a.value, now);
     if (s.kind != Kind::message) row.text = std::move(a.text);
     row.value = std::move(a.value);
-    if ((s.until_done && is_motion(s) && s.kind != Kind::action) || is_stop(s)) in_motion_.erase(s.axis);
     finish(s, now);
+}
+
+/// What the run has in motion after a step: a refused command has begun nothing, and leaves alone what an earlier one has begun.
+void RecipeRun::take_motion(const RecipeStep& s, bool good, RecipeAnswer::Motion motion, Instant now) {
+    using Told = RecipeAnswer::Motion;
+    if (good && is_stop(s)) {
+        in_motion_.erase(s.axis);
+        prepared_.erase(s.axis);
+    }
+    if (!is_motion(s) || s.axis.empty() || motion == Told::nothing || (!good && motion == Told::told)) return;
+    if (is_prepared(s)) {
+        prepared_.insert(s.axis);
+        return;
+    }
+    const Motion begun{now, ends_itself(s), motion == Told::interrupted};
+    if (good && s.until_done && begun.ends_itself) {
+        in_motion_.erase(s.axis);
+    } else {
+        in_motion_[s.axis] = begun;
+    }
+    // An action may be the start of a group: what the run had prepared is under way now, for all that is known.
+    if (s.kind == Kind::action && good) {
+        for (const auto& axis : prepared_)
+            in_motion_.insert({axis, {now, false, false}});
+        prepared_.clear();
+    }
 }
 
 void RecipeRun::finish(const RecipeStep& s, Instant now) {
@@ -290,9 +330,13 @@ void RecipeRun::finish(const RecipeStep& s, Instant now) {
 }
 
 void RecipeRun::stop(State outcome, std::string text, Instant now) {
+    // An answer that comes after this comes too late: whether the drive has taken the step's command is not known then.
+    if (phase_ == Phase::answer && waiting_for_ != 0 && !current_->condition)
+        take_motion(*current_, got_ && got_->good, got_ ? got_->motion : RecipeAnswer::Motion::unknown, now);
+    got_.reset();
     outcome_ = outcome;
     state_ = State::stopping;
-    where_ = current_ ? current_->pointer : "";
+    where_ = current_;
     text_ = std::move(text);
     for (auto& row : rows_) {  // the step itself and those around it
         if (row.state != RecipeRow::State::running) continue;
@@ -303,21 +347,39 @@ void RecipeRun::stop(State outcome, std::string text, Instant now) {
     phase_ = Phase::next;
     waiting_for_ = 0;
     step_limit_ = now + stop_limit;
+    doubt_until_ = now + doubt_limit;
     ++revision_;
 }
 
-void RecipeRun::give_stops(Instant now, std::vector<RecipeRequest>& requests) {
-    if (!stops_given_) {
-        stops_given_ = true;
-        for (const auto& axis : in_motion_) {
-            stops_.push_back({axis, false, false, ""});
+/// Stops what is the run's own, and lets go of the rest. False: of some motion it is not clear yet whose it is.
+bool RecipeRun::sort_motions(Instant now, const RecipeWorld& world, std::vector<RecipeRequest>& requests) {
+    using Whose = RecipeWorld::Claim::Whose;
+    for (auto it = in_motion_.begin(); it != in_motion_.end();) {
+        const auto& [axis, motion] = *it;
+        auto claim = world.claim(axis);
+        const bool at_rest = claim.whose == Whose::resting && (motion.interrupted || (motion.ends_itself && now - motion.begun > start_limit));
+        if (claim.whose == Whose::others) {
+            stops_.push_back({axis, true, false, true, "left alone: " + std::move(claim.text)});
+            ++revision_;
+        } else if (motion.interrupted && !at_rest && now < doubt_until_) {
+            ++it;
+            continue;
+        } else if (!at_rest) {
+            stops_.push_back({axis, false, false, false, ""});
             stop_requests_.emplace_back(++last_number_, stops_.size() - 1);
             requests.push_back({last_number_, RecipeRequest::What::stop, nullptr, axis});
+            ++revision_;
         }
+        it = in_motion_.erase(it);
     }
-    if (std::ranges::all_of(stops_, &Stop::answered)) return end(now);
+    return in_motion_.empty();
+}
+
+void RecipeRun::give_stops(Instant now, const RecipeWorld& world, std::vector<RecipeRequest>& requests) {
+    const bool sorted = sort_motions(now, world, requests);
+    if (sorted && std::ranges::all_of(stops_, &Stop::answered)) return end(now);
     if (now < step_limit_) {
-        due_ = step_limit_;
+        due_ = sorted ? step_limit_ : std::min(now + look_period, step_limit_);
         return;
     }
     for (auto& s : stops_) {

@@ -1,6 +1,7 @@
 // Sample, AxisFeedback, DriveLink, Notice: what is now known of a drive, on its way up.
 // In: made by adapters from frames. Out: engine, image, store and doors.
-// Never invented: every field comes from something the drive said, and `at` is when it was said.
+// Never invented: every field comes from something the drive said, and `at` is when it was said. One field may be computed, and says so:
+// the demand.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +27,18 @@ struct Sample {
     Value value;
     Quality quality = Quality::good;
     Instant at{};
+    std::uint32_t source = 0;  ///< who spoke for the axis then (AxisPicture::source); filled in by the engine
 };
+
+/// Who says where an axis should be now.
+enum class DemandSource : std::uint8_t {
+    none,      ///< nobody: the axis is off, or moves by an order that this gateway did not give
+    drive,     ///< the drive: it tells its demand, or how far it is behind
+    computed,  ///< the gateway, from the order that the drive acknowledged: target, speed, ramps (demand.hpp)
+    open_loop  ///< `position` itself: the drive counts the steps that it puts out, and nothing measures whether the shaft follows
+};
+/// "none", "drive", "computed", "open_loop".
+[[nodiscard]] std::string_view name_of(DemandSource source) noexcept;
 
 /// The axis as its drive shows it now: the part of the CiA 402 picture that only the drive can know.
 /// An adapter sends the whole struct each time any of it was read anew; `at` is the instant of the newest part.
@@ -44,8 +56,8 @@ struct AxisFeedback {
     bool homing_attained = false;
     bool homing_error = false;
     std::int64_t position = 0;         ///< actual position, increments
-    std::int64_t position_demand = 0;  ///< where the drive wants to be now; equals `position` if the drive does not say
-    bool demand_known = false;         ///< the drive says so; else nobody can tell a following error
+    std::int64_t position_demand = 0;  ///< where the axis should be at the instant of `position`, increments; drive and computed only
+    DemandSource demand_source = DemandSource::none;
     std::int64_t velocity = 0;         ///< actual velocity, increments/s
     std::uint16_t error_code = 0;      ///< the drive's own, 0 = none
     std::uint32_t native_status = 0;   ///< the drive's own status word(s), as its README says

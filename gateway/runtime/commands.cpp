@@ -9,6 +9,7 @@
 #include <cstdio>
 
 #include "gateway/core/assets.hpp"
+#include "gateway/core/options.hpp"
 #include "gateway/runtime/catalogues.hpp"
 #include "gateway/runtime/clock.hpp"
 #include "gateway/runtime/config_host.hpp"
@@ -170,6 +171,9 @@ int command_check(const ConfigSources& sources, const std::string& site_file, bo
         const auto read = read_site_file(site_file, *families);
         for (const auto& f : read.faults) complain(f);
         count += read.faults.size();
+        if (read.site) {
+            for (const auto& f : check_options(*read.site, *families)) complain("warning: " + f.text + "; it counts as not given");
+        }
     }
     if (count == 0) fmt::print("no faults found\n");
     return count == 0 ? exit_good : exit_usage;

@@ -26,10 +26,12 @@
 #include "gateway/runtime/files.hpp"
 #include "gateway/runtime/hot.hpp"
 #include "gateway/runtime/site_file.hpp"
+#include "gateway/runtime/site_names.hpp"
 #include "gateway/runtime/site_trial.hpp"
 #include "gateway/runtime/systemd.hpp"
 #include "gateway/runtime/threads.hpp"
 #include "gateway/runtime/tls_files.hpp"
+#include "gateway/runtime/waiting_backup.hpp"
 #include "gateway/runtime/warm_gateway.hpp"
 
 namespace axisgate {
@@ -171,7 +173,7 @@ int Service::open_store() {
         return exit_failed;
     }
     so.migrations = *migrations;
-    if (const std::string fault = take_laid_down_backup(so); !fault.empty()) {
+    if (const std::string fault = take_waiting_backup(so); !fault.empty()) {
         complain(fault);
         return exit_failed;
     }
@@ -219,11 +221,10 @@ int Service::load_site(Site& site, std::uint64_t& revision) {
         for (const auto& f : read.faults) complain(f);
         if (!read.site) return exit_usage;
         site = std::move(*read.site);
-        SiteChange change;
-        change.axes.emplace();
-        change.drives.emplace();
-        for (const auto& a : site.axes) change.axes->push_back(a.name);
-        for (const auto& d : site.drives) change.drives->push_back(d.name);
+        boost::system::error_code ec;
+        boost::json::value before;
+        if (const auto was = store->load_site(); was && *was) before = boost::json::parse((*was)->text, ec);
+        const SiteChange change = names_between(before, to_json(site));
         const auto saved = store->save_site(boost::json::serialize(to_json(site)), "--site " + options.site_file, unix_now_ns(), change);
         if (!saved) {
             complain(saved.error().text);
@@ -249,6 +250,9 @@ int Service::load_site(Site& site, std::uint64_t& revision) {
         return exit_failed;
     }
     site = std::move(*parsed);
+    // The same text is no new revision; but the store hears which family each axis has, which an older program did not tell it.
+    const auto named = store->save_site((*stored)->text, (*stored)->who, (*stored)->at_unix_ns, names_of(site));
+    if (!named) spdlog::warn("store: {}", named.error().text);
     return exit_good;
 }
 
@@ -310,6 +314,7 @@ int Service::open_doors() {
         http::Settings hs;
         hs.version = AXISGATE_VERSION;
         hs.bind = options.config.http_bind;
+        hs.low_word_first = options.config.modbus_low_word_first;
         hs.allowed_hosts = options.config.http_allowed_hosts;
         hs.max_connections = static_cast<std::size_t>(options.config.max_http_connections);
         http = std::make_unique<http::Server>(warm, *gateway, hs, [](std::string_view path) { return asset(path); }, access);

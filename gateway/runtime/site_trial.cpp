@@ -5,32 +5,15 @@
 
 #include <boost/json/parse.hpp>
 #include <boost/json/serialize.hpp>
-#include <filesystem>
 
 #include "gateway/runtime/clock.hpp"
-#include "gateway/store/backup.hpp"
+#include "gateway/runtime/site_names.hpp"
 
 namespace axisgate {
 namespace json = boost::json;
 namespace {
 constexpr std::string_view mark_kind = "site_stage", mark_name = "trial";
 
-SiteChange names_in(const json::value& document) {
-    SiteChange change;
-    change.axes.emplace();
-    change.drives.emplace();
-    const auto names = [&](const char* list, std::vector<std::string>& out) {
-        const auto* all = document.is_object() ? document.get_object().if_contains(list) : nullptr;
-        if (!all || !all->is_array()) return;
-        for (const auto& v : all->get_array()) {
-            const auto* n = v.is_object() ? v.get_object().if_contains("name") : nullptr;
-            if (n && n->is_string()) out.emplace_back(n->get_string());
-        }
-    };
-    names("axes", *change.axes);
-    names("drives", *change.drives);
-    return change;
-}
 }  // namespace
 
 StoreResult<> mark_trial(Store& store, std::uint64_t roll_back_to, std::string_view who, std::int64_t confirm_by_unix_ns,
@@ -45,8 +28,6 @@ StoreResult<> mark_trial(Store& store, std::uint64_t roll_back_to, std::string_v
 }
 
 StoreResult<> unmark_trial(Store& store) { return store.delete_document(mark_kind, mark_name); }
-
-SiteChange names_of(const Site& site) { return names_in(to_json(site)); }
 
 std::string end_trial(Store& store, bool roll_back) {
     const auto mark = store.document(mark_kind, mark_name);
@@ -79,7 +60,7 @@ std::string end_trial(Store& store, bool roll_back) {
             e.text = fmt::format("revision {} was applied by {} and not confirmed, but revision {} is not kept any more: it stays in force",
                                  (*now)->revision, (*mark)->who, to);
         } else {
-            const auto saved = store.save_site(text, "rolled back at start", unix_now_ns(), names_in(json::parse(text, ec)));
+            const auto saved = store.save_site(text, "rolled back at start", unix_now_ns(), names_between(json::parse((*now)->text, ec), json::parse(text, ec)));
             if (!saved) return saved.error().text;
             e.text = fmt::format(
                 "revision {} was applied by {} and not confirmed before the gateway ended: rolled back to revision {}, which is {} now",
@@ -90,22 +71,6 @@ std::string end_trial(Store& store, bool roll_back) {
     }
     const auto gone = unmark_trial(store);
     return gone ? std::string() : gone.error().text;
-}
-
-std::string laid_down_backup(const std::string& directory) { return directory + "/restore-at-start.db"; }
-
-std::string take_laid_down_backup(const StoreOptions& options) {
-    const std::string file = laid_down_backup(options.directory);
-    std::error_code ec;
-    if (!std::filesystem::exists(file, ec)) return {};
-    const auto done = restore_database(file, options);
-    if (!done) {
-        std::filesystem::rename(file, file + ".refused", ec);
-        return fmt::format("the backup that was laid down cannot be taken: {}; it is kept as {}.refused, start again to go on without it",
-                           done.error().text, file);
-    }
-    std::filesystem::remove(file, ec);
-    return {};
 }
 
 }  // namespace axisgate

@@ -13,6 +13,7 @@
 #include <memory>
 
 #include "gateway/core/line_uri.hpp"
+#include "gateway/core/options.hpp"
 #include "gateway/doors/http/hand_server.hpp"
 #include "gateway/lines/make_line.hpp"
 #include "gateway/runtime/catalogues.hpp"
@@ -177,7 +178,9 @@ int command_twin(const TwinOptions& o) {
         if (equals == std::string::npos || equals == 0) {
             refuse("--option: write NAME=VALUE");
         } else {
-            options[x.substr(0, equals)] = x.substr(equals + 1);
+            const std::string name = x.substr(0, equals), value = x.substr(equals + 1);
+            if (const std::string wrong = check_option(*entry.catalogue, {OptionOf::twin}, name, value); !wrong.empty()) refuse("--option: " + wrong);
+            options[name] = value;
         }
     }
     std::map<std::string, NonVolatile> memories;

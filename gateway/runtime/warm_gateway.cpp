@@ -5,12 +5,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <boost/asio/post.hpp>
 #include <boost/json/serialize.hpp>
 #include <fstream>
 
 #include "gateway/runtime/clock.hpp"
 #include "gateway/runtime/site_file.hpp"
+#include "gateway/runtime/site_names.hpp"
 
 namespace axisgate {
 namespace {
@@ -20,6 +22,7 @@ constexpr std::size_t sample_ring = 8192;
 std::uint64_t live_key(AxisId axis, Point p) noexcept {
     return (std::uint64_t{index_of(axis)} << 32) | (std::uint64_t{p.parameter} << 16) | p.element;
 }
+AxisId axis_of(std::uint64_t live_key) noexcept { return AxisId{static_cast<std::uint16_t>(live_key >> 32)}; }
 }  // namespace
 
 WarmGateway::WarmGateway(boost::asio::io_context& warm, Hot& hot, Cold& cold, Families families, std::unique_ptr<StoreReader> reader)
@@ -30,9 +33,7 @@ WarmGateway::WarmGateway(boost::asio::io_context& warm, Hot& hot, Cold& cold, Fa
       reader_(std::move(reader)),
       results_(2 * max_waiting, warm.get_executor(), [this](Result&& r) { answer(std::move(r)); }),
       samples_(sample_ring, warm.get_executor(),
-               [this](Sample&& s) {
-                   live_[live_key(s.axis, s.point)] = LiveParameter{std::move(s.value), unix_ns_of(s.at), s.quality};
-               }),
+               [this](Sample&& s) { take(std::move(s)); }),
       started_(monotonic_now()) {}
 
 double WarmGateway::uptime_s() const { return seconds(monotonic_now() - started_); }
@@ -41,8 +42,17 @@ std::int64_t WarmGateway::to_unix_ns(Instant instant) const { return unix_ns_of(
 
 void WarmGateway::set_site(std::shared_ptr<const SiteState> site) {
     site_ = std::move(site);
+    std::erase_if(live_, [this](const auto& entry) { return picture(axis_of(entry.first)).source != entry.second.source; });
     const auto listeners = listeners_;
     for (auto* l : listeners) l->on_site(site_);
+}
+
+/// What a former drive of the axis said may still be on its way here when another one speaks for it.
+void WarmGateway::take(Sample&& s) {
+    if (picture(s.axis).source != s.source) return;
+    Said& known = live_[live_key(s.axis, s.point)];
+    if (known.source == s.source && known.at > s.at) return;
+    known = {{std::move(s.value), unix_ns_of(s.at), s.quality}, s.source, s.at};
 }
 
 void WarmGateway::events_written(std::vector<Event> events) {
@@ -104,7 +114,13 @@ void WarmGateway::answer(Result&& result) {
 
 LiveParameter WarmGateway::live(AxisId axis, Point point) const {
     const auto it = live_.find(live_key(axis, point));
-    return it == live_.end() ? LiveParameter{} : it->second;
+    if (it == live_.end()) return {};
+    const AxisPicture now = picture(axis);
+    if (now.source != it->second.source) return {};
+    LiveParameter out = it->second.what;
+    // Said once, and nobody is there to say it again.
+    if (out.quality == Quality::good && (now.flags & flag_online) == 0) out.quality = Quality::stale;
+    return out;
 }
 
 std::vector<StoredParameter> WarmGateway::stored(const std::string& axis) const {
@@ -252,16 +268,16 @@ void WarmGateway::apply_site(Site site, std::uint64_t expected_revision, Origin 
     e.door = std::string(name_of(origin.door));
     for (const auto& d : differences(site_->site, site)) e.text += (e.text.empty() ? "" : "; ") + d;
     if (e.text.empty()) e.text = "saved without a change";
-    SiteChange change;
-    change.axes.emplace();
-    change.drives.emplace();
-    for (const auto& a : site.axes) change.axes->push_back(a.name);
-    for (const auto& d : site.drives) change.drives->push_back(d.name);
+    SiteChange change = names_between(to_json(site_->site), to_json(site));
     if (on_trial_) {
-        for (const auto& a : trial_base_.axes) change.axes->push_back(a.name);
-        for (const auto& d : trial_base_.drives) change.drives->push_back(d.name);
+        for (const auto& a : trial_base_.axes) change.kept_axes.push_back(a.name);
+        for (const auto& d : trial_base_.drives) change.kept_drives.push_back(d.name);
     }
     cold_.run([this, site = std::move(site), who = origin.text(), change = std::move(change), e = std::move(e), then = std::move(then)](Store& store) mutable {
+        for (const auto& known : store.axes().value_or(std::vector<AxisRecord>())) {
+            if (known.removed_unix_ns && std::ranges::find(*change.axes, known.name, &SiteAxis::name) != change.axes->end())
+                e.text += fmt::format("; axis {} was there before: what was stored for it is shown again", known.name);
+        }
         const auto saved = store.save_site(boost::json::serialize(to_json(site)), who, unix_now_ns(), change);
         if (!saved) {
             boost::asio::post(io_, [this, fault = saved.error().text, then = std::move(then)] { finish_site(false, fault, nullptr, then); });

@@ -77,7 +77,7 @@ public:
     [[nodiscard]] std::optional<AxisSnapshot> snapshot(const std::string& axis, std::uint32_t n) const override;
     void save_snapshot(AxisSnapshot snapshot, std::string axis, std::function<void(std::uint32_t n, std::string fault)> then) override;
     void delete_snapshot(std::string axis, std::uint32_t n, std::function<void(std::string fault)> then) override;
-    [[nodiscard]] std::vector<SiteRevision> site_history() const override;
+    [[nodiscard]] std::vector<SiteRevision> site_history(std::size_t limit, std::uint64_t before) const override;
     [[nodiscard]] std::optional<SiteRevision> site_revision(std::uint64_t revision) const override;
     [[nodiscard]] const SiteStage& site_stage() const override { return stage_; }
     std::string stage_site(Site site, std::uint64_t base_revision, const Origin& origin) override;
@@ -88,8 +88,17 @@ public:
     void ask_modbus(std::uint8_t unit, std::vector<std::uint8_t> pdu, std::function<void(std::optional<std::vector<std::uint8_t>>)> then) override;
     void backup(std::function<void(std::optional<std::string> bytes, std::string fault)> then) override;
     void restore(std::string bytes, Origin origin, std::function<void(std::string fault)> then) override;
+    void waiting_backup(std::function<void(std::optional<WaitingBackup>)> then) override;
+    void cancel_restore(Origin origin, std::function<void(std::string fault)> then) override;
 
 private:
+    /// What was said, by whom (AxisPicture::source) and when.
+    struct Said {
+        LiveParameter what;
+        std::uint32_t source = 0;
+        Instant at{};
+    };
+    void take(Sample&& sample);
     void arm_trial(std::chrono::nanoseconds from_now);
     void take_back(Origin origin, std::string why, std::function<void(SiteAnswer)> then);
     void tell_site(std::string text, const Origin& origin, Severity severity);
@@ -107,7 +116,7 @@ private:
     std::vector<DoorInfo> doors_;
     std::vector<GatewayListener*> listeners_;
     std::unordered_map<Ticket, std::function<void(const Result&)>> waiting_;
-    std::unordered_map<std::uint64_t, LiveParameter> live_;  // by axis << 32 | parameter << 16 | element
+    std::unordered_map<std::uint64_t, Said> live_;  // by axis << 32 | parameter << 16 | element
     std::uint64_t next_ticket_ = 1;
     bool applying_ = false;
     SiteStage stage_;

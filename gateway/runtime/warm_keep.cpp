@@ -1,19 +1,17 @@
 // WarmGateway, second part: snapshots, the site's history and its staged changes, registers as the Modbus door shows them, backups.
 // In and out: see the header. Reads of the database are local and short; everything that writes goes to the cold thread.
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <boost/asio/post.hpp>
 #include <boost/json/serialize.hpp>
 #include <filesystem>
-#include <fstream>
 
 #include "gateway/runtime/clock.hpp"
 #include "gateway/runtime/files.hpp"
+#include "gateway/runtime/site_names.hpp"
 #include "gateway/runtime/site_trial.hpp"
+#include "gateway/runtime/waiting_backup.hpp"
 #include "gateway/runtime/warm_gateway.hpp"
-#include "gateway/store/backup.hpp"
 
 namespace axisgate {
 namespace {
@@ -46,7 +44,9 @@ void WarmGateway::delete_snapshot(std::string axis, std::uint32_t n, std::functi
     });
 }
 
-std::vector<SiteRevision> WarmGateway::site_history() const { return reader_->site_history().value_or(std::vector<SiteRevision>()); }
+std::vector<SiteRevision> WarmGateway::site_history(std::size_t limit, std::uint64_t before) const {
+    return reader_->site_history(limit, before).value_or(std::vector<SiteRevision>());
+}
 
 std::optional<SiteRevision> WarmGateway::site_revision(std::uint64_t revision) const {
     return reader_->site(revision).value_or(std::nullopt);
@@ -206,37 +206,26 @@ void WarmGateway::backup(std::function<void(std::optional<std::string> bytes, st
 
 void WarmGateway::restore(std::string bytes, Origin origin, std::function<void(std::string fault)> then) {
     cold_.run([this, bytes = std::move(bytes), origin = std::move(origin), then = std::move(then)](Store& store) {
-        // Tried in a folder of its own first: what is laid down is a database that this program opens.
-        const std::string folder = store.directory() + "/restore-check";
-        const std::string part = store.directory() + "/restore-at-start.part";
-        std::error_code ec;
-        std::filesystem::remove_all(folder, ec);
-        std::string fault;
-        {
-            std::ofstream out(part, std::ios::binary | std::ios::trunc);
-            out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-            out.flush();
-            if (!out) fault = "the backup could not be written into the data directory: is the disk full?";
-        }
-        if (fault.empty()) {
-            StoreOptions options = store.options();
-            options.directory = folder;
-            if (const auto good = restore_database(part, options); !good) fault = good.error().text;
-        }
-        std::filesystem::remove_all(folder, ec);
-        if (fault.empty()) {
-            const int fd = ::open(part.c_str(), O_RDONLY | O_CLOEXEC);
-            if (fd >= 0) {
-                (void)::fsync(fd);
-                (void)::close(fd);
-            }
-            std::filesystem::rename(part, laid_down_backup(store.directory()), ec);
-            if (ec) fault = "the backup could not be laid down: " + ec.message();
-        }
-        if (!fault.empty()) std::filesystem::remove(part, ec);
+        const std::string fault = lay_down_backup(bytes, text_of(origin), unix_now_ns(), store.options());
         boost::asio::post(io_, [this, origin, then, fault] {
             if (fault.empty())
                 tell_site("a backup was laid down: it takes the place of the database at the next start", origin, Severity::warning);
+            then(fault);
+        });
+    });
+}
+
+void WarmGateway::waiting_backup(std::function<void(std::optional<WaitingBackup>)> then) {
+    cold_.run([this, then = std::move(then)](Store& store) {
+        boost::asio::post(io_, [then, waits = axisgate::waiting_backup(store.directory())] { then(waits); });
+    });
+}
+
+void WarmGateway::cancel_restore(Origin origin, std::function<void(std::string fault)> then) {
+    cold_.run([this, origin = std::move(origin), then = std::move(then)](Store& store) {
+        const std::string fault = cancel_waiting_backup(store.directory());
+        boost::asio::post(io_, [this, origin, then, fault] {
+            if (fault.empty()) tell_site("the backup that was laid down was taken away again: the next start goes on with the database as it is", origin, Severity::warning);
             then(fault);
         });
     });

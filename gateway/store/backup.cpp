@@ -110,6 +110,7 @@ StoreResult<RestoreReport> restore_database(const std::string& source, const Sto
     if (auto r = finish_restore(files); !r) return failed(r);
     if (auto r = place_aside(files); !r) return failed(r);  // before anything is copied
 
+    std::uint64_t site_revision = 0;
     const auto checked = [&]() -> StoreResult<int> {
         if (auto r = files::copy(source, files.incoming, files.directory); !r) return fail(r);
         // A copy that was taken of a live database by hand has its newest rows in the log beside it.
@@ -130,6 +131,9 @@ StoreResult<RestoreReport> restore_database(const std::string& source, const Sto
         auto db = Db::open(files.incoming, Db::Mode::read_write);
         if (!db) return fail(db);
         if (auto r = (*db)->exec("PRAGMA journal_mode=DELETE"); !r) return fail(r);
+        const auto newest_site = (*db)->integer("SELECT ifnull(max(id), 0) FROM site_revision");
+        if (!newest_site) return fail(newest_site);
+        site_revision = static_cast<std::uint64_t>(*newest_site);
         return version;
     }();
     if (!checked) {
@@ -140,7 +144,7 @@ StoreResult<RestoreReport> restore_database(const std::string& source, const Sto
     if (auto r = files::rename(files.incoming, files.restored, files.directory); !r) return failed(r);
     const auto kept = finish_restore(files);
     if (!kept) return fail(kept, fmt::format("{} is good, but did not take its place yet; the next start tries again", source));
-    return RestoreReport{*kept, *checked};
+    return RestoreReport{*kept, *checked, site_revision};
 }
 
 StoreResult<std::string> finish_restore(const StoreFiles& files) {

@@ -19,6 +19,7 @@ namespace axisgate {
 struct RestoreReport {
     std::string kept;  ///< where the replaced database now is; empty if there was none
     int version = 0;   ///< of the restored file; the next start upgrades it if it is older than the program
+    std::uint64_t site_revision = 0;  ///< in force in it; 0: none
 };
 /// Puts the backup `source` in the place of the database in `options.directory` (which may be empty or missing). The gateway must not
 /// run. The file is copied, then checked (whole, axisgate's, not newer than the program, structure); the replaced database is kept as

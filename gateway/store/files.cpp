@@ -154,12 +154,16 @@ StoreResult<> create(const std::string& file, const std::string& directory) {
 
 StoreResult<> copy(const std::string& from, const std::string& to, const std::string& directory) {
     struct stat st {};
-    if (::stat(from.c_str(), &st) != 0) return system_fail("cannot read", from, std::filesystem::path(from).parent_path().string());
+    const std::string folder = std::filesystem::path(from).has_parent_path() ? std::filesystem::path(from).parent_path().string() : "the folder that it is in";
+    if (::stat(from.c_str(), &st) != 0) {
+        if (errno == ENOENT) return fail(StoreError::Kind::cannot_open, fmt::format("there is no file {}. Name a backup that is there", from));
+        return system_fail("cannot read", from, folder);
+    }
     if (!S_ISREG(st.st_mode)) {  // looked at first: to open a pipe would wait for ever
         return fail(StoreError::Kind::cannot_open, fmt::format("{} is not a file. Name the backup file itself", from));
     }
     const Descriptor in(::open(from.c_str(), O_RDONLY | O_CLOEXEC));
-    if (in.get() < 0) return system_fail("cannot read", from, std::filesystem::path(from).parent_path().string());
+    if (in.get() < 0) return system_fail("cannot read", from, folder);
     if (auto r = create(to, directory); !r) return r;
     const Descriptor out(::open(to.c_str(), O_WRONLY | O_CLOEXEC));
     if (out.get() < 0) return system_fail("cannot write", to, directory);

@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "gateway/store/backup.hpp"
 
 namespace axisgate {
@@ -54,19 +57,22 @@ StoreResult<std::optional<SiteRevision>> one_revision(Query& q) {
 }  // namespace
 
 StoreResult<std::optional<SiteRevision>> StoreReader::load_site() {
-    Query q(*db_, "SELECT id, at_unix_ns, who, length(CAST(text AS BLOB)), text FROM site_revision ORDER BY id DESC LIMIT 1");
+    Query q(*db_, "SELECT id, at_unix_ns, who, bytes, text FROM site_revision ORDER BY id DESC LIMIT 1");
     return one_revision(q);
 }
 
 StoreResult<std::optional<SiteRevision>> StoreReader::site(std::uint64_t revision) {
-    Query q(*db_, "SELECT id, at_unix_ns, who, length(CAST(text AS BLOB)), text FROM site_revision WHERE id = ?");
+    Query q(*db_, "SELECT id, at_unix_ns, who, bytes, text FROM site_revision WHERE id = ?");
     q.bind(static_cast<std::int64_t>(revision));
     return one_revision(q);
 }
 
-StoreResult<std::vector<SiteRevision>> StoreReader::site_history() {
+StoreResult<std::vector<SiteRevision>> StoreReader::site_history(std::size_t limit, std::uint64_t before) {
     std::vector<SiteRevision> list;
-    Query q(*db_, "SELECT id, at_unix_ns, who, length(CAST(text AS BLOB)) FROM site_revision ORDER BY id DESC");
+    Query q(*db_, "SELECT id, at_unix_ns, who, bytes FROM site_revision WHERE id < ? ORDER BY id DESC LIMIT ?");
+    constexpr auto all = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+    q.bind(static_cast<std::int64_t>(before == 0 ? all : std::min(before, all)));
+    q.bind(static_cast<std::int64_t>(std::clamp<std::size_t>(limit, 1, max_answer_rows)));
     for (;;) {
         const auto row = q.row();
         if (!row) return fail(row, "the history of the site could not be read");

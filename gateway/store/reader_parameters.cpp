@@ -1,7 +1,6 @@
 // StoreReader: axes, stored values, their history, values last seen, snapshots.
 // In: axis and parameter names. Out: rows as values.
-// Never shows a removed axis' values as stored (they went with its removal): what was written to a drive that is gone says nothing
-// about the next one.
+// Never shows a removed axis' values as stored, nor those of another family than the axis has: the same word is another parameter there.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -50,6 +49,7 @@ SnapshotInfo info_of(const Query& q) {
     s.who = q.text(3);
     s.at_unix_ns = q.integer(4);
     s.values = static_cast<std::uint64_t>(q.integer(5));
+    s.family = q.text(6);
     return s;
 }
 
@@ -57,19 +57,19 @@ SnapshotInfo info_of(const Query& q) {
 
 StoreResult<std::vector<AxisRecord>> StoreReader::axes() {
     std::vector<AxisRecord> list;
-    Query q(*db_, "SELECT name, removed_unix_ns FROM axis ORDER BY name");
+    Query q(*db_, "SELECT name, removed_unix_ns, family FROM axis ORDER BY name");
     for (;;) {
         const auto row = q.row();
         if (!row) return fail(row, "the list of axes could not be read");
         if (!*row) return list;
-        list.push_back({q.text(0), q.null(1) ? std::nullopt : std::optional(q.integer(1))});
+        list.push_back({q.text(0), q.text(2), q.null(1) ? std::nullopt : std::optional(q.integer(1))});
     }
 }
 
 StoreResult<std::vector<ParameterRecord>> StoreReader::stored(std::string_view axis) {
     Query q(*db_,
             "SELECT s.parameter, s.value_type, s.value, s.old_type, s.old_value, s.door, s.who, s.at_unix_ns, s.storage, 0 "
-            "FROM axis a JOIN parameter_stored s ON s.axis_id = a.id WHERE a.name = ? ORDER BY s.parameter");
+            "FROM axis a JOIN parameter_stored s ON s.axis_id = a.id AND s.family = a.family WHERE a.name = ? AND a.removed_unix_ns IS NULL ORDER BY s.parameter");
     q.bind(axis);
     return all_records(q, axis);
 }
@@ -77,7 +77,8 @@ StoreResult<std::vector<ParameterRecord>> StoreReader::stored(std::string_view a
 StoreResult<std::optional<ParameterRecord>> StoreReader::stored(std::string_view axis, std::string_view parameter) {
     Query q(*db_,
             "SELECT s.parameter, s.value_type, s.value, s.old_type, s.old_value, s.door, s.who, s.at_unix_ns, s.storage, 0 "
-            "FROM axis a JOIN parameter_stored s ON s.axis_id = a.id AND s.parameter = ?2 WHERE a.name = ?1");
+            "FROM axis a JOIN parameter_stored s ON s.axis_id = a.id AND s.family = a.family AND s.parameter = ?2 "
+            "WHERE a.name = ?1 AND a.removed_unix_ns IS NULL");
     q.bind(axis).bind(parameter);
     auto list = all_records(q, axis);
     if (!list) return fail(list);
@@ -94,13 +95,13 @@ StoreResult<std::vector<ParameterRecord>> StoreReader::history(std::string_view 
     if (parameter.empty()) {
         Query q(*db_,
                 "SELECT parameter, value_type, value, old_type, old_value, door, who, at_unix_ns, storage, id FROM parameter_write "
-                "WHERE axis_id = (SELECT id FROM axis WHERE name = ?) AND id < ? ORDER BY id DESC LIMIT ?");
+                "WHERE (axis_id, family) = (SELECT id, family FROM axis WHERE name = ?) AND id < ? ORDER BY id DESC LIMIT ?");
         q.bind(axis).bind(before).bind(rows);
         return all_records(q, axis);
     }
     Query q(*db_,
             "SELECT parameter, value_type, value, old_type, old_value, door, who, at_unix_ns, storage, id FROM parameter_write "
-            "WHERE axis_id = (SELECT id FROM axis WHERE name = ?) AND parameter = ? AND id < ? ORDER BY id DESC LIMIT ?");
+            "WHERE (axis_id, family) = (SELECT id, family FROM axis WHERE name = ?) AND parameter = ? AND id < ? ORDER BY id DESC LIMIT ?");
     q.bind(axis).bind(parameter).bind(before).bind(rows);
     return all_records(q, axis);
 }
@@ -125,7 +126,7 @@ StoreResult<std::vector<SnapshotInfo>> StoreReader::snapshots(std::string_view a
     std::vector<SnapshotInfo> list;
     Query q(*db_,
             "SELECT s.n, s.name, s.comment, s.who, s.at_unix_ns, "
-            "(SELECT count(*) FROM snapshot_value v WHERE v.axis_id = s.axis_id AND v.n = s.n) "
+            "(SELECT count(*) FROM snapshot_value v WHERE v.axis_id = s.axis_id AND v.n = s.n), s.family "
             "FROM axis a JOIN snapshot s ON s.axis_id = a.id WHERE a.name = ? ORDER BY s.n");
     q.bind(axis);
     for (;;) {
@@ -140,7 +141,7 @@ StoreResult<std::optional<AxisSnapshot>> StoreReader::snapshot(std::string_view 
     const auto what = [&] { return fmt::format("snapshot {} of axis {} could not be read", n, axis); };
     // One statement, so that a snapshot deleted meanwhile is seen whole or not at all.
     Query q(*db_,
-            "SELECT s.n, s.name, s.comment, s.who, s.at_unix_ns, 0, v.parameter, v.value_type, v.value FROM axis a "
+            "SELECT s.n, s.name, s.comment, s.who, s.at_unix_ns, 0, s.family, v.parameter, v.value_type, v.value FROM axis a "
             "JOIN snapshot s ON s.axis_id = a.id LEFT JOIN snapshot_value v ON v.axis_id = s.axis_id AND v.n = s.n "
             "WHERE a.name = ? AND s.n = ? ORDER BY v.parameter");
     q.bind(axis).bind(std::int64_t{n});
@@ -151,10 +152,10 @@ StoreResult<std::optional<AxisSnapshot>> StoreReader::snapshot(std::string_view 
         if (!*row && first) return std::nullopt;
         if (!*row) break;
         if (first) static_cast<SnapshotInfo&>(s) = info_of(q);
-        if (q.null(6)) continue;  // a snapshot without values
-        auto value = q.value(7);
-        if (!value) return fail(value, fmt::format("snapshot {} of axis {}, {}", n, axis, q.text(6)));
-        s.parameters.push_back({q.text(6), std::move(*value)});
+        if (q.null(7)) continue;  // a snapshot without values
+        auto value = q.value(8);
+        if (!value) return fail(value, fmt::format("snapshot {} of axis {}, {}", n, axis, q.text(7)));
+        s.parameters.push_back({q.text(7), std::move(*value)});
     }
     s.values = s.parameters.size();
     return s;

@@ -23,7 +23,9 @@ namespace axisgate {
 /// Bounds of the database. What lies beyond a bound of rows goes, oldest first; what is too long or too many is refused (`invalid`),
 /// except that texts of events are cut: an event must not be lost for its length.
 struct StoreLimits {
-    std::uint64_t site_revisions = 50;
+    std::uint64_t site_revisions = 1000;
+    std::uint64_t site_bytes = 256ull << 20;        ///< their documents together; the one in force stays whatever its length
+    std::uint64_t removed_axes = 1000;              ///< with all that is stored for them
     std::uint64_t parameter_writes = 100'000;  ///< rows of the history, all axes together
     std::uint64_t events = 200'000;
     std::uint64_t piece = 256;                      ///< rows deleted beyond those added, per transaction, when a table is over its bound
@@ -94,19 +96,27 @@ struct NameChange {
     std::string from;
     std::string to;
 };
+/// An axis of a site: what is stored for its name holds for one family.
+struct SiteAxis {
+    std::string name;
+    std::string family;  ///< empty: as it was
+};
 /// What a new site means for what the store knows by name. Done in the same transaction as the site itself, so that a crash cannot
 /// leave values under a name that is gone.
 struct SiteChange {
     std::vector<NameChange> renamed_axes;
     std::vector<NameChange> renamed_drives;
-    /// All names of the new site, if given: what the store knows beyond them is removed (as remove_axis and remove_drive do).
-    std::optional<std::vector<std::string>> axes;
+    /// All axes and drives of the new site, if given: what the store knows beyond them is removed (as remove_axis and remove_drive do).
+    std::optional<std::vector<SiteAxis>> axes;
     std::optional<std::vector<std::string>> drives;
+    /// Names that are not in it, but not removed yet either.
+    std::vector<std::string> kept_axes, kept_drives;
 };
 
 struct AxisRecord {
     std::string name;
-    std::optional<std::int64_t> removed_unix_ns;  ///< set: no longer in the site; its history and snapshots are still here
+    std::string family;                           ///< empty: not known
+    std::optional<std::int64_t> removed_unix_ns;  ///< set: no longer in the site; what was stored for it is still here
 };
 
 /// A small named text of the gateway's own (a recipe, a token's record).

@@ -136,6 +136,7 @@ StoreResult<> Store::forget_empty_axes() {
         return Query(*db_,
                      "DELETE FROM axis WHERE removed_unix_ns IS NOT NULL AND NOT EXISTS (SELECT 1 FROM parameter_write w WHERE w.axis_id = "
                      "axis.id) "
+                     "AND NOT EXISTS (SELECT 1 FROM parameter_stored p WHERE p.axis_id = axis.id) "
                      "AND NOT EXISTS (SELECT 1 FROM snapshot s WHERE s.axis_id = axis.id)")
             .run();
     });

@@ -51,7 +51,8 @@ public:
     /// Stored values, history and snapshots go with the axis. Nothing happens if the store does not know `from`. `conflict` if another
     /// axis has the name `to`; a removed one of that name steps aside ("to (removed 7)").
     [[nodiscard]] StoreResult<> rename_axis(std::string_view from, std::string_view to, std::int64_t at_unix_ns);
-    /// Its stored and last seen values go; history and snapshots stay, also for an axis of the same name that is made later.
+    /// What it said last goes. All else stays, is shown to nobody, and is there again when an axis of that name is: its snapshots, and
+    /// what was written under the family that the new one has.
     [[nodiscard]] StoreResult<> remove_axis(std::string_view axis, std::int64_t at_unix_ns);
 
     // --- snapshots ---------------------------------------------------------------------------------------------------------
@@ -93,6 +94,8 @@ private:
     [[nodiscard]] StoreResult<> rename_axes(std::span<const NameChange> changes, std::int64_t at_unix_ns, bool site_decides);
     [[nodiscard]] StoreResult<> rename_drives(std::span<const NameChange> changes);
     [[nodiscard]] StoreResult<> keep_only(const SiteChange& change, std::int64_t at_unix_ns);
+    [[nodiscard]] StoreResult<> bring_in(const SiteAxis& axis);
+    [[nodiscard]] StoreResult<> forget_oldest_axes();
     [[nodiscard]] StoreResult<> set_aside(std::string_view name, std::int64_t at_unix_ns, bool site_decides);
     [[nodiscard]] StoreResult<> mark_removed(std::int64_t id, std::int64_t at_unix_ns);
 };

@@ -44,8 +44,9 @@ StoreResult<std::uint64_t> Store::save_site(std::string_view text, std::string_v
             if (!row) return fail(row);
             if (*row) return static_cast<std::uint64_t>(same.integer(0));
         }
-        if (auto r = Query(*db_, "INSERT INTO site_revision (at_unix_ns, who, text) VALUES (?, ?, ?)")
+        if (auto r = Query(*db_, "INSERT INTO site_revision (at_unix_ns, bytes, who, text) VALUES (?, ?, ?, ?)")
                          .bind(at_unix_ns)
+                         .bind(static_cast<std::int64_t>(text.size()))
                          .bind(cut(who, max_name_bytes))
                          .bind(text)
                          .run();
@@ -53,8 +54,13 @@ StoreResult<std::uint64_t> Store::save_site(std::string_view text, std::string_v
             return fail(r);
         }
         const std::int64_t id = db_->last_id();
-        if (auto r = Query(*db_, "DELETE FROM site_revision WHERE id <= ?")
-                         .bind(id - static_cast<std::int64_t>(options_.limits.site_revisions))
+        // The oldest go: beyond the number, and beyond the length of all together (the newest alone may be as long as it likes).
+        if (auto r = Query(*db_,
+                           "DELETE FROM site_revision WHERE id <= ?1 - ?2 OR id < ?1 AND id IN (SELECT id FROM (SELECT id, "
+                           "sum(bytes) OVER (ORDER BY id DESC) AS together FROM site_revision) WHERE together > ?3)")
+                         .bind(id)
+                         .bind(static_cast<std::int64_t>(options_.limits.site_revisions))
+                         .bind(static_cast<std::int64_t>(options_.limits.site_bytes))
                          .run();
             !r) {
             return fail(r);
@@ -90,7 +96,6 @@ StoreResult<> Store::remove_axis(std::string_view axis, std::int64_t at_unix_ns)
 }
 
 StoreResult<> Store::mark_removed(std::int64_t id, std::int64_t at_unix_ns) {
-    if (auto r = Query(*db_, "DELETE FROM parameter_stored WHERE axis_id = ?").bind(id).run(); !r) return r;
     if (auto r = Query(*db_, "DELETE FROM parameter_seen WHERE axis_id = ?").bind(id).run(); !r) return r;
     return Query(*db_, "UPDATE axis SET removed_unix_ns = ? WHERE id = ?").bind(at_unix_ns).bind(id).run();
 }
@@ -113,7 +118,7 @@ StoreResult<> Store::set_aside(std::string_view name, std::int64_t at_unix_ns, b
     if (live) {
         if (auto r = mark_removed(id, at_unix_ns); !r) return r;
     }
-    return Query(*db_, "UPDATE axis SET name = name || ' (removed ' || id || ')' WHERE id = ?").bind(id).run();
+    return Query(*db_, "UPDATE axis SET aside_of = name, name = name || ' (removed ' || id || ')' WHERE id = ?").bind(id).run();
 }
 
 StoreResult<> Store::rename_axes(std::span<const NameChange> changes, std::int64_t at_unix_ns, bool site_decides) {
@@ -131,7 +136,11 @@ StoreResult<> Store::rename_axes(std::span<const NameChange> changes, std::int64
     for (std::size_t i = 0; i < changes.size(); ++i) {
         // Also for an axis that the store does not know yet: it must not find a former axis' history under its new name.
         if (auto r = set_aside(changes[i].to, at_unix_ns, site_decides); !r) return r;
-        if (ids[i] == 0) continue;
+        if (ids[i] == 0) {  // so that the name is taken, and what stepped aside does not come back by it
+            if (!site_decides) continue;
+            if (auto r = Query(*db_, "INSERT INTO axis (name) VALUES (?)").bind(changes[i].to).run(); !r) return r;
+            continue;
+        }
         if (auto r = Query(*db_, "UPDATE axis SET name = ? WHERE id = ?").bind(changes[i].to).bind(ids[i]).run(); !r) return r;
     }
     return {};
@@ -150,9 +159,76 @@ StoreResult<> Store::rename_drives(std::span<const NameChange> changes) {
     return {};
 }
 
+/// The axis' row, made, or taken back from removal; what is written from now on is written under its family.
+StoreResult<> Store::bring_in(const SiteAxis& axis) {
+    if (auto r = check_name("axis", axis.name); !r) return r;
+    const auto find = [&](std::int64_t& id, std::string& family, bool& removed) -> StoreResult<> {
+        Query q(*db_, "SELECT id, family, removed_unix_ns IS NOT NULL FROM axis WHERE name = ?");
+        const auto row = q.bind(axis.name).row();
+        if (!row) return fail(row);
+        id = *row ? q.integer(0) : 0;
+        family = *row ? q.text(1) : std::string();
+        removed = *row && q.integer(2) != 0;
+        return {};
+    };
+    std::int64_t id = 0;
+    std::string family;
+    bool removed = false;
+    if (auto r = find(id, family, removed); !r) return r;
+    if (id == 0) {
+        if (auto r = Query(*db_, "UPDATE axis SET name = aside_of, aside_of = NULL WHERE id = (SELECT max(id) FROM axis WHERE aside_of = ?)")
+                         .bind(axis.name)
+                         .run();
+            !r) {
+            return r;
+        }
+        if (auto r = Query(*db_, "INSERT OR IGNORE INTO axis (name) VALUES (?)").bind(axis.name).run(); !r) return r;
+        if (auto r = find(id, family, removed); !r) return r;
+    }
+    if (removed) {
+        if (auto r = Query(*db_, "UPDATE axis SET removed_unix_ns = NULL WHERE id = ?").bind(id).run(); !r) return r;
+    }
+    if (axis.family.empty() || axis.family == family) return {};
+    // Rows from before families were told: they are of the family that the axis is first seen with. Snapshots stay of unknown family.
+    for (const char* table : {"parameter_stored", "parameter_write"}) {
+        if (!family.empty()) break;
+        const std::string sql = fmt::format("UPDATE {} SET family = ? WHERE axis_id = ? AND family = ''", table);
+        if (auto r = Query(*db_, sql.c_str()).bind(axis.family).bind(id).run(); !r) return r;
+    }
+    if (!family.empty()) {  // what the drive before said is no news of this one
+        if (auto r = Query(*db_, "DELETE FROM parameter_seen WHERE axis_id = ?").bind(id).run(); !r) return r;
+    }
+    return Query(*db_, "UPDATE axis SET family = ? WHERE id = ?").bind(axis.family).bind(id).run();
+}
+
+/// Removed axes beyond their bound go with everything, those first that were removed first.
+StoreResult<> Store::forget_oldest_axes() {
+    std::vector<std::int64_t> gone;
+    {
+        Query q(*db_, "SELECT id FROM axis WHERE removed_unix_ns IS NOT NULL ORDER BY removed_unix_ns DESC, id DESC LIMIT -1 OFFSET ?");
+        q.bind(static_cast<std::int64_t>(options_.limits.removed_axes));
+        for (;;) {
+            const auto row = q.row();
+            if (!row) return fail(row);
+            if (!*row) break;
+            gone.push_back(q.integer(0));
+        }
+    }
+    for (const std::int64_t id : gone) {
+        for (const char* sql : {"DELETE FROM parameter_write WHERE axis_id = ?", "DELETE FROM snapshot WHERE axis_id = ?", "DELETE FROM axis WHERE id = ?"}) {
+            if (auto r = Query(*db_, sql).bind(id).run(); !r) return r;
+        }
+    }
+    return {};
+}
+
 StoreResult<> Store::keep_only(const SiteChange& change, std::int64_t at_unix_ns) {
     if (change.axes) {
-        const std::unordered_set<std::string_view> keep(change.axes->begin(), change.axes->end());
+        std::unordered_set<std::string_view> keep(change.kept_axes.begin(), change.kept_axes.end());
+        for (const SiteAxis& a : *change.axes) {
+            keep.insert(a.name);
+            if (auto r = bring_in(a); !r) return r;
+        }
         std::vector<std::int64_t> gone;
         {
             Query q(*db_, "SELECT id, name FROM axis WHERE removed_unix_ns IS NULL");
@@ -166,9 +242,13 @@ StoreResult<> Store::keep_only(const SiteChange& change, std::int64_t at_unix_ns
         for (const std::int64_t id : gone) {
             if (auto r = mark_removed(id, at_unix_ns); !r) return r;
         }
+        if (!gone.empty()) {
+            if (auto r = forget_oldest_axes(); !r) return r;
+        }
     }
     if (change.drives) {
-        const std::unordered_set<std::string_view> keep(change.drives->begin(), change.drives->end());
+        std::unordered_set<std::string_view> keep(change.drives->begin(), change.drives->end());
+        keep.insert(change.kept_drives.begin(), change.kept_drives.end());
         std::vector<std::string> gone;
         {
             Query q(*db_, "SELECT DISTINCT drive FROM twin_memory");

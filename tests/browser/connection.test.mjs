@@ -72,6 +72,24 @@ test('an orderly stop of the gateway is told as such', async () => {
   page.expectLoss(false);
 });
 
+test('a gateway that hangs without closing anything: nothing is shown as live 1.5 s later, and is again with its next word', async () => {
+  await until('it is live', async () => (await trust()) === 'live', 15_000);
+  // Once a second something comes even when nothing changes; the bound counts from the last of it.
+  const begin = Date.now();
+  let took = 0;
+  program.process.child.kill('SIGSTOP');
+  try {
+    await until('it is not live', async () => (await page.locator('[data-live=true]').count()) === 0, 3_000);
+    took = Date.now() - begin;
+    assert.match(await page.locator('[data-field=strip]').innerText(), /No answer from the gateway\..*last known/s);
+    assert.equal(await page.locator('.result-good').count(), 0);
+  } finally {
+    program.process.child.kill('SIGCONT');
+  }
+  await until('it is live again', async () => (await trust()) === 'live', 5_000);
+  assert.ok(took < 1_700, `${took} ms`);
+});
+
 test('a drive that falls silent costs its own axis alone', async () => {
   const answer = await program.call('PATCH', '/drives/feeder/hand', { power: false });
   assert.equal(answer.status, 200, JSON.stringify(answer.body));

@@ -24,11 +24,6 @@ test('the scope: channels, a trigger that holds, cursors that read, a recording 
   await page.locator('.scope canvas').waitFor();
   await program.command('feeder', { command: 'enable' });
   await until('enabled', async () => (await program.axis('feeder')).state === 'operation_enabled');
-  // None of the families says where it wants to be at each moment: barred with the reason, also in words, and nothing is invented for it.
-  for (const name of ['Demand', 'Following error']) {
-    assert.ok(await page.locator('.scope').getByRole('button', { name, exact: true }).isDisabled(), name);
-  }
-  assert.match(await page.locator('.scope').innerText(), /does not say where it wants to be/);
   await page.getByRole('group', { name: 'Time shown' }).getByRole('button', { name: '2 s' }).click();
 
   const start = (await program.axis('feeder')).position;
@@ -59,13 +54,90 @@ test('the scope: channels, a trigger that holds, cursors that read, a recording 
   const lines = readFileSync(await download.path(), 'utf8').trim().split('\r\n');
   assert.match(download.suggestedFilename(), /^feeder-.*\.csv$/);
   assert.match(lines[0], /^time,seconds,feeder\.position \[mm\],/);
-  const at = lines[0].split(',').findIndex((h) => h.includes('following_error'));
-  assert.ok(lines.slice(1).every((l) => l.split(',')[at] === ''), 'no following error is written that nobody has told');
   const positions = lines.slice(1).map((l) => Number(l.split(',')[2]));
   assert.ok(Math.max(...positions) - Math.min(...positions) > 15, `${positions.length} rows, ${Math.min(...positions)} to ${Math.max(...positions)}`);
 
   await page.locator('.scope').getByRole('button', { name: 'Velocity' }).click();
   assert.equal(await page.locator('.scope').getByRole('button', { name: 'Velocity' }).getAttribute('aria-pressed'), 'false');
+  assert.deepEqual(page.faults(), []);
+  await page.context().close();
+});
+
+test('demand and following error: drawn, said to be computed, and growing while the shaft is held', async () => {
+  const page = await open(browser, `${program.url}/axes/feeder`);
+  await page.locator('.scope canvas').waitFor();
+  const said = page.locator('[data-field=demand-source]');
+  const trigger = page.locator('.scope-trigger');
+  const channel = (name) => page.getByRole('group', { name: 'Channels' }).getByRole('button', { name, exact: true });
+  /** Points of the plot, its sides left out, in the colour of a curve. */
+  const drawn = (colour) =>
+    page.evaluate((name) => {
+      const probe = document.createElement('span');
+      probe.style.color = `var(${name})`;
+      document.body.append(probe);
+      const wanted = getComputedStyle(probe).color.match(/\d+/g).map(Number);
+      probe.remove();
+      const canvas = document.querySelector('.scope canvas');
+      const [outer, inner] = [canvas.getBoundingClientRect(), document.querySelector('.scope .u-over').getBoundingClientRect()];
+      const k = canvas.width / outer.width;
+      const { data } = canvas.getContext('2d').getImageData((inner.x - outer.x) * k, (inner.y - outer.y) * k, inner.width * k, inner.height * k);
+      let n = 0;
+      for (let i = 0; i < data.length; i += 4) if (data[i + 3] > 200 && [0, 1, 2].every((c) => Math.abs(data[i + c] - wanted[c]) < 24)) n += 1;
+      return n;
+    }, colour);
+  // In closed loop the drive ends it after so many lost pulses: as many as it takes, so that there is something to be seen before.
+  if (!isMock) assert.equal((await program.call('PUT', '/axes/feeder/parameters/QE%5B1%5D', { value: 60000 })).status, 200);
+  await program.command('feeder', { command: 'enable' });
+  await until('enabled', async () => (await program.axis('feeder')).state === 'operation_enabled');
+  await page.getByRole('group', { name: 'Time shown' }).getByRole('button', { name: '2 s' }).click();
+  for (const name of ['Velocity', 'Target']) if ((await channel(name).getAttribute('aria-pressed')) === 'true') await channel(name).click();
+  assert.equal(await said.count(), 0, 'nothing is said of what is not shown');
+  await program.command('feeder', { command: 'move_relative', position: 400, velocity: 40, acceleration: 400, deceleration: 400 });
+  assert.deepEqual([await drawn('--series-4'), await drawn('--series-5')], [0, 0]);
+  await channel('Following error').click();
+  await until('the following error is drawn', async () => (await drawn('--series-5')) > 20 || (await drawn('--series-5')));
+  await channel('Demand').click();
+  await until('it says whose word it is', async () => /computed by the gateway from the order, not measured by the drive/.test(await said.innerText()) || (await said.innerText()));
+  assert.equal(await said.getAttribute('data-source'), 'computed');
+
+  await trigger.getByLabel('Trigger').selectOption('single');
+  await trigger.getByLabel('when').selectOption('error');
+  await trigger.locator('input').fill('5');
+  await until('it follows', async () => Math.abs((await program.axis('feeder')).following_error) < 2 || (await program.axis('feeder')).following_error);
+  assert.equal((await program.call('PATCH', '/drives/feeder/hand', { stall: true })).status, 200);
+  await until('the drive has noticed', async () => (await program.axis('feeder')).state === 'fault' || (await program.axis('feeder')).following_error);
+  await until('the trigger holds it', async () => /Held by the trigger/.test(await trigger.innerText()) || (await trigger.innerText()));
+  await shot(page, 'scope-following-error', { fullPage: true });
+
+  const [download] = await Promise.all([page.waitForEvent('download'), page.locator('.scope').getByRole('button', { name: 'CSV' }).click()]);
+  const [head, ...rows] = readFileSync(await download.path(), 'utf8').trim().split('\r\n').map((l) => l.split(','));
+  const column = (name) => {
+    const at = head.indexOf(name);
+    assert.ok(at >= 0, `${name} is not in ${head}`);
+    return rows.map((r) => r[at]);
+  };
+  const error = column('feeder.following_error (computed) [mm]').map((t) => (t === '' ? null : Number(t)));
+  column('feeder.position_demand (computed) [mm]').forEach((d, i) => assert.equal(d === '', error[i] === null));
+  assert.deepEqual([...new Set(column('feeder.demand_source'))].filter(Boolean), ['computed']);
+  const most = error.reduce((best, e, i) => (e !== null && e > (error[best] ?? 0) ? i : best), 0);
+  assert.ok(error[most] > 10, `it grew to ${error[most]} mm only`);
+  const begin = error.findLastIndex((e, i) => i < most && e !== null && e < 2);
+  assert.ok(begin > 0 && begin < most, JSON.stringify(error));
+  const grown = error.slice(begin, most + 1);
+  assert.ok(grown.length > 3 && grown.every((e, i) => e !== null && (i === 0 || e >= grown[i - 1])), `it does not grow: ${grown}`);
+
+  // The same by eye: a cursor a little behind the trigger's quarter.
+  const plot = await page.locator('.scope .u-over').boundingBox();
+  await page.mouse.click(plot.x + plot.width * 0.28, plot.y + 20);
+  const titles = await page.locator('.cursor-table thead th').allInnerTexts();
+  const read = await page.locator('.cursor-table tbody tr').first().locator('th, td').allInnerTexts();
+  const seen = Number(read[titles.findIndex((t) => t.startsWith('Following error'))].replace('−', '-'));
+  assert.ok(seen > 5 && seen < 10, `the cursor reads ${seen} mm`);
+
+  await program.call('PATCH', '/drives/feeder/hand', { stall: false });
+  await program.command('feeder', { command: 'reset_fault' });
+  await program.command('feeder', { command: 'disable' });
+  if (isMock) await until('nobody tells it while it is off', async () => /not known now/.test(await said.innerText()) || (await said.innerText()));
   assert.deepEqual(page.faults(), []);
   await page.context().close();
 });

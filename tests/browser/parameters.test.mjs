@@ -84,11 +84,11 @@ for (const [kind, name] of [['CSV', 'feeder-parameters.csv'], ['JSON', 'feeder-p
     const box = page.locator('#transfer-text');
     await box.fill(text.replace('1234', String(a.max + 1)));
     await until('the fault is told', async () => /must be mended/.test(await told('transfer-count')) || (await told('transfer-count')));
-    assert.equal(await page.getByRole('button', { name: /^Write \d+ to the drive$/ }).last().isDisabled(), true);
+    assert.equal(await page.getByRole('button', { name: /^Write \d+ values? to the drive$/ }).last().isDisabled(), true);
     assert.equal(await get(a.id), 1234);
     // Read only values of the export would be refused; what is written is a file of one's own.
     await box.fill(kind === 'CSV' ? `parameter,value\n${a.id},1500\n${b.id},${await get(b.id)}` : JSON.stringify({ [a.id]: 1600 }));
-    await page.getByRole('button', { name: 'Write 1 to the drive' }).click();
+    await page.getByRole('button', { name: 'Write 1 value to the drive' }).click();
     await until('it is written', async () => /1 parameters written/.test(await told('transfer-told')) || (await told('transfer-told')));
     assert.equal(await get(a.id), kind === 'CSV' ? 1500 : 1600);
     assert.equal(await box.inputValue(), '');
@@ -120,7 +120,7 @@ test('snapshots: saved, compared, restored after a look; or it is said that ther
   assert.match(await changes.innerText(), new RegExp(`${a.id.replace(/[[\]]/g, '\\$&')}[\\s\\S]*1\\s?700 → 1\\s?234`));
   assert.equal(await get(a.id), 1700);
   await shot(page, 'parameters-restore', { fullPage: true });
-  await changes.getByRole('button', { name: /^Write \d+ to the drive$/ }).click();
+  await changes.getByRole('button', { name: /^Write \d+ values? to the drive$/ }).click();
   await until('it is restored', async () => (await get(a.id)) === 1234, 60_000);
   await entry.getByRole('button', { name: 'Remove as delivered', exact: true }).click();
   await entry.getByRole('button', { name: 'Remove for good: as delivered' }).click();

@@ -421,6 +421,27 @@ TEST_P(EveryFamily, CommandsInFlightAreAnsweredWhenTheirDriveIsRemoved) {
     EXPECT_EQ(w.picture(a1).number, 0) << "gone from the map";
 }
 
+TEST_P(EveryFamily, AFurtherChannelComesToLifeWithoutARestart) {
+    const int most = e.catalogue->most_channels();
+    start();
+    Site next = w.make_site(e, "twin", 1);
+    AxisSpec further = next.axes.at(0);
+    further.name = "further";
+    further.number = 99;
+    further.channel = std::min(most, 12);
+    if (most == 1) return;  // its drives have one axis each; the site says so to whoever asks for more
+    next.axes.push_back(further);
+    const auto state = w.apply(std::move(next));
+    const AxisId b = state->axis_ids.at(1);
+    ASSERT_TRUE(w.run_until_true([&] { return online(a1) && online(b); }, 20s)) << "both";
+    const Result* r = w.wait(w.command(b, Enable{}, true), 10s);
+    ASSERT_TRUE(r && good(*r)) << (r ? r->text : "no result");
+    const std::int64_t home = w.picture(b).position;
+    r = w.wait(w.command(b, move_to(home + 2000), true), 20s);
+    ASSERT_TRUE(r && good(*r)) << (r ? r->text : "no result");
+    EXPECT_EQ(w.picture(a1).position, 0) << "the other one stood";
+}
+
 TEST_P(EveryFamily, TooManyCommandsAreBusyAndNoneIsLost) {
     start();
     std::vector<Ticket> tickets;

@@ -51,6 +51,16 @@ def test_a_lease_refuses_others_by_name_but_never_a_stop(gateway):
     s, a = client(gateway, "PUT", "/axes/feeder/authority", {}, "panel")
     s, a = client(gateway, "POST", "/axes/feeder/authority/hand-over", {"to": "modbus 127.0.0.9"}, "panel")
     assert s == 200 and a["door"] == "modbus" and a["holder"] == "127.0.0.9", a
+    listed = gateway.get("/authority")["clients"]
+    assert {"http 127.0.0.1 panel", "http 127.0.0.1 script"} <= {c["client"] for c in listed}, listed
+    s, a = client(gateway, "PUT", "/axes/feeder/authority", {"take_over": True}, "panel")
+    assert s == 200, a
+    s, a = client(gateway, "POST", "/axes/feeder/authority/hand-over", {"to": "http 127.0.0.1"}, "panel")  # a user, or a host: any client of it
+    assert s == 200 and a["holder"] == "127.0.0.1", a
+    s, a = client(gateway, "POST", "/axes/feeder/commands?wait=5", {"command": "enable"}, "script")
+    assert s == 200 and gateway.get("/axes/feeder/authority")["holder"] == "127.0.0.1 script", a
+    s, a = client(gateway, "POST", "/axes/feeder/commands", {"command": "home"}, "panel")
+    assert s == 409 and "script" in a["detail"], a
     texts = until(lambda: [t for t in [[e["text"] for e in gateway.get("/events") if e["kind"] == "authority"]] if any("handed over" in x for x in t)], 5, "events")[0]
     for word in ("held by", "taken over", "expired", "handed over"):
         assert any(word in t for t in texts), (word, texts)

@@ -278,7 +278,7 @@ def test_every_write_answers_as_described(gateway):
         ("addMappingTemplate", {}, {"template": "standard_map", "axis": "feeder", "unit": 5, "address": 0}, 201),
         ("stageSite", {}, site, 200), ("discardStage", {}, None, 204), ("applyStage", {}, {}, 409), ("confirmStage", {}, None, 409), ("stageSite", {}, site, 200),
         ("applyStage", {}, {"confirm_within_s": 60}, 200), ("confirmStage", {}, None, 200), ("restoreSiteRevision", {"revision": "1"}, None, 200), ("applyStage", {}, {"confirm_within_s": 60}, 200),
-        ("rollBackStage", {}, None, 200), ("putBackup", {}, client.request("GET", "/api/v1/backup")[2], 202),
+        ("rollBackStage", {}, None, 200), ("putBackup", {}, client.request("GET", "/api/v1/backup")[2], 202), ("cancelPendingBackup", {}, None, 204), ("cancelPendingBackup", {}, None, 404),
         ("addLine", {}, line, 201), ("addDrive", {}, drive, 201), ("addAxis", {}, axis, 201),
         ("removeDrive", {"drive": "spare"}, None, 409), ("removeAxis", {"axis": "spare"}, None, 204), ("removeAxis", {"axis": "spare"}, None, 404), ("removeDrive", {"drive": "spare"}, None, 204),
         ("removeLine", {"line": "spare"}, None, 204), ("replaceSite", {}, site, 200),

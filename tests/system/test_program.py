@@ -19,7 +19,10 @@ def test_version_help_and_wrong_usage():
     for word in ("serve", "twin", "families", "catalogue", "decode", "check", "backup", "restore", "version"):
         assert word in text
     for arguments in ((), ("nonsense",), ("serve", "--nonsense"), ("catalogue",), ("catalogue", "nobody"), ("decode", "nobody"), ("twin", "uim342"),
-                      ("twin", "uim342", "--line", "twin"), ("twin", "uim342", "--line", "tcp-listen:127.0.0.1:0", "--address", "4")):
+                      ("twin", "uim342", "--line", "twin"), ("twin", "uim342", "--line", "tcp-listen:127.0.0.1:0", "--address", "4"),
+                      ("twin", "mcode", "--line", "tcp-listen:127.0.0.1:0", "--option", "produkt=LMM"),
+                      ("twin", "mcode", "--line", "tcp-listen:127.0.0.1:0", "--option", "product=LMX"),
+                      ("twin", "uim342", "--line", "tcp-listen:127.0.0.1:0", "--option", "boot_ms=-1")):
         code, out, err = run(*arguments)
         assert code == 2, (arguments, code, err)
         assert err.strip() and not out.strip(), (arguments, out, err)
@@ -77,6 +80,11 @@ def test_check_names_every_fault_with_file_line_and_remedy(folder):
     assert code == 2 and "site.json:1" in err
     site.write_text(json.dumps(harness.DEMO))
     assert run("check", "--site", str(site), check=0)
+    odd = json.loads(json.dumps(harness.DEMO))
+    odd["drives"][0]["options"] = {"modell": "342S"}
+    site.write_text(json.dumps(odd))
+    _, _, err = run("check", "--site", str(site), check=0)
+    assert "warning" in err and "modell" in err and "home_input" in err, err  # usable; but somebody meant something else
 
 
 def test_check_finds_what_serve_would_refuse_or_lose(folder):

@@ -92,12 +92,97 @@ def test_a_cancelled_run_halts_what_it_has_set_in_motion(gateway):
     assert status == 409 and "feeder" in p["detail"] and "run-away" in p["detail"], p
     gateway.send("POST", "/recipes/run-away/runs/1/cancel", None, 202)
     r = ended(gateway, "run-away", 1)
-    assert r["state"] == "cancelled" and r["stops"] == [{"axis": "feeder", "stopped": True, "text": r["stops"][0]["text"]}], r
+    assert r["state"] == "cancelled" and r["stops"] == [{"axis": "feeder", "stopped": True, "left_alone": False, "text": r["stops"][0]["text"]}], r
     assert r["at_step"] == "/steps/2" and "cancelled by" in r["text"]
     until(lambda: not gateway.axis()["moving"], 10, "rest")
     assert gateway.axis()["state"] == "operation_enabled", "halted, not switched off"
     gateway.send("POST", "/recipes/run-away/runs/1/cancel", None, 409)
     gateway.send("POST", "/recipes/other/run", {}, 202)
+
+
+MOVE = {"axis": "feeder", "command": "move_absolute", "position": 500, "velocity": 5, "acceleration": 100}
+
+
+def as_client(gateway, name, method, path, body, wanted):
+    status, answer, _ = gateway.request(method, "/api/v1" + path, body, {"X-Client": name})
+    assert status == wanted, f"{name}: {method} {path}: {status} {answer}"
+    return answer
+
+
+def test_a_failing_run_leaves_motions_of_others_alone(gateway):
+    """Held by another client; by an action that there is none of; by hand in the middle of its own move, with the same name."""
+    gateway.command("feeder", {"command": "enable"})
+    gateway.send("PUT", "/recipes/go", {"steps": [{"command": {**MOVE, "wait_s": 60}}]}, 201)
+    gateway.send("PUT", "/recipes/odd", {"steps": [{"action": {"axis": "feeder", "name": "no_such_action"}}]}, 201)
+    as_client(gateway, "otto", "PUT", "/axes/feeder/authority", {"ttl_s": 60}, 200)
+    as_client(gateway, "otto", "POST", "/axes/feeder/commands?wait=1", {k: v for k, v in MOVE.items() if k != "axis"}, 200)
+    until(lambda: gateway.axis()["moving"], 10, "otto's motion")
+    as_client(gateway, "eva", "POST", "/recipes/go/run", {}, 202)
+    r = ended(gateway, "go", 1)
+    assert r["state"] == "failed" and "held by http" in r["text"] and r["stops"] == [], r
+    as_client(gateway, "otto", "DELETE", "/axes/feeder/authority", None, 204)
+    as_client(gateway, "eva", "POST", "/recipes/odd/run", {}, 202)
+    r = ended(gateway, "odd", 1)
+    assert r["state"] == "failed" and r["stops"] == [], r
+    time.sleep(0.4)
+    assert gateway.axis()["moving"], "otto's motion goes on"
+    as_client(gateway, "eva", "POST", "/recipes/go/run", {}, 202)
+    until(lambda: step(gateway.get("/recipes/go/runs/2"), "/steps/0")["state"] == "running", 5, "the step")
+    time.sleep(0.3)
+    as_client(gateway, "eva", "POST", "/axes/feeder/commands?wait=1", {"command": "move_velocity", "velocity": -6, "acceleration": 100}, 200)
+    r = ended(gateway, "go", 2)
+    assert r["state"] == "failed" and "interrupted" in r["text"], r
+    assert len(r["stops"]) == 1 and r["stops"][0]["left_alone"] and not r["stops"][0]["stopped"], r
+    time.sleep(0.4)
+    until(lambda: gateway.axis()["velocity"] < -5.5, 10, "the speed of the motion by hand")
+    gateway.command("feeder", {"command": "halt"})
+
+
+def test_a_motion_taken_over_by_another_holder_is_left_alone(gateway):
+    gateway.command("feeder", {"command": "enable"})
+    gateway.send("PUT", "/recipes/away", {"steps": [{"command": {"axis": "feeder", "command": "move_velocity", "velocity": 5, "acceleration": 100}}, {"wait_s": 60}]}, 201)
+    as_client(gateway, "eva", "POST", "/recipes/away/run", {}, 202)
+    until(lambda: gateway.axis()["moving"], 10, "motion")
+    as_client(gateway, "otto", "PUT", "/axes/feeder/authority", {"ttl_s": 60}, 200)
+    gateway.send("POST", "/recipes/away/runs/1/cancel", None, 202)
+    r = ended(gateway, "away", 1)
+    assert r["state"] == "cancelled" and r["stops"][0]["left_alone"] and "otto" in r["stops"][0]["text"], r
+    assert gateway.axis()["moving"]
+
+
+def test_reports_outlive_the_program_however_it_ends(folder):
+    slow = {"steps": [{"set_parameter": {"axis": "feeder", "parameter": "AC", "value": 1000000}}, {"repeat": {"times": 3, "steps": [{"wait_s": 60}]}}]}
+    with harness.Gateway(folder) as g:
+        g.send("PUT", "/recipes/slow", slow, 201)
+        g.send("PUT", "/recipes/quick", {"steps": [{"wait_s": 0}]}, 201)
+        for n in range(1, 24):
+            g.send("POST", "/recipes/quick/run", {}, 202)
+            ended(g, "quick", n)
+            assert len(g.get("/recipes/quick/runs")) <= 20, n
+        g.send("POST", "/recipes/slow/run", {}, 202)
+        r = until(lambda: (r := g.get("/recipes/slow/runs/1"))["at_step"] == "/steps/1/repeat/steps/0" and r, 10, "the wait")
+        assert r["at_label"] == "Step 2.1 (pass 1 of 3): wait_s 60" and step(r, "/steps/0")["label"] == "Step 1: set_parameter AC of feeder = 1000000", r
+        time.sleep(1.5)
+        g.process.kill()
+        g.process.wait()
+    for sig, n in ((harness.signal.SIGTERM, 2), (harness.signal.SIGKILL, 3)):
+        with harness.Gateway(folder, None) as g:
+            r = g.get(f"/recipes/slow/runs/{n - 1}")
+            assert r["state"] == "interrupted" and "the gateway was restarted" in r["text"] and r["ended_at"], r
+            assert step(r, "/steps/0")["state"] == "done" and step(r, "/steps/1/repeat/steps/0")["state"] == "interrupted", r
+            until(lambda: any(e["kind"] == "recipe" and e["severity"] == "warning" and f"recipe slow run {n - 1} interrupted at" in e["text"] for e in g.get("/events?limit=200")), 5, "the event")
+            assert [x["n"] for x in g.get("/recipes/quick/runs")] == list(range(23, 3, -1))
+            assert g.get("/recipes")[1]["running"] is None
+            assert g.send("POST", "/recipes/slow/run", {}, 202)["n"] == n
+            until(lambda: g.get(f"/recipes/slow/runs/{n}")["at_step"] == "/steps/1/repeat/steps/0", 10, "the wait")
+            time.sleep(1.2)
+            g.process.send_signal(sig)
+            g.process.wait(20)
+    with harness.Gateway(folder, None) as g:
+        assert [x["state"] for x in g.get("/recipes/slow/runs")] == ["interrupted"] * 3
+        g.send("POST", "/recipes/quick/run", {}, 202)
+        assert ended(g, "quick", 24)["state"] == "done"
+        assert [x["n"] for x in g.get("/recipes/quick/runs")] == list(range(24, 4, -1))
 
 
 def test_a_failed_check_stops_and_says_where_and_why(gateway):

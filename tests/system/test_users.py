@@ -3,6 +3,7 @@
 In: the real program, as an outsider. Out: judgements. Nothing secret may be found in the log or in the events.
 """
 import json
+import socket
 
 from harness import DEMO, Gateway
 
@@ -39,6 +40,18 @@ def test_without_local_access_everything_begins_with_the_first_sign_in(folder):
         s, body = ask(g, "POST", "/axes/feeder/commands", stop, {"Cookie": anna["Cookie"]})
         assert s == 403 and body["reason"] == "csrf", body
         assert ask(g, "POST", "/users", {"name": "ben", "password": "a-long-sentence-1", "role": "viewer"}, anna)[0] == 201
+        short = ask(g, "POST", "/tokens", {"name": "short", "role": "viewer"}, anna)[1]
+        with socket.create_connection((g.http[0], int(g.http[1])), timeout=20) as feed:
+            feed.sendall((f"GET /api/v1/stream HTTP/1.1\r\nHost: {g.http[0]}:{g.http[1]}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+                          f"Authorization: Bearer {short['token']}\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n\r\n").encode())
+            assert b" 101 " in feed.recv(4096)
+            assert ask(g, "DELETE", f"/tokens/{short['id']}", headers=anna)[0] == 204
+            feed.settimeout(10)  # the gateway looks every two seconds
+            heard = b""
+            while b"signed out" not in heard:
+                part = feed.recv(4096)
+                assert part, heard
+                heard += part
         s, body = ask(g, "POST", "/tokens", {"name": "line3", "role": "operator"}, anna)
         assert s == 201
         token = {"Authorization": "Bearer " + body["token"]}

@@ -32,15 +32,26 @@ export class Gateway {
     this.tab = new Tab(kept('client'), parts.client ? null : tabChannel());
     this.client = parts.client ?? new Client('/api/v1', undefined, () => this.tab.name.peek());
     this.store = parts.store ?? new Store({ schedule: beforeNextPicture });
-    this.commander = new Commander(this.client, () => (this.store.connected.peek() ? this.session.mayNot('operator') : 'The page is not connected to the gateway.'));
+    this.commander = new Commander(
+      this.client,
+      () => (this.store.connected.peek() ? this.session.mayNot('operator') : 'The page is not connected to the gateway.'),
+      (axis) => this.store.axis(axis)?.peek().data.online === false,
+    );
     this.session = new Session(this.client, () => {
       // Another identity: the old stream belongs to the one before.
       this.stream.stop();
       if (!this.session.needed.peek()) this.stream.start();
-    });
+    }, parts.client ? null : tabChannel('axisgate.session'));
     this.stream = new Stream({
       url: parts.url ?? streamUrl(location),
-      onState: (s) => this.store.setConnection(s),
+      onState: (s) => {
+        const was = this.store.connected.peek();
+        this.store.setConnection(s);
+        if (!was || this.store.connected.peek()) return;
+        // What was accepted may be otherwise by now: nothing green stands beside values that are not live, and nothing goes on moving unseen.
+        this.commander.forgetGood();
+        for (const j of this.jogs.values()) j.lost();
+      },
       onMessage: (m) => {
         this.store.take(m);
         for (const reader of this.extra.get(m.topic) ?? []) reader(m);
@@ -65,7 +76,7 @@ export class Gateway {
       const { phase, epoch, attempts } = this.store.connection.value;
       // Each refused attempt anew: a gateway that was away when it was asked for the first time refuses the stream of a session that it does not know.
       const asking = `${phase}/${epoch}/${attempts}`;
-      if (phase === 'connecting' || askedFor === asking) return;
+      if (phase === 'connecting' || phase === 'silent' || askedFor === asking) return;
       askedFor = asking;
       void this.session.ask();
     });
@@ -77,6 +88,8 @@ export class Gateway {
     document.addEventListener('visibilitychange', () => {
       if (!document.hidden) this.stream.wake();
     });
+    // Another tab of this browser may have signed in or out without a word.
+    addEventListener('focus', () => void this.session.ask());
   }
 
   jog(axis: string): Jog {

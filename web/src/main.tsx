@@ -4,6 +4,7 @@ import { App } from './app';
 import { Gateway, GatewayProvider } from './gateway';
 import { startRouter } from './router';
 import { startClock } from './state/clock';
+import { watchKeyboard } from './state/keyboard';
 import { applyTheme } from './state/theme';
 import './styles/tokens.css';
 import './styles/base.css';
@@ -23,6 +24,7 @@ import './styles/users.css';
 
 applyTheme();
 startClock();
+watchKeyboard();
 startRouter();
 const gateway = new Gateway();
 gateway.start();

@@ -2,7 +2,8 @@
 import { describe, expect, it } from 'vitest';
 import type { Alarm, Drive, Line } from '../src/api/types';
 import { Store } from '../src/state/store';
-import { alarmWord, canAcknowledge, asked, eventFile, gathered, passes, subjectOf, whatIsWrong } from '../src/words/alarm';
+import { alarmWord, canAcknowledge, asked, eventFile, gathered, passes, subjectOf, withoutSubject } from '../src/words/alarm';
+import { offlineReason, whatIsWrong } from '../src/words/wrong';
 import { axis, event, world } from './fixtures';
 
 const alarm = (change: Partial<Alarm> = {}): Alarm => ({
@@ -32,14 +33,47 @@ describe('what is wrong', () => {
     expect(whatIsWrong([axis()], [line('up')], [drive('twin')], 0)).toEqual([]);
   });
   it('is each with a link to where it can be mended', () => {
-    const all = whatIsWrong([axis({ name: 'feeder', fault: true, error: { code: 8, text: 'stalled' } })], [line('down')], [drive('offline')], 2);
+    const all = whatIsWrong([axis({ name: 'feeder', fault: true, error: { code: 8, text: 'stalled' } })], [line('down')], [{ ...drive('offline'), line: 'rs485' }], 2);
     expect(all.map((w) => [w.word.text, w.text, w.path])).toEqual([
       ['Fault', 'Fault 8: stalled', '/axes/feeder'],
       ['Line down', 'no such device', '/lines/can0'],
-      ['Drive offline', 'silent', `/lines/${drive('offline').line}`],
+      ['Drive offline', 'silent', '/lines/rs485'],
       ['Alarms', '2 alarms are not acknowledged', '/events'],
     ]);
   });
+});
+
+describe('an offline axis', () => {
+  const off = (name: string, change: object = {}) => axis({ name, online: false, drive: 'feeder', line: 'can0', ...change });
+  it('is told with its line, its silent drive, or by itself, with a reason of its own', () => {
+    const answers = { ...drive('device'), name: 'pa', line: 'com1', status: { ...drive('device').status, presence: 'device', online: true, text: 'the drive answers' } } as Drive;
+    const silent = { ...drive('offline'), name: 'md', line: 'rs485', status: { ...drive('offline').status, online: false } } as Drive;
+    const wrong = whatIsWrong(
+      [off('a', { line: 'can0', drive: 'x' }), off('b', { line: 'rs485', drive: 'md' }), off('c', { line: 'com1', drive: 'pa' }), off('d', { line: 'com1', drive: 'pa' }), off('e', { line: 'com1', drive: 'pa' }), axis({ name: 'f' })],
+      [line('down')], [silent, answers], 0,
+      [alarm({ axis: 'e', text: 'the encoder is gone' }), alarm({ axis: 'e', text: 'older', since: '2025-01-01T00:00:00Z' }), alarm({ axis: 'c', text: 'over', active: false }), alarm({ axis: 'other', drive: 'pa', text: 'of another axis' })],
+    );
+    expect(wrong.map((w) => [w.word.text, w.about, w.text, w.axes, w.path])).toEqual([
+      ['Line down', 'can0', 'no such device', ['a'], '/lines/can0'],
+      ['Drive offline', 'md', 'silent', ['b'], '/lines/rs485'],
+      ['2 axes offline', 'pa', 'the drive answers, this axis does not', ['c', 'd'], '/lines/com1'],
+      ['Axis offline', 'e', 'the encoder is gone', [], '/axes/e'],
+    ]);
+  });
+  it('of a drive that answers says what the drive as a whole says, then its own error, never that the drive answers alone', () => {
+    const answers = { ...drive('device'), status: { ...drive('device').status, online: true, text: 'the drive answers' } } as Drive;
+    expect(offlineReason(off('a'), answers, [alarm({ axis: null, drive: 'feeder', text: 'no supply' })])).toBe('no supply');
+    expect(offlineReason(off('a', { error: { code: 7, text: 'no encoder' } }), answers, [])).toBe('error 7: no encoder');
+    expect(offlineReason(off('a'), undefined, [])).toBe('nobody answers');
+  });
+});
+
+it('a subject is said once, however the gateway begins its sentence', () => {
+  expect(withoutSubject('drive drive is silent: no answer', 'drive')).toBe('is silent: no answer');
+  expect(withoutSubject('line can0 is down', 'can0')).toBe('is down');
+  expect(withoutSubject('axis feeder stalled', 'feeder')).toBe('stalled');
+  expect(withoutSubject('drive feeder2 is silent', 'feeder')).toBe('drive feeder2 is silent');
+  expect(withoutSubject('fault 8', 'feeder')).toBe('fault 8');
 });
 
 describe('events', () => {

@@ -44,6 +44,13 @@ describe('notice', () => {
   it('tells the loss of the connection before anything else', () => expect(noticeOf(fault, 'disconnected', '', '12 s').text).toBe('Not live: last known 12 s ago'));
   it('tells why an axis is offline', () => expect(noticeOf(axis(), 'offline', 'no answer from address 5', '').text).toBe('Offline: no answer from address 5'));
   it('tells of stale data', () => expect(noticeOf(axis(), 'stale', '', '').text).toMatch(/^Stale/));
+  it.each([
+    [{ internal_limit: true }, 'A limit is active'],
+    [{ warning: true }, 'Warning'],
+    [{ referenced: false }, 'No error. Not referenced'],
+    [{ error: { code: 5, text: '' } }, 'Error 5: the drive says no more'],
+  ])('of %j is %s', (change, words) => expect(noticeOf(axis({ referenced: true, ...change }), 'live', '', '').text).toBe(words));
+  it('of an axis that nobody serves says so', () => expect(noticeOf(axis(), 'offline', '', '').text).toBe('Offline: nobody answers'));
   it('says when nothing is wrong', () => expect(noticeOf(axis({ referenced: true }), 'live', '', '').text).toBe('No error. Referenced'));
 });
 

@@ -145,6 +145,45 @@ describe('stop', () => {
   });
 });
 
+describe('a stop of all with axes that are offline', () => {
+  const offline = new Set(['b', 'c']);
+  const made = () => {
+    const m = make();
+    return { ...m, commander: new Commander(m.client, () => '', (a) => offline.has(a)) };
+  };
+  it('counts only who answers, and says who does not', async () => {
+    const { said, commander } = made();
+    void commander.stopAll(['a', 'b', 'c', 'd']);
+    expect(said).toHaveLength(4); // it is tried for all the same
+    for (const s of said) s.good();
+    await settle();
+    expect(commander.stopReport.value).toEqual({ tone: 'partly', text: 'Stop accepted by 2 of 4; 2 offline: nobody confirms b, c.' });
+    expect(commander.note('a').value).toEqual({ tone: 'good', text: 'Stop: accepted' });
+    expect(commander.note('b').value).toMatchObject({ tone: 'partly', text: expect.stringContaining('offline') });
+  });
+  it('is still loud about one that answers and did not confirm', async () => {
+    const { said, commander } = made();
+    void commander.stopAll(['a', 'b', 'd']);
+    said[0]!.bad(new Problem('timed_out', 'no answer'));
+    said[1]!.bad(new Problem('answered', 'the drive does not answer', 504));
+    said[2]!.good();
+    await settle();
+    expect(commander.stopReport.value).toEqual({ tone: 'refused', text: 'Stop accepted by 1 of 3; 1 offline. NOT confirmed by a: no answer' });
+  });
+});
+
+it('nothing green is left when the connection is lost; refusals are', async () => {
+  const { said, commander } = make();
+  void commander.send('a', { command: 'enable' }, 'Jog +5 mm/s');
+  void commander.send('b', { command: 'enable' }, 'Enable');
+  said[0]!.good();
+  said[1]!.bad(refusal('no'));
+  await settle();
+  commander.forgetGood();
+  expect(commander.note('a').value.tone).toBe('none');
+  expect(commander.note('b').value.tone).toBe('refused');
+});
+
 describe('jog', () => {
   const jogOf = () => {
     const m = make();
@@ -171,7 +210,7 @@ describe('jog', () => {
     await settle();
     await vi.advanceTimersByTimeAsync(250);
     expect(said[1]!.command).toEqual({ command: 'move_velocity', velocity: 5, hold_ms: 1000, renew: true });
-    said[1]!.bad(new Problem('unreachable', 'the gateway cannot be reached')); // the gateway's own time-out is there for that
+    said[1]!.good();
     await settle();
     await vi.advanceTimersByTimeAsync(250);
     expect(said).toHaveLength(3);
@@ -181,6 +220,32 @@ describe('jog', () => {
     expect(said.map((s) => s.command.command)).toEqual(['move_velocity', 'move_velocity', 'move_velocity', 'halt']);
     await vi.advanceTimersByTimeAsync(2000);
     expect(said).toHaveLength(4);
+  });
+  it.each([
+    ['fails', (s: Said) => s.bad(new Problem('unreachable', 'the gateway cannot be reached')), /Jog: ended, the gateway cannot be reached\. The gateway halts the axis by itself 1 s after/],
+    ['is not answered', () => undefined, /Jog: ended, the gateway does not answer\./],
+  ] as const)('is over when a renewal %s, and says so', async (_, what, words) => {
+    const { said, jog, names, commander } = jogOf();
+    jog.press(5, 'Jog');
+    said[0]!.good();
+    await settle();
+    await vi.advanceTimersByTimeAsync(250);
+    what(said[1]!);
+    await vi.advanceTimersByTimeAsync(710);
+    expect(jog.active).toBe(false);
+    expect(names()).toEqual(['move_velocity', 'move_velocity', 'halt']);
+    expect(commander.note('a').value).toMatchObject({ tone: 'refused', text: expect.stringMatching(words) });
+  });
+  it('is over when the connection is lost', async () => {
+    const { said, jog, names, commander } = jogOf();
+    jog.lost();
+    expect(names()).toEqual([]);
+    jog.press(5, 'Jog');
+    said[0]!.good();
+    await settle();
+    jog.lost();
+    expect(names()).toEqual(['move_velocity', 'halt']);
+    expect(commander.note('a').value).toMatchObject({ tone: 'refused', text: expect.stringContaining('the connection to the gateway is lost') });
   });
   it('halts a second time if it was let go before the move was answered', async () => {
     const { said, jog, names } = jogOf();

@@ -1,6 +1,6 @@
 // Mappings in words and numbers: places, conflicts, gaps, checks, live values, raw words. All pure.
 import { describe, expect, it } from 'vitest';
-import { cellsOf, checkTexts, conflictsOf, decodeWords, differenceText, gridOf, neighbourText, nextFree, oneBased, pointValue, registerValue, signWarning, spansOf, textsOf, widthOf, type Known, type Mapping, type Texts } from '../src/words/mapping';
+import { cellsOf, checkTexts, conflictsOf, decodeWords, differenceText, gridOf, neighbourText, nextFree, oneBased, pointUnit, pointValue, registerValue, signWarning, spansOf, textsOf, widthOf, type Known, type Mapping, type Texts } from '../src/words/mapping';
 import { bitName, notMapped } from '../src/words/register-map';
 import { catalogueMissing, csvOfSpecs, readTable } from '../src/words/mapping-table';
 import { csvOf, mostRows, rowsOf } from '../src/words/table-text';
@@ -128,6 +128,12 @@ describe('values', () => {
     expect(pointValue(a, 'position_units')).toBe(12.5);
     expect((pointValue(a, 'flags') as number) & 0b10011).toBe(0b10011);
     expect(pointValue(a, 'MT[1]')).toBeUndefined();
+  });
+  it('of demand and following error are the axis\' increments, and not known while nobody says them', () => {
+    const told = axis({ demand_source: 'computed', position_demand_increments: 40010, following_error_increments: -7 });
+    expect(['position_demand', 'following_error'].map((p) => [pointValue(told, p), pointUnit(told, p)])).toEqual([[40010, 'inc'], [-7, 'inc']]);
+    expect(pointValue(axis({ following_error_increments: null }), 'following_error')).toBeNull();
+    expect(signWarning({ point: 'following_error', type: 'u32', offset: 0 })).toContain('can be negative');
   });
   it('are scaled as in the register', () => {
     expect(registerValue(12.5, m('a', 0, 'i16', { scale: 10, offset: 1 }))).toBe(126);

@@ -1,8 +1,10 @@
 // The mock gateway's own parts, as far as the page's author relies on them: roles and sessions, who holds an axis, alarms, recipes, a scan.
+import { readFileSync } from 'node:fs';
 import { beforeEach, describe, expect, it } from 'vitest';
 import { Access, needed } from '../dev/mock/access.mjs';
 import { Alarms } from '../dev/mock/alarms.mjs';
 import { Configuration } from '../dev/mock/configure.mjs';
+import { MockDoor } from '../dev/mock/door.mjs';
 import { Recipes } from '../dev/mock/recipes.mjs';
 import { Refusal, World } from '../dev/mock/world.mjs';
 
@@ -144,5 +146,65 @@ describe('a scan', () => {
     expect(scan('POST', { from: '1', to: '4' })).toMatchObject({ state: 'running', of: 4 });
     expect(scan('DELETE')).toMatchObject({ state: 'cancelled' });
     expect(refusal(() => scan('POST', { from: 5, to: 4 }))).toBe(422);
+  });
+});
+
+describe('the door', () => {
+  let door: MockDoor;
+  beforeEach(() => void (door = new MockDoor()));
+  const say = (client: string, method: string, target: string, body?: unknown, head: Record<string, string> = {}) => {
+    const a = door.answer({ method, target: `/api/v1${target}`, head: { 'x-client': client, ...head }, text: body === undefined ? '' : JSON.stringify(body), peer: '127.0.0.1:50001' });
+    return { status: a.status, head: a.head, body: a.text ? JSON.parse(a.text) : null };
+  };
+  const without = (axis: string) => ({ ...door.world.site, axes: door.world.site.axes.filter((a) => a.name !== axis) });
+
+  it('tells a stage as the description of the HTTP door has it, staged and applied', () => {
+    const told = /^ {4}Stage:\n.*\n {6}required: \[(.*)\]/m.exec(readFileSync(new URL('../../schema/openapi.yaml', import.meta.url), 'utf8'))?.[1]?.split(', ').sort();
+    expect(told?.length).toBeGreaterThan(5);
+    const none = say('a', 'GET', '/site/stage');
+    const one = say('a', 'POST', '/site/stage', without('gantry-y'));
+    const applied = say('a', 'POST', '/site/stage/apply', { confirm_within_s: 60, stage: one.body.id });
+    for (const r of [none, one, applied]) expect(Object.keys(r.body).sort()).toEqual(told);
+    expect([none, one, applied].map((r) => [r.body.state, r.body.client, r.body.diff.length, r.body.confirm_by === null])).toEqual([['none', null, 0, true], ['staged', '127.0.0.1 a', 1, true], ['applied', '127.0.0.1 a', 0, false]]);
+    expect(applied.head.etag).toBe('"2"');
+  });
+  it('lets no client replace or apply what it has not seen', () => {
+    const one = say('a', 'POST', '/site/stage', without('gantry-y')).body.id;
+    const taken = say('b', 'POST', '/site/stage', without('lift'));
+    expect([taken.status, taken.body.reason, taken.body.stage]).toEqual([409, 'stage_taken', one]);
+    const two = say('b', 'POST', '/site/stage?replace=true', without('lift')).body.id;
+    const replaced = say('a', 'POST', '/site/stage/apply', { stage: one });
+    expect([replaced.status, replaced.body.reason, replaced.body.stage]).toEqual([409, 'stage_replaced', two]);
+    say('b', 'DELETE', '/site/stage');
+    expect(say('a', 'POST', '/site/stage/apply', { stage: two }).body).toMatchObject({ status: 409, reason: 'stage_replaced', stage: null });
+    expect(door.world.site.axes).toHaveLength(6);
+    const late = say('a', 'POST', '/site/stage', without('lift'), { 'if-match': '"9"' });
+    expect([late.status, late.body.reason, late.head.etag, late.body.current.axes.length]).toEqual([412, 'precondition_failed', '"1"', 6]);
+    expect(say('a', 'POST', '/site/stage', { ...door.world.site, drives: [] })).toMatchObject({ status: 422, body: { reason: 'invalid' } });
+  });
+  it('names the states of a recipe, and refuses another one than was meant', () => {
+    const steps = (n: number) => ({ steps: [{ wait_s: n }] });
+    const made = say('a', 'PUT', '/recipes/r', steps(1), { 'if-none-match': '*' });
+    expect([made.status, made.head.location, made.body.name]).toEqual([201, '/api/v1/recipes/r', 'r']);
+    expect(say('a', 'GET', '/recipes').body[0].etag).toBe(made.head.etag);
+    expect(say('a', 'GET', '/recipes/r').head.etag).toBe(made.head.etag);
+    const again = say('b', 'PUT', '/recipes/r', steps(2), { 'if-none-match': '*' });
+    expect([again.status, again.body.reason, again.body.etag, again.body.current.steps]).toEqual([412, 'precondition_failed', made.head.etag, steps(1).steps]);
+    const next = say('b', 'PUT', '/recipes/r', steps(2), { 'if-match': made.head.etag! });
+    expect([next.status, next.head.etag === made.head.etag]).toEqual([200, false]);
+    for (const [method, body, query] of [['PUT', steps(3), ''], ['PUT', steps(3), '?dry_run=1'], ['DELETE', undefined, '']] as const) expect(say('a', method, `/recipes/r${query}`, body, { 'if-match': made.head.etag! }).status).toBe(412);
+    expect(say('a', 'DELETE', '/recipes/r', undefined, { 'if-match': next.head.etag! }).status).toBe(204);
+    expect(say('a', 'PUT', '/recipes/r', steps(3), { 'if-match': next.head.etag! })).toMatchObject({ status: 412, body: { etag: null, current: null } });
+  });
+  it('tells the end of a session once, and takes the cookie away', () => {
+    const first = say('a', 'POST', '/session/first', { code: door.access.code, user: 'anna', password: 'a long enough phrase' });
+    const cookie = first.head['set-cookie']!.split(';')[0]!;
+    expect(say('a', 'GET', '/axes', undefined, { cookie }).status).toBe(200);
+    door.access.sessions.clear();
+    const refused = say('a', 'GET', '/axes', undefined, { cookie });
+    expect([refused.status, refused.body.reason, refused.head['set-cookie']]).toEqual([401, 'session_ended', expect.stringContaining('Max-Age=0')]);
+    expect(say('a', 'GET', '/session', undefined, { cookie })).toMatchObject({ status: 200, body: { role: null, via: 'none', ended: expect.stringContaining('this session has ended') } });
+    expect([door.serves({ cookie }), door.serves({})]).toEqual([false, true]);
+    expect(say('a', 'GET', '/session').body).toMatchObject({ role: 'engineer', via: 'local', ended: null });
   });
 });

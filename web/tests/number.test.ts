@@ -12,6 +12,7 @@ describe('parseNumber', () => {
     expect(r.good).toBe(false);
     if (!r.good) expect(r.why.length).toBeGreaterThan(5);
   });
+  it.each([['', 'Type a number.'], ['1e999', 'This number is too large.'], ['5mm', '“5mm” is not a number.']])('says of %j why', (text, why) => expect(parseNumber(text)).toEqual({ good: false, why }));
   it('does not guess what a comma means', () => expect(parseNumber('1,000')).toEqual({ good: false, why: 'Write the decimal sign as a point: 1.5' }));
 });
 

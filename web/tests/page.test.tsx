@@ -242,11 +242,32 @@ describe('what is small', () => {
     await vi.waitFor(() => expect(text('[data-hand=inject_error] details summary')).toBe('What may be entered: Inject error'));
     expect(text('[data-hand=inject_error] details')).toContain('0 or one of 2, 8, 11');
   });
-  it('demand and following error of a drive that does not say are barred, with the reason in sight', async () => {
+  it('demand and following error say whose word they are while one of them is shown, and are never barred', async () => {
     route.value = { page: 'axis', name: 'feeder' };
-    tell({ position: 1, demand_known: false }, 5000);
-    await vi.waitFor(() => expect(text('[data-field=demand-unknown]')).toContain('this drive does not say where it wants to be'));
-    expect([button('Demand'), button('Following error'), button('Position')].map((b) => [b.disabled, b.title])).toEqual([[true, 'this drive does not say where it wants to be'], [true, 'this drive does not say where it wants to be'], [false, '']]);
+    tell({ position: 1 }, 5000);
+    await vi.waitFor(() => expect(button('Following error')).toBeDefined());
+    const line = () => text('[data-field=demand-source]');
+    expect([button('Demand'), button('Following error')].map((b) => [b.disabled, b.getAttribute('aria-pressed')])).toEqual([[false, 'false'], [false, 'false']]);
+    expect(line()).toBe('');
+    button('Following error').click();
+    await vi.waitFor(() => expect(line()).toMatch(/not known now. The axis is off/));
+    for (const [demand_source, words] of [['computed', /computed by the gateway from the order, not measured by the drive/], ['drive', /from the drive\.$/], ['open_loop', /nothing measures whether the shaft follows/]] as const) {
+      tell({ position: 1, demand_known: true, demand_source, position_demand: 2, following_error: 1 });
+      await vi.waitFor(() => expect(line()).toMatch(words));
+    }
+    gateway.store.setConnection({ ...live(), phase: 'waiting', retryAt: 1e9, why: 'gone' });
+    await vi.waitFor(() => expect(line()).toContain('not known now'));
+    button('Following error').click();
+    await vi.waitFor(() => expect(line()).toBe(''));
+    const mode = root.querySelector<HTMLSelectElement>('.scope-trigger select')!;
+    mode.value = 'single';
+    mode.dispatchEvent(new Event('change', { bubbles: true }));
+    await tick();
+    const when = root.querySelectorAll<HTMLSelectElement>('.scope-trigger select')[1]!;
+    expect([...when.options].map((o) => [o.value, o.disabled])).toEqual(['position', 'demand', 'velocity', 'error', 'target'].map((c) => [c, false]));
+    when.value = 'error';
+    when.dispatchEvent(new Event('change', { bubbles: true }));
+    await vi.waitFor(() => expect(line()).toContain('not known now'));
   });
 });
 

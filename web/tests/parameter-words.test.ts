@@ -44,12 +44,19 @@ describe('readValue', () => {
 });
 
 it('shows values with their meaning', () => {
-  expect(valueText(2, { allowed: [{ value: 2, meaning: 'origin' }] })).toBe('2 origin');
+  expect(valueText(2, { allowed: [{ value: 2, meaning: 'origin' }] })).toBe('2 = origin');
   expect(valueText(true, { allowed: null })).toBe('on');
   expect(valueText('', { allowed: null })).toBe('(empty)');
   expect(valueText(null, { allowed: null })).toBe('–');
 });
 it('does not say a value twice that its meaning says already', () => expect(valueText(17, { allowed: [{ value: 17, meaning: '17 bits' }] })).toBe('17 bits'));
+it('tells code and meaning apart, and leaves out no code that the meaning only seems to say', () => {
+  const say = (value: number, meaning: string) => valueText(value, { allowed: [{ value, meaning }] });
+  expect(say(2, '500 kbit/s')).toBe('2 = 500 kbit/s');
+  expect(say(5, '500 kbit/s')).toBe('5 = 500 kbit/s');
+  expect(say(0, '0.1 A')).toBe('0 = 0.1 A');
+  expect(say(28, '0.1 A')).toBe('28 = 0.1 A');
+});
 it.each([['AC', 0], ['a', 1], ['c', 2], ['profile accel', 3], ['profile_accel', 3], ['ramp', 4], ['zzz', null], ['', 0]])('the search for %j ranks %s', (text, rank) =>
   expect(searchRank({ id: 'AC', name: 'profile_acceleration', description: 'The ramp' }, text)).toBe(rank));
 it('compares values as the drive means them', () => {

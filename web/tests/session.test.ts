@@ -86,6 +86,45 @@ describe('a session that has ended', () => {
   });
 });
 
+describe('several tabs of one browser', () => {
+  const channel = () => {
+    const ends = [0, 1].map(() => ({ onmessage: null as ((e: MessageEvent) => void) | null, said: 0 }));
+    return ends.map((own, i) => ({
+      get onmessage() { return own.onmessage; },
+      set onmessage(f) { own.onmessage = f; },
+      postMessage: (data: unknown) => (own.said += 1, ends[1 - i]!.onmessage?.({ data } as MessageEvent)),
+    }));
+  };
+  it('a sign-in and a sign-out in one are known in the others at once, also behind an ended session', async () => {
+    let now = nobody;
+    const caller = { call: async (_: string, o: { method?: string } = {}) => { if (o.method === 'POST') now = info(); if (o.method === 'DELETE') now = nobody; return now; }, csrf: null };
+    const [one, two] = channel();
+    const changed = vi.fn();
+    const a = new Session(caller as never, () => undefined, one as never);
+    const b = new Session({ ...caller } as never, changed, two as never);
+    await Promise.all([a.ask(), b.ask()]);
+    expect([a, b].map((s) => s.needed.value)).toEqual([true, true]);
+    await a.signIn('anna', 'x');
+    await vi.waitFor(() => expect(b.needed.value).toBe(false));
+    expect(changed).toHaveBeenCalledTimes(1);
+    await a.signOut();
+    await vi.waitFor(() => expect(b.needed.value).toBe(true));
+    expect(b.ended.value).toContain('Your session has ended');
+    await a.signIn('anna', 'x');
+    await vi.waitFor(() => expect(b.needed.value).toBe(false));
+    expect(b.ended.value).toBe('');
+  });
+});
+
+it('a stop is barred only where the gateway has said that it serves nobody here', async () => {
+  const { session } = made(() => answer(nobody));
+  expect(session.stopBarred.value).toBe('');
+  await session.ask();
+  expect(session.stopBarred.value).toContain('the machine’s own emergency stop');
+  session.info.value = info({ user: null, via: 'local', role: 'viewer' });
+  expect(session.stopBarred.value).toBe('');
+});
+
 describe('session', () => {
   it('signs in and out, and says that one is another', async () => {
     let now = nobody;

@@ -60,7 +60,7 @@ const door = {
   restore: async () => (stage = { state: 'staged', site: first, faults: [], diff: [] }),
 };
 /** What a person does while the gateway applies. */
-let typing: () => Promise<void> | void;
+let typing: () => Promise<unknown> | void;
 const rs = { ...first, lines: [...first.lines!, { name: 'rs', uri: 'twin', family: 'mcode' }] };
 const add = () => draft.put('drives', { name: 'feeder', line: 'can0', address: 5 }, null);
 
@@ -216,6 +216,15 @@ describe('what is typed', () => {
     expect(await draft.restore(1, true)).toBe(true);
     expect(draft.askRestore.value).toBeNull();
     expect(draft.changes.value).toEqual([]);
+  });
+  it('and goes for an older state leaves a difference to the site in force, also where somebody else has just changed that', async () => {
+    add();
+    [inForce, tag] = [rs, tag + 1];
+    await draft.load();
+    expect(draft.theirs.value?.changes.map((c) => c.what)).toEqual(['lines/rs']);
+    expect(await draft.restore(1, true)).toBe(true);
+    expect(draft.theirs.value).toBeNull();
+    expect(draft.changes.value.map((c) => `${c.kind} ${c.what}`)).toEqual(['removed lines/rs']);
   });
   it('and rolled back by itself can be applied again; kept by somebody else leaves no words behind', async () => {
     add();

@@ -222,22 +222,48 @@ describe('losing it', () => {
 });
 
 describe('signs of life', () => {
-  it('asks after 2 s of silence and stays live if the answer comes', () => {
+  it('asks after 0.7 s of silence and stays live if the answer comes', () => {
     live();
     const before = FalseSocket.last.sent.length;
-    vi.advanceTimersByTime(2000);
+    vi.advanceTimersByTime(700);
     expect(FalseSocket.last.sent.slice(before)).toEqual(['{"subscribe":["site"]}']);
-    vi.advanceTimersByTime(1500);
+    vi.advanceTimersByTime(600);
     FalseSocket.last.says(site);
-    vi.advanceTimersByTime(1500);
+    vi.advanceTimersByTime(600);
     expect(state().phase).toBe('live');
   });
-  it('is lost 4 s after the last word of a dead cable', () => {
+  it('is not live 1.4 s after the last word of a dead cable, and lost after 4 s', () => {
     live();
-    vi.advanceTimersByTime(3990);
+    const heard = Date.now();
+    vi.advanceTimersByTime(1390);
     expect(state().phase).toBe('live');
     vi.advanceTimersByTime(20);
-    expect(state()).toMatchObject({ phase: 'waiting', why: 'the gateway has fallen silent' });
+    expect(state()).toMatchObject({ phase: 'silent', why: 'the gateway has fallen silent', lastLiveAt: heard, epoch: 1 });
+    expect(FalseSocket.last.closed).toBe(false);
+    vi.advanceTimersByTime(2580);
+    expect(state().phase).toBe('silent');
+    vi.advanceTimersByTime(20);
+    expect(state()).toMatchObject({ phase: 'waiting', why: 'the gateway has fallen silent', lastLiveAt: heard });
+    expect(FalseSocket.last.closed).toBe(true);
+  });
+  it('is live again with the next word, on the same connection, and watched as before', () => {
+    live();
+    vi.advanceTimersByTime(2000);
+    expect(state().phase).toBe('silent');
+    FalseSocket.last.says(site);
+    expect(state()).toMatchObject({ phase: 'live', epoch: 1, why: '' });
+    vi.advanceTimersByTime(1410);
+    expect(state().phase).toBe('silent');
+  });
+  it('is no silence of the gateway when the page itself was held up: what waited is heard first', () => {
+    live();
+    vi.advanceTimersByTime(700); // asked
+    vi.setSystemTime(Date.now() + 3_000); // a long task: the answer is there, but the timer comes first
+    vi.advanceTimersByTime(700);
+    expect(state().phase).toBe('live');
+    FalseSocket.last.says(site);
+    vi.advanceTimersByTime(100);
+    expect(state().phase).toBe('live');
   });
   it('does not ask while the gateway speaks', () => {
     live();

@@ -24,6 +24,14 @@ describe('trail', () => {
     t.add(at(5000, 10, 50));
     expect(t.since(0)).toMatchObject({ at: [0, 4.85, 5], position: [0, 0, 10] });
   });
+  it('holds a demand through a rest too, also where the position rests on', () => {
+    const t = new Trail();
+    const error = (at_ms: number, demand: number | null) => ({ ...at(at_ms, 10), demand, error: demand === null ? null : demand - 10, source: demand === null ? null : ('computed' as const) });
+    t.add(error(0, 10));
+    t.add(error(5000, 12));
+    t.add({ ...error(10_000, null) });
+    expect(t.since(0)).toMatchObject({ at: [0, 4.85, 5, 9.85, 10], error: [0, 0, 2, 2, null], source: ['computed', 'computed', 'computed', 'computed', null] });
+  });
   it('draws straight on where the axis was moving', () => {
     const t = new Trail();
     t.add(at(0, 0, 50));

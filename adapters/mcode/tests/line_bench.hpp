@@ -34,6 +34,7 @@ struct LineBench : LineEvents, CommandDesk<LineBench> {
     std::function<std::string(std::string)> on_cable;  ///< what becomes of bytes to the gateway
     std::function<std::string(std::string)> on_way;    ///< what becomes of bytes to the drives
     Duration hold{};                                   ///< they come so much later
+    std::function<void(AxisId, const AxisFeedback&)> on_feedback;
 
     explicit LineBench(std::string_view names, std::uint32_t rate, std::map<std::string, std::string> options = {},
                        std::string_view twins = {}) {
@@ -103,6 +104,7 @@ struct LineBench : LineEvents, CommandDesk<LineBench> {
     void drain() {
         for (const auto& f : out.feedback) {
             feedback[f.axis] = f.value;
+            if (on_feedback) on_feedback(f.axis, f.value);
             if (const auto it = place.find(f.axis); it != place.end() && f.value.position != it->second) ++wrong;
             if (seen.contains(f.axis)) longest_gap[f.axis] = std::max(longest_gap[f.axis], now - seen[f.axis]);
             seen[f.axis] = now;

@@ -58,6 +58,8 @@ struct FakeAxis {
     bool running = false, referenced = true, on = false;
     int rest = 0;  ///< 1910 while it stands
     bool positive_free = true, negative_free = true;
+    bool held = false;          ///< the position that is told is the shaft's, and a hand holds it
+    std::optional<double> lag;  ///< 1915, microsteps
     Instant renewed = never;
     void advance(Instant now) {
         if (!running) return;
@@ -69,7 +71,7 @@ struct FakeAxis {
             renewed = never;
             return;
         }
-        position = start + (target > start ? 1 : -1) * speed * seconds(now - begun);
+        if (!held) position = start + (target > start ? 1 : -1) * speed * seconds(now - begun);
     }
     void go(double to, Instant now) {
         start = position;
@@ -268,6 +270,8 @@ struct FakeControl {
                 return reply(a->min, true);
             case 0x1914:
                 return reply(a->max, true);
+            case 0x1915:
+                return a->lag ? reply(*a->lag, true) : quit(21);
             case 0x1921:
                 return reply(0x01000000 + (a->positive_free ? 0x10000 : 0) + (a->negative_free ? 0x100 : 0) + (a->running ? 1 : a->rest));
             case 0x1934:
@@ -293,6 +297,7 @@ struct FakeControl {
             case 0x0A8D:
                 if (v > 1000) return quit(41);
                 a->speed = v;
+                if (a->running) a->go(a->target, now);
                 return reply(v, true);
             case 0x0A8E:
                 return reply(v, true);
@@ -429,8 +434,8 @@ public:
         std::vector<std::string> list;
         for (std::size_t i = mark_at; i < sent.size(); ++i) {
             const std::string c = sent[i].text.substr(0, 4);
-            if (c != "1911" && c != "190C" && c != "190D" && c != "1910" && c != "1921" && c != "1934" && c != "EOT" &&
-                sent[i].text != "1900;0;0;0")
+            if (c != "1911" && c != "190C" && c != "190D" && c != "1910" && c != "1921" && c != "1934" && c != "1915" && c != "EOT" &&
+                sent[i].text != "1900;0;0;0" && !(c == "1800" && sent[i].priority == Priority::poll))
                 list.push_back(sent[i].text);
         }
         return list;

@@ -17,8 +17,8 @@ Value item(Twin& t, const std::string& name) {
 
 TEST(TwinHand, ItemsAndTheirValues) {
     Bench b;
-    const std::vector<std::string> names = {"power",       "silent",        "stall",       "inputs",  "inject_error",
-                                            "lost_pulses", "encoder_error", "battery_low", "position"};
+    const std::vector<std::string> names = {"power",       "silent",       "stall",       "inputs",        "home_switch", "limit_positive", "limit_negative",
+                                            "temperature", "inject_error", "lost_pulses", "encoder_error", "battery_low", "position"};
     std::vector<std::string> got;
     for (const HandItem& i : b.drive().hand()) {
         got.push_back(i.name);
@@ -30,6 +30,14 @@ TEST(TwinHand, ItemsAndTheirValues) {
     EXPECT_EQ(item(b.drive(), "power"), Value{true});
     b.inputs(5);
     EXPECT_EQ(item(b.drive(), "inputs"), Value{std::int64_t{5}});
+    EXPECT_EQ(item(b.drive(), "home_switch"), Value{true}) << "the switches are the inputs by another name";
+    EXPECT_EQ(item(b.drive(), "limit_positive"), Value{false});
+    b.hand("limit_positive", true);
+    b.hand("home_switch", false);
+    EXPECT_EQ(item(b.drive(), "inputs"), Value{std::int64_t{6}});
+    EXPECT_EQ(item(b.drive(), "limit_negative"), Value{true});
+    b.hand("temperature", 61.5);
+    EXPECT_EQ(item(b.drive(), "temperature"), Value{61.5});
     b.hand("stall", true);
     EXPECT_EQ(item(b.drive(), "stall"), Value{true});
     b.hand("position", 17);
@@ -51,7 +59,8 @@ TEST(TwinHand, WrongValuesAreExplained) {
     EXPECT_NE(fault("lost_pulses", std::int64_t{5}), "") << "driver off";
     EXPECT_NE(fault("position", std::string("here")), "");
     EXPECT_NE(fault("position", 1e300), "");
-    EXPECT_NE(fault("temperature", 20.0), "") << "the drive has none";
+    EXPECT_NE(fault("temperature", 900.0), "");
+    EXPECT_NE(fault("limit_positive", std::int64_t{2}), "");
     EXPECT_NE(fault("no_such_thing", true), "");
     b.setup({"95 01"});
     EXPECT_NE(fault("position", std::int64_t{5}), "") << "the driver holds the shaft";

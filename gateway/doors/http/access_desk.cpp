@@ -37,6 +37,19 @@ std::string who(const Identity& i, std::string_view peer) {
     return std::string(peer);
 }
 
+std::string session_of(const Identity& i) {
+    switch (i.via) {
+        case Identity::Via::cookie:
+            return "session " + i.session;
+        case Identity::Via::token:
+            return fmt::format("token {} of {}", i.token, i.user);
+        case Identity::Via::local:
+        case Identity::Via::none:
+            break;
+    }
+    return "local";
+}
+
 std::string_view address_of(std::string_view peer) noexcept {
     if (peer.starts_with('[')) return peer.substr(1, peer.find(']') - 1);
     return peer.substr(0, peer.rfind(':'));

@@ -63,6 +63,8 @@ struct Identity {
 [[nodiscard]] std::string_view name_of(Identity::Via via) noexcept;
 /// "anna 192.0.2.7:5123", "token line3 (anna) 192.0.2.7:5123", "local 127.0.0.1:5123".
 [[nodiscard]] std::string who(const Identity& identity, std::string_view peer);
+/// One sign-in, one token, or this machine: what is the same for all requests of it and of nothing else. Not for people's eyes.
+[[nodiscard]] std::string session_of(const Identity& identity);
 
 struct Credentials {
     std::vector<std::string_view> cookies;   ///< values of axisgate_session: there may be several, of other gateways on this host

@@ -115,13 +115,17 @@ json::object axis_document(const AxisView& v) {
     o["warning"] = flag(flag_warning);
     o["internal_limit"] = (p.statusword & cia402::sw_internal_limit) != 0;
     o["position"] = in_unit(p.position);
-    o["demand_known"] = p.demand_known;
-    o["position_demand"] = p.demand_known ? in_unit(p.position_demand) : json::value(nullptr);
+    const bool demanded = p.demand_source != DemandSource::none;
+    o["demand_known"] = demanded;
+    o["demand_source"] = demanded ? json::value(axisgate::name_of(p.demand_source)) : json::value(nullptr);
+    o["position_demand"] = demanded ? in_unit(p.position_demand) : json::value(nullptr);
+    o["following_error"] = p.following_error_known() ? in_unit(p.following_error()) : json::value(nullptr);
     o["velocity"] = in_unit(p.velocity);
     o["target_position"] = in_unit(p.target_position);
     o["target_velocity"] = in_unit(p.target_velocity);
     o["position_increments"] = increments(p.position);
-    o["position_demand_increments"] = p.demand_known ? increments(p.position_demand) : json::value(nullptr);
+    o["position_demand_increments"] = demanded ? increments(p.position_demand) : json::value(nullptr);
+    o["following_error_increments"] = p.following_error_known() ? increments(p.following_error()) : json::value(nullptr);
     o["velocity_increments"] = increments(p.velocity);
     o["target_position_increments"] = increments(p.target_position);
 

@@ -18,6 +18,7 @@
 #include "gateway/doors/http/axis_texts.hpp"
 #include "gateway/doors/http/access_gate.hpp"
 #include "gateway/doors/http/change_queue.hpp"
+#include "gateway/doors/http/clients_seen.hpp"
 #include "gateway/doors/http/message.hpp"
 #include "gateway/doors/http/problem.hpp"
 #include "gateway/doors/http/settings.hpp"
@@ -42,6 +43,7 @@ struct Context {
     std::shared_ptr<AlarmDesk> alarms{};                                     ///< the list of alarms; as with recipes
     std::shared_ptr<AxisTexts> axis_texts = std::make_shared<AxisTexts>();   ///< what GET /axes/{name} answers
     std::shared_ptr<StageDesk> stages = std::make_shared<StageDesk>();       ///< whose the staged site is
+    std::shared_ptr<ClientsSeen> clients = std::make_shared<ClientsSeen>();  ///< to whom an axis can be handed over
 };
 
 /// One request on its way. Lives only as long as the handler's call.
@@ -173,6 +175,8 @@ Handled get_site_revision(Call&);
 Handled restore_site_revision(Call&);
 Handled get_backup(Call&);
 Handled put_backup(Call&);
+Handled get_waiting_backup(Call&);
+Handled cancel_waiting_backup(Call&);
 // --- handlers_registers.cpp -------------------------------------------------------------------------------------------
 Handled get_registers(Call&);
 Handled get_mapping_list(Call&);

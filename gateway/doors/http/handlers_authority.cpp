@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "gateway/doors/http/documents.hpp"
 #include "gateway/doors/http/handlers.hpp"
@@ -45,6 +46,21 @@ void add_connections(json::object& document, const std::optional<Gateway::Modbus
                               : peers.size() == 1 ? fmt::format("{} {}, connected from {}", door, holder, list)
                                                   : fmt::format("{} {}", door, holder);
     document["connections"] = std::move(peers);
+}
+/// Who could be named as the next holder: clients of this door that gave themselves a name or signed in, and hosts that are connected by Modbus.
+json::array clients_document(const Context& context, const std::optional<Gateway::ModbusReport>& report) {
+    json::array out;
+    for (const auto& x : context.clients->list(context.gateway.now_unix_ns())) {
+        out.push_back(json::object{{"client", "http " + x.name}, {"door", "http"}, {"at", format_time(x.at_unix_ns)}});
+    }
+    std::set<std::string> hosts;
+    if (report) {
+        for (const auto& x : report->connections) {
+            const std::string host = x.peer.substr(0, x.peer.rfind(':'));
+            if (hosts.insert(host).second) out.push_back(json::object{{"client", "modbus " + host}, {"door", "modbus"}, {"at", nullptr}});
+        }
+    }
+    return out;
 }
 bool held_by_modbus(const json::object& document) {
     return document.at("door") == json::value("modbus") && !document.at("holder").get_string().empty();
@@ -99,15 +115,15 @@ Handled list_authority(Call& c) {
     auto axes = std::make_shared<std::vector<json::object>>();
     for (std::size_t i = 0; i < site->site.axes.size() && i < site->axis_ids.size(); ++i)
         axes->push_back(authority_document(c.gateway(), site->site.axes[i], site->axis_ids[i]));
-    const auto answer = [axes](const std::optional<Gateway::ModbusReport>& report) {
+    // The context outlives every call.
+    const auto answer = [axes, &context = c.context](const std::optional<Gateway::ModbusReport>& report) {
         json::array out;
         for (auto& o : *axes) {
             add_connections(o, report);
             out.push_back(std::move(o));
         }
-        return json_response(json::object{{"axes", std::move(out)}});
+        return json_response(json::object{{"axes", std::move(out)}, {"clients", clients_document(context, report)}});
     };
-    if (std::ranges::none_of(*axes, held_by_modbus)) return answer(std::nullopt);
     c.gateway().modbus_report([answer, respond = c.respond](const std::optional<Gateway::ModbusReport>& r) { respond(answer(r)); });
     return {gateway_limit, late_modbus()};
 }

@@ -77,7 +77,7 @@ Handled import_csv(Call& c, bool whole) {
     std::vector<std::size_t> lines;
     auto rows = mappings_from_csv(c.request.body, lines, csv);
     if (!rows) return csv_faults(csv);
-    auto plan = [&gateway = c.gateway(), rows = std::move(*rows), lines = std::move(lines), whole](const SiteState& before) -> Planned {
+    auto plan = [&gateway = c.gateway(), rows = std::move(*rows), lines = std::move(lines), csv = std::move(csv), whole](const SiteState& before) -> Planned {
         json::object document = to_json(before.site);
         json::array& list = document["mappings"].get_array();
         if (whole) list.clear();
@@ -94,14 +94,15 @@ Handled import_csv(Call& c, bool whole) {
         }
         std::vector<SiteFault> faults;
         auto site = parse_site(document, gateway.families(), faults);
-        if (!site) {
-            std::vector<CsvFault> told;
+        if (!site || !csv.empty()) {
+            std::vector<CsvFault> told = csv;
             for (const auto& f : faults) {
                 std::size_t index = line_of.size();
                 if (constexpr std::string_view head = "/mappings/"; f.pointer.starts_with(head))
                     std::from_chars(f.pointer.data() + head.size(), f.pointer.data() + f.pointer.size(), index);
                 told.push_back({index < line_of.size() ? line_of[index] : 0, fmt::format("{}; {}", f.text, f.remedy)});
             }
+            std::ranges::stable_sort(told, {}, &CsvFault::line);
             return csv_faults(told);
         }
         const auto changes = differences(before.site, *site);

@@ -93,8 +93,11 @@ constexpr std::array standard{Standard{0, MapType::u16, "statusword", false},
 constexpr std::uint32_t registers_per_axis = 64;
 bool is_standard_unit(std::int64_t unit) { return unit == 0 || unit == 1 || unit == 255; }
 
+/// Of 32-bit values of the standard map.
+MapWordOrder standard_order(const Call& c) { return c.context.settings.low_word_first ? MapWordOrder::low_first : MapWordOrder::high_first; }
+
 json::array decoded(const SiteState& site, const Families& families, std::int64_t unit, MapTable table, std::uint32_t address,
-                    std::uint32_t count, const std::vector<std::uint8_t>& data) {
+                    std::uint32_t count, const std::vector<std::uint8_t>& data, MapWordOrder standard_order) {
     json::array out;
     const auto put = [&](std::uint32_t at, const char* what, std::string_view name, const Mapping& m, std::string_view unit_text) {
         Value v;
@@ -117,6 +120,7 @@ json::array decoded(const SiteState& site, const Families& families, std::int64_
             for (const auto& s : standard) {
                 Mapping m;
                 m.type = s.type;
+                m.word_order = standard_order;
                 m.address = static_cast<std::uint16_t>((static_cast<std::uint32_t>(axis.number) - 1) * registers_per_axis + s.offset);
                 if (m.address < address || m.end() > address + count) continue;
                 put(m.address, "name", fmt::format("{}.{}", axis.name, s.point), m, "");
@@ -151,7 +155,7 @@ Handled get_registers(Call& c) {
     const auto a = static_cast<std::uint32_t>(address), n = static_cast<std::uint32_t>(count);
     gateway.ask_modbus(
         static_cast<std::uint8_t>(unit), std::move(pdu),
-        [&gateway, unit, table = *table, a, n, function, respond = c.respond](const std::optional<std::vector<std::uint8_t>>& answer) {
+        [&gateway, unit, table = *table, a, n, function, order = standard_order(c), respond = c.respond](const std::optional<std::vector<std::uint8_t>>& answer) {
             if (!answer || answer->size() < 2)
                 return respond(problem(503, "busy",
                                        "the Modbus door is closed or has too much to do: look at its settings, or come again in a moment"));
@@ -177,7 +181,7 @@ Handled get_registers(Call& c) {
                     list.emplace_back(data[2 * i] << 8 | data[2 * i + 1]);
             }
             o[is_bits(table) ? "bits" : "words"] = std::move(list);
-            o["decoded"] = decoded(*gateway.site(), gateway.families(), unit, table, a, n, data);
+            o["decoded"] = decoded(*gateway.site(), gateway.families(), unit, table, a, n, data, order);
             respond(json_response(o));
         });
     return {gateway_limit, problem(504, "time_out", "the Modbus door did not answer in time")};
@@ -290,6 +294,7 @@ Handled add_mapping_template(Call& c) {
                                        {"axis", axis->get_string()},
                                        {"point", s.point},
                                        {"type", name_of(s.type)},
+                                       {"word_order", name_of(standard_order(c))},
                                        {"access", s.writable ? name_of(MapAccess::read_write) : name_of(MapAccess::read)}});
     }
     auto plan = [&gateway = c.gateway(), entries](const SiteState& before) -> Planned {

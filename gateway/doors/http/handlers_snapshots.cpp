@@ -25,14 +25,20 @@ json::object info_document(const SnapshotInfo& s, const std::string& axis) {
             {"comment", s.comment},
             {"at", format_time(s.at_unix_ns)},
             {"who", text_or_null(s.who)},
+            {"family", text_or_null(s.family)},
             {"values", s.values}};
 }
-json::object snapshot_document(const AxisSnapshot& s, const AxisPlace& axis) {
+/// The catalogue by which its words are read: that of the family it was taken of, which may not be the axis' any more.
+const Catalogue* catalogue_of(Gateway& gateway, const SnapshotInfo& s, const AxisPlace& axis) {
+    return s.family.empty() || s.family == axis.family ? axis.catalogue : gateway.families().find(s.family).catalogue;
+}
+json::object snapshot_document(Gateway& gateway, const AxisSnapshot& s, const AxisPlace& axis) {
     json::object o = info_document(s, axis.spec().name);
+    const Catalogue* catalogue = catalogue_of(gateway, s, axis);
     json::array list;
     for (const auto& v : s.parameters) {
-        const auto point = axis.catalogue ? axis.catalogue->find(v.parameter) : std::nullopt;
-        const auto* p = point ? axis.catalogue->parameter(*point) : nullptr;
+        const auto point = catalogue ? catalogue->find(v.parameter) : std::nullopt;
+        const auto* p = point ? catalogue->parameter(*point) : nullptr;
         list.push_back(json::object{{"parameter", v.parameter},
                                     {"name", p ? json::value(p->name) : json::value()},
                                     {"unit", p ? text_or_null(p->unit) : json::value()},
@@ -124,6 +130,16 @@ std::optional<Found> find_snapshot(const Call& c, std::optional<Response>& fault
     return Found{std::move(*axis), std::move(*s)};
 }
 
+/// 409 where two sets of parameters are of different families: the same word is another parameter there. Unknown ("") fits all.
+std::optional<Response> refuse_foreign(const AxisSnapshot& s, std::string_view family, const std::string& what, const std::string& axis) {
+    if (s.family.empty() || family.empty() || s.family == family) return std::nullopt;
+    return to_response(Problem{.status = 409,
+                               .reason = "conflict",
+                               .detail = fmt::format("snapshot {} was taken of a {} drive, {} is of a {}: the same words mean other parameters there", s.n, s.family,
+                                                     what, family),
+                               .axis = axis});
+}
+
 /// What a parameter of an axis is as far as it is known: said by the drive, else written through the gateway.
 std::map<std::string, Value> known_values(Gateway& gateway, const AxisPlace& axis) {
     std::map<std::string, Value> out;
@@ -144,7 +160,8 @@ bool same(const Value& a, const Value& b) {
     return x && y ? *x == *y : a == b;
 }
 
-json::object diff_document(const Found& f, std::string_view with, const std::map<std::string, Value>& other) {
+json::object diff_document(Gateway& gateway, const Found& f, std::string_view with, const std::map<std::string, Value>& other) {
+    const Catalogue* catalogue = catalogue_of(gateway, f.snapshot, f.axis);
     json::array rows, live;
     std::set<std::string> ids;
     for (const auto& v : f.snapshot.parameters)
@@ -156,8 +173,8 @@ json::object diff_document(const Found& f, std::string_view with, const std::map
         const auto theirs = other.find(id);
         const Value a = mine == f.snapshot.parameters.end() ? Value{} : mine->value;
         const Value b = theirs == other.end() ? Value{} : theirs->second;
-        const auto point = f.axis.catalogue ? f.axis.catalogue->find(id) : std::nullopt;
-        const auto* p = point ? f.axis.catalogue->parameter(*point) : nullptr;
+        const auto point = catalogue ? catalogue->find(id) : std::nullopt;
+        const auto* p = point ? catalogue->parameter(*point) : nullptr;
         // What acts at once is shown apart: it is no setting, and that it is another now is no difference.
         auto& list = p && p->live ? live : rows;
         list.push_back(json::object{{"parameter", id},
@@ -242,15 +259,16 @@ Handled take_snapshot(Call& c) {
     s.name = std::move(*name);
     s.comment = std::move(*comment);
     s.who = c.who();
+    s.family = axis->family;
     s.at_unix_ns = gateway.now_unix_ns();
     auto save = [&gateway, axis = *axis, respond = c.respond](AxisSnapshot taken, json::array left_out, json::array not_read) {
         taken.values = taken.parameters.size();
         gateway.save_snapshot(taken, axis.spec().name,
-                              [respond, axis, taken, left_out = std::move(left_out), not_read = std::move(not_read)](
+                              [&gateway, respond, axis, taken, left_out = std::move(left_out), not_read = std::move(not_read)](
                                   std::uint32_t n, const std::string& fault) mutable {
                                   if (!fault.empty()) return respond(problem(507, "not_stored", fault));
                                   taken.n = n;
-                                  json::object o = snapshot_document(taken, axis);
+                                  json::object o = snapshot_document(gateway, taken, axis);
                                   o["left_out"] = std::move(left_out);
                                   o["not_read"] = std::move(not_read);
                                   Response r = json_response(o, 201);
@@ -281,7 +299,7 @@ Handled take_snapshot(Call& c) {
 Handled get_snapshot(Call& c) {
     std::optional<Response> fault;
     const auto found = find_snapshot(c, fault);
-    return fault ? *fault : json_response(snapshot_document(found->snapshot, found->axis));
+    return fault ? *fault : json_response(snapshot_document(c.gateway(), found->snapshot, found->axis));
 }
 
 Handled remove_snapshot(Call& c) {
@@ -303,7 +321,13 @@ Handled diff_snapshot(Call& c) {
     if (fault) return *fault;
     const std::string with(c.target.query.get("with").value_or("device"));
     Gateway& gateway = c.gateway();
-    const auto shown = [&](const std::map<std::string, Value>& other) { return json_response(diff_document(*found, with, other)); };
+    const auto shown = [&](const std::map<std::string, Value>& other) { return json_response(diff_document(gateway, *found, with, other)); };
+    const auto foreign = [&](std::string_view family, const std::string& what) {
+        fault = refuse_foreign(found->snapshot, family, what, c.names[0]);
+        return fault.has_value();
+    };
+    const bool elsewhere = with.starts_with("snapshot:") || with.starts_with("axis:");
+    if (!elsewhere && foreign(found->axis.family, "axis " + c.names[0])) return *fault;
     if (with == "default") {
         std::map<std::string, Value> other;
         for (const auto& v : found->snapshot.parameters) {
@@ -317,6 +341,7 @@ Handled diff_snapshot(Call& c) {
         const auto n = parse_whole(std::string_view(with).substr(9), 1, 0xFFFFFFFF);
         const auto other = n ? gateway.snapshot(c.names[0], static_cast<std::uint32_t>(*n)) : std::nullopt;
         if (!other) return nothing_named("snapshot", with.substr(9));
+        if (foreign(other->family, with)) return *fault;
         return shown(as_map(other->parameters));
     }
     if (with.starts_with("axis:")) {
@@ -332,8 +357,10 @@ Handled diff_snapshot(Call& c) {
             const auto n = parse_whole(number, 1, 0xFFFFFFFF);
             const auto s = n ? gateway.snapshot(name, static_cast<std::uint32_t>(*n)) : std::nullopt;
             if (!s) return nothing_named("snapshot", number);
+            if (foreign(s->family.empty() ? other->family : s->family, with)) return *fault;
             return shown(as_map(s->parameters));
         }
+        if (foreign(other->family, "axis " + name)) return *fault;
         std::map<std::string, Value> values;
         const auto stored = known_values(gateway, *other);
         for (const auto& v : found->snapshot.parameters)
@@ -347,10 +374,10 @@ Handled diff_snapshot(Call& c) {
             points.push_back({v.parameter, *point});
     }
     const bool started = AxisJobs::start(c.context.jobs, gateway, c.names[0], found->axis.id(), std::move(points), false, c.origin(),
-                                         [found = *found, with, respond = c.respond](const JobEnd& end) {
+                                         [&gateway, found = *found, with, respond = c.respond](const JobEnd& end) {
                                              if (!end.broken_off.empty())
                                                  return respond(broken_off(end, found.axis.spec().name, "nothing was compared"));
-                                             respond(json_response(diff_document(found, with, as_map(end.values))));
+                                             respond(json_response(diff_document(gateway, found, with, as_map(end.values))));
                                          });
     if (!started) return busy(c.names[0]);
     return {gateway_limit, problem(504, "time_out", "the drive's parameters were not all read in time")};
@@ -360,6 +387,7 @@ Handled restore_snapshot(Call& c) {
     std::optional<Response> fault;
     const auto found = find_snapshot(c, fault);
     if (fault) return *fault;
+    if (auto refused = refuse_foreign(found->snapshot, found->axis.family, "axis " + c.names[0], c.names[0])) return *refused;
     const auto& body = c.body.get_object();
     std::vector<Fault> faults;
     refuse_unknown(body, {"parameters", "dry_run", "include_addressing", "include_live"}, faults);
@@ -387,6 +415,16 @@ Handled restore_snapshot(Call& c) {
         faults.push_back({"/parameters", "parameters must be a list of ids", "leave it out for all of them"});
     }
     if (!faults.empty()) return invalid(std::move(faults), c.names[0]);
+    if (found->snapshot.family.empty()) {  // from before it was told: it fits as long as every word of it does
+        for (const auto& v : found->snapshot.parameters) {
+            if (!found->axis.catalogue || found->axis.catalogue->find(v.parameter)) continue;
+            return to_response(Problem{.status = 409,
+                                       .reason = "conflict",
+                                       .detail = fmt::format("snapshot {} does not tell of which family it is, and a {} has no {}: it is not written to it",
+                                                             found->snapshot.n, found->axis.family, v.parameter),
+                                       .axis = c.names[0]});
+        }
+    }
     json::array changes, skipped;
     std::vector<JobPoint> points;
     const auto stored = known_values(c.gateway(), found->axis);

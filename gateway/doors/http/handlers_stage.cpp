@@ -1,5 +1,5 @@
-// Handlers of staged site changes, of the site's history, and of backups.
-// In: calls. Out: the stage with its differences; revisions; the database as one file.
+// Handlers of staged site changes and of the site's history.
+// In: calls. Out: the stage with its differences; revisions.
 // Never changes a site at once: what is staged is applied as one, and taken back unless it is confirmed.
 #include <fmt/format.h>
 
@@ -131,7 +131,7 @@ Handled apply_stage(Call& c) {
         p.more["stage"] = some ? json::value(desk->id(stage)) : json::value(nullptr);
         return to_response(p);
     }
-    if (stage.state() == SiteStage::State::staged) desk->applied(stage, c.origin());
+    if (stage.state() == SiteStage::State::staged) desk->applied(stage, c.origin(), session_of(c.identity));
     c.gateway().apply_stage(static_cast<std::uint32_t>(within), c.origin(), show_after(c.gateway(), desk, c.respond));
     return {gateway_limit, problem(504, "time_out", in_time)};
 }
@@ -140,10 +140,11 @@ Handled confirm_stage(Call& c) {
     const auto& stage = c.gateway().site_stage();
     const auto& applier = c.context.stages->applier(stage);
     Origin origin = c.origin();
-    const bool own = identity_of(*origin.who) == stage.by() && (applier.empty() || applier == *origin.client);
+    // The same user in another session is another one: who confirms has seen that he can still reach the gateway from where he applied it.
+    const bool own = identity_of(*origin.who) == stage.by() && (applier.empty() || (applier == *origin.client && c.context.stages->applier_session(stage) == session_of(c.identity)));
     if (stage.state() == SiteStage::State::applied && !own) {
         if (c.identity.role < Role::administrator)
-            return conflict(fmt::format("only {}{}, who applied the site, can confirm it, or an administrator", stage.by(),
+            return conflict(fmt::format("only {}{}, who applied the site, can confirm it, in the same session, or an administrator", stage.by(),
                                         applier.empty() ? "" : fmt::format(" (client {})", applier)));
         origin.who = std::make_shared<const std::string>(acting_for(*origin.who, stage.by()));
     }
@@ -160,8 +161,12 @@ Handled roll_back_stage(Call& c) {
 }
 
 Handled list_site_history(Call& c) {
+    std::optional<Response> fault;
+    const auto limit = query_whole(c, "limit", 1, 1000, 100, fault);
+    const auto before = query_whole(c, "before", 0, INT64_MAX, 0, fault);
+    if (fault) return *fault;
     json::array out;
-    for (const auto& r : c.gateway().site_history())
+    for (const auto& r : c.gateway().site_history(static_cast<std::size_t>(limit), static_cast<std::uint64_t>(before)))
         out.push_back(
             json::object{{"revision", r.revision}, {"at", format_time(r.at_unix_ns)}, {"who", text_or_null(r.who)}, {"bytes", r.bytes}});
     return json_response(out);
@@ -187,31 +192,6 @@ Handled restore_site_revision(Call& c) {
     const auto document = document_of_revision(c);
     if (!document) return nothing_named("revision", c.names[0]);
     return stage_document(c, *document);
-}
-
-Handled get_backup(Call& c) {
-    c.gateway().backup([respond = c.respond](std::optional<std::string> bytes, const std::string& fault) {
-        if (!bytes) return respond(problem(507, "not_stored", fault));
-        Response r;
-        r.headers.set("Content-Type", "application/octet-stream");
-        r.headers.set("Content-Disposition", "attachment; filename=\"axisgate-backup.db\"");
-        r.body = std::move(*bytes);
-        respond(std::move(r));
-    });
-    return {gateway_limit, problem(504, "time_out", "the backup was not made in time: use `axisgate backup`")};
-}
-
-Handled put_backup(Call& c) {
-    if (!c.request.body.starts_with(std::string_view("SQLite format 3\0", 16)))
-        return invalid({{"", "this is no backup of axisgate", "send the file that GET /backup gave"}});
-    c.gateway().restore(c.request.body, c.origin(), [respond = c.respond](const std::string& fault) {
-        if (!fault.empty()) return respond(invalid({{"", fault, "send a whole backup of this or an older version"}}));
-        respond(
-            json_response(json::object{{"restart_needed", true},
-                                       {"text", "the backup is whole and laid down: it takes the place of the database at the next start"}},
-                          202));
-    });
-    return {gateway_limit, problem(504, "time_out", "the backup was not checked in time")};
 }
 
 }  // namespace axisgate::http

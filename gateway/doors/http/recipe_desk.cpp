@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/json/parse.hpp>
 #include <boost/json/serialize.hpp>
 
 #include "gateway/doors/http/documents.hpp"
@@ -15,16 +14,6 @@
 namespace axisgate::http {
 namespace json = boost::json;
 namespace {
-constexpr std::string_view report_kind = "recipe_run";
-constexpr std::size_t most_unsaved = 64;
-
-/// So that the order of names is the order of numbers.
-std::string report_name(std::string_view recipe, std::uint64_t n) { return fmt::format("{}/{:010}", recipe, n); }
-std::uint64_t number_in(std::string_view name, std::string_view recipe) {
-    if (name.size() <= recipe.size() + 1 || !name.starts_with(recipe) || name[recipe.size()] != '/') return 0;
-    return static_cast<std::uint64_t>(parse_whole(name.substr(recipe.size() + 1), 1, 9'999'999'999).value_or(0));
-}
-
 json::object without_steps(json::object report) {
     report.erase("steps");
     return report;
@@ -32,8 +21,14 @@ json::object without_steps(json::object report) {
 }  // namespace
 
 struct RecipeDesk::World final : RecipeWorld {
-    explicit World(const Gateway& g) : gateway(g) {}
+    World(const Gateway& g, const Active& a) : gateway(g), active(a) {}
     const Gateway& gateway;
+    const Active& active;
+    [[nodiscard]] Claim claim(std::string_view axis) const override {
+        const auto place = find_axis(gateway, axis);
+        if (!place) return {};
+        return active.claims.claim(std::string(axis), gateway.picture(place->id()), active.origin, gateway);
+    }
     [[nodiscard]] json::value point(std::string_view axis, std::string_view point) const override {
         const auto place = find_axis(gateway, axis);
         if (!place) return nullptr;
@@ -49,24 +44,13 @@ struct RecipeDesk::World final : RecipeWorld {
     }
 };
 
-std::uint64_t RecipeDesk::next_number(const std::string& name) {
-    auto it = last_.find(name);
-    if (it == last_.end()) {
-        std::uint64_t last = 0;
-        for (const auto& d : gateway_.documents(std::string(report_kind)))
-            last = std::max(last, number_in(d.name, name));
-        it = last_.emplace(name, last).first;
-    }
-    return ++it->second;
-}
-
 std::variant<json::object, Problem> RecipeDesk::start(const std::string& name, Recipe recipe, json::object arguments,
                                                       const Origin& origin) {
     if (const auto n = running(name); n != 0)
         return Problem{.status = 409,
                        .reason = "running",
                        .detail = fmt::format("recipe {} is running already (run {}): wait for its end, or cancel it", name, n)};
-    if (active_.size() >= most_runs || unsaved_.size() >= most_unsaved)
+    if (active_.size() >= most_runs || !reports_->room())
         return Problem{
             .status = 503, .reason = "busy", .detail = fmt::format("{} recipes are running already: wait for one to end", active_.size())};
     auto axes = commanded_axes(recipe);
@@ -81,7 +65,7 @@ std::variant<json::object, Problem> RecipeDesk::start(const std::string& name, R
     }
     auto a = std::make_shared<Active>();
     a->name = name;
-    a->n = next_number(name);
+    a->n = reports_->next(name);
     a->axes = std::move(axes);
     a->arguments = std::move(arguments);
     a->who = origin.who ? *origin.who : "";
@@ -92,6 +76,7 @@ std::variant<json::object, Problem> RecipeDesk::start(const std::string& name, R
     for (const auto& [k, v] : a->arguments)
         with += fmt::format("{} {} = {}", with.empty() ? " with" : ",", std::string_view(k), json::serialize(v));
     note(*a, Severity::info, fmt::format("recipe {} run {} started{}", name, a->n, with));
+    keep(*a, clock_());
     due_now_ = true;
     if (rearm) rearm();
     return document(*a);
@@ -125,47 +110,21 @@ std::optional<json::object> RecipeDesk::report(const std::string& name, std::uin
     for (const auto& a : active_) {
         if (a->name == name && a->n == n) return document(*a);
     }
-    if (const auto it = unsaved_.find({name, n}); it != unsaved_.end()) return it->second;
-    const auto d = gateway_.document(std::string(report_kind), report_name(name, n));
-    boost::system::error_code ec;
-    auto v = d ? json::parse(d->text, ec) : json::value(nullptr);
-    if (!d || ec || !v.is_object()) return std::nullopt;
-    return v.get_object();
+    return reports_->find(name, n);
 }
 
 std::vector<json::object> RecipeDesk::reports(const std::string& name) const {
-    std::map<std::uint64_t, json::object, std::greater<>> sorted;
-    for (const auto& d : gateway_.documents(std::string(report_kind))) {
-        const auto n = number_in(d.name, name);
-        boost::system::error_code ec;
-        auto v = n == 0 ? json::value(nullptr) : json::parse(d.text, ec);
-        if (!ec && v.is_object()) sorted[n] = without_steps(v.get_object());
-    }
-    for (const auto& [key, r] : unsaved_) {
-        if (key.first == name) sorted[key.second] = without_steps(r);
-    }
+    auto sorted = reports_->all(name);
     for (const auto& a : active_) {
-        if (a->name == name) sorted[a->n] = without_steps(document(*a));
+        if (a->name == name) sorted[a->n] = document(*a);
     }
     std::vector<json::object> out;
-    for (auto& [n, r] : sorted)
-        out.push_back(std::move(r));
+    for (auto it = sorted.rbegin(); it != sorted.rend() && out.size() < kept_reports; ++it)
+        out.push_back(without_steps(std::move(it->second)));
     return out;
 }
 
-void RecipeDesk::forget(const std::string& name) {
-    const auto remove = [this](const std::string& report) {
-        gateway_.delete_document(std::string(report_kind), report, [](const std::string&) {});
-    };
-    std::erase_if(unsaved_, [&](const auto& u) {
-        if (u.first.first != name) return false;
-        remove(report_name(name, u.first.second));  // it is on its way to the disk: what comes after it takes it away again
-        return true;
-    });
-    for (const auto& d : gateway_.documents(std::string(report_kind))) {
-        if (number_in(d.name, name) != 0) remove(d.name);
-    }
-}
+void RecipeDesk::forget(const std::string& name) { reports_->forget(name); }
 
 Instant RecipeDesk::deadline() const {
     if (due_now_) return time_zero;
@@ -173,6 +132,7 @@ Instant RecipeDesk::deadline() const {
     for (const auto& a : active_) {
         next = std::min(next, a->run->deadline());
         if (a->run->revision() != a->told_revision) next = std::min(next, a->told + tell_period);
+        if (a->run->revision() != a->kept_revision) next = std::min(next, a->kept + keep_period);
     }
     return next;
 }
@@ -188,13 +148,23 @@ void RecipeDesk::on_deadline(Instant now) {
             a->told_revision = a->run->revision();
             if (tell) tell(a->name, document(*a));
         }
-        if (over) ended(a);
+        if (over) {
+            ended(a);
+        } else if (a->run->revision() != a->kept_revision && now - a->kept >= keep_period) {
+            keep(*a, now);
+        }
     }
+}
+
+void RecipeDesk::keep(Active& a, Instant now) {
+    a.kept = now;
+    a.kept_revision = a.run->revision();
+    reports_->keep(a.name, a.who, document(a));
 }
 
 void RecipeDesk::pump(const std::shared_ptr<Active>& a, Instant now) {
     std::vector<RecipeRequest> requests;
-    a->run->turn(now, World(gateway_), requests);
+    a->run->turn(now, World(gateway_, *a), requests);
     for (const auto& r : requests)
         carry_out(a, r);
 }
@@ -210,7 +180,7 @@ void RecipeDesk::carry_out(const std::shared_ptr<Active>& a, const RecipeRequest
         } else {
             command.body = Halt{};
         }
-        return submit(a, r.number, std::move(command));
+        return submit(a, r.number, nullptr, std::move(command));
     }
     if (r.step->kind == RecipeStep::Kind::message) {
         note(*a, Severity::info, r.step->text);
@@ -221,20 +191,28 @@ void RecipeDesk::carry_out(const std::shared_ptr<Active>& a, const RecipeRequest
     auto made = r.what == RecipeRequest::What::read_parameter ? read_of(copy, gateway_, faults) : command_of(copy, gateway_, faults);
     if (!made)  // the site has changed since the run began
         return answer(a, r.number, {false, faults.empty() ? std::string("the step cannot be carried out") : faults.front().text, nullptr});
-    submit(a, r.number, std::move(*made));
+    const bool mover = r.what == RecipeRequest::What::step && is_motion(*r.step) && !r.step->axis.empty();
+    submit(a, r.number, mover ? r.step : nullptr, std::move(*made));
 }
 
-void RecipeDesk::submit(const std::shared_ptr<Active>& a, std::uint32_t number, Command command) {
+/// `mover`: the step whose command may set its axis in motion; it lives as long as the run.
+void RecipeDesk::submit(const std::shared_ptr<Active>& a, std::uint32_t number, const RecipeStep* mover, Command command) {
     command.origin = a->origin;
-    gateway_.submit(std::move(command), [self = weak_from_this(), active = std::weak_ptr(a), number](const Result& r) {
+    const AxisId id = command.axis;
+    const CommandBody body = command.body;
+    if (mover) a->claims.ask(mover->axis, gateway_.picture(id));
+    const Ticket ticket = gateway_.submit(std::move(command), [self = weak_from_this(), active = std::weak_ptr(a), number, mover, id, body](const Result& r) {
         const auto me = self.lock();
-        if (!me) return;
+        const auto run = active.lock();
+        if (!me || !run) return;
         RecipeAnswer answer{good(r), r.text, to_json(r.value)};
+        if (mover) answer.motion = run->claims.answered(*mover, body, r, me->gateway_.picture(id));
         if (!answer.good)
             answer.text = fmt::format("{} ({}{})", r.text.empty() ? std::string("it was refused") : r.text, name_of(r.reason),
                                       r.code == 0 ? std::string() : fmt::format(", the drive's code {}", r.code));
         me->answer(active, number, std::move(answer));
     });
+    if (mover) a->claims.sent(mover->axis, ticket);
 }
 
 void RecipeDesk::answer(const std::weak_ptr<Active>& active, std::uint32_t number, RecipeAnswer answer) {
@@ -249,32 +227,9 @@ void RecipeDesk::ended(const std::shared_ptr<Active>& a) {
     std::erase(active_, a);
     const bool failed = a->run->state() == RecipeRun::State::failed;
     std::string text = fmt::format("recipe {} run {} {}", a->name, a->n, name_of(a->run->state()));
-    if (!a->run->text().empty()) text += fmt::format(" at {}: {}", a->run->where(), a->run->text());
+    if (!a->run->text().empty()) text += fmt::format(" at {}: {}", a->run->where() ? a->run->where()->pointer : "", a->run->text());
     note(*a, failed ? Severity::warning : Severity::info, text);
-    const auto key = std::pair(a->name, a->n);
-    unsaved_[key] = document(*a);
-    Gateway::Document d{report_name(a->name, a->n), json::serialize(unsaved_[key]), a->who, gateway_.now_unix_ns()};
-    gateway_.save_document(std::string(report_kind), std::move(d), [self = weak_from_this(), key](const std::string& fault) {
-        const auto me = self.lock();
-        if (!me) return;
-        if (!fault.empty()) {
-            Event e;
-            e.severity = Severity::warning;
-            e.kind = "recipe";
-            e.text = fmt::format("the report of run {} of recipe {} is not stored: {}", key.second, key.first, fault);
-            me->gateway_.note(std::move(e));
-            me->unsaved_.erase(key);  // what cannot be stored is not kept in memory either: the event has said how it ended
-            return;
-        }
-        me->unsaved_.erase(key);
-        std::vector<std::string> names;
-        for (const auto& doc : me->gateway_.documents(std::string(report_kind))) {
-            if (number_in(doc.name, key.first) != 0) names.push_back(doc.name);
-        }
-        std::ranges::sort(names);
-        for (std::size_t i = 0; i + kept_reports < names.size(); ++i)
-            me->gateway_.delete_document(std::string(report_kind), names[i], [](const std::string&) {});
-    });
+    reports_->end(a->name, a->n, a->who, document(*a));
 }
 
 void RecipeDesk::note(const Active& a, Severity severity, std::string text, std::string axis) {
@@ -296,6 +251,7 @@ json::object RecipeDesk::document(const Active& a) const {
     for (const auto& row : run.rows()) {
         if (row.state != RecipeRow::State::not_run) ++done;
         json::object o{{"pointer", row.step->pointer},
+                       {"label", label_of(*row.step, row.pass)},
                        {"step", name_of(row.step->kind)},
                        {"axis", text_or_null(row.step->axis)},
                        {"state", name_of(row.state)},
@@ -308,7 +264,8 @@ json::object RecipeDesk::document(const Active& a) const {
         steps.push_back(std::move(o));
     }
     for (const auto& s : run.stops())
-        stops.push_back({{"axis", s.axis}, {"stopped", s.good}, {"text", s.text}});
+        stops.push_back({{"axis", s.axis}, {"stopped", s.good}, {"left_alone", s.left_alone}, {"text", s.text}});
+    const RecipeStep* at = run.ended() ? run.where() : run.current();
     json::array axes;
     for (const auto& x : a.axes)
         axes.emplace_back(x);
@@ -320,9 +277,8 @@ json::object RecipeDesk::document(const Active& a) const {
             {"started_by", a.who},
             {"arguments", a.arguments},
             {"axes", std::move(axes)},
-            {"at_step", run.ended()     ? text_or_null(run.where())
-                        : run.current() ? json::value(run.current()->pointer)
-                                        : json::value(nullptr)},
+            {"at_step", text_or_null(at ? at->pointer : "")},
+            {"at_label", text_or_null(at ? label_of(*at, run.rows()[at->row].pass) : "")},
             {"begun", done},
             {"of", run.rows().size()},
             {"text", run.text()},

@@ -1,12 +1,11 @@
 // Recipe desk: runs recipes: hands their requests to the Gateway, gives them time and answers, keeps their reports.
 // In: recipes to start and to cancel, results, the clock it is given. Out: reports, events, progress for the live feed.
-// Bounds: 4 runs at once, one per recipe, no axis in two; 20 reports of each recipe are kept, the oldest go.
+// Bounds: 4 runs at once, one per recipe, no axis in two; a run is written down at its start, its end, and once a second in between.
 // Never used off the warm thread; never sends and never sleeps: whoever owns it calls on_deadline.
 #pragma once
 
 #include <boost/json/object.hpp>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,17 +16,25 @@
 #include "gateway/core/recipe_run.hpp"
 #include "gateway/doors/http/change_queue.hpp"
 #include "gateway/doors/http/problem.hpp"
+#include "gateway/doors/http/recipe_claims.hpp"
+#include "gateway/doors/http/recipe_reports.hpp"
 
 namespace axisgate::http {
 
 class RecipeDesk : public std::enable_shared_from_this<RecipeDesk> {
 public:
     static constexpr std::size_t most_runs = 4;
-    static constexpr std::size_t kept_reports = 20;
+    static constexpr std::size_t kept_reports = RecipeReports::kept;
     static constexpr std::size_t most_recipes = 200;
     static constexpr Duration tell_period = std::chrono::milliseconds(100);  ///< of the progress of one run
 
-    RecipeDesk(Gateway& gateway, std::function<Instant()> clock) : gateway_(gateway), clock_(std::move(clock)) {}
+    static constexpr Duration keep_period = std::chrono::seconds(1);         ///< between two writes of a run that goes on
+
+    RecipeDesk(Gateway& gateway, std::function<Instant()> clock)
+        : gateway_(gateway), clock_(std::move(clock)), reports_(std::make_shared<RecipeReports>(gateway)) {}
+
+    /// Once, at the start: tells of runs that the end of the gateway has ended.
+    void begin() { reports_->begin(); }
 
     /// Changes of the documents, one after the other: what If-Match asked for still holds when it is written.
     const std::shared_ptr<ChangeQueue> changes = std::make_shared<ChangeQueue>();
@@ -64,24 +71,24 @@ private:
         boost::json::object arguments;
         Origin origin;    ///< of its commands
         std::string who;  ///< who has started it
-        Instant told{};
-        std::uint64_t told_revision = 0;
+        Instant told{}, kept{};
+        std::uint64_t told_revision = 0, kept_revision = 0;
+        RecipeClaims claims;
     };
     struct World;
     void pump(const std::shared_ptr<Active>& active, Instant now);
     void carry_out(const std::shared_ptr<Active>& active, const RecipeRequest& request);
     void answer(const std::weak_ptr<Active>& active, std::uint32_t number, RecipeAnswer answer);
-    void submit(const std::shared_ptr<Active>& active, std::uint32_t number, Command command);
+    void submit(const std::shared_ptr<Active>& active, std::uint32_t number, const RecipeStep* mover, Command command);
+    void keep(Active& active, Instant now);
     void ended(const std::shared_ptr<Active>& active);
     void note(const Active& active, Severity severity, std::string text, std::string axis = {});
     [[nodiscard]] boost::json::object document(const Active& active) const;
-    [[nodiscard]] std::uint64_t next_number(const std::string& name);
 
     Gateway& gateway_;
     std::function<Instant()> clock_;
     std::vector<std::shared_ptr<Active>> active_;
-    std::map<std::string, std::uint64_t> last_;                                     ///< numbers given in this process
-    std::map<std::pair<std::string, std::uint64_t>, boost::json::object> unsaved_;  ///< ended, not on disk yet
+    std::shared_ptr<RecipeReports> reports_;
     bool due_now_ = false;
 };
 

@@ -103,6 +103,7 @@ std::string unit_of(AxisPoint point, std::string_view axis_unit) {
     switch (point) {
         case AxisPoint::position:
         case AxisPoint::position_demand:
+        case AxisPoint::following_error:
         case AxisPoint::target_position:
             return "increments";
         case AxisPoint::velocity:

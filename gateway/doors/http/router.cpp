@@ -96,11 +96,13 @@ constexpr std::array routes{
     Route{"/api/v1/site/stage/apply", Method::post, apply_stage, Takes::json},
     Route{"/api/v1/site/stage/confirm", Method::post, confirm_stage},
     Route{"/api/v1/site/stage/roll-back", Method::post, roll_back_stage},
-    Route{"/api/v1/site/history", Method::get, list_site_history},
+    Route{"/api/v1/site/history", Method::get, list_site_history}.asks("limit before"),
     Route{"/api/v1/site/history/{revision}", Method::get, get_site_revision},
     Route{"/api/v1/site/history/{revision}/restore", Method::post, restore_site_revision}.asks("replace"),
     Route{"/api/v1/backup", Method::get, get_backup, Takes::nothing, Gives::own}.needs(Role::administrator),
     Route{"/api/v1/backup", Method::put, put_backup, Takes::bytes}.needs(Role::administrator),
+    Route{"/api/v1/backup/pending", Method::get, get_waiting_backup}.needs(Role::administrator),
+    Route{"/api/v1/backup/pending", Method::remove, cancel_waiting_backup, Takes::nothing, Gives::nothing}.needs(Role::administrator),
     Route{"/api/v1/registers", Method::get, get_registers}.asks("unit table address count"),
     Route{"/api/v1/mappings/list", Method::get, get_mapping_list, Takes::nothing, Gives::own}.asks("format"),
     Route{"/api/v1/mappings/next-free", Method::get, get_next_free}.asks("unit table words align"),
@@ -424,6 +426,10 @@ Handled Router::dispatch(const Request& request, std::optional<Target> target, c
     }
     Call call{context_, request, *e.target, std::move(e.names), nullptr, respond, std::move(e.identity)};
     if (auto refusal = read_body(request, e.route->takes, call.body)) return *std::move(refusal);
+    // Named clients that may command: to one of them an axis can be handed over.
+    if (call.identity.role >= Role::operating && (!call.identity.user.empty() || request.headers.count("X-Client") != 0)) {
+        context_.clients->note(*call.origin().client, context_.gateway.now_unix_ns());
+    }
     return e.route->handler(call);
 }
 

@@ -59,6 +59,7 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
         alarms->tell = [this](const boost::json::object& list) { own_hub.on_alarms(list); };
         own_hub.alarms_now = [this] { return alarms->document(); };
         alarms->begin();
+        recipes->begin();
     }
 
     // --- sessions ------------------------------------------------------------------------------------------------------

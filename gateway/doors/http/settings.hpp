@@ -22,6 +22,7 @@ struct Settings {
     /// names are refused with 421, so that a page of another site cannot reach the gateway by re-binding its own name. With another
     /// `bind` and an empty list every name is taken.
     std::vector<std::string> allowed_hosts;
+    bool low_word_first = false;    ///< of the standard map, as `[modbus] word_order` has it: for what shows and describes its registers
     bool require_if_match = false;  ///< true: PUT /site without If-Match is refused with 428
 
     std::size_t max_connections = 512;                ///< beyond: the longest idle one is closed; if none is idle, 503
@@ -36,6 +37,7 @@ struct Settings {
     std::chrono::milliseconds linger_limit{2'000};  ///< for the client to read a last answer before the connection is cut
 
     std::chrono::milliseconds ping_period{20'000};    ///< of the live feed
+    std::chrono::milliseconds right_period{2'000};    ///< live feed: how often it is looked at whether its session or token still holds
     std::chrono::milliseconds silence_limit{60'000};  ///< live feed: no byte from the client for so long closes it with 1008
     std::size_t max_message_bytes = 64 * 1024;        ///< one message from a live-feed client; beyond: 1009
     std::size_t max_events_waiting = 4096;            ///< events that wait for one live-feed client; beyond: 1013

@@ -26,13 +26,18 @@ void StageDesk::staged(const SiteStage& stage, const Origin& by, std::int64_t at
     at_unix_ns_ = at_unix_ns;
     stager_ = client_of(by);
     applier_.clear();
+    applier_session_.clear();
 }
 
-void StageDesk::applied(const SiteStage& stage, const Origin& by) {
-    if (stage.id() == serial_) applier_ = client_of(by);
+void StageDesk::applied(const SiteStage& stage, const Origin& by, std::string session) {
+    if (stage.id() != serial_) return;
+    applier_ = client_of(by);
+    applier_session_ = std::move(session);
 }
 
 const std::string& StageDesk::stager(const SiteStage& stage) const { return stage.id() == serial_ ? stager_ : nobody; }
 const std::string& StageDesk::applier(const SiteStage& stage) const { return stage.id() == serial_ ? applier_ : nobody; }
+
+const std::string& StageDesk::applier_session(const SiteStage& stage) const { return stage.id() == serial_ ? applier_session_ : nobody; }
 
 }  // namespace axisgate::http

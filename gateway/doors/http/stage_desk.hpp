@@ -18,10 +18,12 @@ public:
     /// "k3f9Qa-2": another one for each stage, also of other runs of the program.
     [[nodiscard]] std::string id(const SiteStage& stage) const;
     void staged(const SiteStage& stage, const Origin& by, std::int64_t at_unix_ns);
-    void applied(const SiteStage& stage, const Origin& by);
+    /// `session`: in which the client is signed in (session_of), so that the same user elsewhere is another one.
+    void applied(const SiteStage& stage, const Origin& by, std::string session);
     /// Nothing is known of a stage that this desk has not seen made.
     [[nodiscard]] const std::string& stager(const SiteStage& stage) const;
     [[nodiscard]] const std::string& applier(const SiteStage& stage) const;
+    [[nodiscard]] const std::string& applier_session(const SiteStage& stage) const;
     [[nodiscard]] std::int64_t at_unix_ns(const SiteStage& stage) const { return stage.id() == serial_ ? at_unix_ns_ : 0; }
 
 private:
@@ -29,6 +31,7 @@ private:
     std::uint64_t serial_ = 0;
     std::int64_t at_unix_ns_ = 0;
     std::string stager_, applier_;  // clients, as leases name them
+    std::string applier_session_;
 };
 
 }  // namespace axisgate::http

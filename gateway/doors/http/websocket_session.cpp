@@ -26,7 +26,7 @@ void WebSocketSession::start(std::span<const std::uint8_t> early) {
     client_ = host_->hub.add([self = weak_from_this()] {
         if (const auto me = self.lock()) me->pump();
     });
-    heard_ = pinged_ = std::chrono::steady_clock::now();
+    heard_ = pinged_ = looked_ = std::chrono::steady_clock::now();
     arm();
     if (!early.empty()) take(early);
     if (host_->stopping) stop();
@@ -124,11 +124,15 @@ void WebSocketSession::finish() {
     arm();
 }
 
+/// A client that has stopped reading finds the reason behind the batch in its way if it goes on within half the write limit.
+SteadyTime WebSocketSession::close_due() const { return close_began_ + (writing_ ? host_->settings.write_limit / 2 : host_->settings.linger_limit); }
+
 void WebSocketSession::arm() {
     if (closed_) return;
-    SteadyTime due = closing_ ? close_began_ + host_->settings.linger_limit
-                              : std::min(pinged_ + host_->settings.ping_period, heard_ + host_->settings.silence_limit);
-    if (writing_) due = std::min(due, write_began_ + host_->settings.write_limit);
+    SteadyTime due = closing_ ? close_due()
+                              : std::min({pinged_ + host_->settings.ping_period, looked_ + host_->settings.right_period,
+                                          heard_ + host_->settings.silence_limit});
+    if (writing_) due = std::min(due, write_began_ + (closing_ ? host_->settings.write_limit : host_->settings.write_limit / 2));
     timer_.expires_at(due);
     timer_.async_wait([self = weak_from_this()](ErrorCode ec) {
         const auto me = self.lock();
@@ -138,17 +142,21 @@ void WebSocketSession::arm() {
 
 void WebSocketSession::on_timer() {
     const auto now = std::chrono::steady_clock::now();
-    if ((closing_ && now >= close_began_ + host_->settings.linger_limit) ||
-        (writing_ && now >= write_began_ + host_->settings.write_limit)) {
+    if ((closing_ && now >= close_due()) || (writing_ && now >= write_began_ + host_->settings.write_limit)) {
         ++host_->counters.connections_timed_out;
         return close();
     }
-    if (!closing_ && now >= heard_ + host_->settings.silence_limit) {
+    if (!closing_ && now >= looked_ + host_->settings.right_period) {
+        looked_ = now;
+        if (!host_->router.may_still_watch(opened_by_)) return begin_close(close_policy, "signed out");
+    }
+    if (!closing_ && writing_ && now >= write_began_ + host_->settings.write_limit / 2) {
+        begin_close(close_try_later, "not read in time");
+    } else if (!closing_ && now >= heard_ + host_->settings.silence_limit) {
         begin_close(close_policy, "no sign of life");
     } else if (!closing_ && now >= pinged_ + host_->settings.ping_period) {
         // Asked regularly, also of a client that sends much: only a pong shows that it reads.
         pinged_ = now;
-        if (!host_->router.may_still_watch(opened_by_)) return begin_close(close_policy, "signed out");
         client_->queue.push_control(std::make_shared<const std::string>(server_frame(Opcode::ping, {})));
         pump();
     }

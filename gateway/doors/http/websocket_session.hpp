@@ -17,7 +17,7 @@ namespace axisgate::http {
 
 class WebSocketSession final : public Session, public std::enable_shared_from_this<WebSocketSession> {
 public:
-    /// `opened_by`: the handshake; when its session or token no longer holds, the feed is closed with 1008 (looked at with every ping).
+    /// `opened_by`: the handshake; when its session or token no longer holds, the feed is closed with 1008 (looked at every `right_period`).
     WebSocketSession(Transport socket, std::shared_ptr<SessionHost> host, Request opened_by);
     ~WebSocketSession() override;
 
@@ -35,6 +35,7 @@ private:
     void begin_close(std::uint16_t code, std::string_view reason);
     void pump();
     void on_written(ErrorCode ec, std::size_t bytes);
+    [[nodiscard]] SteadyTime close_due() const;
     void arm();
     void on_timer();
     void finish();
@@ -48,7 +49,7 @@ private:
     WebSocketParser parser_;
     std::array<std::uint8_t, 8192> buffer_{};
     std::vector<SharedFrame> batch_;  ///< being written
-    SteadyTime heard_{}, pinged_{}, write_began_{}, close_began_{};
+    SteadyTime heard_{}, pinged_{}, looked_{}, write_began_{}, close_began_{};
     bool writing_ = false;
     bool closing_ = false;  ///< a close frame is in the queue or was sent
     bool close_heard_ = false;

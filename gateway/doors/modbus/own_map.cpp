@@ -42,6 +42,8 @@ Value axis_value(const Image& image, const AxisPicture& p, AxisPoint point, doub
             return whole(p.velocity);
         case AxisPoint::position_demand:
             return whole(p.position_demand);
+        case AxisPoint::following_error:
+            return whole(p.following_error());
         case AxisPoint::error_code:
             return whole(p.error_code);
         case AxisPoint::flags:

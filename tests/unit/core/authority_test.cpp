@@ -55,5 +55,39 @@ TEST(Authority, TakenOverHandedOverReleased) {
     EXPECT_EQ(a.release(plc, t0).change, AxisAuthority::Change::released);
     EXPECT_FALSE(a.held(t0));
 }
+
+TEST(Authority, HandedOverToAUserIsWhicheverClientOfHimComesFirst) {
+    const AuthorityClient olga{Door::http, "olga page-1"}, second{Door::http, "olga page-2"}, other{Door::http, "olgas page-1"};
+    AxisAuthority a;
+    (void)a.take(panel, seconds(30), false, t0);
+    ASSERT_TRUE(a.hand_over(panel, "http olga", seconds(30), t0).allowed);
+    EXPECT_FALSE(a.may(panel, t0).allowed) << "given is given";
+    EXPECT_FALSE(a.may(other, t0).allowed) << "another user whose name begins so";
+    EXPECT_FALSE(a.may({Door::modbus, "olga page-1"}, t0).allowed);
+    EXPECT_TRUE(a.may(olga, t0).allowed);
+    EXPECT_TRUE(a.may(second, t0).allowed);
+    EXPECT_TRUE(a.command(olga, AuthorityMode::free, seconds(30), t0).allowed);
+    EXPECT_EQ(a.holder(), olga) << "from then on it is this client";
+    EXPECT_FALSE(a.may(second, t0).allowed);
+    EXPECT_FALSE(a.may(panel, t0 + seconds(29)).allowed);
+    EXPECT_TRUE(a.may(panel, t0 + seconds(30)).allowed) << "its time is that of the hand-over: a command in free mode does not renew it";
+    // What was taken, not handed over, belongs to the client alone.
+    AxisAuthority b;
+    (void)b.take({Door::http, "olga"}, seconds(30), false, t0);
+    EXPECT_FALSE(b.may(olga, t0).allowed);
+    // Taking and releasing count as using it, too.
+    for (const bool take : {false, true}) {
+        AxisAuthority c;
+        (void)c.take(panel, seconds(30), false, t0);
+        (void)c.hand_over(panel, "olga", seconds(30), t0);
+        if (take) {
+            EXPECT_EQ(c.take(second, seconds(60), false, t0).change, AxisAuthority::Change::renewed);
+            EXPECT_EQ(c.holder(), second);
+            EXPECT_FALSE(c.may(olga, t0).allowed);
+        } else {
+            EXPECT_EQ(c.release(olga, t0).change, AxisAuthority::Change::released);
+        }
+    }
+}
 }  // namespace
 }  // namespace axisgate

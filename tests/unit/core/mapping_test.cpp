@@ -247,12 +247,37 @@ TEST(MappingCsv, SemicolonsMarksAndFaults) {
         {"", 1}, {"unit,nonsense\n2,3", 1}, {"unit,unit\n", 1}, {"unit\ntwo\n", 2}, {"unit\n2,3\n", 2}, {"unit,point\n2,\"open", 2}};
     for (const auto& [text, line] : wrong) {
         faults.clear();
-        EXPECT_FALSE(mappings_from_csv(text, lines, faults)) << text;
+        (void)mappings_from_csv(text, lines, faults);
         ASSERT_FALSE(faults.empty()) << text;
         EXPECT_EQ(faults.front().line, line) << text;
     }
     faults.clear();
-    EXPECT_FALSE(mappings_from_csv("unit\n" + std::string(9000, 'x'), lines, faults));
+    (void)mappings_from_csv("unit\n" + std::string(9000, 'x'), lines, faults);
+    EXPECT_FALSE(faults.empty());
+}
+
+TEST(MappingCsv, RowsBehindAFaultyOneAreReadToo) {
+    std::vector<std::size_t> lines;
+    std::vector<CsvFault> faults;
+    const auto rows = mappings_from_csv("unit,address,point\n2,0,x.position\n2,x,x.AC\n2,9,nowhere\n", lines, faults);
+    ASSERT_TRUE(rows);
+    ASSERT_EQ(faults.size(), 1u);
+    EXPECT_EQ(faults[0].line, 3u);
+    EXPECT_EQ(lines, (std::vector<std::size_t>{2, 4})) << "what else is wrong with the file can be told at once";
+}
+
+TEST(MappingCsv, ADecimalCommaBetweenSemicolons) {
+    std::vector<std::size_t> lines;
+    std::vector<CsvFault> faults;
+    const auto rows = mappings_from_csv("unit;address;scale;offset\n2;0;0,5;-1,25\n", lines, faults);
+    ASSERT_TRUE(rows && faults.empty());
+    EXPECT_EQ(rows->at(0).at("scale").as_double(), 0.5);
+    EXPECT_EQ(rows->at(0).at("offset").as_double(), -1.25);
+    for (const auto* wrong : {"unit;scale\n2;1,2,3\n", "unit;scale\n2;1.000,5\n", "unit,scale\n2,\"0,5\"\n"}) {
+        faults.clear();
+        (void)mappings_from_csv(wrong, lines, faults);
+        EXPECT_EQ(faults.size(), 1u) << wrong;
+    }
 }
 
 }  // namespace

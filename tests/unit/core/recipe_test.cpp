@@ -1,18 +1,11 @@
 // Recipes without a gateway: the document's faults, arguments, and the run as a state machine in virtual time.
-#include "gateway/core/recipe_run.hpp"
-
-#include <gtest/gtest.h>
-
-#include <boost/json/parse.hpp>
-#include <map>
+#include "tests/unit/core/recipe_bench.hpp"
 
 namespace axisgate {
 namespace {
-namespace json = boost::json;
-using std::chrono::milliseconds;
+using namespace recipe_test;
 using std::chrono::seconds;
 
-json::object object(std::string_view text) { return json::parse(text).get_object(); }
 std::string deep(std::size_t n) {
     std::string s = R"({"wait_s":0})";
     for (std::size_t i = 0; i < n; ++i)
@@ -130,44 +123,6 @@ TEST(Recipe, ConditionsCompareWhatCanBeCompared) {
 
 // --- runs -------------------------------------------------------------------------------------------------------------------
 
-struct World final : RecipeWorld {
-    std::map<std::string, json::value, std::less<>> points;
-    [[nodiscard]] json::value point(std::string_view axis, std::string_view p) const override {
-        const auto it = points.find(std::string(axis) + "." + std::string(p));
-        return it == points.end() ? json::value(nullptr) : it->second;
-    }
-};
-
-class Runs : public ::testing::Test {
-protected:
-    Instant now = at_ns(1'000'000'000);
-    World world;
-    std::vector<RecipeRequest> requests;
-    std::unique_ptr<RecipeRun> run;
-
-    void start(std::string_view document) {
-        std::vector<SiteFault> faults;
-        auto r = read_recipe(object(document), nullptr, faults);
-        ASSERT_TRUE(r) << faults.front().pointer << " " << faults.front().text;
-        run = std::make_unique<RecipeRun>(std::move(*r), now);
-        turn();
-    }
-    void turn() {
-        requests.clear();
-        run->turn(now, world, requests);
-    }
-    void pass(Duration d) {
-        now += d;
-        turn();
-    }
-    void answer(bool good = true, std::string text = {}, json::value value = nullptr) {
-        ASSERT_EQ(requests.size(), 1u);
-        run->answer(requests[0].number, {good, std::move(text), std::move(value)});
-        EXPECT_LE(run->deadline(), now);
-        turn();
-    }
-};
-
 TEST_F(Runs, OneStepAfterTheOther) {
     start(R"({"steps":[{"enable":{"axis":"a"}},{"wait_s":2},{"message":"hello"}]})");
     ASSERT_EQ(requests.size(), 1u);
@@ -197,7 +152,8 @@ TEST_F(Runs, ACommandThatIsNotDoneInTimeFailsAndItsAxisIsStopped) {
     run->answer(late, {true, "", nullptr});  // nobody waits for it any more
     answer(true, "stands");
     EXPECT_EQ(run->state(), RecipeRun::State::failed);
-    EXPECT_EQ(run->where(), "/steps/0");
+    ASSERT_TRUE(run->where());
+    EXPECT_EQ(run->where()->pointer, "/steps/0");
     EXPECT_EQ(run->text(), "not done within 3 s");
     EXPECT_TRUE(run->stops()[0].good);
     EXPECT_EQ(run->rows()[1].state, RecipeRow::State::not_run);
@@ -214,6 +170,54 @@ TEST_F(Runs, AMotionSeenToItsEndIsNotStoppedLater) {
     ASSERT_EQ(requests.size(), 1u) << "b alone: a is at its target, c was halted by the recipe itself";
     EXPECT_EQ(requests[0].axis, "b");
     EXPECT_EQ(run->text(), "a fault is false: it is true");
+}
+
+// --- what steps are called ----------------------------------------------------------------------------------------------------
+
+TEST(Recipe, StepsHaveLabelsForPeople) {
+    std::vector<SiteFault> faults;
+    const auto r = read_recipe(object(R"({"steps":[
+        {"set_parameter":{"axis":"feeder","parameter":"AC","value":20000}},
+        {"repeat":{"times":5,"steps":[{"if":{"condition":{"axis":"feeder","point":"moving","is":true},
+            "then":[{"command":{"axis":"feeder","command":"move_relative","position":2.5,"velocity":4,"wait_s":2}}],
+            "else":[{"action":{"axis":"feeder","name":"program.start","argument":"M1"}}]}}]}},
+        {"write_register":{"unit":3,"address":10,"type":"u32","value":7}},{"wait_s":0.5},{"home":{"axis":"feeder","method":17}},
+        {"message":")" + std::string(99, 'x') + std::string(71, 'y') + "\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4" + R"("}]})"),
+                               nullptr, faults);
+    ASSERT_TRUE(r) << faults.front().text;
+    std::vector<std::string> labels;
+    for_each_step(r->steps, [&](const RecipeStep& s) { labels.push_back(label_of(s, s.pointer.find("repeat") == std::string::npos ? "" : "2 of 5")); });
+    EXPECT_EQ(labels[0], "Step 1: set_parameter AC of feeder = 20000");
+    EXPECT_EQ(labels[1], "Step 2: repeat 5 times");
+    EXPECT_EQ(labels[2], "Step 2.1 (pass 2 of 5): if feeder moving is true");
+    EXPECT_EQ(labels[3], "Step 2.1.then.1 (pass 2 of 5): command move_relative of feeder, position = 2.5, velocity = 4");
+    EXPECT_EQ(labels[4], "Step 2.1.else.1 (pass 2 of 5): action program.start of feeder, argument = M1");
+    EXPECT_EQ(labels[5], "Step 3: write_register 10 of unit 3 = 7");
+    EXPECT_EQ(labels[6], "Step 4: wait_s 0.5");
+    EXPECT_EQ(labels[7], "Step 5: home feeder, method = 17");
+    EXPECT_LE(labels[8].size(), most_recipe_label_bytes);
+    EXPECT_TRUE(labels[8].ends_with("\xA4...")) << labels[8];
+}
+
+TEST_F(Runs, ARowSaysWhichPassItWas) {
+    start(R"({"steps":[{"repeat":{"times":2,"steps":[{"repeat":{"times":3,"steps":[{"message":"y"}]}}]}}]})");
+    for (int i = 0; i < 4; ++i)
+        answer();
+    EXPECT_EQ(run->rows()[2].pass, "2 of 2, 2 of 3");
+    EXPECT_EQ(run->rows()[1].pass, "2 of 2");
+    EXPECT_EQ(run->rows()[0].pass, "");
+}
+
+TEST(Recipe, AFaultOfATextCanStandUnderAField) {
+    for (const auto& [document, text] : {std::pair(R"({"steps":[{"set_parameter":{"axis":"a","parameter":"","value":1}}]})", "parameter must be a text, such as \"AC\""),
+                                         std::pair(R"({"steps":[{"enable":{"axis":""}}]})", "axis must be a text, such as \"feeder\""),
+                                         std::pair(R"({"steps":[{"message":5}]})", "message must be a text, such as \"tool changed\"")}) {
+        std::vector<SiteFault> faults;
+        EXPECT_FALSE(read_recipe(object(document), nullptr, faults));
+        ASSERT_FALSE(faults.empty());
+        EXPECT_EQ(faults[0].text, text);
+        EXPECT_EQ(faults[0].remedy, "fill it in");
+    }
 }
 
 TEST_F(Runs, AStopWithoutAnAnswerEndsAfterItsLimit) {

@@ -294,11 +294,30 @@ public:
     }
     void save_document(const std::string& kind, Document d, std::function<void(std::string)> then) override {
         if (!document_fault.empty()) return then(document_fault);
-        stored_documents[{kind, d.name}] = d;
-        then("");
+        ++document_saves;
+        on_disk([this, kind, d = std::move(d), then] {
+            stored_documents[{kind, d.name}] = d;
+            then("");
+        });
     }
     void delete_document(const std::string& kind, const std::string& name, std::function<void(std::string)> then) override {
-        then(stored_documents.erase({kind, name}) == 0 ? "there is none of this name" : "");
+        on_disk([this, kind, name, then] { then(stored_documents.erase({kind, name}) == 0 ? "there is none of this name" : ""); });
+    }
+    /// Changes of documents wait, in their order, until catch_up().
+    bool disk_is_behind = false;
+    std::deque<std::function<void()>> disk;
+    std::size_t document_saves = 0;
+    void on_disk(std::function<void()> job) {
+        disk.push_back(std::move(job));
+        if (!disk_is_behind) catch_up();
+    }
+    void catch_up() {
+        disk_is_behind = false;
+        while (!disk.empty()) {
+            const auto job = std::move(disk.front());
+            disk.pop_front();
+            job();
+        }
     }
     std::vector<Event> noted;
     std::map<std::pair<std::string, std::string>, Document> stored_documents;
@@ -334,10 +353,11 @@ public:
         std::erase_if(kept_snapshots[name], [n](const auto& s) { return s.n == n; });
         then("");
     }
-    std::vector<SiteRevision> site_history() const override {
+    std::vector<SiteRevision> site_history(std::size_t limit, std::uint64_t before) const override {
         std::vector<SiteRevision> out;
-        for (const auto& [n, r] : kept_sites)
-            out.push_back(r);
+        for (auto it = kept_sites.rbegin(); it != kept_sites.rend() && out.size() < limit; ++it) {
+            if (before == 0 || it->first < before) out.push_back(it->second);
+        }
         return out;
     }
     std::optional<SiteRevision> site_revision(std::uint64_t n) const override {
@@ -377,6 +397,12 @@ public:
         restored = std::move(bytes);
         then(keep_fault);
     }
+    std::optional<WaitingBackup> waits;
+    void waiting_backup(std::function<void(std::optional<WaitingBackup>)> then) override { then(waits); }
+    void cancel_restore(Origin, std::function<void(std::string)> then) override {
+        then(waits ? "" : "none");
+        waits.reset();
+    }
     Site before_trial;
 
 private:
@@ -412,7 +438,7 @@ inline AxisPicture standing(std::int64_t position, std::int64_t at_ms = 600) {
     p.family_number = 7;
     p.position = position;
     p.position_demand = position;
-    p.demand_known = true;
+    p.demand_source = DemandSource::drive;
     p.statusword = 0x9637;  // operation enabled, simulated, remote, target reached, set-point acknowledged, referenced
     p.mode_display = 1;
     p.flags = flag_online | flag_simulated | flag_referenced | flag_target_reached;

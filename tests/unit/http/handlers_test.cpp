@@ -117,7 +117,7 @@ TEST_F(HttpTest, AxisDocument) {
 TEST_F(HttpTest, WhatADriveNeverSaidIsNull) {
     const auto a = call("GET", "/api/v1/axes/slide");
     for (const auto* key :
-         {"position", "velocity", "position_demand", "target_position", "position_increments", "velocity_increments", "at", "age_ms"})
+         {"position", "velocity", "position_demand", "following_error", "demand_source", "target_position", "position_increments", "velocity_increments", "at", "age_ms"})
         EXPECT_EQ(a.at(key), "null") << key;
     EXPECT_EQ(a.at("online"), "false");
     EXPECT_EQ(a.at("state"), "not_ready_to_switch_on");
@@ -125,6 +125,27 @@ TEST_F(HttpTest, WhatADriveNeverSaidIsNull) {
     EXPECT_EQ(a.at("error"), R"({"code":0,"text":""})");
     EXPECT_EQ(a.at("presence"), "offline");
     EXPECT_EQ(a.at("unit"), "");
+}
+
+TEST_F(HttpTest, ADemandIsShownWithWhoseWordItIs) {
+    struct Row {
+        DemandSource source;
+        const char *name, *demand, *error;
+    };
+    for (const Row& row : {Row{DemandSource::none, "null", "null", "null"}, Row{DemandSource::drive, "drive", "1300", "300"},
+                           Row{DemandSource::computed, "computed", "1300", "300"}, Row{DemandSource::open_loop, "open_loop", "1000", "null"}}) {
+        auto p = standing(1000);
+        p.demand_source = row.source;
+        if (p.following_error_known()) p.position_demand = 1300;
+        gateway.set_picture("slide", p);
+        const auto a = call("GET", "/api/v1/axes/slide");
+        EXPECT_EQ(a.at("demand_source"), row.name);
+        EXPECT_EQ(a.at("demand_known"), row.source == DemandSource::none ? "false" : "true") << row.name;
+        EXPECT_EQ(a.at("position_demand_increments"), row.demand) << row.name;
+        EXPECT_EQ(a.at("following_error_increments"), row.error) << row.name;
+        EXPECT_EQ(a.at("position_demand") == "null", row.source == DemandSource::none) << row.name;
+        EXPECT_EQ(a.at("following_error") == "null", std::string_view(row.error) == "null") << row.name;
+    }
 }
 
 TEST_F(HttpTest, ErrorsThatTheCatalogueDoesNotKnow) {

@@ -65,6 +65,13 @@ TEST_F(HttpTest, MappingsAsCsv) {
     EXPECT_EQ(faulty.object().at("faults").get_array().size(), 2u) << faulty.text;
     EXPECT_EQ(faulty.fault(0).at("pointer"), "/3");
     EXPECT_EQ(faulty.fault(1).at("pointer"), "/4");
+    // A cell that cannot be read keeps no other row from being looked at.
+    const auto mixed = call("PUT", "/api/v1/mappings.csv?dry_run=1",
+                            "unit,address,axis,point\n1,0,feeder,position\n2,x,feeder,position\n2,5,nobody,position\n2,9,feeder,position\n", type);
+    EXPECT_EQ(mixed.status, 422u);
+    std::set<std::string> lines;
+    for (const auto& f : mixed.object().at("faults").get_array()) lines.insert(std::string(f.at("pointer").as_string()));
+    EXPECT_EQ(lines, (std::set<std::string>{"/2", "/3", "/4"})) << mixed.text;
     EXPECT_EQ(gateway.site()->site.mappings.size(), 3u) << "all or nothing";
     EXPECT_EQ(call("POST", "/api/v1/mappings.csv", "{}").status, 415u);
 }

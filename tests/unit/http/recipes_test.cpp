@@ -1,6 +1,8 @@
 // Recipes over HTTP: documents, runs through the Gateway in virtual time, reports, and who may run beside whom.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "gateway/doors/http/stream_hub.hpp"
 #include "tests/unit/http/harness.hpp"
 
@@ -36,10 +38,32 @@ protected:
         auto w = std::move(gateway.waiting.front());
         gateway.waiting.pop_front();
         r.ticket = w.ticket;
+        const auto* move = std::get_if<Move>(&w.command.body);
+        if (good(r) && ((move && !move->prepare_only) || std::holds_alternative<Home>(w.command.body))) moves(w.command.axis, w.ticket);
         w.then(r);
         recipes->on_deadline(clock);
     }
+    /// The drive has taken a motion: the picture says so before the client hears of it.
+    void moves(AxisId axis, Ticket by, bool moving = true) {
+        AxisPicture& p = gateway.pictures[axis];
+        p.motion_ticket = by;
+        p.flags = moving ? static_cast<std::uint16_t>(p.flags | flag_moving) : static_cast<std::uint16_t>(p.flags & ~flag_moving);
+    }
+    void holds(const std::string& axis, const std::string& who) {
+        AxisPicture& p = gateway.pictures[gateway.axis(axis)];
+        p.authority = Door::http;
+        p.authority_holder = {};
+        std::ranges::copy(who, p.authority_holder.begin());
+        p.authority_until = clock + std::chrono::hours(24);
+    }
+    bool stop_sent() {
+        return std::ranges::any_of(gateway.submitted, [](const Command& c) { return std::holds_alternative<Halt>(c.body); });
+    }
+    json::object report(const std::string& name, int n = 1) { return call("GET", fmt::format("/api/v1/recipes/{}/runs/{}", name, n)).object(); }
+    static constexpr Ticket others_ticket = 77;
 };
+constexpr auto moving_recipe = R"({"steps":[{"command":{"axis":"feeder","command":"move_absolute","position":1,"wait_s":9}}]})";
+constexpr auto running_away = R"({"steps":[{"command":{"axis":"feeder","command":"move_velocity","velocity":1}},{"wait_s":100}]})";
 
 TEST_F(Recipes, ADocumentIsKeptAsItWasPut) {
     auto a = call("PUT", "/api/v1/recipes/warm-up", simple);
@@ -106,7 +130,8 @@ TEST_F(Recipes, ARunSendsItsCommandsInItsOwnName) {
     answer_oldest();
     pass(std::chrono::seconds(1));
     EXPECT_EQ(state("warm-up"), "done");
-    EXPECT_EQ(gateway.stored_documents.count({"recipe_run", "warm-up/0000000001"}), 1u);
+    EXPECT_EQ(gateway.stored_documents.count({"recipe_run warm-up", "0000000001"}), 1u);
+    EXPECT_EQ(gateway.stored_documents.count({"recipe_run_under_way", "warm-up"}), 0u);
     ASSERT_EQ(gateway.noted.size(), 3u);
     EXPECT_EQ(gateway.noted[2].text, "recipe warm-up run 1 done");
     EXPECT_EQ(recipes->deadline(), never);
@@ -143,6 +168,181 @@ TEST_F(Recipes, AFailedRunHaltsWhatItSetInMotion) {
     EXPECT_EQ(r.at("at_step"), "/steps/1");
     EXPECT_EQ(r.at("text"), "data error (drive_refused, the drive's code 51)");
     EXPECT_EQ(gateway.noted.back().severity, Severity::warning);
+}
+
+// --- whose a motion is --------------------------------------------------------------------------------------------------------
+
+TEST_F(Recipes, AnAxisThatAnotherClientHoldsIsNotStoppedForARefusedStep) {
+    put("go", moving_recipe);
+    moves(gateway.axis("feeder"), others_ticket);
+    holds("feeder", "otto");
+    (void)run("go");
+    answer_oldest(bad_result(Reason::authority, "held by http otto"));
+    EXPECT_EQ(state("go"), "failed");
+    EXPECT_FALSE(stop_sent());
+    EXPECT_TRUE(report("go").at("stops").get_array().empty()) << "nothing was in motion by the run";
+}
+
+TEST_F(Recipes, AnUnknownActionStopsNothing) {
+    put("go", R"({"steps":[{"action":{"axis":"feeder","name":"juggle"}}]})");
+    (void)run("go");
+    answer_oldest(bad_result(Reason::not_supported, "there is no action juggle"));
+    EXPECT_EQ(state("go"), "failed");
+    EXPECT_FALSE(stop_sent());
+}
+
+TEST_F(Recipes, AMoveByHandThatEndsAStepIsNotHalted) {
+    put("go", moving_recipe);
+    (void)run("go");
+    moves(gateway.axis("feeder"), gateway.submitted[0].ticket);
+    // By the same client, as when the person who has started the recipe moves the axis on the same page: only the ticket tells.
+    answer_oldest(bad_result(Reason::interrupted, "ended by move_absolute", 0, Outcome::failed));
+    EXPECT_EQ(state("go"), "stopping") << "the drive has not answered the other command yet";
+    EXPECT_FALSE(stop_sent());
+    moves(gateway.axis("feeder"), others_ticket);
+    pass(RecipeRun::look_period);
+    EXPECT_EQ(state("go"), "failed");
+    EXPECT_FALSE(stop_sent());
+    const auto r = report("go");
+    const auto& s = r.at("stops").get_array().at(0).get_object();
+    EXPECT_EQ(s.at("left_alone"), json::value(true));
+    EXPECT_EQ(s.at("stopped"), json::value(false));
+    EXPECT_TRUE(s.at("text").get_string().starts_with("left alone: it moves by another command now"));
+}
+
+TEST_F(Recipes, AMotionThatAnotherHolderTookOverIsLeftAlone) {
+    put("go", running_away);
+    (void)run("go");
+    answer_oldest();
+    holds("feeder", "otto");
+    (void)call("POST", "/api/v1/recipes/go/runs/1/cancel");
+    recipes->on_deadline(clock);
+    EXPECT_EQ(state("go"), "cancelled");
+    EXPECT_FALSE(stop_sent());
+    EXPECT_EQ(report("go").at("stops").get_array().at(0).at("text"), json::value("left alone: http otto holds the axis now"));
+}
+
+TEST_F(Recipes, TheRunsOwnHolderIsNoOther) {
+    put("go", running_away);
+    (void)run("go");
+    answer_oldest();
+    holds("feeder", "127.0.0.1");
+    (void)call("POST", "/api/v1/recipes/go/runs/1/cancel");
+    recipes->on_deadline(clock);
+    EXPECT_TRUE(stop_sent());
+}
+
+TEST_F(Recipes, AMotionThatAStopOrAnotherCommandHasReplacedIsLeftAlone) {
+    put("go", running_away);
+    for (int n = 1; const Ticket by : {no_ticket, others_ticket}) {
+        (void)run("go");
+        answer_oldest();
+        moves(gateway.axis("feeder"), by);
+        (void)call("POST", fmt::format("/api/v1/recipes/go/runs/{}/cancel", n));
+        recipes->on_deadline(clock);
+        EXPECT_FALSE(stop_sent()) << n;
+        EXPECT_EQ(report("go", n).at("stops").get_array().size(), 1u) << n;
+        ++n;
+    }
+}
+
+TEST_F(Recipes, WhatGotNoAnswerIsStopped) {
+    put("go", moving_recipe);
+    (void)run("go");
+    answer_oldest(bad_result(Reason::no_answer, "the drive did not answer", 0, Outcome::failed));
+    EXPECT_TRUE(stop_sent());
+}
+
+TEST_F(Recipes, AnActionOnAnAxisThatMovedAlreadyIsNotItsMotion) {
+    put("go", R"({"steps":[{"action":{"axis":"feeder","name":"list"}},{"check":{"axis":"feeder","point":"fault","is":true}}]})");
+    moves(gateway.axis("feeder"), others_ticket);
+    (void)run("go");
+    answer_oldest();
+    EXPECT_EQ(state("go"), "failed");
+    EXPECT_FALSE(stop_sent());
+    moves(gateway.axis("feeder"), others_ticket, false);
+    (void)run("go");
+    answer_oldest();
+    EXPECT_TRUE(stop_sent()) << "it stood: what moves it now may be what the action has started";
+}
+
+// --- reports ------------------------------------------------------------------------------------------------------------------
+
+TEST_F(Recipes, StepsAreCalledByTheirLabels) {
+    put("go", R"({"steps":[{"repeat":{"times":5,"steps":[{"command":{"axis":"feeder","command":"halt"}}]}}]})");
+    (void)run("go");
+    answer_oldest();
+    const auto r = report("go");
+    EXPECT_EQ(r.at("steps").get_array().at(1).at("label"), json::value("Step 1.1 (pass 2 of 5): command halt of feeder"));
+    EXPECT_EQ(r.at("steps").get_array().at(1).at("pointer"), json::value("/steps/0/repeat/steps/0"));
+    EXPECT_EQ(r.at("at_label"), r.at("steps").get_array().at(1).at("label"));
+}
+
+TEST_F(Recipes, ARunUnderWayIsShownAsInterruptedAfterARestart) {
+    put("go", running_away);
+    (void)run("go");
+    answer_oldest();
+    pass(std::chrono::milliseconds(1100));
+    const auto noted = gateway.noted.size();
+    auto fresh = std::make_shared<RecipeDesk>(gateway, [this] { return clock; });  // as after a kill -9: nothing was told of the end
+    fresh->begin();
+    const auto r = fresh->report("go", 1);
+    ASSERT_TRUE(r);
+    EXPECT_EQ(r->at("state"), json::value("interrupted"));
+    EXPECT_TRUE(r->at("text").get_string().starts_with("the gateway was restarted while the run was under way")) << r->at("text").get_string();
+    EXPECT_TRUE(r->at("text").get_string().ends_with("see to feeder"));
+    EXPECT_TRUE(r->at("ended_at").is_string());
+    EXPECT_EQ(r->at("steps").get_array().at(0).at("state"), json::value("done"));
+    EXPECT_EQ(r->at("steps").get_array().at(1).at("state"), json::value("interrupted"));
+    ASSERT_EQ(gateway.noted.size(), noted + 1);
+    EXPECT_EQ(gateway.noted.back().severity, Severity::warning);
+    EXPECT_TRUE(gateway.noted.back().text.starts_with("recipe go run 1 interrupted at /steps/1: the gateway was restarted")) << gateway.noted.back().text;
+    fresh->begin();
+    EXPECT_EQ(gateway.noted.size(), noted + 1) << "it is told once";
+    std::vector<SiteFault> faults;
+    auto recipe = read_recipe(json::parse(R"({"steps":[{"wait_s":0}]})").get_object(), nullptr, faults);
+    EXPECT_EQ(std::get<json::object>(fresh->start("go", std::move(*recipe), {}, {})).at("n"), json::value(2));
+}
+
+TEST_F(Recipes, ARunIsWrittenAtItsStartItsEndAndOnceASecond) {
+    put("steps", R"({"steps":[{"repeat":{"times":250,"steps":[{"wait_s":0.01}]}}]})");
+    const auto before = gateway.document_saves;
+    ASSERT_EQ(call("POST", "/api/v1/recipes/steps/run", "{}").status, 202u);
+    EXPECT_EQ(gateway.document_saves, before + 1) << "before anything is done";
+    for (int i = 0; i < 240; ++i)
+        pass(std::chrono::milliseconds(10));
+    EXPECT_EQ(gateway.document_saves, before + 3) << "2.4 s";
+    for (int i = 0; i < 30; ++i)
+        pass(std::chrono::milliseconds(10));
+    EXPECT_EQ(state("steps"), "done");
+    EXPECT_EQ(gateway.document_saves, before + 4);
+}
+
+TEST_F(Recipes, NoMoreThanTwentyAreShownWhileTheDiskIsBehind) {
+    put("quick", R"({"steps":[{"wait_s":0}]})");
+    put("slow", R"({"steps":[{"wait_s":9}]})");
+    gateway.disk_is_behind = true;
+    for (int i = 0; i < 25; ++i)
+        EXPECT_EQ(run("quick").status, 202u);
+    EXPECT_EQ(call("GET", "/api/v1/recipes/quick/runs").array().size(), RecipeDesk::kept_reports);
+    EXPECT_EQ(call("GET", "/api/v1/recipes/quick/runs/5").status, 404u);
+    gateway.catch_up();
+    EXPECT_EQ(call("GET", "/api/v1/recipes/quick/runs").array().size(), RecipeDesk::kept_reports);
+}
+
+TEST_F(Recipes, ALongReportIsCutAndNotLost) {
+    std::string steps;
+    for (int i = 0; i < 400; ++i)
+        steps += std::string(i == 0 ? "" : ",") + R"({"message":"${x}"})";
+    put("long", R"({"parameters":{"x":{"type":"text"}},"steps":[)" + steps + "]}");
+    (void)run("long", R"({"arguments":{"x":")" + std::string(4000, 'x') + R"("}})");
+    for (int i = 0; i < 400; ++i)
+        pass(std::chrono::milliseconds(1));
+    EXPECT_EQ(state("long"), "done");
+    const auto d = gateway.stored_documents.find({"recipe_run long", "0000000001"});
+    ASSERT_NE(d, gateway.stored_documents.end());
+    EXPECT_LE(d->second.text.size(), 1'000'000u);
+    EXPECT_EQ(json::parse(d->second.text).at("steps").get_array().size(), 400u);
 }
 
 TEST_F(Recipes, TwentyReportsAreKeptAndNumbersGoOn) {

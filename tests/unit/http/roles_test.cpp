@@ -165,7 +165,7 @@ TEST_F(AccessTest, EverybodyWhoIsKnownMayStopAndOperatorsMayMove) {
         const auto headers = as(role);
         for (const auto* word : {"halt", "quick_stop", "disable", "enable", "home", "reset_fault"}) {
             const bool stops =
-                std::string_view(word) == "halt" || std::string_view(word) == "quick_stop" || std::string_view(word) == "disable";
+                std::string_view(word) == "halt" || std::string_view(word) == "quick_stop";
             const auto a = from(far_peer, "POST", "/api/v1/axes/feeder/commands", R"({"command":")" + std::string(word) + "\"}", headers);
             const Role r = *role_named(role);
             const unsigned wanted = r == Role::none ? 401 : r == Role::viewer && !stops ? 403 : 200;
@@ -227,6 +227,18 @@ TEST_F(AccessTest, AnAdministratorConfirmsWhatAnotherApplied) {
     const auto kept = from(far_peer, "POST", "/api/v1/site/stage/confirm", "", as("administrator"));
     EXPECT_EQ(kept.status, 200u) << kept.text;
     EXPECT_EQ(gateway.confirmed_by, "administrator 192.0.2.7:5123 for local 127.0.0.1");
+}
+
+TEST_F(AccessTest, WhoAppliedConfirmsInTheSameSession) {
+    const std::string site = R"({"lines":[],"drives":[],"axes":[],"mappings":[]})";
+    const auto first = as("engineer"), second = as("engineer");
+    ASSERT_NE(first, second) << "signed in twice";
+    ASSERT_EQ(from(far_peer, "POST", "/api/v1/site/stage", site, first).status, 200u);
+    ASSERT_EQ(from(far_peer, "POST", "/api/v1/site/stage/apply", "{}", first).status, 200u);
+    const auto other = from(far_peer, "POST", "/api/v1/site/stage/confirm", "", second);
+    EXPECT_EQ(other.status, 409u) << "the same user, another session: " << other.text;
+    EXPECT_NE(other.text.find("same session"), std::string::npos) << other.text;
+    EXPECT_EQ(from(far_peer, "POST", "/api/v1/site/stage/confirm", "", first).status, 200u);
 }
 
 TEST_F(AccessTest, LocalAccessIsAnEngineerAndAProxyIsNot) {

@@ -1,4 +1,7 @@
 // Snapshots, tables of parameters, staged sites, registers and register lists through the router, with the fake gateway.
+
+#include <fmt/format.h>
+
 #include "tests/unit/http/harness.hpp"
 
 namespace axisgate::http::test {
@@ -182,6 +185,54 @@ TEST_F(Keep, AMovingAxisTakesNoRestoreAndNoTableUnlessNothingWouldBeWritten) {
     EXPECT_TRUE(gateway.submitted.empty());
     EXPECT_EQ(do_call("POST", "/api/v1/axes/feeder/snapshots/1/restore", R"({"parameters":["ML"]})").status, 200u) << "nothing would be written";
     EXPECT_EQ(call("POST", "/api/v1/axes/feeder/snapshots/1/restore", R"({"dry_run":true})").status, 200u);
+}
+
+TEST_F(Keep, ASnapshotOfAnotherFamilyIsRefusedAndOneOfUnknownFamilyIfItsWordsDoNotFit) {
+    const auto keep = [this](std::uint32_t n, std::string family, std::string parameter) {
+        AxisSnapshot s;
+        s.n = n;
+        s.family = std::move(family);
+        s.parameters = {{std::move(parameter), std::int64_t{30000}}};
+        gateway.kept_snapshots["feeder"].push_back(s);
+    };
+    keep(1, "demo", "AC");
+    keep(2, "other", "AC");
+    keep(3, "", "AC");
+    keep(4, "", "XX");
+    drive_answers();
+    const auto restore = [this](int n) { return do_call("POST", fmt::format("/api/v1/axes/feeder/snapshots/{}/restore", n), R"({"dry_run":true})"); };
+    EXPECT_EQ(restore(1).status, 200u);
+    EXPECT_EQ(restore(3).status, 200u);
+    for (const int n : {2, 4}) {
+        const auto a = restore(n);
+        EXPECT_EQ(a.status, 409u) << a.text;
+        EXPECT_NE(a.at("detail").find(n == 2 ? "a other drive" : "has no XX"), std::string::npos) << a.text;
+    }
+    const auto diff = [this](int n, std::string with) { return do_call("GET", fmt::format("/api/v1/axes/feeder/snapshots/{}/diff?with={}", n, with)).status; };
+    for (const auto* with : {"default", "device", "stored", "snapshot:1", "axis:slide", "axis:feeder:1"}) {
+        EXPECT_EQ(diff(1, with), 200u) << with;
+        EXPECT_EQ(diff(2, with), 409u) << with;
+        EXPECT_EQ(diff(3, with), 200u) << with;
+    }
+    EXPECT_EQ(diff(2, "snapshot:2"), 200u);
+    EXPECT_EQ(call("GET", "/api/v1/axes/feeder/snapshots/2").at("family"), "other");
+    EXPECT_EQ(call("GET", "/api/v1/axes/feeder/snapshots/3").at("family"), "null");
+}
+
+TEST_F(Keep, TheHistoryOfTheSiteComesInPages) {
+    for (std::uint64_t n = 1; n <= 150; ++n)
+        gateway.kept_sites[n] = {n, 0, "me", "", 5};
+    const auto revisions = [this](std::string query) {
+        const auto a = call("GET", "/api/v1/site/history" + query);
+        std::vector<std::int64_t> out;
+        for (const auto& r : a.array())
+            out.push_back(r.at("revision").as_int64());
+        return out;
+    };
+    EXPECT_EQ(revisions("").size(), 100u);
+    EXPECT_EQ(revisions("?limit=2"), (std::vector<std::int64_t>{150, 149}));
+    EXPECT_EQ(revisions("?limit=2&before=3"), (std::vector<std::int64_t>{2, 1}));
+    EXPECT_EQ(call("GET", "/api/v1/site/history?limit=1001").status, 400u);
 }
 
 TEST_F(Keep, AStagedSiteIsShownAppliedAndRolledBack) {

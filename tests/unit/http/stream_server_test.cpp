@@ -215,6 +215,21 @@ TEST_F(StreamServer, AClientThatNeverReadsIsCut) {
     EXPECT_GE(door.on([&] { return door.server().counters().connections_timed_out; }), 1u);
 }
 
+TEST_F(StreamServer, AClientThatDidNotReadForLongIsToldWhyWhenItGoesOn) {
+    door.settings.write_limit = milliseconds(6000);
+    open();
+    StreamJudge judge(door.port, {}, 4096);
+    ASSERT_FALSE(judge.say(R"({"subscribe":["events"]})"));
+    // More than all buffers between here and there hold, and far fewer events than the bound.
+    for (int i = 0; i < 800; ++i)
+        door.on([&] { door.gateway.tell(event(std::string(20'000, 'e'))); });
+    EXPECT_TRUE(door.until([&] { return door.server().counters().stream_closed.contains(1013); }));
+    while (!judge.ended) (void)judge.hear();
+    EXPECT_EQ(judge.ended, beast::websocket::error::closed) << judge.ended.message();
+    EXPECT_EQ(judge.close_code(), 1013);
+    EXPECT_NE(judge.close_reason().find("not read"), std::string::npos) << judge.close_reason();
+}
+
 TEST_F(StreamServer, ABrokenConnectionLeavesNothing) {
     open();
     {

@@ -38,6 +38,8 @@ struct OwnMapTest : testing::Test, Desk {
     void SetUp() override {
         port.edit(x, [](AxisPicture& p) {
             p.position = 0x01020304;
+            p.position_demand = 0x01020300;
+            p.demand_source = DemandSource::drive;
             p.velocity = -250;
             p.flags = flag_online | flag_moving;
             p.ever_seen = true;
@@ -52,13 +54,15 @@ TEST_F(OwnMapTest, ReadsPointsOfTheAxis) {
     auto low = mapping(5, AxisPoint::position, MapType::i32);
     low.word_order = MapWordOrder::low_first;
     put({mapping(0, AxisPoint::position, MapType::i32), mapping(2, AxisPoint::position_units, MapType::f32), scaled, low,
-         mapping(9, AxisPoint::moving, MapType::boolean),
+         mapping(9, AxisPoint::moving, MapType::boolean), mapping(20, AxisPoint::position_demand, MapType::i32),
+         mapping(22, AxisPoint::following_error, MapType::i32),
          mapping(3, AxisPoint::online, MapType::boolean, MapAccess::read, MapTable::discrete_inputs),
          mapping(4, AxisPoint::fault, MapType::boolean, MapAccess::read, MapTable::discrete_inputs)});
     EXPECT_EQ(read("03 00 00 00 02"), "03 04 01 02 03 04");
     EXPECT_EQ(read("03 00 00 00 07"), "03 0E 01 02 03 04 48 25 20 A6 FF E7 03 04 01 02");
     EXPECT_EQ(read("03 00 01 00 01"), "03 02 03 04") << "half of a value may be read";
     EXPECT_EQ(read("03 00 09 00 01"), "03 02 00 01");
+    EXPECT_EQ(read("03 00 14 00 04"), "03 08 01 02 03 00 FF FF FF FC") << "demand, and demand less position";
     EXPECT_EQ(read("02 00 03 00 02"), "02 01 01");
     EXPECT_EQ(read("03 00 06 00 02"), "83 02") << "7 is a gap";
     EXPECT_EQ(read("03 00 0A 00 01"), "83 02");

@@ -54,7 +54,7 @@ TEST_P(Disk, EveryWriteReportsItAndTheStoreHeals) {
     const SnapshotValue value{"AC", Value{std::int64_t{7}}};
     const ParameterSeen seen{"feeder", "AC", Value{std::int64_t{5}}, 1};
     const Event event = an_event("alarm", "feeder", 1, Severity::alarm);
-    const SiteChange change{{{"feeder", "belt"}}, {}, {}, {}};
+    const SiteChange change{{{"feeder", "belt"}}, {}, {}, {}, {}, {}};
     must(commit_one(*store, a_write("feeder", "AC", std::int64_t{1})));
     must(store->save_site("{}", "x", 1));
     must(store->save_snapshot("feeder", "one", "", "", 1, std::span(&value, 1)));

@@ -26,6 +26,31 @@ TEST(Migrations, WrongNumbersAreAFaultOfTheProgram) {
         EXPECT_EQ(refused(migrations_among(assets)).kind, Kind::internal);
 }
 
+TEST(Migrations, FromTheFirstFormNothingIsLost) {
+    const TempDir dir;
+    auto first = options_for(dir.path());
+    first.migrations.resize(1);
+    { const auto store = open_store(first); }
+    meddle(dir / "axisgate.db",
+           "INSERT INTO axis (id, name, last_snapshot) VALUES (3, 'feeder', 4);"
+           "INSERT INTO parameter_write VALUES (7, 3, 'AC', 'i', 5, 'u', NULL, 'ram', 'http', 'me', 9);"
+           "INSERT INTO parameter_stored VALUES (3, 'AC', 'i', 5, 'u', NULL, 'ram', 'http', 'me', 9);"
+           "INSERT INTO snapshot VALUES (3, 4, 'good', '', 'me', 8); INSERT INTO snapshot_value VALUES (3, 4, 'AC', 'i', 5);"
+           "INSERT INTO site_revision VALUES (11, 1, 'me', 'one'), (12, 2, 'me', 'z\xC3\xBC')");
+    const auto store = open_store(dir);
+    ASSERT_NE(store, nullptr);
+    must(store->check());
+    EXPECT_EQ(must(store->stored("feeder", "AC"))->value, Value{std::int64_t{5}});
+    EXPECT_EQ(must(store->history("feeder", "AC", 9)).at(0).id, 7u);
+    EXPECT_EQ(must(store->snapshot("feeder", 4))->parameters.at(0).value, Value{std::int64_t{5}});
+    EXPECT_EQ(must(store->snapshot("feeder", 4))->family, "");
+    const auto history = must(store->site_history());
+    ASSERT_EQ(history.size(), 2u);
+    EXPECT_EQ(history[0].bytes, 3u);
+    EXPECT_EQ(must(store->load_site())->text, "z\xC3\xBC");
+    EXPECT_EQ(must(store->save_site("next", "me", 3)), 13u) << "numbers go on";
+}
+
 class Upgrade : public testing::Test {
 protected:
     Upgrade() {

@@ -290,7 +290,7 @@ TEST(Axis, RenameTakesEverythingAlong) {
     EXPECT_EQ(must(store->stored("belt")).size(), 1u);
 }
 
-TEST(Axis, RemovedKeepsHistoryAndSnapshotsButNothingStored) {
+TEST(Axis, WhatWasStoredForARemovedOneIsShownAgainWhenItIsMadeAgain) {
     const TempDir dir;
     const auto store = open_store(dir);
     must(commit_one(*store, a_write("feeder", "AC", std::int64_t{7})));
@@ -305,10 +305,11 @@ TEST(Axis, RemovedKeepsHistoryAndSnapshotsButNothingStored) {
     EXPECT_EQ(must(store->history("feeder", "AC", 10)).size(), 1u);
     EXPECT_EQ(must(store->snapshots("feeder")).size(), 1u);
     EXPECT_EQ(must(store->axes()).at(0).removed_unix_ns, 50);
-    // Made again under its name: history and snapshots go on, but the old values are not taken for the new drive's.
+    // Made again under its name: all goes on but what the drive itself said.
     must(commit_one(*store, a_write("feeder", "DC", std::int64_t{9})));
     EXPECT_EQ(must(store->axes()).at(0).removed_unix_ns, std::nullopt);
-    EXPECT_THAT(must(store->stored("feeder")), ElementsAre(testing::Field(&ParameterRecord::parameter, "DC")));
+    EXPECT_THAT(must(store->stored("feeder")), ElementsAre(testing::Field(&ParameterRecord::parameter, "AC"), testing::Field(&ParameterRecord::parameter, "DC")));
+    EXPECT_TRUE(must(store->seen("feeder")).empty());
     EXPECT_EQ(must(store->history("feeder", "", 10)).size(), 2u);
     EXPECT_EQ(must(store->save_snapshot("feeder", "new", "", "me", 2, {})), 2u);
     must(store->remove_axis("nobody", 60));

@@ -36,10 +36,13 @@ TEST(Site, TheSameTextIsNoNewRevision) {
     EXPECT_EQ(must(store->site_history()).size(), 3u);
 }
 
-TEST(Site, TheLastFiftyAreKeptAndNumbersGoOn) {
+TEST(Site, TheNewestAreKeptAndNumbersGoOn) {
+    EXPECT_EQ(StoreLimits{}.site_revisions, 1000u);
     const TempDir dir;
+    auto options = options_for(dir.path());
+    options.limits.site_revisions = 50;
     {
-        const auto store = open_store(dir);
+        const auto store = open_store(options);
         for (int i = 1; i <= 60; ++i)
             EXPECT_EQ(must(store->save_site("site " + std::to_string(i), "x", i)), static_cast<std::uint64_t>(i));
         const auto history = must(store->site_history());
@@ -50,8 +53,28 @@ TEST(Site, TheLastFiftyAreKeptAndNumbersGoOn) {
         EXPECT_TRUE(history.back().text.empty());
         EXPECT_FALSE(must(store->site(10)));
         EXPECT_EQ(must(store->site(11))->text, "site 11");
+        const auto page = must(store->site_history(3, 20));
+        ASSERT_EQ(page.size(), 3u);
+        EXPECT_EQ(page.front().revision, 19u);
+        EXPECT_EQ(must(store->site_history(1000, 12)).size(), 1u);
+        EXPECT_TRUE(must(store->site_history(10, 11)).empty());
     }
-    EXPECT_EQ(must(open_store(dir)->save_site("next", "x", 61)), 61u);
+    EXPECT_EQ(must(open_store(options)->save_site("next", "x", 61)), 61u);
+}
+
+TEST(Site, TheHistoryIsBoundedByTheLengthOfItsDocumentsToo) {
+    const TempDir dir;
+    auto options = options_for(dir.path());
+    options.limits.site_bytes = 1000;
+    const auto store = open_store(options);
+    for (int i = 1; i <= 9; ++i)
+        must(store->save_site(std::to_string(i) + std::string(299, 'x'), "x", i));
+    EXPECT_EQ(must(store->site_history()).size(), 3u);
+    must(store->save_site(std::string(5000, 'y'), "x", 10));  // the one in force stays, whatever its length
+    const auto history = must(store->site_history());
+    ASSERT_EQ(history.size(), 1u);
+    EXPECT_EQ(history[0].bytes, 5000u);
+    EXPECT_EQ(must(store->load_site())->revision, 10u);
 }
 
 TEST(Site, SizeIsBounded) {
@@ -94,7 +117,7 @@ TEST_F(SiteNames, CanBeExchanged) {
 TEST_F(SiteNames, WhatTheNewSiteDoesNotNameIsRemoved) {
     SiteChange change;
     change.renamed_axes = {{"a", "b"}};  // the old b is gone: its name was taken
-    change.axes = {{"b", "new"}};
+    change.axes = std::vector<SiteAxis>{{"b", "demo"}, {"new", "demo"}};
     change.renamed_drives = {{"da", "db"}};
     change.drives = {{"db", "new"}};
     must(store_->save_site("{}", "x", 77, change));
@@ -102,7 +125,85 @@ TEST_F(SiteNames, WhatTheNewSiteDoesNotNameIsRemoved) {
     EXPECT_THAT((std::vector{twin("da"), twin("db"), twin("dc")}), ElementsAre("-", "of da", "-"));
     EXPECT_EQ(must(store_->history("b", "P", 10)).size(), 1u);
     EXPECT_EQ(must(store_->history("c", "P", 10)).size(), 1u);  // removed, not forgotten
-    EXPECT_EQ(must(store_->axes()).size(), 3u);
+    EXPECT_EQ(must(store_->axes()).size(), 4u);
+}
+
+TEST_F(SiteNames, WhatIsStoredHoldsForOneFamily) {
+    const auto site = [&](const std::string& text, std::vector<SiteAxis> axes) {
+        SiteChange change;
+        change.axes = std::move(axes);
+        must(store_->save_site(text, "x", 1, change));
+    };
+    const auto snapshot = [&](const char* name) { must(store_->save_snapshot("a", name, "", "", 1, {})); };
+    snapshot("before families were told");
+    site("1", {{"a", "uim342"}, {"b", "uim342"}});
+    EXPECT_EQ(stored("a"), "of a") << "rows from before are of the family that the axis is first seen with";
+    snapshot("of a uim342");
+    site("2", {{"a", "mcode"}, {"b", "uim342"}});
+    EXPECT_EQ(stored("a"), "-");
+    EXPECT_TRUE(must(store_->history("a", "", 10)).empty());
+    must(commit_one(*store_, a_write("a", "P", std::string("of mcode"))));
+    snapshot("of a mcode");
+    const auto list = must(store_->snapshots("a"));
+    ASSERT_EQ(list.size(), 3u);
+    EXPECT_EQ((std::vector{list[0].family, list[1].family, list[2].family}), (std::vector<std::string>{"", "uim342", "mcode"}));
+    EXPECT_EQ(must(store_->snapshot("a", 2))->family, "uim342");
+    site("3", {{"a", "uim342"}, {"b", "uim342"}});
+    EXPECT_EQ(stored("a"), "of a") << "the write of the same word by another family has not touched it";
+    EXPECT_EQ(must(store_->history("a", "", 10)).size(), 1u);
+    must(store_->check());
+}
+
+TEST_F(SiteNames, ARemovedAxisComesBackWithWhatWasStoredUnlessItIsOfAnotherFamily) {
+    const auto site = [&](const std::string& text, std::vector<SiteAxis> axes, std::vector<std::string> kept = {}) {
+        SiteChange change;
+        change.axes = std::move(axes);
+        change.kept_axes = std::move(kept);
+        must(store_->save_site(text, "x", 1, change));
+    };
+    site("1", {{"a", "uim342"}, {"b", "uim342"}, {"c", "uim342"}});
+    site("2", {{"a", "uim342"}}, {"b"});
+    EXPECT_EQ(stored("b"), "of b") << "kept: not removed yet";
+    EXPECT_EQ(stored("c"), "-");
+    site("3", {{"a", "uim342"}});
+    EXPECT_EQ(stored("b"), "-");
+    site("4", {{"a", "uim342"}, {"b", "uim342"}, {"c", "mcode"}});
+    EXPECT_EQ(stored("b"), "of b");
+    EXPECT_EQ(stored("c"), "-");
+    site("5", {{"a", "uim342"}, {"c", "uim342"}});
+    EXPECT_EQ(stored("c"), "of c");
+}
+
+TEST_F(SiteNames, WhatSteppedAsideForARenamedAxisComesBackWhenItsNameIsFree) {
+    SiteChange change;
+    change.axes = std::vector<SiteAxis>{{"a", "demo"}, {"c", "demo"}};
+    must(store_->save_site("1", "x", 1, change));  // b is removed
+    change.renamed_axes = {{"a", "b"}};
+    change.axes = std::vector<SiteAxis>{{"b", "demo"}, {"c", "demo"}};
+    must(store_->save_site("2", "x", 2, change));
+    EXPECT_EQ(stored("b"), "of a");
+    change.renamed_axes = {{"b", "a"}};
+    change.axes = std::vector<SiteAxis>{{"a", "demo"}, {"b", "demo"}, {"c", "demo"}};
+    must(store_->save_site("3", "x", 3, change));
+    EXPECT_THAT((std::vector{stored("a"), stored("b"), stored("c")}), ElementsAre("of a", "of b", "of c"));
+}
+
+TEST(SiteAxes, RemovedOnesAreBounded) {
+    const TempDir dir;
+    auto options = options_for(dir.path());
+    options.limits.removed_axes = 2;
+    const auto store = open_store(options);
+    for (const char* name : {"a", "b", "c"}) {
+        must(commit_one(*store, a_write(name, "P", std::int64_t{1})));
+        must(store->save_snapshot(name, "", "", "", 1, std::vector<SnapshotValue>{{"P", Value{true}}}));
+        SiteChange change;
+        change.axes.emplace();
+        must(store->save_site(name, "x", 1, change));
+    }
+    EXPECT_EQ(must(store->axes()).size(), 2u);
+    EXPECT_TRUE(must(store->snapshots("a")).empty());
+    EXPECT_EQ(must(store->snapshots("c")).size(), 1u);
+    must(store->check());
 }
 
 TEST_F(SiteNames, AnAxisThatWasNeverWrittenDoesNotInheritByItsNewName) {

@@ -82,7 +82,7 @@ TEST(Snapshots, AreBoundedPerAxis) {
     meddle(dir / "axisgate.db",
            "INSERT INTO axis (name, last_snapshot) VALUES ('feeder', 1000); WITH RECURSIVE k(n) AS (SELECT 1 UNION ALL SELECT n + 1 FROM k "
            "LIMIT 1000) "
-           "INSERT INTO snapshot SELECT (SELECT id FROM axis), n, '', '', '', 0 FROM k");
+           "INSERT INTO snapshot (axis_id, n, name, comment, who, at_unix_ns) SELECT (SELECT id FROM axis), n, '', '', '', 0 FROM k");
     const auto store = open_store(dir);
     const auto error = refused(store->save_snapshot("feeder", "", "", "", 1, {}));
     EXPECT_EQ(error.kind, Kind::conflict);

@@ -4,13 +4,16 @@ import { Refusal } from './world.mjs';
 
 /** @typedef {import('../../src/api/types').Role} Role */
 /** @typedef {import('../../src/api/types').SessionInfo} SessionInfo */
-/** @typedef {{user: string | null, role: Role | null, via: SessionInfo['via'], csrf: string | null, cookie?: string}} Identity */
+/** @typedef {{user: string | null, role: Role | null, via: SessionInfo['via'], csrf: string | null, cookie?: string, ended?: boolean}} Identity */
 /** @typedef {import('./configure.mjs').Ask} Ask */
 /** @typedef {import('./configure.mjs').Answer} Answer */
 
 /** @type {Role[]} */
 export const roles = ['viewer', 'operator', 'engineer', 'administrator'];
 const mostSessions = 100;
+const endedText = 'this session has ended: it was signed out, has expired, or the gateway was restarted; sign in again, or go on without a sign-in';
+/** The browser forgets the session. */
+const noCookie = { 'set-cookie': 'axisgate_session=; Path=/; Max-Age=0' };
 const random = () => Math.random().toString(36).slice(2, 12);
 
 /** The least role for a request; null: anybody. @param {string} method @param {string[]} parts @param {any} body @returns {Role | null} */
@@ -41,22 +44,27 @@ export class Access {
     this.held = new Map();
   }
 
-  /** @param {{cookie?: string | undefined, authorization?: string | undefined}} head @returns {Identity} */
+  /** @param {Record<string, string | string[] | undefined>} head @returns {Identity} */
   identify(head) {
-    const secret = /^Bearer (.+)$/.exec(head.authorization ?? '')?.[1];
-    const token = secret === undefined ? undefined : this.tokens.find((t) => t.token === secret);
-    if (token) return { user: token.owner, role: token.role, via: 'token', csrf: null };
-    const cookie = /axisgate_session=([^;]+)/.exec(head.cookie ?? '')?.[1];
+    const nobody = { user: null, role: null, via: /** @type {const} */ ('none'), csrf: null };
+    const cookie = /axisgate_session=([^;]+)/.exec(String(head.cookie ?? ''))?.[1];
     const session = cookie === undefined ? undefined : this.sessions.get(cookie);
     const user = session && this.users.get(session.user);
     if (cookie !== undefined && session && user?.enabled) return { user: user.name, role: user.role, via: 'cookie', csrf: session.csrf, cookie };
+    if (head.authorization !== undefined) {
+      const token = this.tokens.find((t) => `Bearer ${t.token}` === head.authorization);
+      return token ? { user: token.owner, role: token.role, via: 'token', csrf: null } : nobody;
+    }
+    // Who was signed in does not become this machine by the end of the session.
+    if (cookie !== undefined) return { ...nobody, ended: true };
     return this.localRole ? { user: null, role: this.localRole, via: 'local', csrf: null } : { user: null, role: null, via: 'none', csrf: null };
   }
 
   /** @param {Identity} who @param {string} method @param {string[]} parts @param {any} body @param {string} csrf */
   check(who, method, parts, body, csrf) {
     const least = needed(method, parts, body);
-    if (least && !who.role) throw new Refusal(401, 'unauthorized', 'sign in first');
+    if (least && who.ended) throw new Refusal(401, 'session_ended', endedText, {}, noCookie);
+    if (least && !who.role) throw new Refusal(401, 'sign_in', `sign in first: this needs the role ${least}`);
     if (least && who.role && roles.indexOf(who.role) < roles.indexOf(least)) throw new Refusal(403, 'role', `this needs the role ${least}, yours is ${who.role}`);
     if (who.via === 'cookie' && method !== 'GET' && parts[0] !== 'session' && csrf !== who.csrf) throw new Refusal(403, 'csrf', 'the header X-CSRF-Token is missing or wrong');
   }
@@ -72,23 +80,23 @@ export class Access {
   }
 
   /** @param {Identity} who @returns {SessionInfo} */
-  info = (who) => ({ user: who.user, role: who.role, via: who.via, csrf: who.csrf, expires_at: null, ended: null, first_sign_in: this.users.size === 0, roles });
+  info = (who) => ({ user: who.user, role: who.role, via: who.via, csrf: who.csrf, expires_at: null, ended: who.ended ? endedText : null, first_sign_in: this.users.size === 0, roles });
 
   /** @param {Ask} ask @param {Identity} who @returns {Answer} */
   session({ method, parts, text }, who) {
-    if (method === 'GET') return { body: this.info(who) };
+    if (method === 'GET') return { head: who.ended ? noCookie : {}, body: this.info(who) };
     if (method === 'DELETE') {
       this.sessions.delete(who.cookie ?? '');
-      return { status: 204, head: { 'set-cookie': 'axisgate_session=; Path=/; Max-Age=0' } };
+      return { status: 204, head: noCookie };
     }
     const b = JSON.parse(text);
     if (parts[1] === 'first') {
       if (this.users.size > 0) throw new Refusal(409, 'conflict', 'there are users already: sign in');
-      if (b.code !== this.code) throw new Refusal(401, 'unauthorized', 'the code is wrong');
+      if (b.code !== this.code) throw new Refusal(401, 'wrong_sign_in', 'the code is wrong: it was printed when the gateway started for the first time');
       this.add({ name: b.user, role: 'administrator', password: b.password });
     }
     const user = this.users.get(b.user);
-    if (!user || user.password !== b.password || !user.enabled) throw new Refusal(401, 'unauthorized', 'the name or the password is wrong');
+    if (!user || user.password !== b.password || !user.enabled) throw new Refusal(401, 'wrong_sign_in', 'the user or the password is wrong');
     user.last_sign_in_at = new Date().toISOString();
     const [cookie, csrf] = [random(), random()];
     this.sessions.set(cookie, { user: user.name, csrf });

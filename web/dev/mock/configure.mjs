@@ -1,13 +1,19 @@
-// Mock of what is configured: mappings, registers, the staged site, snapshots, scans, backup. In: requests. Out: documents of the HTTP door.
+// Mock of what is configured: mappings, registers, the Modbus door, snapshots, scans, backup. In: requests. Out: documents of the HTTP door.
 // A stand-in for the page's author: the shapes of the answers and the refusals that the page must show, not a second gateway.
+import { SiteDesk } from './site.mjs';
 import { Refusal } from './world.mjs';
 
 /** @typedef {{status?: number, type?: string, head?: Record<string, string>, body?: any, text?: string}} Answer */
-/** @typedef {{method: string, parts: string[], q: URLSearchParams, text: string, who: string, match: string, client?: string}} Ask */
+/**
+ * `match`, `none`: If-Match and If-None-Match, empty where they are not sent. `client`: user or host, with X-Client.
+ * @typedef {{method: string, parts: string[], q: URLSearchParams, text: string, who: string, match: string, none?: string, client?: string, role?: string | null}} Ask
+ */
 
 const columns = ['id', 'unit', 'table', 'address', 'axis', 'point', 'type', 'word_order', 'scale', 'offset', 'access', 'length', 'comment'];
 const points = [
   ['statusword', 'R', 'CiA 402 status word'], ['position', 'R', 'position actual value, increments'], ['velocity', 'R', 'velocity actual value, increments/s'],
+  ['position_demand', 'R', 'position demand value, increments; the position while nobody says it'],
+  ['following_error', 'R', 'following error actual value: demand less position, increments; 0 while nobody says the demand'],
   ['target_position', 'RW', 'target position, increments'], ['flags', 'R', 'flags'], ['online', 'R', 'the drive answers'], ['moving', 'R', 'the axis moves'],
   ['position_units', 'R', "position actual value in the axis' unit"], ['velocity_units', 'R', "velocity actual value in the axis' unit per second"],
 ].map(([point, access, description]) => ({ point, access, description }));
@@ -15,29 +21,22 @@ const points = [
 const width = (m) => ({ bool: 1, u16: 1, i16: 1, u64: 4, i64: 4, f64: 4, string: m.length ?? 16 })[/** @type {'bool'} */ (m.type)] ?? 2;
 
 export class Configuration {
-  /** @param {import('./world.mjs').World} world */
-  constructor(world) {
+  /** @param {import('./world.mjs').World} world @param {import('./site.mjs').SiteDesk} site */
+  constructor(world, site = new SiteDesk(world)) {
     this.world = world;
+    this.site = site;
     this.next = 1;
-    /** @type {any} */
-    this.stage = null;
-    /** @type {any} */
-    this.previous = null;
-    /** @type {any[]} */
-    this.history = [];
     /** @type {Map<string, any[]>} */
     this.snapshots = new Map();
     /** @type {Map<string, any>} */
     this.scans = new Map();
     world.site.mappings ??= [];
+    /** @type {import('../../src/api/types').ModbusDoor} */
+    this.modbus = { bind: '127.0.0.1:1502', allow: [], functions: [1, 2, 3, 4, 5, 6, 15, 16, 23, 43], read_only: false, connections: [] };
   }
   /** @returns {any[]} */
   get mappings() {
     return /** @type {any[]} */ (this.world.site.mappings);
-  }
-  changed() {
-    this.world.revision += 1;
-    for (const l of this.world.siteListeners) l();
   }
   get hash() {
     let h = 2166136261;
@@ -48,11 +47,17 @@ export class Configuration {
   /** @param {Ask} ask @returns {Answer | null} null: not one of these */
   answer(ask) {
     const [kind, name, what] = ask.parts;
-    if (ask.match && ask.method !== 'GET' && ask.match !== `"${this.world.revision}"`) throw new Refusal(412, 'precondition_failed', `the site has the revision "${this.world.revision}" by now, not ${ask.match}: read it again`);
     if (kind === 'mapping-points') return { body: points };
-    if (kind === 'mappings' || kind === 'mappings.csv') return this.mapping(ask);
+    if (kind === 'mappings' || kind === 'mappings.csv') {
+      if (ask.method !== 'GET') this.site.mayChange(ask);
+      return this.mapping(ask);
+    }
+    if (kind === 'modbus') {
+      if (ask.method === 'PATCH') Object.assign(this.modbus, JSON.parse(ask.text));
+      return { body: this.modbus };
+    }
     if (kind === 'registers') return { body: this.registers(ask.q) };
-    if (kind === 'site') return this.site(ask);
+    if (kind === 'site') return this.site.answer(ask);
     if (kind === 'backup') return ask.method === 'GET' ? { type: 'application/octet-stream', text: 'SQLite format 3\0' } : { status: 202, body: { text: 'taken; it takes effect now', restart_needed: false } };
     if (kind === 'families' && name && what === 'parameters') return null;
     if (kind === 'lines' && name && what === 'scan') return this.scan(ask, name);
@@ -101,7 +106,7 @@ export class Configuration {
       const dry = q.get('dry_run') === '1';
       if (!dry) {
         this.world.site.mappings = all;
-        this.changed();
+        this.site.changed();
       }
       return { body: { dry_run: dry, rows: lines.length, mappings: all.length, differences } };
     }
@@ -112,7 +117,7 @@ export class Configuration {
       const block = [['statusword', 'u16', 0], ['position', 'i32', 2], ['velocity', 'i32', 4]].map(([point, type, at]) => this.check({ unit: b.unit, axis: b.axis, point, type, address: b.address + at, id: `${b.axis}-${point}-${b.address}` }, this.mappings));
       if (!b.dry_run) {
         this.mappings.push(...block);
-        this.changed();
+        this.site.changed();
       }
       return { body: { dry_run: b.dry_run, rows: block.length, mappings: this.mappings.length, differences: block.map((m) => `mapping ${m.id} is added`) } };
     }
@@ -122,7 +127,7 @@ export class Configuration {
     if (method === 'POST') this.mappings.push(this.check(JSON.parse(text), this.mappings));
     if (method === 'PUT') this.mappings[at] = this.check({ ...JSON.parse(text), id }, this.mappings);
     if (method === 'DELETE') this.mappings.splice(at, 1);
-    this.changed();
+    this.site.changed();
     return method === 'DELETE' ? { status: 204 } : { status: method === 'POST' ? 201 : 200, body: this.mappings[at < 0 ? this.mappings.length - 1 : at] };
   }
 
@@ -138,7 +143,7 @@ export class Configuration {
     if (unit > 1 && own.length === 0) return { unit, table, address, words: [], exception: { code: 2, text: 'illegal data address' }, decoded: [] };
     for (const m of unit > 1 ? own : []) {
       const a = this.world.axis(m.axis);
-      const value = m.point === 'position_units' ? a.position : m.point === 'position' ? a.position_increments : 42;
+      const value = m.point === 'position_units' ? a.position : m.point === 'position' ? a.position_increments : m.point === 'position_demand' ? (a.position_demand_increments ?? a.position_increments) : m.point === 'following_error' ? (a.following_error_increments ?? 0) : 42;
       const view = new DataView(new ArrayBuffer(8));
       if (m.type === 'f32') view.setFloat32(0, Number(value));
       else if (width(m) === 1) view.setInt16(0, Number(value));
@@ -148,83 +153,6 @@ export class Configuration {
     }
     if (unit <= 1) decoded.push({ address, name: 'statusword', type: 'u16', value: 0, unit: '', text: 'switch on disabled' });
     return { unit, table, address, words, exception: null, decoded };
-  }
-
-  /** @param {Ask} ask @returns {Answer} */
-  site({ method, parts, q, text, who }) {
-    const site = this.world.site;
-    const [, what, third, fourth] = parts;
-    const etag = { etag: `"${this.world.revision}"` };
-    this.look();
-    if (!what && method === 'GET') return { head: etag, body: site };
-    if (!what && method === 'PUT') {
-      const next = JSON.parse(text);
-      const faults = this.faults(next);
-      const dry = q.get('dry_run') === '1';
-      if (!dry && faults.length > 0) throw new Refusal(422, 'invalid', faults[0].text, { faults });
-      const differences = differ(site, next).map((d) => `${d.what} ${d.kind}`);
-      if (!dry) this.apply(next, who);
-      return { head: { etag: `"${this.world.revision}"` }, body: { dry_run: dry, valid: faults.length === 0, revision: this.world.revision, differences, faults } };
-    }
-    if (what === 'history') {
-      if (!third) return { body: this.history.map(({ revision, at, who: w, bytes }) => ({ revision, at, who: w, bytes })) };
-      const h = this.history.find((x) => String(x.revision) === third);
-      if (!h) throw new Refusal(404, 'not_found', `there is no revision ${third}`);
-      if (fourth === 'restore') return { body: this.setStage(h.document) };
-      return { body: h.document };
-    }
-    if (what !== 'stage') throw new Refusal(404, 'not_found', 'there is no such thing');
-    if (!third && method === 'GET') return { body: this.stage ?? { state: 'none', id: null, faults: [], diff: [], disturbs: [] } };
-    if (!third && method === 'POST') return { body: this.setStage(JSON.parse(text)) };
-    if (!this.stage) throw new Refusal(409, 'wrong_state', 'nothing is staged');
-    if (!third && method === 'DELETE') {
-      this.stage = null;
-      return { status: 204 };
-    }
-    if (third === 'apply') {
-      if (this.stage.faults.length > 0) throw new Refusal(422, 'invalid', this.stage.faults[0].text, { faults: this.stage.faults });
-      const s = JSON.parse(text).confirm_within_s ?? 60;
-      this.previous = structuredClone(site);
-      this.apply(this.stage.document, who);
-      this.stage = s === 0 ? null : { ...this.stage, state: 'applied', confirm_by: (Date.now() + s * 1000) * 1e6 };
-      return { body: this.stage ?? { state: 'none' } };
-    }
-    if (this.stage.state !== 'applied') throw new Refusal(409, 'wrong_state', 'nothing is applied that waits');
-    if (third === 'roll-back') this.apply(this.previous, who);
-    this.stage = null;
-    return { body: { state: 'none', id: null, faults: [], diff: [], disturbs: [] } };
-  }
-  look() {
-    if (this.stage?.state === 'applied' && Date.now() * 1e6 > this.stage.confirm_by) {
-      this.stage = null;
-      this.apply(this.previous, 'the gateway');
-      this.world.event('warning', 'site', {}, 'the site was rolled back: nobody confirmed it in time');
-    }
-  }
-  /** @param {any} document */
-  setStage(document) {
-    this.stage = { id: 's1', state: 'staged', document, faults: this.faults(document), diff: differ(this.world.site, document), disturbs: differ(this.world.site, document).filter((d) => d.kind !== 'added' && d.what.startsWith('axes/')).map((d) => d.what.slice(5)) };
-    return this.stage;
-  }
-  /** @param {any} d */
-  faults(d) {
-    /** @type {any[]} */
-    const faults = [];
-    const f = (/** @type {string} */ pointer, /** @type {string} */ text, /** @type {string} */ remedy) => faults.push({ document: 'body', pointer, text, remedy });
-    for (const [i, l] of (d.lines ?? []).entries()) if (!l.uri) f(`/lines/${i}/uri`, 'uri is missing', 'write "uri": "twin"');
-    for (const [i, r] of (d.drives ?? []).entries()) if (!(d.lines ?? []).some((/** @type {any} */ l) => l.name === r.line)) f(`/drives/${i}/line`, `there is no line ${r.line}`, 'name a line of the site');
-    for (const [i, a] of (d.axes ?? []).entries()) {
-      if (!(d.drives ?? []).some((/** @type {any} */ r) => r.name === a.drive)) f(`/axes/${i}/drive`, `there is no drive ${a.drive}`, 'name a drive of the site');
-      if (d.axes.findIndex((/** @type {any} */ o) => o.number === a.number) !== i) f(`/axes/${i}/number`, `number ${a.number} is taken`, 'choose another number');
-    }
-    return faults;
-  }
-  /** @param {any} next @param {string} who */
-  apply(next, who) {
-    const text = JSON.stringify(this.world.site);
-    this.history.unshift({ revision: this.world.revision, at: new Date().toISOString(), who, bytes: text.length, document: JSON.parse(text) });
-    this.world.reload(structuredClone(next));
-    this.changed();
   }
 
   /** @param {Ask} ask @param {string} line @returns {Answer} */
@@ -303,21 +231,4 @@ export class Configuration {
     if (!dry) for (const c of changes) axis.write(c.parameter, c.to, who);
     return { body: dry ? { dry_run: true, changes, skipped: [] } : { dry_run: false, changed: changes, failed: [] } };
   }
-}
-
-/** @param {any} a @param {any} b */
-function differ(a, b) {
-  /** @type {{kind: string, what: string, before: any, after: any}[]} */
-  const diff = [];
-  for (const room of ['lines', 'drives', 'axes', 'mappings']) {
-    const key = room === 'mappings' ? 'id' : 'name';
-    const before = new Map((a[room] ?? []).map((/** @type {any} */ x) => [x[key], x]));
-    const after = new Map((b[room] ?? []).map((/** @type {any} */ x) => [x[key], x]));
-    for (const [n, x] of after) {
-      if (!before.has(n)) diff.push({ kind: 'added', what: `${room}/${n}`, before: null, after: x });
-      else if (JSON.stringify(before.get(n)) !== JSON.stringify(x)) diff.push({ kind: 'changed', what: `${room}/${n}`, before: before.get(n), after: x });
-    }
-    for (const [n, x] of before) if (!after.has(n)) diff.push({ kind: 'removed', what: `${room}/${n}`, before: x, after: null });
-  }
-  return diff;
 }

@@ -14,6 +14,13 @@ const kindOf = (step) => kinds.find((k) => k in step) ?? '';
 /** @param {any} step @param {string} at @returns {[string, any[]][]} */
 const listsOf = (step, at) => ['then', 'else', 'steps'].flatMap((l) => (Array.isArray(step[kindOf(step)]?.[l]) ? [/** @type {[string, any[]]} */ ([`${at}/${kindOf(step)}/${l}`, step[kindOf(step)][l]])] : []));
 
+/** Another text, time or author is another tag. @param {{document: any, changed_at: string, changed_by: string}} recipe */
+function tagOf({ document, changed_at, changed_by }) {
+  let h = 2166136261;
+  for (const c of JSON.stringify([document, changed_at, changed_by])) h = Math.imul(h ^ c.charCodeAt(0), 16777619) >>> 0;
+  return `"${h.toString(16).padStart(8, '0')}"`;
+}
+
 export class Recipes {
   /** @param {import('./world.mjs').World} world */
   constructor(world) {
@@ -82,17 +89,21 @@ export class Recipes {
   }
 
   /** @param {Ask} ask @returns {Answer | null} null: not one of these */
-  answer({ method, parts, q, text, who }) {
+  answer(ask) {
+    const { method, parts, q, text, who } = ask;
     const [kind, name, what, n, verb] = parts;
     if (kind !== 'recipes') return null;
-    if (!name) return { body: [...this.all].map(([k, r]) => ({ name: k, description: r.document.description ?? '', parameters: r.document.parameters ?? {}, steps: this.flat(r.document.steps, '/steps').length, changed_at: r.changed_at, changed_by: r.changed_by, running: this.running(k)?.report.n ?? null })) };
-    if (!what && method === 'PUT') return this.put(name, JSON.parse(text), q.get('dry_run') === '1', who);
+    if (!name) return { body: [...this.all].map(([k, r]) => ({ name: k, etag: tagOf(r), description: r.document.description ?? '', parameters: r.document.parameters ?? {}, steps: this.flat(r.document.steps, '/steps').length, changed_at: r.changed_at, changed_by: r.changed_by, running: this.running(k)?.report.n ?? null })) };
+    if (!what && method === 'PUT') return this.put(name, JSON.parse(text), q.get('dry_run') === '1', ask);
     const recipe = this.all.get(name);
     if (!recipe) throw new Refusal(404, 'not_found', `there is no recipe ${name}`);
-    if (!what && method === 'GET') return { body: { name, ...recipe.document, changed_at: recipe.changed_at, changed_by: recipe.changed_by } };
+    if (!what && method === 'GET') return { head: { etag: tagOf(recipe) }, body: this.shown(name, recipe) };
     if (!what && method === 'DELETE') {
-      if (this.running(name)) throw new Refusal(409, 'busy', `recipe ${name} is running: cancel it first`);
+      this.refuse(name, ask);
+      const run = this.running(name);
+      if (run) throw new Refusal(409, 'running', `recipe ${name} is running (run ${run.report.n}): cancel it first`);
       this.all.delete(name);
+      this.world.event('info', 'recipe', { who, door: 'http' }, `recipe ${name} deleted`);
       return { status: 204 };
     }
     if (what === 'run') return this.start(name, recipe.document, text ? JSON.parse(text) : {}, who);
@@ -116,8 +127,21 @@ export class Recipes {
     return steps.flatMap((step, i) => [{ pointer: `${at}/${i}`, step }, ...listsOf(step, `${at}/${i}`).flatMap(([p, l]) => this.flat(l, p))]);
   }
 
-  /** @param {string} name @param {any} document @param {boolean} dry @param {string} who @returns {Answer} */
-  put(name, document, dry, who) {
+  /** @param {string} name @param {{document: any, changed_at: string, changed_by: string}} recipe */
+  shown = (name, { document, changed_at, changed_by }) => ({ ...document, name, changed_at, changed_by });
+
+  /** 412 with what is there now, if it is not what was asked for. @param {string} name @param {Ask} ask */
+  refuse(name, { match, none = '' }) {
+    const now = this.all.get(name);
+    const tag = now ? tagOf(now) : null;
+    const refused = (/** @type {string} */ words) => new Refusal(412, 'precondition_failed', words, { etag: tag, current: now ? this.shown(name, now) : null }, tag === null ? {} : { etag: tag });
+    if (match && !now) throw refused(`there is no recipe ${name} any more: leave If-Match out to make it`);
+    if (match && now && match !== '*' && match !== tag) throw refused(`recipe ${name} was changed by ${now.changed_by || 'somebody'} at ${now.changed_at}: read it again; its ETag is ${tag}, not ${match}`);
+    if (none && now && (none === '*' || none === tag)) throw refused(`there is a recipe ${name} already: choose another name, or send If-Match: ${tag} to replace it`);
+  }
+
+  /** @param {string} name @param {any} document @param {boolean} dry @param {Ask} ask @returns {Answer} */
+  put(name, document, dry, ask) {
     /** @type {any[]} */
     const faults = [];
     const fault = (/** @type {string} */ pointer, /** @type {string} */ words, /** @type {string} */ remedy) => faults.push({ document: 'body', pointer, text: words, remedy });
@@ -136,10 +160,13 @@ export class Recipes {
       if (c?.point && first !== undefined && c.point !== 'error_code' && !(c.point in this.world.axis(first))) fault(`${pointer}/${kind}/point`, `an axis has no point ${c.point}`, 'name a member of the axis document');
     }
     if (faults.length > 0) throw new Refusal(422, 'invalid', `${faults.length} faults`, { faults });
+    this.refuse(name, ask);
     if (dry) return { body: { dry_run: true, steps: this.flat(document.steps, '/steps').length } };
     const made = !this.all.has(name);
-    this.all.set(name, { document, changed_at: this.world.now(), changed_by: who });
-    return { status: made ? 201 : 200, body: document };
+    const kept = { document, changed_at: this.world.now(), changed_by: ask.who };
+    this.all.set(name, kept);
+    this.world.event('info', 'recipe', { who: ask.who, door: 'http' }, `recipe ${name} ${made ? 'made' : 'changed'}`);
+    return { status: made ? 201 : 200, head: { etag: tagOf(kept), ...(made ? { location: `/api/v1/recipes/${encodeURIComponent(name)}` } : {}) }, body: this.shown(name, kept) };
   }
 
   /** @param {string} name @param {any} document @param {any} request @param {string} who @returns {Answer} */
@@ -159,7 +186,8 @@ export class Recipes {
     const axes = [...new Set(flat.filter(({ step }) => ['enable', 'disable', 'home', 'command', 'action'].includes(kindOf(step))).map(({ step }) => String(step[kindOf(step)].axis)))];
     for (const a of axes) this.world.axisOf(a);
     if (request.dry_run) return { body: { dry_run: true, steps: flat.length, arguments: given, axes } };
-    if (this.running(name)) throw new Refusal(409, 'busy', `recipe ${name} is running already`);
+    const now = this.running(name);
+    if (now) throw new Refusal(409, 'running', `recipe ${name} is running already (run ${now.report.n}): wait for its end, or cancel it`);
     const runs = this.runs.get(name) ?? [];
     /** @type {RecipeReport} */
     const report = {

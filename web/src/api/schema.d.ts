@@ -747,7 +747,10 @@ export interface paths {
         /**
          * Starts a run; first everything is checked against the site
          * @description At most 4 recipes run at once, each once, and no axis is commanded by two. The live feed's topic `recipes` carries the report whenever
-         *     it changes. A run that fails or is cancelled stops the axes that it has set in motion (`on_failure`).
+         *     it changes. A run that fails or is cancelled stops the axes that it has set in motion (`on_failure`): those whose drive has taken its
+         *     command, or may have taken it, until the motion has ended, another command or a stop has taken its place, or another client holds the
+         *     axis. A command that was refused sets nothing in motion. The reports of the last 20 runs outlive the program; a run that was under way
+         *     when the gateway ended is `interrupted`, with the steps known by then (written down at most once a second), and an event says so.
          */
         post: operations["runRecipe"];
         delete?: never;
@@ -790,7 +793,7 @@ export interface paths {
                  */
                 recipe: components["parameters"]["recipe"];
                 /**
-                 * @description number of the run; counts up per recipe
+                 * @description number of the run; counts up per recipe, also over restarts
                  * @example 1
                  */
                 run: components["parameters"]["run"];
@@ -818,7 +821,7 @@ export interface paths {
                  */
                 recipe: components["parameters"]["recipe"];
                 /**
-                 * @description number of the run; counts up per recipe
+                 * @description number of the run; counts up per recipe, also over restarts
                  * @example 1
                  */
                 run: components["parameters"]["run"];
@@ -845,7 +848,10 @@ export interface paths {
             };
             cookie?: never;
         };
-        /** Snapshots of an axis, oldest first */
+        /**
+         * Snapshots of an axis, oldest first
+         * @description They follow the axis to another name, stay when it gets another drive, and are there again when a removed axis is put back (or another of its name is made). `family` tells of which drives each is; only one of the same family is written back.
+         */
         get: operations["listSnapshots"];
         put?: never;
         /** Takes a snapshot, of all that can be read from the drive or of what is stored; nothing is stored if the drive falls silent */
@@ -909,7 +915,7 @@ export interface paths {
             };
             cookie?: never;
         };
-        /** A snapshot beside something else */
+        /** A snapshot beside something else; 409 if that is of another family */
         get: operations["diffSnapshot"];
         put?: never;
         post?: never;
@@ -932,7 +938,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** Writes what differs to the drive, one parameter at a time; refused while the axis moves, unless nothing would be written */
+        /** Writes what differs to the drive, one parameter at a time; refused while the axis moves, unless nothing would be written, and for a snapshot of another family */
         post: operations["restoreSnapshot"];
         delete?: never;
         options?: never;
@@ -1063,7 +1069,10 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** Applied sites, newest first */
+        /**
+         * Applied sites, newest first
+         * @description Every applied state is kept and can be restored: the newest 1000, and of these as many as fit into 256 MiB together; beyond that the oldest go. The list tells of them without their documents, in pages: the next one is asked for with `before`, the smallest revision of the last one.
+         */
         get: operations["listSiteHistory"];
         put?: never;
         post?: never;
@@ -1124,6 +1133,24 @@ export interface paths {
         put: operations["putBackup"];
         post?: never;
         delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/backup/pending": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The backup that was laid down and takes the database's place at the next start, if there is one */
+        get: operations["getPendingBackup"];
+        put?: never;
+        post?: never;
+        /** Takes it away again; the next start goes on with the database as it is */
+        delete: operations["cancelPendingBackup"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1351,7 +1378,7 @@ export interface paths {
          *     | `error` | `StreamError` | the answer to a request that is wrong |
          *
          *     States (axes, drives, lines) are dropped for a newer one when the client reads slowly; events never: a client that falls
-         *     more than 4096 events behind is closed with 1013. Other codes: 1001 the gateway stops, 1002 protocol error,
+         *     more than 4096 events behind, or does not read for 15 s, is closed with 1013; one whose session or token has ended with 1008. Other codes: 1001 the gateway stops, 1002 protocol error,
          *     1003 binary or three messages in a row that are not a request, 1007 not UTF-8, 1008 no sign of life, 1009 message over 64 KiB.
          *     The gateway sends a ping every 20 s. A browser's `Origin` must be the gateway's own host.
          */
@@ -1515,6 +1542,8 @@ export interface components {
             comment: string;
             at: components["schemas"]["Time"];
             who: string | null;
+            /** @description of the drive that it was taken of; null: taken by an older program, not known */
+            family: string | null;
             values: number;
         };
         Snapshot: {
@@ -1524,6 +1553,8 @@ export interface components {
             comment: string;
             at: components["schemas"]["Time"];
             who: string | null;
+            /** @description of the drive that it was taken of; null: taken by an older program, not known */
+            family: string | null;
             values: number;
             parameters: components["schemas"]["SnapshotValue"][];
             left_out?: string[];
@@ -1646,8 +1677,11 @@ export interface components {
             after: Record<string, never> | null;
         };
         ApplyRequest: {
-            /** @default 60 */
-            confirm_within_s?: number;
+            /**
+             * @description how long the trial lasts, s; 0 - for good, without a roll back
+             * @default 60
+             */
+            confirm_within_s?: 0 | number;
             /** @description `id` of the stage that is meant: 409 `stage_replaced` if another one, or none, is staged now */
             stage?: string;
         };
@@ -1656,6 +1690,23 @@ export interface components {
             at: components["schemas"]["Time"];
             who: string | null;
             bytes: number;
+        };
+        PendingBackup: {
+            /** @description false: nothing waits, and all else is null */
+            waiting: boolean;
+            /**
+             * Format: date-time
+             * @description when it was laid down
+             */
+            at: string | null;
+            /** @description by whom */
+            who: string | null;
+            /** @description its length */
+            bytes: number | null;
+            /** @description of the structure of its database; an older one is upgraded */
+            version: number | null;
+            /** @description of the site that comes in force with it */
+            site_revision: number | null;
         };
         RestoreAnswer: {
             restart_needed: boolean;
@@ -1715,7 +1766,7 @@ export interface components {
         Value: boolean | number | string;
         /** @description a value, or null where none is known */
         MaybeValue: (boolean | null) | (number | null) | (string | null);
-        /** @description the family's own options; see the family's README */
+        /** @description the family's own options, as `options` of the family lists them */
         Options: {
             [key: string]: string | number | boolean;
         };
@@ -1736,6 +1787,8 @@ export interface components {
             remedy: string;
         };
         Problem: {
+            /** @description `stage_replaced`: the id of the stage that is there now; null if none is */
+            stage?: string | null;
             /** @description of 412: the site in force */
             current?: components["schemas"]["Site"];
             /** @description how many parameters were read before the drive fell silent */
@@ -1839,6 +1892,20 @@ export interface components {
             commands: number;
             /** @description how many */
             errors: number;
+            /** @description what `options` of a line or drive may say; a twin's stand beside those of its drive, or of its line for all twins of that. What is not in this list, or not in its range, is an event and counts as not given */
+            options?: {
+                /** @example crc */
+                name: string;
+                of: ("line" | "drive" | "twin")[];
+                /** @description the only ones; without them min and max decide, and without those it is a text that the description explains */
+                values?: string[];
+                min?: number;
+                max?: number;
+                unit?: string;
+                /** @description null where the description says what holds */
+                default: string | null;
+                description: string;
+            }[];
         } & {
             [key: string]: unknown;
         };
@@ -2067,9 +2134,17 @@ export interface components {
             readonly internal_limit: boolean;
             /** @description in `unit`; null until the drive has said it */
             readonly position: number | null;
-            /** @description whether the drive says where it wants to be at each moment; if not, position_demand is null and nobody can tell a following error */
+            /** @description whether somebody says where the axis should be now; if not, position_demand and following_error are null */
             readonly demand_known: boolean;
+            /**
+             * @description whose word the demand is: the drive tells it, or how far it is behind; computed: the gateway works it out from the order that the drive acknowledged (target, speed, ramps), so that a drive that plans otherwise shows a following error; open_loop: the position itself, because the drive counts the steps that it puts out and nothing measures whether the shaft follows; null: nobody can tell, because the axis is off, or moves by an order that this gateway did not give
+             * @enum {string|null}
+             */
+            readonly demand_source: "drive" | "computed" | "open_loop" | null;
+            /** @description where the axis should be now, in `unit` */
             readonly position_demand: number | null;
+            /** @description demand less position, in `unit`; null without a demand and in open loop */
+            readonly following_error: number | null;
             /** @description unit/s */
             readonly velocity: number | null;
             /** @description as last accepted */
@@ -2078,6 +2153,7 @@ export interface components {
             readonly target_velocity: number | null;
             readonly position_increments: number | null;
             readonly position_demand_increments: number | null;
+            readonly following_error_increments: number | null;
             /** @description increments/s */
             readonly velocity_increments: number | null;
             readonly target_position_increments: number | null;
@@ -2370,6 +2446,21 @@ export interface components {
         };
         AuthorityList: {
             axes: components["schemas"]["Authority"][];
+            /** @description who could be named as the next holder - clients of the last ten minutes that signed in or sent X-Client, and hosts connected by Modbus */
+            clients: {
+                /**
+                 * @description as `to` of hand-over takes it
+                 * @example http anne page-3f
+                 */
+                client: string;
+                /** @enum {string} */
+                door: "http" | "modbus";
+                /**
+                 * Format: date-time
+                 * @description when it last asked for something; null for one that is connected
+                 */
+                at: string | null;
+            }[];
         };
         TakeAuthority: {
             /** @default 30 */
@@ -2378,6 +2469,7 @@ export interface components {
             take_over?: boolean;
         };
         HandOver: {
+            /** @description a client of the list, or a user ("http anne"): then whichever client of that user comes first */
             to: string;
         };
         ModbusChange: {
@@ -2760,27 +2852,40 @@ export interface components {
         RecipeReportHead: {
             recipe: string;
             n: number;
-            /** @enum {string} */
-            state: "running" | "stopping" | "done" | "failed" | "cancelled";
+            /**
+             * @description interrupted: the gateway was restarted while the run was under way
+             * @enum {string}
+             */
+            state: "running" | "stopping" | "done" | "failed" | "cancelled" | "interrupted";
             /** Format: date-time */
             started_at: string;
-            /** Format: date-time */
+            /**
+             * Format: date-time
+             * @description of an interrupted run: the last that is known of it
+             */
             ended_at: string | null;
             started_by: string;
             arguments: Record<string, never>;
             axes: string[];
             /** @description pointer of the step that is carried out, or at which the run ended early */
             at_step: string | null;
+            /**
+             * @description the label of that step
+             * @example Step 4.3: set_parameter AC of feeder = 20000
+             */
+            at_label?: string | null;
             /** @description steps that were begun */
             begun: number;
             /** @description all steps */
             of: number;
             /** @description why it ended early */
             text: string;
-            /** @description axes that were stopped because the run did not come to its end */
+            /** @description axes that were in motion by the run when it did not come to its end */
             stops: {
                 axis: string;
                 stopped: boolean;
+                /** @description no stop was sent: the motion is not the run's any more; `text` says why */
+                left_alone?: boolean;
                 text: string;
             }[];
         };
@@ -2791,11 +2896,17 @@ export interface components {
         RecipeReportStep: {
             /** @example /steps/1/repeat/steps/0 */
             pointer: string;
+            /**
+             * @description the step for people, in at most 200 bytes: its number (counted from 1; steps in a `repeat` or an `if` after that of the step that holds
+             *     them), the pass of the repeats around it that was begun last, and what it does
+             * @example Step 4.3 (pass 2 of 5): set_parameter AC of feeder = 20000
+             */
+            label?: string;
             /** @example command */
             step: string;
             axis: string | null;
             /** @enum {string} */
-            state: "not_run" | "running" | "done" | "failed" | "cancelled";
+            state: "not_run" | "running" | "done" | "failed" | "cancelled" | "interrupted";
             /** @description how often it was begun */
             times: number;
             /**
@@ -3136,7 +3247,7 @@ export interface components {
          */
         recipe: string;
         /**
-         * @description number of the run; counts up per recipe
+         * @description number of the run; counts up per recipe, also over restarts
          * @example 1
          */
         run: number;
@@ -5569,7 +5680,7 @@ export interface operations {
                  */
                 recipe: components["parameters"]["recipe"];
                 /**
-                 * @description number of the run; counts up per recipe
+                 * @description number of the run; counts up per recipe, also over restarts
                  * @example 1
                  */
                 run: components["parameters"]["run"];
@@ -5602,7 +5713,7 @@ export interface operations {
                  */
                 recipe: components["parameters"]["recipe"];
                 /**
-                 * @description number of the run; counts up per recipe
+                 * @description number of the run; counts up per recipe, also over restarts
                  * @example 1
                  */
                 run: components["parameters"]["run"];
@@ -6147,7 +6258,12 @@ export interface operations {
     };
     listSiteHistory: {
         parameters: {
-            query?: never;
+            query?: {
+                /** @description at most so many */
+                limit?: number;
+                /** @description only revisions below this one; 0 from the newest on */
+                before?: number;
+            };
             header?: never;
             path?: never;
             cookie?: never;
@@ -6163,6 +6279,7 @@ export interface operations {
                     "application/json": components["schemas"]["SiteRevision"][];
                 };
             };
+            400: components["responses"]["BadRequest"];
             default: components["responses"]["Problem"];
         };
     };
@@ -6271,6 +6388,49 @@ export interface operations {
             403: components["responses"]["Forbidden"];
             415: components["responses"]["UnsupportedMediaType"];
             422: components["responses"]["Unprocessable"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getPendingBackup: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description what waits */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PendingBackup"];
+                };
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    cancelPendingBackup: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description taken away */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            507: components["responses"]["NotStored"];
             default: components["responses"]["Problem"];
         };
     };

@@ -1,9 +1,11 @@
 // Stream: the one WebSocket of the page, kept up. In: topics that the page wants. Out: messages, and the state of the connection.
 // Pauses between attempts grow from 0.5 s to 10 s and start anew only after a connection that was live for 5 s. A connection that says nothing for
-// `quiet_ms` is asked for a sign of life, and is given up if none comes: a dead cable closes no socket by itself.
+// `quiet_ms` is asked for a sign of life; after `answer_ms` without one it is "silent", not live any more, and live again with the next word; after
+// `lost_ms` without a word it is given up: a dead cable closes no socket by itself.
 // Never keeps messages: they go to the reader at once. Never reports "live" before the gateway has spoken.
 
-export type Phase = 'connecting' | 'live' | 'waiting';
+/** `silent`: it was live, the socket is open, but nobody answers. */
+export type Phase = 'connecting' | 'live' | 'silent' | 'waiting';
 
 export interface StreamState {
   phase: Phase;
@@ -36,9 +38,12 @@ export interface StreamOptions {
   connectLimit_ms?: number;
   quiet_ms?: number;
   answer_ms?: number;
+  lost_ms?: number;
 }
 
 const steady_ms = 5_000;
+const mostLate_ms = 300;
+const silence = 'the gateway has fallen silent';
 /** Asking for `site` anew is answered at once: that is the sign of life. */
 const signOfLife = JSON.stringify({ subscribe: ['site'] });
 
@@ -49,6 +54,7 @@ export class Stream {
   private heardAt = 0;
   private liveSince = 0;
   private askedAt = 0;
+  private dueAt = 0;
   private stopped = true;
   private state: StreamState = { phase: 'connecting', epoch: 0, lastLiveAt: 0, retryAt: 0, attempts: 0, why: '' };
   private readonly o: Required<StreamOptions>;
@@ -61,8 +67,10 @@ export class Stream {
       firstPause_ms: 500,
       longestPause_ms: 10_000,
       connectLimit_ms: 5_000,
-      quiet_ms: 2_000,
-      answer_ms: 2_000,
+      // The gateway speaks once a second even when nothing changes; between two of its words it is asked once. Together: not live after 1.4 s.
+      quiet_ms: 700,
+      answer_ms: 700,
+      lost_ms: 4_000,
       ...options,
     };
   }
@@ -90,7 +98,7 @@ export class Stream {
   wake(): void {
     if (this.stopped) return;
     if (this.state.phase === 'waiting') this.retryNow();
-    else if (this.state.phase === 'live') this.watch();
+    else if (this.state.phase === 'live' || this.state.phase === 'silent') this.watch();
   }
 
   subscribe(topics: Record<string, number>): void {
@@ -141,7 +149,10 @@ export class Stream {
       clearTimeout(this.timer);
       this.liveSince = this.heardAt;
       this.tell({ phase: 'live', epoch: this.state.epoch + 1, why: '', lastLiveAt: this.heardAt });
-      this.timer = setTimeout(() => this.watch(), this.o.quiet_ms);
+      this.again(this.o.quiet_ms);
+    } else if (this.state.phase === 'silent') {
+      this.tell({ phase: 'live', why: '' });
+      this.again(this.o.quiet_ms);
     }
     if (typeof text !== 'string') return;
     let message: StreamMessage;
@@ -157,13 +168,26 @@ export class Stream {
     clearTimeout(this.timer);
     const now = this.o.now();
     const quiet = now - this.heardAt;
-    if (this.askedAt > 0 && now - this.askedAt >= this.o.answer_ms) return this.lost('the gateway has fallen silent');
+    const waited = this.askedAt > 0 ? now - this.askedAt : 0;
+    // Only a page that was held up itself comes so late: what has arrived meanwhile waits behind this timer and is heard first.
+    const late = this.dueAt > 0 && now - this.dueAt > mostLate_ms;
+    if (this.askedAt > 0 && waited >= this.o.answer_ms && !late) {
+      if (quiet >= this.o.lost_ms) return this.lost(silence);
+      if (this.state.phase === 'live') this.tell({ phase: 'silent', why: silence, lastLiveAt: this.heardAt });
+      return this.again(Math.max(this.o.lost_ms - quiet, 10));
+    }
     if (quiet >= this.o.quiet_ms && this.askedAt === 0) {
       this.askedAt = now;
       this.send(signOfLife);
+      return this.again(this.o.answer_ms);
     }
-    const next = this.askedAt > 0 ? this.o.answer_ms - (now - this.askedAt) : this.o.quiet_ms - quiet;
-    this.timer = setTimeout(() => this.watch(), Math.max(next, 10));
+    this.again(Math.max(this.askedAt > 0 ? this.o.answer_ms - waited : this.o.quiet_ms - quiet, 10));
+  }
+
+  private again(in_ms: number): void {
+    clearTimeout(this.timer);
+    this.dueAt = this.o.now() + in_ms;
+    this.timer = setTimeout(() => this.watch(), in_ms);
   }
 
   private ask(topics: Iterable<[string, number]>): void {
@@ -192,7 +216,7 @@ export class Stream {
 
   private lost(why: string): void {
     clearTimeout(this.timer);
-    const wasLive = this.state.phase === 'live';
+    const wasLive = this.state.phase === 'live' || this.state.phase === 'silent';
     const lastLiveAt = wasLive ? this.heardAt : this.state.lastLiveAt;
     this.drop();
     if (this.stopped) return;

@@ -6,7 +6,7 @@ import type { Alarm } from '../api/types';
 import { useGateway } from '../gateway';
 import { axisPath, linePath } from '../router';
 import { capital } from '../state/commander';
-import { alarmWord, canAcknowledge, shelfTimes, subjectOf } from '../words/alarm';
+import { alarmWord, canAcknowledge, shelfTimes, subjectOf, withoutSubject } from '../words/alarm';
 import { clockTime } from '../words/time';
 import { Choice, quiet, Tell, TextField, type Told } from './form';
 import { useBarred, Why } from './gate';
@@ -107,7 +107,7 @@ function AlarmRow(p: RowProps) {
       <div class="alarm-line">
         <Pill word={alarmWord(a)} label="State" />
         <span class="alarm-what">
-          {path ? <a href={path}>{about}</a> : <b>{about}</b>} {a.text}
+          {path ? <a href={path}>{about}</a> : <b>{about}</b>} {withoutSubject(a.text, about)}
           {a.code !== null && <span class="mono"> (code {a.code})</span>}
         </span>
         <span class="alarm-buttons">

@@ -67,7 +67,7 @@ export function ResultLine({ axis, id }: { axis: string; id: string }) {
   const note = useGateway().commander.note(axis).value;
   return (
     <p class={`result result-${note.tone}`} id={id} role="status" title={note.text}>
-      {note.tone === 'refused' && <Icon name="triangle" size={14} />}
+      {(note.tone === 'refused' || note.tone === 'partly') && <Icon name="triangle" size={14} />}
       {note.tone === 'good' && <Icon name="check" size={14} />}
       <span>{note.text}</span>
     </p>
@@ -99,7 +99,7 @@ export function TileControls({ axis, bare }: { axis: Axis; bare: boolean }) {
       <div class="control-power">
         <span class="group">
           <button type="button" class="button" aria-label={`Enable ${name}`} {...no} onClick={c.simple('enable', 'Enable')}>Enable</button>
-          <button type="button" class="button" aria-label={`Disable ${name}`} onClick={c.simple('disable', 'Disable')}>Disable</button>
+          <button type="button" class="button" aria-label={`Disable ${name}`} {...no} onClick={c.simple('disable', 'Disable')}>Disable</button>
         </span>
         <button type="button" class="button" aria-label={`Reset fault of ${name}`} {...no} onClick={c.simple('reset_fault', 'Reset fault')}>Reset</button>
         <button type="button" class="button" aria-label={`Halt ${name}`} title="Stop on the profile ramp, stay enabled" onClick={c.simple('halt', 'Halt')}>Halt</button>
@@ -122,7 +122,7 @@ export function FullControls({ axis }: { axis: Axis }) {
       <div class="control-power">
         <span class="group">
           <button type="button" class="button" {...no} onClick={c.simple('enable', 'Enable')}>Enable</button>
-          <button type="button" class="button" onClick={c.simple('disable', 'Disable')}>Disable</button>
+          <button type="button" class="button" {...no} onClick={c.simple('disable', 'Disable')}>Disable</button>
         </span>
         <button type="button" class="button" {...no} onClick={c.simple('reset_fault', 'Reset fault')}>Reset fault</button>
         <button type="button" class="button" title="Stop on the profile ramp, stay enabled" onClick={c.simple('halt', 'Halt')}>Halt</button>

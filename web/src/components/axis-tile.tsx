@@ -8,6 +8,7 @@ import { tick } from '../state/clock';
 import type { AxisEntry } from '../state/store';
 import { markOf, motionWord, noticeOf, positionText, stateWord, targetText, unitOf, velocityText } from '../words/axis';
 import { duration } from '../words/time';
+import { offlineReason } from '../words/wrong';
 import { ResultLine, resultId, TileControls } from './axis-controls';
 import { HolderLine } from './authority';
 import { Icon } from './icon';
@@ -29,8 +30,8 @@ export function Notice({ entry }: { entry: EntrySignal }) {
   const { store } = useGateway();
   const axis = entry.value.data;
   const trust = store.trustOf(entry.value);
-  const driveText = trust === 'offline' ? (store.drive(axis.drive)?.value.data.status.text ?? '') : '';
-  const word = noticeOf(axis, trust, driveText, trust === 'disconnected' ? lastKnownWords(store) || 'some time' : '');
+  const why = trust === 'offline' ? offlineReason(axis, store.drive(axis.drive)?.value.data, store.alarms.value?.alarms ?? []) : '';
+  const word = noticeOf(axis, trust, why, trust === 'disconnected' ? lastKnownWords(store) || 'some time' : '');
   return (
     <p class={`notice tone-${word.tone}`} title={word.long} data-field="notice">
       <Icon name={word.icon} size={14} />

@@ -2,6 +2,7 @@
 // Severity is a word and a shape before it is a colour.
 import type { GatewayEvent, Severity } from '../api/types';
 import { axisPath } from '../router';
+import { withoutSubject } from '../words/alarm';
 import { clockTime } from '../words/time';
 import { Icon, type IconName } from './icon';
 import { memo } from './memo';
@@ -32,7 +33,7 @@ function ItemView({ event }: { event: GatewayEvent }) {
       </time>
       <span class="event-what">
         {about && <b>{about} </b>}
-        <span>{event.text || change || event.kind}</span>
+        <span>{withoutSubject(event.text, event.axis ?? event.drive ?? event.line ?? '') || change || event.kind}</span>
         {event.text && change && <span class="event-change mono"> {change}</span>}
         {event.code ? <span class="mono"> (code {event.code})</span> : null}
         {event.who && <span class="event-who"> by {event.who}</span>}

@@ -4,6 +4,7 @@ import { useEffect } from 'preact/hooks';
 import { signal } from '@preact/signals';
 import { useGateway } from '../gateway';
 import { route, type Route } from '../router';
+import { axesFilter } from '../state/axes-filter';
 import { tick } from '../state/clock';
 import { dark, nextTheme } from '../state/theme';
 import { duration } from '../words/time';
@@ -54,7 +55,7 @@ function Connection() {
   const { store, session } = useGateway();
   const out = session.needed.value;
   const phase = out ? 'connecting' : store.connection.value.phase;
-  const words = out ? 'Not signed in' : phase === 'live' ? 'Live' : phase === 'connecting' ? 'Connecting' : 'Not connected';
+  const words = out ? 'Not signed in' : phase === 'live' ? 'Live' : phase === 'connecting' ? 'Connecting' : phase === 'silent' ? 'No answer' : 'Not connected';
   return (
     <span class={`connection is-${phase}`} role="status" aria-label={`Connection to the gateway: ${words}`} data-field="connection">
       <Icon name={phase === 'live' ? 'check' : phase === 'connecting' ? 'clock' : 'unplugged'} size={14} />
@@ -91,11 +92,24 @@ export function Head() {
   );
 }
 
-function Counted({ n, one, many, tone }: { n: number; one: string; many: string; tone?: string }) {
-  return (
-    <span class={`counted${n > 0 && tone ? ` tone-${tone}` : ''}`}>
+/** `filter`: what the axes are filtered by when the count is pressed; nothing to show, nothing to press. */
+function Counted({ n, one, many, tone, filter }: { n: number; one: string; many: string; tone?: string; filter: string }) {
+  const look = `counted${n > 0 && tone ? ` tone-${tone}` : ''}`;
+  const words = (
+    <>
       <b>{n}</b> {n === 1 ? one : many}
-    </span>
+    </>
+  );
+  if (n === 0) return <span class={look}>{words}</span>;
+  const show = () => {
+    axesFilter.value = filter;
+    // After the page that the link leads to is drawn.
+    setTimeout(() => document.getElementById('axes')?.scrollIntoView(), 60);
+  };
+  return (
+    <a class={look} href="/" title={filter ? `Show the axes that match “${filter}”` : 'Show all axes'} onClick={show}>
+      {words}
+    </a>
   );
 }
 
@@ -106,7 +120,7 @@ export function Strip() {
     const said = commander.stopReport.value;
     return (
       <div class="strip" data-field="strip">
-        <span class="strip-text">{gateway.session.ended.value ? 'Your session has ended: no values are shown until you sign in again.' : 'Not signed in: no values are shown. This gateway serves nobody without a sign-in.'}</span>
+        <span class="strip-text">{gateway.session.stopBarred.value && <b data-field="stop-barred">{gateway.session.stopBarred.value}</b>} {gateway.session.ended.value ? 'Your session has ended: no values are shown until you sign in again.' : 'Not signed in: no values are shown. This gateway serves nobody without a sign-in.'}</span>
         <span class={`strip-stop result-${said.tone}`}>{said.text}</span>
       </div>
     );
@@ -116,12 +130,13 @@ export function Strip() {
   if (c.phase !== 'live') {
     const since = lastKnownWords(store);
     const first = c.lastLiveAt === 0;
-    const next = c.phase === 'waiting' ? `Next try in ${duration(Math.max(0, c.retryAt - tick.value))}.` : 'Trying now.';
+    const silent = c.phase === 'silent';
+    const next = silent ? 'Waiting for its next word.' : c.phase === 'waiting' ? `Next try in ${duration(Math.max(0, c.retryAt - tick.value))}.` : 'Trying now.';
     return (
       <div class="strip is-lost" data-field="strip">
         <Icon name="unplugged" />
         <span class="strip-text">
-          <b>{first ? 'No connection to the gateway yet.' : 'Connection lost.'}</b>{' '}
+          <b>{first ? 'No connection to the gateway yet.' : silent ? 'No answer from the gateway.' : 'Connection lost.'}</b>{' '}
           {first ? '' : `All values are the last known ones, from ${since} ago. `}
           <span class="strip-more">
             {c.why && `${c.why.charAt(0).toUpperCase()}${c.why.slice(1)}. `}
@@ -129,9 +144,11 @@ export function Strip() {
           </span>
           {stop.tone !== 'none' && <b> {stop.text}</b>}
         </span>
-        <button type="button" class="button" onClick={() => gateway.stream.retryNow()}>
-          Try now
-        </button>
+        {!silent && (
+          <button type="button" class="button" onClick={() => gateway.stream.retryNow()}>
+            Try now
+          </button>
+        )}
       </div>
     );
   }
@@ -139,11 +156,11 @@ export function Strip() {
   return (
     <div class="strip" data-field="strip">
       <span class="strip-text">
-        <Counted n={n.axes} one="axis" many="axes" />
-        <Counted n={n.moving} one="moving" many="moving" tone="active" />
-        <Counted n={n.fault} one="in fault" many="in fault" tone="fault" />
-        <Counted n={n.simulated} one="simulated" many="simulated" />
-        <Counted n={n.offline} one="offline" many="offline" tone="warning" />
+        <Counted n={n.axes} one="axis" many="axes" filter="" />
+        <Counted n={n.moving} one="moving" many="moving" tone="active" filter="moving" />
+        <Counted n={n.fault} one="in fault" many="in fault" tone="fault" filter="in fault" />
+        <Counted n={n.simulated} one="simulated" many="simulated" filter="simulated" />
+        <Counted n={n.offline} one="offline" many="offline" tone="warning" filter="offline" />
       </span>
       <span class={`strip-stop result-${stop.tone}`}>{stop.text}</span>
       <Trial />
@@ -174,7 +191,8 @@ export function Spoken() {
       if (e.severity === 'alarm') say(`Alarm. ${e.axis ?? e.drive ?? e.line ?? ''}: ${e.text}`);
     });
   }, [store]);
-  const lost = store.connection.value.phase === 'waiting' ? 'Connection to the gateway lost. Values are not live.' : '';
+  const phase = store.connection.value.phase;
+  const lost = phase === 'waiting' || phase === 'silent' ? 'Connection to the gateway lost. Values are not live.' : '';
   return (
     <>
       <div class="visually-hidden" role="alert" data-field="spoken">

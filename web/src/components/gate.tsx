@@ -1,5 +1,5 @@
 // Gate: what one's role may not do is disabled, and says why. In: the role that is needed. Out: the same controls, or disabled ones with the reason.
-// Stops never stand behind a gate. The gateway refuses by itself; this only spares the attempt.
+// The stops that everybody may do (quick stop, halt) never stand behind a gate; switching off does. The gateway refuses by itself; this only spares the attempt.
 import type { ComponentChildren } from 'preact';
 import type { Role } from '../api/types';
 import { useGateway } from '../gateway';

@@ -1,7 +1,7 @@
 // Hand: the outside conditions of a simulated drive, as switches and numbers: power, stall, limits, inputs, injected errors.
 // In: what the twin offers, asked again every 2 s while shown. Out: changes of one condition at a time. Only where a twin answers.
 import { useSignal } from '@preact/signals';
-import { useEffect } from 'preact/hooks';
+import { useEffect, useId } from 'preact/hooks';
 import { asProblem } from '../api/problem';
 import type { HandItem, Value } from '../api/types';
 import { useGateway } from '../gateway';
@@ -39,14 +39,18 @@ export function Hand({ drive }: { drive: string }) {
     };
   }, [drive, simulated, connected]);
 
-  const set = async (name: string, value: Value) => {
+  /** Why it was refused; empty: it was not. */
+  const set = async (name: string, value: Value): Promise<string> => {
     note.value = { tone: 'busy', text: `${words(name)} …` };
     try {
       const now = await client.setHand(drive, { [name]: value });
       if (items.peek()) items.value = items.peek()!.map((i) => ({ ...i, value: now[i.name] ?? i.value }));
       note.value = { tone: 'good', text: `${words(name)}: set to ${editText(now[name] ?? value)}` };
+      return '';
     } catch (error) {
-      note.value = { tone: 'refused', text: `${words(name)}: refused. ${capital(asProblem(error).words)}` };
+      const why = capital(asProblem(error).words);
+      note.value = { tone: 'refused', text: `${words(name)}: refused. ${why}` };
+      return why;
     }
   };
 
@@ -66,28 +70,30 @@ export function Hand({ drive }: { drive: string }) {
   );
 }
 
-function HandRow({ item, set }: { item: HandItem; set: (name: string, value: Value) => void }) {
+function HandRow({ item, set }: { item: HandItem; set: (name: string, value: Value) => Promise<string> }) {
   const typed = useSignal<string | null>(null);
   const wrong = useSignal('');
   const label = words(item.name);
-  const send = () => {
+  const why = useId();
+  const send = async () => {
     const text = typed.peek();
     if (text === null) return;
-    if (typeof item.value === 'string') {
-      set(item.name, text);
-    } else {
+    let value: Value = text;
+    if (typeof item.value !== 'string') {
       const parsed = parseNumber(text);
       wrong.value = parsed.good ? '' : parsed.why;
       if (!parsed.good) return;
-      set(item.name, parsed.value);
+      value = parsed.value;
     }
-    typed.value = null;
+    const refused = await set(item.name, value);
+    wrong.value = refused;
+    // What was refused stays, to be mended; so does what was typed meanwhile.
+    if (!refused && typed.peek() === text) typed.value = null;
   };
   return (
     <li data-hand={item.name}>
       <span class="hand-name">
         {label}
-        {wrong.value && <span class="flag"> {wrong.value}</span>}
         {item.description && (
           <details class="hand-more">
             <summary>
@@ -99,7 +105,7 @@ function HandRow({ item, set }: { item: HandItem; set: (name: string, value: Val
         )}
       </span>
       {typeof item.value === 'boolean' ? (
-        <button type="button" class="switch" role="switch" aria-checked={item.value} aria-label={label} disabled={!item.writable} onClick={() => set(item.name, !item.value)}>
+        <button type="button" class="switch" role="switch" aria-checked={item.value} aria-label={label} disabled={!item.writable} onClick={() => void set(item.name, !item.value).then((w) => (wrong.value = w))}>
           <span class="switch-thumb" aria-hidden="true" />
           <span class="switch-text">{item.value ? 'on' : 'off'}</span>
         </button>
@@ -110,18 +116,26 @@ function HandRow({ item, set }: { item: HandItem; set: (name: string, value: Val
             inputMode="decimal"
             autocomplete="off"
             aria-label={label}
+            class={wrong.value ? 'is-wrong' : ''}
+            aria-invalid={wrong.value ? true : undefined}
+            aria-describedby={wrong.value ? why : undefined}
             value={typed.value ?? editText(item.value)}
             onInput={(e) => (typed.value = e.currentTarget.value)}
             onKeyDown={(e) => {
-              if (e.key === 'Enter' && !e.repeat) send();
+              if (e.key === 'Enter' && !e.repeat) void send();
             }}
           />
-          <button type="button" class="button small" aria-label={`Set ${label} of the twin`} onClick={send} disabled={typed.value === null}>
+          <button type="button" class="button small" aria-label={`Set ${label} of the twin`} onClick={() => void send()} disabled={typed.value === null}>
             Set
           </button>
         </span>
       ) : (
         <span class="mono">{editText(item.value)}</span>
+      )}
+      {wrong.value && (
+        <span class="hand-wrong" id={why} role="alert" data-field="hand-wrong">
+          {wrong.value}
+        </span>
       )}
     </li>
   );

@@ -1,4 +1,4 @@
-// Jog button: the axis moves while it is held, by finger, mouse or key, and stops when it is let go, when the pointer is lost,
+// Jog button: the axis moves while it is held, by finger, mouse or key, and stops when it is let go, when the pointer slides off it or is lost,
 // when the page is hidden, closed or loses the keyboard. Never starts by a click alone that was not held.
 import { useEffect, useRef } from 'preact/hooks';
 import { useGateway } from '../gateway';
@@ -13,6 +13,9 @@ export interface JogProps {
   unit: string;
 }
 
+/** A finger is not still: so far around the button it is still held. Back on it does not begin anew. */
+const margin_px = 12;
+
 export function JogButton({ axis, direction, speed, unit }: JogProps) {
   const gateway = useGateway();
   const button = useRef<HTMLButtonElement>(null);
@@ -20,6 +23,7 @@ export function JogButton({ axis, direction, speed, unit }: JogProps) {
 
   // The two buttons of an axis share its jog: each ends only what it began.
   const holding = useRef(false);
+  const pointer = useRef<number | null>(null);
   const no = useBarred('operator');
 
   const press = () => {
@@ -33,6 +37,7 @@ export function JogButton({ axis, direction, speed, unit }: JogProps) {
   const release = () => {
     if (!holding.current) return;
     holding.current = false;
+    pointer.current = null;
     button.current?.classList.remove('is-held');
     jog.release();
   };
@@ -65,6 +70,12 @@ export function JogButton({ axis, direction, speed, unit }: JogProps) {
         if (e.button !== 0) return;
         e.currentTarget.setPointerCapture?.(e.pointerId);
         press();
+        if (holding.current) pointer.current = e.pointerId;
+      }}
+      onPointerMove={(e) => {
+        if (pointer.current !== e.pointerId) return; // held by a key, or by another finger
+        const r = e.currentTarget.getBoundingClientRect();
+        if (e.clientX < r.left - margin_px || e.clientX > r.right + margin_px || e.clientY < r.top - margin_px || e.clientY > r.bottom + margin_px) release();
       }}
       onPointerUp={release}
       onPointerCancel={release}

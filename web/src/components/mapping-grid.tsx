@@ -134,7 +134,8 @@ function LiveCells({ m, heard }: { m: Mapping; heard: ReadonlySignal<ReadonlyMap
   const trust = entry ? store.trustOf(entry) : 'offline';
   const fromAxis = axis ? pointValue(axis, m.point) : undefined;
   const h = heard.value.get(m.id);
-  const value = fromAxis ?? h?.value;
+  // What nobody says is not known, whatever stands in the register for it.
+  const value = fromAxis === undefined ? h?.value : fromAxis;
   const live = fromAxis === undefined ? h !== undefined && store.connected.value && h.text === '' : trust === 'live';
   const unit = axis ? pointUnit(axis, m.point) : '';
   const known = value !== null && value !== undefined;

@@ -1,11 +1,9 @@
 // Mapping list: everything that is mapped, for paper: one table per unit, with both ways of counting and the revision. In: the mappings.
 // Out: what the printer sees; on the screen it is not drawn. And the links to the lists that the gateway makes itself.
-import { useSignal } from '@preact/signals';
-import { useEffect } from 'preact/hooks';
 import { listAddress, type MappingDoor } from '../api/mappings';
-import { asProblem } from '../api/problem';
 import { endOf, oneBased, tables, type Mapping } from '../words/mapping';
 import { notOffered } from './form';
+import { useLoaded, waiting } from './loaded';
 import { scaleText } from './mapping-grid';
 
 export function PrintedList({ rows, hash }: { rows: readonly Mapping[]; hash: string }) {
@@ -61,22 +59,13 @@ export function PrintedList({ rows, hash }: { rows: readonly Mapping[]; hash: st
 }
 
 export function ListLinks({ door }: { door: MappingDoor }) {
-  const state = useSignal<'asking' | 'there' | string>('asking');
-  useEffect(() => {
-    door.hasLists().then(
-      () => (state.value = 'there'),
-      (error) => {
-        const p = asProblem(error);
-        state.value = p.status === 404 || p.status === 501 ? notOffered('generated lists (HTML, PLC structure)') : p.words;
-      },
-    );
-  }, [door]);
+  const why = useLoaded(door.hasLists, [door], (p) => (p.status === 404 || p.status === 501 ? notOffered('generated lists (HTML, PLC structure)') : p.words));
   return (
     <div class="list-links" data-field="lists">
       <a class="button" href="/api/v1/mappings.csv" download="mappings.csv">
         Export CSV
       </a>
-      {state.value === 'there' && (
+      {!why && (
         <>
           <a class="button" href={listAddress('csv')} download="registers.csv">
             Register list, CSV
@@ -92,7 +81,7 @@ export function ListLinks({ door }: { door: MappingDoor }) {
       <button type="button" class="button" onClick={() => print()}>
         Print
       </button>
-      {state.value !== 'there' && state.value !== 'asking' && <span class="where">{state.value}</span>}
+      {why && why !== waiting && <span class="where">{why}</span>}
     </div>
   );
 }

@@ -1,7 +1,6 @@
 // Modbus door: who may come in, what may be asked, whether anything may be written, who is connected. In: /modbus. Out: a list and one switch.
 // Read-only is kept over a restart; the rest stands in the configuration. Never changes anything but the switch.
 import { useSignal } from '@preact/signals';
-import { useEffect } from 'preact/hooks';
 import { asProblem } from '../api/problem';
 import type { ModbusDoor as Door } from '../api/types';
 import { useGateway } from '../gateway';
@@ -9,24 +8,16 @@ import { capital } from '../state/commander';
 import { functionWords } from '../words/register-map';
 import { quiet, Tell, type Told } from './form';
 import { useBarred, Why } from './gate';
+import { Empty } from './lines';
+import { useLoaded } from './loaded';
 import { Section } from './section';
 
 export function ModbusDoor() {
-  const { client, store } = useGateway();
+  const { client } = useGateway();
   const no = useBarred('engineer');
   const door = useSignal<Door | null>(null);
   const told = useSignal<Told>(quiet);
-  const epoch = store.connection.value.epoch;
-  useEffect(() => {
-    if (epoch === 0) return;
-    client.modbus().then(
-      (d) => (door.value = d),
-      (error) => {
-        const p = asProblem(error);
-        told.value = { tone: 'refused', text: p.status === 404 ? 'This gateway does not say more about its Modbus door.' : capital(p.words) };
-      },
-    );
-  }, [client, epoch]);
+  const why = useLoaded(async () => void (door.value = await client.modbus()), [client], (p) => (p.status === 404 ? 'This gateway does not say more about its Modbus door.' : p.words));
   const change = async (read_only: boolean) => {
     told.value = { tone: 'busy', text: 'Changing …' };
     try {
@@ -40,15 +31,16 @@ export function ModbusDoor() {
   return (
     <Section title="Modbus door">
       <div class="card" data-field="modbus-door">
+        {why && <Empty text={why} />}
         {d && (
           <dl class="facts">
             <div><dt>Address</dt><dd class="mono">{d.bind}</dd></div>
-            <div><dt>Allowed from</dt><dd class="mono" data-field="modbus-allow">{d.allow.join(', ') || 'everywhere'}</dd></div>
+            <div><dt>Allowed from</dt><dd><span class="mono" data-field="modbus-allow">{d.allow.join(', ') || 'everywhere'}</span></dd></div>
             <div><dt>Functions</dt><dd data-field="modbus-functions">{functionWords(d.functions)}</dd></div>
             <div>
               <dt>Writing</dt>
               <dd>
-                <span data-field="modbus-writing">{d.read_only ? 'read-only: nothing can be written' : 'allowed'}</span>{' '}
+                <span data-field="modbus-writing">{d.read_only ? 'read-only: no write is taken but a quick stop or switching off by the control word alone' : 'allowed'}</span>{' '}
                 <button type="button" class="button small" aria-pressed={d.read_only} disabled={told.value.tone === 'busy'} {...no} onClick={() => void change(!d.read_only)}>
                   {d.read_only ? 'Allow writing' : 'Make it read-only'}
                 </button>
@@ -67,6 +59,11 @@ export function ModbusDoor() {
               </dd>
             </div>
           </dl>
+        )}
+        {d && (
+          <p class="where modbus-where" data-field="modbus-where">
+            Address, addresses allowed and functions are set in the gateway's TOML file, section <code class="mono">[modbus]</code>: <code class="mono">bind</code>, <code class="mono">allow</code>, <code class="mono">functions</code>; they count from its next start. Writing is switched here, and is kept.
+          </p>
         )}
         {d && <Why need="engineer" what="Making the door read-only, or not," />}
         <Tell told={told.value} field="modbus-told" />

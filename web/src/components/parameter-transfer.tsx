@@ -122,7 +122,7 @@ export function ParameterTransfer({ axis }: { axis: string }) {
             </button>
           ) : (
             <button type="button" class="button primary" disabled={wanted.length === 0 || bad > 0} {...no} onClick={() => void send()}>
-              Write {wanted.length} to the drive
+              Write {wanted.length === 1 ? '1 value' : `${wanted.length} values`} to the drive
             </button>
           )}
           <Tell told={told.value} field="transfer-told" />

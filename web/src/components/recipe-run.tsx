@@ -10,49 +10,46 @@ import { capital } from '../state/commander';
 import { runWord, typedOf, valueOf, type Json, type RecipeDocument } from '../words/recipe';
 import { clockTime, duration } from '../words/time';
 import { Icon } from './icon';
+import { useLoaded } from './loaded';
 import { Pill } from './pill';
 import { Section } from './section';
 
 const begun = (n: number) => `Run ${n} has begun.`;
 const isOver = (state: string) => state !== 'running' && state !== 'stopping';
 
-export function RunSection({ name, parameters, saved }: { name: string; parameters: NonNullable<RecipeDocument['parameters']>; saved: boolean }) {
+export function RunSection({ name, parameters, saved, typed }: { name: string; parameters: NonNullable<RecipeDocument['parameters']>; saved: boolean; typed: Signal<Record<string, string>> }) {
   const gateway = useGateway();
   const no = useBarred('operator');
   const { client } = gateway;
   const report: Signal<RecipeReport | null> = useSignal(null);
   const runs: Signal<RecipeReportHead[]> = useSignal([]);
-  const typed: Signal<Record<string, string>> = useSignal({});
   const result = useSignal<{ tone: 'none' | 'good' | 'refused'; text: string }>({ tone: 'none', text: '' });
   const refresh = () => client.recipeRuns(name).then((r) => (runs.value = r), () => undefined);
 
+  const take = (r: RecipeReport) => {
+    report.value = r;
+    // "Run 1 has begun." is no news any more: its report says how it ended.
+    if (isOver(r.state) && result.peek().text === begun(r.n)) result.value = { tone: 'none', text: '' };
+  };
+
+  // With each connection anew: what ended while this page was away is told by no message any more.
+  useLoaded(async () => {
+    const list = await client.recipeRuns(name);
+    runs.value = list;
+    const shown = report.peek();
+    const n = shown ? (isOver(shown.state) ? null : shown.n) : list[0]?.n;
+    if (n === null || n === undefined) return;
+    const whole = await client.recipeRun(name, n);
+    if (report.peek() === shown) take(whole);
+  }, [client, name]);
   useEffect(() => {
-    let here = true;
-    void client.recipeRuns(name).then(
-      async (r) => {
-        if (!here) return;
-        runs.value = r;
-        const newest = r[0];
-        if (newest && report.peek() === null) {
-          const whole = await client.recipeRun(name, newest.n);
-          if (here && report.peek() === null) report.value = whole;
-        }
-      },
-      () => undefined,
-    );
     const end = gateway.follow('recipes', 100, (m) => {
       const r = m.data as RecipeReport;
       if (r?.recipe !== name) return;
-      report.value = r;
-      if (!isOver(r.state)) return;
-      // "Run 1 has begun." is no news any more: its report says how it ended.
-      if (result.peek().text === begun(r.n)) result.value = { tone: 'none', text: '' };
-      void refresh();
+      take(r);
+      if (isOver(r.state)) void refresh();
     });
-    return () => {
-      here = false;
-      end();
-    };
+    return end;
   }, [gateway, name]);
 
   const given = () => {

@@ -12,7 +12,7 @@ export interface Editing {
   document: RecipeDocument;
   change: (next: RecipeDocument) => void;
   axes: string[];
-  /** Unit of an axis; null: there is none of this name (yet), such as a parameter of the recipe. */
+  /** Unit of the axis that a step names, also by a parameter; null: it is not known. */
   unitOf: (axis: string) => string | null;
   faults: Fault[];
 }

@@ -10,6 +10,7 @@ import { capital } from '../state/commander';
 import { Section } from './section';
 
 const askAgain_ms = 300;
+const askLater_ms = 2_000;
 
 export function ScanSection({ line }: { line: string }) {
   const { client } = useGateway();
@@ -29,7 +30,8 @@ export function ScanSection({ line }: { line: string }) {
           report.value = r;
           if (r.state === 'running') timer = setTimeout(ask, askAgain_ms);
         },
-        () => undefined,
+        // Nobody answered: a scan that runs has an end all the same, and it is wanted.
+        (error) => here && asProblem(error).status === 0 && (timer = setTimeout(ask, askLater_ms)),
       );
     void ask();
     return () => {

@@ -8,10 +8,9 @@ import 'uplot/dist/uPlot.min.css';
 import { useGateway } from '../gateway';
 import { kept } from '../state/kept';
 import { channels, columnOf, csvOf, needsDemand, Trigger, valueAt, type Channel, type TriggerSetting } from '../state/scope';
-import { barred } from '../state/session';
 import { dark } from '../state/theme';
 import type { Trail, TrailColumns } from '../state/trail';
-import { demandKnown } from '../words/axis';
+import { demandWords } from '../words/axis';
 import { formatNumber, parseNumber, tickLabels } from '../words/number';
 
 const windows = [2, 10, 30, 120] as const;
@@ -26,7 +25,6 @@ const scaleOf: Record<Channel, string> = { position: 'p', demand: 'p', target: '
 const colorOf: Record<Channel, string> = { position: '--series-1', velocity: '--series-2', target: '--series-3', demand: '--series-4', error: '--series-5' };
 /** From the bottom up: what matters most is drawn last. */
 const drawn: Channel[] = ['target', 'demand', 'error', 'velocity', 'position'];
-const notSaid = 'this drive does not say where it wants to be';
 const perSecond = (c: Channel, unit: string) => (c === 'velocity' ? `${unit}/s` : unit);
 
 /** What the component keeps between two pictures. */
@@ -67,9 +65,7 @@ export function Scope({ axis, unit }: { axis: string; unit: string }) {
   view.current ??= new View();
   const v = view.current;
   const isDark = dark.value; // a new theme makes a new plot
-  // What the drive does not say is not drawn, whatever was chosen for another axis.
-  const known = useComputed(() => demandKnown(store.axis(axis)?.value.data ?? {})).value;
-  const seen = new Set([...visible.value].filter((c) => known || !needsDemand(c as Channel)));
+  const seen = visible.value;
   const key = [...seen].join(',');
   const now = () => (Date.now() + store.clockOffset_ms) / 1000;
   const seconds = () => Number(chosen.peek()) || 30;
@@ -141,7 +137,7 @@ export function Scope({ axis, unit }: { axis: string; unit: string }) {
       <div class="scope-head">
         <div class="group scope-channels" role="group" aria-label="Channels">
           {channels.map((c) => (
-            <button key={c} type="button" class={`button small key key-${c}`} aria-pressed={seen.has(c)} {...barred(!known && needsDemand(c) ? notSaid : '')} onClick={() => toggle(c)}>
+            <button key={c} type="button" class={`button small key key-${c}`} aria-pressed={seen.has(c)} onClick={() => toggle(c)}>
               {names[c]}
             </button>
           ))}
@@ -168,13 +164,9 @@ export function Scope({ axis, unit }: { axis: string; unit: string }) {
         aria-label={`Scope of ${axis}, the last ${chosen.value} seconds. Arrow keys move the cursor ${v.active.value === 0 ? 'A' : 'B'}, Delete takes it away.`}
         onKeyDown={move}
       />
-      {!known && (
-        <p class="where scope-why" data-field="demand-unknown">
-          Demand and following error: {notSaid}.
-        </p>
-      )}
+      <DemandLine axis={axis} seen={seen} view={v} />
       <Cursors view={v} trail={() => store.trail(axis)} unit={unit} seen={seen} />
-      <TriggerBar view={v} unit={unit} now={now} known={known} />
+      <TriggerBar view={v} unit={unit} now={now} />
     </div>
   );
 }
@@ -189,7 +181,8 @@ function toggle(c: Channel): void {
 /** The newest values hold until now. */
 function extend(t: TrailColumns, now_s: number): void {
   t.at.push(now_s);
-  for (const column of [t.position, t.velocity, t.target, t.demand]) column.push(column.at(-1) ?? null);
+  for (const column of [t.position, t.velocity, t.target, t.demand, t.error]) column.push(column.at(-1) ?? null);
+  t.source.push(t.source.at(-1) ?? null);
 }
 
 function optionsFor(host: HTMLElement, list: Channel[], view: View, unit: string): uPlot.Options {
@@ -204,13 +197,13 @@ function optionsFor(host: HTMLElement, list: Channel[], view: View, unit: string
   const grid = { stroke: color('--line'), width: 1 };
   const axisStyle = { stroke: color('--text-3'), font: '11px ' + getComputedStyle(host).fontFamily, grid, ticks: { show: false } };
   const has = (scale: string) => list.some((c) => scaleOf[c] === scale);
-  const side = (scale: string, right: boolean, size: number): uPlot.Axis[] =>
-    has(scale) ? [{ ...axisStyle, ...named(scale), scale, size, space: 44, side: right ? 1 : 3, grid: right ? { show: false } : grid, values: (_u: uPlot, at: number[]) => tickLabels(at) }] : [];
+  const side = (scale: string, right: boolean): uPlot.Axis[] =>
+    has(scale) ? [{ ...axisStyle, ...named(scale), scale, size: wideEnough(), space: 44, side: right ? 1 : 3, grid: right ? { show: false } : grid, values: (_u: uPlot, at: number[]) => tickLabels(at) }] : [];
   // The side says what it measures, in the colour of its line; of several on one side the most important one gives the colour.
   const named = (scale: string) => {
     const own = channels.filter((c) => scaleOf[c] === scale && list.includes(c));
     const ink = color(colorOf[own[0] as Channel]);
-    return { stroke: ink, label: `${own.map((c) => names[c]).join(', ')}, ${perSecond(own[0] as Channel, unit)}`, labelSize: 20, labelGap: 0, labelFont: axisStyle.font };
+    return { stroke: ink, label: `${own.map((c) => names[c]).join(', ')}, ${perSecond(own[0] as Channel, unit)}`, labelSize: 16, labelGap: 0, labelFont: axisStyle.font };
   };
   const stepped = uPlot.paths.stepped?.({ align: 1 });
   const marks = [color('--accent'), color('--text-2')];
@@ -231,10 +224,13 @@ function optionsFor(host: HTMLElement, list: Channel[], view: View, unit: string
       ...list.map((c) => ({ scale: scaleOf[c], label: `${names[c]}, ${perSecond(c, unit)}`, stroke: color(colorOf[c]), width: c === 'position' ? 2 : 1.25, points: { show: false }, ...(c === 'target' ? { dash: [4, 4], ...(stepped ? { paths: stepped } : {}) } : {}) })),
     ],
     axes: [
-      { ...axisStyle, size: 26, splits: (_u, _i, min, max) => Array.from({ length: 6 }, (_, i) => max - ((max - min) * (5 - i)) / 5), values: (u, at) => at.map((t) => secondsBefore(t, u.scales.x?.max ?? t)) },
-      ...side('p', false, 64),
-      ...side('v', true, 56),
-      ...side('e', true, 56),
+      { ...axisStyle, size: 26, splits: (u, _i, min, max) => {
+          const parts = u.width < 500 ? 2 : 5; // on a phone more of them would lie upon each other
+          return Array.from({ length: parts + 1 }, (_, i) => max - ((max - min) * (parts - i)) / parts);
+        }, values: (u, at) => at.map((t) => secondsBefore(t, u.scales.x?.max ?? t)) },
+      ...side('p', false),
+      ...side('v', true),
+      ...side('e', true),
     ],
     hooks: {
       draw: [
@@ -257,6 +253,15 @@ function optionsFor(host: HTMLElement, list: Channel[], view: View, unit: string
         },
       ],
     },
+  };
+}
+
+/** As wide as the longest figure beside the plot; never narrower again, so that the plot does not jump with every digit. */
+function wideEnough(): (u: uPlot, figures: string[] | null, axis: number, cycle: number) => number {
+  let width = 32;
+  return (_u, figures, _axis, cycle) => {
+    if (cycle <= 1) width = Math.max(width, ...(figures ?? []).map((f) => f.length * 6.5 + 12));
+    return width;
   };
 }
 
@@ -337,9 +342,25 @@ function Cursors({ view, trail, unit, seen }: { view: View; trail: () => Trail; 
   );
 }
 
+/** Where the demand of the newest sample comes from, as long as something of it is drawn or waited for. */
+function DemandLine({ axis, seen, view }: { axis: string; seen: ReadonlySet<string>; view: View }) {
+  const { store } = useGateway();
+  const trigger = view.trigger.value;
+  const source = useComputed(() => {
+    const entry = store.axis(axis)?.value;
+    return entry && store.trustOf(entry) === 'live' ? entry.data.demand_source : null;
+  }).value;
+  if (!channels.some((c) => needsDemand(c) && (seen.has(c) || (trigger.mode !== 'off' && trigger.channel === c)))) return null;
+  return (
+    <p class="where scope-why" data-field="demand-source" data-source={source ?? 'none'}>
+      {demandWords(source)}
+    </p>
+  );
+}
+
 const triggerWords = { off: '', waiting: 'Waiting for the trigger', fired: 'Triggered, recording', shown: 'Held by the trigger' } as const;
 
-function TriggerBar({ view, unit, now, known }: { view: View; unit: string; now: () => number; known: boolean }) {
+function TriggerBar({ view, unit, now }: { view: View; unit: string; now: () => number }) {
   const typed = useRef(signal('0')).current;
   const setting = view.trigger.value;
   const change = (part: Partial<TriggerSetting>) => {
@@ -363,7 +384,7 @@ function TriggerBar({ view, unit, now, known }: { view: View; unit: string; now:
             <span>when</span>
             <select value={setting.channel} onChange={(e) => change({ channel: e.currentTarget.value as Channel })}>
               {channels.map((c) => (
-                <option key={c} value={c} disabled={!known && needsDemand(c)}>
+                <option key={c} value={c}>
                   {names[c].toLowerCase()}
                 </option>
               ))}

@@ -2,10 +2,10 @@
 import type { ComponentChildren } from 'preact';
 import { useId } from 'preact/hooks';
 
-export function Section({ title, beside, children, class: more = '' }: { title: string; beside?: ComponentChildren; children: ComponentChildren; class?: string }) {
+export function Section({ title, beside, children, class: more = '', id: place }: { title: string; beside?: ComponentChildren; children: ComponentChildren; class?: string; id?: string }) {
   const id = useId();
   return (
-    <section class={`section ${more}`} aria-labelledby={id}>
+    <section class={`section ${more}`} id={place} aria-labelledby={id}>
       <header class="section-head">
         <h2 id={id}>{title}</h2>
         {beside}

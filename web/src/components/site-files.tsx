@@ -1,7 +1,6 @@
 // Site files: export and import of the document, the states that were applied before, and a copy of everything. In: the draft, the door. Out: a file; a
 // document in the draft, which is then checked and applied like every change. A restored copy replaces everything and is asked for twice.
 import { useSignal } from '@preact/signals';
-import { useEffect } from 'preact/hooks';
 import { asProblem } from '../api/problem';
 import type { HistoryEntry, SiteDoor } from '../api/site';
 import { useGateway } from '../gateway';
@@ -11,6 +10,7 @@ import { differenceOf, readSite, type Difference } from '../words/site';
 import { clockTime } from '../words/time';
 import { useBarred, Why } from './gate';
 import { notOffered, quiet, Tell, type Told } from './form';
+import { useLoaded } from './loaded';
 import { Section } from './section';
 import { DifferenceList } from './site-stage';
 
@@ -120,23 +120,9 @@ export function SiteHistory({ draft, door }: { draft: SiteDraft; door: SiteDoor 
   const no = useBarred('engineer');
   const { store } = useGateway();
   const list = useSignal<HistoryEntry[]>([]);
-  const state = useSignal<'waiting' | 'there' | string>('waiting');
   const shown = useSignal<{ revision: number; changes: Difference[] } | null>(null);
   const revision = store.siteRevision.value;
-  const epoch = store.connection.value.epoch;
-  useEffect(() => {
-    if (epoch === 0) return;
-    door.history().then(
-      (l) => {
-        list.value = l;
-        state.value = 'there';
-      },
-      (error) => {
-        const p = asProblem(error);
-        state.value = absent(p.status) ? notOffered('a history of applied states') : capital(p.words);
-      },
-    );
-  }, [door, revision, epoch]);
+  const why = useLoaded(async () => void (list.value = await door.history()), [door, revision], (p) => (absent(p.status) ? notOffered('a history of applied states') : p.words));
   const look = async (n: number) => {
     if (shown.value?.revision === n) return void (shown.value = null);
     try {
@@ -148,8 +134,8 @@ export function SiteHistory({ draft, door }: { draft: SiteDraft; door: SiteDoor 
   return (
     <Section title="Applied states" class="site-history">
       <div class="card" data-field="history">
-        {state.value !== 'there' ? (
-          <p class="empty">{state.value === 'waiting' ? 'Waiting for the list.' : state.value}</p>
+        {why ? (
+          <p class="empty">{why}</p>
         ) : list.value.length === 0 ? (
           <p class="empty">No earlier state is kept.</p>
         ) : (

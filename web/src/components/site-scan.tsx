@@ -22,7 +22,8 @@ export function addFound(draft: SiteDraft, line: Entry, address: number | string
   draft.edit(withEntry(withDrive, 'axes', { name: axis, drive, channel: 1, number: freeNumber(site) }, null));
 }
 
-export function ScanPanel({ line, door, draft }: { line: Entry; door: SiteDoor; draft: SiteDraft }) {
+/** `begin`: it was asked for already, by the button that led here. */
+export function ScanPanel({ line, door, draft, begin = false }: { line: Entry; door: SiteDoor; draft: SiteDraft; begin?: boolean }) {
   const no = useBarred('engineer');
   const from = useSignal('');
   const to = useSignal('');
@@ -60,6 +61,9 @@ export function ScanPanel({ line, door, draft }: { line: Entry; door: SiteDoor; 
       if (running.current === run) running.current = null;
     }
   };
+  useEffect(() => {
+    if (begin && !no.disabled) void start();
+  }, [begin]);
   const known = new Map((draft.draft.value.drives ?? []).filter((d) => d.line === line.name).map((d) => [String(d.address), d.name]));
   return (
     <form

@@ -1,5 +1,6 @@
 // Site wizard: from an empty site to a moving axis in five steps: line, drive, axis, apply, move. In: the draft. Out: entries in the draft, then the
-// same check, apply and keep as everywhere; the last step is the axis' own tile. Nothing moves without a button there.
+// same check, apply and keep as everywhere; the last step is the axis' own tile. Nothing moves without a button there. A reload goes on where it was;
+// a step whose line, drive or axis is not there any more gives way to the one that makes it.
 import { useSignal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import type { SiteDoor } from '../api/site';
@@ -7,7 +8,7 @@ import { useGateway } from '../gateway';
 import { kept } from '../state/kept';
 import type { SiteDraft } from '../state/site-draft';
 import { checkEntry, fieldsOf, freeName, freeNumber, sameDocument, withEntry, type Room, type Texts } from '../words/site';
-import { quiet } from './form';
+import { quiet, Tell } from './form';
 import { AxisTile } from './axis-tile';
 import { ScanPanel } from './site-scan';
 import { EntryField } from './site-entries';
@@ -23,21 +24,32 @@ const kinds = [
 const steps = ['Line', 'Drive', 'Axis', 'Apply', 'Move'] as const;
 const step = kept('wizard.step', '0');
 const chosen = { lines: kept('wizard.line'), drives: kept('wizard.drive'), axes: kept('wizard.axis') };
+/** What stands in the fields of a step that is not finished, as JSON. */
+const typed = { lines: kept('wizard.typed.line'), drives: kept('wizard.typed.drive'), axes: kept('wizard.typed.axis') };
 const order: Room[] = ['lines', 'drives', 'axes'];
 
 export function SiteWizard({ draft, door, leave }: { draft: SiteDraft; door: SiteDoor; leave: () => void }) {
   const { store } = useGateway();
-  const at = Math.min(Number(step.value) || 0, steps.length - 1);
+  const wanted = Math.min(Number(step.value) || 0, steps.length - 1);
+  const missing = order.findIndex((room) => !(draft.draft.value[room] ?? []).some((e) => e.name === chosen[room].value));
+  // What was rolled back by itself can be applied again from where one is.
+  const at = missing < 0 || missing >= wanted || (draft.rolledBack.value && wanted >= 3) ? wanted : missing;
   const head = useRef<HTMLHeadingElement>(null);
+  const lineFirst = useSignal<'' | 'applying' | 'shown' | 'scan'>('');
   const go = (n: number) => {
     step.value = String(n);
+    lineFirst.value = ''; // who comes back has not asked for the scan again
     requestAnimationFrame(() => head.current?.focus());
   };
   const axis = chosen.axes.value;
   const applied = (draft.base.value.axes ?? []).some((a) => a.name === axis) && store.axisNames.value.includes(axis);
   const meant = (draft.draft.value.lines ?? []).find((l) => l.name === chosen.lines.value);
   const line = (draft.base.value.lines ?? []).find((l) => l.name === chosen.lines.value && sameDocument(l, meant));
-  const lineFirst = useSignal(false);
+  const alone = draft.changes.value.every((c) => c.what === `lines/${chosen.lines.value}`);
+  const applyLine = async () => {
+    lineFirst.value = 'applying';
+    lineFirst.value = (await draft.applyAndKeep()) ? 'scan' : 'shown';
+  };
   const onTrial = draft.stage.value.state === 'applied';
   return (
     <section class="card wizard" aria-labelledby="wizard-head" data-step={at + 1}>
@@ -56,19 +68,33 @@ export function SiteWizard({ draft, door, leave }: { draft: SiteDraft; door: Sit
           Leave the wizard
         </button>
       </header>
+      {at < wanted && (
+        <p class="where" role="status" data-field="wizard-back">
+          {chosen[order[at] as Room].value || `The ${nouns[order[at] as Room]}`} is not there any more: it was rolled back, dropped, or removed by somebody else. So it goes on from here.
+        </p>
+      )}
       {at < 3 && <StepForm key={at} room={order[at] as Room} draft={draft} back={at > 0 ? () => go(at - 1) : null} next={() => go(at + 1)} />}
-      {at === 1 && line && line.uri !== 'twin' && <ScanPanel line={line} door={door} draft={draft} />}
-      {at === 1 && meant && meant.uri !== 'twin' && !line && (
+      {at === 1 && line && line.uri !== 'twin' && lineFirst.value !== 'applying' && <ScanPanel key={line.name} line={line} door={door} draft={draft} begin={lineFirst.value === 'scan'} />}
+      {at === 1 && meant && meant.uri !== 'twin' && (!line || lineFirst.value === 'applying') && (
         <div class="form-foot" data-field="scan-later">
           <p class="where">
-            Scanning asks the line itself, so {meant.name} must be in force first. Apply the line alone now, then scan here; or describe the drive above without a scan: its address stands in the drive's papers.
+            Scanning asks the line itself, so {meant.name} must be in force first.{' '}
+            {alone || lineFirst.value === 'applying' ? `One click checks it, applies it, keeps it and begins to scan; nothing else is changed.` : 'More than this line is changed: look at all of it, apply it, then scan here.'} Or describe the drive above without a scan: its address
+            stands in the drive's papers.
           </p>
-          <button type="button" class="button" aria-expanded={lineFirst.value} onClick={() => (lineFirst.value = !lineFirst.value)}>
-            Apply the line first
-          </button>
+          {alone || lineFirst.value === 'applying' ? (
+            <button type="button" class="button" disabled={lineFirst.value === 'applying'} onClick={() => void applyLine()}>
+              Apply {meant.name} and scan it
+            </button>
+          ) : (
+            <button type="button" class="button" aria-expanded={lineFirst.value === 'shown'} onClick={() => (lineFirst.value = lineFirst.value === 'shown' ? '' : 'shown')}>
+              Look at all changes
+            </button>
+          )}
+          {lineFirst.value === 'applying' && <Tell told={draft.told.value} field="wizard-told" />}
         </div>
       )}
-      {at === 1 && ((lineFirst.value && !line) || onTrial) && <SiteStage draft={draft} />}
+      {at === 1 && ((lineFirst.value === 'shown' && !line) || (onTrial && lineFirst.value !== 'applying')) && <SiteStage draft={draft} />}
       {at === 3 && (
         <>
           <SiteStage draft={draft} />
@@ -116,7 +142,7 @@ export function SiteWizard({ draft, door, leave }: { draft: SiteDraft; door: Sit
               type="button"
               class={`button${applied ? ' primary' : ''}`}
               onClick={() => {
-                for (const c of Object.values(chosen)) c.value = '';
+                for (const c of [...Object.values(chosen), ...Object.values(typed)]) c.value = '';
                 step.value = '0';
                 draft.told.value = quiet;
                 leave();
@@ -131,6 +157,7 @@ export function SiteWizard({ draft, door, leave }: { draft: SiteDraft; door: Sit
   );
 }
 
+const nouns: Record<Room, string> = { lines: 'line', drives: 'drive', axes: 'axis' };
 const keys: Record<Room, readonly string[]> = { lines: ['name', 'family', 'uri', 'bitrate'], drives: ['name', 'address', 'presence'], axes: ['name', 'unit', 'increments_per_unit', 'channel', 'position_min', 'position_max', 'velocity_max'] };
 
 function StepForm({ room, draft, back, next }: { room: Room; draft: SiteDraft; back: (() => void) | null; next: () => void }) {
@@ -139,7 +166,7 @@ function StepForm({ room, draft, back, next }: { room: Room; draft: SiteDraft; b
   // A drive of the chosen line, an axis of the chosen drive.
   const fitting = list.filter((e) => (room === 'lines' ? true : room === 'drives' ? e.line === chosen.lines.value : e.drive === chosen.drives.value));
   const use = useSignal(fitting.some((e) => e.name === chosen[room].peek()) ? chosen[room].peek() : (fitting[0]?.name ?? ''));
-  const texts = useSignal<Texts>(first(room, draft));
+  const texts = useSignal<Texts>(begun(room, draft));
   const touched = useSignal(false);
   const form = useRef<HTMLFormElement>(null);
   useEffect(() => {
@@ -147,8 +174,11 @@ function StepForm({ room, draft, back, next }: { room: Room; draft: SiteDraft; b
     if (use.peek() === '' && fitting.length > 0 && room === 'drives' && !touched.peek()) use.value = fitting[0]!.name;
   }, [fitting.length]);
   const { entry, faults } = checkEntry(room, texts.value, site, null);
-  const set = (key: string) => (t: string) => (texts.value = { ...texts.value, [key]: t });
-  const word = { lines: 'line', drives: 'drive', axes: 'axis' }[room];
+  const set = (key: string) => (t: string) => {
+    texts.value = { ...texts.value, [key]: t };
+    typed[room].value = JSON.stringify(texts.value);
+  };
+  const word = nouns[room];
   const submit = () => {
     if (use.value !== '') {
       chosen[room].value = use.value;
@@ -158,6 +188,7 @@ function StepForm({ room, draft, back, next }: { room: Room; draft: SiteDraft; b
     if (!entry) return void requestAnimationFrame(() => form.current?.querySelector<HTMLElement>('.is-wrong')?.focus());
     draft.edit(withEntry(site, room, entry, null));
     chosen[room].value = entry.name;
+    typed[room].value = '';
     next();
   };
   return (
@@ -216,6 +247,18 @@ function StepForm({ room, draft, back, next }: { room: Room; draft: SiteDraft; b
       </div>
     </form>
   );
+}
+
+/** The fields of a step: what is proposed, and on top of it what was typed for the same line or drive before a reload. */
+function begun(room: Room, draft: SiteDraft): Texts {
+  const proposed = first(room, draft);
+  try {
+    const before = JSON.parse(typed[room].peek() || '{}') as Texts;
+    const same = before.line === proposed.line && before.drive === proposed.drive;
+    return same ? { ...proposed, ...Object.fromEntries(Object.entries(before).filter(([k]) => keys[room].includes(k))) } : proposed;
+  } catch {
+    return proposed; // half of it is nothing
+  }
 }
 
 const kindOf = (uri: string) => uri.split(':')[0] ?? '';

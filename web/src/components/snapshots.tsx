@@ -2,7 +2,7 @@
 // A restore is never sent without the list of its changes on the page; it is refused by the gateway while the axis is commanded.
 import { useBarred, Why } from './gate';
 import { useSignal } from '@preact/signals';
-import { useEffect, useMemo } from 'preact/hooks';
+import { useMemo } from 'preact/hooks';
 import { asProblem } from '../api/problem';
 import { SnapshotDoor, type RestoreReport, type Snapshot } from '../api/snapshots';
 import { useGateway } from '../gateway';
@@ -13,16 +13,16 @@ import { clockTime } from '../words/time';
 import { leftOut } from '../words/transfer';
 import { Choice, notOffered, quiet, Tell, TextField, type Told } from './form';
 import { Empty } from './lines';
+import { useLoaded } from './loaded';
 import { Section } from './section';
 
 const plain = { allowed: null };
 const gone = (status: number) => status === 404 || status === 405 || status === 501;
 
 export function Snapshots({ axis, onList }: { axis: string; onList: (list: Snapshot[]) => void }) {
-  const { client, store } = useGateway();
+  const { client } = useGateway();
   const door = useMemo(() => new SnapshotDoor(client, axis), [client, axis]);
   const list = useSignal<Snapshot[]>([]);
-  const state = useSignal<'waiting' | 'there' | string>('waiting');
   const told = useSignal<Told>(quiet);
   const name = kept(`snapshot.${axis}.name`);
   const comment = kept(`snapshot.${axis}.comment`);
@@ -31,22 +31,15 @@ export function Snapshots({ axis, onList }: { axis: string; onList: (list: Snaps
   const removing = useSignal<number | null>(null);
   const no = useBarred('engineer');
   const restoring = useSignal<{ snapshot: Snapshot; report: RestoreReport; chosen: Set<string> } | null>(null);
-  const epoch = store.connection.value.epoch;
 
   const load = async () => {
-    try {
-      list.value = await door.list();
-      state.value = 'there';
-      onList(list.value);
-    } catch (error) {
-      const p = asProblem(error);
-      state.value = gone(p.status) ? notOffered('snapshots') : capital(p.words);
-    }
+    list.value = await door.list();
+    onList(list.value);
   };
-  useEffect(() => {
-    if (epoch > 0) void load();
-  }, [door, epoch]);
+  const why = useLoaded(load, [door], (p) => (gone(p.status) ? notOffered('snapshots') : p.words));
 
+  /** What was done is done, whether or not the list can be read after it. */
+  const again = () => load().catch(() => undefined);
   const tell = async (busy: string, act: () => Promise<string>) => {
     told.value = { tone: 'busy', text: busy };
     try {
@@ -61,7 +54,7 @@ export function Snapshots({ axis, onList }: { axis: string; onList: (list: Snaps
     void tell(from.value === 'device' ? 'Reading all parameters from the drive …' : 'Saving …', async () => {
       const s = await door.save({ name: name.value.trim(), comment: comment.value.trim(), from: from.value });
       name.value = comment.value = '';
-      await load();
+      await again();
       return `Saved as ${s.n}.`;
     });
   };
@@ -86,15 +79,15 @@ export function Snapshots({ axis, onList }: { axis: string; onList: (list: Snaps
     tell('Removing …', async () => {
       await door.remove(s.n);
       removing.value = null;
-      await load();
+      await again();
       return `${s.name} is removed.`;
     });
 
-  if (state.value !== 'there') {
+  if (why) {
     return (
       <Section title="Snapshots">
         <div class="card" data-field="snapshots">
-          <Empty text={state.value === 'waiting' ? 'Waiting for the list.' : state.value} />
+          <Empty text={why} />
         </div>
       </Section>
     );
@@ -189,7 +182,7 @@ export function Snapshots({ axis, onList }: { axis: string; onList: (list: Snaps
             {(r.report.skipped?.length ?? 0) > 0 && <LeftOut skipped={r.report.skipped ?? []} />}
             <div class="form-foot">
               <button type="button" class="button primary" disabled={r.chosen.size === 0} {...no} onClick={restore}>
-                Write {r.chosen.size} to the drive
+                Write {r.chosen.size === 1 ? '1 value' : `${r.chosen.size} values`} to the drive
               </button>
               <button type="button" class="button quiet" onClick={() => (restoring.value = null)}>
                 Change nothing

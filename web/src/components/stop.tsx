@@ -1,18 +1,21 @@
 // The stops: one per axis, and one for all in the head of the page, which is also the Escape key, wherever the keyboard is.
-// Never disabled, never hidden, never waits for another answer. It is a command over the network, not a safety function.
+// Never hidden, never waits for another answer; disabled only where the gateway has said that it serves nobody here without a sign-in, and then it
+// says so and names the machine's own emergency stop. It is a command over the network, not a safety function.
 import { useLayoutEffect } from 'preact/hooks';
 import { useGateway } from '../gateway';
 import { Icon } from './icon';
 
 /** Filled where there is something to stop, outlined where nothing moves: always there, loud only when it matters. */
 export function StopButton({ axis, large = false, urgent = true }: { axis: string; large?: boolean; urgent?: boolean }) {
-  const { commander } = useGateway();
+  const { commander, session } = useGateway();
+  const barred = session.stopBarred.value;
   return (
     <button
       type="button"
+      disabled={barred !== ''}
       class={`stop${large ? ' stop-large' : ''}${urgent ? '' : ' stop-calm'}`}
       aria-label={`Stop ${axis}`}
-      title={`Quick stop of ${axis}. Not a safety function: keep the emergency stop of the machine at hand.`}
+      title={barred || `Quick stop of ${axis}. Not a safety function: keep the emergency stop of the machine at hand.`}
       onClick={() => void commander.stop(axis)}
     >
       <Icon name="octagon" size={large ? 18 : 14} />
@@ -22,18 +25,26 @@ export function StopButton({ axis, large = false, urgent = true }: { axis: strin
 }
 
 export function StopAll() {
-  const { commander, store } = useGateway();
+  const { commander, session, store } = useGateway();
+  const barred = session.stopBarred.value;
+  const stopAll = () => {
+    const why = session.stopBarred.peek();
+    if (!why) return void commander.stopAll(movingFirst());
+    // Nothing is pretended: it would be refused. Perhaps somebody has signed in meanwhile.
+    commander.stopReport.value = { tone: 'refused', text: 'NOT stopped.' };
+    void session.ask();
+  };
   useLayoutEffect(() => {
     const onKey = (event: KeyboardEvent) => {
       if (event.key !== 'Escape' || event.repeat || event.isComposing) return;
       // A search field would clear itself: a stop changes nothing of what is typed.
       if (event.target instanceof HTMLInputElement && event.target.type === 'search') event.preventDefault();
-      void commander.stopAll(movingFirst());
+      stopAll();
     };
     // In the capturing phase: nothing on the page can swallow it.
     addEventListener('keydown', onKey, true);
     return () => removeEventListener('keydown', onKey, true);
-  }, [commander]);
+  }, [commander, session]);
 
   const movingFirst = () => {
     const moves = (name: string) => (store.axis(name)?.peek().data.moving ? 0 : 1);
@@ -44,12 +55,14 @@ export function StopAll() {
     <button
       type="button"
       class="stop stop-all"
+      disabled={barred !== ''}
       aria-keyshortcuts="Escape"
-      title="Quick stop of every axis. Not a safety function: keep the emergency stop of the machine at hand."
-      onClick={() => void commander.stopAll(movingFirst())}
+      aria-description={barred || undefined}
+      title={barred || 'Quick stop of every axis. Not a safety function: keep the emergency stop of the machine at hand.'}
+      onClick={stopAll}
     >
       <Icon name="octagon" size={16} />
-      <span>Stop all</span>
+      <span>{barred ? 'No stop from here' : 'Stop all'}</span>
       <kbd aria-hidden="true">Esc</kbd>
     </button>
   );

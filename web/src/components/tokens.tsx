@@ -1,11 +1,12 @@
 // Tokens: access for programs, with a role and an end. In: GET /tokens (the own ones; an administrator's: all). Out: made and deleted tokens.
 // The secret is shown once, right after it was made, and is kept nowhere in the page.
-import { useEffect, useState } from 'preact/hooks';
+import { useState } from 'preact/hooks';
 import { asProblem } from '../api/problem';
 import type { MadeToken, Token } from '../api/types';
 import { useGateway } from '../gateway';
 import { barred, roles } from '../state/session';
 import { clockTime } from '../words/time';
+import { useLoaded } from './loaded';
 import { Choice, quiet, Tell, TextField, type Told } from './form';
 
 const ends = [
@@ -18,17 +19,17 @@ const ends = [
 export function Tokens() {
   const { client, session, store } = useGateway();
   const info = session.info.value;
-  const [tokens, setTokens] = useState<Token[]>([]);
+  const [tokens, setTokens] = useState<Token[] | null>(null);
   const [made, setMade] = useState<MadeToken | null>(null);
   const [told, setTold] = useState<Told>(quiet);
   const [asked, setAsked] = useState('');
   const [name, setName] = useState('');
   const [role, setRole] = useState<string>('viewer');
   const [end, setEnd] = useState('2592000');
-  const why = info && info.via !== 'cookie' ? 'A token belongs to a user: sign in with a password to make one.' : '';
+  const no = info && info.via !== 'cookie' ? 'A token belongs to a user: sign in with a password to make one.' : '';
 
   const list = async () => setTokens(await client.call<Token[]>('/tokens'));
-  useEffect(() => void list().catch((e) => setTold({ tone: 'refused', text: asProblem(e).words })), []);
+  const why = useLoaded(list);
   const add = async (event: Event) => {
     event.preventDefault();
     if (!name.trim()) return setTold({ tone: 'refused', text: 'The name is missing.' });
@@ -66,8 +67,9 @@ export function Tokens() {
   return (
     <div class="card form">
       <ul class="access-list">
-        {tokens.length === 0 && <li>There are no tokens.</li>}
-        {tokens.map((t) => (
+        {why && <li>{why}</li>}
+        {tokens?.length === 0 && <li>There are no tokens.</li>}
+        {tokens?.map((t) => (
           <li key={t.id} data-token={t.name} class="access-row">
             <span class="access-name">
               <b>{t.name}</b>{' '}
@@ -96,12 +98,12 @@ export function Tokens() {
       )}
       <form aria-label="Add a token" onSubmit={(e) => void add(e)}>
         <div class="form-grid">
-          <TextField label="Name of the token" value={name} onText={setName} disabled={Boolean(why)} hint={why || undefined} />
-          <Choice label="Role of the token" value={role} onChoice={setRole} choices={may} disabled={Boolean(why)} />
-          <Choice label="It ends" value={end} onChoice={setEnd} choices={ends} disabled={Boolean(why)} />
+          <TextField label="Name of the token" value={name} onText={setName} disabled={Boolean(no)} hint={no || undefined} />
+          <Choice label="Role of the token" value={role} onChoice={setRole} choices={may} disabled={Boolean(no)} />
+          <Choice label="It ends" value={end} onChoice={setEnd} choices={ends} disabled={Boolean(no)} />
         </div>
         <div class="form-foot">
-          <button type="submit" class="button primary" {...barred(why)}>
+          <button type="submit" class="button primary" {...barred(no)}>
             Add token
           </button>
           <Tell told={told} field="tokens-told" />

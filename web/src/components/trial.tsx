@@ -6,6 +6,7 @@ import { useGateway } from '../gateway';
 import { draftOf, type SiteDraft } from '../state/site-draft';
 import { tick } from '../state/clock';
 import type { Session } from '../state/session';
+import { personOf } from '../words/authority';
 import { Icon } from './icon';
 
 /** Somebody else may have kept it or taken it back: that changes no revision that the page is told of. */
@@ -27,9 +28,9 @@ export function keepBarred(draft: SiteDraft, session: Session, tab = ''): string
   const info = session.info.value;
   if (role || !by || !info || info.role === 'administrator') return role;
   const client = draft.stage.value.client ?? '';
-  if (client && tab) return client === tab || client.endsWith(` ${tab}`) ? '' : `Only the page of ${by.split(' ')[0]} that applied it, or an administrator, can keep it.`;
+  if (client && tab) return client === tab || client.endsWith(` ${tab}`) ? '' : `Only the page of ${personOf(by)} that applied it, or an administrator, can keep it.`;
   const me = info.user ?? (info.via === 'local' ? 'local' : '');
-  return !me || by === me || by.startsWith(`${me} `) ? '' : `Only ${by.split(' ')[0]}, who applied it, can keep it.`;
+  return !me || by === me || by.startsWith(`${me} `) ? '' : `Only ${personOf(by)}, who applied it, can keep it.`;
 }
 
 export function Trial() {

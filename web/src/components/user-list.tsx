@@ -1,11 +1,12 @@
 // User list: who can sign in, with role; for administrators. In: GET /users. Out: added, changed, disabled and deleted users.
-// A deletion is asked twice. A password is typed by the administrator and never shown again.
-import { useEffect, useState } from 'preact/hooks';
+// A deletion is asked twice, a role is chosen and then saved: an arrow key on the choice alone changes nobody's rights. A password is typed by the administrator and never shown again.
+import { useState } from 'preact/hooks';
 import { asProblem } from '../api/problem';
 import type { Role, User } from '../api/types';
 import { useGateway } from '../gateway';
 import { passwordFault, roles, userFault } from '../state/session';
 import { clockTime } from '../words/time';
+import { useLoaded } from './loaded';
 import { Choice, quiet, Tell, TextField, type Told } from './form';
 
 export const roleChoices = roles.map((r) => ({ value: r, text: r }));
@@ -15,6 +16,7 @@ export function UserList() {
   const [users, setUsers] = useState<User[] | null>(null);
   const [told, setTold] = useState<Told>(quiet);
   const [asked, setAsked] = useState('');
+  const [chosen, setChosen] = useState<Record<string, string>>({});
   const [renewing, setRenewing] = useState('');
   const [name, setName] = useState('');
   const [role, setRole] = useState<string>('operator');
@@ -36,10 +38,13 @@ export function UserList() {
       void session.ask(); // it may have been oneself
     }
   };
-  useEffect(() => void list().catch((e) => setTold({ tone: 'refused', text: asProblem(e).words })), []);
+  const why = useLoaded(list);
 
   const at = (n: string) => `/users/${encodeURIComponent(n)}`;
   const patch = (n: string, words: string, body: object) => act(words, () => client.call(at(n), { method: 'PATCH', body }));
+  const saveRole = async (n: string, to: string) => {
+    if (await patch(n, `Role of ${n}: ${to}`, { role: to })) setChosen(({ [n]: _, ...rest }) => rest);
+  };
   const remove = (n: string) => {
     if (asked !== n) return setAsked(n);
     setAsked('');
@@ -66,20 +71,33 @@ export function UserList() {
   return (
     <div class="card form">
       <ul class="access-list">
+        {why && <li>{why}</li>}
         {users?.length === 0 && <li>There are no users yet.</li>}
         {users?.map((u) => (
           <li key={u.name} data-user={u.name} class="access-row">
             <span class="access-name">
-              <b>{u.name}</b> <span class="access-more">{u.enabled ? '' : 'disabled · '}{u.last_sign_in_at ? `last sign-in ${clockTime(u.last_sign_in_at)}` : 'never signed in'}</span>
+              <b>{u.name}</b> <span class="access-more">{(chosen[u.name] ?? u.role) !== u.role ? `still ${u.role} · ` : ''}{u.enabled ? '' : 'disabled · '}{u.last_sign_in_at ? `last sign-in ${clockTime(u.last_sign_in_at)}` : 'never signed in'}</span>
             </span>
             <span class="access-acts">
-              <select aria-label={`Role of ${u.name}`} value={u.role} onChange={(e) => void patch(u.name, `Role of ${u.name}`, { role: e.currentTarget.value })}>
+              <select
+                aria-label={`Role of ${u.name}`}
+                value={chosen[u.name] ?? u.role}
+                onChange={(e) => {
+                  const to = e.currentTarget.value;
+                  setChosen((c) => ({ ...c, [u.name]: to }));
+                }}
+              >
                 {roles.map((r) => (
                   <option key={r} value={r}>
                     {r}
                   </option>
                 ))}
               </select>
+              {(chosen[u.name] ?? u.role) !== u.role && (
+                <button type="button" class="button primary" aria-label={`Save the role of ${u.name}: ${chosen[u.name]} in place of ${u.role}`} onClick={() => void saveRole(u.name, chosen[u.name] as string)}>
+                  Save role
+                </button>
+              )}
               <button type="button" class="button" aria-label={`${u.enabled ? 'Disable' : 'Enable'} ${u.name}`} onClick={() => void patch(u.name, `${u.enabled ? 'Disable' : 'Enable'} ${u.name}`, { enabled: !u.enabled })}>
                 {u.enabled ? 'Disable' : 'Enable'}
               </button>

@@ -1,38 +1,73 @@
 // What is wrong: a compact list at the top of the overview, each entry a link to where it can be mended. In: the store. Out: a list, or nothing.
-// Old values are no news: without a connection the strip says what there is to say.
+// Old values are no news: without a connection the strip says what there is to say. What there is no room for is one press away, never only counted.
+import { useSignal } from '@preact/signals';
 import { useGateway } from '../gateway';
-import { whatIsWrong } from '../words/alarm';
+import { axisPath } from '../router';
+import { withoutSubject } from '../words/alarm';
+import { whatIsWrong, type Wrong } from '../words/wrong';
 import { Icon } from './icon';
 import { Section } from './section';
 
 const most = 12;
+const mostAxes = 8;
 
 export function WrongList() {
   const { store } = useGateway();
+  const whole = useSignal(false);
   if (!store.connected.value || !store.listed.value) return null;
+  const alarms = store.alarms.value;
   const all = whatIsWrong(
     store.axisNames.value.flatMap((n) => store.axis(n)?.value.data ?? []),
     store.lineNames.value.flatMap((n) => store.line(n)?.value.data ?? []),
     store.driveNames.value.flatMap((n) => store.drive(n)?.value.data ?? []),
-    store.alarms.value?.unacknowledged ?? 0,
+    alarms?.unacknowledged ?? 0,
+    alarms?.alarms ?? [],
   );
   if (all.length === 0) return null;
+  const shown = whole.value ? all : all.slice(0, most);
   return (
     <Section title="What is wrong" class="wrong">
       <ul class="card" aria-label="What is wrong" data-field="wrong">
-        {all.slice(0, most).map((w) => (
+        {shown.map((w) => (
           <li key={w.key}>
             <a class={`wrong-item tone-${w.word.tone}`} href={w.path} data-wrong={w.key}>
               <span class="wrong-word">
                 <Icon name={w.word.icon} size={14} /> {w.word.text}
               </span>
               {w.about && <b>{w.about}</b>}
-              <span class="wrong-text">{w.text}</span>
+              <span class="wrong-text">{withoutSubject(w.text, w.about)}</span>
             </a>
+            {w.axes.length > 0 && <WrongAxes of={w} />}
           </li>
         ))}
-        {all.length > most && <li class="wrong-item">and {all.length - most} more</li>}
+        {all.length > most && (
+          <li class="wrong-item">
+            <button type="button" class="link" aria-expanded={whole.value} data-field="wrong-more" onClick={() => (whole.value = !whole.value)}>
+              {whole.value ? 'Show less' : `and ${all.length - most} more`}
+            </button>
+          </li>
+        )}
       </ul>
     </Section>
+  );
+}
+
+function WrongAxes({ of }: { of: Wrong }) {
+  const whole = useSignal(false);
+  const shown = whole.value ? of.axes : of.axes.slice(0, mostAxes);
+  return (
+    <p class="wrong-axes" data-wrong-axes={of.key}>
+      <span>{of.axes.length === 1 ? 'Axis:' : 'Axes:'}</span>
+      {shown.map((n) => (
+        <a key={n} href={axisPath(n)}>
+          {n}
+        </a>
+      ))}
+      {of.axes.length > mostAxes && (
+        <button type="button" class="link" aria-expanded={whole.value} onClick={() => (whole.value = !whole.value)}>
+          {whole.value ? 'show less' : `and ${of.axes.length - mostAxes} more`}
+        </button>
+      )}
+    </p>
   );
 }

@@ -40,6 +40,18 @@ export function EventsPage() {
     };
   }, [client, epoch, least.value, axis.value, kind.value]);
   const shown = gathered(had.value.list, store.events.value, filter, most);
+  const filtered = filter.least !== 'info' || filter.axis !== '' || filter.kind !== '' || filter.text.trim() !== '';
+  const nothing = filtered && shown.length === 0;
+  // How many there are without the filter: asked only where the filter hides all of them.
+  const whole = useSignal<GatewayEvent[]>([]);
+  useEffect(() => {
+    if (epoch > 0 && nothing) client.events({ limit: most }).then((list) => (whole.value = list), () => undefined);
+  }, [client, epoch, nothing]);
+  const inAll = gathered([...whole.value, ...had.value.list], store.events.value, { least: 'info', axis: '', kind: '', text: '' }, most).length;
+  const clear = () => {
+    least.value = 'info';
+    for (const f of [axis, kind, text]) f.value = '';
+  };
   const kinds = [...new Set([...had.value.list, ...store.events.value].map((e) => e.kind).concat( ...kind.value ? [kind.value] : []))].sort();
   return (
     <main class="page narrow">
@@ -92,9 +104,19 @@ export function EventsPage() {
             There are more than {most}: these are {text.value.trim() ? `what fits among the newest ${most}` : `the newest ${most}`}. Choose severity, axis or kind to reach further back, or ask the API for pages (GET /api/v1/events?before=).
           </p>
         )}
-        <div class="card">
-          <EventList events={shown} limit={most} />
-        </div>
+        {filtered && (
+          <p class="filtered" role="status" data-field="filtered">
+            <span>{nothing ? `No event matches the filter; ${inAll >= most ? `${most} or more` : inAll} in all.` : 'A filter is on: not all events are shown.'}</span>
+            <button type="button" class="button small" onClick={clear}>
+              Clear the filter
+            </button>
+          </p>
+        )}
+        {!nothing && (
+          <div class="card">
+            <EventList events={shown} limit={most} />
+          </div>
+        )}
       </Section>
     </main>
   );

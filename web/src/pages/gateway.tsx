@@ -1,4 +1,4 @@
-// Gateway: the program itself: version, doors and their addresses, the Modbus door's rules, families, keys. In: /about, /modbus. Out: a page.
+// Gateway: the program itself: version, doors and their addresses, users, the Modbus door's rules, families, keys. In: /about, /modbus. Out: a page.
 import { Empty } from '../components/lines';
 import { ModbusDoor } from '../components/modbus-door';
 import { Section } from '../components/section';
@@ -29,6 +29,13 @@ export function GatewayPage() {
               ))}
             </dl>
           </Section>
+          <Section title="Users and tokens">
+            <p class="card form">
+              <span>
+                Who may sign in, with which role, and access for programs: <a href="/users">Users and tokens</a>
+              </span>
+            </p>
+          </Section>
           <ModbusDoor />
         </>
       ) : (
@@ -49,7 +56,7 @@ export function GatewayPage() {
               </label>
             </dd>
           </div>
-          <div><dt>Keys</dt><dd><kbd>Esc</kbd> stops all axes, wherever the keyboard is. <kbd>Space</kbd> or <kbd>Enter</kbd> held on a jog button moves. <kbd>Enter</kbd> in a field does what the button beside it does.</dd></div>
+          <div class="with-keys"><dt>Keys</dt><dd><kbd>Esc</kbd> stops all axes, wherever the keyboard is. <kbd>Space</kbd> or <kbd>Enter</kbd> held on a jog button moves. <kbd>Enter</kbd> in a field does what the button beside it does.</dd></div>
           <div><dt>API</dt><dd><a href="/api/v1/openapi.yaml" target="_blank" rel="noopener">openapi.yaml</a></dd></div>
         </dl>
       </Section>

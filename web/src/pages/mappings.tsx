@@ -8,6 +8,7 @@ import { notOffered, quiet, Tell, toldOf, type Told } from '../components/form';
 import { Gate, useBarred, Why } from '../components/gate';
 import { HmiView } from '../components/hmi-view';
 import { Empty } from '../components/lines';
+import { useLoaded } from '../components/loaded';
 import { addAt, MappingForm } from '../components/mapping-form';
 import { MappingGrid } from '../components/mapping-grid';
 import { ListLinks, PrintedList } from '../components/mapping-list';
@@ -15,7 +16,6 @@ import { MappingPaste } from '../components/mapping-paste';
 import { MappingTemplates } from '../components/mapping-templates';
 import { Section } from '../components/section';
 import { useGateway } from '../gateway';
-import { capital } from '../state/commander';
 import { kept } from '../state/kept';
 import { MappingBook, uncapital } from '../state/mappings';
 import { lookAt, type Heard } from '../state/register-look';
@@ -39,7 +39,7 @@ export function MappingsPage() {
   const epoch = store.connection.value.epoch;
   const revision = store.siteRevision.value;
 
-  useEffect(() => void book.load(), [book, epoch, revision]);
+  const why = useLoaded(() => book.load(), [book, revision]);
 
   const unit = Number(unitShown.value);
   const table = tableShown.value as Table;
@@ -122,7 +122,7 @@ export function MappingsPage() {
     >
       <h1 tabIndex={-1}>Mappings</h1>
       <p class="where">
-        {(book.state.value === 'there' || rows.length > 0) && `${rows.length} of at most 4096${store.connected.value ? '' : ', as last known'}. `}Mapping revision <span class="mono" data-field="hash">{book.hash.value || 'not told here by this gateway'}</span>; registers 18 and 19 of each axis show it. Unit 1 is the{' '}
+        {(why === '' || rows.length > 0) && `${rows.length} of at most 4096${store.connected.value ? '' : ', as last known'}. `}Mapping revision <span class="mono" data-field="hash">{book.hash.value || 'not told here by this gateway'}</span>; registers 18 and 19 of each axis show it. Unit 1 is the{' '}
         standard map and not changed here.
       </p>
       <Section
@@ -155,10 +155,8 @@ export function MappingsPage() {
       >
         <Why need="engineer" what="Changing the mappings" />
         <Tell told={told.value} field="grid-told" />
-        {book.state.value === 'waiting' ? (
-          <Empty text="Waiting for the gateway." />
-        ) : book.state.value !== 'there' ? (
-          <Empty text={capital(book.state.value)} />
+        {why ? (
+          <Empty text={why} />
         ) : (
           <MappingGrid
             rows={rows}

@@ -1,4 +1,6 @@
-// Overview: all axes as live tiles, the lines, the drives, what happened last. In: the store. Out: the first page.
+// Overview: all axes as live tiles, or as rows where there are many, the lines, the drives, what happened last. In: the store. Out: the first page.
+import { useComputed } from '@preact/signals';
+import { AxisRow } from '../components/axis-row';
 import { useGateway } from '../gateway';
 import { AxisTile } from '../components/axis-tile';
 import { WrongList } from '../components/wrong';
@@ -6,9 +8,12 @@ import { EventList } from '../components/events';
 import { Why } from '../components/gate';
 import { DriveList, Empty, LineList } from '../components/lines';
 import { Section } from '../components/section';
+import { axesFilter, axisMatches } from '../state/axes-filter';
 import { kept } from '../state/kept';
 
-const filter = kept('axes.filter');
+/** '': as many as there are axes say. */
+const view = kept('axes.view');
+const mostTiles = 12;
 const bare = kept('axes.controls', 'shown', 'browser');
 
 export function Overview() {
@@ -44,37 +49,64 @@ export function Overview() {
 function Axes() {
   const { store } = useGateway();
   const all = store.axisNames.value;
-  const wanted = filter.value.trim().toLowerCase();
-  const names = wanted === '' ? all : all.filter((n) => matches(n, wanted));
+  // A text of names, so that what follows is drawn anew only when another axis matches, not with every reading.
+  const matching = useComputed(() =>
+    store.axisNames.value
+      .filter((n) => {
+        const wanted = axesFilter.value;
+        if (wanted.trim() === '') return true;
+        const entry = store.axis(n)?.value;
+        return entry !== undefined && axisMatches(entry.data, store.trustOf(entry), wanted);
+      })
+      .join('\n'),
+  );
+  const names = matching.value === '' ? [] : matching.value.split('\n');
   const hidden = bare.value === 'hidden';
-
-  function matches(name: string, text: string): boolean {
-    const a = store.axis(name)?.peek().data;
-    return [name, a?.family, a?.line, a?.drive].some((s) => s?.toLowerCase().includes(text));
-  }
+  const rows = view.value === '' ? all.length > mostTiles : view.value === 'rows';
+  const filtered = axesFilter.value.trim() !== '' && all.length > 0;
 
   return (
     <Section
       title="Axes"
+      id="axes"
       beside={
         <>
-          <input class="search" type="search" placeholder="Filter" aria-label="Filter axes by name, family, line or drive" value={filter.value} onInput={(e) => (filter.value = e.currentTarget.value)} />
-          <button type="button" class="button quiet" aria-pressed={!hidden} onClick={() => (bare.value = hidden ? 'shown' : 'hidden')}>
-            Motion controls
+          <input class="search" type="search" placeholder="Filter" aria-label="Filter axes by name, family, line, drive or state" value={axesFilter.value} onInput={(e) => (axesFilter.value = e.currentTarget.value)} />
+          <button type="button" class="button quiet" aria-pressed={rows} onClick={() => (view.value = rows ? 'tiles' : 'rows')}>
+            List
           </button>
+          {!rows && (
+            <button type="button" class="button quiet" aria-pressed={!hidden} onClick={() => (bare.value = hidden ? 'shown' : 'hidden')}>
+              Motion controls
+            </button>
+          )}
         </>
       }
     >
       <Why need="operator" what="Every command but a stop" />
-      {names.length > 0 ? (
+      {filtered && (
+        <p class="filtered" role="status" data-field="filtered">
+          <span>
+            {names.length === 0 ? `No axis matches “${axesFilter.value.trim()}”; ${all.length} in all.` : `${names.length} of ${all.length} axes shown, filter: ${axesFilter.value.trim()}`}
+          </span>
+          <button type="button" class="button small" onClick={() => (axesFilter.value = '')}>
+            Show all
+          </button>
+        </p>
+      )}
+      {names.length > 0 && rows ? (
+        <ul class="axis-rows card">
+          {names.map((n) => (
+            <AxisRow key={n} name={n} />
+          ))}
+        </ul>
+      ) : names.length > 0 ? (
         <div class="tiles">
           {names.map((n) => (
             <AxisTile key={n} name={n} bare={hidden} />
           ))}
         </div>
-      ) : all.length > 0 ? (
-        <Empty text={`No axis matches “${filter.value}”.`} />
-      ) : store.listed.value ? (
+      ) : filtered ? null : store.listed.value ? (
         <NoAxis />
       ) : (
         <Empty text="Waiting for the gateway." />

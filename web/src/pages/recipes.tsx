@@ -3,9 +3,10 @@
 import { Gate, useBarred, Why } from '../components/gate';
 import { useSignal, type Signal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
-import { asProblem, Problem } from '../api/problem';
+import { Problem } from '../api/problem';
 import type { RecipeEntry } from '../api/types';
 import { Empty } from '../components/lines';
+import { useLoaded } from '../components/loaded';
 import { Pill } from '../components/pill';
 import { RunSection } from '../components/recipe-run';
 import { StepEditor, type Fault } from '../components/recipe-steps';
@@ -16,7 +17,7 @@ import { useGateway } from '../gateway';
 import { go, recipePath } from '../router';
 import { capital } from '../state/commander';
 import { RecipeFile, type RecipeClash } from '../state/recipe-file';
-import { documentOf, recipeDifferences, runWord, valueOf, type RecipeDocument } from '../words/recipe';
+import { axisMeant, documentOf, recipeDifferences, runWord, valueOf, type RecipeDocument } from '../words/recipe';
 import { unitOf } from '../words/axis';
 import { clockTime } from '../words/time';
 
@@ -29,16 +30,24 @@ export function RecipesPage() {
   const list: Signal<RecipeEntry[] | null> = useSignal(null);
   const fault = useSignal('');
   const name = useSignal('');
+  const changes = useSignal(0);
+  const why = useLoaded(async () => void (list.value = await gateway.client.recipes()), [changes.value]);
   useEffect(() => {
-    const load = () => gateway.client.recipes().then((r) => (list.value = r), (e) => (fault.value = capital(asProblem(e).words)));
-    void load();
     let last = '';
-    return gateway.follow('recipes', 500, (m) => {
+    const noRuns = gateway.follow('recipes', 500, (m) => {
       const r = m.data as { recipe: string; state: string; n: number };
       const now = `${r?.recipe} ${r?.n} ${r?.state}`;
-      if (now !== last) void load();
+      if (now !== last) changes.value += 1;
       last = now;
     });
+    // Made, changed, deleted: by this page or by anybody else.
+    const noEvents = gateway.store.onEvent((e) => {
+      if (e.kind === 'recipe') changes.value += 1;
+    });
+    return () => {
+      noRuns();
+      noEvents();
+    };
   }, [gateway]);
   const make = () => {
     const n = name.peek().trim();
@@ -51,6 +60,7 @@ export function RecipesPage() {
       <p class="where">Named sequences of steps: set parameters, move, wait, check, repeat. Each can be run from here or by one request.</p>
       <Section title="All recipes">
         <div class="card">
+          {why && <Empty text={why} />}
           {list.value?.length === 0 && <Empty text="There is no recipe yet. Give the first one a name." />}
           <ul aria-label="Recipes">
             {(list.value ?? []).map((r) => (
@@ -109,20 +119,13 @@ export function RecipePage({ name }: { name: string }) {
     text.value = textOf(d);
     textFault.value = '';
   };
-  useEffect(() => {
-    let here = true;
-    file.read().then(
-      (d) => {
-        if (!here) return;
-        put(d ?? { description: '', steps: [] });
-        if (d) stored.value = text.peek();
-      },
-      (error) => here && (result.value = { tone: 'refused', text: capital(asProblem(error).words) }),
-    );
-    return () => {
-      here = false;
-    };
-  }, [client, name]);
+  const why = useLoaded(async () => {
+    // Once only: after that, what is typed stands against the state that was read, and the gateway tells whether it still is the one.
+    if (document.peek()) return;
+    const d = await file.read();
+    put(d ?? { description: '', steps: [] });
+    if (d) stored.value = text.peek();
+  }, [file]);
 
   // The gateway says what is wrong, shortly after the last change.
   const present = text.value;
@@ -177,6 +180,12 @@ export function RecipePage({ name }: { name: string }) {
     result.value = { tone: 'refused', text: capital(outcome.problem.words) };
   };
   const d = document.value;
+  const given: Signal<Record<string, string>> = useSignal({});
+  const unitMeant = (named: string) => {
+    const axis = axisMeant(named, d?.parameters, given.value);
+    const entry = axis === null ? undefined : store.axis(axis);
+    return entry ? unitOf(entry.peek().data) : null;
+  };
   const unsaved = d !== null && text.value !== stored.value;
   return (
     <main class="page">
@@ -184,6 +193,7 @@ export function RecipePage({ name }: { name: string }) {
         <a href="/recipes">Recipes</a>
       </p>
       <h1 tabIndex={-1}>{name}</h1>
+      {!d && why && <Empty text={why} />}
       {d && (
         <>
           <Gate need="engineer">
@@ -260,7 +270,7 @@ export function RecipePage({ name }: { name: string }) {
                 </Section>
                 <Section title="Steps">
                   <div class="card recipe-card">
-                    <StepEditor document={d} change={put} axes={store.axisNames.value} unitOf={(n) => (store.axis(n) ? unitOf(store.axis(n)!.peek().data) : null)} faults={faults.value} />
+                    <StepEditor document={d} change={put} axes={store.axisNames.value} unitOf={unitMeant} faults={faults.value} />
                     {faults.value
                       .filter((f) => !f.pointer.startsWith('/steps/') && !Object.keys(d.parameters ?? {}).some((p) => f.pointer === `/parameters/${p}` || f.pointer.startsWith(`/parameters/${p}/`)))
                       .map((f) => (
@@ -295,7 +305,7 @@ export function RecipePage({ name }: { name: string }) {
               </div>
             </Section>
           </div>
-          <RunSection name={name} parameters={d.parameters ?? {}} saved={!unsaved && stored.value !== ''} />
+          <RunSection name={name} typed={given} parameters={d.parameters ?? {}} saved={!unsaved && stored.value !== ''} />
         </>
       )}
     </main>

@@ -4,13 +4,13 @@ import { Why } from '../components/gate';
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { Empty } from '../components/lines';
+import { useLoaded, waiting } from '../components/loaded';
 import { SiteEntries } from '../components/site-entries';
 import { SiteFiles, SiteHistory } from '../components/site-files';
 import { ScanPanel } from '../components/site-scan';
 import { SiteStage } from '../components/site-stage';
 import { SiteWizard } from '../components/site-wizard';
 import { useGateway } from '../gateway';
-import { capital } from '../state/commander';
 import { kept } from '../state/kept';
 import { barred } from '../state/session';
 import { draftOf } from '../state/site-draft';
@@ -21,11 +21,14 @@ export function SitePage() {
   const { client, session, store } = useGateway();
   const { door, draft } = draftOf(client);
   const scanning = useSignal('');
-  const epoch = store.connection.value.epoch;
   const revision = store.siteRevision.value;
-  useEffect(() => {
-    if (epoch > 0) void draft.load();
-  }, [draft, epoch, revision]);
+  const why = useLoaded(
+    async () => {
+      const problem = await draft.load();
+      if (problem) throw problem;
+    },
+    [draft, revision],
+  );
 
   // Another client may replace or take away what is staged; that changes no revision.
   const staged = draft.stage.value.state === 'staged';
@@ -56,10 +59,8 @@ export function SitePage() {
           </button>
         )}
       </div>
-      {draft.state.value === 'waiting' ? (
-        <Empty text="Waiting for the gateway." />
-      ) : draft.state.value !== 'there' ? (
-        <Empty text={capital(draft.state.value)} />
+      {draft.state.value !== 'there' ? (
+        <Empty text={why || waiting} />
       ) : guided ? (
         <SiteWizard draft={draft} door={door} leave={() => (wizard.value = 'closed')} />
       ) : (
@@ -71,7 +72,11 @@ export function SitePage() {
               room="lines"
               draft={draft}
               extra={(l) =>
-                inForce.has(l.name) && (
+                !inForce.has(l.name) ? (
+                  <span class="where" data-field="scan-later">
+                    Scan: once it is applied
+                  </span>
+                ) : (
                   <button type="button" class="button small" aria-expanded={scanning.value === l.name} aria-label={`Scan ${l.name}`} onClick={() => (scanning.value = scanning.value === l.name ? '' : l.name)}>
                     Scan
                   </button>

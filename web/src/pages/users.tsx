@@ -17,6 +17,14 @@ export function UsersPage() {
       <p class="account-line">
         <span data-field="account">{info ? `You are ${whoWords(info)}.` : 'The gateway has not said who you are.'}</span> <Way />
       </p>
+      {info?.first_sign_in && (
+        <p class="card form" data-field="no-account">
+          <span>
+            Nobody has an account yet. The gateway printed a one-time sign-in code on its standard output at its first start; whoever has it makes the first administrator: <a href="/sign-in">first sign-in</a>. If the code is lost, start the gateway with{' '}
+            <code class="mono">--set users.new_code=true</code>.
+          </span>
+        </p>
+      )}
       {info?.user && info.via === 'cookie' && (
         <Section title="Your password">
           <Account user={info.user} />

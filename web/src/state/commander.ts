@@ -7,7 +7,8 @@ import type { Client } from '../api/client';
 import { asProblem, Problem } from '../api/problem';
 import type { Command, CommandAnswer } from '../api/types';
 
-export type NoteTone = 'none' | 'busy' | 'good' | 'refused';
+/** `partly`: taken, but not by all who were meant. */
+export type NoteTone = 'none' | 'busy' | 'good' | 'partly' | 'refused';
 export interface Note {
   tone: NoteTone;
   text: string;
@@ -30,6 +31,8 @@ export class Commander {
     private readonly client: Pick<Client, 'command' | 'dropWaitingCommands'>,
     /** Why commands other than stops cannot be given now; empty: they can. */
     private readonly blocked: () => string = () => '',
+    /** Nobody answers for the axis: what the gateway takes for it, it takes alone. */
+    private readonly offline: (axis: string) => boolean = () => false,
   ) {}
 
   note(axis: string): Signal<Note> {
@@ -44,10 +47,15 @@ export class Commander {
     this.fade(n);
   }
 
+  /** Without a connection nothing green stands: what was accepted may be otherwise by now. */
+  forgetGood(): void {
+    for (const n of this.notes.values()) if (n.peek().tone === 'good') n.value = quiet;
+  }
+
   /** Good news leaves after a while, so that it is not read as the answer to something later. Refusals stay until the next command. */
   private fade(of: Signal<Note>): void {
     const told = of.peek();
-    if (told.tone !== 'good') return;
+    if (told.tone !== 'good' && told.tone !== 'partly') return;
     setTimeout(() => {
       if (of.peek() === told) of.value = quiet;
     }, goodStays_ms);
@@ -81,7 +89,8 @@ export class Commander {
     this.tell(axis, 'busy', 'Stop …');
     const problem = await this.stopOnce(axis);
     if (this.serial.get(axis) === mine) {
-      if (!problem) this.tell(axis, 'good', 'Stop: accepted');
+      if (!problem && this.offline(axis)) this.tell(axis, 'partly', 'Stop: sent, but the axis is offline: nobody confirms it');
+      else if (!problem) this.tell(axis, 'good', 'Stop: accepted');
       else this.tell(axis, 'refused', `Stop NOT confirmed: ${problem.words}`);
     }
     return problem;
@@ -94,15 +103,18 @@ export class Commander {
     }
     this.stopReport.value = { tone: 'busy', text: `Stopping ${axes.length === 1 ? '1 axis' : `${axes.length} axes`} …` };
     const answers = await Promise.all(axes.map(async (a) => ({ axis: a, problem: await this.stop(a) })));
-    const bad = answers.filter((a) => a.problem);
-    const good = axes.length - bad.length;
-    if (bad.length === 0) {
+    const away = answers.filter((a) => this.offline(a.axis));
+    const bad = answers.filter((a) => a.problem && !this.offline(a.axis));
+    const good = axes.length - bad.length - away.length;
+    if (bad.length === 0 && away.length > 0) {
+      this.stopReport.value = { tone: 'partly', text: `Stop accepted by ${good} of ${axes.length}; ${away.length} offline: nobody confirms ${some(away)}.` };
+      this.fade(this.stopReport);
+    } else if (bad.length === 0) {
       this.stopReport.value = { tone: 'good', text: `Stop accepted by ${axes.length === 1 ? 'the axis' : `all ${axes.length} axes`}.` };
       this.fade(this.stopReport);
     } else {
-      const which = bad.slice(0, 4).map((b) => b.axis).join(', ') + (bad.length > 4 ? ` and ${bad.length - 4} more` : '');
       const why = bad[0]?.problem?.words ?? '';
-      this.stopReport.value = { tone: 'refused', text: `Stop accepted by ${good} of ${axes.length}. NOT confirmed by ${which}: ${why}` };
+      this.stopReport.value = { tone: 'refused', text: `Stop accepted by ${good} of ${axes.length}${away.length > 0 ? `; ${away.length} offline` : ''}. NOT confirmed by ${some(bad)}: ${why}` };
     }
   }
 
@@ -146,5 +158,7 @@ function noteOf(words: string, result: CommandAnswer | Problem): [NoteTone, stri
   const failed = result.document.result === 'failed' || result.kind !== 'answered';
   return ['refused', `${words}: ${failed ? 'failed' : 'refused'}. ${capital(result.words)}`];
 }
+
+const some = (all: readonly { axis: string }[]): string => all.slice(0, 4).map((a) => a.axis).join(', ') + (all.length > 4 ? ` and ${all.length - 4} more` : '');
 
 export const capital = (s: string): string => s.charAt(0).toUpperCase() + s.slice(1);

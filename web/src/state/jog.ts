@@ -1,13 +1,16 @@
 // Jog: the axis moves while a button is held, and stops when it is let go, whatever happens first. In: press and release. Out: one
-// move_velocity with a dead-man time-out, renewed while held, then halts. The halt is sent at once, and again when the move has been answered if that came later; if it fails it
-// is tried again for three seconds, and then said loudly. Never moves again without a new press.
-import { asProblem } from '../api/problem';
+// move_velocity with a dead-man time-out, renewed while held, then halts. The halt is sent at once, and again when the move has been answered
+// if that came later; if it fails it is tried again for three seconds, and then said loudly. A renewal that fails or is not answered, and the
+// loss of the connection, end the jog at once. Never moves again without a new press.
+import { asProblem, Problem } from '../api/problem';
 import type { Client } from '../api/client';
 import type { Commander } from './commander';
 
 /** The gateway halts the axis by itself when it has not heard of the jog for so long: the page may be gone, or its network. */
 const hold_ms = 1000;
 const renew_ms = 250;
+/** A renewal that is not answered for so long has failed: what the page shows as held the gateway has nearly given up. */
+const renewLimit_ms = 700;
 const retry_ms = 300;
 const mostRetries = 10;
 
@@ -38,13 +41,18 @@ export class Jog {
     });
   }
 
-  /** Says again and again that the hand is still there. What fails is not made good here: the gateway's time-out is. */
+  /** The page hears nothing more: nobody jogs what he cannot see. */
+  lost(): void {
+    if (this.held) this.giveUp('the connection to the gateway is lost');
+  }
+
+  /** Says again and again that the hand is still there. What fails is not made good: the jog is over, here and by the gateway's own time-out. */
   private async renew(mine: number, velocity: number): Promise<void> {
     for (;;) {
       await new Promise((r) => setTimeout(r, renew_ms));
       if (this.held !== mine) return;
       try {
-        await this.client.command(this.axis, { command: 'move_velocity', velocity, hold_ms, renew: true }, true);
+        await inTime(this.client.command(this.axis, { command: 'move_velocity', velocity, hold_ms, renew: true }, true), renewLimit_ms);
       } catch (error) {
         const problem = asProblem(error);
         if (this.held !== mine) return;
@@ -52,10 +60,18 @@ export class Jog {
           this.held = 0;
           this.commander.tell(this.axis, 'refused', `Jog: ended. ${problem.words}`);
           void this.halt(false);
-          return;
+        } else {
+          this.giveUp(problem.words);
         }
+        return;
       }
     }
+  }
+
+  private giveUp(why: string): void {
+    this.held = 0;
+    this.commander.tell(this.axis, 'refused', `Jog: ended, ${why}. The gateway halts the axis by itself ${hold_ms / 1000} s after it last heard of the jog.`);
+    void this.halt(true);
   }
 
   release(): void {
@@ -83,4 +99,11 @@ export class Jog {
       }
     }
   }
+}
+
+function inTime<T>(work: Promise<T>, limit_ms: number): Promise<T> {
+  return new Promise((good, bad) => {
+    const timer = setTimeout(() => bad(new Problem('timed_out', 'the gateway does not answer')), limit_ms);
+    work.then(good, bad).finally(() => clearTimeout(timer));
+  });
 }

@@ -28,20 +28,13 @@ export class MappingBook {
   readonly rows: Signal<Mapping[]> = signal([]);
   readonly points: Signal<MappingPoint[]> = signal([]);
   readonly hash = signal('');
-  /** 'waiting', 'there', or why the list is not there. */
-  readonly state = signal<string>('waiting');
   readonly changes: Signal<Change[]> = signal([]);
 
   constructor(private readonly door: MappingDoor) {}
 
   async load(): Promise<void> {
-    try {
-      await this.read();
-      if (this.points.peek().length === 0) this.points.value = await this.door.points();
-      this.state.value = 'there';
-    } catch (error) {
-      if (this.state.peek() !== 'there') this.state.value = asProblem(error).words;
-    }
+    await this.read();
+    if (this.points.peek().length === 0) this.points.value = await this.door.points();
   }
 
   add(spec: MappingSpec): Promise<Outcome> {

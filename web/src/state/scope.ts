@@ -5,17 +5,7 @@ import type { TrailColumns } from './trail';
 export const channels = ['position', 'demand', 'velocity', 'error', 'target'] as const;
 export type Channel = (typeof channels)[number];
 
-/** Following error: what was demanded less what is. Not known where one of the two is not. */
-export function followingError(c: TrailColumns): (number | null)[] {
-  return c.position.map((p, i) => {
-    const d = c.demand[i];
-    return p === null || d === null || d === undefined ? null : d - p;
-  });
-}
-
-export function columnOf(c: TrailColumns, channel: Channel): (number | null)[] {
-  return channel === 'error' ? followingError(c) : c[channel];
-}
+export const columnOf = (c: TrailColumns, channel: Channel): (number | null)[] => c[channel];
 
 export interface TriggerSetting {
   mode: 'off' | 'single' | 'again';
@@ -75,7 +65,7 @@ export class Trigger {
   }
 }
 
-/** Where the drive does not say where it wants to be, these two are not known. */
+/** These two are somebody's word about where the axis should be; the others are what the drive did, or was told. */
 export const needsDemand = (c: Channel): boolean => c === 'demand' || c === 'error';
 
 /** What a channel was at an instant: on the straight line between its neighbours, a target as it was set; null in a gap or outside the recording. */
@@ -99,13 +89,21 @@ export function valueAt(c: TrailColumns, channel: Channel, t: number): number | 
   return t1 > t0 ? a + ((b - a) * (t - t0)) / (t1 - t0) : b;
 }
 
-/** A recording as CSV (RFC 4180): a full stop as decimal sign, empty where nothing was known. */
+/** What stands behind the names of the two columns that need a demand; empty: all of it is the drive's word, or none was known. */
+function demandMark(c: TrailColumns): string {
+  const kinds = [...new Set(c.source)].filter((s) => s !== null).map((s) => s.replace('_', ' '));
+  if (kinds.length > 1) return ` (mixed: ${kinds.sort().join(' and ')})`;
+  return kinds.length === 0 || kinds[0] === 'drive' ? '' : ` (${kinds[0]})`;
+}
+
+/** A recording as CSV (RFC 4180): a full stop as decimal sign, empty where nothing was known. The last column tells of each row whose word its demand is. */
 export function csvOf(c: TrailColumns, axis: string, unit: string): string {
   const quote = (s: string) => (/[",\r\n]/.test(s) ? `"${s.replaceAll('"', '""')}"` : s);
   const begin = c.at[0] ?? 0;
-  const error = followingError(c);
+  const mark = demandMark(c);
   const text = (v: number | null | undefined) => (v === null || v === undefined ? '' : String(Number(v.toPrecision(12))));
-  const head = ['time', 'seconds', ...['position', 'position_demand', 'velocity', 'following_error', 'target_position'].map((n) => `${axis}.${n} [${unit}${n === 'velocity' ? '/s' : ''}]`)];
-  const lines = c.at.map((t, i) => [new Date(t * 1000).toISOString(), text(t - begin), text(c.position[i]), text(c.demand[i]), text(c.velocity[i]), text(error[i]), text(c.target[i])].join(','));
+  const named = (n: string, more = '', per = '') => `${axis}.${n}${more} [${unit}${per}]`;
+  const head = ['time', 'seconds', named('position'), named('position_demand', mark), named('velocity', '', '/s'), named('following_error', mark), named('target_position'), `${axis}.demand_source`];
+  const lines = c.at.map((t, i) => [new Date(t * 1000).toISOString(), text(t - begin), text(c.position[i]), text(c.demand[i]), text(c.velocity[i]), text(c.error[i]), text(c.target[i]), c.source[i] ?? ''].join(','));
   return [head.map(quote).join(','), ...lines].join('\r\n') + '\r\n';
 }

@@ -4,6 +4,7 @@ import { computed, signal } from '@preact/signals';
 import type { Client } from '../api/client';
 import { asProblem, type Problem } from '../api/problem';
 import type { Role, SessionInfo } from '../api/types';
+import type { TabChannel } from './tab';
 
 export const roles: readonly Role[] = ['viewer', 'operator', 'engineer', 'administrator'];
 
@@ -16,6 +17,8 @@ export class Session {
   readonly needed = computed(() => this.ended.value !== '' || (this.info.value !== null && this.info.value.role === null));
   /** Why one is signed out without having asked for it; empty: one is not. What was typed waits behind the sign-in. */
   readonly ended = signal('');
+  /** Why a stop of this page would be refused; empty: it would not. Only where the gateway has said that it serves nobody here. */
+  readonly stopBarred = computed(() => (this.info.value !== null && this.info.value.role === null ? 'Nobody is signed in here: the gateway refuses a stop from this page. Use the machine’s own emergency stop.' : ''));
   /** After an ended session: the gateway serves this machine without a sign-in too. */
   readonly mayGoOn = computed(() => this.ended.value !== '' && this.info.value?.via === 'local' && this.info.value.role !== null);
   private asking: Promise<void> | null = null;
@@ -28,7 +31,10 @@ export class Session {
     private readonly client: Caller,
     /** Who one is has changed: the stream has to be opened anew. */
     private readonly onChange: () => void = () => undefined,
+    /** The other tabs of this browser, which share its cookie. */
+    private readonly channel: TabChannel | null = null,
   ) {
+    if (channel) channel.onmessage = () => void this.ask();
     client.onUnauthorized = (problem) => {
       if (problem.is('session_ended')) this.end(problem.words);
       void this.ask();
@@ -70,14 +76,18 @@ export class Session {
     } else if (old?.via === 'cookie' && info.via !== 'cookie' && !this.leaving) {
       this.end('');
     }
+    // Signed in again, perhaps in another tab.
+    const back = this.ended.peek() !== '' && info.via === 'cookie' && info.role !== null;
+    if (back) this.ended.value = '';
     this.client.csrf = info.csrf;
     this.info.value = info;
-    if (old && (old.user !== info.user || old.role !== info.role || old.via !== info.via)) this.onChange();
+    if (back || (old && (old.user !== info.user || old.role !== info.role || old.via !== info.via))) this.onChange();
   }
 
   private end(why: string): void {
     if (this.ended.peek() !== '') return;
     const known = why && !/session has ended/.test(why) ? why : 'it was ended elsewhere, it expired, or the gateway was restarted';
+    this.change += 1; // what was asked before says nothing about after it
     this.ended.value = `Your session has ended: ${known.replace(/[.\s]+$/, '')}. Sign in again; what you typed is kept.`;
     this.onChange();
   }
@@ -93,6 +103,7 @@ export class Session {
       this.ended.value = '';
       this.set(info);
       if (again) this.onChange();
+      this.tellOthers();
       return null;
     } catch (error) {
       const problem = asProblem(error);
@@ -112,7 +123,16 @@ export class Session {
     this.leaving = true;
     await this.ask();
     this.leaving = false;
+    this.tellOthers();
     return null;
+  }
+
+  private tellOthers(): void {
+    try {
+      this.channel?.postMessage('changed');
+    } catch {
+      // A channel that is shut tells nobody: they ask when they are looked at.
+    }
   }
 
   /** Why one may not do what needs this role; empty: one may. `what` begins the sentence. */

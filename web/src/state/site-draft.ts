@@ -6,7 +6,8 @@ import { asProblem, type Problem } from '../api/problem';
 import type { Client } from '../api/client';
 import { SiteDoor, type SiteFault, type Stage } from '../api/site';
 import { differenceOf, rebase, sameDocument, withEntry, withoutEntry, type Difference, type Entry, type Room, type Site } from '../words/site';
-import { holderName } from '../words/authority';
+import { holderName, personOf } from '../words/authority';
+import { capital } from './commander';
 import { kept } from './kept';
 
 export interface Told {
@@ -17,7 +18,7 @@ const none: Stage = { state: 'none' };
 const quiet: Told = { tone: 'none', text: '' };
 /** Empty: an older gateway, where a stage cannot be told from another one. */
 const idOf = (stage: Stage): string => (typeof stage.id === 'string' ? stage.id : '');
-export const stagerOf = (stage: Stage): string => (stage.by && stage.by !== 'local' ? holderName(stage.by) : 'Somebody else');
+export const stagerOf = (stage: Stage): string => (stage.by && !/^local\b/.test(stage.by) ? holderName(stage.by) : capital(personOf(stage.by || 'local')));
 const absent = (p: Problem) => p.status === 404 || p.status === 405 || p.status === 501;
 
 export class SiteDraft {
@@ -67,12 +68,13 @@ export class SiteDraft {
     });
   }
 
-  async load(): Promise<void> {
-    if (this.moving) return; // what comes of it is read at its end
+  /** What went wrong, if it was not read. */
+  async load(): Promise<Problem | null> {
+    if (this.moving) return null; // what comes of it is read at its end
     if (this.stage.peek().state === 'applied') await this.look();
     try {
       const { site, tag } = await this.door.read();
-      if (this.moving) return;
+      if (this.moving) return null;
       const fresh = this.tag === '' || this.changes.peek().length === 0;
       if (fresh || sameDocument(site, this.draft.peek())) {
         this.take(site, tag);
@@ -84,8 +86,10 @@ export class SiteDraft {
       this.state.value = 'there';
     } catch (error) {
       if (this.state.peek() !== 'there') this.state.value = asProblem(error).words;
+      return asProblem(error);
     }
     await this.look();
+    return null;
   }
 
   /** What the gateway has staged or applied. */
@@ -206,6 +210,12 @@ export class SiteDraft {
       this.applied = null;
       return 'Kept.';
     });
+  /** Check, apply and keep, one after the other, where nothing that runs is disturbed by it; else it ends after the check, and what is disturbed is shown. */
+  async applyAndKeep(): Promise<boolean> {
+    if (!(await this.check()) || this.disturbs.peek().length > 0) return false;
+    // The trial lasts as long as the answer is on its way: a page that is cut off by its own change cannot keep it.
+    return (await this.apply(60)) && (this.stage.peek().state !== 'applied' || (await this.confirm()));
+  }
   rollBack = () =>
     this.step('Rolling back …', async () => {
       await this.door.rollBack();
@@ -232,6 +242,9 @@ export class SiteDraft {
     this.askRestore.value = null;
     return this.tell('Staging …', async () => {
       const document = await this.door.old(revision);
+      // What was typed goes, so nothing has to be put on top of the newer site: the difference is the one to what is in force now.
+      const newer = this.theirs.peek();
+      if (newer) this.take(newer.site, newer.tag);
       try {
         const stage = await this.door.restore(revision);
         this.edit(document);
@@ -327,7 +340,8 @@ export class SiteDraft {
       this.shown = '';
       this.told.value = { tone: 'refused', text: 'Nothing was applied: what you checked is not staged any more. Check it again.' };
     } else {
-      this.contest(`${p.is('stage_replaced') ? 'Nothing was applied: ' : ''}${stage ? stagerOf(stage) : 'somebody else'} has staged another change. What you typed is kept.`);
+      const who = stage ? stagerOf(stage) : 'Somebody else';
+      this.contest(`${p.is('stage_replaced') ? `Nothing was applied: ${who.replace(/^Somebody/, 'somebody')}` : who} has staged another change. What you typed is kept.`);
     }
   }
 }

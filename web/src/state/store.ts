@@ -5,7 +5,6 @@
 import { batch, computed, signal, type ReadonlySignal, type Signal } from '@preact/signals';
 import type { StreamMessage, StreamState } from '../api/stream';
 import type { About, AlarmList, Axis, Drive, GatewayEvent, Line } from '../api/types';
-import { demandKnown } from '../words/axis';
 import { Trail } from './trail';
 
 export interface Known<T> {
@@ -248,7 +247,7 @@ export class Store {
     if (axis === null) {
       this.trails.delete(name);
     } else if (axis.online && !axis.stale) {
-      this.trail(name).add({ at_ms: message.at / 1e6, position: axis.position, velocity: axis.velocity, target: axis.target_position, demand: demandKnown(axis) ? axis.position_demand : null });
+      this.trail(name).add({ at_ms: message.at / 1e6, position: axis.position, velocity: axis.velocity, target: axis.target_position, demand: axis.position_demand, error: axis.following_error, source: axis.demand_source });
     } else {
       this.trail(name).gap();
     }

@@ -65,9 +65,9 @@ export class Tab {
 }
 
 /** Between the tabs of this browser that are open on this gateway; null where there is none. */
-export function tabChannel(): TabChannel | null {
+export function tabChannel(name = 'axisgate.tab'): TabChannel | null {
   try {
-    return typeof BroadcastChannel === 'function' ? new BroadcastChannel('axisgate.tab') : null;
+    return typeof BroadcastChannel === 'function' ? new BroadcastChannel(name) : null;
   } catch {
     return null;
   }

@@ -1,6 +1,10 @@
-// Trail: the last positions and velocities of one axis, for sparkline and scope. In: samples with the gateway's time. Out: columns.
+// Trail: what one axis did lately, for sparkline and scope. In: samples with the gateway's time. Out: columns.
 // Holds at most `capacity` samples (a ring of flat arrays that grow as they are needed; the oldest give way). A gap in the knowledge is
-// kept as a gap, never bridged by a line.
+// kept as a gap, never bridged by a line. The following error has a column of its own: reckoned from thinned columns it would lose its peaks.
+import type { Axis } from '../api/types';
+
+/** Whose word the demand of a sample is; null: nobody's. */
+export type DemandSource = Axis['demand_source'];
 
 export interface TrailSample {
   at_ms: number;
@@ -8,6 +12,8 @@ export interface TrailSample {
   velocity: number | null;
   target: number | null;
   demand?: number | null;
+  error?: number | null;
+  source?: DemandSource;
 }
 
 export interface TrailColumns {
@@ -17,15 +23,23 @@ export interface TrailColumns {
   velocity: (number | null)[];
   target: (number | null)[];
   demand: (number | null)[];
+  error: (number | null)[];
+  source: DemandSource[];
 }
 
-const columns = ['position', 'velocity', 'target', 'demand'] as const;
+const columns = ['position', 'velocity', 'target', 'demand', 'error'] as const;
+/** As a number in the last of the flat arrays. */
+const sources: readonly DemandSource[] = [null, 'drive', 'computed', 'open_loop'];
+const empty = (): TrailColumns => ({ at: [], position: [], velocity: [], target: [], demand: [], error: [], source: [] });
 const known = (v: number): number | null => (Number.isNaN(v) ? null : v);
 const kept = (v: number | null | undefined): number => v ?? NaN;
+/** What is drawn as a line between two samples. */
+const lines = ['position', 'demand', 'error'] as const;
+const differ = (a: TrailSample, b: TrailSample): boolean => lines.some((c) => (a[c] ?? null) !== (b[c] ?? null));
 
 export class Trail {
   private at_ms = new Float64Array(256);
-  private values = columns.map(() => new Float64Array(256));
+  private values = [...columns, 'source'].map(() => new Float64Array(256));
   private first = 0;
   private count = 0;
 
@@ -58,7 +72,7 @@ export class Trail {
     }
     // The gateway tells of changes only. After a rest the old value held until just before: without this sample a line from the
     // last one would show a slow drift that never was. What was moving went on moving: there the straight line is the better guess.
-    if (this.count > 0 && before && before.position !== null && !before.velocity && sample.position !== null && sample.at_ms - before.at_ms > 2 * this.period_ms && sample.position !== before.position) {
+    if (this.count > 0 && before && before.position !== null && !before.velocity && sample.position !== null && sample.at_ms - before.at_ms > 2 * this.period_ms && differ(before, sample)) {
       this.push({ ...before, at_ms: sample.at_ms - this.period_ms });
     }
     this.push(sample);
@@ -67,7 +81,7 @@ export class Trail {
   /** From here on nothing is known until the next sample. */
   gap(): void {
     const last = this.last;
-    if (last && last.position !== null) this.push({ at_ms: last.at_ms + 1, position: null, velocity: null, target: null, demand: null });
+    if (last && last.position !== null) this.push({ at_ms: last.at_ms + 1, position: null, velocity: null, target: null });
   }
 
   clear(): void {
@@ -77,13 +91,14 @@ export class Trail {
 
   /** Everything from that time on (and up to another), with one sample before, so that the line enters from the left edge. */
   since(from_ms: number, to_ms = Infinity): TrailColumns {
-    const out: TrailColumns = { at: [], position: [], velocity: [], target: [], demand: [] };
+    const out = empty();
     for (let i = Math.max(0, this.lowerBound(from_ms) - 1); i < this.count; i += 1) {
       const k = this.place(i);
       const t = this.at_ms[k] as number;
       if (t > to_ms) break;
       out.at.push(t / 1000);
       columns.forEach((c, n) => out[c].push(known(this.values[n]![k] as number)));
+      out.source.push(this.sourceAt(k));
     }
     return out;
   }
@@ -96,7 +111,7 @@ export class Trail {
     const begin = Math.max(0, this.lowerBound(from_ms) - 1);
     const end = this.lowerBound(to_ms + 1e-6);
     if (end - begin <= 2 * width) return this.since(from_ms, to_ms);
-    const out: TrailColumns = { at: [], position: [], velocity: [], target: [], demand: [] };
+    const out = empty();
     const step = (to_ms - from_ms) / width;
     let i = begin;
     while (i < end) {
@@ -106,7 +121,11 @@ export class Trail {
       if (i === first) i += 1; // a sample that lies on the limit by rounding
       const last = i - 1;
       out.at.push((this.at_ms[this.place(first)] as number) / 1000);
-      if (last > first) out.at.push((this.at_ms[this.place(last)] as number) / 1000);
+      out.source.push(this.sourceAt(this.place(first)));
+      if (last > first) {
+        out.at.push((this.at_ms[this.place(last)] as number) / 1000);
+        out.source.push(this.sourceAt(this.place(last)));
+      }
       columns.forEach((c, n) => {
         const v = this.values[n] as Float64Array;
         let low = NaN;
@@ -146,8 +165,12 @@ export class Trail {
 
   private sample(i: number): TrailSample {
     const k = this.place(i);
-    const [position, velocity, target, demand] = this.values.map((v) => known(v[k] as number)) as [number | null, number | null, number | null, number | null];
-    return { at_ms: this.at_ms[k] as number, position, velocity, target, demand };
+    const [position, velocity, target, demand, error] = columns.map((_, n) => known(this.values[n]![k] as number)) as [number | null, number | null, number | null, number | null, number | null];
+    return { at_ms: this.at_ms[k] as number, position, velocity, target, demand, error, source: this.sourceAt(k) };
+  }
+
+  private sourceAt(place: number): DemandSource {
+    return sources[this.values[columns.length]![place] as number] ?? null;
   }
 
   private push(s: TrailSample): void {
@@ -162,6 +185,7 @@ export class Trail {
     }
     this.at_ms[k] = s.at_ms;
     columns.forEach((c, n) => ((this.values[n] as Float64Array)[k] = kept(s[c])));
+    (this.values[columns.length] as Float64Array)[k] = sources.indexOf(s.source ?? null);
   }
 
   private resize(room: number): void {

@@ -1,7 +1,6 @@
-// Alarms in words: state, subject, order, how long a shelf lasts; what is wrong now, with the place where it can be mended.
-// In: documents of the gateway. Out: words and links. Never asks anything.
-import type { Alarm, Axis, Drive, GatewayEvent, Line } from '../api/types';
-import { axisPath, linePath } from '../router';
+// Alarms and events in words: state, subject, how long a shelf lasts, the filter of the events and the files of them.
+// In: documents of the gateway. Out: words. Never asks anything.
+import type { Alarm, GatewayEvent } from '../api/types';
 import type { Word } from './axis';
 import { csvOf } from './table-text';
 
@@ -26,37 +25,11 @@ export const shelfTimes = [
   { value: '86400', text: '1 day' },
 ] as const;
 
-export interface Wrong {
-  key: string;
-  word: Word;
-  about: string;
-  text: string;
-  path: string;
-}
-
-/** Faults first, then lines, drives, and at the end what waits to be acknowledged. Nothing: all is well. */
-export function whatIsWrong(axes: Axis[], lines: Line[], drives: Drive[], unacknowledged: number): Wrong[] {
-  const out: Wrong[] = [];
-  for (const a of axes) {
-    if (!a.fault) continue;
-    const text = `Fault ${a.error.code}: ${a.error.text || 'the drive says no more'}`;
-    out.push({ key: `axis ${a.name}`, word: { text: 'Fault', icon: 'octagon', tone: 'fault', long: text }, about: a.name, text, path: axisPath(a.name) });
-  }
-  for (const l of lines) {
-    if (l.status.state !== 'down' && l.status.state !== 'bus_off') continue;
-    const text = l.status.text || 'it cannot be opened';
-    out.push({ key: `line ${l.name}`, word: { text: l.status.state === 'down' ? 'Line down' : 'Bus off', icon: 'unplugged', tone: 'fault', long: text }, about: l.name, text, path: linePath(l.name) });
-  }
-  for (const d of drives) {
-    if (d.status.presence !== 'offline') continue;
-    const text = d.status.text || 'nobody answers';
-    out.push({ key: `drive ${d.name}`, word: { text: 'Drive offline', icon: 'unplugged', tone: 'warning', long: text }, about: d.name, text, path: linePath(d.line) });
-  }
-  if (unacknowledged > 0) {
-    const text = unacknowledged === 1 ? '1 alarm is not acknowledged' : `${unacknowledged} alarms are not acknowledged`;
-    out.push({ key: 'alarms', word: { text: 'Alarms', icon: 'list', tone: 'warning', long: text }, about: '', text, path: '/events' });
-  }
-  return out;
+/** The gateway's sentences often begin with what they are about; beside its name that is said once. */
+export function withoutSubject(text: string, about: string): string {
+  if (about === '') return text;
+  for (const begin of ['drive ', 'axis ', 'line ', '']) if (text.startsWith(`${begin}${about} `)) return text.slice(begin.length + about.length + 1);
+  return text;
 }
 
 export interface EventFilter {

@@ -18,6 +18,13 @@ export function heldBy(axis: Pick<Axis, 'authority_holder' | 'authority_until'>,
 /** "anna page-1a2b3c" is anna to people. */
 export const holderName = (holder: string): string => holder.replace(/ page-[0-9a-z]{6}$/, '');
 
+/** Who did something, as the gateway writes it ("anna 10.0.0.7", "local 127.0.0.1", "token line (anna) 10.0.0.7"), to people: a machine is no name. */
+export function personOf(by: string): string {
+  const local = /^local(?: (.+))?$/.exec(by);
+  if (local) return local[1] ? `somebody at ${local[1]}` : 'somebody else';
+  return /^token \S+/.exec(by)?.[0] ?? by.split(' ')[0] ?? '';
+}
+
 /** Whom a lease can be given to, as the gateway names them: who holds or held another axis, and who is connected by Modbus. Never the page itself. */
 export function handOverChoices(held: readonly { door: string; holder: string }[], peers: readonly string[], tab: string): string[] {
   const all = [...held.filter((h) => h.holder !== '' && h.door !== 'none').map((h) => `${h.door} ${h.holder}`), ...peers.map((p) => `modbus ${p.replace(/:\d+$/, '').replace(/^\[(.*)\]$/, '$1')}`)];

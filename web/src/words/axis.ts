@@ -56,8 +56,14 @@ export function markOf(axis: Axis): { text: string; kind: 'real' | 'simulated' |
   return { text: 'NO DRIVE', kind: 'none', long: 'Neither a drive nor its model answers' };
 }
 
-/** Some drives do not say where they want to be just now: then demand and following error are nothing that could be shown. A gateway that does not tell says they do. */
-export const demandKnown = (axis: object): boolean => (axis as { demand_known?: boolean }).demand_known !== false;
+/** Whose word demand and following error are, in a sentence: nobody should take a reckoned value for a measured one. */
+export function demandWords(source: Axis['demand_source']): string {
+  const about = 'Demand and following error';
+  if (source === 'drive') return `${about}: from the drive.`;
+  if (source === 'computed') return `${about}: computed by the gateway from the order, not measured by the drive.`;
+  if (source === 'open_loop') return `${about}: the drive counts its own steps; nothing measures whether the shaft follows them.`;
+  return `${about}: not known now. The axis is off, not heard, or moved by somebody else.`;
+}
 
 export const unitOf = (axis: Pick<Axis, 'unit'>): string => axis.unit || 'inc';
 

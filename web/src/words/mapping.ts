@@ -2,7 +2,6 @@
 // In: mappings, text, points. Out: specifications, faults per field, live values. Pure. The gateway checks all of it again.
 import type { components } from '../api/schema';
 import type { Axis } from '../api/types';
-import { demandKnown } from './axis';
 import { parseNumber } from './number';
 
 type Schemas = components['schemas'];
@@ -224,7 +223,8 @@ export function pointValue(axis: Axis, point: string): number | boolean | null |
     case 'mode_display': return axis.mode_number;
     case 'position': return axis.position_increments;
     case 'velocity': return axis.velocity_increments;
-    case 'position_demand': return demandKnown(axis) ? axis.position_demand_increments : null;
+    case 'position_demand': return axis.position_demand_increments;
+    case 'following_error': return axis.following_error_increments;
     case 'error_code': return axis.error.code;
     case 'native_status': return axis.native;
     case 'setpoints_accepted': return axis.setpoints_accepted;
@@ -243,7 +243,7 @@ export function pointUnit(axis: Pick<Axis, 'unit'>, point: string): string {
   const unit = axis.unit || 'inc';
   if (point === 'position_units') return unit;
   if (point === 'velocity_units') return `${unit}/s`;
-  if (point === 'position' || point === 'position_demand' || point === 'target_position') return 'inc';
+  if (point === 'position' || point === 'position_demand' || point === 'following_error' || point === 'target_position') return 'inc';
   if (point === 'velocity' || point === 'profile_velocity' || point === 'target_velocity') return 'inc/s';
   if (point === 'profile_acceleration' || point === 'profile_deceleration') return 'inc/s²';
   return point === 'age_ms' ? 'ms' : '';
@@ -255,7 +255,7 @@ export function registerValue(value: number | boolean, m: Pick<Mapping, 'type' |
   return m.type === 'f32' ? Math.fround(n) : m.type === 'f64' ? n : m.type === 'bool' ? Number(n !== 0) : Math.round(n);
 }
 
-const signedPoints = new Set(['position', 'velocity', 'position_demand', 'position_units', 'velocity_units', 'target_position', 'target_velocity', 'mode_display', 'mode', 'homing_method']);
+const signedPoints = new Set(['position', 'velocity', 'position_demand', 'following_error', 'position_units', 'velocity_units', 'target_position', 'target_velocity', 'mode_display', 'mode', 'homing_method']);
 const signedOf: Partial<Record<RegisterType, RegisterType>> = { u16: 'i16', u32: 'i32', u64: 'i64' };
 /** What to think of before a point that can be negative goes into a type that cannot; empty: nothing. An offset may be meant to lift it. */
 export function signWarning(m: { point: string; type: string; offset: number }): string {

@@ -48,7 +48,9 @@ export function valueText(value: MaybeValue, p: Pick<Described, 'allowed'>): str
   if (typeof value === 'string') return value === '' ? '(empty)' : value;
   const meaning = p.allowed?.find((a) => a.value === value)?.meaning;
   if (!meaning) return formatExact(value);
-  return meaning.startsWith(String(value)) ? meaning : `${formatExact(value)} ${meaning}`;
+  // "17 bits" says the 17 already, "500 kbit/s" does not say the code 5. Between code and meaning stands a sign: "2 500 kbit/s" reads as 2500.
+  const said = meaning.startsWith(String(value)) && !/^[\d.,]/.test(meaning.slice(String(value).length));
+  return said ? meaning : `${formatExact(value)} = ${meaning}`;
 }
 
 /** How well a parameter answers a search: 0 its own id, then the beginning of it, id, name, description; null: not at all. */

@@ -80,7 +80,7 @@ export const stepKinds: StepKind[] = [
   { word: 'message', label: 'Message', fields: [{ key: '', label: 'Text', kind: 'text' }], fresh: '' },
 ];
 export const points = [
-  'state', 'moving', 'target_reached', 'referenced', 'fault', 'warning', 'internal_limit', 'position', 'velocity', 'target_position', 'position_increments',
+  'state', 'moving', 'target_reached', 'referenced', 'fault', 'warning', 'internal_limit', 'position', 'position_demand', 'following_error', 'velocity', 'target_position', 'position_increments',
   'online', 'simulated', 'stale', 'mode', 'error_code', 'native', 'statusword', 'authority',
 ];
 export const comparisons: { key: string; label: string }[] = [
@@ -103,10 +103,17 @@ export function withCommand(body: { [key: string]: Json }, command: string): { [
   const own = takes[command] ?? [];
   return Object.fromEntries(Object.entries({ ...body, command }).filter(([k]) => ![...motion, 'position'].includes(k) || own.includes(k)));
 }
-/** What a motion field is counted in; the unit of an axis that is known, else the word. */
+/** What a motion field is counted in; empty where the axis, and with it the unit, is not known. */
 export function unitOfField(key: string, unit: string | null): string {
-  const u = unit ?? 'units';
-  return key === 'position' ? u : key === 'velocity' ? `${u}/s` : key === 'acceleration' || key === 'deceleration' ? `${u}/s²` : '';
+  if (unit === null) return '';
+  return key === 'position' ? unit : key === 'velocity' ? `${unit}/s` : key === 'acceleration' || key === 'deceleration' ? `${unit}/s²` : '';
+}
+/** The axis that a step means: the one it names, or by "${name}" what is chosen for that parameter, else its default; null: nobody knows yet. */
+export function axisMeant(named: string, parameters: RecipeDocument['parameters'], chosen: Readonly<Record<string, string>> = {}): string | null {
+  const name = /^\$\{([\w.-]+)\}$/.exec(named)?.[1];
+  if (name === undefined) return named;
+  const value = chosen[name] || parameters?.[name]?.default;
+  return typeof value === 'string' && value !== '' ? value : null;
 }
 
 export function kindOf(step: Step): StepKind | undefined {
@@ -262,6 +269,7 @@ export function runWord(state: string): Word {
     case 'stopping': return { text: 'Stopping', icon: 'pause', tone: 'warning', long: 'Axes that the run has set in motion are being stopped' };
     case 'done': return { text: 'Done', icon: 'check', tone: 'good', long: 'Every step was carried out' };
     case 'cancelled': return { text: 'Cancelled', icon: 'stop', tone: 'warning', long: 'The run was ended before its end' };
+    case 'interrupted': return { text: 'Interrupted', icon: 'triangle', tone: 'warning', long: 'The gateway ended while it was under way; nobody has seen its end' };
     case 'failed': return { text: 'Failed', icon: 'triangle', tone: 'fault', long: 'A step failed' };
     default: return { text: 'Not run', icon: 'circle-dashed', tone: 'muted', long: 'Not carried out' };
   }

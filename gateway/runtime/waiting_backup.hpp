@@ -1,0 +1,22 @@
+// Waiting backup: a backup that was checked and laid down in the data directory, to take the database's place at the next start.
+// In: the file's bytes, who sent it. Out: what waits; the backup in the database's place; faults in words.
+// Never lays down what this program would not open, and never names a path of the machine to who sent the file.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "gateway/core/gateway.hpp"
+#include "gateway/store/records.hpp"
+
+namespace axisgate {
+
+/// Checks the bytes and lays them down in `options.directory`, in the place of what waited there. Empty, or a fault.
+[[nodiscard]] std::string lay_down_backup(const std::string& bytes, const std::string& who, std::int64_t at_unix_ns, const StoreOptions& options);
+[[nodiscard]] std::optional<Gateway::WaitingBackup> waiting_backup(const std::string& directory);
+/// Empty, or a fault; "none" if nothing waits.
+[[nodiscard]] std::string cancel_waiting_backup(const std::string& directory);
+/// At start, before the database is opened. Empty, or a fault; the file is then kept aside, so that the next start goes on without it.
+[[nodiscard]] std::string take_waiting_backup(const StoreOptions& options);
+
+}  // namespace axisgate

@@ -1,0 +1,87 @@
+// A phone in the hand: the stop of all lies across the foot, whole and uncovered, nothing hides behind it, nothing is too small for a finger, and
+// nobody is told of keys that are not there.
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { launch, open, shot, until } from './lib/browser.mjs';
+import { Program } from './lib/program.mjs';
+
+let program, browser;
+before(async () => {
+  program = await Program.start();
+  browser = await launch();
+});
+after(async () => {
+  await browser?.close();
+  await program?.end();
+});
+const phone = (path, width, height) => open(browser, program.url + path, { viewport: { width, height }, hasTouch: true, isMobile: true });
+const box = (page, selector) => page.locator(selector).first().evaluate((e) => { const r = e.getBoundingClientRect(); return { x: r.x, y: r.y, w: r.width, h: r.height, bottom: r.bottom, right: r.right }; });
+
+for (const [width, height] of [[390, 844], [320, 640]]) {
+  test(`${width} px: the stop bar is whole, above the navigation, and the end of the page is above it`, async () => {
+    const page = await phone('/', width, height);
+    await page.locator('[data-axis] [data-live=true]').first().waitFor();
+    const stop = await box(page, '.stop-all');
+    const nav = await box(page, '.nav');
+    assert.deepEqual([stop.x, Math.round(stop.w)], [0, width]);
+    assert.ok(stop.h >= 48 && stop.bottom <= nav.y + 1 && nav.bottom <= height + 1, JSON.stringify({ stop, nav }));
+    const hit = await page.evaluate(([x, y]) => document.elementFromPoint(x, y).closest('button')?.className, [width / 2, stop.y + stop.h / 2]);
+    assert.match(hit, /stop-all/);
+    await page.evaluate(() => scrollTo(0, document.documentElement.scrollHeight));
+    const last = await page.evaluate(() => Math.max(...[...document.querySelectorAll('main section')].map((e) => e.getBoundingClientRect().bottom)));
+    assert.ok(last <= stop.y, `the page ends at ${last}, the bar begins at ${stop.y}`);
+    await page.locator('.stop-all').tap();
+    await until('the answer stands above the bar', async () => (await box(page, '.strip-stop')).bottom <= stop.y + 1 && /accepted/.test(await page.locator('.strip-stop').innerText()));
+    await shot(page, `phone-stop-${width}`);
+    assert.equal(await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth), 0);
+    await page.context().close();
+  });
+}
+
+test('the badge of the alarms stays in the navigation in landscape', async () => {
+  const page = await phone('/', 844, 390);
+  await program.command('feeder', { command: 'enable' });
+  await program.call('POST', '/axes/feeder/commands', { command: 'move_velocity', velocity: 1, acceleration: 20 });
+  await program.call('PATCH', '/drives/feeder/hand', { stall: true });
+  await page.locator('[data-field=alarm-badge]').waitFor();
+  const badge = await box(page, '[data-field=alarm-badge]');
+  const nav = await box(page, '.nav');
+  assert.ok(badge.y >= nav.y && badge.bottom <= nav.bottom, JSON.stringify({ badge, nav }));
+  await program.call('PATCH', '/drives/feeder/hand', { stall: false });
+  await page.context().close();
+});
+
+test('320 px, page of an axis: every control is whole, and large enough for a finger', async () => {
+  const page = await phone('/axes/feeder', 320, 640);
+  await page.locator('[data-live=true]').first().waitFor();
+  const wrong = await page.evaluate(() => [...document.querySelectorAll('.head a, .head button, .axis-head button, .axis-state button')].filter((e) => e.checkVisibility() && !e.matches('.brand')).flatMap((e) => {
+    const r = e.getBoundingClientRect();
+    const name = e.getAttribute('aria-label') ?? e.textContent;
+    return [...(r.height < 40 || r.width < 40 ? [`${name} is ${r.width} x ${r.height}`] : []), ...(r.left < 0 || r.right > innerWidth || e.scrollWidth > e.clientWidth + 1 ? [`${name} is cut`] : [])];
+  }));
+  assert.deepEqual(wrong, []);
+  const [connection, brand] = [await box(page, '.connection'), await box(page, '.brand')];
+  assert.ok(brand.right <= connection.x, 'the state of the connection beside the name');
+  await page.context().close();
+});
+
+test('nobody without keys is told of the Escape key', async () => {
+  const page = await phone('/gateway', 820, 1180);
+  await page.locator('.facts').first().waitFor();
+  assert.doesNotMatch(await page.locator('body').innerText(), /\bEsc\b/i);
+  await page.context().close();
+  const desk = await open(browser, `${program.url}/gateway`);
+  await desk.getByText('stops all axes').waitFor();
+  await desk.context().close();
+});
+
+test('a line of 3000 characters leaves the console as high as it was', async () => {
+  const page = await open(browser, `${program.url}/axes/feeder`);
+  const line = page.getByLabel(/^Line to send to/);
+  await line.fill('X'.repeat(3000));
+  const before = (await box(page, '.console')).h;
+  await line.press('Enter');
+  await page.locator('.console-log .sent').waitFor();
+  assert.ok((await box(page, '.console')).h <= before + 1);
+  await page.context().close();
+});

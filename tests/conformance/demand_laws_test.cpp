@@ -1,0 +1,135 @@
+// Conformance: where an axis should be, for every family: nobody's while it is off, near the shaft in a good move, at the target after it.
+// In: all_families(). Out: laws of AxisFeedback's demand, through the engine, on twins. Never names a family.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "tests/world/world.hpp"
+
+namespace axisgate::test {
+namespace {
+using namespace std::chrono_literals;
+
+class DemandLaws : public testing::TestWithParam<FamilyEntry> {
+protected:
+    const FamilyEntry& e = GetParam();
+    World w;
+    AxisId a = no_axis;
+    DriveId d = no_drive;
+
+    AxisPicture now() { return w.picture(a); }
+    void start() {
+        const auto site = w.apply(w.make_site(e, "twin", 1));
+        a = site->axis_ids.at(0);
+        d = site->drive_ids.at(0);
+        ASSERT_TRUE(w.run_until_true([&] { return (now().flags & flag_online) != 0; }, 10s));
+        w.run_for(2s);
+    }
+    void order(CommandBody body, bool until_done = true) {
+        const Result* r = w.wait(w.command(a, std::move(body), until_done), 30s);
+        ASSERT_TRUE(r && good(*r)) << (r ? r->text : "no result");
+    }
+    static Move move(std::int64_t target) {
+        Move m;
+        m.target = target;
+        m.velocity = 4000;
+        m.acceleration = m.deceleration = 20000;
+        return m;
+    }
+    /// What must be true of every picture at any time.
+    void whole(const AxisPicture& p) {
+        if (p.following_error_known()) return;
+        EXPECT_EQ(p.position_demand, p.position) << "register 6 has no null: without a word of its own it is the position";
+        EXPECT_EQ(p.following_error(), 0);
+    }
+    void ends_with(const CommandBody& stop) {
+        start();
+        order(Enable{});
+        w.run_for(500ms);
+        w.command(a, move(now().position + 40000), false);
+        ASSERT_TRUE(w.run_until_true([&] { return now().velocity >= 3500; }, 5s));
+        order(stop);
+        w.run_for(3s);
+        whole(now());
+        EXPECT_EQ(now().flags & flag_moving, 0);
+        EXPECT_LE(std::llabs(now().following_error()), 400) << "not at the target, where nobody wants it any more";
+    }
+};
+
+TEST_P(DemandLaws, OffNobodyWantsItAnywhere) {
+    start();
+    EXPECT_EQ(now().demand_source, DemandSource::none);
+    whole(now());
+    order(Enable{});
+    w.run_for(500ms);
+    EXPECT_NE(now().demand_source, DemandSource::none) << "on, and held at its place: everybody can tell";
+    EXPECT_EQ(now().position_demand, now().position);
+    order(Disable{});
+    w.run_for(500ms);
+    EXPECT_EQ(now().demand_source, DemandSource::none);
+    whole(now());
+}
+
+TEST_P(DemandLaws, InAGoodMoveItIsWhereTheShaftIs) {
+    start();
+    order(Enable{});
+    w.run_for(500ms);
+    const std::int64_t home = now().position;
+    for (const std::int64_t target : {home + 8000, home - 4000}) {
+        const Ticket go = w.command(a, move(target), true);
+        std::int64_t farthest = 0, most = 0;
+        int moving = 0, nobodys = 0;
+        for (int i = 0; i < 600; ++i) {
+            w.run_for(10ms);
+            const AxisPicture p = now();
+            whole(p);
+            if (p.flags & flag_moving) {
+                ++moving;
+                if (p.demand_source == DemandSource::none) ++nobodys;
+            }
+            farthest = std::max(farthest, static_cast<std::int64_t>(std::llabs(p.following_error())));
+            most = std::max(most, static_cast<std::int64_t>(std::llabs(p.position_demand - target)));
+        }
+        EXPECT_GT(moving, 50) << "it was watched while it moved";
+        EXPECT_EQ(nobodys, 0) << "an order of this gateway is carried out";
+        EXPECT_GT(most, 3000) << "the demand does not jump to the target";
+        // What a tenth of a second is at this speed: the slowest line of all asks ten times a second.
+        EXPECT_LE(farthest, 400);
+        const Result* r = w.result(go);
+        ASSERT_TRUE(r && good(*r)) << (r ? r->text : "no result");
+        EXPECT_EQ(now().position, target);
+        EXPECT_EQ(now().position_demand, target);
+    }
+}
+
+TEST_P(DemandLaws, AHeldShaftFallsBehindIt) {
+    start();
+    order(Enable{});
+    w.run_for(500ms);
+    if (now().demand_source == DemandSource::open_loop) {
+        // Nothing measures this shaft: then nobody may be shown a following error either, least of all one that is always 0.
+        EXPECT_FALSE(now().following_error_known());
+        return;
+    }
+    w.command(a, move(now().position - 40000), false);
+    ASSERT_TRUE(w.run_until_true([&] { return now().velocity <= -3500; }, 5s));
+    ASSERT_EQ(w.engine.set_hand(d, {{"stall", Value{true}}}, {}, w.now), "");
+    std::int64_t least = 0;
+    for (int i = 0; i < 400; ++i) {
+        w.run_for(5ms);
+        whole(now());
+        least = std::min(least, now().following_error());
+    }
+    EXPECT_LT(least, -50) << "it should be lower than it is, and is shown to be, until the drive gives up";
+}
+
+TEST_P(DemandLaws, AHaltEndsItWhereTheAxisStands) { ends_with(Halt{}); }
+TEST_P(DemandLaws, AQuickStopEndsItWhereTheAxisStands) { ends_with(QuickStop{}); }
+
+INSTANTIATE_TEST_SUITE_P(Families, DemandLaws, testing::ValuesIn(families().entries),
+                         [](const testing::TestParamInfo<FamilyEntry>& i) { return std::string(i.param.family->name); });
+
+}  // namespace
+}  // namespace axisgate::test

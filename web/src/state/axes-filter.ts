@@ -1,0 +1,21 @@
+// Axes filter: which axes the overview shows. In: text of the field, or a count in the strip that is pressed. Out: a signal for this visit.
+// Not kept over a reload: whoever opens the page sees every axis.
+import { signal } from '@preact/signals';
+import type { Axis } from '../api/types';
+import { motionWord, stateWord } from '../words/axis';
+import type { Trust } from './store';
+
+export const axesFilter = signal('');
+
+/** Also by what it does: "offline", "fault", "moving", "simulated", and the words on its tile. */
+export function axisMatches(axis: Axis, trust: Trust, text: string): boolean {
+  const wanted = text.trim().toLowerCase();
+  if (wanted === '') return true;
+  const words = [axis.name, axis.family, axis.line, axis.drive, stateWord(axis, trust).text];
+  // What the strip counts, by the same rule as there.
+  if (!axis.online) words.push('offline');
+  else words.push(motionWord(axis, trust).text, axis.moving ? 'moving' : '', axis.stale ? 'stale' : '');
+  if (axis.fault) words.push('in fault');
+  words.push(axis.simulated ? 'simulated' : axis.presence === 'device' ? 'real' : '');
+  return words.some((w) => w.toLowerCase().includes(wanted));
+}

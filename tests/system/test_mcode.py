@@ -65,6 +65,13 @@ def witness(folder, name):
         until(lambda: (folder / "desk").exists(), 5, "the witness' terminal")
         yield seen
     finally:
+        # What was written last may still be on its way through the terminals: until a while nothing more crosses.
+        size, since = -1, time.monotonic()
+        end = since + 5
+        while since + 0.3 > time.monotonic() < end:
+            if (now := (folder / "witness").stat().st_size) != size:
+                size, since = now, time.monotonic()
+            time.sleep(0.02)
         process.terminate()
         process.wait(5)
         log.close()

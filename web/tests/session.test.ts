@@ -203,7 +203,8 @@ describe('authority', () => {
   });
 });
 
-it('a lease can be given to who holds another axis or is connected by Modbus, not to the page itself', () => {
+it('a lease can be given to whoever is there or holds another axis, to a user by her name alone, not to the page itself', () => {
   const held = [{ door: 'http', holder: 'anna page-abc123' }, { door: 'http', holder: 'bert page-000000' }, { door: 'none', holder: '' }];
-  expect(handOverChoices(held, ['192.0.2.7:50012', '192.0.2.7:50013', '[2001:db8::1]:502'], 'page-abc123')).toEqual(['http bert page-000000', 'modbus 192.0.2.7', 'modbus 2001:db8::1']);
+  const there = ['http anna page-abc123', 'http olga page-77', 'http line3', 'modbus 192.0.2.7'];
+  expect(handOverChoices(held, there, 'page-abc123')).toEqual(['http bert', 'http bert page-000000', 'http line3', 'http olga', 'http olga page-77', 'modbus 192.0.2.7']);
 });

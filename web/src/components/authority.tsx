@@ -105,9 +105,10 @@ function HandOver({ name, give }: { name: string; give: (to: string) => Promise<
   const to = useSignal('');
   const offers = useSignal<string[]>([]);
   useEffect(() => {
-    const held = client.call<{ axes: Authority[] }>('/authority').then((l) => l.axes, () => []);
-    const peers = client.modbus().then((d) => d.connections.map((c) => c.peer), () => []);
-    void Promise.all([held, peers]).then(([h, p]) => (offers.value = handOverChoices(h, p, tab.name.peek())));
+    void client.call<{ axes: Authority[]; clients?: { client: string }[] }>('/authority').then(
+      (l) => (offers.value = handOverChoices(l.axes, (l.clients ?? []).map((c) => c.client), tab.name.peek())),
+      () => undefined,
+    );
   }, [client]);
   return (
     <form
@@ -118,7 +119,7 @@ function HandOver({ name, give }: { name: string; give: (to: string) => Promise<
         if (to.peek().trim()) void give(to.peek().trim());
       }}
     >
-      <TextField label="To" value={to.value} onText={(t) => (to.value = t)} offers={offers.value.map((value) => ({ value }))} placeholder="modbus 192.0.2.7" hint="a door and its client: modbus, http, ethernet_ip or dds, and the address or name" />
+      <TextField label="To" value={to.value} onText={(t) => (to.value = t)} offers={offers.value.map((value) => ({ value }))} placeholder="modbus 192.0.2.7" hint="a door and its client: modbus, http, ethernet_ip or dds, and the address, user or name" />
       {offers.value.slice(0, 6).map((o) => (
         <button key={o} type="button" class="button small quiet" onClick={() => (to.value = o)}>
           {o}

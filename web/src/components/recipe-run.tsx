@@ -172,14 +172,13 @@ export function Report({ report: r }: { report: RecipeReport }) {
         </div>
         {r.text && (
           <p class="step-fault" data-field="run-text">
-            {r.at_step ? `${r.at_step}: ` : ''}
+            {r.at_label || r.at_step ? `${r.at_label || r.at_step}: ` : ''}
             {capital(r.text)}
           </p>
         )}
         {r.stops.map((s) => (
           <p key={s.axis} class="why">
-            {s.axis}: {s.stopped ? 'stopped' : 'NOT stopped'}
-            {s.text && `: ${s.text}`}
+            {s.axis}: {s.left_alone ? s.text : `${s.stopped ? 'stopped' : 'NOT stopped'}${s.text && `: ${s.text}`}`}
           </p>
         ))}
       </div>

@@ -25,10 +25,14 @@ export function personOf(by: string): string {
   return /^token \S+/.exec(by)?.[0] ?? by.split(' ')[0] ?? '';
 }
 
-/** Whom a lease can be given to, as the gateway names them: who holds or held another axis, and who is connected by Modbus. Never the page itself. */
-export function handOverChoices(held: readonly { door: string; holder: string }[], peers: readonly string[], tab: string): string[] {
-  const all = [...held.filter((h) => h.holder !== '' && h.door !== 'none').map((h) => `${h.door} ${h.holder}`), ...peers.map((p) => `modbus ${p.replace(/:\d+$/, '').replace(/^\[(.*)\]$/, '$1')}`)];
-  return [...new Set(all)].filter((c) => tab === '' || !c.endsWith(` ${tab}`)).sort();
+/**
+ * Whom a lease can be given to, as the gateway names them: clients of the last minutes and hosts connected by Modbus, and who holds another
+ * axis. Of a page its user (or host) as well, before it: whichever page of hers comes first takes it. Never the page itself.
+ */
+export function handOverChoices(held: readonly { door: string; holder: string }[], clients: readonly string[], tab: string): string[] {
+  const all = [...clients, ...held.filter((h) => h.holder !== '' && h.door !== 'none').map((h) => `${h.door} ${h.holder}`)].filter((c) => tab === '' || !c.endsWith(` ${tab}`));
+  const users = all.filter((c) => / page-\w+$/.test(c)).map((c) => c.replace(/ page-\w+$/, ''));
+  return [...new Set([...users, ...all])].sort();
 }
 
 export function heldWords(h: Held): string {

@@ -46,7 +46,7 @@ test('the holder hands the axis over, to a client of the list or a typed one', a
   await program.call('PUT', '/axes/slide.x/authority', { ttl_s: 60 });
   await bar(a).getByRole('button', { name: 'Hand over …' }).click();
   const form = a.getByRole('form', { name: 'Hand feeder over' });
-  await form.getByRole('button', { name: /^http 127\.0\.0\.1/ }).waitFor();
+  await form.getByRole('button', { name: 'http 127.0.0.1', exact: true }).waitFor(); // any client of this host; its pages stand beside it
   await form.getByLabel('To').fill('modbus 127.0.0.1');
   await form.getByRole('button', { name: 'Hand over', exact: true }).click();
   await held(a, /Held by 127\.0\.0\.1[^]*Handed over to modbus 127\.0\.0\.1\./);

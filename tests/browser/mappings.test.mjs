@@ -83,7 +83,7 @@ test('a removal is undone, by the keyboard too', async () => {
   const before = await all();
   await page.getByRole('button', { name: `Remove ${before[1].id}` }).click();
   await until('it is gone', async () => (await all()).length === 1);
-  await page.getByRole('button', { name: /^Undo: / }).waitFor(); // the page has heard of it, too
+  await page.getByRole('button', { name: `Undo: removed ${before[1].id}`, exact: true }).waitFor(); // the page has heard of it, too
   await page.locator('main h1').focus();
   await page.keyboard.press('Control+z');
   await until('it is back', async () => (await all()).length === 2);

@@ -5,7 +5,7 @@ import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { launch, open, pictures, shot, tileOf, until } from './lib/browser.mjs';
-import { Program } from './lib/program.mjs';
+import { freePort, isMock, Process, Program } from './lib/program.mjs';
 
 let program, browser, page, offersStage, offersHistory, offersBackup;
 const stage = () => page.locator('[data-field=stage]').first();
@@ -397,6 +397,41 @@ test('from a new data directory to a moving axis: overview, wizard, by keyboard'
     await pictures(browser, empty.url, '/site', 'site-after-wizard', (q) => q.locator('[data-entry="axes/first"]').waitFor());
   } finally {
     await empty.end();
+  }
+});
+
+test('a line that is typed is in force and scanned with one click, and a reload goes on where it was', { skip: isMock && 'the stand-in opens no line' }, async () => {
+  const port = await freePort();
+  const drive = await Process.run(['twin', 'uim342', '--line', `tcp-listen:127.0.0.1:${port}`], /^ready /m);
+  const empty = await Program.start({ site: null });
+  try {
+    const p = await open(browser, `${empty.url}/site`);
+    const wizard = (n) => p.locator(`.wizard[data-step="${n}"]`);
+    await wizard(1).waitFor();
+    await p.getByLabel('Name').fill('bench');
+    await p.getByLabel('Family').selectOption('uim342');
+    await p.getByLabel('URI').fill(`tcp:127.0.0.1:${port}`);
+    await p.getByLabel('Name').press('Enter');
+    await wizard(2).waitFor();
+    await p.getByText('Scanning asks the line itself, so bench must be in force first.').waitFor();
+    await shot(p, 'site-wizard-scan-later', { fullPage: true });
+    await p.reload();
+    await wizard(2).waitFor();
+    assert.deepEqual((await empty.call('GET', '/site')).body.lines ?? [], [], 'nothing is applied before it is asked for');
+    await p.getByRole('button', { name: 'Apply bench and scan it' }).click();
+    const scan = p.getByRole('form', { name: 'Scan line bench' });
+    await scan.getByRole('button', { name: 'Add 5 as a drive' }).waitFor({ timeout: 120_000 });
+    assert.equal((await empty.call('GET', '/site/stage')).body.state, 'none', 'it is kept');
+    await p.reload();
+    await scan.getByRole('button', { name: 'Add 5 as a drive' }).click(); // of the scan that runs on, or has ended meanwhile
+    await p.getByRole('button', { name: 'Next' }).click();
+    await wizard(3).waitFor();
+    await shot(p, 'site-wizard-scanned', { fullPage: true });
+    assert.deepEqual(p.faults(), []);
+    await p.context().close();
+  } finally {
+    await empty.end();
+    await drive.stop();
   }
 });
 

@@ -55,9 +55,23 @@ describe('a line that is typed', () => {
     await p.see('form[aria-label="Scan line bus"]', /2 found/);
     await reload();
     await p.see('form[aria-label="Scan line bus"]', 'Scan');
-    await p.drawn();
-    expect(p.text('[data-field=scan-told]')).toBe(''); // a reload scans nothing by itself
+    await p.see('[data-field=scan-told]', 'The last scan: 2 found, 10 asked.');
+    expect(p.text('[data-found="9"]')).toContain('Add 9 as a drive');
+    expect(p.wire.asked.filter((a) => a === 'POST /lines/bus/scan')).toEqual([]); // a reload scans nothing by itself
     expect([p.text(later), p.text(head)]).toEqual(['', 'Step 2 of 5: Which drive is on it?']);
+  });
+  it('is followed to the end of its scan after a reload in the middle of it, and can be ended there', async () => {
+    await typeLine();
+    await p.press('Apply bus and scan it');
+    await p.see('[data-field=scan-told]', /^Scanning/);
+    const scan = door.configuration.scans.get('bus');
+    scan.begun = Date.now() + 60_000; // it takes as long as the test wants
+    await reload();
+    await p.see('[data-field=scan-told]', /^Scanning/);
+    expect(p.other('POST', '/lines/bus/scan', {}).status).toBe(409);
+    scan.begun = Date.now() - 400;
+    await p.press('End');
+    await p.see('[data-field=scan-told]', 'The scan is cancelled. ended by hand');
   });
   it('that was applied and not kept when the page was reloaded can be kept or scanned there', async () => {
     await typeLine();

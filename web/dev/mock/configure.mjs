@@ -161,6 +161,8 @@ export class Configuration {
     if (method === 'POST') {
       const { from = 1, to = 10 } = text ? JSON.parse(text) : {};
       if (Number(to) < Number(from)) throw new Refusal(422, 'invalid', `the last address ${to} is before the first ${from}`);
+      const now = this.scans.get(line);
+      if (now && !now.ended && Date.now() - now.begun < 800) throw new Refusal(409, 'conflict', `line ${line} is being scanned already`);
       this.scans.set(line, { begun: Date.now(), from: Number(from), to: Number(to), ended: 0 });
     }
     const s = this.scans.get(line);

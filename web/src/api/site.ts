@@ -34,7 +34,8 @@ export interface HistoryEntry {
   bytes: number;
 }
 export interface Scan {
-  state: 'running' | 'done' | 'failed' | 'cancelled';
+  /** none: never scanned. */
+  state: 'none' | 'running' | 'done' | 'failed' | 'cancelled';
   progress: number;
   found: { address: number | string; family?: string; text?: string; known_as?: string | null }[];
   asked?: number;

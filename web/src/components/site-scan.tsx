@@ -1,5 +1,5 @@
 // Site scan: who answers on a line. In: a line of the site in force, a range of addresses. Out: what was found, and a drive with an axis in the draft
-// for each that is not known yet. Asks for progress three times a second, for at most ten minutes; can be ended.
+// for each that is not known yet. Asks for progress three times a second, for at most ten minutes; can be ended. Begins none that was not asked for.
 import { useSignal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -32,37 +32,55 @@ export function ScanPanel({ line, door, draft, begin = false }: { line: Entry; d
   const running = useRef<{ stop: boolean } | null>(null);
   useEffect(() => () => void (running.current && (running.current.stop = true)), []);
 
-  const start = async () => {
-    const range: { from?: number; to?: number } = {};
-    const [a, b] = [numberOf(from.value), numberOf(to.value)];
-    if (a !== undefined) range.from = a;
-    if (b !== undefined) range.to = b;
+  const words = (s: Scan) => `${s.state === 'done' ? `${s.found.length} found${s.asked ? `, ${s.asked} asked` : ''}.` : `The scan is ${s.state}.`} ${s.text ?? ''}`.trim();
+  /** Until it has an end, whoever began it. */
+  const follow = async (run: { stop: boolean }) => {
+    const end = performance.now() + longest_ms;
+    while (!run.stop && performance.now() < end) {
+      const s = await door.scan(line.name);
+      scan.value = s;
+      if (s.state !== 'running') return void (told.value = { tone: s.state === 'done' ? 'good' : 'refused', text: words(s) });
+      told.value = { tone: 'busy', text: `Scanning, ${Math.round(s.progress * 100)} % …` };
+      await new Promise((r) => setTimeout(r, poll_ms));
+    }
+  };
+  const watch = async (work: (run: { stop: boolean }) => Promise<void>) => {
     const run: { stop: boolean } = { stop: false };
     running.current = run;
-    scan.value = null;
-    told.value = { tone: 'busy', text: 'Scanning …' };
     try {
-      await door.startScan(line.name, range);
-      const end = performance.now() + longest_ms;
-      while (!run.stop && performance.now() < end) {
-        const s = await door.scan(line.name);
-        scan.value = s;
-        if (s.state !== 'running') {
-          told.value = { tone: s.state === 'done' ? 'good' : 'refused', text: `${s.state === 'done' ? `${s.found.length} found${s.asked ? `, ${s.asked} asked` : ''}.` : `The scan is ${s.state}.`} ${s.text ?? ''}`.trim() };
-          return;
-        }
-        told.value = { tone: 'busy', text: `Scanning, ${Math.round(s.progress * 100)} % …` };
-        await new Promise((r) => setTimeout(r, poll_ms));
-      }
-    } catch (error) {
-      const p = asProblem(error);
-      told.value = { tone: 'refused', text: p.status === 405 || p.status === 501 || (p.status === 404 && !/line/.test(p.message)) || p.message.startsWith('there is nothing at') ? notOffered('a scan of its lines') : p.words };
+      await work(run);
     } finally {
       if (running.current === run) running.current = null;
     }
   };
+  const start = () =>
+    watch(async (run) => {
+      const range: { from?: number; to?: number } = {};
+      const [a, b] = [numberOf(from.value), numberOf(to.value)];
+      if (a !== undefined) range.from = a;
+      if (b !== undefined) range.to = b;
+      scan.value = null;
+      told.value = { tone: 'busy', text: 'Scanning …' };
+      try {
+        await door.startScan(line.name, range);
+        await follow(run);
+      } catch (error) {
+        const p = asProblem(error);
+        told.value = { tone: 'refused', text: p.status === 405 || p.status === 501 || (p.status === 404 && !/line/.test(p.message)) || p.message.startsWith('there is nothing at') ? notOffered('a scan of its lines') : p.words };
+      }
+    });
+  /** One that runs already, begun before a reload or by somebody else, is followed to its end; what the last one has found is still there. */
+  const look = () =>
+    watch(async (run) => {
+      const s = await door.scan(line.name);
+      if (run.stop || told.peek().tone !== 'none') return;
+      if (s.state === 'running') return follow(run);
+      if (s.found.length === 0) return;
+      scan.value = s;
+      told.value = { tone: 'none', text: `The last scan: ${words(s)}` };
+    }).catch(() => undefined); // a gateway that does not tell has nothing to go on with
   useEffect(() => {
-    if (begin && !no.disabled) void start();
+    void (begin && !no.disabled ? start() : look());
   }, [begin]);
   const known = new Map((draft.draft.value.drives ?? []).filter((d) => d.line === line.name).map((d) => [String(d.address), d.name]));
   return (

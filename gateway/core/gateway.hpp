@@ -50,7 +50,8 @@ struct EventQuery {
     std::int64_t since_unix_ns = 0;   ///< and not older than this
     std::string axis;                 ///< empty: any
     std::optional<Severity> at_least;
-    std::size_t limit = 200;          ///< 1..1000; the newest ones if there are more
+    std::size_t limit = 200;          ///< 1..1000; the newest ones if there are more, or the oldest ones
+    bool oldest_first = false;        ///< the oldest ones if there are more than `limit`: for reading on from `since_id`
     std::string kind;                 ///< empty: any
     std::uint64_t before_id = 0;      ///< events with a smaller id, for paging backwards; 0: no bound
 };
@@ -264,8 +265,13 @@ public:
     // --- the database as one file --------------------------------------------------------------------------------------
     /// A whole, checked copy of the database, or nothing and why.
     virtual void backup(std::function<void(std::optional<std::string> bytes, std::string fault)> then) = 0;
-    /// Checks a backup and lays it down to be taken at the next start; empty, or why not. Faults name no path.
-    virtual void restore(std::string bytes, Origin origin, std::function<void(std::string fault)> then) = 0;
+    /// Why a backup was not laid down; `text` empty: it was. Faults name no path.
+    struct RestoreFault {
+        std::string text;
+        bool no_room = false;  ///< the backup may be good: this machine could not keep it
+    };
+    /// Checks a backup and lays it down to be taken at the next start.
+    virtual void restore(std::string bytes, Origin origin, std::function<void(RestoreFault)> then) = 0;
     /// A backup that was laid down and waits for the next start.
     struct WaitingBackup {
         std::int64_t at_unix_ns = 0;

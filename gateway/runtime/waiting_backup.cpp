@@ -50,33 +50,34 @@ std::string words_for(const StoreError& e) {
 }
 }  // namespace
 
-std::string lay_down_backup(const std::string& bytes, const std::string& who, std::int64_t at_unix_ns, const StoreOptions& options) {
+Gateway::RestoreFault lay_down_backup(const std::string& bytes, const std::string& who, std::int64_t at_unix_ns, const StoreOptions& options) {
     // Tried in a folder of its own first: what is laid down is a database that this program opens.
     const std::string folder = options.directory + "/restore-check", part = options.directory + "/restore-at-start.part";
     std::error_code ec;
     fs::remove_all(folder, ec);
-    std::string fault;
+    Gateway::RestoreFault fault;
     json::object told{{"at_unix_ns", at_unix_ns}, {"who", who}};
-    if (!write_durably(part, bytes)) fault = "there is no room for it on the gateway's disk, or its data directory cannot be written";
-    if (fault.empty()) {
+    if (!write_durably(part, bytes)) fault = {"there is no room for it on the gateway's disk, or its data directory cannot be written", true};
+    if (fault.text.empty()) {
         StoreOptions tried = options;
         tried.directory = folder;
         if (const auto good = restore_database(part, tried)) {
             told["version"] = good->version;
             told["site_revision"] = good->site_revision;
         } else {
-            fault = words_for(good.error());
+            const auto kind = good.error().kind;
+            fault = {words_for(good.error()), kind != StoreError::Kind::corrupt && kind != StoreError::Kind::not_ours && kind != StoreError::Kind::newer};
         }
     }
     fs::remove_all(folder, ec);
-    if (fault.empty()) {
+    if (fault.text.empty()) {
         // The text first: beside a backup of before it would tell of the wrong one, so that one goes before.
         fs::remove(file_in(options.directory), ec);
         (void)write_durably(told_in(options.directory), json::serialize(told));
         fs::rename(part, file_in(options.directory), ec);
-        if (ec) fault = "it could not be laid down: " + ec.message();
+        if (ec) fault = {"it could not be laid down: " + ec.message(), true};
     }
-    if (!fault.empty()) fs::remove(part, ec);
+    if (!fault.text.empty()) fs::remove(part, ec);
     return fault;
 }
 

@@ -12,7 +12,7 @@
 namespace axisgate {
 
 /// Checks the bytes and lays them down in `options.directory`, in the place of what waited there. Empty, or a fault.
-[[nodiscard]] std::string lay_down_backup(const std::string& bytes, const std::string& who, std::int64_t at_unix_ns, const StoreOptions& options);
+[[nodiscard]] Gateway::RestoreFault lay_down_backup(const std::string& bytes, const std::string& who, std::int64_t at_unix_ns, const StoreOptions& options);
 [[nodiscard]] std::optional<Gateway::WaitingBackup> waiting_backup(const std::string& directory);
 /// Empty, or a fault; "none" if nothing waits.
 [[nodiscard]] std::string cancel_waiting_backup(const std::string& directory);

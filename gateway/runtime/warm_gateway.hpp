@@ -87,7 +87,7 @@ public:
     void roll_back_stage(Origin origin, std::function<void(SiteAnswer)> then) override;
     void ask_modbus(std::uint8_t unit, std::vector<std::uint8_t> pdu, std::function<void(std::optional<std::vector<std::uint8_t>>)> then) override;
     void backup(std::function<void(std::optional<std::string> bytes, std::string fault)> then) override;
-    void restore(std::string bytes, Origin origin, std::function<void(std::string fault)> then) override;
+    void restore(std::string bytes, Origin origin, std::function<void(RestoreFault)> then) override;
     void waiting_backup(std::function<void(std::optional<WaitingBackup>)> then) override;
     void cancel_restore(Origin origin, std::function<void(std::string fault)> then) override;
 

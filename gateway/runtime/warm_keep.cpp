@@ -204,11 +204,11 @@ void WarmGateway::backup(std::function<void(std::optional<std::string> bytes, st
     });
 }
 
-void WarmGateway::restore(std::string bytes, Origin origin, std::function<void(std::string fault)> then) {
+void WarmGateway::restore(std::string bytes, Origin origin, std::function<void(RestoreFault)> then) {
     cold_.run([this, bytes = std::move(bytes), origin = std::move(origin), then = std::move(then)](Store& store) {
-        const std::string fault = lay_down_backup(bytes, text_of(origin), unix_now_ns(), store.options());
+        const auto fault = lay_down_backup(bytes, text_of(origin), unix_now_ns(), store.options());
         boost::asio::post(io_, [this, origin, then, fault] {
-            if (fault.empty())
+            if (fault.text.empty())
                 tell_site("a backup was laid down: it takes the place of the database at the next start", origin, Severity::warning);
             then(fault);
         });

@@ -85,12 +85,8 @@ struct StoreBatch {
     std::span<const ParameterSeen> seen;
 };
 
-/// Answers are in order of id. If more than `limit` match, the newest ones; with `oldest_first` the oldest ones, for paging forwards.
-struct EventFilter : EventQuery {
-    EventFilter() = default;
-    EventFilter(const EventQuery& q) : EventQuery(q) {}  // NOLINT(google-explicit-constructor): a query is a filter
-    bool oldest_first = false;
-};
+/// Answers are in order of id.
+using EventFilter = EventQuery;
 
 struct NameChange {
     std::string from;

@@ -42,6 +42,48 @@ describe('requests', () => {
   });
 });
 
+describe('a stop without a token that fits', () => {
+  const refused = () => answer({ status: 403, title: 'Csrf', detail: 'the header X-CSRF-Token is missing', reason: 'csrf' }, 403, 'application/problem+json');
+  const tokenOf = (o: Open | undefined) => (o?.init.headers as Record<string, string> | undefined)?.['x-csrf-token'];
+  it('asks for one and goes again, once, past the queue; the page keeps its own', async () => {
+    const { client, open } = manual();
+    client.csrf = 'old';
+    const p = client.command('feeder', { command: 'quick_stop' }, true);
+    await settle();
+    expect(tokenOf(open[0])).toBe('old');
+    open[0]!.answer(refused());
+    await settle();
+    expect(open[1]).toMatchObject({ url: '/api/v1/session', init: { method: 'GET' } });
+    open[1]!.answer(answer({ csrf: 'new' }));
+    await settle();
+    expect(open[2]).toMatchObject({ url: '/api/v1/axes/feeder/commands', init: { method: 'POST', body: '{"command":"quick_stop"}' } });
+    expect(tokenOf(open[2])).toBe('new');
+    open[2]!.answer(answer({ result: 'accepted' }));
+    expect(await p).toMatchObject({ result: 'accepted' });
+    expect(client.csrf).toBe('old');
+  });
+  it('is told as it is when that does not help either', async () => {
+    const { client, open } = manual();
+    const p = caught(client.command('feeder', { command: 'quick_stop' }, true));
+    await settle();
+    open[0]!.answer(refused());
+    await settle();
+    open[1]!.answer(answer({ csrf: 'new' }));
+    await settle();
+    open[2]!.answer(refused());
+    expect((await p).reason).toBe('csrf');
+    expect(open).toHaveLength(3);
+  });
+  it('anything else is not said again', async () => {
+    const { client, open } = manual();
+    const p = caught(client.command('feeder', { command: 'enable' }));
+    await settle();
+    open[0]!.answer(refused());
+    expect((await p).reason).toBe('csrf');
+    expect(open).toHaveLength(1);
+  });
+});
+
 describe('problems', () => {
   it('shows the detail of a problem document, its reason and the code of the drive', async () => {
     const { client, open } = manual();

@@ -1,7 +1,7 @@
 // Commands and their answers in words; stops that cannot be overtaken; the jog that ends whatever happens.
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { Problem } from '../src/api/problem';
-import type { Command, CommandAnswer } from '../src/api/types';
+import type { Axis, Command, CommandAnswer } from '../src/api/types';
 import { Commander } from '../src/state/commander';
 import { Jog } from '../src/state/jog';
 
@@ -13,6 +13,7 @@ function make(blocked = () => '') {
   const said: Said[] = [];
   const client = {
     dropWaitingCommands: vi.fn(),
+    axes: vi.fn(async (_urgent?: boolean) => [{ name: 'a' }, { name: 'b' }] as unknown as Axis[]),
     command: vi.fn((axis: string, command: Command, urgent = false) => new Promise<CommandAnswer>((good, bad) => {
       said.push({ axis, command, urgent, good: () => good(done(command.command)), bad });
     })),
@@ -142,6 +143,27 @@ describe('stop', () => {
     expect(commander.stopReport.value.text).toBe('Stop accepted by all 2 axes.');
     await commander.stopAll([]);
     expect(commander.stopReport.value.text).toBe('There is no axis to stop.');
+  });
+});
+
+describe('a stop of all before the page knows the axes', () => {
+  it('asks for them, past the queue, and stops each', async () => {
+    const { said, client, commander } = make();
+    void commander.stopAll(null);
+    expect(commander.stopReport.value).toEqual({ tone: 'busy', text: 'Stopping all axes …' });
+    await settle();
+    expect(client.axes).toHaveBeenCalledWith(true);
+    expect(said.map((s) => `${s.axis} ${s.command.command} ${s.urgent}`)).toEqual(['a quick_stop true', 'b quick_stop true']);
+    said.forEach((s) => s.good());
+    await settle();
+    expect(commander.stopReport.value).toEqual({ tone: 'good', text: 'Stop accepted by all 2 axes.' });
+  });
+  it('never says that there is none when nobody could be asked', async () => {
+    const { said, client, commander } = make();
+    client.axes.mockRejectedValueOnce(new Problem('timed_out', 'no answer'));
+    await commander.stopAll(null);
+    expect(said).toEqual([]);
+    expect(commander.stopReport.value).toEqual({ tone: 'refused', text: 'NOT stopped: the gateway did not say which axes there are. No answer' });
   });
 });
 

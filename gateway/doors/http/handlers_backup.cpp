@@ -23,8 +23,9 @@ Handled get_backup(Call& c) {
 Handled put_backup(Call& c) {
     if (!c.request.body.starts_with(std::string_view("SQLite format 3\0", 16)))
         return invalid({{"", "this is no backup of axisgate", "send the file that GET /backup gave"}});
-    c.gateway().restore(c.request.body, c.origin(), [respond = c.respond](const std::string& fault) {
-        if (!fault.empty()) return respond(invalid({{"", "the backup is not taken: " + fault, "send a whole backup of this or an older version"}}));
+    c.gateway().restore(c.request.body, c.origin(), [respond = c.respond](const Gateway::RestoreFault& fault) {
+        if (fault.no_room) return respond(problem(507, "not_stored", "the backup is not taken: " + fault.text));
+        if (!fault.text.empty()) return respond(invalid({{"", "the backup is not taken: " + fault.text, "send a whole backup of this or an older version"}}));
         respond(
             json_response(json::object{{"restart_needed", true},
                                        {"text", "the backup is whole and laid down: it takes the place of the database at the next start"}},

@@ -81,10 +81,13 @@ std::string events_csv(const std::vector<Event>& events) {
 /// by the length of the list.
 std::vector<Event> events_of_alarms(const Context& context, const EventQuery& wanted, AlarmFilter state) {
     std::vector<Event> out;
-    const auto& all = context.alarms->list().all();
-    for (auto it = all.rbegin(); it != all.rend() && out.size() < wanted.limit; ++it) {
-        const auto id = it->first;
-        if (!fits(it->second, state) || id <= wanted.since_id || (wanted.before_id != 0 && id >= wanted.before_id)) continue;
+    std::vector<std::uint64_t> ids;
+    for (const auto& [id, alarm] : context.alarms->list().all()) {
+        if (fits(alarm, state) && id > wanted.since_id && (wanted.before_id == 0 || id < wanted.before_id)) ids.push_back(id);
+    }
+    if (!wanted.oldest_first) std::ranges::reverse(ids);
+    for (const auto id : ids) {
+        if (out.size() >= wanted.limit) break;
         EventQuery one = wanted;
         one.since_id = id - 1;
         one.before_id = id + 1;
@@ -185,6 +188,10 @@ Handled list_events(Call& c) {
     std::optional<Response> fault;
     query.before_id = static_cast<std::uint64_t>(query_whole(c, "before", 1, INT64_MAX, 0, fault));
     query.limit = static_cast<std::size_t>(query_whole(c, "limit", 1, 1000, 200, fault));
+    if (const auto order = c.target.query.get("order")) {
+        if (*order != "newest" && *order != "oldest") return bad_query("order", "newest or oldest");
+        query.oldest_first = *order == "oldest";
+    }
     const auto state = query_alarm_state(c, fault);
     const auto form = event_form(c, fault);
     if (fault) return *fault;

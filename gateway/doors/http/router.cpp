@@ -107,7 +107,7 @@ constexpr std::array routes{
     Route{"/api/v1/mappings/list", Method::get, get_mapping_list, Takes::nothing, Gives::own}.asks("format"),
     Route{"/api/v1/mappings/next-free", Method::get, get_next_free}.asks("unit table words align"),
     Route{"/api/v1/mappings/template", Method::post, add_mapping_template, Takes::json},
-    Route{"/api/v1/events", Method::get, list_events, Takes::nothing, Gives::own}.asks("since axis severity kind state before limit format"),
+    Route{"/api/v1/events", Method::get, list_events, Takes::nothing, Gives::own}.asks("since axis severity kind state before limit order format"),
     Route{"/api/v1/alarms", Method::get, list_alarms}.asks("state"),
     Route{"/api/v1/alarms/acknowledge", Method::post, acknowledge_alarms, Takes::json}.needs(Role::operating),
     Route{"/api/v1/alarms/{alarm}/acknowledge", Method::post, acknowledge_alarm, Takes::json}.needs(Role::operating),

@@ -7,17 +7,47 @@
 #include <algorithm>
 
 namespace axisgate::http {
+namespace json = boost::json;
 namespace {
 /// A change that lost a race against another one is made again on the newer site, so often.
 constexpr int most_attempts = 3;
 
 std::string tag_of(std::uint64_t revision) { return fmt::format("\"{}\"", revision); }
 
+/// What became of the site since the first revision that `if_match` names and the history still has; null if it has none of them.
+json::value changes_since(Gateway& gateway, std::string_view if_match, const SiteState& now) {
+    for (auto rest = if_match; !rest.empty();) {
+        auto item = next_item(rest);
+        if (item.size() < 3 || item.front() != '"' || item.back() != '"') continue;
+        const auto revision = parse_whole(item.substr(1, item.size() - 2), 1, INT64_MAX);
+        const auto stored = revision ? gateway.site_revision(static_cast<std::uint64_t>(*revision)) : std::nullopt;
+        if (!stored) continue;
+        boost::system::error_code ec;
+        const auto document = json::parse(stored->text, ec);
+        if (ec) continue;
+        std::vector<SiteFault> faults;
+        if (const auto then = parse_site(document, gateway.families(), faults)) return site_diff(*then, now.site);
+    }
+    return nullptr;
+}
+
+/// 412: the site in force, and what has changed since the one that was meant.
+Response overtaken(Gateway& gateway, std::string_view if_match, const SiteState& now, std::string detail) {
+    Response r = to_response(Problem{.status = 412,
+                                     .reason = "precondition_failed",
+                                     .detail = std::move(detail),
+                                     .more = {{"etag", tag_of(now.revision)}, {"changes", changes_since(gateway, if_match, now)}, {"current", to_json(now.site)}}});
+    r.headers.set("ETag", tag_of(now.revision));
+    put_revision(r, now);
+    return r;
+}
+
 /// One change on its way: planned on the site in force, applied; and planned again if another change came between.
 struct Change : std::enable_shared_from_this<Change> {
     Gateway& gateway;
     Origin origin;
     std::optional<std::uint64_t> only_for;  ///< If-Match was given: the change is for this revision alone
+    std::string if_match;
     std::function<Planned(const SiteState& before)> plan;
     Respond respond;
     std::function<void()> done;
@@ -43,15 +73,12 @@ struct Change : std::enable_shared_from_this<Change> {
                 return self->end(problem(507, "not_stored", answer.fault.empty() ? "the site could not be stored" : answer.fault));
             }
             if (!self->only_for && self->attempts < most_attempts) return self->attempt();
-            self->end(self->only_for ? overtaken(*answer.now) : problem(503, "busy", "other clients keep changing the site: try again"));
+            self->end(self->only_for ? self->overtaken(*answer.now) : problem(503, "busy", "other clients keep changing the site: try again"));
         };
         gateway.apply_site(std::move(site), before->revision, origin, std::move(then));
     }
-    static Response overtaken(const SiteState& now) {
-        return to_response(Problem{.status = 412,
-                                   .reason = "precondition_failed",
-                                   .detail = "the site was changed by another client meanwhile: read it again",
-                                   .more = {{"current", to_json(now.site)}}});
+    Response overtaken(const SiteState& now) {
+        return http::overtaken(gateway, if_match, now, "the site was changed by another client meanwhile: read it again");
     }
 };
 
@@ -66,13 +93,7 @@ std::optional<Response> precondition(const Call& c, const SiteState& site, bool 
         return problem(428, "precondition_required", "say with If-Match which revision of the site you change: its ETag");
     }
     if (tag_listed(header, tag_of(site.revision), false)) return std::nullopt;
-    Response r = to_response(Problem{.status = 412,
-                                     .reason = "precondition_failed",
-                                     .detail = fmt::format("the site has the revision {} by now, not {}: read it again", tag_of(site.revision), header),
-                                     .more = {{"current", to_json(site.site)}}});
-    r.headers.set("ETag", tag_of(site.revision));
-    put_revision(r, site);
-    return r;
+    return overtaken(c.gateway(), header, site, fmt::format("the site has the revision {} by now, not {}: read it again", tag_of(site.revision), header));
 }
 
 std::vector<Fault> faults_for(const std::vector<SiteFault>& faults, std::string_view entry, bool whole_document) {
@@ -102,7 +123,8 @@ Handled change_site(Call& c, bool if_match_demanded, std::function<Planned(const
         return problem(409, "conflict", "a staged site is on trial: confirm it or roll it back before the site is changed otherwise");
     if (auto refusal = precondition(c, *site, if_match_demanded)) return *refusal;
     auto order = std::make_shared<Change>(c.gateway(), c.origin());
-    if (!c.request.headers.get("If-Match").empty()) order->only_for = site->revision;
+    order->if_match = c.request.headers.get("If-Match");
+    if (!order->if_match.empty()) order->only_for = site->revision;
     order->plan = std::move(plan);
     order->respond = c.respond;
     const bool taken = c.context.changes->run([order](std::function<void()> done) {

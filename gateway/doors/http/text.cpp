@@ -89,19 +89,6 @@ void put_double(double d, std::string& out) {
     fmt::format_to(std::back_inserter(out), "{}", d);
 }
 
-/// One item of a comma separated list, taken off its front. Commas in quoted strings do not separate.
-std::string_view next_item(std::string_view& list) noexcept {
-    bool quoted = false;
-    std::size_t i = 0;
-    for (; i < list.size(); ++i) {
-        if (list[i] == '"') quoted = !quoted;
-        if (list[i] == ',' && !quoted) break;
-    }
-    const auto item = list.substr(0, i);
-    list.remove_prefix(std::min(i + 1, list.size()));
-    return trimmed(item);
-}
-
 /// How well the Accept header likes the type, 0..1000; -1: not at all. The most specific range decides (RFC 9110 12.5.1).
 int liking(std::string_view accept, std::string_view media) noexcept {
     if (trimmed(accept).empty()) return 1000;
@@ -332,6 +319,18 @@ std::string media_of(std::string_view content_type) {
         if (parameter.starts_with("charset=") && parameter != "charset=utf-8" && parameter != "charset=\"utf-8\"") return {};
     }
     return lower(trimmed(content_type.substr(0, end)));
+}
+
+std::string_view next_item(std::string_view& list) noexcept {
+    bool quoted = false;
+    std::size_t i = 0;
+    for (; i < list.size(); ++i) {
+        if (list[i] == '"') quoted = !quoted;
+        if (list[i] == ',' && !quoted) break;
+    }
+    const auto item = list.substr(0, i);
+    list.remove_prefix(std::min(i + 1, list.size()));
+    return trimmed(item);
 }
 
 bool tag_listed(std::string_view header, std::string_view tag, bool weak) noexcept {

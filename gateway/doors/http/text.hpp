@@ -54,6 +54,8 @@ struct Target {
 /// The type of a Content-Type header, lower case, without its parameters; empty if a charset other than UTF-8 is named.
 [[nodiscard]] std::string media_of(std::string_view content_type);
 
+/// One item of a comma separated list, taken off its front; commas in quoted strings do not separate.
+[[nodiscard]] std::string_view next_item(std::string_view& list) noexcept;
 /// Whether a list of entity tags (If-Match, If-None-Match; `*`) names this one. `weak`: W/ prefixes do not matter.
 [[nodiscard]] bool tag_listed(std::string_view header, std::string_view tag, bool weak) noexcept;
 

@@ -78,6 +78,20 @@ TEST_F(Alarms, ListAndEventsAreNarrowedByState) {
     }
     EXPECT_EQ(call("GET", "/api/v1/events?state=active&axis=feeder").array().size(), 0u) << "together with the other filters";
     EXPECT_EQ(call("GET", "/api/v1/events?state=active&limit=1").array().at(0).at("id"), three) << "the newest";
+    EXPECT_EQ(call("GET", "/api/v1/events?state=active&limit=1&order=newest").array().at(0).at("id"), three);
+    EXPECT_EQ(call("GET", "/api/v1/events?state=active&limit=1&order=oldest").array().at(0).at("id"), two);
+    EXPECT_EQ(call("GET", "/api/v1/events?order=backwards").status, 400u);
+    std::vector<std::int64_t> read_on;
+    for (std::int64_t last = 0; read_on.size() < 100;) {
+        const auto page = call("GET", fmt::format("/api/v1/events?limit=2&order=oldest&since={}", last)).array();
+        if (page.empty()) break;
+        for (const auto& e : page)
+            read_on.push_back(last = e.at("id").as_int64());
+    }
+    const auto whole = call("GET", "/api/v1/events?limit=1000").array();
+    ASSERT_EQ(read_on.size(), whole.size()) << "reading on misses nothing";
+    for (std::size_t i = 0; i < whole.size(); ++i)
+        EXPECT_EQ(whole[i].at("id"), read_on[i]);
     EXPECT_EQ(call("GET", fmt::format("/api/v1/events?state=active&since={}", two)).array().size(), 1u);
     EXPECT_EQ(call("GET", fmt::format("/api/v1/events?state=active&before={}", three)).array().at(0).at("id"), two);
     EXPECT_NE(call("GET", "/api/v1/events?state=shelved&format=csv").text.find("slide"), std::string::npos);

@@ -262,7 +262,9 @@ public:
                 out.push_back(e);
             }
         }
-        if (out.size() > query.limit) out.erase(out.begin(), out.end() - static_cast<std::ptrdiff_t>(query.limit));
+        const auto over = static_cast<std::ptrdiff_t>(out.size()) - static_cast<std::ptrdiff_t>(query.limit);
+        if (over > 0 && query.oldest_first) out.erase(out.end() - over, out.end());
+        if (over > 0 && !query.oldest_first) out.erase(out.begin(), out.begin() + over);
         return out;
     }
     void listen(GatewayListener* l) override { listeners.insert(l); }
@@ -393,11 +395,12 @@ public:
         then(modbus_answer);
     }
     void backup(std::function<void(std::optional<std::string>, std::string)> then) override { then("SQLite", ""); }
-    void restore(std::string bytes, Origin, std::function<void(std::string)> then) override {
+    void restore(std::string bytes, Origin, std::function<void(RestoreFault)> then) override {
         restored = std::move(bytes);
-        then(keep_fault);
+        then({keep_fault, no_room});
     }
     std::optional<WaitingBackup> waits;
+    bool no_room = false;
     void waiting_backup(std::function<void(std::optional<WaitingBackup>)> then) override { then(waits); }
     void cancel_restore(Origin, std::function<void(std::string)> then) override {
         then(waits ? "" : "none");

@@ -97,6 +97,20 @@ TEST_F(AccessTest, EachRoleAgainstEachRoute) {
     EXPECT_TRUE(gateway.submitted.empty());
 }
 
+TEST_F(AccessTest, ABackupThatCannotBeKeptIsNotCalledABadOne) {
+    Fields headers = as("administrator");
+    headers.emplace_back("Content-Type", "application/octet-stream");
+    const auto put = [&] { return from(far_peer, "PUT", "/api/v1/backup", std::string("SQLite format 3\0...", 19), headers); };
+    EXPECT_EQ(put().status, 202u);
+    gateway.keep_fault = "the file is damaged";
+    EXPECT_EQ(put().status, 422u);
+    gateway.no_room = true;
+    gateway.keep_fault = "there is no room for it";
+    const auto full = put();
+    EXPECT_EQ(full.status, 507u);
+    EXPECT_NE(full.text.find("there is no room"), std::string::npos);
+}
+
 /// What the connection asks before it reads a body: the same refusal as with the body, and nothing that changes anything.
 TEST_F(AccessTest, EachRouteWithABodyRefusesBeforeItIsRead) {
     int with_body = 0, refused = 0;

@@ -60,7 +60,7 @@ TEST_F(HttpTest, NamesThatAQueryDoesNotHaveAreRefusedEverywhere) {
     EXPECT_EQ(call("GET", "/api/v1/about?").status, 200u);
     EXPECT_EQ(call("GET", "/index.html?v=12").status, 200u) << "files of the page are no operations";
     EXPECT_EQ(call("GET", "/api/v1/events?dry_run=1").at("detail"),
-              "\"dry_run\" is not known here: the query may have since, axis, severity, kind, state, before, limit, format");
+              "\"dry_run\" is not known here: the query may have since, axis, severity, kind, state, before, limit, order, format");
     EXPECT_EQ(call("GET", "/api/v1/about?dry_run=1").at("detail"), "\"dry_run\" is not known here: this takes no query");
 }
 

@@ -160,6 +160,9 @@ TEST_F(HttpTest, RevisionsAndIfMatch) {
     const auto old = call("PATCH", "/api/v1/axes/feeder", R"({"unit":"km"})", {{"If-Match", "\"1\""}});
     EXPECT_EQ(old.status, 412u);
     EXPECT_EQ(old.headers.get("ETag"), "\"2\"");
+    EXPECT_EQ(old.at("etag"), "\"2\"");
+    EXPECT_EQ(old.object().at("current").at("axes").at(0).at("unit"), "m");
+    EXPECT_EQ(old.at("changes"), "null") << "the history has no revision 1";
     EXPECT_EQ(call("DELETE", "/api/v1/axes/feeder", "", {{"If-Match", "\"1\""}}).status, 412u);
     EXPECT_EQ(call("POST", "/api/v1/lines", R"({"name":"l","uri":"twin","family":"demo"})", {{"If-Match", "\"9\""}}).status, 412u);
     EXPECT_EQ(call("PUT", "/api/v1/site", get.text, {{"If-Match", "\"1\""}}).status, 412u);
@@ -168,6 +171,28 @@ TEST_F(HttpTest, RevisionsAndIfMatch) {
     EXPECT_EQ(call("PUT", "/api/v1/site", get.text).status, 428u);
     EXPECT_EQ(call("PUT", "/api/v1/site?dry_run=1", get.text).status, 200u);
     EXPECT_EQ(call("PATCH", "/api/v1/axes/feeder", R"({"unit":"m"})").status, 200u) << "only the whole document";
+}
+
+TEST_F(HttpTest, WhoComesSecondIsToldWhatChangedMeanwhile) {
+    const auto first = call("GET", "/api/v1/site").text;
+    gateway.kept_sites[1] = {1, 0, "me", first, first.size()};
+    ASSERT_EQ(call("PATCH", "/api/v1/axes/feeder", R"({"unit":"m"})").status, 200u);
+    ASSERT_EQ(call("PATCH", "/api/v1/axes/feeder", R"({"number":9})").status, 200u);
+    for (const auto& [method, path, body] : {std::array<std::string, 3>{"PATCH", "/api/v1/axes/feeder", R"({"unit":"km"})"},
+                                             {"PUT", "/api/v1/site", first},
+                                             {"POST", "/api/v1/site/stage", first},
+                                             {"DELETE", "/api/v1/axes/feeder", ""}}) {
+        const auto second = call(method, path, body, {{"If-Match", "\"7\", \"1\""}});
+        ASSERT_EQ(second.status, 412u) << method;
+        const auto& changes = second.object().at("changes").as_array();
+        ASSERT_EQ(changes.size(), 1u) << second.text;
+        EXPECT_EQ(changes[0].at("what"), "axes/feeder");
+        EXPECT_EQ(changes[0].at("before").at("unit"), "mm");
+        EXPECT_EQ(changes[0].at("after").at("unit"), "m");
+        EXPECT_EQ(changes[0].at("after").at("number"), 9);
+    }
+    gateway.kept_sites[1].text = "{";
+    EXPECT_EQ(call("DELETE", "/api/v1/axes/feeder", "", {{"If-Match", "\"1\""}}).at("changes"), "null");
 }
 
 TEST_F(HttpTest, AChangeThatLostARaceIsMadeAgain) {

@@ -2,6 +2,7 @@
 // A browser opens at most six connections to one host. Ordinary requests use at most four at once and wait here for their turn;
 // urgent ones (stop, halt, disable) never wait behind them. At most 200 wait; beyond that a call is refused in words.
 // Never retries a command: a move that was perhaps taken must not be said twice.
+import type { Family } from '../words/options';
 import { asProblem, Problem, problemOf } from './problem';
 import type {
   About, Alarm, AlarmList, Axis, AxisParameter, Command, CommandAnswer, Drive, GatewayEvent, HandItem, Line, ModbusDoor, NativeReply,
@@ -56,9 +57,9 @@ export class Client {
   }
 
   about = () => this.call<About>('/about');
-  /** What the catalogues say of whole families; maker and title are not promised. */
-  families = () => this.call<{ name: string; title?: unknown; maker?: unknown }[]>('/families');
-  axes = () => this.call<Axis[]>('/axes');
+  /** What the catalogues say of whole families; beyond the name nothing is promised. */
+  families = () => this.call<Family[]>('/families');
+  axes = (urgent = false) => this.call<Axis[]>('/axes', { urgent });
   drives = () => this.call<Drive[]>('/drives');
   lines = () => this.call<Line[]>('/lines');
 
@@ -209,6 +210,11 @@ export class Client {
       const response = await this.fetcher(this.base + path, init);
       if (!response.ok) {
         const problem = await problemOf(response);
+        // A stop does not end because the page has no token yet, or another tab signed in anew: it asks for one and goes again, once.
+        if (problem.is('csrf') && options.urgent && !options.headers?.['x-csrf-token']) {
+          const fresh = await this.send<{ csrf: string | null }>('/session', { urgent: true }, (r) => r.json());
+          if (fresh.csrf) return await this.send(path, { ...options, headers: { ...options.headers, 'x-csrf-token': fresh.csrf } }, read);
+        }
         if (response.status === 401 && (!path.startsWith('/session') || problem.is('session_ended'))) this.onUnauthorized?.(problem);
         throw problem;
       }

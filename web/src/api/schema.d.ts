@@ -1233,7 +1233,7 @@ export interface paths {
         };
         /**
          * Alarms, writes, commands, line, presence and site changes; oldest first
-         * @description If there are more than `limit`, the newest ones. Ids count up without gaps. What was done before the question is in the answer.
+         * @description If there are more than `limit`, the newest ones; with `order=oldest` the oldest ones. Ids count up without gaps. What was done before the question is in the answer.
          */
         get: operations["listEvents"];
         put?: never;
@@ -1789,8 +1789,12 @@ export interface components {
         Problem: {
             /** @description `stage_replaced`: the id of the stage that is there now; null if none is */
             stage?: string | null;
-            /** @description of 412: the site in force */
-            current?: components["schemas"]["Site"];
+            /** @description of 412: what is there now: the site in force; for a recipe the recipe, null if there is none any more */
+            current?: Record<string, never> | null;
+            /** @description of 412: the ETag of what is there now */
+            etag?: string | null;
+            /** @description of 412 for the site: what became of it since the revision that was meant; null if the history does not have that one any more */
+            changes?: components["schemas"]["SiteDifference"][] | null;
             /** @description how many parameters were read before the drive fell silent */
             read?: number;
             dry_run?: boolean;
@@ -3118,9 +3122,10 @@ export interface components {
                 "application/problem+json": components["schemas"]["CommandProblem"];
             };
         };
-        /** @description the site has another revision than `If-Match` says */
+        /** @description the site has another revision than `If-Match` says; `changes` is the difference, `current` and `etag` are what is there now */
         PreconditionFailed: {
             headers: {
+                ETag: components["headers"]["ETag"];
                 [name: string]: unknown;
             };
             content: {
@@ -3349,7 +3354,7 @@ export interface operations {
                      *       "status": 503,
                      *       "detail": "line can0 is down",
                      *       "code": null,
-                     *       "reason": "line_down",
+                     *       "reason": "not_ready",
                      *       "ready": false,
                      *       "missing": [
                      *         "line can0 is down"
@@ -6388,6 +6393,7 @@ export interface operations {
             403: components["responses"]["Forbidden"];
             415: components["responses"]["UnsupportedMediaType"];
             422: components["responses"]["Unprocessable"];
+            507: components["responses"]["NotStored"];
             default: components["responses"]["Problem"];
         };
     };
@@ -6597,6 +6603,8 @@ export interface operations {
                 /** @description events with a smaller id, for paging backwards */
                 before?: number;
                 limit?: number;
+                /** @description which ones, if there are more than `limit`; `oldest` reads on from `since` without a gap */
+                order?: "newest" | "oldest";
                 /** @description json, csv (a table) or text (a line per event); without it `Accept` decides */
                 format?: "json" | "csv" | "text";
             };

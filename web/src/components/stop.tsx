@@ -29,7 +29,7 @@ export function StopAll() {
   const barred = session.stopBarred.value;
   const stopAll = () => {
     const why = session.stopBarred.peek();
-    if (!why) return void commander.stopAll(movingFirst());
+    if (!why) return void commander.stopAll(store.listed.peek() ? movingFirst() : null);
     // Nothing is pretended: it would be refused. Perhaps somebody has signed in meanwhile.
     commander.stopReport.value = { tone: 'refused', text: 'NOT stopped.' };
     void session.ask();

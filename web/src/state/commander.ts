@@ -28,7 +28,7 @@ export class Commander {
   private readonly serial = new Map<string, number>();
 
   constructor(
-    private readonly client: Pick<Client, 'command' | 'dropWaitingCommands'>,
+    private readonly client: Pick<Client, 'command' | 'dropWaitingCommands' | 'axes'>,
     /** Why commands other than stops cannot be given now; empty: they can. */
     private readonly blocked: () => string = () => '',
     /** Nobody answers for the axis: what the gateway takes for it, it takes alone. */
@@ -96,7 +96,18 @@ export class Commander {
     return problem;
   }
 
-  async stopAll(axes: readonly string[]): Promise<void> {
+  /** `known` null: the page does not know yet which axes there are; the gateway is asked first. */
+  async stopAll(known: readonly string[] | null): Promise<void> {
+    let axes = known ?? [];
+    if (!known) {
+      this.stopReport.value = { tone: 'busy', text: 'Stopping all axes …' };
+      try {
+        axes = (await this.client.axes(true)).map((a) => a.name);
+      } catch (error) {
+        this.stopReport.value = { tone: 'refused', text: `NOT stopped: the gateway did not say which axes there are. ${capital(asProblem(error).words)}` };
+        return;
+      }
+    }
     if (axes.length === 0) {
       this.stopReport.value = { tone: 'good', text: 'There is no axis to stop.' };
       return;

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
-import { examine, launch, open, shot, until } from './lib/browser.mjs';
+import { becomes, examine, launch, open, shot, until } from './lib/browser.mjs';
 import { Program } from './lib/program.mjs';
 
 let program, browser;
@@ -32,13 +32,14 @@ async function mendAxis(axis) {
 test('a fault shows at the top of the overview with the way to it; all is well: nothing is shown', async () => {
   const page = await open(browser, `${program.url}/`);
   await page.locator('[data-axis]').first().waitFor();
-  assert.equal(await page.locator('[data-field=wrong]').count(), 0);
-  assert.equal(await page.locator('[data-field=alarm-badge]').count(), 0);
+  await becomes('nothing is wrong', () => page.locator('[data-field=wrong]').count(), 0);
+  await becomes('no alarm is counted', () => page.locator('[data-field=alarm-badge]').count(), 0);
   await breakAxis('feeder');
   await page.locator('[data-wrong="axis feeder"]').waitFor();
-  assert.match(await page.locator('[data-wrong="axis feeder"]').innerText(), /Fault/);
+  const says = (selector, words) => until(`${selector} says ${words}`, async () => words.test(await page.locator(selector).innerText()) || (await page.locator(selector).innerText()));
+  await says('[data-wrong="axis feeder"]', /Fault/);
   await page.locator('[data-wrong=alarms]').waitFor();
-  assert.match(await page.locator('[data-field=alarm-badge]').innerText(), /^[12]\s/);
+  await says('[data-field=alarm-badge]', /^[12]\s/);
   await page.locator('[data-wrong="axis feeder"]').click();
   await page.getByRole('heading', { level: 1, name: 'feeder' }).waitFor();
   assert.deepEqual(page.faults(), []);
@@ -88,9 +89,10 @@ test('an alarm is shelved with a reason, taken back, acknowledged, and leaves wh
   await mendAxis('feeder');
   await same.waitFor({ state: 'detached' });
   await breakAxis('slide.x');
+  await page.locator('[data-alarm][data-state=unacknowledged_active]', { hasText: 'slide.x' }).first().waitFor(); // the page has heard of it
   await page.getByRole('button', { name: 'Acknowledge all shown' }).click();
   await page.locator('[data-field=alarm-badge]').waitFor({ state: 'detached' });
-  assert.equal((await alarms()).unacknowledged, 0);
+  await becomes('none waits', async () => (await alarms()).unacknowledged, 0);
   await mendAxis('slide.x');
   await page.getByText('No alarm. Everything that was is acknowledged.').waitFor();
   assert.deepEqual(page.faults(), []);
@@ -114,5 +116,14 @@ test('events are filtered by kind, axis and text, and saved as shown', async () 
     assert.equal(text.trim().split('\n').length - (/CSV/.test(name) ? 1 : 0), 1, 'as many as are shown');
   }
   assert.deepEqual(page.faults(), []);
+  await page.context().close();
+});
+
+test('an order of a move stands in the list in the unit of its axis, beside its increments', async () => {
+  await program.command('feeder', { command: 'enable' });
+  await until('it is enabled', async () => (await program.axis('feeder')).state === 'operation_enabled');
+  assert.equal((await program.command('feeder', { command: 'move_relative', position: 5, velocity: 50 })).status, 200);
+  const page = await open(browser, `${program.url}/events`);
+  await page.locator('.event', { hasText: /move_relative 5\.000 mm \(16\s000 increments\)/ }).first().waitFor();
   await page.context().close();
 });

@@ -1,7 +1,7 @@
 // The page of an axis: parameters with their range, the native console, the twin's hand, the state machine, the scope.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { launch, open, shot, until } from './lib/browser.mjs';
+import { becomes, launch, open, shot, until } from './lib/browser.mjs';
 import { Program, isMock } from './lib/program.mjs';
 
 let program, browser, page, list;
@@ -47,7 +47,7 @@ test('a value in the range is written, and who wrote it is shown', async () => {
   assert.equal(now.value, value);
   assert.equal(now.stored, value);
   await until('the writer is shown', async () => /127\.0\.0\.1/.test(await r.locator('.written').innerText()) || (await r.locator('.written').innerText()));
-  assert.equal(await r.getByRole('textbox').inputValue(), '');
+  await becomes('the field is empty again', () => r.getByRole('textbox').inputValue(), '');
 });
 
 test('a value that somebody else wrote is seen', async () => {
@@ -73,7 +73,7 @@ test('a line in the drive\'s own language is answered in the console', async () 
   const last = page.locator('.console-log li').last();
   await until('a reply', async () => /\d+ ms/.test(await last.innerText()) || (await last.innerText()));
   await input.press('ArrowUp');
-  assert.equal(await input.inputValue(), line);
+  await becomes('the last line is there again', () => input.inputValue(), line);
   await input.fill('this is no instruction ~~');
   await input.press('Enter');
   await until('the refusal is told', async () => (await page.locator('.console-log li.result-refused').count()) === 1);
@@ -83,33 +83,33 @@ test('a line in the drive\'s own language is answered in the console', async () 
 test('the hand of the twin has switches that take', async () => {
   const stall = page.getByRole('switch', { name: 'Stall' });
   await stall.waitFor();
-  assert.equal(await stall.getAttribute('aria-checked'), 'false');
+  await becomes('it is off', () => stall.getAttribute('aria-checked'), 'false');
   await stall.click();
   await until('it took', async () => (await stall.getAttribute('aria-checked')) === 'true');
-  assert.equal((await program.call('GET', '/drives/feeder/hand')).body.stall, true);
+  await becomes('the gateway has it', async () => (await program.call('GET', '/drives/feeder/hand')).body.stall, true);
   await stall.click();
   await until('it took', async () => (await program.call('GET', '/drives/feeder/hand')).body.stall === false);
 });
 
 test('the state machine marks the present state, in words too', async () => {
   const drawing = page.getByRole('img', { name: /^Present state: / });
-  assert.equal(await drawing.getAttribute('aria-label'), 'Present state: Switch on disabled');
+  await becomes('it is off', () => drawing.getAttribute('aria-label'), 'Present state: Switch on disabled');
   await page.getByRole('button', { name: 'Enable', exact: true }).click();
   await page.getByRole('img', { name: 'Present state: Operation enabled' }).waitFor();
-  assert.equal((await page.locator('.node.is-now').textContent()).trim(), 'Operation enabled');
+  await becomes('the drawing says so', async () => (await page.locator('.node.is-now').textContent()).trim(), 'Operation enabled');
 });
 
 test('the scope draws a move', async () => {
   await program.command('feeder', { command: 'move_relative', position: 20, velocity: 40, acceleration: 400, deceleration: 400 });
   await until('it has arrived', async () => (await program.axis('feeder')).target_reached === true);
-  const inked = await page.evaluate(() => {
+  const inked = () => page.evaluate(() => {
     const c = document.querySelector('.scope canvas');
     const pixels = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
     let n = 0;
     for (let i = 3; i < pixels.length; i += 4) if (pixels[i] > 0) n += 1;
     return n;
   });
-  assert.ok(inked > 1000, `${inked} pixels`);
+  await until('it is drawn', async () => (await inked()) > 1000 || `${await inked()} pixels`);
   await shot(page, 'scope', { fullPage: true });
 });
 

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
-import { launch, open, shot, until } from './lib/browser.mjs';
+import { becomes, launch, open, shot, until } from './lib/browser.mjs';
 import { Program, isMock } from './lib/program.mjs';
 
 let program, browser;
@@ -58,7 +58,7 @@ test('the scope: channels, a trigger that holds, cursors that read, a recording 
   assert.ok(Math.max(...positions) - Math.min(...positions) > 15, `${positions.length} rows, ${Math.min(...positions)} to ${Math.max(...positions)}`);
 
   await page.locator('.scope').getByRole('button', { name: 'Velocity' }).click();
-  assert.equal(await page.locator('.scope').getByRole('button', { name: 'Velocity' }).getAttribute('aria-pressed'), 'false');
+  await becomes('it is left out', () => page.locator('.scope').getByRole('button', { name: 'Velocity' }).getAttribute('aria-pressed'), 'false');
   assert.deepEqual(page.faults(), []);
   await page.context().close();
 });
@@ -130,9 +130,11 @@ test('demand and following error: drawn, said to be computed, and growing while 
   const plot = await page.locator('.scope .u-over').boundingBox();
   await page.mouse.click(plot.x + plot.width * 0.28, plot.y + 20);
   const titles = await page.locator('.cursor-table thead th').allInnerTexts();
-  const read = await page.locator('.cursor-table tbody tr').first().locator('th, td').allInnerTexts();
-  const seen = Number(read[titles.findIndex((t) => t.startsWith('Following error'))].replace('−', '-'));
-  assert.ok(seen > 5 && seen < 10, `the cursor reads ${seen} mm`);
+  await until('the cursor reads 5 to 10 mm', async () => {
+    const read = await page.locator('.cursor-table tbody tr').first().locator('th, td').allInnerTexts();
+    const seen = Number(read[titles.findIndex((t) => t.startsWith('Following error'))].replace('−', '-'));
+    return (seen > 5 && seen < 10) || seen;
+  });
 
   await program.call('PATCH', '/drives/feeder/hand', { stall: false });
   await program.command('feeder', { command: 'reset_fault' });
@@ -149,11 +151,12 @@ test('the trace: readings, filter, a frame byte by byte, pause', { skip: isMock 
   await until('frames have readings', async () => (await page.locator('.frame-list .reading').allInnerTexts()).some((t) => t.length > 3));
   const filter = page.getByRole('searchbox', { name: /Filter frames/ });
   await page.getByRole('combobox', { name: 'Direction' }).selectOption('to');
-  assert.equal(await page.locator('.frame-list .from').count(), 0);
+  await becomes('those from the drive are left out', () => page.locator('.frame-list .from').count(), 0);
   await filter.fill('no such word');
   await page.getByText('No frame fits the filter.').waitFor();
   await filter.fill('');
   await page.getByRole('button', { name: 'Pause' }).click();
+  await page.getByRole('button', { name: 'Paused' }).waitFor();
   const first = await rows.first().getAttribute('data-sequence');
   await rows.first().getByRole('button').click();
   const details = page.locator('.frame-details');
@@ -189,7 +192,9 @@ test('a jog ends by itself when its page dies', { skip: isMock && 'the stand-in 
   }
   await page.context().setOffline(true); // no word from this page reaches the gateway any more, not even the halt
   await until('the gateway has halted it', async () => !(await program.axis('feeder')).moving);
-  const events = (await program.call('GET', '/events?axis=feeder&limit=20')).body;
-  assert.ok(events.some((e) => e.kind === 'hold' && /not renewed/.test(e.text)), JSON.stringify(events.map((e) => e.text)));
+  await until('the reason is kept', async () => {
+    const events = (await program.call('GET', '/events?axis=feeder&limit=20')).body;
+    return events.some((e) => e.kind === 'hold' && /not renewed/.test(e.text)) || events.map((e) => e.text);
+  });
   await page.context().close();
 });

@@ -1,7 +1,7 @@
 // The page loads from the program alone: no console error, no other host, no inline code; every route answers; marks are in words.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { launch, open, shot, tileOf, until } from './lib/browser.mjs';
+import { becomes, launch, open, shot, tileOf, until } from './lib/browser.mjs';
 import { Program } from './lib/program.mjs';
 
 let program, browser;
@@ -20,13 +20,14 @@ test('the overview shows each axis live, without a fault', async () => {
     const axis = tileOf(page, name);
     await axis.tile.waitFor();
     await until(`${name} is live`, async () => (await axis.field('position').getAttribute('data-live')) === 'true');
-    assert.equal(await axis.text('mark'), 'SIMULATED');
+    await becomes('it is said to be simulated', () => axis.text('mark'), 'SIMULATED');
     assert.match(await axis.text('position'), /^Position: [\u2212\d.\u202f]+ ?(mm|deg)$/);
   }
-  assert.equal(await page.locator('[data-field=connection]').innerText(), 'Live');
-  assert.equal(await page.locator('[data-line=can0]').count(), 1);
-  assert.match(await page.locator('[data-line=can0]').innerText(), /Up[\s\S]*Exchanges/);
-  assert.match(await page.locator('[data-drive=feeder]').innerText(), /Simulated/);
+  await becomes('the connection is live', () => page.locator('[data-field=connection]').innerText(), 'Live');
+  await becomes('the line is there', () => page.locator('[data-line=can0]').count(), 1);
+  const says = (selector, words) => until(`${selector} says ${words}`, async () => words.test(await page.locator(selector).innerText()) || (await page.locator(selector).innerText()));
+  await says('[data-line=can0]', /Up[\s\S]*Exchanges/);
+  await says('[data-drive=feeder]', /Simulated/);
   assert.deepEqual(page.faults(), []);
   await page.context().close();
 });
@@ -45,7 +46,7 @@ test('every page has an address of its own, with a heading and a title', async (
   for (const [path, heading] of Object.entries(routes)) {
     await page.goto(program.url + path);
     await page.getByRole('heading', { level: 1, name: heading }).waitFor();
-    assert.match(await page.title(), /axisgate$/);
+    await until('it has a title', async () => /axisgate$/.test(await page.title()) || (await page.title()));
   }
   assert.deepEqual(page.faults(), []);
   await page.context().close();
@@ -67,7 +68,7 @@ test('links change the page without loading it anew, and the back button goes ba
 test('the frames of a line are shown as they cross it', async () => {
   const page = await open(browser, `${program.url}/lines/can0`);
   await page.locator('.frame-list li').first().waitFor();
-  assert.ok((await page.locator('.frame-list li').count()) > 1);
+  await until('there are several', async () => (await page.locator('.frame-list li').count()) > 1);
   await page.context().close();
 });
 

@@ -3,6 +3,7 @@
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { launch, open, shot, until } from './lib/browser.mjs';
+import { arrive, furnish, parts } from './lib/parts.mjs';
 import { Program } from './lib/program.mjs';
 
 let program, browser;
@@ -83,5 +84,55 @@ test('a line of 3000 characters leaves the console as high as it was', async () 
   await line.press('Enter');
   await page.locator('.console-log .sent').waitFor();
   assert.ok((await box(page, '.console')).h <= before + 1);
+  await page.context().close();
+});
+
+for (const width of [390, 320]) {
+  test(`${width} px: what the cursors of the scope read stands below each other, nothing is to be scrolled for`, async () => {
+    const page = await phone('/axes/feeder', width, 844);
+    await page.locator('.scope canvas').waitFor();
+    await page.locator('[data-live=true]').first().waitFor();
+    for (const name of ['Following error', 'Demand']) {
+      const b = page.getByRole('group', { name: 'Channels' }).getByRole('button', { name, exact: true });
+      if ((await b.getAttribute('aria-pressed')) !== 'true') await b.click();
+    }
+    await page.locator('.scope-plot').evaluate((e) => e.scrollIntoView({ block: 'center' }));
+    /** Into the plot between its scales, which is made anew when its channels change: from the left edge so far to the right. */
+    const into = async (share) => {
+      const plot = await page.locator('.scope .u-over').boundingBox();
+      if (plot) await page.mouse.click(plot.x + plot.width * share, plot.y + plot.height / 2);
+    };
+    await until('cursor A is there', async () => {
+      await into(0.5);
+      return (await page.locator('.cursor-table').count()) === 1;
+    });
+    await page.getByRole('group', { name: /^Cursor/ }).getByRole('button', { name: 'B', exact: true }).click();
+    await page.locator('.scope-plot').evaluate((e) => e.scrollIntoView({ block: 'center' }));
+    const table = page.locator('.cursor-table');
+    await until('both cursors and their difference are there', async () => {
+      await into(0.7);
+      return (await table.locator('tbody tr').count()) === 3 || (await table.innerText());
+    });
+    const wide = await table.evaluate((t) => [...t.querySelectorAll('td, th'), t, t.parentElement].filter((e) => e.scrollWidth > e.clientWidth + 1 || e.getBoundingClientRect().right > innerWidth).map((e) => e.outerHTML.slice(0, 80)));
+    assert.deepEqual(wide, []);
+    const titles = await table.locator('tbody tr').first().locator('td').evaluateAll((l) => l.map((e) => getComputedStyle(e, '::before').content));
+    assert.ok(titles.length >= 5 && titles.every((t) => /[A-Z][a-z]/.test(t)), `each value has its name: ${titles}`);
+    await table.scrollIntoViewIfNeeded();
+    await shot(page, `phone-cursors-${width}`);
+    await page.context().close();
+  });
+}
+
+test('320 px: no part scrolls sideways', async () => {
+  await furnish(program);
+  const page = await phone('/', 320, 640);
+  const wrong = [];
+  for (const part of parts) {
+    await arrive(page, program, part);
+    const wide = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+    if (wide > 0) wrong.push(`${part.path} is ${wide} px too wide`);
+    await shot(page, `phone-320-${part.name}`, { fullPage: true });
+  }
+  assert.deepEqual(wrong, []);
   await page.context().close();
 });

@@ -2,7 +2,7 @@
 // sight; nothing else is taken away. One user of each role is signed in; what there is to see is made beforehand.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { launch, open, until } from './lib/browser.mjs';
+import { becomes, launch, open, until } from './lib/browser.mjs';
 import { arrive, furnish, parts } from './lib/parts.mjs';
 import { Program } from './lib/program.mjs';
 
@@ -96,13 +96,13 @@ for (const role of order.slice(0, 3)) {
       for (const [, kind, name] of reads.filter((r) => r[0] === path)) {
         const c = page.getByRole(kind, { name, exact: true }).first();
         await c.waitFor();
-        assert.equal(await c.isDisabled(), false, `${path}: ${name}`);
+        await becomes(`${path}: ${name} is open`, () => c.isDisabled(), false);
       }
       for (const [, kind, name, need] of changes.filter((r) => r[0] === path)) {
         const c = page.getByRole(kind, { name, exact: true }).first();
         await c.waitFor();
         const barred = order.indexOf(role) < order.indexOf(need);
-        if (barred || !alsoWithout.test(name instanceof RegExp ? name.source : name)) assert.equal(await c.isDisabled(), barred, `${path}: ${name}`);
+        if (barred || !alsoWithout.test(name instanceof RegExp ? name.source : name)) await becomes(`${path}: ${name} is ${barred ? 'barred' : 'open'}`, () => c.isDisabled(), barred);
         if (!barred) continue;
         const why = await c.evaluate((e) => e.title || e.closest('fieldset[title]')?.title || '');
         assert.match(why, new RegExp(`needs the role ${need}. Yours is ${role}.`), `${path}: ${name}`);
@@ -130,7 +130,7 @@ test('an administrator may copy everything', async () => {
   await page.goto(`${program.url}/site`);
   const backup = page.getByRole('button', { name: 'Backup of everything' });
   await backup.waitFor();
-  assert.equal(await backup.isDisabled(), false);
+  await becomes('it is open', () => backup.isDisabled(), false);
   assert.equal(await page.locator('input[aria-label="Restore a backup"]').isDisabled(), false);
   assert.equal(await page.locator('[data-field=barred]').count(), 0);
   await page.context().close();

@@ -129,6 +129,7 @@ export class Gateway {
       this.store.about.value = about;
       // Only words: a gateway that does not say them is no worse.
       const families = await Promise.resolve(this.client.families?.()).catch(() => undefined);
+      if (families) this.store.families.value = new Map(families.map((f) => [f.name, f]));
       if (families) this.store.familyTitles.value = new Map(families.flatMap((f) => (typeof (f.title ?? f.maker) === 'string' ? [[f.name, String(f.title ?? f.maker)]] : [])));
     } catch {
       // The stream is up but REST did not answer. As long as the connection is the same, ask again.

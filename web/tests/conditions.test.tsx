@@ -80,7 +80,7 @@ describe('a role that may not', () => {
     ['operator', '/lines/can0', 'Looking for drives needs the role engineer. Yours is operator.'],
     ['operator', '/mappings', 'Changing the mappings needs the role engineer. Yours is operator.'],
     ['operator', '/site', 'Changing the site needs the role engineer. Yours is operator.'],
-    ['engineer', '/site', 'A backup of everything, and its restore, needs the role administrator. Yours is engineer.'],
+    ['engineer', '/site', 'A backup of everything, its restore, and whether one waits for the next start needs the role administrator. Yours is engineer.'],
     ['operator', '/recipes', 'Making a recipe needs the role engineer. Yours is operator.'],
     ['operator', '/recipes/r', 'This needs the role engineer. Yours is operator.'],
     ['viewer', '/recipes/r', 'Running and cancelling needs the role operator. Yours is viewer.'],

@@ -22,7 +22,7 @@ describe('an entry', () => {
     }
   });
   it('leaves out what is empty, and takes numbers and options for what they are', () => {
-    expect(check('lines', { name: 'a', uri: 'twin', family: 'uim342', options: 'check=true, n=5, t=x', 'manners.retries': '-1' }).entry).toEqual({ name: 'a', uri: 'twin', family: 'uim342', options: { check: true, n: 5, t: 'x' }, manners: { retries: -1 } });
+    expect(check('lines', { name: 'a', uri: 'twin', family: 'uim342', 'options.check': 'on', 'options.t': '', 'manners.retries': '-1' }).entry).toEqual({ name: 'a', uri: 'twin', family: 'uim342', options: { check: 'on' }, manners: { retries: -1 } });
     expect(check('drives', { name: 'a', line: 'rs', address: 'B' }).entry).toEqual({ name: 'a', line: 'rs', address: 'B', presence: 'auto' });
     expect(check('lines', { bitrate: '' }, entry('lines', 'can0')).entry).toEqual({ name: 'can0', uri: 'twin', family: 'uim342' });
   });
@@ -31,7 +31,6 @@ describe('an entry', () => {
     ['lines', { name: 'can0', uri: 'twin', family: 'x' }, 'name', 'already a line can0'],
     ['lines', { name: 'a', uri: '', family: 'x' }, 'uri', 'needed'],
     ['lines', { name: 'a', uri: 'twin', family: 'x', 'manners.retries': '21' }, 'manners.retries', 'From -1 to 20'],
-    ['lines', { name: 'a', uri: 'twin', family: 'x', options: 'fast' }, 'options', 'name=value'],
     ['drives', { name: 'a', line: 'nowhere' }, 'line', 'no line nowhere'],
     ['drives', { name: 'a', line: 'can0', address: '5' }, 'address', 'feeder'],
     ['axes', { name: 'a', drive: 'feeder', number: '1', channel: '2' }, 'number', 'feeder'],

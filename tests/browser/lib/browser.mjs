@@ -4,6 +4,7 @@ import { mkdirSync, readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { isDeepStrictEqual } from 'node:util';
 import { chromium } from 'playwright-core';
 
 export const artefacts = fileURLToPath(new URL('../../../build/browser', import.meta.url));
@@ -68,6 +69,13 @@ export async function until(what, condition, limit_ms = 10_000) {
     await new Promise((r) => setTimeout(r, 50));
   }
 }
+
+/** Waits until what is read is exactly this: for what the page, or somebody else, has yet to hear or to draw. */
+export const becomes = (what, read, expected, limit_ms) =>
+  until(what, async () => {
+    const now = await read();
+    return isDeepStrictEqual(now, expected) ? true : { now, expected };
+  }, limit_ms);
 
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 

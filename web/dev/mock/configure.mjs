@@ -1,5 +1,6 @@
 // Mock of what is configured: mappings, registers, the Modbus door, snapshots, scans, backup. In: requests. Out: documents of the HTTP door.
 // A stand-in for the page's author: the shapes of the answers and the refusals that the page must show, not a second gateway.
+import { families } from './families.mjs';
 import { SiteDesk } from './site.mjs';
 import { Refusal } from './world.mjs';
 
@@ -30,6 +31,8 @@ export class Configuration {
     this.snapshots = new Map();
     /** @type {Map<string, any>} */
     this.scans = new Map();
+    /** @type {any} */
+    this.pending = null;
     world.site.mappings ??= [];
     /** @type {import('../../src/api/types').ModbusDoor} */
     this.modbus = { bind: '127.0.0.1:1502', allow: [], functions: [1, 2, 3, 4, 5, 6, 15, 16, 23, 43], read_only: false, connections: [] };
@@ -58,12 +61,26 @@ export class Configuration {
     }
     if (kind === 'registers') return { body: this.registers(ask.q) };
     if (kind === 'site') return this.site.answer(ask);
-    if (kind === 'backup') return ask.method === 'GET' ? { type: 'application/octet-stream', text: 'SQLite format 3\0' } : { status: 202, body: { text: 'taken; it takes effect now', restart_needed: false } };
-    if (kind === 'families' && name && what === 'parameters') return null;
+    if (kind === 'backup') return this.backup(ask);
+    if (kind === 'families' && !what) return { body: name ? families.find((f) => f.name === name) : families };
     if (kind === 'lines' && name && what === 'scan') return this.scan(ask, name);
     if (kind === 'axes' && name && what === 'snapshots') return this.snapshot(ask, name);
     if (kind === 'axes' && name && (what === 'parameters.csv' || ask.parts[4] === 'history')) return this.parameters(ask, name);
     return null;
+  }
+
+  /** A restore that is laid down waits for the next start, which never comes here. @param {Ask} ask @returns {Answer} */
+  backup({ method, parts, text, who }) {
+    const nothing = { waiting: false, at: null, who: null, bytes: null, version: null, site_revision: null };
+    if (parts[1] === 'pending' && method === 'GET') return { body: this.pending ?? nothing };
+    if (parts[1] === 'pending') {
+      if (!this.pending) throw new Refusal(404, 'not_found', 'no backup waits for the next start');
+      this.pending = null;
+      return { status: 204 };
+    }
+    if (method === 'GET') return { type: 'application/octet-stream', text: 'SQLite format 3\0' };
+    this.pending = { waiting: true, at: new Date().toISOString(), who, bytes: text.length, version: 4, site_revision: 7 };
+    return { status: 202, body: { text: 'the backup is checked and laid down: start the gateway anew to take it', restart_needed: true } };
   }
 
   /** @param {any} given @param {any[]} all */
@@ -187,7 +204,7 @@ export class Configuration {
     if (!n) {
       const b = JSON.parse(text);
       const values = Object.fromEntries(this.world.catalogue.filter((p) => p.access === 'RW' && !p.count).map((p) => [p.id, axis.read(p.id).value]));
-      const s = { n: (list.at(-1)?.n ?? 0) + 1, name: b.name, comment: b.comment ?? '', at: new Date().toISOString(), who, from: b.from ?? 'device', values };
+      const s = { n: (list.at(-1)?.n ?? 0) + 1, name: b.name, comment: b.comment ?? '', at: new Date().toISOString(), who, from: b.from ?? 'device', family: this.world.axis(name).family, values };
       list.push(s);
       return { status: 201, body: { ...s, parameters: Object.keys(values).length } };
     }

@@ -61,7 +61,8 @@ export class SiteDesk {
       return { head: { etag: this.tag }, body: { dry_run: dry, valid: faults.length === 0, revision: this.world.revision, differences, faults } };
     }
     if (what === 'history') {
-      if (!third) return { body: this.history.map(({ revision, at, who: w, bytes }) => ({ revision, at, who: w, bytes })) };
+      const before = Number(q.get('before') ?? 0) || Infinity;
+      if (!third) return { body: this.history.filter((h) => h.revision < before).slice(0, Number(q.get('limit') ?? 100)).map(({ revision, at, who: w, bytes }) => ({ revision, at, who: w, bytes })) };
       const h = this.history.find((x) => String(x.revision) === third);
       if (!h) throw new Refusal(404, 'not_found', `there is no revision ${third}`);
       return fourth === 'restore' ? this.setStage(h.document, ask) : { body: h.document };

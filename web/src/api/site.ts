@@ -27,6 +27,8 @@ export interface Stage {
   /** The client that did, with its X-Client; it alone, or an administrator, can keep what was applied. */
   client?: string | null;
 }
+/** A restore that waits for the next start. */
+export type Pending = components['schemas']['PendingBackup'];
 export interface HistoryEntry {
   revision: number;
   at: string;
@@ -65,7 +67,8 @@ export class SiteDoor {
   confirm = () => this.client.call<unknown>('/site/stage/confirm', { method: 'POST', body: {} });
   rollBack = () => this.client.call<unknown>('/site/stage/roll-back', { method: 'POST', body: {}, timeout_ms: 60_000 });
 
-  history = () => this.client.call<HistoryEntry[]>('/site/history');
+  /** The newest, or with `before` those below that revision. */
+  history = (limit: number, before = 0) => this.client.call<HistoryEntry[]>(`/site/history?limit=${limit}${before > 0 ? `&before=${before}` : ''}`);
   old = (revision: number) => this.client.call<Site>(`/site/history/${revision}`);
   restore = (revision: number) => this.client.call<Stage>(`/site/history/${revision}/restore`, { method: 'POST', body: {} });
 
@@ -73,6 +76,8 @@ export class SiteDoor {
   scan = (line: string) => this.client.call<Scan>(`/lines/${part(line)}/scan`);
   endScan = (line: string) => this.client.call<unknown>(`/lines/${part(line)}/scan`, { method: 'DELETE' });
 
+  pending = () => this.client.call<Pending>('/backup/pending');
+  dropPending = () => this.client.call<unknown>('/backup/pending', { method: 'DELETE' });
   backup = () => this.client.bytes('/backup', { timeout_ms: 120_000, headers: { accept: 'application/octet-stream, application/problem+json' } });
   async restoreBackup(file: Blob): Promise<{ text?: string; restart_needed?: boolean; detail?: string }> {
     const r = await this.client.whole('/backup', { method: 'PUT', content: { type: 'application/octet-stream', data: file }, timeout_ms: 120_000 });

@@ -9,6 +9,10 @@ export interface Snapshot {
   at?: string;
   who?: string | null;
   from?: string;
+  /** Of the drives that it was taken of; null: taken by an older program. */
+  family?: string | null;
+  /** How many. */
+  values?: number;
   parameters?: number | unknown[];
 }
 export interface DiffRow {
@@ -46,5 +50,5 @@ export class SnapshotDoor {
   save = (body: { name: string; comment: string; from: string }) => this.client.call<Snapshot>(this.path(), { method: 'POST', body, timeout_ms: 180_000 });
   remove = (n: number) => this.client.call<void>(this.path(`/${n}`), { method: 'DELETE' });
   diff = (n: number, other: string) => this.client.call<{ with: string; rows: DiffRow[] }>(this.path(`/${n}/diff?with=${part(other)}`), { timeout_ms: 180_000 });
-  restore = (n: number, body: { parameters?: string[]; dry_run: boolean }) => this.client.call<RestoreReport>(this.path(`/${n}/restore`), { method: 'POST', body, timeout_ms: 180_000 });
+  restore = (n: number, body: { parameters?: string[]; dry_run: boolean; include_live?: boolean }) => this.client.call<RestoreReport>(this.path(`/${n}/restore`), { method: 'POST', body, timeout_ms: 180_000 });
 }

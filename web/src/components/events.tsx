@@ -4,6 +4,9 @@ import type { GatewayEvent, Severity } from '../api/types';
 import { axisPath } from '../router';
 import { withoutSubject } from '../words/alarm';
 import { clockTime } from '../words/time';
+import { useComputed } from '@preact/signals';
+import { useGateway } from '../gateway';
+import { inUnits, type Scale } from '../words/event';
 import { Icon, type IconName } from './icon';
 import { memo } from './memo';
 
@@ -18,7 +21,7 @@ function subject(e: GatewayEvent) {
   return e.drive ?? e.line ?? null;
 }
 
-function ItemView({ event }: { event: GatewayEvent }) {
+function ItemView({ event, scale }: { event: GatewayEvent; scale?: Scale | undefined }) {
   const m = marks[event.severity];
   const about = subject(event);
   const change = event.parameter ? `${event.parameter}: ${event.old ?? 'not known'} → ${event.new ?? ''}` : '';
@@ -33,7 +36,7 @@ function ItemView({ event }: { event: GatewayEvent }) {
       </time>
       <span class="event-what">
         {about && <b>{about} </b>}
-        <span>{withoutSubject(event.text, event.axis ?? event.drive ?? event.line ?? '') || change || event.kind}</span>
+        <span>{inUnits(withoutSubject(event.text, event.axis ?? event.drive ?? event.line ?? ''), scale) || change || event.kind}</span>
         {event.text && change && <span class="event-change mono"> {change}</span>}
         {event.code ? <span class="mono"> (code {event.code})</span> : null}
         {event.who && <span class="event-who"> by {event.who}</span>}
@@ -42,15 +45,19 @@ function ItemView({ event }: { event: GatewayEvent }) {
   );
 }
 
-/** An event never changes: a thousand of them are drawn once. */
-export const EventItem = memo(ItemView, (a, b) => a.event === b.event);
+/** An event never changes, only the unit of its axis does: a thousand of them are drawn once. */
+export const EventItem = memo(ItemView, (a, b) => a.event === b.event && a.scale?.unit === b.scale?.unit && a.scale?.increments_per_unit === b.scale?.increments_per_unit);
 
 export function EventList({ events, limit }: { events: GatewayEvent[]; limit: number }) {
+  const { store } = useGateway();
+  // As text: it is another only when a unit is, not with every reading.
+  const told = useComputed(() => JSON.stringify(store.axisNames.value.map((n) => { const a = store.axis(n)?.value.data; return [n, { unit: a?.unit ?? '', increments_per_unit: a?.increments_per_unit ?? 0 }]; })));
+  const scales = new Map(JSON.parse(told.value) as [string, Scale][]);
   if (events.length === 0) return <p class="empty"><Icon name="info" /> Nothing has happened yet.</p>;
   return (
     <ol class="events">
       {events.slice(0, limit).map((e) => (
-        <EventItem key={e.id} event={e} />
+        <EventItem key={e.id} event={e} scale={e.axis ? scales.get(e.axis) : undefined} />
       ))}
     </ol>
   );

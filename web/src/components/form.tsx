@@ -66,7 +66,7 @@ export function TextField(p: TextFieldProps) {
 export interface ChoiceProps extends Common {
   value: string;
   onChoice: (value: string) => void;
-  choices: readonly { value: string; text: string }[];
+  choices: readonly { value: string; text: string; disabled?: boolean }[];
   disabled?: boolean;
 }
 
@@ -80,7 +80,7 @@ export function Choice(p: ChoiceProps) {
       <select id={id} class={p.fault ? 'is-wrong' : ''} value={p.value} disabled={p.disabled} aria-invalid={p.fault ? true : undefined} aria-describedby={told ? `${id}-told` : undefined} onChange={(e) => p.onChoice(e.currentTarget.value)}>
         {!known && <option value={p.value}>{p.value || 'choose'}</option>}
         {p.choices.map((c) => (
-          <option key={c.value} value={c.value}>
+          <option key={c.value} value={c.value} disabled={c.disabled}>
             {c.text}
           </option>
         ))}

@@ -7,6 +7,7 @@ import { useGateway } from '../gateway';
 import { kept } from '../state/kept';
 import type { Clash, MappingBook } from '../state/mappings';
 import { checkTexts, conflictsOf, emptyTexts, fields, neighbourText, nextFree, oneBased, placeText, signWarning, tables, textsOf, types, widthOf, type Field, type Known, type Mapping, type Texts } from '../words/mapping';
+import { naturalType } from '../words/mapping-type';
 import { Choice, quiet, Tell, TextField, toldOf, type Told } from './form';
 import { Section } from './section';
 
@@ -16,6 +17,8 @@ const draftOf = (m: Mapping): Draft => Object.fromEntries(Object.entries(textsOf
 const read = (d: Draft): Texts => Object.fromEntries(fields.map((f) => [f, d[f].value])) as Texts;
 
 const adding = keptDraft();
+/** Not empty: the type was chosen by hand, and stays whatever the point is. Of an entry that is changed: unless its type is its point's own. */
+const byHand = new WeakMap<Draft, Signal<string>>([[adding, kept('mapping.type_by_hand')]]);
 /** Puts a free place into the form for adding. */
 export function addAt(unit: number, table: string, address: number): void {
   adding.unit.value = String(unit);
@@ -38,6 +41,8 @@ export function MappingForm({ book, known, editing, done }: MappingFormProps) {
   const drafts = useRef(new Map<string, Draft>());
   if (editing && !drafts.current.has(editing.id)) drafts.current.set(editing.id, draftOf(editing));
   const d = editing ? (drafts.current.get(editing.id) as Draft) : adding;
+  if (editing && !byHand.has(d)) byHand.set(d, signal(naturalType('', editing.point, known) === editing.type ? '' : 'yes'));
+  const hand = byHand.get(d) as Signal<string>;
   const touched = useSignal(false);
   const told = useSignal<Told>(quiet);
   const clash = useSignal<Clash | null>(null);
@@ -59,13 +64,19 @@ export function MappingForm({ book, known, editing, done }: MappingFormProps) {
   const placed = texts.address.trim() !== '' && !faults.address && !faults.unit && !faults.table && !faults.type;
   const conflicts = placed ? conflictsOf(place, book.rows.value, editing?.id) : [];
   const free = faults.unit || faults.table || faults.type ? null : nextFree(book.rows.value.filter((m) => m.id !== editing?.id), place.unit, place.table, width, conflicts.length > 0 ? place.address : 0);
+  const natural = naturalType(texts.axis, texts.point, known);
+  useEffect(() => {
+    if (natural && !bits && hand.peek() === '') d.type.value = natural;
+  }, [natural, bits, d]);
   const set = (f: Field) => (text: string) => {
     d[f].value = text;
+    if (f === 'type') hand.value = 'yes';
     told.value = quiet;
     if (f === 'table') d.type.value = text === 'coils' || text === 'discrete_inputs' ? 'bool' : d.type.peek() === 'bool' ? 'u16' : d.type.peek();
   };
   const taken = conflicts.length > 0 ? `Taken by ${conflicts.slice(0, 3).map((c) => `${c.id} (${c.point} of ${c.axis}, ${placeText(c)})`).join(', ')}${conflicts.length > 3 ? ` and ${conflicts.length - 3} more` : ''}.` : undefined;
 
+  const typeHint = !natural || bits ? undefined : natural === texts.type ? 'the point’s own type' : `the point’s own type is ${natural}`;
   const warning = signWarning({ point: texts.point.trim(), type: texts.type, offset: Number(texts.offset) || 0 });
 
   const send = async (opened: Mapping | null) => {
@@ -89,6 +100,7 @@ export function MappingForm({ book, known, editing, done }: MappingFormProps) {
       const next = nextFree(book.rows.peek(), spec.unit, place.table, width, spec.address + width);
       d.address.value = next === null ? '' : String(next);
       d.point.value = '';
+      hand.value = '';
       d.comment.value = '';
     }
   };
@@ -121,7 +133,7 @@ export function MappingForm({ book, known, editing, done }: MappingFormProps) {
             fault={shown('address') ?? taken}
             hint={placed ? `${place.address}${width > 1 ? `–${place.address + width - 1}` : ''} is ${oneBased(place.table, place.address)} counted from 1. Free: ${neighbourText(place, book.rows.value, editing?.id)}.` : 'counted from 0'}
           />
-          <Choice label="Type" value={texts.type} onChoice={set('type')} fault={shown('type')} hint={warning === '' ? undefined : <span class="flag" data-field="sign-warning">{warning}</span>} choices={(bits ? (['bool'] as const) : types).map((t) => ({ value: t, text: t }))} />
+          <Choice label="Type" value={texts.type} onChoice={set('type')} fault={shown('type')} hint={warning === '' ? typeHint : <span class="flag" data-field="sign-warning">{warning}</span>} choices={(bits ? (['bool'] as const) : types).map((t) => ({ value: t, text: t }))} />
           {texts.type === 'string' && <TextField label="Length" number value={texts.length} onText={set('length')} fault={shown('length')} placeholder="16" hint="registers" />}
           {width > 1 && texts.type !== 'string' && <Choice label="Word order" value={texts.word_order} onChoice={set('word_order')} choices={[{ value: 'high_first', text: 'high word first' }, { value: 'low_first', text: 'low word first' }]} />}
           {texts.type !== 'string' && !bits && <TextField label="Scale" number value={texts.scale} onText={set('scale')} fault={shown('scale')} hint="register = value × scale + offset" />}

@@ -1,12 +1,19 @@
 // Mapping list: everything that is mapped, for paper: one table per unit, with both ways of counting and the revision. In: the mappings.
 // Out: what the printer sees; on the screen it is not drawn. And the links to the lists that the gateway makes itself.
 import { listAddress, type MappingDoor } from '../api/mappings';
-import { endOf, oneBased, tables, type Mapping } from '../words/mapping';
+import { useGateway } from '../gateway';
+import { endOf, oneBased, tables, type Known, type Mapping } from '../words/mapping';
+import { valueUnit } from '../words/mapping-type';
 import { notOffered } from './form';
 import { useLoaded, waiting } from './loaded';
 import { scaleText } from './mapping-grid';
 
-export function PrintedList({ rows, hash }: { rows: readonly Mapping[]; hash: string }) {
+export function PrintedList({ rows, known, hash }: { rows: readonly Mapping[]; known: Known; hash: string }) {
+  const { store } = useGateway();
+  // The units of parameters stand in the catalogue of their axis.
+  for (const a of new Set(rows.filter((m) => !known.points.some((p) => p.point === m.point)).map((m) => m.axis))) known.parameters(a);
+  // Not followed: an axis is told ten times a second, its unit changes with the site.
+  const unitOf = (m: Mapping) => valueUnit(store.axis(m.axis)?.peek().data, m.axis, m.point, known);
   const units = [...new Set(rows.map((m) => m.unit))].sort((a, b) => a - b);
   return (
     <div class="print-only" data-field="printed">
@@ -30,6 +37,7 @@ export function PrintedList({ rows, hash }: { rows: readonly Mapping[]; hash: st
                   <th>Point</th>
                   <th>Type</th>
                   <th>Word order</th>
+                  <th>Value in</th>
                   <th>Scaling</th>
                   <th>Access</th>
                   <th>Comment</th>
@@ -44,6 +52,7 @@ export function PrintedList({ rows, hash }: { rows: readonly Mapping[]; hash: st
                     <td>{m.point}</td>
                     <td>{m.type}</td>
                     <td>{endOf(m) === m.address ? '' : m.word_order.replace('_', ' ')}</td>
+                    <td>{unitOf(m)}</td>
                     <td>{scaleText(m)}</td>
                     <td>{m.access}</td>
                     <td>{m.comment ?? ''}</td>

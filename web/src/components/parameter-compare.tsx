@@ -7,6 +7,7 @@ import { SnapshotDoor, type Snapshot } from '../api/snapshots';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
 import { unitWords, valueText } from '../words/parameter';
+import { axisChoice, snapshotChoice } from '../words/snapshot';
 import { compareWith, type Compared } from '../words/transfer';
 import { Choice, quiet, Tell, type Told } from './form';
 import { Empty } from './lines';
@@ -14,7 +15,7 @@ import { Section } from './section';
 
 const plain = { allowed: null };
 
-export function ParameterCompare({ axis, snapshots }: { axis: string; snapshots: readonly Snapshot[] }) {
+export function ParameterCompare({ axis, family, snapshots }: { axis: string; family: string; snapshots: readonly Snapshot[] }) {
   const { client, store } = useGateway();
   const door = useMemo(() => new SnapshotDoor(client, axis), [client, axis]);
   const base = useSignal('now');
@@ -28,8 +29,8 @@ export function ParameterCompare({ axis, snapshots }: { axis: string; snapshots:
     { value: 'default', text: 'the defaults of the family' },
     { value: 'stored', text: 'what the gateway has stored' },
     ...(fromSnapshot ? [{ value: 'device', text: 'the drive, read now' }] : []),
-    ...(fromSnapshot ? snapshots.filter((s) => String(s.n) !== base.value).map((s) => ({ value: `snapshot:${s.n}`, text: `snapshot ${s.name}` })) : snapshots.map((s) => ({ value: `snapshot:${s.n}`, text: `snapshot ${s.name}` }))),
-    ...others.map((n) => ({ value: `axis:${n}`, text: `axis ${n}, values known now` })),
+    ...snapshots.filter((s) => !fromSnapshot || String(s.n) !== base.value).map((s) => snapshotChoice(s, `snapshot:${s.n}`, family)),
+    ...others.map((n) => axisChoice(n, fromSnapshot ? (store.axis(n)?.peek().data.family ?? family) : family, family)),
   ];
 
   const compare = async () => {
@@ -72,7 +73,7 @@ export function ParameterCompare({ axis, snapshots }: { axis: string; snapshots:
         }}
       >
         <div class="form-grid">
-          <Choice label="Compare" class="wide" value={base.value} onChoice={(v) => { base.value = v; result.value = null; if (v === 'now' && other.value === 'device') other.value = 'default'; }} choices={[{ value: 'now', text: 'the values known now' }, ...snapshots.map((s) => ({ value: String(s.n), text: `snapshot ${s.name}` }))]} />
+          <Choice label="Compare" class="wide" value={base.value} onChoice={(v) => { base.value = v; result.value = null; if (v === 'now' && other.value === 'device') other.value = 'default'; }} choices={[{ value: 'now', text: 'the values known now' }, ...snapshots.map((s) => snapshotChoice(s, String(s.n), family))]} />
           <Choice label="with" class="wide" value={other.value} onChoice={(v) => { other.value = v; result.value = null; }} choices={choices} />
         </div>
         <div class="form-foot">

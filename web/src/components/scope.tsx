@@ -313,9 +313,9 @@ function Cursors({ view, trail, unit, seen }: { view: View; trail: () => Trail; 
             {[a, b].map((t, i) => (
               <tr key={i}>
                 <th scope="row">{i === 0 ? 'A' : 'B'}</th>
-                <td class="mono">{clock(t)}</td>
+                <td class="mono" data-label="Time">{clock(t)}</td>
                 {shownChannels.map((x) => (
-                  <td key={x} class="mono">
+                  <td key={x} class="mono" data-label={`${names[x]}, ${perSecond(x, unit)}`}>
                     {formatNumber(read(t, x), 3)}
                   </td>
                 ))}
@@ -324,11 +324,11 @@ function Cursors({ view, trail, unit, seen }: { view: View; trail: () => Trail; 
             {a !== null && b !== null && (
               <tr>
                 <th scope="row">B − A</th>
-                <td class="mono">{formatNumber(b - a, 3)} s</td>
+                <td class="mono" data-label="Time">{formatNumber(b - a, 3)} s</td>
                 {shownChannels.map((x) => {
                   const [p, q] = [read(a, x), read(b, x)];
                   return (
-                    <td key={x} class="mono">
+                    <td key={x} class="mono" data-label={`${names[x]}, ${perSecond(x, unit)}`}>
                       {formatNumber(p === null || q === null ? null : q - p, 3)}
                     </td>
                   );

@@ -4,11 +4,13 @@ import { signal, useSignal, type Signal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
 import { useGateway } from '../gateway';
+import { familyOf, incrementHint, optionsFor } from '../words/options';
 import type { SiteDraft } from '../state/site-draft';
 import { checkEntry, fieldsOf, freeNumber, oneOf, placeOf, sameDocument, textsOfEntry, uriKinds, type Entry, type FieldSpec, type Room, type Site, type Texts } from '../words/site';
 import { Choice, TextField } from './form';
 import { useBarred } from './gate';
 import { Icon } from './icon';
+import { OptionFields } from './option-fields';
 import { Section } from './section';
 
 interface Open {
@@ -132,10 +134,14 @@ interface FormProps {
 
 function EntryForm({ room, draft, own, open, gateway }: FormProps) {
   const touched = useSignal(false);
+  const moreOpen = useRef(false);
   const form = useRef<HTMLFormElement>(null);
   const site = draft.draft.value;
   const { texts } = open.value;
-  const { entry, faults } = checkEntry(room, texts, site, own);
+  const { store } = useGateway();
+  const family = familyOf(room, texts, site);
+  const options = optionsFor(store.families.value.get(family), room);
+  const { entry, faults } = checkEntry(room, texts, site, own, options);
   useEffect(() => form.current?.querySelector<HTMLElement>('input, select')?.focus(), []);
   const close = () => ((open as Signal<Open | null>).value = null);
   const fault = (f: FieldSpec): string | undefined => {
@@ -143,7 +149,11 @@ function EntryForm({ room, draft, own, open, gateway }: FormProps) {
     if (mine && (touched.value || (texts[f.key] ?? '').trim() !== '')) return mine;
     return gateway.find((g) => g.key === f.key)?.text;
   };
-  const field = (f: FieldSpec) => <EntryField key={f.key} f={f} site={site} text={texts[f.key] ?? ''} fault={fault(f)} onText={(t) => (open.value = { ...open.value, texts: { ...open.value.texts, [f.key]: t } })} />;
+  const set = (key: string, text: string | null) => {
+    const { [key]: _, ...rest } = open.value.texts;
+    open.value = { ...open.value, texts: text === null ? rest : { ...open.value.texts, [key]: text } };
+  };
+  const field = (f: FieldSpec) => <EntryField key={f.key} f={f} site={site} texts={texts} fault={fault(f)} onText={(t) => set(f.key, t)} />;
   const more = fieldsOf[room].filter((f) => f.more);
   return (
     <form
@@ -163,9 +173,10 @@ function EntryForm({ room, draft, own, open, gateway }: FormProps) {
       }}
     >
       <div class="form-grid">{fieldsOf[room].filter((f) => !f.more).map(field)}</div>
+      {room !== 'axes' && <OptionFields room={room} family={family} specs={options} texts={texts} onText={set} fault={(key) => gateway.find((g) => g.key === key)?.text} />}
       {more.length > 0 && (
-        <details open={more.some((f) => fault(f) !== undefined) || undefined}>
-          <summary>{room === 'lines' ? 'Options and manners' : 'More'}</summary>
+        <details open={(moreOpen.current ||= more.some((f) => fault(f) !== undefined)) || undefined}>
+          <summary>{room === 'lines' ? 'Manners: times and retries' : 'More'}</summary>
           <div class="form-grid">{more.map(field)}</div>
         </details>
       )}
@@ -184,15 +195,17 @@ function EntryForm({ room, draft, own, open, gateway }: FormProps) {
 interface FieldProps {
   f: FieldSpec;
   site: Site;
-  text: string;
+  texts: Texts;
   fault: string | undefined;
   onText: (t: string) => void;
 }
 
-export function EntryField({ f, site, text, fault, onText }: FieldProps) {
+export function EntryField({ f, site, texts, fault, onText }: FieldProps) {
   const { store } = useGateway();
+  const text = texts[f.key] ?? '';
+  const hint = f.key === 'increments_per_unit' ? incrementHint(store.families.value.get(familyOf('axes', texts, site)), texts.unit ?? '') : f.hint;
   const names = (list: readonly { name: string }[] | undefined) => [{ value: '', text: 'choose' }, ...(list ?? []).map((e) => ({ value: e.name, text: e.name }))];
-  const common = { label: f.label, fault, ...(f.hint === undefined ? {} : { hint: f.hint }) };
+  const common = { label: f.label, fault, ...(hint === undefined ? {} : { hint }) };
   switch (f.kind) {
     case 'line': return <Choice {...common} value={text} onChoice={onText} choices={names(site.lines)} />;
     case 'drive': return <Choice {...common} value={text} onChoice={onText} choices={names(site.drives)} />;
@@ -202,7 +215,7 @@ export function EntryField({ f, site, text, fault, onText }: FieldProps) {
       return (
         <TextField
           {...common}
-          class={f.key === 'uri' || f.kind === 'options' ? 'wide' : ''}
+          class={f.key === 'uri' ? 'wide' : ''}
           value={text}
           onText={onText}
           number={f.kind === 'integer' || f.kind === 'number'}

@@ -230,7 +230,7 @@ function StepForm({ room, draft, back, next }: { room: Room; draft: SiteDraft; b
           {fieldsOf[room]
             .filter((f) => keys[room].includes(f.key))
             .map((f) => (
-              <EntryField key={f.key} f={f} site={site} text={texts.value[f.key] ?? ''} onText={set(f.key)} fault={touched.value || (texts.value[f.key] ?? '') !== '' ? faults[f.key] : undefined} />
+              <EntryField key={f.key} f={f} site={site} texts={texts.value} onText={set(f.key)} fault={touched.value || (texts.value[f.key] ?? '') !== '' ? faults[f.key] : undefined} />
             ))}
         </div>
       )}

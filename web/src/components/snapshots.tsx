@@ -1,5 +1,6 @@
 // Snapshots of an axis' parameters: saved under a name, compared, restored after a look at what will change. In: the HTTP door. Out: a section.
 // A restore is never sent without the list of its changes on the page; it is refused by the gateway while the axis is commanded.
+import { barred } from '../state/session';
 import { useBarred, Why } from './gate';
 import { useSignal } from '@preact/signals';
 import { useMemo } from 'preact/hooks';
@@ -9,7 +10,7 @@ import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
 import { kept } from '../state/kept';
 import { valueText } from '../words/parameter';
-import { clockTime } from '../words/time';
+import { foreignWords, snapshotWords } from '../words/snapshot';
 import { leftOut } from '../words/transfer';
 import { Choice, notOffered, quiet, Tell, TextField, type Told } from './form';
 import { Empty } from './lines';
@@ -19,8 +20,8 @@ import { Section } from './section';
 const plain = { allowed: null };
 const gone = (status: number) => status === 404 || status === 405 || status === 501;
 
-export function Snapshots({ axis, onList }: { axis: string; onList: (list: Snapshot[]) => void }) {
-  const { client } = useGateway();
+export function Snapshots({ axis, family, onList }: { axis: string; family: string; onList: (list: Snapshot[]) => void }) {
+  const { client, store } = useGateway();
   const door = useMemo(() => new SnapshotDoor(client, axis), [client, axis]);
   const list = useSignal<Snapshot[]>([]);
   const told = useSignal<Told>(quiet);
@@ -30,6 +31,8 @@ export function Snapshots({ axis, onList }: { axis: string; onList: (list: Snaps
   const wrong = useSignal(false);
   const removing = useSignal<number | null>(null);
   const no = useBarred('engineer');
+  const live = useSignal(false);
+  const titles = store.familyTitles.value;
   const restoring = useSignal<{ snapshot: Snapshot; report: RestoreReport; chosen: Set<string> } | null>(null);
 
   const load = async () => {
@@ -58,9 +61,10 @@ export function Snapshots({ axis, onList }: { axis: string; onList: (list: Snaps
       return `Saved as ${s.n}.`;
     });
   };
-  const look = (s: Snapshot) =>
+  const look = (s: Snapshot, withLive = live.peek()) =>
     tell('Comparing with the drive …', async () => {
-      const report = await door.restore(s.n, { dry_run: true });
+      const report = await door.restore(s.n, withLive ? { dry_run: true, include_live: true } : { dry_run: true });
+      live.value = withLive;
       restoring.value = { snapshot: s, report, chosen: new Set((report.changes ?? []).map((c) => c.parameter)) };
       return report.changes?.length ? 'Nothing has been changed yet.' : `The drive has all values of ${s.name} already.`;
     });
@@ -68,7 +72,7 @@ export function Snapshots({ axis, onList }: { axis: string; onList: (list: Snaps
     const r = restoring.value;
     if (!r || r.chosen.size === 0) return;
     void tell(`Writing ${r.chosen.size} parameters …`, async () => {
-      const done = await door.restore(r.snapshot.n, { parameters: [...r.chosen], dry_run: false });
+      const done = await door.restore(r.snapshot.n, { parameters: [...r.chosen], dry_run: false, ...(live.peek() ? { include_live: true } : {}) });
       restoring.value = null;
       const failed = done.failed ?? [];
       if (failed.length > 0) throw new Error(`${done.changed?.length ?? 0} written; NOT written: ${failed.map((f) => `${f.parameter} (${f.reason})`).join(', ')}`);
@@ -121,13 +125,15 @@ export function Snapshots({ axis, onList }: { axis: string; onList: (list: Snaps
           <p class="where">No snapshot is kept.</p>
         ) : (
           <ul class="rows snapshot-list" aria-label="Snapshots">
-            {[...list.value].reverse().map((s) => (
+            {[...list.value].reverse().map((s) => {
+              const other = foreignWords(s, family, titles);
+              return (
               <li key={s.n} class="row" data-snapshot={s.n}>
                 <div class="row-head">
                   <h3>
                     {s.name} <span class="where">no. {s.n}</span>
                   </h3>
-                  <button type="button" class="button small" aria-label={`Restore ${s.name}`} {...no} onClick={() => void look(s)}>
+                  <button type="button" class="button small" aria-label={`Restore ${s.name}`} {...(no.disabled ? no : barred(other))} onClick={() => void look(s)}>
                     Restore
                   </button>
                   {removing.value === s.n ? (
@@ -146,11 +152,37 @@ export function Snapshots({ axis, onList }: { axis: string; onList: (list: Snaps
                   )}
                 </div>
                 <p class="where">
-                  {s.at ? clockTime(s.at) : ''} {s.who ?? ''} {s.from === 'stored' ? '· stored values' : ''} {s.comment ? `· ${s.comment}` : ''}
+                  {snapshotWords(s, titles)}
                 </p>
+                {other && (
+                  <p class="where">
+                    <span class="flag" data-field="foreign">{other}</span>
+                  </p>
+                )}
               </li>
-            ))}
+              );
+            })}
           </ul>
+        )}
+        {list.value.length > 0 && (
+          <div data-field="restore-live">
+            <label class="check">
+              <input
+                type="checkbox"
+                checked={live.value}
+                aria-describedby="restore-live-told"
+                onChange={(e) => {
+                  live.value = e.currentTarget.checked;
+                  if (restoring.peek()) void look(restoring.peek()!.snapshot, e.currentTarget.checked);
+                }}
+              />{' '}
+              Restore also what acts at once
+            </label>
+            <p class="form-told" id="restore-live-told">
+              Settings are always written back. Some values are no settings but act the moment they are written: switches, set-points, outputs, counters, variables of the program in the drive. Without this mark they are left alone and listed as left out; with it, writing them can switch or
+              move something.
+            </p>
+          </div>
         )}
         {r && (r.report.changes?.length ?? 0) > 0 && (
           <fieldset class="changes">

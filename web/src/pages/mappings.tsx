@@ -19,6 +19,7 @@ import { useGateway } from '../gateway';
 import { kept } from '../state/kept';
 import { MappingBook, uncapital } from '../state/mappings';
 import { lookAt, type Heard } from '../state/register-look';
+import type { ParameterShape } from '../words/mapping-type';
 import { spansOf, tables, type Known, type Mapping, type Table } from '../words/mapping';
 
 const unitShown = kept('mappings.unit', '2');
@@ -34,7 +35,7 @@ export function MappingsPage() {
   const told = useSignal<Told>(quiet);
   const heard: Signal<ReadonlyMap<string, Heard>> = useMemo(() => signal(new Map()), []);
   const registers = useSignal<'asking' | 'there' | string>('asking');
-  const parameters: Signal<ReadonlyMap<string, readonly string[]>> = useMemo(() => signal(new Map()), []);
+  const parameters: Signal<ReadonlyMap<string, ReadonlyMap<string, ParameterShape>>> = useMemo(() => signal(new Map()), []);
   const no = useBarred('engineer');
   const epoch = store.connection.value.epoch;
   const revision = store.siteRevision.value;
@@ -91,12 +92,14 @@ export function MappingsPage() {
       if (axis && !asked.has(axis) && store.axisNames.peek().includes(axis)) {
         asked.add(axis);
         client.parameters(axis).then(
-          (list) => (parameters.value = new Map([...parameters.peek(), [axis, list.flatMap((p) => (p.name === p.id ? [p.id] : [p.id, p.name]))]])),
+          (list) => (parameters.value = new Map([...parameters.peek(), [axis, new Map(list.flatMap((p) => [p.id, p.name].map((k) => [k, p] as const)))]])),
           () => asked.delete(axis),
         );
       }
-      return parameters.value.get(axis) ?? null;
+      const own = parameters.value.get(axis);
+      return own ? [...own.keys()] : null;
     },
+    parameter: (axis, id) => parameters.value.get(axis)?.get(id) ?? null,
   };
 
   const undo = async () => {
@@ -180,7 +183,7 @@ export function MappingsPage() {
         <MappingPaste book={book} known={known} />
       </Gate>
       <HmiView door={door} rows={rows} />
-      <PrintedList rows={rows} hash={book.hash.value} />
+      <PrintedList rows={rows} known={known} hash={book.hash.value} />
     </main>
   );
 }

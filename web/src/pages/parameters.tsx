@@ -39,8 +39,8 @@ export function ParametersPage({ name }: { name: string }) {
       ) : (
         <>
           <Parameters axis={name} />
-          <Snapshots axis={name} onList={(list) => (snapshots.value = list)} />
-          <ParameterCompare axis={name} snapshots={snapshots.value} />
+          <Snapshots axis={name} family={axis.family} onList={(list) => (snapshots.value = list)} />
+          <ParameterCompare axis={name} family={axis.family} snapshots={snapshots.value} />
           <ParameterTransfer axis={name} />
         </>
       )}

@@ -6,7 +6,9 @@ import { useEffect } from 'preact/hooks';
 import { Empty } from '../components/lines';
 import { useLoaded, waiting } from '../components/loaded';
 import { SiteEntries } from '../components/site-entries';
-import { SiteFiles, SiteHistory } from '../components/site-files';
+import { SiteFiles } from '../components/site-files';
+import { SiteHistory } from '../components/site-history';
+import { PendingRestore } from '../components/site-pending';
 import { ScanPanel } from '../components/site-scan';
 import { SiteStage } from '../components/site-stage';
 import { SiteWizard } from '../components/site-wizard';
@@ -59,6 +61,7 @@ export function SitePage() {
           </button>
         )}
       </div>
+      <PendingRestore door={door} />
       {draft.state.value !== 'there' ? (
         <Empty text={why || waiting} />
       ) : guided ? (

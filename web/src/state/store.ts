@@ -5,6 +5,7 @@
 import { batch, computed, signal, type ReadonlySignal, type Signal } from '@preact/signals';
 import type { StreamMessage, StreamState } from '../api/stream';
 import type { About, AlarmList, Axis, Drive, GatewayEvent, Line } from '../api/types';
+import type { Families } from '../words/options';
 import { Trail } from './trail';
 
 export interface Known<T> {
@@ -91,6 +92,8 @@ export class Store {
   readonly about = signal<About | null>(null);
   /** Families by name, as their makers call them; empty where the gateway does not say. */
   readonly familyTitles = signal<ReadonlyMap<string, string>>(new Map());
+  /** What the gateway tells of whole families: options, units. */
+  readonly families = signal<Families>(new Map());
   /** null: not told yet. 0 is the real revision of a gateway that has never had a site. */
   readonly siteRevision = signal<number | null>(null);
   /** The lists have come at least once: an empty page is then really an empty site. */

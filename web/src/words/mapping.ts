@@ -118,6 +118,8 @@ export interface Known {
   points: readonly MappingPoint[];
   /** Ids and names of the parameters of an axis; null where they are not known. */
   parameters: (axis: string) => readonly string[] | null;
+  /** Type and unit of a parameter by its id or name; null where they are not known. */
+  parameter?: (axis: string, id: string) => { type: Schemas['AxisParameter']['type']; unit: string | null } | null;
 }
 
 export type Checked = { spec: MappingSpec | null; faults: Partial<Record<Field, string>> };

@@ -1,6 +1,7 @@
 // A site in words and forms: fields of lines, drives and axes, what was typed for them, what differs between two sites, and one person's changes put
 // on top of another's. In: documents, text. Out: entries, faults per field, differences. Pure. Members that the page does not know are kept.
 import { parseNumber } from './number';
+import { optionFault, optionPrefix, optionsFrom, optionTexts, type OptionSpec } from './options';
 
 export type Entry = { name: string } & Record<string, unknown>;
 export interface Site {
@@ -17,7 +18,7 @@ export interface FieldSpec {
   /** Where it stands in the entry; "manners.retries" in an object of it. */
   key: string;
   label: string;
-  kind: 'name' | 'text' | 'integer' | 'number' | 'choice' | 'line' | 'drive' | 'family' | 'address' | 'options';
+  kind: 'name' | 'text' | 'integer' | 'number' | 'choice' | 'line' | 'drive' | 'family' | 'address';
   required?: boolean;
   min?: number;
   max?: number;
@@ -44,7 +45,6 @@ export const fieldsOf: Record<Room, readonly FieldSpec[]> = {
     { key: 'family', label: 'Family', kind: 'family', required: true },
     { key: 'uri', label: 'URI', kind: 'text', required: true, placeholder: 'twin, can:can0, serial:/dev/ttyUSB0?baud=9600, tcp:HOST:PORT', hint: 'where the line is; “twin”: embedded drives alone' },
     { key: 'bitrate', label: 'Bit rate', kind: 'integer', min: 0, max: 100000000, hint: 'bit/s; empty: from the URI, or the family’s' },
-    { key: 'options', label: 'Options', kind: 'options', more: true, hint: 'name=value, separated by commas' },
     manner('reply_timeout_ms', 'Reply time-out, ms', 0, 60000),
     manner('poll_period_ms', 'Poll period, ms', 0, 60000),
     manner('pause_ms', 'Pause, ms', 0, 10000),
@@ -59,7 +59,6 @@ export const fieldsOf: Record<Room, readonly FieldSpec[]> = {
     { key: 'line', label: 'Line', kind: 'line', required: true },
     { key: 'address', label: 'Address', kind: 'address', hint: 'empty: the factory address' },
     { key: 'presence', label: 'Presence', kind: 'choice', choices: presences },
-    { key: 'options', label: 'Options', kind: 'options', more: true, hint: 'name=value, separated by commas' },
   ],
   axes: [
     { key: 'name', label: 'Name', kind: 'name', required: true },
@@ -72,7 +71,7 @@ export const fieldsOf: Record<Room, readonly FieldSpec[]> = {
     { key: 'position_max', label: 'Highest position', kind: 'number', hint: 'software limit, in unit' },
     { key: 'velocity_max', label: 'Highest speed', kind: 'number', above: 0, hint: 'unit/s' },
     { key: 'acceleration_max', label: 'Highest acceleration', kind: 'number', above: 0, hint: 'unit/s²' },
-    { key: 'authority', label: 'Authority', kind: 'choice', more: true, choices: [{ value: '', text: 'as the gateway has it' }, { value: 'free', text: 'free' }, { value: 'lease', text: 'lease' }] },
+    { key: 'authority_mode', label: 'Authority', kind: 'choice', more: true, choices: [{ value: '', text: 'as the gateway has it' }, { value: 'free', text: 'free' }, { value: 'lease', text: 'lease' }] },
   ],
 };
 
@@ -80,22 +79,16 @@ export type Texts = Record<string, string>;
 
 const at = (entry: Record<string, unknown>, key: string): unknown => key.split('.').reduce<unknown>((o, k) => (o as Record<string, unknown> | null | undefined)?.[k], entry);
 
-function optionsText(v: unknown): string {
-  return v && typeof v === 'object' ? Object.entries(v).map(([k, x]) => `${k}=${String(x)}`).join(', ') : '';
-}
-
 export function textsOfEntry(room: Room, entry: Entry | null): Texts {
-  return Object.fromEntries(
+  const own = Object.fromEntries(
     fieldsOf[room].map((f) => {
       const v = entry ? at(entry, f.key) : undefined;
-      if (f.kind === 'options') return [f.key, optionsText(v)];
       if ((v === undefined || v === null) && f.key === 'presence') return [f.key, 'auto'];
       return [f.key, v === undefined || v === null ? '' : String(v)];
     }),
   );
+  return room === 'axes' ? own : { ...own, ...optionTexts(entry?.options) };
 }
-
-const valueOf = (text: string): string | number | boolean => (text === 'true' ? true : text === 'false' ? false : /^-?\d+(\.\d+)?$/.test(text) ? Number(text) : text);
 
 function readField(f: FieldSpec, text: string): { value: unknown; why: string } {
   const t = text.trim();
@@ -116,22 +109,13 @@ function readField(f: FieldSpec, text: string): { value: unknown; why: string } 
     }
     case 'address':
       return { value: /^\d+$/.test(t) ? Number(t) : t, why: '' };
-    case 'options': {
-      const options: Record<string, string | number | boolean> = {};
-      for (const piece of t.split(/[,\n]/).map((x) => x.trim()).filter(Boolean)) {
-        const [k = '', ...rest] = piece.split('=');
-        if (k.trim() === '' || rest.length === 0) return { value: undefined, why: `“${piece}” is not name=value.` };
-        options[k.trim()] = valueOf(rest.join('=').trim());
-      }
-      return { value: options, why: '' };
-    }
     default:
       return { value: t, why: '' };
   }
 }
 
-/** From what was typed to an entry. `own`: the entry that is being changed; null: a new one. */
-export function checkEntry(room: Room, texts: Texts, site: Site, own: Entry | null): { entry: Entry | null; faults: Texts } {
+/** From what was typed to an entry. `own`: the entry that is being changed; null: a new one. `options`: those of its family. */
+export function checkEntry(room: Room, texts: Texts, site: Site, own: Entry | null, options: readonly OptionSpec[] = []): { entry: Entry | null; faults: Texts } {
   const faults: Texts = {};
   const entry: Record<string, unknown> = structuredClone(own ?? {});
   for (const f of fieldsOf[room]) {
@@ -147,6 +131,14 @@ export function checkEntry(room: Room, texts: Texts, site: Site, own: Entry | nu
       else inner[second] = value;
       if (Object.keys(inner).length === 0) delete entry[first];
       else entry[first] = inner;
+    }
+  }
+  if (room !== 'axes') {
+    entry.options = optionsFrom(texts, own?.options);
+    if (Object.keys(entry.options as object).length === 0) delete entry.options;
+    for (const o of options) {
+      const why = optionFault(o, texts[optionPrefix + o.name] ?? '');
+      if (why) faults[optionPrefix + o.name] = why;
     }
   }
   const others = (site[room] ?? []).filter((e) => e.name !== own?.name);

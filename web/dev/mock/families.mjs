@@ -1,0 +1,27 @@
+// Mock families: what the catalogues say of whole families, as far as the page reads it. In: nothing. Out: documents of GET /families.
+// A stand-in for the page's author: a few options of each kind, no catalogue.
+
+/** @type {import('../../src/words/options').Family[]} */
+export const families = [
+  {
+    name: 'mcode', title: 'Schneider Electric Lexium MCode', position_unit: 'step',
+    options: [
+      { name: 'ck', of: ['line'], min: 0, max: 2, default: '1', description: 'checksum mode that the drives are set to' },
+      { name: 'pad', of: ['twin'], values: ['on', 'off', 'true', 'false', '1', '0'], default: 'off', description: 'real numbers are filled with blanks' },
+    ],
+  },
+  {
+    name: 'pacontrol', title: 'IEF Werner PA-CONTROL', position_unit: '0.001 AE',
+    options: [{ name: 'reference_order', of: ['drive'], default: null, description: 'channels with commas, as in 3,1,2; without it rising' }],
+  },
+  {
+    name: 'uim342', title: 'UIROBOT UIM342', position_unit: 'pulse',
+    options: [
+      { name: 'crc', of: ['line', 'twin'], values: ['12', '13', 'auto', 'none'], default: '12', description: 'bytes under the CRC of a UIMessage' },
+      { name: 'notify', of: ['drive'], values: ['on', 'off'], default: 'off', description: '"move finished" is switched on after each enable' },
+      { name: 'home_input', of: ['drive'], min: 1, max: 3, default: null, description: 'input of the home or limit switch' },
+      { name: 'home_timeout_s', of: ['drive'], min: 1, max: 3600, unit: 's', default: '60', description: 'the search is given up and stopped after that' },
+      { name: 'boot_ms', of: ['twin'], min: 0, max: 60000, unit: 'ms', default: '0', description: 'how long the simulated drive is silent after power-on' },
+    ],
+  },
+];

@@ -1,0 +1,117 @@
+// Site history: the states that were applied before, newest first, page by page. In: the draft, the door. Out: a list; a difference on demand; a
+// restore, which is staged and then checked and applied like every change. Changes of one's own are never dropped for it unasked.
+import { useSignal } from '@preact/signals';
+import { asProblem } from '../api/problem';
+import type { HistoryEntry, SiteDoor } from '../api/site';
+import { useGateway } from '../gateway';
+import { capital } from '../state/commander';
+import type { SiteDraft } from '../state/site-draft';
+import { differenceOf, type Difference } from '../words/site';
+import { sizeWords } from '../words/site-files';
+import { clockTime } from '../words/time';
+import { useBarred } from './gate';
+import { notOffered } from './form';
+import { useLoaded } from './loaded';
+import { Section } from './section';
+import { DifferenceList } from './site-stage';
+
+const absent = (status: number) => status === 404 || status === 405 || status === 501;
+/** As many as are asked for at once. */
+const atOnce = 50;
+
+export function SiteHistory({ draft, door }: { draft: SiteDraft; door: SiteDoor }) {
+  const no = useBarred('engineer');
+  const { store } = useGateway();
+  const list = useSignal<HistoryEntry[]>([]);
+  /** Whether there may be older ones than the last of the list; `why`: what the gateway said when they were asked for. */
+  const older = useSignal<{ more: boolean; busy: boolean; why: string }>({ more: false, busy: false, why: '' });
+  const shown = useSignal<{ revision: number; changes: Difference[] } | null>(null);
+  const revision = store.siteRevision.value;
+  const load = async () => {
+    const first = await door.history(atOnce);
+    const last = first.at(-1)?.revision ?? 0;
+    // What was fetched before stays below, as long as it joins on.
+    const had = list.peek();
+    const joins = had.some((h) => h.revision === last);
+    list.value = joins ? [...first, ...had.filter((h) => h.revision < last)] : first;
+    if (!joins) older.value = { more: first.length >= atOnce, busy: false, why: '' };
+  };
+  const why = useLoaded(load, [door, revision], (p) => (absent(p.status) ? notOffered('a history of applied states') : p.words));
+  const ask = async () => {
+    const before = list.peek().at(-1)?.revision;
+    if (before === undefined || older.peek().busy) return;
+    older.value = { more: true, busy: true, why: '' };
+    try {
+      const next = await door.history(atOnce, before);
+      const least = list.peek().at(-1)?.revision ?? before;
+      list.value = [...list.peek(), ...next.filter((h) => h.revision < least)];
+      older.value = { more: next.length >= atOnce, busy: false, why: '' };
+    } catch (error) {
+      older.value = { more: true, busy: false, why: capital(asProblem(error).words) };
+    }
+  };
+  const look = async (n: number) => {
+    if (shown.value?.revision === n) return void (shown.value = null);
+    try {
+      shown.value = { revision: n, changes: differenceOf(draft.base.peek(), await door.old(n)) };
+    } catch (error) {
+      draft.told.value = { tone: 'refused', text: capital(asProblem(error).words) };
+    }
+  };
+  return (
+    <Section title="Applied states" class="site-history">
+      <div class="card" data-field="history">
+        {why ? (
+          <p class="empty">{why}</p>
+        ) : list.value.length === 0 ? (
+          <p class="empty">No earlier state is kept.</p>
+        ) : (
+          <>
+            <ul class="rows" aria-label="Applied states">
+              {list.value.map((h) => (
+                <li key={h.revision} class="row" data-revision={h.revision}>
+                  <div class="row-head">
+                    <h3>Revision {h.revision}</h3>
+                    <button type="button" class="button small" aria-expanded={shown.value?.revision === h.revision} aria-label={`Difference to revision ${h.revision}`} onClick={() => void look(h.revision)}>
+                      Difference
+                    </button>
+                    <button type="button" class="button small" aria-label={`Restore revision ${h.revision}`} {...no} onClick={() => void draft.restore(h.revision)}>
+                      Restore
+                    </button>
+                  </div>
+                  <p class="where">
+                    {clockTime(h.at)} {h.who ?? ''} · {sizeWords(h.bytes)}
+                  </p>
+                  {draft.askRestore.value === h.revision && (
+                    <p class="form-foot ask" role="group" aria-label={`Restore revision ${h.revision}`}>
+                      <span>{draft.changes.value.length === 1 ? 'One change of yours is' : `${draft.changes.value.length} changes of yours are`} not applied; restoring puts revision {h.revision} in their place.</span>
+                      <button type="button" class="button small" {...no} onClick={() => void draft.restore(h.revision, true)}>
+                        Drop mine and restore
+                      </button>
+                      <button type="button" class="button small quiet" onClick={() => (draft.askRestore.value = null)}>
+                        Keep mine
+                      </button>
+                    </p>
+                  )}
+                  {shown.value?.revision === h.revision && (shown.value.changes.length === 0 ? <p class="where">It is the site that is in force.</p> : <DifferenceList list={shown.value.changes} label={`What revision ${h.revision} would change`} />)}
+                </li>
+              ))}
+            </ul>
+            <div class="form-foot history-foot">
+              <span class="where" role="status" data-field="history-count">
+                {list.value.length === 1 ? 'One state' : `${list.value.length} states`}
+                {older.value.more ? ' shown; there may be older ones.' : ', the oldest that is kept included.'}
+              </span>
+              {older.value.more && (
+                <button type="button" class="button" aria-disabled={older.value.busy} onClick={() => void ask()}>
+                  Older
+                </button>
+              )}
+              {older.value.why && <span class="tell result-refused">{older.value.why}</span>}
+            </div>
+          </>
+        )}
+      </div>
+    </Section>
+  );
+}

@@ -1,0 +1,80 @@
+// Site pending: a restored copy that waits for the next start: what it is, since when, from whom, and the way to drop it. In: the door. Out: a notice,
+// or nothing. Only administrators are told, so nobody else's page asks. Another administrator may lay one down or drop it: it is asked for again.
+import { signal, useSignal } from '@preact/signals';
+import { useEffect } from 'preact/hooks';
+import { asProblem } from '../api/problem';
+import type { Pending, SiteDoor } from '../api/site';
+import { useGateway } from '../gateway';
+import { capital } from '../state/commander';
+import { pendingWords } from '../words/site-files';
+import { quiet, Tell, type Told } from './form';
+import { Icon } from './icon';
+import { useLoaded } from './loaded';
+
+const lookAgain_ms = 10_000;
+/** Counts up when this page has laid one down. */
+const laid = signal(0);
+export const lookAtPending = () => void (laid.value += 1);
+
+export function PendingRestore({ door }: { door: SiteDoor }) {
+  const { session, store } = useGateway();
+  const may = session.info.value?.role === 'administrator'; // not before the role is known
+  const now = useSignal<Pending | null>(null);
+  const asked = useSignal(false);
+  const told = useSignal<Told>(quiet);
+  const look = async () => void (now.value = may ? await door.pending() : null);
+  useLoaded(look, [door, may, laid.value]);
+  useEffect(() => {
+    if (!may) return;
+    const timer = setInterval(() => {
+      if (!document.hidden && store.connected.peek()) void look().catch(() => undefined);
+    }, lookAgain_ms);
+    return () => clearInterval(timer);
+  }, [door, may]);
+  const drop = async () => {
+    told.value = { tone: 'busy', text: 'Dropping it …' };
+    try {
+      await door.dropPending();
+      told.value = { tone: 'good', text: 'Dropped: the next start goes on with the database as it is.' };
+    } catch (error) {
+      told.value = { tone: 'refused', text: capital(asProblem(error).words) };
+    }
+    asked.value = false;
+    await look().catch(() => undefined);
+  };
+  const waits = may && now.value?.waiting === true;
+  if (!waits && told.value.tone === 'none') return null;
+  return (
+    <section class={`card pending-restore${waits ? ' is-waiting' : ''}`} aria-label="Restore that waits" data-field="pending">
+      {waits && now.value && (
+        <>
+          <p class="stage-count">
+            <Icon name="triangle" /> A restore waits: it takes effect with the next start.
+          </p>
+          <p class="where" data-field="pending-what">
+            {pendingWords(now.value)}
+          </p>
+        </>
+      )}
+      <div class="form-foot">
+        {waits && !asked.value && (
+          <button type="button" class="button" onClick={() => (asked.value = true)}>
+            Drop the restore …
+          </button>
+        )}
+        {waits && asked.value && (
+          <>
+            <span>The copy is taken away; the next start goes on with the database as it is.</span>
+            <button type="button" class="button" onClick={() => void drop()}>
+              Drop it
+            </button>
+            <button type="button" class="button quiet" onClick={() => (asked.value = false)}>
+              Leave it
+            </button>
+          </>
+        )}
+        <Tell told={told.value} field="pending-told" />
+      </div>
+    </section>
+  );
+}

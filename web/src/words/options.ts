@@ -1,0 +1,96 @@
+// Options of a family in words and fields: what each may say, what was typed for them, what an entry gets of it, what an increment is.
+// In: the family's catalogue, text. Out: fields, faults, the members of `options`. Pure. What the family does not know stays until it is taken away;
+// the gateway checks all of it again.
+import type { components } from '../api/schema';
+import type { FieldSpec, Room, Site, Texts } from './site';
+
+/** What the page reads of a family's catalogue; older gateways do not tell all of it. */
+export type Family = Partial<components['schemas']['Family']> & { name: string };
+export type OptionSpec = NonNullable<components['schemas']['Family']['options']>[number];
+export type Families = ReadonlyMap<string, Family>;
+
+export const optionPrefix = 'options.';
+/** "Home timeout, s" of home_timeout_s. */
+const label = (o: OptionSpec) => (o.unit ? `${words(o.name.replace(new RegExp(`_${o.unit.replace(/[^a-z]/gi, '.')}$`), ''))}, ${o.unit}` : words(o.name));
+const words = (name: string) => (name.charAt(0).toUpperCase() + name.slice(1)).replaceAll('_', ' ');
+
+/** The family that an entry is of, as it is typed: of a line its own, of a drive its line's, of an axis its drive's line's. */
+export function familyOf(room: Room, texts: Texts, site: Site): string {
+  if (room === 'lines') return texts.family ?? '';
+  const drive = room === 'drives' ? texts.line : (site.drives ?? []).find((d) => d.name === texts.drive)?.line;
+  return String((site.lines ?? []).find((l) => l.name === drive)?.family ?? '');
+}
+
+/** What may be said at a line or a drive. A twin's options stand beside those of its drive, or of its line for all twins of that. */
+export const optionsFor = (family: Family | undefined, room: Room): readonly OptionSpec[] =>
+  room === 'axes' ? [] : (family?.options ?? []).filter((o) => o.of.includes('twin') || o.of.includes(room === 'lines' ? 'line' : 'drive'));
+
+const switchWords = ['on', 'off', 'true', 'false', '1', '0'];
+/** Six words for a switch are two to choose from. */
+const choicesOf = (o: OptionSpec): readonly string[] => (o.values && switchWords.every((w) => o.values?.includes(w)) ? o.values.filter((v) => v === 'on' || v === 'off') : (o.values ?? []));
+const rangeOf = (o: OptionSpec): string => {
+  const unit = o.unit ? ` ${o.unit}` : '';
+  if (o.min !== undefined && o.max !== undefined) return `${o.min} to ${o.max}${unit}`;
+  return o.min !== undefined ? `from ${o.min}${unit}` : o.max !== undefined ? `up to ${o.max}${unit}` : '';
+};
+
+/** An option as a field of a form: its range, its default and its description are in its hint. */
+export function optionField(o: OptionSpec, room: Room): FieldSpec {
+  const own = o.of.includes(room === 'lines' ? 'line' : 'drive');
+  const whole = o.min !== undefined || o.max !== undefined;
+  const standard = o.default === null || o.default === undefined ? '' : `${o.default}${o.unit ? ` ${o.unit}` : ''}`;
+  const hint = [own ? '' : room === 'lines' ? 'Of all twins of this line' : 'Of its twin', o.description, rangeOf(o), standard ? `default ${standard}` : 'not given: as described'].filter(Boolean).join('. ');
+  const f: FieldSpec = { key: optionPrefix + o.name, label: label(o), kind: o.values ? 'choice' : whole ? 'integer' : 'text', hint: `${hint}.` };
+  if (o.min !== undefined) f.min = o.min;
+  if (o.max !== undefined) f.max = o.max;
+  if (o.values) f.choices = [{ value: '', text: standard ? `default: ${standard}` : 'not given' }, ...choicesOf(o).map((value) => ({ value, text: value }))];
+  else f.placeholder = standard;
+  return f;
+}
+
+/** What is said of a value that is not the family's; empty: nothing. */
+export function optionFault(o: OptionSpec, text: string): string {
+  const t = text.trim();
+  if (t === '') return '';
+  if (o.values) return o.values.includes(t) ? '' : `One of ${o.values.join(', ')}.`;
+  if (o.min === undefined && o.max === undefined) return '';
+  if (!/^[+-]?\d+$/.test(t)) return 'A whole number.';
+  const n = Number(t);
+  return (o.min !== undefined && n < o.min) || (o.max !== undefined && n > o.max) ? `${words(rangeOf(o))}.` : '';
+}
+
+/** Names that were typed, or were there, and are none of the family's: they count as not given, and stay until they are emptied. */
+export const unknownOptions = (texts: Texts, specs: readonly OptionSpec[]): string[] =>
+  Object.keys(texts).filter((k) => k.startsWith(optionPrefix) && !specs.some((o) => optionPrefix + o.name === k)).map((k) => k.slice(optionPrefix.length));
+
+type Options = Record<string, string | number | boolean>;
+/** Each member as a text of its own: a value may have commas and equal signs in it. */
+export const optionTexts = (options: unknown): Texts => (options && typeof options === 'object' ? Object.fromEntries(Object.entries(options).map(([k, v]) => [optionPrefix + k, String(v)])) : {});
+
+/** The members of `options` from their texts; what was not touched stays as it was written. */
+export function optionsFrom(texts: Texts, before: unknown): Options {
+  const old = (before ?? {}) as Options;
+  const made: Options = {};
+  for (const [key, text] of Object.entries(texts)) {
+    if (!key.startsWith(optionPrefix)) continue;
+    const name = key.slice(optionPrefix.length);
+    if (name in old && String(old[name]) === text) made[name] = old[name] as string | number | boolean;
+    else if (text.trim() !== '') made[name] = text.trim();
+  }
+  return made;
+}
+
+/** "Options of uim342: 9; set: crc, notify". */
+export function optionsTitle(family: string, specs: readonly OptionSpec[], texts: Texts): string {
+  const set = Object.keys(texts).filter((k) => k.startsWith(optionPrefix) && (texts[k] ?? '').trim() !== '').map((k) => k.slice(optionPrefix.length));
+  const of = family ? `Options of ${family}` : 'Options';
+  return `${of}${specs.length > 0 ? `: ${specs.length}` : ''}${set.length > 0 ? `; set: ${set.join(', ')}` : specs.length > 0 ? ', none set' : ''}`;
+}
+
+/** What an increment of the drive is, beside the field that asks how many of them make a unit. */
+export function incrementHint(family: Family | undefined, unit: string): string {
+  const what = `how many increments of the drive make one ${unit.trim() || 'unit'}`;
+  const own = family?.position_unit;
+  if (typeof own !== 'string' || own === '') return what;
+  return `${what}; one increment of ${family?.name} is ${/^\d/.test(own) ? own : `one ${own}`}`;
+}

@@ -1,0 +1,34 @@
+// A snapshot in words: when, of what drives, by whom; and why one of another family is of no use here. In: documents. Out: text, choices. Pure.
+import type { Snapshot } from '../api/snapshots';
+import { clockTime } from './time';
+
+const titled = (family: string, titles: ReadonlyMap<string, string>): string => (titles.has(family) ? `${titles.get(family)} (${family})` : family);
+
+/** "21:03:11 · UIROBOT UIM342 (uim342) · 58 values · by anna · stored values · as delivered". */
+export function snapshotWords(s: Snapshot, titles: ReadonlyMap<string, string>): string {
+  const count = s.values ?? (typeof s.parameters === 'number' ? s.parameters : undefined);
+  return [
+    s.at ? clockTime(s.at) : '',
+    s.family ? titled(s.family, titles) : s.family === null ? 'family not known: taken by an older program' : '',
+    count === undefined ? '' : count === 1 ? '1 value' : `${count} values`,
+    s.who ? `by ${s.who}` : '',
+    s.from === 'stored' ? 'stored values' : '',
+    s.comment ?? '',
+  ].filter(Boolean).join(' · ');
+}
+
+const foreign = (s: Snapshot, family: string) => Boolean(s.family && family && s.family !== family);
+
+/** Why it can be neither compared nor restored here; empty: it can, as far as the page knows. */
+export const foreignWords = (s: Snapshot, family: string, titles: ReadonlyMap<string, string>): string =>
+  foreign(s, family) ? `Taken of ${titled(s.family ?? '', titles)}; the drive is ${titled(family, titles)} now, so it is neither compared nor restored.` : '';
+
+export interface Offer {
+  value: string;
+  text: string;
+  disabled?: boolean;
+}
+export const snapshotChoice = (s: Snapshot, value: string, family: string): Offer =>
+  foreign(s, family) ? { value, text: `snapshot ${s.name}: of ${s.family}, not comparable`, disabled: true } : { value, text: `snapshot ${s.name}` };
+export const axisChoice = (name: string, theirs: string, family: string): Offer =>
+  theirs !== family ? { value: `axis:${name}`, text: `axis ${name}: ${theirs}, not comparable`, disabled: true } : { value: `axis:${name}`, text: `axis ${name}, values known now` };

@@ -1,0 +1,55 @@
+// Small words: a restore that waits, a snapshot and its family, an event in the axis' unit, the type and unit that a mapped value has by itself.
+import { describe, expect, it } from 'vitest';
+import { inUnits } from '../src/words/event';
+import { naturalType, valueUnit } from '../src/words/mapping-type';
+import type { Known } from '../src/words/mapping';
+import { pendingWords, sizeWords } from '../src/words/site-files';
+import { axisChoice, foreignWords, snapshotChoice, snapshotWords } from '../src/words/snapshot';
+import { clockTime } from '../src/words/time';
+
+const at = '2026-03-01T10:11:12Z';
+const titles = new Map([['uim342', 'UIROBOT UIM342']]);
+
+it('a restore that waits says when, who, how large, what it brings, and what goes', () => {
+  expect(pendingWords({ waiting: true, at, who: 'anna 10.0.0.2', bytes: 319_488, version: 5, site_revision: 7 })).toBe(`Laid down ${clockTime(at)} by anna 10.0.0.2, 312 KiB. It brings site revision 7 with it, and a database of structure 5. Site, mappings, parameters, snapshots, recipes, events, users and tokens of now go with that start.`);
+  expect(pendingWords({ waiting: true, at: null, who: null, bytes: null, version: null, site_revision: null })).toMatch(/^Laid down\. Site,/);
+  expect([sizeWords(5), sizeWords(2048), sizeWords(3_500_000)]).toEqual(['5 bytes', '2 KiB', '3.3 MiB']);
+});
+
+describe('a snapshot', () => {
+  const s = { n: 1, name: 'first', at, who: 'anna', family: 'uim342', values: 58, comment: 'as delivered' };
+  it('says when, of what, how much, by whom', () => {
+    expect(snapshotWords(s, titles)).toBe(`${clockTime(at)} · UIROBOT UIM342 (uim342) · 58 values · by anna · as delivered`);
+    expect(snapshotWords({ n: 1, name: 'x', family: null, values: 1 }, titles)).toBe('family not known: taken by an older program · 1 value');
+  });
+  it('of another family says why it is of no use, everywhere; one that nobody knows is not barred', () => {
+    expect(foreignWords(s, 'uim342', titles)).toBe('');
+    expect(foreignWords({ ...s, family: null }, 'mcode', titles)).toBe('');
+    expect(foreignWords(s, 'mcode', titles)).toBe('Taken of UIROBOT UIM342 (uim342); the drive is mcode now, so it is neither compared nor restored.');
+    expect(snapshotChoice(s, '1', 'mcode')).toEqual({ value: '1', text: 'snapshot first: of uim342, not comparable', disabled: true });
+    expect(snapshotChoice(s, '1', 'uim342')).toEqual({ value: '1', text: 'snapshot first' });
+    expect([axisChoice('b', 'mcode', 'uim342').disabled, axisChoice('b', 'uim342', 'uim342').disabled]).toEqual([true, undefined]);
+  });
+});
+
+it.each([
+  ['move_relative 16000', 'move_relative 5.000 mm (16 000 increments)'],
+  ['move_velocity -32000', 'move_velocity −10.000 mm/s (−32 000 increments/s)'],
+  ['interrupted: axis feeder has stopped before its target (at 3200 increments)', 'interrupted: axis feeder has stopped before its target at 1.000 mm (3200 increments)'],
+  ['enable', 'enable'],
+  ['AC 16000', 'AC 16000'],
+])('an event says %s in the unit of its axis', (text, said) => {
+  expect(inUnits(text, { unit: 'mm', increments_per_unit: 3200 }).replaceAll('\u202f', ' ')).toBe(said.replaceAll('16 000', '16 000'));
+  expect(inUnits(text, { unit: '', increments_per_unit: 1 })).toBe(text);
+  expect(inUnits(text, undefined)).toBe(text);
+});
+
+describe('a mapped value by itself', () => {
+  const known: Known = { axes: ['a'], points: [], parameters: () => ['MT', 'AC'], parameter: (_, id) => (id === 'MT' ? { type: 'u8', unit: null } : id === 'AC' ? { type: 'u32', unit: 'pulse/s^2' } : null) };
+  it.each([['position', 'i32'], ['statusword', 'u16'], ['position_units', 'f32'], ['moving', 'bool'], ['mode', 'i16'], ['AC', 'u32'], ['MT[3]', 'u16'], ['toString', null], ['', null], ['nothing', null]])('%s is %s', (point, type) => {
+    expect(naturalType('a', point, known)).toBe(type);
+  });
+  it('has a unit', () => {
+    expect(['position_units', 'velocity', 'statusword', 'AC', 'MT[3]', 'nothing'].map((p) => valueUnit({ unit: 'mm' }, 'a', p, known))).toEqual(['mm', 'inc/s', '', 'pulse/s²', '', '']);
+  });
+});

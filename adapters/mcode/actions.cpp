@@ -142,8 +142,10 @@ void Node::query_answered(const std::string& data, Turn& t) {
 }
 
 void Node::plan_native(const Native& native, Turn& t) {
-    const std::string line(native.send.begin(), native.send.end());
-    if (!native.is_text) return job_over(Outcome::refused, Reason::not_supported, "MCode is text: use send", t);
+    std::string line(native.send.begin(), native.send.end());
+    // Bytes are the same line, with its end or without: the end, the name and the checksum are the line's own business.
+    if (!native.is_text && line.ends_with('\n')) line.pop_back();
+    if (!native.is_text && line.ends_with('\r')) line.pop_back();
     if (auto why = check_line(line); !why.empty()) return job_over(Outcome::refused, Reason::out_of_range, why, t);
     const std::string w = word_of(line);
     if (w.starts_with("PG") && w.find_first_not_of("0123456789", 2) == std::string::npos)  // PG1 means PG 1 [L7052]

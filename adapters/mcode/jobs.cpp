@@ -170,6 +170,13 @@ void Node::plan_move(const Move& m, Turn& t) {
     if (auto why = rate(m.acceleration, a_, 'A'); !why.empty()) return refuse(Reason::out_of_range, std::move(why));
     if (auto why = rate(m.deceleration, d_, 'D'); !why.empty()) return refuse(Reason::out_of_range, std::move(why));
     if (velocity) {
+        // The drive refuses a speed below VI (error 97): VI goes down with it, and comes back at rest, where no motion feels it.
+        const std::int64_t speed = std::abs(m.target);
+        const std::int64_t vi = speed == 0 || user_vi_ == 0 ? vi_ : std::min(user_vi_, speed);
+        if (vi != vi_ && vi_ != 0 && (vi < vi_ || (!mv_ && (vm_ == 0 || vi < vm_)))) {
+            job_.add(Step::What::send, fmt::format("VI={}", vi));
+            vi_ = vi;
+        }
         job_.add(Step::What::send, fmt::format("SL {}", m.target));
         return;
     }
@@ -205,6 +212,11 @@ void Node::plan_home(const Home& h, Turn& t) {
                               Row{-5, "HI 1"}, Row{-6, "HI 2"}, Row{-7, "HI 3"}, Row{-8, "HI 4"}};
     for (const auto& r : rows) {
         if (r.method == method) {
+            // The search creeps with VI: not with what a slow move has left of it.
+            if (vi_ != 0 && user_vi_ > vi_ && user_vi_ < vm_) {
+                job_.add(Step::What::send, fmt::format("VI={}", user_vi_));
+                vi_ = user_vi_;
+            }
             job_.add(Step::What::send, std::string(r.line), false);
             return;
         }

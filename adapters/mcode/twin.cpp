@@ -5,11 +5,14 @@
 
 #include "adapters/mcode/twin_device.hpp"
 #include "adapters/mcode/twin_switched.hpp"
+#include "gateway/core/catalogue.hpp"
 
 namespace axisgate::mcode {
 
-std::unique_ptr<Twin> make_twin(const Catalogue&, const TwinSetup& setup) {
+std::unique_ptr<Twin> make_twin(const Catalogue& catalogue, const TwinSetup& setup) {
     twin::DeviceSetup d;
+    for (const ErrorCode& e : catalogue.errors())
+        d.codes.push_back(e.code);
     twin::MechanismSetup m;
     const std::string product = option(setup.options, "product", "LMDC");
     d.product = product == "LMM" ? twin::lmm : product == "LMDO" ? twin::lmdo : twin::lmdc;

@@ -6,6 +6,7 @@
 #include <deque>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "adapters/mcode/twin_comm.hpp"
 #include "adapters/mcode/twin_mechanism.hpp"
@@ -35,6 +36,7 @@ struct DeviceSetup {
     bool base_two = false;       ///< LO has base 2, else it is the natural logarithm (E-15)
     std::string part_number = "LMDCM571";
     std::string serial_number = "0000000001";
+    std::vector<int> codes;  ///< errors that a hand can inject; empty: all numbers
 };
 
 class Device final : public Twin, private Host {

@@ -65,6 +65,8 @@ std::string Device::set_hand(const std::string& name, const Value& value, Instan
         const auto code = as_integer(value);
         if (!code || *code < 0 || *code > 111)
             return "inject_error: " + axisgate::to_text(value) + " is not an MCode error, 1..111, or 0 to clear it";
+        if (*code != 0 && !setup_.codes.empty() && std::ranges::find(setup_.codes, static_cast<int>(*code)) == setup_.codes.end())
+            return "inject_error: MCode has no error " + std::to_string(*code) + "; the catalogue lists those that it has";
         if (!powered_) return "inject_error: the drive has no power";
         raise(static_cast<int>(*code));
         settle(out);

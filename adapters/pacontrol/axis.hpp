@@ -109,8 +109,11 @@ struct Axis {
     bool quick_stopped = false;
     bool referenced_own = false;    ///< as far as the gateway's own commands tell
     int status = -1;                ///< 1910: 0 in position, 1 moving, 2 stopped, 4 malfunction, 8 measuring; -1 not read yet
+    bool malfunction_told = false;  ///< status 4 is known to everybody; asking anew does not make it news
+    std::uint16_t trouble = 0;      ///< PA-CONTROL error of the fault that lasts: status 4 may be read for a while after the number has gone
     int limits = -1;                ///< 1921: bit 0 power pack ready, 1 positive switch free, 2 negative switch free; -1 not read
     bool extended_missing = false;  ///< 1921 is not executable here: 1910 is read in its place
+    bool reached = false;           ///< the last motion has ended at its target, by the control's counter
     bool running = false;
     Motion motion;
     std::optional<std::int64_t> speed, acceleration;  ///< overrides in force, increments/s and /s2

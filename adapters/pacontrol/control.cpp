@@ -402,7 +402,7 @@ void Control::job_silent(Axis& a, Turn& t) {
     if (!repeatable && c && c->online_only && c->parameter == Takes::axis && j.kind != Job::Kind::native) {
         j.unknown = true;
         j.text = fmt::format("{} was not acknowledged: whether the control carries it out is not known", what);
-        a.fb.target_reached = false;
+        a.reached = false;
         return ask(a, code::position, static_cast<std::uint32_t>(a.channel), t);
     }
     job_over(a, Outcome::failed, Reason::no_answer,

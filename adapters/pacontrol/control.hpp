@@ -144,6 +144,7 @@ private:
     void derive(Axis& a, Instant now);
     void emit(Axis& a, Turn& t);
     void emit_all(Turn& t);
+    [[nodiscard]] bool shown_by_axes() const;
     void begin_motion(Axis& a, Motion motion, Turn& t);
     void end_motion(Axis& a, bool reached, Reason reason, const std::string& text, Turn& t);
     void check_waits(Axis& a, Turn& t);
@@ -168,6 +169,8 @@ private:
     void rest(Axis& a, std::int64_t position);
     [[nodiscard]] static std::int64_t following_error(const Axis& a) noexcept;
     [[nodiscard]] static bool tells_following_error(const Axis& a) noexcept;
+    /// By more than two full steps: the shaft is held, or has lost steps.
+    [[nodiscard]] static bool stands_behind(const Axis& a) noexcept;
     void following_answered(Axis& a, double microsteps_behind);
     void following_refused(Axis& a, const Reply& reply);
     [[nodiscard]] bool parameters_readable(Instant now) const noexcept;

@@ -11,6 +11,7 @@
 namespace axisgate::pacontrol {
 namespace {
 constexpr double microsteps = 3200;           // of one motor revolution [L3098]
+constexpr double full_step = microsteps / 200;
 constexpr double steady = microsteps / 100;   // from one answer of 1915 to the next
 constexpr double increments_per_unit = 1000;  // README, units
 constexpr std::size_t parameters_per_cycle = 4;
@@ -192,6 +193,10 @@ bool Control::tells_following_error(const Axis& a) noexcept {
 
 std::int64_t Control::following_error(const Axis& a) noexcept {
     return increments_of(a.aim.lag.value_or(0) / microsteps * a.aim.parameters[Aim::gear].value.value_or(0));
+}
+
+bool Control::stands_behind(const Axis& a) noexcept {
+    return tells_following_error(a) && a.aim.lag && std::fabs(*a.aim.lag) > 2 * full_step;
 }
 
 void Control::following_answered(Axis& a, double microsteps_behind) {

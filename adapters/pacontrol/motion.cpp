@@ -121,7 +121,7 @@ void Control::run_move(Axis& a, const Reply* reply, Turn& t) {
     }
     if (m.kind == Move::Kind::velocity && m.target == 0) {
         const Command c = j.command;
-        a.fb.target_reached = false;
+        a.reached = false;
         emit(a, t);
         a.job = Job{};
         return accepted(a, c, Wait::For::standstill, 0, "the axis stands", t);
@@ -225,7 +225,7 @@ void Control::run_origin(Axis& a, const Reply* reply, Turn& t) {
         return ask(a, code::position, ch, t);
     }
     if (ended_by_quit(a, *reply, t)) return;
-    a.fb.target_reached = false;
+    a.reached = false;
     learn_position(a, number_of(*reply).value_or(0), t);
     job_over(a, j.command.until_done ? Outcome::done : Outcome::accepted, Reason::none, "", t);
 }

@@ -196,6 +196,11 @@ void Control::poll_answered(const Poll& p, const Reply& reply, Turn& t) {
     rest(a, reached && m.kind == Motion::Kind::position ? m.target : position);
     end_motion(a, reached, a.status == 4 && error_ != 0 ? Reason::drive_refused : Reason::interrupted,
                fmt::format("axis {} has stopped at {}, target {}: {}", a.channel, axis_text(position), axis_text(m.target), why), t);
+    if (reached && stands_behind(a))
+        notice(Severity::warning, "motion", a.status,
+               fmt::format("axis {}: in position by its counter, but the shaft is {} behind: it is held or has lost steps", a.channel,
+                           axis_text(following_error(a))),
+               t, a.id);
     if (!reached)
         notice(Severity::info, "motion", a.status, fmt::format("axis {}: {}, at {}", a.channel, why, axis_text(position)), t, a.id);
 }

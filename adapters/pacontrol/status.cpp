@@ -33,6 +33,11 @@ void Control::sample(const Axis& a, Point point, const Value& value, Turn& t) {
     }
 }
 
+/// Where an axis is shown, its fault is the alarm; the control's own word is one only where there is none to say it.
+bool Control::shown_by_axes() const {
+    return phase_ == Phase::ready && std::ranges::any_of(axes_, [](const Axis& a) { return a.id != no_axis && a.position_known; });
+}
+
 /// STATUS and ERROR of any acknowledgement.
 void Control::learn(const Reply& reply, Turn& t) {
     const int before = mode_;
@@ -43,7 +48,7 @@ void Control::learn(const Reply& reply, Turn& t) {
         error_ = reply.error;
         if (error_ != 0) {
             const ErrorCode* known_error = catalogue_.error(error_, "system");
-            notice(Severity::alarm, "alarm", error_,
+            notice(shown_by_axes() ? Severity::info : Severity::alarm, "alarm", error_,
                    fmt::format("PA-CONTROL error E{}{}{}", error_, known_error ? ": " : "", known_error ? known_error->text : ""), t);
         } else {
             notice(Severity::info, "alarm", 0, "no PA-CONTROL error any more", t);
@@ -61,7 +66,7 @@ void Control::mode_changed(int before, Turn& t) {
     if (is_online(before) && !is_online(mode_)) return left_online(before, t);
     if (is_home(mode_) && !is_home(before)) parameters_may_have_changed();
     if (is_malfunction(mode_) && !is_malfunction(before)) {
-        notice(Severity::alarm, "mode", mode_, fmt::format("operating status is now {}", status_text(mode_)), t);
+        notice(shown_by_axes() ? Severity::info : Severity::alarm, "mode", mode_, fmt::format("operating status is now {}", status_text(mode_)), t);
     } else if (mode_ == status::online_stop || (mode_ == status::online_stopped && before == status::online)) {
         const std::string text = fmt::format("operating status is now {}: stopped at the control or by its stop input", status_text(mode_));
         notice(Severity::warning, "mode", mode_, text, t);
@@ -102,14 +107,21 @@ void Control::derive(Axis& a, Instant now) {
     AxisFeedback& f = a.fb;
     f.power = mode_ < 0 ? AxisFeedback::Power::unknown : a.on && is_online(mode_) ? AxisFeedback::Power::on : AxisFeedback::Power::off;
     f.fault = error_ != 0 || is_malfunction(mode_) || a.status == 4;
-    f.error_code = error_;
+    // The error's number goes before the status of the axis is read anew: until then it is the same fault, not one without a number.
+    if (error_ != 0) a.trouble = error_;
+    if (!f.fault) a.trouble = 0;
+    f.error_code = a.trouble;
     f.moving = a.running || a.motion.active();
-    if (f.moving) f.target_reached = false;
+    if (f.moving) a.reached = false;
     if (!f.moving) f.velocity = 0;  // it stands: 1910 or 1911 has said so
     f.internal_limit = a.limits >= 0 && (a.limits & 6) != 6;
     f.quick_stopping = a.on && (mode_ == status::online_stop || mode_ == status::online_stopped);
     f.warning = a.limits >= 0 && a.on && !(a.limits & 1);
     show_demand(a, now);
+    // The control calls it in position by its counter alone; whoever reads the flag means the shaft.
+    const bool behind = !f.moving && stands_behind(a);
+    f.target_reached = a.reached && !behind;
+    f.warning = f.warning || behind;
     const int status = a.status < 0 && a.running ? 1 : a.status;  // 1911 says as much as 1910 of an axis that moves
     f.native_status = static_cast<std::uint32_t>(mode_ & 0xFF) | static_cast<std::uint32_t>(status & 0xFF) << 8 |
                       static_cast<std::uint32_t>(a.limits & 0xFF) << 16;
@@ -166,16 +178,17 @@ void Control::learn_running(std::uint32_t mask, Turn& t) {
 }
 
 void Control::learn_status(Axis& a, int s, Turn& t) {
-    const int before = a.status;
     a.status = s;
     if (s == 1) {
         a.running = true;
         a.motion.final_due = false;
     }
-    if (s == 4 && before != 4) {
-        notice(Severity::alarm, "axis", 4, fmt::format("axis {}: axis status 4, malfunction", a.channel), t, a.id);
+    if (s == 4 && !a.malfunction_told) {
+        // The fault that follows from it is the alarm.
+        notice(Severity::info, "axis", 4, fmt::format("axis {}: axis status 4, malfunction", a.channel), t, a.id);
         wake_ = true;
     }
+    a.malfunction_told = s == 4;
 }
 
 void Control::begin_motion(Axis& a, Motion motion, Turn& t) {
@@ -183,7 +196,7 @@ void Control::begin_motion(Axis& a, Motion motion, Turn& t) {
     a.motion.begun = exchanges_;
     a.running = true;
     a.status = -1;
-    a.fb.target_reached = a.fb.homing_attained = false;
+    a.reached = a.fb.homing_attained = false;
     a.fb.homing_error = false;
     a.quick_stopped = false;
     cycle_at_ = std::min(cycle_at_, t.now);
@@ -198,7 +211,7 @@ void Control::end_motion(Axis& a, bool reached, Reason reason, const std::string
     a.condition_set = false;
     wake_ = true;
     if (reached) a.running = false;
-    a.fb.target_reached = reached;
+    a.reached = reached;
     if (was.kind == Motion::Kind::reference) {
         a.fb.homing_attained = reached;
         a.fb.homing_error = !reached && reason != Reason::interrupted;
@@ -228,7 +241,7 @@ void Control::check_waits(Axis& a, Turn& t) {
         bool done = false;
         switch (w.what) {
             case Wait::For::target:
-                done = f.target_reached && !f.moving;
+                done = a.reached && !f.moving;
                 break;
             case Wait::For::standstill:
                 done = !f.moving;

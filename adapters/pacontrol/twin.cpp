@@ -77,6 +77,13 @@ void Device::power_on(const NonVolatile& memory, Instant now, Out&) {
     control_.power_on(memory, last_);
 }
 
+bool Device::fit_axes(int axes, Instant now) {
+    last_ = std::max(now, last_);
+    setup_.control.axes = std::clamp(axes, 1, 16);
+    control_.fit_axes(axes, last_);
+    return true;
+}
+
 Instant Device::deadline() const {
     if (!powered_) return never;
     const Instant next = control_.deadline();

@@ -29,6 +29,29 @@ Control::Control(const ControlSetup& setup) : setup_(setup), mode_(setup.times) 
     system_ = usual_system_parameters(setup_.axes);
 }
 
+void Control::fit_axes(int n, Instant now) {
+    advance(now);
+    const auto before = axes_.size(), after = static_cast<std::size_t>(std::clamp(n, 1, 16));
+    if (after <= before) return;
+    const SystemParameters was = usual_system_parameters(axes()), is = usual_system_parameters(static_cast<int>(after));
+    for (std::size_t i = 1; i <= system_parameters; ++i) {
+        if (system_[i] == was[i]) system_[i] = is[i];
+    }
+    setup_.axes = static_cast<int>(after);
+    AxisParameters p = usual_axis_parameters();
+    p[ap::absolute] = setup_.absolute ? 1.0F : 0.0F;
+    axes_.resize(after, Axis{setup_.axis, p});
+    kept_.resize(after);
+    overrides_.resize(after);
+    next_condition_.resize(after);
+    condition_.resize(after);
+    condition_input_.resize(after, 1);
+    limits_monitored_.resize(after, true);
+    for (std::size_t a = before; a < after; ++a)
+        axes_[a].boot(kept_[a]);
+    ++revision_;
+}
+
 bool Control::has_axis(std::int64_t n) const noexcept {
     return n >= 1 && n <= static_cast<std::int64_t>(axes_.size()) && n <= system_[sp::axes];
 }

@@ -104,6 +104,8 @@ public:
     [[nodiscard]] std::uint8_t status() const noexcept;  ///< operating status, decimal [L3991]
     [[nodiscard]] std::uint8_t column() const noexcept { return column_of(status()); }
     [[nodiscard]] std::uint16_t error() const noexcept { return error_; }  ///< PA-CONTROL error number, 0: none
+    /// As many axes as this, 16 at most; those that come new are as the factory made them, the others go on as they are.
+    void fit_axes(int n, Instant now);
     [[nodiscard]] int axes() const noexcept { return static_cast<int>(axes_.size()); }
     [[nodiscard]] bool has_axis(std::int64_t n) const noexcept;
     [[nodiscard]] const Axis& axis(int n) const { return axes_.at(static_cast<std::size_t>(n - 1)); }

@@ -34,6 +34,7 @@ public:
     [[nodiscard]] Instant deadline() const override;
     void power_on(const NonVolatile& memory, Instant now, Out& out) override;
     [[nodiscard]] NonVolatile non_volatile() const override { return control_.memory(); }
+    [[nodiscard]] bool fit_axes(int axes, Instant now) override;
     [[nodiscard]] std::uint64_t non_volatile_revision() const override { return control_.revision(); }
     [[nodiscard]] std::vector<HandItem> hand() const override;
     [[nodiscard]] std::string set_hand(const std::string& name, const Value& value, Instant now, Out& out) override;

@@ -210,13 +210,18 @@ NativeScript parse_native(std::uint8_t node, std::string_view text) {
 
 NativeScript parse_native(std::uint8_t node, std::span<const std::uint8_t> bytes) {
     NativeScript s;
+    const std::size_t all = bytes.size();
     while (!bytes.empty()) {
         if (s.messages.size() == native_limit) {
             s.fault = fmt::format("at most {} messages at once", native_limit);
             return s;
         }
         if (bytes.size() < 2 || bytes[1] > 8 || bytes.size() < 2u + bytes[1]) {
-            s.fault = "a message is CW, DL (0..8) and exactly DL data bytes";
+            const std::size_t place = all - bytes.size() + 1;
+            const std::string what = bytes.size() < 2 ? fmt::format("byte {} (0x{:02X}) is a CW without its DL", place, bytes[0])
+                                     : bytes[1] > 8   ? fmt::format("byte {} is 0x{:02X}, which is no DL", place + 1, bytes[1])
+                                                      : fmt::format("byte {} announces {} data bytes, and {} follow", place + 1, bytes[1], bytes.size() - 2);
+            s.fault = what + ": a message is CW, DL (0..8) and exactly DL data bytes";
             return s;
         }
         s.messages.push_back(message(node, bytes[0], bytes.subspan(2, bytes[1])));

@@ -44,6 +44,12 @@ void AxisAuthority::give(const AuthorityClient& who, Duration lease, Instant now
     for_any_of_user_ = false;
 }
 
+void AxisAuthority::end_lease() {
+    if (commander_ == holder_) given_up_ = true;
+    holder_ = {};
+    until_ = {};
+}
+
 bool AxisAuthority::mine(const AuthorityClient& who) const noexcept {
     if (holder_ == who) return true;
     return for_any_of_user_ && holder_.door == who.door && who.name.size() > holder_.name.size() && who.name.starts_with(holder_.name) &&
@@ -80,6 +86,7 @@ Verdict AxisAuthority::command(const AuthorityClient& who, AuthorityMode mode, D
         give(who, held_already ? std::max(lease, until_ - now) : lease, now);
         if (!held_already) v = {true, Change::taken, "held by " + who.text()};
     }
+    given_up_ = false;
     if (commander_ != who) {
         if (v.change == Change::none) {
             v = {true, Change::commander,
@@ -106,8 +113,7 @@ Verdict AxisAuthority::take(const AuthorityClient& who, Duration lease, bool tak
 Verdict AxisAuthority::release(const AuthorityClient& who, Instant now) {
     if (!held(now)) return {};
     if (!mine(who)) return refusal(now);
-    holder_ = {};
-    until_ = {};
+    end_lease();
     return {true, Change::released, "released by " + who.text()};
 }
 
@@ -133,8 +139,7 @@ Verdict AxisAuthority::hand_over(const AuthorityClient& who, std::string_view to
 Verdict AxisAuthority::expire(Instant now) {
     if (holder_.door == Door::none || held(now)) return {};
     const std::string before = holder_.text();
-    holder_ = {};
-    until_ = {};
+    end_lease();
     return {true, Change::expired, fmt::format("free again: the lease of {} has expired", before)};
 }
 

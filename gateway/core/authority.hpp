@@ -59,18 +59,20 @@ public:
     [[nodiscard]] const AuthorityClient& commander() const noexcept { return commander_; }
     [[nodiscard]] Instant since() const noexcept { return since_; }
     [[nodiscard]] Instant until() const noexcept { return until_; }
-    /// For register 17: the holder's door, or the one that commanded last while nobody holds it.
-    [[nodiscard]] Door door() const noexcept { return holder_.door != Door::none ? holder_.door : commander_.door; }
+    /// For register 17: the holder's door; while nobody holds it the one that commanded last, unless that was a holder whose lease has ended.
+    [[nodiscard]] Door door() const noexcept { return holder_.door != Door::none ? holder_.door : given_up_ ? Door::none : commander_.door; }
 
 private:
     [[nodiscard]] bool mine(const AuthorityClient& who) const noexcept;
     bool bind(const AuthorityClient& who) noexcept;
     void give(const AuthorityClient& who, Duration lease, Instant now);
+    void end_lease();
     [[nodiscard]] Verdict refusal(Instant now) const;
 
     AuthorityClient holder_, commander_;
     Instant since_{}, until_{};
     bool for_any_of_user_ = false;  ///< handed over, and not used yet
+    bool given_up_ = false;         ///< who commanded last held it then, and does not any more
 };
 
 }  // namespace axisgate

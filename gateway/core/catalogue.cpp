@@ -147,8 +147,15 @@ std::optional<Catalogue> Catalogue::parse(std::string_view text, std::vector<std
                 faults.push_back(fmt::format("errors[{}].code: a whole number is missing", i));
                 continue;
             }
+            const auto* through = o.if_contains("through");
+            if (through && !through->is_null() && !(through->is_int64() && through->get_int64() > code->get_int64())) {
+                faults.push_back(fmt::format("errors[{}].through: a whole number above code is missing", i));
+                continue;
+            }
+            const bool range = through && through->is_int64();
             c.errors_.push_back({static_cast<std::int32_t>(code->get_int64()), text_or_empty(o, "kind"), text_or_empty(o, "name"),
-                                 text_or_empty(o, "text"), text_or_empty(o, "cause"), text_or_empty(o, "remedy")});
+                                 text_or_empty(o, "text"), text_or_empty(o, "cause"), text_or_empty(o, "remedy"),
+                                 range ? static_cast<std::int32_t>(through->get_int64()) : 0});
         }
     }
     if (faults.size() != before) return std::nullopt;
@@ -184,6 +191,12 @@ std::optional<Point> Catalogue::find(std::string_view id) const {
     return parameters_[it->second].count != 0 && parameter(point) ? std::optional(point) : std::nullopt;
 }
 
+std::optional<std::uint32_t> Catalogue::selector(Point point) const noexcept {
+    const Parameter* p = parameter(point);
+    if (!p || p->type == ValueType::text || p->type == ValueType::bytes) return std::nullopt;
+    return std::uint32_t{point.element} << 16 | point.parameter;
+}
+
 std::string Catalogue::id_of(Point point) const {
     const Parameter* p = parameter(point);
     if (!p) return fmt::format("point {}.{}", point.parameter, point.element);
@@ -192,7 +205,8 @@ std::string Catalogue::id_of(Point point) const {
 
 const ErrorCode* Catalogue::error(std::int32_t code, std::string_view kind) const noexcept {
     for (const auto& e : errors_) {
-        if (e.code == code && (kind.empty() || e.kind == kind)) return &e;
+        const bool meant = e.through == 0 ? e.code == code : e.code <= code && code <= e.through;
+        if (meant && (kind.empty() || e.kind == kind)) return &e;
     }
     return nullptr;
 }

@@ -60,6 +60,7 @@ struct ErrorCode {
     std::string text;
     std::string cause;
     std::string remedy;
+    std::int32_t through = 0;  ///< of a class of codes: the last one; 0: `code` alone
 };
 
 class Catalogue {
@@ -80,9 +81,13 @@ public:
     [[nodiscard]] const Parameter* parameter(Point point) const noexcept;
     /// By id or by name, with the element in brackets for arrays: "AC", "acceleration", "N[17]".
     [[nodiscard]] std::optional<Point> find(std::string_view id) const;
+    /// The number that registers name a point by: the parameter's position, the element of an array in the upper 16 bits. Nothing where
+    /// registers do not carry it: texts, bytes, what is not there.
+    [[nodiscard]] std::optional<std::uint32_t> selector(Point point) const noexcept;
     /// The id of a point, with its element where it is an array.
     [[nodiscard]] std::string id_of(Point point) const;
-    /// First entry with this code (and kind, if given).
+    /// First entry with this code or a class that it belongs to (and kind, if given), in the order of the document: what a fault can be
+    /// stands before what only answers a command by the same number.
     [[nodiscard]] const ErrorCode* error(std::int32_t code, std::string_view kind = {}) const noexcept;
 
     /// The value in the parameter's own type, or why it cannot be written, with the range ("AC: 0 is below 1; allowed 1..65000000 pulse/s^2").

@@ -112,7 +112,9 @@ void Engine::feedback(Side& side, AxisId id, const AxisFeedback& value, Instant 
             const ErrorCode* known = a->drive->line->family.catalogue->error(value.error_code);
             e.severity = Severity::alarm;
             e.kind = "fault";
-            e.text = known ? fmt::format("fault {}: {}", value.error_code, known->text) : fmt::format("fault, drive's code {}", value.error_code);
+            e.text = known                   ? fmt::format("fault {}: {}", value.error_code, known->text)
+                     : value.error_code != 0 ? fmt::format("fault, drive's code {}", value.error_code)
+                                             : "fault; the drive gives no number for it";
         } else {
             e.kind = "fault_cleared";
             e.text = "the fault is cleared";
@@ -143,10 +145,10 @@ void Engine::publish(Axis& a, Instant) {
     };
     write(p.authority_holder, a.authority.holder().name);
     write(p.authority_commander, a.authority.commander().door == Door::none ? std::string() : a.authority.commander().text());
-    p.presence = a.drive->serving;
     // An axis is online when it can be commanded: its drive answers, and has said where it is.
     const bool answers = (a.drive->serving == Presence::device && a.drive->device_online) || (a.drive->serving == Presence::twin && a.drive->twin_online);
     const bool online = answers && p.current;
+    p.presence = answers ? a.drive->serving : Presence::offline;  // as the drive's own status says it
     const auto put = [](std::uint16_t& word, std::uint16_t bit, bool on) {
         word = on ? static_cast<std::uint16_t>(word | bit) : static_cast<std::uint16_t>(word & ~bit);
     };
@@ -183,7 +185,7 @@ void Engine::on_command(Command c, Instant now) {
     if (const auto* wish = std::get_if<HoldAxis>(&c.body)) return hold(*a, c, *wish, now);
     const Catalogue& catalogue = *a->drive->line->family.catalogue;
     std::vector<CommandBody> orders;
-    bool commands_motion = false, stops = false;
+    bool commands_motion = false, stops = false, lets_go = false;
 
     if (auto* hand = std::get_if<Hand>(&c.body)) {
         const std::string wrong = set_hand(a->drive->id, {{hand->name, hand->value}}, c.origin, now);
@@ -225,6 +227,8 @@ void Engine::on_command(Command c, Instant now) {
         const auto* word = std::get_if<ProcessData>(&c.body);
         if (std::holds_alternative<Disable>(c.body) || (word && word->controlword && !(*word->controlword & cia402::cw_enable_voltage))) {
             a->drive->device_lost_while_commanded = false;  // nobody commands it any more: its twin may take over
+            // Registers have no words to say so: there a disable that nobody heard stays an exception.
+            lets_go = !word && a->drive->spec.presence == PresenceRule::automatic && a->drive->serving == Presence::device && !a->drive->device_online;
         }
         std::optional<Refusal> no;
         if (auto* m = std::get_if<Move>(&c.body)) no = guard_move(*m, a->limits, a->profile.feedback().position);
@@ -295,6 +299,7 @@ void Engine::on_command(Command c, Instant now) {
     client->body = std::move(c.body);
     client->origin = c.origin;
     client->until_done = c.until_done;
+    client->lets_go = lets_go;
     client->waiting = orders.size();
     client->result.outcome = Outcome::accepted;
     if (const auto* data = std::get_if<ProcessData>(&client->body); data && data->controlword && (*data->controlword & cia402::cw_new_setpoint))
@@ -457,6 +462,12 @@ void Engine::order_result(const Result& given, Instant now) {
         if (r.outcome == Outcome::done) client.result.outcome = Outcome::done;
     }
     if (client.waiting > 0) return;
+    if (client.lets_go && (client.result.reason == Reason::line_down || client.result.reason == Reason::no_answer)) {
+        client.result = {};
+        client.result.outcome = Outcome::accepted;
+        client.result.text = fmt::format("axis {}: nobody answers; it is taken as disabled and its twin takes over, but whether the real drive is off is not known", a->spec.name);
+        return finish(number, client.result, now);
+    }
     if (!good(client.result)) return finish(number, client.result, now);
     client.accepted = true;
     client.accepted_at = now;

@@ -135,6 +135,7 @@ struct Engine::Client {
     CommandBody body;
     Origin origin;
     bool until_done = false;
+    bool lets_go = false;      ///< a disable whose device is silent: nobody need hear it for the twin to take over
     std::size_t waiting = 0;   ///< orders without an answer
     bool accepted = false;     ///< all orders were taken; the end of the motion is being watched
     Result result;             ///< the first bad answer, or the last good one

@@ -182,18 +182,26 @@ void Engine::plug_in_twin(Drive& d, Instant now) {
     d.twin_axes = t.axes;
 }
 
-/// A channel was configured that the running twin does not have: it is built anew, as a real drive would be switched off to fit one.
+/// A channel was configured that the running twin does not have. Where it cannot be fitted as it runs, the twin is built anew, as a real drive
+/// would be switched off for it.
 void Engine::refit_twin(Drive& d, Instant now) {
     LineUnit& unit = *d.line;
     const bool fits = std::ranges::all_of(d.axes, [&](AxisId id) { return axes_[index_of(id)]->spec.channel <= d.twin_axes; });
     if (d.serving != Presence::twin || fits) return;
-    d.memory = unit.twins->bus->twin(d.id)->non_volatile();
-    unit.twins->bus->remove(d.id);
-    plug_in_twin(d, now);
+    int axes = d.twin_axes;
+    for (const AxisId id : d.axes) axes = std::max(axes, axes_[index_of(id)]->spec.channel);
     Event e;
     e.kind = "presence";
     e.drive = d.spec.name;
     e.line = unit.spec.name;
+    if (unit.twins->bus->twin(d.id)->fit_axes(axes, now)) {
+        d.twin_axes = axes;
+        e.text = fmt::format("drive {}: its twin has {} axes now", d.spec.name, axes);
+        return event(std::move(e), now);
+    }
+    d.memory = unit.twins->bus->twin(d.id)->non_volatile();
+    unit.twins->bus->remove(d.id);
+    plug_in_twin(d, now);
     e.text = fmt::format("drive {}: its twin was started anew with {} axes", d.spec.name, d.twin_axes);
     event(std::move(e), now);
 }

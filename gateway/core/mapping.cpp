@@ -202,7 +202,9 @@ FamilyEntry family_of(const Site& site, const Families& families, std::string_vi
     return l ? families.find(l->family) : FamilyEntry{};
 }
 
-void check_conflicts(const std::vector<Mapping>& all, const std::vector<std::size_t>& index_of, std::vector<SiteFault>& faults) {
+using Called = std::function<std::string(std::size_t index)>;
+
+void check_conflicts(const std::vector<Mapping>& all, const std::vector<std::size_t>& index_of, const Called& called, std::vector<SiteFault>& faults) {
     std::map<std::pair<std::uint8_t, MapTable>, std::vector<std::size_t>> by_place;
     for (std::size_t i = 0; i < all.size(); ++i)
         by_place[{all[i].unit, all[i].table}].push_back(i);
@@ -214,11 +216,12 @@ void check_conflicts(const std::vector<Mapping>& all, const std::vector<std::siz
             const Mapping& here = all[list[k]];
             if (before.end() > here.address) {
                 const std::size_t later = std::max(farthest, list[k]), earlier = std::min(farthest, list[k]);
+                const std::string other = called ? called(index_of[earlier]) : std::string();
                 faults.push_back({fmt::format("/mappings/{}/address", index_of[later]),
-                                  fmt::format("unit {} {} {}..{} is taken by mapping {} ({} of axis {})", here.unit, name_of(here.table),
+                                  fmt::format("unit {} {} {}..{} is taken by {} ({} of axis {})", here.unit, name_of(here.table),
                                               std::max<std::uint32_t>(before.address, here.address), std::min(before.end(), here.end()) - 1,
-                                              all[earlier].id, all[earlier].point, all[earlier].axis),
-                                  "choose another address, or remove that mapping", true});
+                                              other.empty() ? "mapping " + all[earlier].id : other, all[earlier].point, all[earlier].axis),
+                                  other.empty() ? "choose another address, or remove that mapping" : "choose another address, or take one of the two rows out", true});
             }
             if (here.end() > before.end()) farthest = list[k];
         }
@@ -271,7 +274,7 @@ std::uint16_t Mapping::size() const noexcept {
 }
 
 std::optional<std::vector<Mapping>> parse_mappings(const json::array& entries, const Site& site, const Families& families,
-                                                   std::vector<SiteFault>& faults) {
+                                                   std::vector<SiteFault>& faults, const std::function<std::string(std::size_t index)>& called) {
     const std::size_t before = faults.size();
     if (entries.size() > most_mappings) {
         faults.push_back({"/mappings", fmt::format("{} mappings are too many", entries.size()), fmt::format("at most {}", most_mappings)});
@@ -396,7 +399,7 @@ std::optional<std::vector<Mapping>> parse_mappings(const json::array& entries, c
             index_of.push_back(i);
         }
     }
-    if (!out.empty()) check_conflicts(out, index_of, faults);
+    if (!out.empty()) check_conflicts(out, index_of, called, faults);
     if (faults.size() != before) return std::nullopt;
     return out;
 }

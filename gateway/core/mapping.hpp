@@ -6,6 +6,7 @@
 #include <boost/json/object.hpp>
 #include <boost/json/value.hpp>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -103,9 +104,11 @@ struct Mapping {
 inline constexpr std::size_t most_mappings = 4096;
 
 /// Reads all entries against the site's axes and their catalogues; conflicts are faults of the later entry and name the other one. Entries
-/// without an id get one ("m" and a number). Nothing is returned if there is a fault.
+/// without an id get one ("m" and a number). Nothing is returned if there is a fault. `called`: how people call the entry with this index
+/// where it is the other one of a conflict, such as "row 3"; by its id where it is empty or gives nothing.
 [[nodiscard]] std::optional<std::vector<Mapping>> parse_mappings(const boost::json::array& entries, const Site& site,
-                                                                 const Families& families, std::vector<SiteFault>& faults);
+                                                                 const Families& families, std::vector<SiteFault>& faults,
+                                                                 const std::function<std::string(std::size_t index)>& called = {});
 /// The entry in its full form; parse_mappings of it gives the same.
 [[nodiscard]] boost::json::object to_json(const Mapping& mapping);
 

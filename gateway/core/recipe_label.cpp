@@ -5,22 +5,16 @@
 #include <boost/json/serialize.hpp>
 
 #include "gateway/core/recipe.hpp"
+#include "gateway/core/recipe_words.hpp"
 
 namespace axisgate {
 namespace {
 namespace json = boost::json;
 using Kind = RecipeStep::Kind;
 
-/// A number as people write it: JSON's own writer has 2.5 as 2.5E0.
-std::string shown(const json::value& v) {
-    if (v.is_string()) return std::string(v.get_string());
-    if (v.is_double()) return fmt::format("{}", v.get_double());
-    return json::serialize(v);
-}
-
 std::string member(const RecipeStep& s, std::string_view key) {
     const auto* v = s.body.if_contains(key);
-    return v ? shown(*v) : std::string();
+    return v ? plain_text(*v) : std::string();
 }
 
 /// Steps counted from 1: "/steps/3/repeat/steps/2" is 4.3; the sides of an `if` are named, since both begin at 1.
@@ -48,7 +42,7 @@ std::string others(const RecipeStep& s, std::string_view named) {
     std::string out;
     for (const auto& [k, v] : s.body) {
         if (named.find(fmt::format(" {} ", std::string_view(k))) == std::string_view::npos)
-            out += fmt::format(", {} = {}", std::string_view(k), shown(v));
+            out += fmt::format(", {} = {}", std::string_view(k), plain_text(v));
     }
     return out;
 }
@@ -84,6 +78,12 @@ std::string what_of(const RecipeStep& s) {
     return word;
 }
 }  // namespace
+
+std::string plain_text(const json::value& v) {
+    if (v.is_string()) return std::string(v.get_string());
+    if (v.is_double()) return fmt::format("{}", v.get_double());
+    return json::serialize(v);
+}
 
 std::string label_of(const RecipeStep& step, std::string_view pass) {
     std::string out = fmt::format("Step {}{}: {}", number_of(step.pointer), pass.empty() ? "" : fmt::format(" (pass {})", pass), what_of(step));

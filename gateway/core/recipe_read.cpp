@@ -191,7 +191,7 @@ public:
             }
             if (open == 0 && close + 1 == s.size()) return *value;
             out += s.substr(i, open - i);
-            out += value->is_string() ? std::string(value->get_string()) : json::serialize(*value);
+            out += plain_text(*value);
             i = close + 1;
         }
         if (out.size() > most_recipe_text_bytes) {
@@ -337,7 +337,7 @@ public:
             const auto& x = wrapped.at("value");
             if (s.kind == Kind::message) {
                 if (!member->is_string()) fault(in, "message must be a text, such as \"tool changed\"", "fill it in");
-                s.text = x.is_string() ? std::string(x.get_string()) : json::serialize(x);
+                s.text = plain_text(x);
             } else {
                 const double d = x.is_number() ? x.to_number<double>() : -1;
                 if (!(d >= 0 && d <= most_recipe_seconds)) {

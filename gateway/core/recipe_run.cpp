@@ -5,7 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/json/serialize.hpp>
+
+#include "gateway/core/recipe_words.hpp"
 
 namespace axisgate {
 namespace {
@@ -14,7 +15,7 @@ using Kind = RecipeStep::Kind;
 
 double seconds_in(Duration d) { return std::chrono::duration<double>(d).count(); }
 std::string shown(const json::value& v) {
-    return v.is_null() ? "not known" : v.is_string() ? std::string(v.get_string()) : json::serialize(v);
+    return v.is_null() ? "not known" : plain_text(v);
 }
 bool is_stop(const RecipeStep& s) {
     if (s.kind == Kind::disable) return true;

@@ -122,11 +122,14 @@ json::object to_json(const Site& site) {
 namespace {
 constexpr std::size_t most_mappings_told = 50;  // in one event
 
+/// A value for people: JSON's own writer has 2.5 as 2.5E0.
+std::string shown(const json::value& v) { return v.is_double() ? fmt::format("{}", v.get_double()) : json::serialize(v); }
+
 /// A mapping for people: "m7 (unit 2 holding_registers 4, feeder.position)".
 std::string mapping_text(const json::object& m) {
     const auto text = [&](const char* key) {
         const auto* v = m.if_contains(key);
-        return !v ? std::string("?") : v->is_string() ? std::string(v->get_string()) : json::serialize(*v);
+        return !v ? std::string("?") : v->is_string() ? std::string(v->get_string()) : shown(*v);
     };
     return fmt::format("{} (unit {} {} {}, {}.{})", text("id"), text("unit"), text("table"), text("address"), text("axis"), text("point"));
 }
@@ -153,10 +156,10 @@ void compare_mappings(const json::array& from, const json::array& to, std::vecto
         for (const auto& [k, v] : *x) {
             const auto* w = it->second->if_contains(k);
             if (!w || *w != v)
-                out.push_back(fmt::format("mapping {}: {} {} -> {}", mapping_text(*x), std::string_view(k), json::serialize(v), w ? json::serialize(*w) : "not set"));
+                out.push_back(fmt::format("mapping {}: {} {} -> {}", mapping_text(*x), std::string_view(k), shown(v), w ? shown(*w) : "not set"));
         }
         for (const auto& [k, w] : *it->second) {
-            if (!x->contains(k)) out.push_back(fmt::format("mapping {}: {} not set -> {}", mapping_text(*x), std::string_view(k), json::serialize(w)));
+            if (!x->contains(k)) out.push_back(fmt::format("mapping {}: {} not set -> {}", mapping_text(*x), std::string_view(k), shown(w)));
         }
     }
     for (const auto& [id, y] : after) {
@@ -183,10 +186,10 @@ std::vector<std::string> differences(const Site& from, const Site& to) {
             const auto jx = to_json(x), jy = to_json(*y);
             for (const auto& [k, v] : jx) {
                 const auto* w = jy.if_contains(k);
-                if (!w || *w != v) out.push_back(fmt::format("{} {}: {} {} -> {}", what, x.name, std::string_view(k), json::serialize(v), w ? json::serialize(*w) : "not set"));
+                if (!w || *w != v) out.push_back(fmt::format("{} {}: {} {} -> {}", what, x.name, std::string_view(k), shown(v), w ? shown(*w) : "not set"));
             }
             for (const auto& [k, w] : jy) {
-                if (!jx.contains(k)) out.push_back(fmt::format("{} {}: {} not set -> {}", what, x.name, std::string_view(k), json::serialize(w)));
+                if (!jx.contains(k)) out.push_back(fmt::format("{} {}: {} not set -> {}", what, x.name, std::string_view(k), shown(w)));
             }
         }
         for (const auto& y : b) {

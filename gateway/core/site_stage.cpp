@@ -7,12 +7,6 @@
 
 namespace axisgate {
 namespace json = boost::json;
-namespace {
-const std::string for_another = " for ";
-}  // namespace
-
-std::string acting_for(std::string_view who, std::string_view other) { return fmt::format("{}{}{}", who, for_another, other); }
-
 std::string identity_of(std::string_view who) {
     const auto colon = who.rfind(':');
     const bool port =
@@ -90,7 +84,7 @@ void SiteStage::applied(bool good) {
 std::string SiteStage::check_confirm(std::string_view who, std::int64_t now_unix_ns) const {
     if (state_ != State::applied) return "no applied site waits to be confirmed";
     if (expired(now_unix_ns)) return "the time to confirm has passed: the site is being rolled back";
-    if (identity_of(who) != by_ && !who.ends_with(for_another + by_)) return fmt::format("only {}, who applied the site, can confirm it", by_);
+    if (identity_of(who) != by_) return fmt::format("only {}, who applied the site, can confirm it", by_);
     return {};
 }
 

@@ -16,9 +16,6 @@ namespace axisgate {
 
 /// Who, without the port that changes with each connection: "anna 192.0.2.7:5123" is "anna 192.0.2.7".
 [[nodiscard]] std::string identity_of(std::string_view who);
-/// An administrator in the place of who applied a site: "anna 192.0.2.7:5123 for local 127.0.0.1" confirms what the latter applied. A door
-/// says it only of an administrator; no peer, and so no other `who`, ends like this.
-[[nodiscard]] std::string acting_for(std::string_view who, std::string_view other);
 
 class SiteStage {
 public:

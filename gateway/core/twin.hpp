@@ -53,6 +53,8 @@ struct Twin {
     /// Power on at `now` with this memory (empty: factory state). Called once before anything else, and to restore.
     virtual void power_on(const NonVolatile& memory, Instant now, Out& out) = 0;
     [[nodiscard]] virtual NonVolatile non_volatile() const = 0;
+    /// The site uses this many channels from now on. True: they are there, and nothing else has changed; false: the twin must be built anew.
+    [[nodiscard]] virtual bool fit_axes(int axes, Instant now) { return (void)axes, (void)now, false; }
     /// Grows by one with each change of the non-volatile memory: tells when to save it.
     [[nodiscard]] virtual std::uint64_t non_volatile_revision() const = 0;
 

@@ -123,7 +123,7 @@ int command_catalogue(const std::string& family, const std::string& what, const 
     } else if (what == "commands") {
         head = {"id", "name", "description"};
     } else {
-        head = {"code", "kind", "name", "text", "cause", "remedy"};
+        head = {"code", "through", "kind", "name", "text", "cause", "remedy"};
     }
     if (format == "json") {
         json::array out;

@@ -59,12 +59,37 @@ Fault set_text(std::string& into, const std::string& s) {
     return {};
 }
 
+std::string_view without_blanks(std::string_view s) {
+    const auto first = s.find_first_not_of(" \t");
+    return first == std::string_view::npos ? std::string_view() : s.substr(first, s.find_last_not_of(" \t") + 1 - first);
+}
+
 std::vector<std::string> split_list(const std::string& s) {
     std::vector<std::string> out;
     for (std::size_t i = 0; i < s.size();) {
         const auto comma = std::min(s.find(',', i), s.size());
-        if (comma > i) out.push_back(s.substr(i, comma - i));
+        if (const auto one = without_blanks(std::string_view(s).substr(i, comma - i)); !one.empty()) out.emplace_back(one);
         i = comma + 1;
+    }
+    return out;
+}
+
+/// A list as the file has it, ["a", "b"], in the form with bare commas; any other text as it is, also [::1],[::2]. A shell may have eaten the
+/// quotes.
+std::string bare_list(const std::string& text) {
+    std::string_view s = without_blanks(text);
+    if (s.size() < 2 || s.front() != '[' || s.back() != ']') return text;
+    s = s.substr(1, s.size() - 2);
+    std::string out;
+    for (bool more = true; more;) {
+        const auto comma = std::min(s.find(','), s.size());
+        auto one = without_blanks(s.substr(0, comma));
+        more = comma < s.size();
+        s.remove_prefix(std::min(comma + 1, s.size()));
+        const bool quoted = one.size() >= 2 && (one.front() == '"' || one.front() == '\'') && one.back() == one.front();
+        if (quoted) one = one.substr(1, one.size() - 2);
+        if (one.find_first_of(quoted ? "\"'" : "\"'[]") != std::string_view::npos) return text;
+        if (!one.empty()) out += (out.empty() ? "" : ",") + std::string(one);
     }
     return out;
 }
@@ -93,12 +118,7 @@ const std::vector<Key>& keys() {
         {"users", "new_code", [](Config& c, const std::string& s) { return set_bool(c.users_new_code, s); }, Written::as_switch},
         {"http", "allowed_hosts",
          [](Config& c, const std::string& s) -> Fault {
-             c.http_allowed_hosts.clear();
-             for (std::size_t i = 0; i < s.size();) {
-                 const auto comma = std::min(s.find(',', i), s.size());
-                 if (comma > i) c.http_allowed_hosts.push_back(s.substr(i, comma - i));
-                 i = comma + 1;
-             }
+             c.http_allowed_hosts = split_list(s);
              return {};
          }, Written::as_list},
         {"modbus", "bind", [](Config& c, const std::string& s) { return set_bind(c.modbus_bind, s); }},
@@ -313,7 +333,7 @@ Config read_config(const ConfigSources& sources, std::vector<ConfigFault>& fault
             faults.push_back({place, fmt::format("there is no key {}.{}", section, name), names.empty() ? "sections: " + known_names("") : "keys: " + names});
             return;
         }
-        if (const Fault fault = key->set(c, value))
+        if (const Fault fault = key->set(c, key->written == Written::as_list ? bare_list(value) : value))
             faults.push_back({place, fmt::format("{}.{}: \"{}\" is not possible", section, name, value), *fault});
         else
             places[key] = place;

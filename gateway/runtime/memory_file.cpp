@@ -4,9 +4,10 @@
 
 #include <fmt/format.h>
 
-#include <boost/json/parse.hpp>
 #include <boost/json/serialize.hpp>
 #include <cmath>
+
+#include "gateway/core/json_read.hpp"
 
 namespace axisgate {
 namespace json = boost::json;
@@ -30,10 +31,11 @@ std::string memories_to_json(const std::map<std::string, NonVolatile>& memories)
 
 std::string memories_from_json(std::string_view text, std::map<std::string, NonVolatile>& memories) {
     if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) return {};
-    boost::system::error_code ec;
-    const auto parsed = json::parse(json::string_view(text.data(), text.size()), ec);
-    if (ec || !parsed.is_object()) return "this is not the memory of twins: expected {\"ADDRESS\": {\"NAME\": VALUE, ...}}";
-    for (const auto& [address, entry] : parsed.get_object()) {
+    JsonFault unread;
+    const auto parsed = read_json(text, unread);
+    if (!parsed && unread.twice) return fmt::format("{} in the memory of twins, in line {} ({}): keep one of them", unread.text, unread.line, unread.pointer);
+    if (!parsed || !parsed->is_object()) return "this is not the memory of twins: expected {\"ADDRESS\": {\"NAME\": VALUE, ...}}";
+    for (const auto& [address, entry] : parsed->get_object()) {
         if (!entry.is_object()) return fmt::format("the memory of {} is not an object", std::string_view(address));
         NonVolatile m;
         for (const auto& [name, v] : entry.get_object()) {

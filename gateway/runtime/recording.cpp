@@ -5,9 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/json/parse.hpp>
+#include <boost/json/value.hpp>
 #include <charconv>
 #include <vector>
+
+#include "gateway/core/json_read.hpp"
 
 namespace axisgate {
 namespace {
@@ -207,12 +209,13 @@ bool trace_entry(const json::value& entry, const RecordingEvents& events) {
 }
 
 void read_trace(std::string_view text, const RecordingEvents& events) {
-    boost::system::error_code ec;
-    const auto parsed = json::parse(json::string_view(text.data(), text.size()), ec);
+    JsonFault unread;
+    const auto parsed = read_json(text, unread);
+    if (!parsed && unread.twice) return events.fault(unread.line, fmt::format("{} ({}): keep one of them", unread.text, unread.pointer));
     const json::array* list = nullptr;
-    if (!ec && parsed.is_array()) list = &parsed.get_array();
-    if (!ec && parsed.is_object()) {
-        if (const auto* v = parsed.get_object().if_contains("frames"); v && v->is_array()) list = &v->get_array();
+    if (parsed && parsed->is_array()) list = &parsed->get_array();
+    if (parsed && parsed->is_object()) {
+        if (const auto* v = parsed->get_object().if_contains("frames"); v && v->is_array()) list = &v->get_array();
     }
     if (!list) return events.fault(0, "this is not a trace: it should be the JSON of GET /api/v1/lines/{name}/trace");
     for (std::size_t i = 0; i < list->size(); ++i) {

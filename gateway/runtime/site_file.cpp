@@ -4,9 +4,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <boost/json/stream_parser.hpp>
 
+#include "gateway/core/json_read.hpp"
 #include "gateway/runtime/files.hpp"
 
 namespace axisgate {
@@ -19,20 +18,16 @@ SiteFile read_site_file(const std::string& path, const Families& families) {
         out.faults.push_back(fault);
         return out;
     }
-    boost::system::error_code ec;
-    boost::json::stream_parser parser;
-    const std::size_t used = parser.write_some(text->data(), text->size(), ec);
-    std::size_t rest = used;
-    while (!ec && rest < text->size() && (*text)[rest] <= ' ') ++rest;
-    if (!ec) parser.finish(ec);
-    if (ec || rest != text->size()) {
-        const auto line = 1 + std::count(text->begin(), text->begin() + static_cast<std::ptrdiff_t>(std::min(used, text->size())), '\n');
-        out.faults.push_back(fmt::format("{}:{}: this is not JSON ({}); every name in double quotes, no comma before a closing bracket, nothing behind the end",
-                                         path, line, ec ? ec.message() : "something follows the document"));
+    JsonFault unread;
+    const auto document = read_json(*text, unread);
+    if (!document) {
+        out.faults.push_back(unread.twice ? fmt::format("{}:{}: {} ({}); keep one of them", path, unread.line, unread.text, unread.pointer)
+                                          : fmt::format("{}:{}: this is not JSON ({}); every name in double quotes, no comma before a closing bracket, nothing behind the end",
+                                                        path, unread.line, unread.text));
         return out;
     }
     std::vector<SiteFault> wrong;
-    out.site = parse_site(parser.release(), families, wrong);
+    out.site = parse_site(*document, families, wrong);
     for (const auto& f : wrong) {
         out.faults.push_back(fmt::format("{}:{}: {} ({}); {}", path, line_of_pointer(*text, f.pointer), f.text, f.pointer.empty() ? "/" : f.pointer, f.remedy));
     }

@@ -208,6 +208,15 @@ bool exists(const std::string& file) noexcept {
     return ::stat(file.c_str(), &st) == 0;
 }
 
+bool has_sqlite_header(const std::string& file) noexcept {
+    constexpr std::string_view wanted("SQLite format 3\0", 16);
+    std::array<char, 16> head{};
+    const int fd = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    const bool whole = fd >= 0 && ::read(fd, head.data(), head.size()) == static_cast<ssize_t>(head.size());
+    if (fd >= 0) ::close(fd);
+    return whole && std::string_view(head.data(), head.size()) == wanted;
+}
+
 std::int64_t size(const std::string& file) noexcept {
     struct stat st {};
     return ::stat(file.c_str(), &st) == 0 ? static_cast<std::int64_t>(st.st_size) : -1;

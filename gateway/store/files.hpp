@@ -55,6 +55,8 @@ void remove_database(const std::string& file) noexcept;
 [[nodiscard]] bool exists(const std::string& file) noexcept;
 /// -1: there is none.
 [[nodiscard]] std::int64_t size(const std::string& file) noexcept;
+/// Whether it begins as every SQLite file does that is not empty.
+[[nodiscard]] bool has_sqlite_header(const std::string& file) noexcept;
 /// The same file under any name (links, "..").
 [[nodiscard]] bool same(const std::string& a, const std::string& b) noexcept;
 

@@ -88,7 +88,7 @@ for (const [kind, name] of [['CSV', 'feeder-parameters.csv'], ['JSON', 'feeder-p
     // Read only values of the export would be refused; what is written is a file of one's own.
     await box.fill(kind === 'CSV' ? `parameter,value\n${a.id},1500\n${b.id},${await get(b.id)}` : JSON.stringify({ [a.id]: 1600 }));
     await page.getByRole('button', { name: 'Write 1 value to the drive' }).click();
-    await until('it is written', async () => /1 parameters written/.test(await told('transfer-told')) || (await told('transfer-told')));
+    await until('it is written', async () => /1 parameter written/.test(await told('transfer-told')) || (await told('transfer-told')));
     assert.equal(await get(a.id), kind === 'CSV' ? 1500 : 1600);
     await becomes('the field is empty again', () => box.inputValue(), '');
     await put(a.id, 1234);

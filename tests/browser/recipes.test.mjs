@@ -143,13 +143,13 @@ test('progress is live, and cancel stops the axis', async () => {
   assert.equal((await program.call('PUT', '/recipes/endless', recipe)).status, 201);
   const page = await open(browser, `${program.url}/recipes/endless`);
   await page.getByRole('button', { name: 'Check only' }).click();
-  await page.getByText('Can run: 3 steps, commands feeder.').waitFor();
+  await page.getByText('Can run: 3 steps, commands feeder (simulated).').waitFor();
   await page.getByRole('button', { name: 'Run', exact: true }).click();
   await page.locator('[data-report="/steps/2"][data-state=running]').waitFor();
   await until('motion', async () => (await program.axis('feeder')).moving);
   await page.getByRole('button', { name: 'Cancel run 1' }).click();
   await page.locator('[data-report="/steps/2"][data-state=cancelled]').waitFor();
-  await page.getByText('feeder: stopped').waitFor();
+  await page.getByText('feeder SIM: stopped').waitFor();
   await until('rest', async () => !(await program.axis('feeder')).moving);
   await program.command('feeder', { command: 'set_position', position: 0 });
   assert.deepEqual(page.faults(), []);
@@ -161,7 +161,7 @@ test('a line is searched for drives', async () => {
   await page.getByLabel('First address').fill('5');
   await page.getByLabel('Last address').fill('8');
   await page.getByRole('button', { name: 'Look for drives' }).click();
-  await page.getByText('2 of 2 asked, done').waitFor();
+  await page.getByText('2 of 2 addresses asked, done').waitFor();
   assert.match(await page.locator('[data-found="5"]').innerText(), /is the drive feeder/);
   await page.getByLabel('First address').fill('4');
   await page.getByRole('button', { name: 'Look for drives' }).click();

@@ -1,7 +1,7 @@
-// The page of the site: forms, faults beside their fields, check and apply as one, keep or roll back, two writers, import, history, scan, wizard.
+// The page of the site: forms, faults beside their fields, check and apply as one, keep or roll back, two writers, import, scan, wizard.
 // In: the program. Out: counts; pictures under build/browser. Nothing here is left out because the program lacks it.
 import assert from 'node:assert/strict';
-import { readFileSync, writeFileSync } from 'node:fs';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { becomes, launch, open, pictures, shot, tileOf, until } from './lib/browser.mjs';
@@ -162,6 +162,35 @@ test('a trial is counted down in the head of every part, for everybody; kept or 
   await other.context().close();
 });
 
+test('a trial of somebody else says whose it is and why it cannot be kept here; the own draft stays in sight', async () => {
+  await page.getByRole('button', { name: 'Change axis feeder' }).click();
+  await form('Change axis feeder').getByLabel('Unit', { exact: true }).fill('cm');
+  await form('Change axis feeder').getByRole('button', { name: 'Take into the draft' }).click();
+  await stage().locator('[data-field=apply-why]').getByText('Check first.').waitFor();
+  const bert = async (path, body) => {
+    const r = await fetch(`${program.url}/api/v1${path}`, { method: 'POST', headers: { 'content-type': 'application/json', 'x-client': 'page-bert00' }, body: JSON.stringify(body) });
+    assert.equal(r.status, 200, await r.text());
+  };
+  const document = await site();
+  document.axes.find((a) => a.name === 'slide.x').velocity_max = 63;
+  await bert('/site/stage?replace=true', document);
+  await bert('/site/stage/apply', { confirm_within_s: 120 });
+  const by = page.locator('[data-field=applied-by]');
+  await by.waitFor();
+  assert.match(await by.innerText(), /^Applied by .* \(from the page page-bert00\)\. Only the page of .* that applied it can keep it; take it back and apply it from here if need be\.$/);
+  assert.equal(await stage().getByRole('button', { name: 'Keep', exact: true }).isDisabled(), true);
+  const own = page.locator('[data-field=own-draft]');
+  await own.getByText('Your own draft waits: 1 change.').click();
+  await own.getByText(/→ cm/).waitFor();
+  await page.getByText('in force, on trial').waitFor();
+  await shot(page, 'site-trial-of-another', { fullPage: true });
+  await bert('/site/stage/roll-back', {});
+  await until('the trial is over', async () => (await stage().getAttribute('data-state')) !== 'applied');
+  await page.reload();
+  await page.getByRole('button', { name: 'Drop …' }).click();
+  await page.getByRole('button', { name: 'Drop all changes' }).click();
+});
+
 test('a line, a drive and an axis are added by their forms and applied as one', async () => {
   await page.getByRole('button', { name: 'Add a line' }).click();
   const line = form('Add a line');
@@ -232,25 +261,6 @@ test('an imported document is a difference first; what is none says why', async 
   assert.equal(download.suggestedFilename(), 'site.json');
 });
 
-test('applied states can be looked at and restored', async () => {
-  const history = page.locator('[data-field=history]');
-  await until('there are states', async () => (await history.locator('[data-revision]').count()) > 0);
-  const revisions = await history.locator('[data-revision]').evaluateAll((l) => l.map((e) => Number(e.dataset.revision)));
-  let wanted;
-  for (const r of revisions) {
-    const old = (await program.call('GET', `/site/history/${r}`)).body;
-    if (old.axes.find((a) => a.name === 'feeder')?.unit === 'deg' && old.axes.some((a) => a.name === 'extra')) wanted = r;
-  }
-  assert.ok(wanted, 'the state before the last one is kept');
-  await history.getByRole('button', { name: `Difference to revision ${wanted}` }).click();
-  await until('the difference is shown', async () => /mm → deg/.test(await history.innerText()) || (await history.innerText()));
-  await history.getByRole('button', { name: `Restore revision ${wanted}` }).click();
-  await until('it is staged', async () => /is staged/.test(await told('stage-told')) || (await told('stage-told')));
-  await applyIt(60);
-  await keepIt();
-  assert.equal((await axis('feeder')).unit, 'deg');
-});
-
 test('what another client has staged is neither taken away nor applied unseen; what was typed stays', async () => {
   const other = async (change, replace = false) => {
     const document = await site();
@@ -291,7 +301,8 @@ test('what another client has staged is neither taken away nor applied unseen; w
 
 test('a line is scanned: both drives of the site are found, and known', async () => {
   await page.getByRole('button', { name: 'Scan can0' }).click();
-  const scan = form('Scan line can0');
+  const scan = page.locator('[data-entry="lines/can0"]').getByRole('form', { name: 'Scan line can0' }); // under its line
+  await becomes('the keyboard goes on there', () => page.evaluate(() => document.activeElement?.textContent), 'Scan of line can0');
   await scan.getByLabel('From address').fill('5');
   await scan.getByLabel('to', { exact: true }).fill('9');
   await scan.getByRole('button', { name: 'Scan', exact: true }).click();
@@ -303,108 +314,6 @@ test('a line is scanned: both drives of the site are found, and known', async ()
   }
   await until('it has an end', async () => /found/i.test(await told('scan-told')) || (await told('scan-told')), 60_000);
   if (!isMock) assert.deepEqual(await scan.locator('[data-found]').evaluateAll((l) => l.map((e) => e.dataset.found).sort()), ['5', '6']);
-});
-
-test('a backup goes out; a restore is asked for twice', async () => {
-  // A copy of everything is for administrators.
-  const first = await page.context().request.post(`${program.url}/api/v1/session/first`, { data: { code: program.process.code, user: 'anna', password: 'correct-horse-9' } });
-  assert.equal(first.status(), 200);
-  await page.reload();
-  const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Backup of everything' }).click()]);
-  assert.match(download.suggestedFilename(), /\.db$/);
-  const file = join(program.data, 'copy.db');
-  writeFileSync(file, 'no database');
-  await page.getByLabel('Restore a backup', { exact: true }).and(page.locator('input')).setInputFiles(file);
-  await page.getByText('replaces site, mappings, parameters').waitFor();
-  await page.getByRole('button', { name: 'Leave it' }).click();
-  const copy = await download.path();
-
-  // What is laid down waits, in sight of every administrator, until the next start; dropped, it does not.
-  const pending = page.locator('[data-field=pending]');
-  await becomes('nothing waits', () => pending.count(), 0);
-  await page.getByLabel('Restore a backup', { exact: true }).and(page.locator('input')).setInputFiles({ name: 'copy.db', mimeType: 'application/octet-stream', buffer: readFileSync(copy) });
-  await page.getByRole('button', { name: 'Replace everything' }).click();
-  await pending.getByText('A restore waits: it takes effect with the next start.').waitFor();
-  assert.match(await told('pending-what'), /^Laid down .* by .*anna.*, \d.*It brings site revision \d+ with it, and a database of structure \d+\./);
-  await page.reload();
-  await pending.getByText('A restore waits').waitFor();
-  await shot(page, 'site-restore-waits');
-  const nobody = await open(browser, `${program.url}/site`);
-  await nobody.getByText('whether one waits for the next start needs the role administrator. Yours is engineer.').waitFor();
-  await becomes('nobody else is told', () => nobody.locator('[data-field=pending]').count(), 0);
-  assert.deepEqual(nobody.faults(), []);
-  await nobody.context().close();
-  await pending.getByRole('button', { name: 'Drop the restore …' }).click();
-  await pending.getByRole('button', { name: 'Drop it', exact: true }).click();
-  await pending.getByText('Dropped: the next start goes on with the database as it is.').waitFor();
-  await becomes('nothing waits at the gateway', async () => (await (await page.context().request.get(`${program.url}/api/v1/backup/pending`)).json()).waiting, false);
-  await becomes('nothing is said to wait', () => pending.getByText('A restore waits').count(), 0);
-  await page.context().clearCookies();
-  assert.deepEqual(page.faults(), []);
-});
-
-test('a restore that waits: pictures at three widths in light and dark, nothing serious for axe-core', async () => {
-  const waiting = { waiting: true, at: '2026-03-01T10:11:12Z', who: 'anna 192.0.2.17:50123', bytes: 319488, version: 5, site_revision: 7 };
-  await pictures(browser, program.url, '/site', 'site-restore', async (p) => {
-    await p.route('**/api/v1/backup/pending', (r) => r.fulfill({ json: waiting }));
-    await p.route('**/api/v1/session', (r) => r.fulfill({ json: { user: 'anna', role: 'administrator', via: 'cookie', csrf: 'x', expires_at: null, ended: null, first_sign_in: false, roles: ['viewer', 'operator', 'engineer', 'administrator'] } }));
-    await p.reload();
-    await p.locator('[data-field=pending-what]').waitFor();
-    await p.getByRole('button', { name: 'Drop the restore …' }).click();
-  });
-});
-
-test('older states are fetched page by page, to the first one', async () => {
-  for (let i = 0; i < 60; i += 1) assert.equal((await program.call('PATCH', '/axes/slide.x', { velocity_max: 100 + i })).status, 200);
-  const other = await open(browser, `${program.url}/site`);
-  const count = other.locator('[data-field=history-count]');
-  await until('the newest are there', async () => (await count.innerText()) === '50 states shown; there may be older ones.' || (await count.innerText()));
-  await other.getByRole('button', { name: 'Older', exact: true }).click();
-  await until('all are there', async () => /^\d+ states, the oldest that is kept included\.$/.test(await count.innerText()) || (await count.innerText()));
-  const kept = (await program.call('GET', '/site/history?limit=1000')).body.map((h) => h.revision);
-  assert.ok(kept.length > 60, `${kept.length} are kept`);
-  await becomes('each is there once', () => other.locator('[data-revision]').evaluateAll((l) => l.map((e) => Number(e.dataset.revision))), kept);
-  assert.deepEqual(other.faults(), []);
-  await other.context().close();
-});
-
-test('options are fields of the family, judged while they are typed, and in force when they are applied', async () => {
-  const document = await site();
-  document.drives.find((d) => d.name === 'feeder').options = { old_one: 'a,b' };
-  const before = await program.call('PUT', '/site', document);
-  const other = await open(browser, `${program.url}/site`);
-  assert.equal(before.status, 200, JSON.stringify(before.body));
-  const families = (await program.call('GET', '/families')).body;
-  const uim = families.find((x) => x.name === 'uim342');
-  await other.getByRole('button', { name: 'Change drive feeder' }).click();
-  const f = other.getByRole('form', { name: 'Change drive feeder' });
-  const own = uim.options.filter((o) => o.of.includes('drive') || o.of.includes('twin'));
-  await f.getByText(`Options of uim342: ${own.length}; set: old_one`).waitFor(); // open, as there is one that is not known
-  assert.equal(await f.locator('.option').count(), own.length, 'one field for each');
-  for (const o of own) await f.getByText(o.description.slice(0, 40)).first().waitFor();
-  await f.getByText('uim342 has no such option here: it counts as not given.').waitFor();
-  await f.getByLabel('Home timeout, s').fill('9999');
-  await f.getByText('1 to 3600 s.', { exact: true }).waitFor();
-  await f.getByRole('button', { name: 'Take into the draft' }).click();
-  await becomes('it is not taken', () => f.getByLabel('Home timeout, s').getAttribute('aria-invalid'), 'true');
-  await shot(other, 'site-options', { fullPage: true });
-  await f.getByLabel('Home timeout, s').fill('30');
-  await f.getByLabel('Notify').selectOption('on');
-  await f.getByRole('button', { name: 'Remove option old_one' }).click();
-  await f.getByRole('button', { name: 'Take into the draft' }).click();
-  await other.locator('[data-diff="drives/feeder"]').waitFor();
-  const at = other.locator('[data-field=stage]').first();
-  await at.getByRole('button', { name: 'Check', exact: true }).click();
-  await until('it is checked', async () => /^Checked/.test(await at.locator('[data-field=stage-told]').innerText()) || (await at.innerText()));
-  await at.getByRole('button', { name: 'Apply', exact: true }).click();
-  await at.getByRole('button', { name: 'Keep', exact: true }).click();
-  await becomes('it is in force', async () => (await site()).drives.find((d) => d.name === 'feeder').options, { home_timeout_s: '30', notify: 'on' });
-  await becomes('the axis says what an increment is', async () => {
-    await other.getByRole('button', { name: 'Change axis feeder' }).click();
-    return other.getByText(`one increment of uim342 is one ${uim.position_unit}`).count();
-  }, 1);
-  assert.deepEqual(other.faults(), []);
-  await other.context().close();
 });
 
 test('from a new data directory to a moving axis: overview, wizard, by keyboard', async () => {

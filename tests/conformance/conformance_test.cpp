@@ -437,15 +437,34 @@ TEST_P(EveryFamily, AFurtherChannelComesToLifeWithoutARestart) {
         EXPECT_EQ(faults[0].pointer, "/axes/1/channel");
         return;
     }
+    // The one that is there goes on with its move as if nothing were.
+    enable();
+    const Ticket on_its_way = w.command(a1, move_to(20'000), true);
+    ASSERT_TRUE(w.run_until_true([&] { return w.picture(a1).position > 500; }, 20s)) << "it moves";
+    const std::uint64_t source = w.picture(a1).source;
     const auto state = w.apply(std::move(next));
     const AxisId b = state->axis_ids.at(1);
+    std::int64_t before = w.picture(a1).position;
+    ASSERT_TRUE(w.run_until_true(
+        [&] {
+            const auto& p = w.picture(a1);
+            EXPECT_GE(p.position, before) << "it never jumps back";
+            EXPECT_EQ(power_state_of(p.statusword), PowerState::operation_enabled);
+            before = p.position;
+            return ::testing::Test::HasFailure() || !w.results[on_its_way].empty();
+        },
+        60s));
+    ASSERT_FALSE(HasFailure());
+    EXPECT_TRUE(good(*w.result(on_its_way))) << w.result(on_its_way)->text;
+    EXPECT_EQ(w.picture(a1).position, 20'000);
+    EXPECT_EQ(w.picture(a1).source, source) << "what was read of it holds still";
     ASSERT_TRUE(w.run_until_true([&] { return online(a1) && online(b); }, 20s)) << "both";
     const Result* r = w.wait(w.command(b, Enable{}, true), 10s);
     ASSERT_TRUE(r && good(*r)) << (r ? r->text : "no result");
     const std::int64_t home = w.picture(b).position;
     r = w.wait(w.command(b, move_to(home + 2000), true), 20s);
     ASSERT_TRUE(r && good(*r)) << (r ? r->text : "no result");
-    EXPECT_EQ(w.picture(a1).position, 0) << "the other one stood";
+    EXPECT_EQ(w.picture(a1).position, 20'000) << "the other one stood";
 }
 
 TEST_P(EveryFamily, TooManyCommandsAreBusyAndNoneIsLost) {

@@ -1,5 +1,6 @@
-// Fuzz: the site document, as `axisgate check`, `--site` and PUT /api/v1/site read it.
+// Fuzz: JSON of others, and the site document, as `axisgate check`, `--site` and PUT /api/v1/site read it.
 // In: JSON text. Out: nothing; laws: a site or a fault, never both; faults have a place and a remedy; what is written reads back the same.
+#include "gateway/core/json_read.hpp"
 #include "gateway/core/site.hpp"
 
 #include <boost/json/parse.hpp>
@@ -12,8 +13,14 @@ using namespace axisgate;
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string_view text(reinterpret_cast<const char*>(data), size);
     boost::system::error_code ec;
-    const auto document = boost::json::parse(boost::json::string_view(text.data(), text.size()), ec);
-    if (ec) return 0;
+    const auto plain = boost::json::parse(boost::json::string_view(text.data(), text.size()), ec);
+    JsonFault unread;
+    const auto read = read_json(text, unread);
+    fuzz::require(read.has_value() || !unread.text.empty(), "a value, or a fault");
+    fuzz::require(!read.has_value() || (!ec && *read == plain), "what is read is what the library reads");
+    fuzz::require(read.has_value() || ec || unread.twice, "JSON is refused for a member that stands twice alone");
+    if (!read) return 0;
+    const auto& document = *read;
     std::vector<SiteFault> faults;
     const auto site = parse_site(document, fuzz::families(), faults);
     fuzz::require(site.has_value() == faults.empty(), "a site, or a fault");

@@ -48,6 +48,7 @@ def test_a_lease_refuses_others_by_name_but_never_a_stop(gateway):
     s, a = client(gateway, "PUT", "/axes/feeder/authority", {"take_over": True, "ttl_s": 1}, "script")
     assert s == 200 and a["holder"] == "127.0.0.1 script", a
     until(lambda: gateway.get("/axes/feeder/authority")["holder"] == "", 5, "the lease expires")
+    assert gateway.get("/axes/feeder/authority")["door"] == "none"
     s, a = client(gateway, "PUT", "/axes/feeder/authority", {}, "panel")
     s, a = client(gateway, "POST", "/axes/feeder/authority/hand-over", {"to": "modbus 127.0.0.9"}, "panel")
     assert s == 200 and a["door"] == "modbus" and a["holder"] == "127.0.0.9", a
@@ -64,6 +65,50 @@ def test_a_lease_refuses_others_by_name_but_never_a_stop(gateway):
     texts = until(lambda: [t for t in [[e["text"] for e in gateway.get("/events") if e["kind"] == "authority"]] if any("handed over" in x for x in t)], 5, "events")[0]
     for word in ("held by", "taken over", "expired", "handed over"):
         assert any(word in t for t in texts), (word, texts)
+
+
+def test_what_a_client_held_is_free_when_it_may_not_command_any_more(folder):
+    with Gateway(folder, DEMO) as g:
+        def ask(method, path, body=None, headers=None):
+            s, answer, head = g.request(method, "/api/v1" + path, body, headers)
+            return s, answer, head
+
+        assert ask("POST", "/session", {"code": g.code, "user": "anna", "password": "a-long-sentence-1"})[0] in (200, 201)
+        s, session, head = ask("POST", "/session", {"user": "anna", "password": "a-long-sentence-1"})
+        anna = {"Cookie": head["Set-Cookie"].split(";")[0], "X-CSRF-Token": session["csrf"]}
+        assert ask("POST", "/users", {"name": "bert", "role": "operator", "password": "another-long-sentence-2"}, anna)[0] == 201
+        s, session, head = ask("POST", "/session", {"user": "bert", "password": "another-long-sentence-2"})
+        bert = {"Cookie": head["Set-Cookie"].split(";")[0], "X-CSRF-Token": session["csrf"]}
+        tokens = {}
+        for name in ("night", "day"):
+            s, made, _ = ask("POST", "/tokens", {"name": name, "role": "operator"}, bert)
+            assert s == 201, made
+            tokens[name] = made
+        night, day = ({"Authorization": "Bearer " + tokens[n]["token"]} for n in ("night", "day"))
+
+        def holder():
+            with g.modbus() as m:
+                return ask("GET", "/axes/feeder/authority", None, anna)[1]["holder"], m.read(17, 1)[0]
+
+        # A token is a client of its own: beside its owner's page and his other tokens.
+        assert ask("PUT", "/axes/feeder/authority", {"ttl_s": 3600}, night)[0] == 200
+        assert holder() == ("bert night", 3)
+        for other in (day, bert, anna):
+            s, answer, _ = ask("POST", "/axes/feeder/commands", {"command": "enable"}, other)
+            assert s == 409 and "bert night" in answer["detail"], answer
+        assert ask("DELETE", "/tokens/" + tokens["night"]["id"], None, bert)[0] == 204
+        until(lambda: holder() == ("", 0), 5, "the token's lease ends with it")
+
+        for end in (("PATCH", "/users/bert", {"role": "viewer"}), ("PATCH", "/users/bert", {"role": "operator", "enabled": False}), ("DELETE", "/users/bert", None)):
+            ask("PATCH", "/users/bert", {"role": "operator", "enabled": True}, anna)
+            s, session, head = ask("POST", "/session", {"user": "bert", "password": "another-long-sentence-2"})
+            assert s in (200, 201), session
+            mine = {"Cookie": head["Set-Cookie"].split(";")[0], "X-CSRF-Token": session["csrf"], "X-Client": "page-1"}
+            s, answer, _ = ask("PUT", "/axes/feeder/authority", {"ttl_s": 3600}, mine)
+            assert s == 200 and holder() == ("bert page-1", 3), answer
+            assert ask(end[0], end[1], end[2], anna)[0] in (200, 204)
+            until(lambda: holder() == ("", 0), 5, f"the lease ends: {end}")
+        assert any("released by http bert page-1" in e["text"] and e["who"].startswith("anna") for e in ask("GET", "/events?kind=authority", None, anna)[1])
 
 
 def test_in_lease_mode_a_command_takes_the_axis(folder):

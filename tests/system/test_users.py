@@ -48,7 +48,7 @@ def test_without_local_access_everything_begins_with_the_first_sign_in(folder):
             assert ask(g, "DELETE", f"/tokens/{short['id']}", headers=anna)[0] == 204
             feed.settimeout(10)  # the gateway looks every two seconds
             heard = b""
-            while b"signed out" not in heard:
+            while b"the token has expired or was removed" not in heard:
                 part = feed.recv(4096)
                 assert part, heard
                 heard += part

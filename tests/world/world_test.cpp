@@ -241,9 +241,20 @@ TEST_P(PresenceStory, TheTwinDoesNotTakeOverACommandedAxis) {
     w.run_for(5s);
     EXPECT_EQ(w.picture(a).flags & (flag_online | flag_simulated), 0) << "lost while it was enabled: nobody serves it";
     EXPECT_NE(w.picture(a).flags & flag_stale, 0);
-    r = w.wait(w.command(a, Disable{}), 5s);
+    EXPECT_EQ(w.picture(a).presence, Presence::offline) << "the axis and its drive say the same";
+    EXPECT_EQ(w.engine.drive_status(d).presence, Presence::offline);
+    ProcessData word;
+    word.controlword = cia402::cw_enable_voltage;  // a quick stop by registers: nobody heard it, and nothing is released
+    r = w.wait(w.command(a, word), 5s);
     ASSERT_TRUE(r);
-    EXPECT_FALSE(good(*r)) << "nobody heard it";
+    EXPECT_FALSE(good(*r));
+    w.run_for(1s);
+    EXPECT_EQ(w.picture(a).presence, Presence::offline);
+    r = w.wait(w.command(a, Disable{}, true), 5s);
+    ASSERT_TRUE(r);
+    EXPECT_EQ(r->outcome, Outcome::accepted) << "taken, and never done: nobody heard it";
+    EXPECT_EQ(r->reason, Reason::none);
+    for (const auto* part : {"nobody answers", "taken as disabled", "its twin takes over", "not known"}) EXPECT_NE(r->text.find(part), std::string::npos) << r->text;
     EXPECT_TRUE(w.run_until_true([&] { return serves(Presence::twin); }, 5s)) << "now nobody commands it any more";
     w.cables.at("line")->heal(w.now);
     EXPECT_TRUE(w.run_until_true([&] { return serves(Presence::device); }, 12s));

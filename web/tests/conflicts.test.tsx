@@ -125,7 +125,7 @@ describe('a site that two people change', () => {
     const id = bertStages(91);
     expect(p.other('POST', '/site/stage/apply', { confirm_within_s: 60, stage: id }).status).toBe(200);
     await p.see('[data-field=countdown]', 'It is rolled back by itself in');
-    expect([p.button('Keep').disabled, p.button('Keep').title]).toEqual([true, 'Only the page of somebody at 10.0.0.9 that applied it, or an administrator, can keep it.']);
+    expect([p.button('Keep').disabled, p.button('Keep').title]).toEqual([true, 'Only the page of somebody at 10.0.0.9 that applied it can keep it; take it back and apply it from here if need be.']);
     // The door itself keeps to it, too.
     expect(p.door.answer({ method: 'POST', target: '/api/v1/site/stage/confirm', head: {}, text: '{}', peer: '127.0.0.1:1' }).status).toBe(409);
     await p.press('Roll back now');

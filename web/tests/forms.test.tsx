@@ -171,11 +171,12 @@ describe('parameters', () => {
     await p.see('main', 'No snapshot is kept.');
     await p.press('Compare');
     await p.see('[data-field=compare-told]', 'There is no value that both sides know. Read the parameters first.');
+    expect(p.text('.compare')).not.toContain('Nothing differs.');
     const feeder = door.world.axisOf('feeder');
     feeder.write('AC', 5000, 'x');
     feeder.read('SP');
     feeder.read('TE');
-    door.world.axisOf('lift').values.set('TE', 50);
+    door.world.axisOf('turntable').values.set('TE', 50);
     await p.press('Compare');
     await p.see('[data-compared=AC]', /differs$/);
     await p.see('[data-field=compare-told]', '1 of 2 values differ.');
@@ -183,9 +184,13 @@ describe('parameters', () => {
     p.field('equal ones too').click();
     p.field('equal ones too').dispatchEvent(new Event('change', { bubbles: true }));
     await p.see('[data-compared=SP]', 'equal');
-    p.type(p.field('with'), 'axis:lift');
+    p.type(p.field('with'), 'axis:turntable');
     await p.press('Compare');
     await p.see('[data-compared=TE]', 'differs, read only');
+    p.type(p.field('with'), 'axis:lift');
+    await p.press('Compare');
+    await p.see('[data-field=compare-told]', 'The families differ: lift is Schneider Electric Lexium MCode (mcode), feeder is UIROBOT UIM342 (uim342). Their parameters are not the same ones, so they cannot be compared.');
+    expect(p.text('.compare')).not.toContain('Nothing differs.');
   });
   it('a file to be written says what is wrong with it; what is exported, what is missing in it', async () => {
     kept('transfer.feeder').value = '';

@@ -193,7 +193,7 @@ describe('a role', () => {
     draft.stage.value = { ...draft.stage.value, client: 'anna 10.0.0.7 page-000000' };
     await tick();
     expect(buttons()).toEqual([true, false]);
-    expect(button('Keep the applied site').title).toBe('Only the page of anna that applied it, or an administrator, can keep it.');
+    expect(button('Keep the applied site').title).toBe('Only the page of anna that applied it can keep it; take it back and apply it from here if need be.');
     draft.stage.value = { ...draft.stage.value, client: `anna ${gateway.tab.name.value}` };
     await tick();
     expect(buttons()).toEqual([false, false]);

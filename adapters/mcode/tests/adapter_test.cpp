@@ -247,6 +247,60 @@ TEST(McodeAdapter, NativeLines) {
     b.drives[0].refuse["XYZ"] = 60;
     EXPECT_EQ(b.wait(native("XYZ")).code, 60);
 }
+TEST(McodeAdapter, NativeBytesAreTheLineThatTheySpell) {
+    Bench b;
+    b.up();
+    b.run(2s);
+    const auto bytes = [](std::string_view s) { return Native{{s.begin(), s.end()}, false}; };
+    for (const auto* same : {"PR VM", "PR VM\r", "PR VM\n", "PR VM\r\n"}) EXPECT_EQ(b.wait(bytes(same)).text, "768000") << same;
+    struct Bad {
+        std::string_view bytes;
+        const char* says;
+    };
+    using namespace std::string_view_literals;
+    for (const Bad& bad : {Bad{"PR VM\0"sv, "character 6 is 0x00"}, Bad{"\x80PR VM"sv, "character 1 is 0x80"}, Bad{"MA 1\rMA 2"sv, "character 5 is 0x0D"},
+                           Bad{"PR VM\r\r"sv, "character 6 is 0x0D"}, Bad{"PR\x7FVM\r\n"sv, "character 3 is 0x7F"}, Bad{"\r\n"sv, "empty"}}) {
+        const Result r = b.wait(bytes(bad.bytes));
+        EXPECT_EQ(r.outcome, Outcome::refused);
+        EXPECT_EQ(r.reason, Reason::out_of_range);
+        EXPECT_NE(r.text.find(bad.says), std::string::npos) << r.text;
+    }
+}
+TEST(McodeAdapter, ASlowVelocityTakesViAlong) {
+    Bench b;
+    b.up();
+    b.run(2s);
+    ASSERT_TRUE(good(b.wait(Enable{})));
+    Move jog;
+    jog.kind = Move::Kind::velocity;
+    const auto lines = [&](std::int64_t target) {
+        const auto before = b.drives[0].heard.size();
+        jog.target = target;
+        EXPECT_TRUE(good(b.wait(jog)));
+        std::string said;
+        for (auto i = before; i < b.drives[0].heard.size(); ++i) {
+            const auto& line = b.drives[0].heard[i];
+            if (line.find("VI=") != std::string::npos || line.find("SL") != std::string::npos) said += line + "; ";
+        }
+        return said;
+    };
+    EXPECT_EQ(lines(5000), "SL 5000; ") << "VI is 1000";
+    EXPECT_EQ(lines(-427), "VI=427; SL -427; ") << "the drive refuses a speed below VI";
+    EXPECT_EQ(lines(-427), "SL -427; ");
+    EXPECT_EQ(lines(0), "SL 0; ");
+    b.run(3s);
+    EXPECT_EQ(lines(600), "VI=600; SL 600; ") << "up with it, no further";
+    EXPECT_EQ(lines(0), "SL 0; ");
+    b.run(3s);
+    EXPECT_EQ(lines(2000), "VI=1000; SL 2000; ") << "as it was set";
+    EXPECT_EQ(lines(-3), "VI=3; SL -3; ");
+    EXPECT_EQ(lines(0), "SL 0; ");
+    b.run(3s);
+    const auto before = b.drives[0].heard.size();
+    (void)b.wait(Home{21});
+    const auto first = std::find(b.drives[0].heard.begin() + static_cast<std::ptrdiff_t>(before), b.drives[0].heard.end(), "VI=1000");
+    EXPECT_NE(first, b.drives[0].heard.end()) << "a search creeps with VI";
+}
 TEST(McodeAdapter, Parameters) {
     Bench b;
     b.up();

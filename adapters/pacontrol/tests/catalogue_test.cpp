@@ -113,6 +113,18 @@ TEST(PacontrolCatalogue, EveryCommandAndActionIsKnownToTheAdapter) {
     EXPECT_EQ(codes, all_commands().size());
 }
 
+TEST(PacontrolCatalogue, EveryNumberOfAFaultIsASystemErrorWithAText) {
+    for (int code = 1; code <= 999; ++code) {
+        const ErrorCode* e = real_catalogue().error(code);
+        ASSERT_TRUE(e) << code;
+        EXPECT_EQ(e->kind, "system") << code << ": a command error of the same number is another thing";
+        EXPECT_FALSE(e->text.empty()) << code;
+    }
+    EXPECT_EQ(real_catalogue().error(64, "command")->text, "Limit switch actuated");
+    for (const int own : {530, 531, 532})  // negative switch, following error, power pack
+        EXPECT_NE(real_catalogue().error(own)->text.find("simulated control"), std::string::npos) << own << ": no number of the manual's";
+}
+
 TEST(PacontrolCatalogue, CommandErrorsHaveTheSameWordsInBothPlaces) {
     for (const auto& e : real_catalogue().errors()) {
         if (e.kind != "command") continue;

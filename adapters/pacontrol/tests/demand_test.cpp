@@ -61,6 +61,26 @@ TEST(PacontrolDemand, MicrostepsAreTurnedIntoIncrementsByTheGear) {
     }
 }
 
+TEST(PacontrolDemand, InPositionByTheCounterAloneIsNotTheTarget) {
+    for (const double lag : {0.0, 30.0, -30.0, 40.0, -40.0, 8000.0}) {
+        SCOPED_TRACE(lag);
+        Known b(5, 0.0);
+        const auto warnings = b.notices_of("motion");
+        b.control.axes[0].lag = lag;
+        const auto r = b.ask(absolute(20'000), true);
+        EXPECT_EQ(r.outcome, Outcome::done) << "the control has done its work";
+        b.run(500ms);
+        const bool behind = std::fabs(lag) > 32;  // two full steps of 200
+        EXPECT_EQ(b.feedback().target_reached, !behind);
+        EXPECT_EQ(b.feedback().warning, behind);
+        EXPECT_EQ(b.notices_of("motion") - warnings, behind ? 1u : 0u);
+        b.control.axes[0].lag = 0;  // turned back by hand
+        b.run(2s);
+        EXPECT_TRUE(b.feedback().target_reached);
+        EXPECT_FALSE(b.feedback().warning);
+    }
+}
+
 TEST(PacontrolDemand, WithoutAGearMicrostepsMeanNothingAndAreNotAsked) {
     Known b(0, 320.0);
     b.command(absolute(50'000));

@@ -242,6 +242,29 @@ TEST(PacontrolTrouble, AMalfunctionOfOneAxisIsItsOwn) {
     EXPECT_EQ(b.answer(two).outcome, Outcome::done);
 }
 
+TEST(PacontrolTrouble, AFaultKeepsItsNumberUntilTheAxisIsInOrder) {
+    Enabled b(1);
+    (void)b.command(absolute(100000), true);
+    b.run(500ms);
+    b.control.axes[0].stop(b.now, 4);
+    b.control.error = 531;
+    b.control.mode = 39;
+    b.run(1s);
+    ASSERT_TRUE(b.feedback().fault);
+    EXPECT_EQ(b.feedback().error_code, 531);
+    b.control.error = 0;  // the number goes first; the axis says later that it is in order
+    b.control.mode = 1;
+    b.run(1s);
+    EXPECT_TRUE(b.feedback().fault);
+    EXPECT_EQ(b.feedback().error_code, 531) << "the same fault, not one without a number";
+    b.control.axes[0].rest = 0;
+    b.control.axes[0].stop(b.now, 0);
+    b.run(1s);
+    EXPECT_FALSE(b.feedback().fault);
+    EXPECT_EQ(b.feedback().error_code, 0);
+    EXPECT_EQ(b.notices_of("axis"), 1u) << "told once";
+}
+
 TEST(PacontrolTrouble, LimitSwitchesAreLowActive) {
     Bench b(1);
     b.start();

@@ -142,7 +142,7 @@ std::optional<Identity> AccessDesk::by_token(std::string_view secret, std::int64
 AccessDesk::Attempt AccessDesk::begin_sign_in(std::string_view name, std::string_view peer, std::int64_t now_ns) {
     const std::string by_user = user_key(name), by_peer = peer_key(peer);
     Attempt a;
-    a.pause_s = std::max(lockout_.pause_s(by_user, now_ns), lockout_.pause_s(by_peer, now_ns));
+    a.pause_s = std::max(lockout_.pause_s(by_user, now_ns), lockout_.pause_s(by_peer, now_ns, Lockout::free_failures_of_peer));
     if (a.pause_s > 0) return a;
     lockout_.failed(by_user, now_ns);
     lockout_.failed(by_peer, now_ns);

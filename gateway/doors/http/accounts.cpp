@@ -6,6 +6,9 @@
 
 #include <algorithm>
 
+#include "gateway/doors/http/preconditions.hpp"
+#include "gateway/doors/http/secrets.hpp"
+
 namespace axisgate::http {
 namespace json = boost::json;
 namespace {
@@ -80,8 +83,14 @@ json::object session_document(AccessPort* port, const Identity& i) {
             {"roles", json::array{"viewer", "operator", "engineer", "administrator"}}};
 }
 
+std::string tag_of(const User& u) {
+    // The digest stands for the stored password: a change of it is a change, but the tag leads nobody to it.
+    return tag_over({u.name, axisgate::http::name_of(u.role), u.enabled ? "enabled" : "", digest_of(u.hash), std::to_string(u.created_ns)});
+}
+
 json::object document_of(const User& u) {
     return {{"name", u.name},
+            {"etag", tag_of(u)},
             {"role", name_of(u.role)},
             {"enabled", u.enabled},
             {"created_at", format_time(u.created_ns)},

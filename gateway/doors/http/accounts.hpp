@@ -35,6 +35,8 @@ private:
 
 /// The answer of /session.
 [[nodiscard]] boost::json::object session_document(AccessPort* port, const Identity& identity);
+/// Names this state of a user, for If-Match; a sign-in is no other state.
+[[nodiscard]] std::string tag_of(const User& user);
 [[nodiscard]] boost::json::object document_of(const User& user);
 [[nodiscard]] boost::json::object document_of(const Token& token);
 

@@ -221,7 +221,9 @@ json::object frame_document(const TraceEntry& e, const std::vector<std::string>&
             {"decoded", json::array(decoded.begin(), decoded.end())}};
 }
 
-json::object parameter_document(const Parameter& p, std::string_view id) {
+json::object parameter_document(const Catalogue& catalogue, Point point, std::string_view id) {
+    const Parameter& p = *catalogue.parameter(point);
+    const auto selector = catalogue.selector(point);
     json::object o{{"id", id},
                    {"name", p.name},
                    {"group", p.group},
@@ -245,6 +247,7 @@ json::object parameter_document(const Parameter& p, std::string_view id) {
     }
     o["first"] = p.count == 0 ? json::value(nullptr) : json::value(p.first);
     o["count"] = p.count == 0 ? json::value(nullptr) : json::value(p.count);
+    o["selector"] = selector ? json::value(*selector) : json::value(nullptr);
     return o;
 }
 
@@ -254,6 +257,7 @@ json::object command_document(const CatalogueCommand& c) {
 
 json::object error_document(const ErrorCode& e) {
     return {{"code", e.code},
+            {"through", e.through == 0 ? json::value(nullptr) : json::value(e.through)},
             {"kind", text_or_null(e.kind)},
             {"name", text_or_null(e.name)},
             {"text", text_or_null(e.text)},
@@ -288,9 +292,9 @@ bool is_read_only_line_member(std::string_view name) noexcept {
     return std::ranges::find(line_live_members, name) != line_live_members.end();
 }
 
-json::object axis_parameter_document(const Parameter& p, std::string_view id, const LiveParameter& live, const StoredParameter* stored,
-                                     std::string_view text) {
-    json::object o = parameter_document(p, id);
+json::object axis_parameter_document(const Catalogue& catalogue, Point point, std::string_view id, const LiveParameter& live,
+                                     const StoredParameter* stored, std::string_view text) {
+    json::object o = parameter_document(catalogue, point, id);
     o["value"] = to_json(live.value);
     o["quality"] = name_of(known(live.value) ? live.quality : Quality::unknown);
     o["at"] = known(live.value) ? json::value(format_time(live.at_unix_ns)) : json::value(nullptr);

@@ -41,8 +41,8 @@ struct AxisView {
 [[nodiscard]] boost::json::object event_document(const Event& event);
 [[nodiscard]] boost::json::object frame_document(const TraceEntry& entry, const std::vector<std::string>& decoded = {});
 
-/// A parameter of the catalogue; `id` is its own or, for one element of an array, `N[17]`.
-[[nodiscard]] boost::json::object parameter_document(const Parameter& parameter, std::string_view id);
+/// A parameter of the catalogue; of an array `point` is the element that is meant, or the first, and `id` says which: `N[17]`, or `N`.
+[[nodiscard]] boost::json::object parameter_document(const Catalogue& catalogue, Point point, std::string_view id);
 [[nodiscard]] boost::json::object command_document(const CatalogueCommand& command);
 [[nodiscard]] boost::json::object error_document(const ErrorCode& error);
 /// A family, with whatever its catalogue says beside the three lists.
@@ -54,7 +54,7 @@ struct AxisView {
 [[nodiscard]] bool is_read_only_line_member(std::string_view name) noexcept;
 
 /// Parameter of an axis: the catalogue's, the live value, and the last write through the gateway.
-[[nodiscard]] boost::json::object axis_parameter_document(const Parameter& parameter, std::string_view id, const LiveParameter& live,
-                                                          const StoredParameter* stored, std::string_view text);
+[[nodiscard]] boost::json::object axis_parameter_document(const Catalogue& catalogue, Point point, std::string_view id,
+                                                          const LiveParameter& live, const StoredParameter* stored, std::string_view text);
 
 }  // namespace axisgate::http

@@ -9,6 +9,7 @@
 #include <boost/beast/http.hpp>
 #include <boost/json.hpp>
 
+#include "gateway/core/json_read.hpp"
 #include "gateway/doors/http/documents.hpp"
 #include "gateway/doors/http/server.hpp"
 
@@ -63,11 +64,12 @@ Answer handle(const Drives& drives, const bhttp::request<bhttp::string_body>& re
     if (request.method() == bhttp::verb::get) return show(*drive);
     if (request.method() != bhttp::verb::patch && request.method() != bhttp::verb::put)
         return fault(bhttp::status::method_not_allowed, "use GET, PATCH or PUT");
-    boost::system::error_code ec;
-    const auto parsed = json::parse(request.body(), ec);
-    if (ec || !parsed.is_object()) return fault(bhttp::status::bad_request, "the body must be a JSON object such as {\"stall\": true}");
+    JsonFault unread;
+    const auto parsed = read_json(request.body(), unread);
+    if (!parsed && unread.twice) return fault(bhttp::status::bad_request, fmt::format("{} ({}): keep one of them", unread.text, unread.pointer));
+    if (!parsed || !parsed->is_object()) return fault(bhttp::status::bad_request, "the body must be a JSON object such as {\"stall\": true}");
     std::vector<std::pair<std::string, Value>> items;
-    for (const auto& [name, v] : parsed.get_object()) {
+    for (const auto& [name, v] : parsed->get_object()) {
         Value value;
         if (v.is_bool()) value = v.get_bool();
         if (v.is_int64()) value = v.get_int64();

@@ -6,6 +6,7 @@
 #include <boost/json/object.hpp>
 #include <boost/json/value.hpp>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,6 +31,9 @@ namespace axisgate::http {
 class RecipeDesk;
 class AlarmDesk;
 
+/// Parameters that are being written through this door, (axis, parameter): how often.
+using WritesUnderWay = std::map<std::pair<std::string, std::string>, int>;
+
 /// What all handlers share; outlives every call.
 struct Context {
     Gateway& gateway;
@@ -44,6 +48,7 @@ struct Context {
     std::shared_ptr<AxisTexts> axis_texts = std::make_shared<AxisTexts>();   ///< what GET /axes/{name} answers
     std::shared_ptr<StageDesk> stages = std::make_shared<StageDesk>();       ///< whose the staged site is
     std::shared_ptr<ClientsSeen> clients = std::make_shared<ClientsSeen>();  ///< to whom an axis can be handed over
+    std::shared_ptr<WritesUnderWay> writes = std::make_shared<WritesUnderWay>();  ///< of parameters, each until the drive has answered
 };
 
 /// One request on its way. Lives only as long as the handler's call.
@@ -112,14 +117,17 @@ Handled list_mapping_points(Call&);
 Handled command_axis(Call&);
 Handled act_on_axis(Call&);
 Handled start_moves(Call&);
+// --- handlers_modbus.cpp ----------------------------------------------------------------------------------------------
+Handled get_modbus_door(Call&);
+Handled change_modbus_door(Call&);
 // --- handlers_authority.cpp -------------------------------------------------------------------------------------------
 Handled list_authority(Call&);
 Handled get_authority(Call&);
 Handled take_authority(Call&);
+/// Gives up what this user, or this user's token ("anna line3"), holds: he may not command any more. `by`: who did that.
+void end_leases_of(Gateway& gateway, std::string_view client, const std::string& by);
 Handled release_authority(Call&);
 Handled hand_over_authority(Call&);
-Handled get_modbus(Call&);
-Handled change_modbus(Call&);
 // --- handlers_parameters.cpp ------------------------------------------------------------------------------------------
 Handled list_parameters(Call&);
 Handled read_parameter(Call&);

@@ -1,4 +1,4 @@
-// Handlers of who may command: the leases of axes, and the locks of the Modbus door.
+// Handlers of who may command: the leases of axes.
 // In: calls. Out: JSON; a refusal names the holder and how long it has the axis still.
 #include <fmt/format.h>
 
@@ -19,7 +19,7 @@ json::object authority_document(const Gateway& gateway, const AxisSpec& spec, Ax
     const std::int64_t until = p.authority_holder[0] != 0 ? gateway.to_unix_ns(p.authority_until) : 0;
     const bool held = until > now;
     json::object o{{"axis", spec.name},
-                   {"door", axisgate::name_of(p.authority)},
+                   {"door", axisgate::name_of(held ? p.authority : Door::none)},
                    {"holder", held ? p.authority_holder.data() : ""},
                    {"mode", axisgate::name_of(spec.authority_mode)}};
     o["expires_in_s"] = held ? number(static_cast<double>((until - now) / 1'000'000) / 1000.0) : json::value(nullptr);
@@ -99,15 +99,32 @@ void check_members(const json::object& body, std::initializer_list<std::string_v
 
 Origin Call::origin() const {
     Origin o{Door::http, std::make_shared<const std::string>(who()), {}};
-    // Who has signed in is one client wherever from; without a name, several connections of one page are one client: the host, and the
-    // name that the client gives itself.
+    // Who has signed in is one client wherever from, and each of his tokens another one; without a name, several connections of one page are
+    // one client: the host, and the name that the client gives itself.
     std::string name = identity.user.empty() ? request.peer.substr(0, request.peer.rfind(':')) : identity.user;
+    if (!identity.token.empty()) name += ' ' + identity.token;
     if (const auto own = trimmed(request.headers.get("X-Client")); !own.empty()) {
         name += ' ';
         for (const char x : own.substr(0, 40)) name += static_cast<unsigned char>(x) < 0x20 || x == 0x7F ? '_' : x;
     }
     o.client = std::make_shared<const std::string>(std::move(name));
     return o;
+}
+
+void end_leases_of(Gateway& gateway, std::string_view client, const std::string& by) {
+    const std::string prefix = std::string(client) + ' ';
+    for (const AxisId id : gateway.site()->axis_ids) {
+        const AxisPicture p = gateway.picture(id);
+        const std::string holder = p.authority_holder.data();
+        if (p.authority != Door::http || (holder != client && !holder.starts_with(prefix))) continue;
+        Command command;
+        command.axis = id;
+        command.origin = {Door::http, std::make_shared<const std::string>(by), std::make_shared<const std::string>(holder)};
+        HoldAxis wish;
+        wish.kind = HoldAxis::Kind::release;
+        command.body = wish;
+        (void)gateway.submit(std::move(command), [](const Result&) {});
+    }
 }
 
 Handled list_authority(Call& c) {
@@ -183,43 +200,6 @@ Handled hand_over_authority(Call& c) {
     }
     if (!faults.empty()) return invalid(std::move(faults), c.names[0]);
     return submit_hold(c, std::move(wish), false);
-}
-
-namespace {
-Response modbus_document(const std::optional<Gateway::ModbusReport>& report) {
-    if (!report) return problem(503, "busy", "the Modbus door is switched off, or cannot say now: see modbus.bind, or come again in a moment");
-    json::array allow, functions, connections;
-    for (const auto& a : report->allow) allow.emplace_back(a);
-    for (const auto& f : report->functions) functions.emplace_back(std::stoi(f));
-    for (const auto& x : report->connections) {
-        json::array holds;
-        for (const auto& h : x.holds) holds.emplace_back(h);
-        connections.push_back(json::object{{"peer", x.peer}, {"requests", x.requests}, {"writes", x.writes}, {"exceptions", x.exceptions},
-                                           {"since", x.since_unix_ns}, {"holds", std::move(holds)}});
-    }
-    return json_response(json::object{{"bind", report->bind}, {"allow", std::move(allow)}, {"functions", std::move(functions)},
-                                      {"read_only", report->read_only}, {"connections", std::move(connections)}});
-}
-}  // namespace
-
-Handled get_modbus(Call& c) {
-    c.gateway().modbus_report([respond = c.respond](std::optional<Gateway::ModbusReport> r) { respond(modbus_document(r)); });
-    return {gateway_limit, late_modbus()};
-}
-
-Handled change_modbus(Call& c) {
-    const json::object& body = c.body.get_object();
-    std::vector<Fault> faults;
-    check_members(body, {"read_only"}, faults);
-    const auto* value = body.if_contains("read_only");
-    if (!value || !value->is_bool()) faults.push_back({"/read_only", "read_only must be true or false", "write one of them"});
-    if (!faults.empty()) return invalid(std::move(faults));
-    Gateway* const gateway = &c.gateway();
-    gateway->set_modbus_read_only(value->get_bool(), c.origin(), [gateway, respond = c.respond](std::string fault) {
-        if (!fault.empty()) return respond(problem(503, "busy", fault));
-        gateway->modbus_report([respond](std::optional<Gateway::ModbusReport> r) { respond(modbus_document(r)); });
-    });
-    return {gateway_limit, late_modbus()};
 }
 
 }  // namespace axisgate::http

@@ -9,8 +9,18 @@ namespace axisgate::http {
 namespace json = boost::json;
 
 Handled get_backup(Call& c) {
-    c.gateway().backup([respond = c.respond](std::optional<std::string> bytes, const std::string& fault) {
+    auto told = [gateway = &c.gateway(), who = c.who(), sent = c.request.method == Method::get](std::size_t bytes) {
+        if (!sent) return;  // HEAD: nothing leaves
+        Event e;
+        e.kind = "site";  // as of a backup that is laid down
+        e.text = fmt::format("a backup was handed out: the whole database, {} bytes, with users, tokens and all that was stored", bytes);
+        e.who = who;
+        e.door = std::string(axisgate::name_of(Door::http));
+        gateway->note(std::move(e));
+    };
+    c.gateway().backup([respond = c.respond, told = std::move(told)](std::optional<std::string> bytes, const std::string& fault) {
         if (!bytes) return respond(problem(507, "not_stored", fault));
+        told(bytes->size());
         Response r;
         r.headers.set("Content-Type", "application/octet-stream");
         r.headers.set("Content-Disposition", "attachment; filename=\"axisgate-backup.db\"");

@@ -32,8 +32,14 @@ Handled get_family(Call& c) {
 }
 
 Handled list_family_parameters(Call& c) {
-    return list_of(
-        c, [](const Catalogue& k) { return k.parameters(); }, [](const Parameter& p) { return parameter_document(p, p.id); });
+    const auto entry = c.gateway().families().find(c.names[0]);
+    if (!entry.family || !entry.catalogue) return nothing_named("family", c.names[0]);
+    json::array out;
+    for (const auto& p : entry.catalogue->parameters()) {
+        const Point point{static_cast<std::uint16_t>(out.size()), p.count ? p.first : std::uint16_t{0}};
+        out.push_back(parameter_document(*entry.catalogue, point, p.id));
+    }
+    return json_response(out);
 }
 
 Handled list_family_commands(Call& c) {

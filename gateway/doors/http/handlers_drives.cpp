@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "gateway/doors/http/documents.hpp"
 #include "gateway/doors/http/handlers.hpp"
@@ -108,6 +109,24 @@ Handled exchange_native(Call& c) {
     });
 }
 
+namespace {
+/// The twin says in words what it does not take; the place is the one member there is, or the one that its words name.
+Fault hand_fault(const std::vector<std::string>& asked, std::string text) {
+    if (asked.size() == 1) return {"/" + asked.front(), std::move(text), "nothing was set; see GET with ?describe=1"};
+    const auto is_named = [&text](const std::string& name) {
+        const auto in_word = [](char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0; };
+        for (auto at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
+            const auto end = at + name.size();
+            if ((at == 0 || !in_word(text[at - 1])) && (end == text.size() || !in_word(text[end]))) return true;
+        }
+        return false;
+    };
+    const auto it = std::ranges::find_if(asked, is_named);
+    const bool sure = it != asked.end() && std::find_if(it + 1, asked.end(), is_named) == asked.end();
+    return {sure ? "/" + *it : "", std::move(text), "members before it may have been set: look with GET"};
+}
+}  // namespace
+
 Handled get_hand(Call& c) {
     const auto drive = find_drive(c.gateway(), c.names[0]);
     if (!drive) return nothing_named("drive", c.names[0]);
@@ -167,8 +186,10 @@ Handled set_hand(Call& c) {
         }
         if (!wrong.empty()) return respond(invalid(std::move(wrong)));
         if (wanted.empty()) return respond(json_response(flat(*items)));
-        gateway.set_hand(id, std::move(wanted), std::move(origin), [&gateway, id, name, respond](std::string wrong_text) {
-            if (!wrong_text.empty()) return respond(invalid({{"", std::move(wrong_text), "nothing was set"}}));
+        std::vector<std::string> asked;
+        for (const auto& [k, v] : wanted) asked.push_back(k);
+        gateway.set_hand(id, std::move(wanted), std::move(origin), [&gateway, id, name, asked = std::move(asked), respond](std::string wrong_text) {
+            if (!wrong_text.empty()) return respond(invalid({hand_fault(asked, std::move(wrong_text))}));
             gateway.hand(id, [&gateway, id, name, respond](std::optional<std::vector<HandItem>> now) {
                 respond(now ? json_response(flat(*now)) : not_simulated(gateway, id, name));
             });

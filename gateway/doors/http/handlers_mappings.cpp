@@ -77,6 +77,7 @@ Handled import_csv(Call& c, bool whole) {
     std::vector<std::size_t> lines;
     auto rows = mappings_from_csv(c.request.body, lines, csv);
     if (!rows) return csv_faults(csv);
+    const auto count = rows->size();
     auto plan = [&gateway = c.gateway(), rows = std::move(*rows), lines = std::move(lines), csv = std::move(csv), whole](const SiteState& before) -> Planned {
         json::object document = to_json(before.site);
         json::array& list = document["mappings"].get_array();
@@ -96,6 +97,10 @@ Handled import_csv(Call& c, bool whole) {
         auto site = parse_site(document, gateway.families(), faults);
         if (!site || !csv.empty()) {
             std::vector<CsvFault> told = csv;
+            // Said again with the rows by their lines: an id that a row would get is known to nobody.
+            const auto row = [&](std::size_t i) { return i < line_of.size() && line_of[i] != 0 ? fmt::format("row {}", line_of[i]) : std::string(); };
+            std::erase_if(faults, [](const SiteFault& f) { return f.pointer == "/mappings" || f.pointer.starts_with("/mappings/"); });
+            (void)parse_mappings(list, before.site, gateway.families(), faults, row);
             for (const auto& f : faults) {
                 std::size_t index = line_of.size();
                 if (constexpr std::string_view head = "/mappings/"; f.pointer.starts_with(head))
@@ -118,13 +123,14 @@ Handled import_csv(Call& c, bool whole) {
     };
     if (!dry_run) return change_site(c, false, std::move(plan));
     const auto now = c.gateway().site();
+    if (auto refusal = precondition(c, *now, false)) return *std::move(refusal);
     auto planned = plan(*now);
     if (auto* refusal = std::get_if<Response>(&planned)) return std::move(*refusal);
     json::array d;
     for (const auto& x : differences(now->site, std::get<Plan>(planned).site))
         d.emplace_back(x);
     return shown(*now, json::object{{"dry_run", true},
-                                    {"rows", lines.size()},
+                                    {"rows", count},
                                     {"mappings", std::get<Plan>(planned).site.mappings.size()},
                                     {"differences", std::move(d)}});
 }

@@ -7,6 +7,7 @@
 
 #include "gateway/doors/http/documents.hpp"
 #include "gateway/doors/http/handlers.hpp"
+#include "gateway/doors/http/preconditions.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
@@ -52,10 +53,16 @@ const StoredParameter* stored_of(const std::vector<StoredParameter>& list, std::
     return it == list.end() ? nullptr : &*it;
 }
 
+/// Of the last write: the same value written again is another state, since somebody meant it. What nobody wrote has a tag too.
+std::string tag_of(const StoredParameter* s) {
+    if (!s) return "\"never-written\"";
+    return tag_over({json_text(to_json(s->value)), s->who, s->door, std::to_string(s->at_unix_ns)});
+}
+
 /// What is answered for one parameter, from copies, so that it can be made after the exchange.
-json::object whole(Gateway& gateway, const ParameterPlace& place, const LiveParameter& live, std::string_view text, std::int64_t history) {
+Response whole(Gateway& gateway, const ParameterPlace& place, const LiveParameter& live, std::string_view text, std::int64_t history) {
     const auto stored = gateway.stored(place.axis.spec().name);
-    json::object o = axis_parameter_document(place.parameter(), place.id, live, stored_of(stored, place.id), text);
+    json::object o = axis_parameter_document(*place.axis.catalogue, place.point, place.id, live, stored_of(stored, place.id), text);
     if (history > 0) {
         json::array list;
         for (const auto& h : gateway.history(place.axis.spec().name, place.id, static_cast<std::size_t>(history))) {
@@ -67,7 +74,31 @@ json::object whole(Gateway& gateway, const ParameterPlace& place, const LivePara
         }
         o["history"] = std::move(list);
     }
-    return o;
+    return with_tag(json_response(o), tag_of(stored_of(stored, place.id)));
+}
+
+/// 412 with the last write, if If-Match means another one: nothing goes to the drive.
+std::optional<Response> refuse_other(const Call& c, const ParameterPlace& place) {
+    const std::string if_match(c.request.headers.get("If-Match"));
+    if (if_match.empty()) return std::nullopt;
+    if (c.context.writes->contains({c.names[0], place.id})) {
+        return to_response(Problem{.status = 409,
+                                   .reason = "busy",
+                                   .detail = fmt::format("{} of {} is being written by another client just now: read it again in a moment", place.id, c.names[0]),
+                                   .axis = c.names[0]});
+    }
+    const auto stored = c.gateway().stored(c.names[0]);
+    const auto* now = stored_of(stored, place.id);
+    if (!means_another(if_match, tag_of(now))) return std::nullopt;
+    if (!now) return overtaken(fmt::format("{} of {} was never written through the gateway: read it again", place.id, c.names[0]), tag_of(now), nullptr);
+    return overtaken(fmt::format("{} of {} was written by {} at {}: read it again; nothing was sent to the drive", place.id, c.names[0],
+                                 now->who.empty() ? "somebody" : now->who, format_time(now->at_unix_ns)),
+                     tag_of(now),
+                     json::object{{"parameter", place.id},
+                                  {"value", to_json(now->value)},
+                                  {"written_at", format_time(now->at_unix_ns)},
+                                  {"written_by", text_or_null(now->who)},
+                                  {"written_through", text_or_null(now->door)}});
 }
 
 std::optional<Value> value_from(const json::value& v) {
@@ -100,7 +131,8 @@ Handled list_parameters(Call& c) {
         if (!p) return;
         const std::string id = axis->catalogue->id_of(point);
         const auto it = by_id.find(id);
-        out.push_back(axis_parameter_document(*p, id, c.gateway().live(axis->id(), point), it == by_id.end() ? nullptr : it->second, ""));
+        out.push_back(axis_parameter_document(*axis->catalogue, point, id, c.gateway().live(axis->id(), point),
+                                              it == by_id.end() ? nullptr : it->second, ""));
     };
     bool array_found = false;
     const auto all = axis->catalogue->parameters();
@@ -121,7 +153,7 @@ Handled list_parameters(Call& c) {
                 put(index, static_cast<std::uint16_t>(e));
         } else {
             out.push_back(
-                axis_parameter_document(p, p.id, {}, nullptr, fmt::format("{} elements: list them with ?array={}", p.count, p.id)));
+                axis_parameter_document(*axis->catalogue, {index, p.first}, p.id, {}, nullptr, fmt::format("{} elements: list them with ?array={}", p.count, p.id)));
         }
     }
     if (array && !array_found) {
@@ -142,8 +174,7 @@ Handled read_parameter(Call& c) {
     if (fault) return *fault;
     Gateway& gateway = c.gateway();
     if (cached || !place->parameter().readable()) {
-        return json_response(whole(gateway, *place, gateway.live(place->axis.id(), place->point),
-                                   place->parameter().readable() ? "" : "can only be written", history));
+        return whole(gateway, *place, gateway.live(place->axis.id(), place->point), place->parameter().readable() ? "" : "can only be written", history);
     }
     Command command;
     command.axis = place->axis.id();
@@ -157,13 +188,13 @@ Handled read_parameter(Call& c) {
                 live.at_unix_ns = gateway.now_unix_ns();
             }
             live.quality = Quality::good;
-            respond(json_response(whole(gateway, place, live, r.text, history)));
+            respond(whole(gateway, place, live, r.text, history));
             return;
         }
         const bool silent = r.reason == Reason::no_answer || r.reason == Reason::line_down || r.reason == Reason::busy;
         if (silent && known(live.value)) {
             live.quality = Quality::stale;
-            respond(json_response(whole(gateway, place, live, r.text.empty() ? name_of(r.reason) : std::string_view(r.text), history)));
+            respond(whole(gateway, place, live, r.text.empty() ? name_of(r.reason) : std::string_view(r.text), history));
             return;
         }
         respond(problem_of(r, axis, "read_parameter"));
@@ -205,6 +236,14 @@ Handled write_parameter(Call& c) {
     if (!checked.fault.empty()) {
         return invalid({{"/value", checked.fault, "write a value that the catalogue allows"}}, c.names[0], "out_of_range");
     }
+    if (auto refusal = refuse_other(c, *place)) return *std::move(refusal);
+    // Until the drive has answered and it is stored, nobody knows what If-Match of another client would be compared with.
+    const std::pair key(c.names[0], id);
+    ++(*c.context.writes)[key];
+    c.respond = [writes = c.context.writes, key, respond = std::move(c.respond)](Response r) {
+        if (const auto it = writes->find(key); it != writes->end() && --it->second == 0) writes->erase(it);
+        respond(std::move(r));
+    };
     Command command;
     command.axis = place->axis.id();
     command.body = WriteParameter{place->point, std::move(checked.value)};

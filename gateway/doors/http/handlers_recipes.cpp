@@ -8,6 +8,7 @@
 
 #include "gateway/doors/http/change_queue.hpp"
 #include "gateway/doors/http/handlers.hpp"
+#include "gateway/doors/http/preconditions.hpp"
 #include "gateway/doors/http/recipe_desk.hpp"
 #include "gateway/doors/http/recipe_steps.hpp"
 
@@ -57,20 +58,7 @@ std::optional<std::uint64_t> number_of(const Call& c) {
 }
 
 /// Names one state of one document: another text, time or author is another tag.
-std::string tag_of(const Gateway::Document& d) {
-    std::uint64_t h = 14695981039346656037ull;  // FNV-1a, 64 bits: nothing depends on it being hard to forge
-    for (const auto& part : {d.text, d.who, std::to_string(d.at_unix_ns)}) {
-        for (const unsigned char x : part)
-            h = (h ^ x) * 1099511628211ull;
-        h = (h ^ 0xFF) * 1099511628211ull;
-    }
-    return fmt::format("\"{:016x}\"", h);
-}
-
-Response with_tag(Response r, const std::string& tag) {
-    r.headers.set("ETag", tag);
-    return r;
-}
+std::string tag_of(const Gateway::Document& d) { return tag_over({d.text, d.who, std::to_string(d.at_unix_ns)}); }
 
 /// If-Match and If-None-Match of a request that changes a recipe, kept until its turn comes.
 struct Wanted {
@@ -80,15 +68,11 @@ struct Wanted {
     /// 412 with what is there now, if it is not what was asked for.
     [[nodiscard]] std::optional<Response> refuse(const std::string& name, const std::optional<Gateway::Document>& now) const {
         const auto refused = [&](std::string text) {
-            Problem p{.status = 412, .reason = "precondition_failed", .detail = std::move(text)};
             const auto o = now ? parsed(*now) : std::nullopt;
-            p.more["etag"] = now ? json::value(tag_of(*now)) : json::value(nullptr);
-            p.more["current"] = o ? json::value(shown(*now, *o)) : json::value(nullptr);
-            Response r = to_response(p);
-            return now ? with_tag(std::move(r), tag_of(*now)) : r;
+            return overtaken(std::move(text), now ? std::optional(tag_of(*now)) : std::nullopt, o ? json::value(shown(*now, *o)) : json::value(nullptr));
         };
         if (!if_match.empty() && !now) return refused(fmt::format("there is no recipe {} any more: leave If-Match out to make it", name));
-        if (!if_match.empty() && !tag_listed(if_match, tag_of(*now), false))
+        if (now && means_another(if_match, tag_of(*now)))
             return refused(fmt::format("recipe {} was changed by {} at {}: read it again; its ETag is {}, not {}", name,
                                        now->who.empty() ? "somebody" : now->who, format_time(now->at_unix_ns), tag_of(*now), if_match));
         if (!if_none_match.empty() && now && tag_listed(if_none_match, tag_of(*now), true))

@@ -314,7 +314,9 @@ Handled add_mapping_template(Call& c) {
                     }};
     };
     if (!dry || !dry->get_bool()) return change_site(c, false, std::move(plan));
-    auto planned = plan(*c.gateway().site());
+    const auto now = c.gateway().site();
+    if (auto refusal = precondition(c, *now, false)) return *std::move(refusal);
+    auto planned = plan(*now);
     if (auto* refusal = std::get_if<Response>(&planned)) return std::move(*refusal);
     const auto& all = std::get<Plan>(planned).site.mappings;
     return json_response(

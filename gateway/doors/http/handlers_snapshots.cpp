@@ -65,6 +65,17 @@ void refuse_unknown(const json::object& body, std::initializer_list<std::string_
     }
 }
 
+/// A snapshot that was taken or removed, for the list of events.
+void tell(Gateway& gateway, const SnapshotInfo& s, const std::string& axis, const std::string& who, std::string_view what) {
+    Event e;
+    e.kind = "snapshot";
+    e.axis = axis;
+    e.text = fmt::format("snapshot {} \"{}\" {}", s.n, s.name, what);
+    e.who = who;
+    e.door = std::string(axisgate::name_of(Door::http));
+    gateway.note(std::move(e));
+}
+
 /// Everything that can be read; what is too long goes into `left_out`.
 std::vector<JobPoint> readable_points(const Catalogue& catalogue, json::array& left_out) {
     std::vector<JobPoint> out;
@@ -268,6 +279,7 @@ Handled take_snapshot(Call& c) {
                                   std::uint32_t n, const std::string& fault) mutable {
                                   if (!fault.empty()) return respond(problem(507, "not_stored", fault));
                                   taken.n = n;
+                                  tell(gateway, taken, axis.spec().name, taken.who, fmt::format("taken: {} values", taken.values));
                                   json::object o = snapshot_document(gateway, taken, axis);
                                   o["left_out"] = std::move(left_out);
                                   o["not_read"] = std::move(not_read);
@@ -306,8 +318,10 @@ Handled remove_snapshot(Call& c) {
     std::optional<Response> fault;
     const auto found = find_snapshot(c, fault);
     if (fault) return *fault;
-    c.gateway().delete_snapshot(c.names[0], found->snapshot.n, [respond = c.respond](const std::string& wrong) {
+    c.gateway().delete_snapshot(c.names[0], found->snapshot.n, [&gateway = c.gateway(), info = SnapshotInfo(found->snapshot), axis = c.names[0], who = c.who(),
+                                                                respond = c.respond](const std::string& wrong) {
         if (!wrong.empty()) return respond(problem(507, "not_stored", wrong));
+        tell(gateway, info, axis, who, "removed");
         Response r;
         r.status = 204;
         respond(std::move(r));

@@ -139,14 +139,13 @@ Handled apply_stage(Call& c) {
 Handled confirm_stage(Call& c) {
     const auto& stage = c.gateway().site_stage();
     const auto& applier = c.context.stages->applier(stage);
-    Origin origin = c.origin();
+    const Origin origin = c.origin();
     // The same user in another session is another one: who confirms has seen that he can still reach the gateway from where he applied it.
     const bool own = identity_of(*origin.who) == stage.by() && (applier.empty() || (applier == *origin.client && c.context.stages->applier_session(stage) == session_of(c.identity)));
     if (stage.state() == SiteStage::State::applied && !own) {
-        if (c.identity.role < Role::administrator)
-            return conflict(fmt::format("only {}{}, who applied the site, can confirm it, in the same session, or an administrator", stage.by(),
-                                        applier.empty() ? "" : fmt::format(" (client {})", applier)));
-        origin.who = std::make_shared<const std::string>(acting_for(*origin.who, stage.by()));
+        return conflict(fmt::format("only {}{}, who applied the site, can confirm it, in the same session; it rolls back by itself at {}, or now with "
+                                    "POST /api/v1/site/stage/roll-back, and can then be applied from here",
+                                    stage.by(), applier.empty() ? "" : fmt::format(" (client {})", applier), format_time(stage.confirm_by_unix_ns())));
     }
     if (auto fault = stage.check_confirm(*origin.who, c.gateway().now_unix_ns()); !fault.empty()) return conflict(std::move(fault));
     c.gateway().confirm_stage(origin, [&gateway = c.gateway(), desk = c.context.stages, respond = c.respond](const std::string& fault) {

@@ -2,6 +2,8 @@
 // In: calls. Out: tokens without their secrets, except in the answer that makes one.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "gateway/doors/http/accounts.hpp"
 #include "gateway/doors/http/secrets.hpp"
 
@@ -54,6 +56,11 @@ Handled add_token(Call& c) {
             respond(problem(409, "conflict", fmt::format("there are {} tokens already: remove one first", desk.tokens().size())));
             return done();
         }
+        // Whoever reads who did what finds a token by its owner and its name alone.
+        if (std::ranges::any_of(desk.tokens(), [&t](const auto& x) { return x.second.owner == t.owner && x.second.name == t.name; })) {
+            respond(problem(409, "conflict", fmt::format("{} has a token {} already: choose another name, or remove that token first", t.owner, t.name)));
+            return done();
+        }
         port->keep({record_of(t)}, by, [port, t, secret, by, respond, done](const std::string& fault) {
             if (!fault.empty()) {
                 respond(not_kept(fault));
@@ -78,13 +85,14 @@ Handled remove_token(Call& c) {
     if (!port) return no_accounts();
     const auto it = port->desk().tokens().find(c.names[0]);
     if (it == port->desk().tokens().end() || !may_see(c.identity, it->second)) return nothing_named("token", c.names[0]);
-    const bool queued = port->changes->run([port, t = it->second, by = c.who(), respond = c.respond](std::function<void()> done) {
-        port->keep({{"token", t.id, std::nullopt}}, by, [port, t, by, respond, done](const std::string& fault) {
+    const bool queued = port->changes->run([port, &gateway = c.gateway(), t = it->second, by = c.who(), respond = c.respond](std::function<void()> done) {
+        port->keep({{"token", t.id, std::nullopt}}, by, [port, &gateway, t, by, respond, done](const std::string& fault) {
             if (!fault.empty()) {
                 respond(not_kept(fault));
                 return done();
             }
             port->desk().remove_token(t.id);
+            end_leases_of(gateway, t.owner + ' ' + t.name, by);
             tell_access(*port, by, fmt::format("token {} of {} removed", t.name, t.owner));
             Response r;
             r.status = 204;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "gateway/doors/http/accounts.hpp"
+#include "gateway/doors/http/preconditions.hpp"
 #include "gateway/doors/http/secrets.hpp"
 
 namespace axisgate::http {
@@ -10,6 +11,12 @@ namespace json = boost::json;
 namespace {
 Response last_administrator(std::string_view name) {
     return problem(409, "conflict", fmt::format("{} is the last administrator that can sign in: make another one first", name));
+}
+
+/// 412 with the user as he is, if If-Match (empty: none) means him as he was.
+std::optional<Response> refuse_other(std::string_view if_match, const User& now) {
+    if (!means_another(if_match, tag_of(now))) return std::nullopt;
+    return overtaken(fmt::format("user {} was changed meanwhile: read it again; the ETag is {}, not {}", now.name, tag_of(now), if_match), tag_of(now), document_of(now));
 }
 
 using Respond = std::function<void(Response)>;
@@ -51,7 +58,7 @@ void change(const std::shared_ptr<AccessPort>& port, std::string name, std::stri
             tell_access(*port, by, text);
             Response r;
             r.status = status;
-            if (body && user) r = json_response(document_of(*user), status);
+            if (body && user) r = with_tag(json_response(document_of(*user), status), tag_of(*user));
             if (status == 201) r.headers.set("Location", "/api/v1/users/" + percent_encode(name));
             respond(std::move(r));
             done();
@@ -73,7 +80,7 @@ Handled get_user(Call& c) {
     if (!c.context.access) return no_accounts();
     const User* u = c.context.access->desk().user(c.names[0]);
     if (!u) return nothing_named("user", c.names[0]);
-    return json_response(document_of(*u));
+    return with_tag(json_response(document_of(*u)), tag_of(*u));
 }
 
 Handled add_user(Call& c) {
@@ -117,7 +124,10 @@ Handled change_user(Call& c) {
     const auto port = c.context.access;
     if (!port) return no_accounts();
     const std::string name = c.names[0];
-    if (!port->desk().user(name)) return nothing_named("user", name);
+    const std::string if_match(c.request.headers.get("If-Match"));
+    const User* known = port->desk().user(name);
+    if (!known) return nothing_named("user", name);
+    if (auto refusal = refuse_other(if_match, *known)) return *std::move(refusal);  // before a password is hashed for nothing
     BodyReader body(c.body.get_object(), {"role", "enabled", "password"});
     const auto role = body.role("role", false);
     const auto enabled = body.flag("enabled");
@@ -126,10 +136,17 @@ Handled change_user(Call& c) {
         if (const auto fault = password_fault(*password, name); !fault.empty()) body.fault("password", fault, "choose a longer sentence");
     }
     if (!body.good()) return body.refusal();
-    const auto apply = [port, name, role, enabled, by = c.who(), respond = c.respond](const std::string& hash) {
+    const auto answer = [port, name, &gateway = c.gateway(), by = c.who(), respond = c.respond](Response r) {
+        // Who may not command any more holds nothing any more.
+        const User* now = port->desk().user(name);
+        if (r.status < 300 && now && (!now->enabled || now->role < Role::operating)) end_leases_of(gateway, name, by);
+        respond(std::move(r));
+    };
+    const auto apply = [port, name, role, enabled, if_match, by = c.who(), answer](const std::string& hash) {
         change(port, name, by,
                [=](AccessDesk& desk, std::optional<User>& user, std::string& text) -> std::optional<Response> {
                    if (!user) return nothing_named("user", name);
+                   if (auto refusal = refuse_other(if_match, *user)) return refusal;
                    const Role new_role = role.value_or(user->role);
                    const bool new_enabled = enabled.value_or(user->enabled);
                    if (desk.is_last_administrator(name) && (new_role != Role::administrator || !new_enabled)) return last_administrator(name);
@@ -142,7 +159,7 @@ Handled change_user(Call& c) {
                    if (!hash.empty()) user->hash = hash;
                    return std::nullopt;
                },
-               200, true, respond);
+               200, true, answer);
     };
     if (!password) {
         apply({});
@@ -160,14 +177,18 @@ Handled remove_user(Call& c) {
     if (!port) return no_accounts();
     const std::string name = c.names[0];
     change(port, name, c.who(),
-           [name](AccessDesk& desk, std::optional<User>& user, std::string& text) -> std::optional<Response> {
+           [name, if_match = std::string(c.request.headers.get("If-Match"))](AccessDesk& desk, std::optional<User>& user, std::string& text) -> std::optional<Response> {
                if (!user) return nothing_named("user", name);
+               if (auto refusal = refuse_other(if_match, *user)) return refusal;
                if (desk.is_last_administrator(name)) return last_administrator(name);
                user.reset();
                text = fmt::format("user {} removed", name);
                return std::nullopt;
            },
-           204, false, c.respond);
+           204, false, [&gateway = c.gateway(), name, by = c.who(), respond = c.respond](Response r) {
+               if (r.status < 300) end_leases_of(gateway, name, by);
+               respond(std::move(r));
+           });
     return soon();
 }
 

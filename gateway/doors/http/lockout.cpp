@@ -9,11 +9,11 @@ namespace {
 constexpr std::int64_t second = 1'000'000'000;
 }  // namespace
 
-std::int64_t Lockout::pause_s(std::string_view key, std::int64_t now_ns) const {
+std::int64_t Lockout::pause_s(std::string_view key, std::int64_t now_ns, int free) const {
     const auto it = entries_.find(key);
-    if (it == entries_.end() || it->second.failures < free_failures) return 0;
+    if (it == entries_.end() || it->second.failures < free) return 0;
     if (now_ns - it->second.last_ns > forgotten_s * second) return 0;
-    const int beyond = std::min(it->second.failures - free_failures, 20);
+    const int beyond = std::min(it->second.failures - free, 20);
     const std::int64_t pause = std::min(max_pause_s, std::int64_t{1} << beyond);
     const std::int64_t rest_ns = it->second.last_ns + pause * second - now_ns;
     // A clock that was set back must not lock anybody out for longer than the pause itself.

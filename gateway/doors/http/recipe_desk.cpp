@@ -74,7 +74,7 @@ std::variant<json::object, Problem> RecipeDesk::start(const std::string& name, R
     active_.push_back(a);
     std::string with;
     for (const auto& [k, v] : a->arguments)
-        with += fmt::format("{} {} = {}", with.empty() ? " with" : ",", std::string_view(k), json::serialize(v));
+        with += fmt::format("{} {} = {}", with.empty() ? " with" : ",", std::string_view(k), json_text(v));
     note(*a, Severity::info, fmt::format("recipe {} run {} started{}", name, a->n, with));
     keep(*a, clock_());
     due_now_ = true;

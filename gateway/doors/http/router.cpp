@@ -3,18 +3,17 @@
 #include "gateway/doors/http/router.hpp"
 
 #include <fmt/format.h>
-#include <boost/json/parse.hpp>
 
 #include <algorithm>
 #include <array>
 #include <iterator>
 
 #include "gateway/doors/http/hosts.hpp"
+#include "gateway/doors/http/request_checks.hpp"
 #include "gateway/doors/http/static_files.hpp"
 
 namespace axisgate::http {
 namespace {
-namespace json = boost::json;
 using Takes = Route::Takes;
 using Gives = Route::Gives;
 
@@ -63,8 +62,8 @@ constexpr std::array routes{
     Route{"/api/v1/axes/{axis}/authority", Method::put, take_authority, Takes::json}.needs(Role::operating),
     Route{"/api/v1/axes/{axis}/authority", Method::remove, release_authority, Takes::nothing, Gives::nothing}.needs(Role::operating),
     Route{"/api/v1/axes/{axis}/authority/hand-over", Method::post, hand_over_authority, Takes::json}.needs(Role::operating),
-    Route{"/api/v1/modbus", Method::get, get_modbus},
-    Route{"/api/v1/modbus", Method::patch, change_modbus, Takes::patch},
+    Route{"/api/v1/modbus", Method::get, get_modbus_door},
+    Route{"/api/v1/modbus", Method::patch, change_modbus_door, Takes::patch},
     Route{"/api/v1/axes/{axis}/parameters", Method::get, list_parameters}.asks("group array first"),
     Route{"/api/v1/axes/{axis}/parameters/{parameter}", Method::get, read_parameter}.asks("cached history"),
     Route{"/api/v1/axes/{axis}/parameters/{parameter}", Method::put, write_parameter, Takes::json},
@@ -136,6 +135,9 @@ constexpr std::array routes{
     Route{"/api/v1/tokens/{token}", Method::remove, remove_token, Takes::nothing, Gives::nothing}.needs(Role::viewer),
     Route{"/api/v1/stream", Method::get, open_stream, Takes::nothing, Gives::own, true},
 };
+
+/// The host that a request is for: an absolute target says so in place of the header, whatever that says (RFC 9112 3.2.2).
+std::string_view host_meant(const Request& request) { return authority_of(request.target).value_or(request.headers.get("Host")); }
 
 constexpr std::array<Method, 5> told_methods{Method::get, Method::post, Method::put, Method::patch, Method::remove};
 
@@ -239,83 +241,18 @@ std::string_view media_given(Gives gives) {
     return {};
 }
 
-/// What is wrong with the media type that is announced for the body.
-std::optional<Response> check_media(const Request& request, Takes takes) {
-    const auto given = request.headers.get("Content-Type");
-    const auto media = media_of(given);
-    const auto refused = [&](std::string_view header, std::string_view taken, std::string text) {
-        Response r = problem(415, "unsupported_media_type", std::move(text));
-        if (!header.empty()) r.headers.set(header, std::string(taken));
-        return r;
-    };
-    switch (takes) {
-        case Takes::nothing:
-            return std::nullopt;
-        case Takes::bytes:
-            if (media == "application/octet-stream") return std::nullopt;
-            return refused({}, {}, "send the file with Content-Type: application/octet-stream");
-        case Takes::csv:
-            if (media == "text/csv") return std::nullopt;
-            return refused("Accept-Post", "text/csv", fmt::format("send a table with Content-Type: text/csv in UTF-8, not \"{}\"", given));
-        case Takes::json:
-            if (media == "application/json") return std::nullopt;
-            return refused("Accept-Post", "application/json",
-                           fmt::format("send a JSON object with Content-Type: application/json in UTF-8, not \"{}\"", given));
-        case Takes::patch:
-            if (media == "application/json" || media == "application/merge-patch+json") return std::nullopt;
-            return refused("Accept-Patch", "application/merge-patch+json, application/json",
-                           fmt::format("send a JSON object with Content-Type: application/json in UTF-8, not \"{}\"", given));
-    }
-    return std::nullopt;
-}
-
-/// Reads the body where the route takes JSON; what is wrong with it otherwise. Tables and files are read by their handlers.
-std::optional<Response> read_body(const Request& request, Takes takes, json::value& into) {
-    if (takes != Takes::json && takes != Takes::patch) return std::nullopt;
-    boost::system::error_code ec;
-    into = json::parse(request.body, ec);
-    if (ec) return problem(400, "bad_request", fmt::format("the body is not JSON: {}", ec.message()));
-    if (!into.is_object()) return problem(400, "bad_request", "the body must be a JSON object");
-    return std::nullopt;
-}
-
-/// What is wrong with the names of the query: each must be one of the route's, and none may stand twice.
-std::optional<Response> check_query(const Query& query, std::string_view known) {
-    const auto is_known = [known](std::string_view name) {
-        for (std::string_view rest = known; !rest.empty();) {
-            const auto end = std::min(rest.find(' '), rest.size());
-            if (rest.substr(0, end) == name) return true;
-            rest.remove_prefix(std::min(end + 1, rest.size()));
-        }
-        return false;
-    };
-    std::string list;
-    for (const char x : known)
-        x == ' ' ? list += ", " : list += x;
-    for (std::size_t i = 0; i < query.pairs.size(); ++i) {
-        const auto& name = query.pairs[i].first;
-        if (!is_known(name)) {
-            const auto shown = name.size() > 100 ? name.substr(0, 100) : name;
-            return problem(400, "bad_request",
-                           known.empty() ? fmt::format("\"{}\" is not known here: this takes no query", shown)
-                                         : fmt::format("\"{}\" is not known here: the query may have {}", shown, list));
-        }
-        for (std::size_t k = 0; k < i; ++k) {
-            if (query.pairs[k].first == name) return problem(400, "bad_request", fmt::format("{} stands twice in the query", name));
-        }
-    }
-    return std::nullopt;
-}
-
 }  // namespace
 
 std::span<const Route> all_routes() noexcept { return routes; }
 
 std::optional<Response> Router::check_host(const Request& request) const {
     const auto count = request.headers.count("Host");
-    if (count == 0 && request.http_1_0) return std::nullopt;
-    if (count != 1) return problem(400, "bad_request", count == 0 ? "the Host header is missing" : "there are several Host headers");
-    const auto host = request.headers.get("Host");
+    if (count > 1) return problem(400, "bad_request", "there are several Host headers");
+    if (count == 0 && !request.http_1_0) return problem(400, "bad_request", "the Host header is missing");
+    const auto named = authority_of(request.target);
+    if (named && named->empty()) return problem(400, "bad_request", "the request target names no host");
+    if (count == 0 && !named) return std::nullopt;
+    const auto host = host_meant(request);
     if (host_allowed(host, context_.settings)) return std::nullopt;
     return problem(
         421, "misdirected",
@@ -325,7 +262,7 @@ std::optional<Response> Router::check_host(const Request& request) const {
 std::optional<Response> Router::check_origin(const Request& request) {
     const auto origin = request.headers.get("Origin");
     const bool cross_site = request.headers.get("Sec-Fetch-Site") == "cross-site";
-    if (!cross_site && (request.headers.count("Origin") == 0 || same_host(origin, request.headers.get("Host")))) return std::nullopt;
+    if (!cross_site && (request.headers.count("Origin") == 0 || same_host(origin, host_meant(request)))) return std::nullopt;
     return problem(403, "forbidden",
                    fmt::format("the request comes from a page of another host ({})", origin.empty() ? "cross-site" : origin));
 }
@@ -398,6 +335,7 @@ Router::Entry Router::enter(const Request& request, std::optional<Target> target
         return answer(problem(406, "not_acceptable", fmt::format("this can be given as {}", media)));
     if (auto refusal = check_query(e.target->query, e.route->query)) return answer(*std::move(refusal));
     if (auto refusal = check_media(request, e.route->takes)) return answer(*std::move(refusal));
+    if (auto refusal = check_coding(request, e.route->takes)) return answer(*std::move(refusal));
     return e;
 }
 
@@ -488,8 +426,10 @@ Handled Router::handle(const Request& request, Respond respond) const {
     return handled;
 }
 
-bool Router::may_still_watch(const Request& request) const {
-    return http::identify(context_.access.get(), request, context_.gateway.now_unix_ns(), false).role >= Role::viewer;
+std::string_view Router::why_not_watched_on(const Request& request) const {
+    const Identity now = http::identify(context_.access.get(), request, context_.gateway.now_unix_ns(), false);
+    if (now.role >= Role::viewer) return {};
+    return now.wrong_token ? "the token has expired or was removed" : "signed out";
 }
 
 std::string_view Router::route_of(const Request& request) const { return route_word(parse_target(request.target)); }

@@ -68,8 +68,8 @@ public:
     /// Everything that is decided without the body: host, route, role, CSRF, origin, announced length, query, media type. A refusal here is
     /// the one that handle() would give. Changes nothing: no session is renewed by it.
     [[nodiscard]] Admission admit(const Request& head) const;
-    /// Whether a live feed that was opened by this request may go on: its session or token still holds.
-    [[nodiscard]] bool may_still_watch(const Request& request) const;
+    /// Why a live feed that was opened by this request may not go on, for its close frame; empty: its session or token still holds.
+    [[nodiscard]] std::string_view why_not_watched_on(const Request& request) const;
     /// The route's path for a counter: as in the table, "static" for files, "none" where nothing matched.
     [[nodiscard]] std::string_view route_of(const Request& request) const;
 

@@ -3,9 +3,10 @@
 #include "gateway/doors/http/stream_request.hpp"
 
 #include <fmt/format.h>
-#include <boost/json/parse.hpp>
 
 #include <cmath>
+
+#include "gateway/core/json_read.hpp"
 
 namespace axisgate::http {
 namespace {
@@ -28,15 +29,19 @@ bool read_topics(const json::value& v, std::string_view key, std::vector<std::st
 }  // namespace
 
 std::optional<StreamRequest> read_stream_request(std::string_view text, std::string& fault) {
-    boost::system::error_code ec;
-    const json::value v = json::parse(text, ec);
-    if (ec || !v.is_object()) {
+    JsonFault unread;
+    const auto document = read_json(text, unread);
+    if (!document && unread.twice) {
+        fault = fmt::format("{} ({}): keep one of them", unread.text, unread.pointer);
+        return std::nullopt;
+    }
+    if (!document || !document->is_object()) {
         fault = "a request is a JSON object: {\"subscribe\": [\"axes/*\"], \"period_ms\": 50}";
         return std::nullopt;
     }
     StreamRequest r;
     bool asks = false;
-    for (const auto& [k, x] : v.get_object()) {
+    for (const auto& [k, x] : document->get_object()) {
         if (k == "subscribe" || k == "unsubscribe") {
             asks = true;
             if (!read_topics(x, k, k == "subscribe" ? r.subscribe : r.unsubscribe, fault)) return std::nullopt;

@@ -163,15 +163,21 @@ std::optional<std::string_view> Query::get(std::string_view name) const noexcept
     return std::nullopt;
 }
 
+std::optional<std::string_view> authority_of(std::string_view target) noexcept {
+    for (const std::string_view scheme : {"http://", "https://"}) {
+        if (target.size() <= scheme.size() || !same_word(target.substr(0, scheme.size()), scheme)) continue;
+        target.remove_prefix(scheme.size());
+        return target.substr(0, target.find_first_of("/?"));
+    }
+    return std::nullopt;
+}
+
 std::optional<Target> parse_target(std::string_view target) {
     bool bare_query = false;
-    for (const std::string_view scheme : {"http://", "https://"}) {
-        if (target.size() > scheme.size() && same_word(target.substr(0, scheme.size()), scheme)) {
-            target.remove_prefix(scheme.size());
-            const auto end = target.find_first_of("/?");
-            target = end == std::string_view::npos ? std::string_view("/") : target.substr(end);
-            bare_query = target.front() == '?';  // "http://host?a=b": the path is "/"
-        }
+    if (const auto authority = authority_of(target)) {
+        target.remove_prefix(static_cast<std::size_t>(authority->data() - target.data()) + authority->size());
+        if (target.empty()) target = "/";
+        bare_query = target.front() == '?';  // "http://host?a=b": the path is "/"
     }
     if (!bare_query && (target.empty() || target.front() != '/')) return std::nullopt;
     if (!std::ranges::all_of(target, [](char c) { return static_cast<unsigned char>(c) > 0x20 && c != 0x7F && c != '#'; }))

@@ -34,6 +34,8 @@ struct Target {
 };
 /// Origin form ("/a/b?c=d") or absolute form ("http://host/a"). Nothing if it is neither.
 [[nodiscard]] std::optional<Target> parse_target(std::string_view target);
+/// The host and port of an absolute form; nothing for any other.
+[[nodiscard]] std::optional<std::string_view> authority_of(std::string_view target) noexcept;
 
 /// "1", "true", "": true; "0", "false": false; nothing for other text.
 [[nodiscard]] std::optional<bool> parse_flag(std::string_view text) noexcept;

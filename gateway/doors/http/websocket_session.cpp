@@ -148,7 +148,7 @@ void WebSocketSession::on_timer() {
     }
     if (!closing_ && now >= looked_ + host_->settings.right_period) {
         looked_ = now;
-        if (!host_->router.may_still_watch(opened_by_)) return begin_close(close_policy, "signed out");
+        if (const auto why = host_->router.why_not_watched_on(opened_by_); !why.empty()) return begin_close(close_policy, why);
     }
     if (!closing_ && writing_ && now >= write_began_ + host_->settings.write_limit / 2) {
         begin_close(close_try_later, "not read in time");

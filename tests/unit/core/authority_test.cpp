@@ -44,6 +44,26 @@ TEST(Authority, ModeLeaseTakesAndRenewsWithEachCommandAndNeverShortens) {
     EXPECT_FALSE(a.may(panel, t0 + seconds(3000)).allowed);
 }
 
+TEST(Authority, TheDoorIsNoneAgainWhenTheHoldersLeaseHasEnded) {
+    for (const bool released : {true, false}) {
+        AxisAuthority a;
+        EXPECT_EQ(a.door(), Door::none);
+        (void)a.take(plc, seconds(30), false, t0);
+        (void)a.command(plc, AuthorityMode::free, seconds(30), t0);
+        EXPECT_EQ(a.door(), Door::modbus);
+        if (released) (void)a.release(plc, t0 + seconds(1));
+        else (void)a.expire(t0 + seconds(30));
+        EXPECT_EQ(a.door(), Door::none);
+        EXPECT_EQ(a.commander(), plc) << "who commanded last is still known";
+        (void)a.take(panel, seconds(30), false, t0 + seconds(31));
+        EXPECT_EQ(a.door(), Door::http);
+        EXPECT_TRUE(a.release(panel, t0 + seconds(32)).allowed);
+        EXPECT_EQ(a.door(), Door::none);
+        EXPECT_EQ(a.command(plc, AuthorityMode::free, seconds(30), t0 + seconds(33)).change, AxisAuthority::Change::none);
+        EXPECT_EQ(a.door(), Door::modbus);
+    }
+}
+
 TEST(Authority, TakenOverHandedOverReleased) {
     AxisAuthority a;
     (void)a.take(plc, seconds(30), false, t0);

@@ -87,7 +87,7 @@ TEST(Recipe, ArgumentsStandInWithTheirOwnType) {
     ASSERT_TRUE(r) << faults.front().text;
     EXPECT_EQ(r->steps[0].axis, "feeder");
     EXPECT_EQ(r->steps[0].body.at("position"), json::value(2.5));
-    EXPECT_EQ(r->steps[1].text, "feeder by 2.5E0!");
+    EXPECT_EQ(r->steps[1].text, "feeder by 2.5!") << "as people write it";
     EXPECT_EQ(r->steps[2].limit, milliseconds(2500));
     const auto whole = whole_arguments(document, object(R"({"a":"x"})"));
     EXPECT_EQ(whole.at("d"), json::value(10));
@@ -170,6 +170,13 @@ TEST_F(Runs, AMotionSeenToItsEndIsNotStoppedLater) {
     ASSERT_EQ(requests.size(), 1u) << "b alone: a is at its target, c was halted by the recipe itself";
     EXPECT_EQ(requests[0].axis, "b");
     EXPECT_EQ(run->text(), "a fault is false: it is true");
+}
+
+TEST_F(Runs, NumbersOfTheReportAreWrittenAsPeopleWriteThem) {
+    world.points["a.position"] = 5.4990625;
+    start(R"({"steps":[{"check":{"axis":"a","point":"position","at_least":5.5}}]})");
+    EXPECT_EQ(run->state(), RecipeRun::State::failed);
+    EXPECT_EQ(run->text(), "a position at_least 5.5: it is 5.4990625");
 }
 
 // --- what steps are called ----------------------------------------------------------------------------------------------------

@@ -65,6 +65,39 @@ TEST(Catalogue, FindsByIdNameAndElement) {
     EXPECT_EQ(c.error(51), nullptr);
 }
 
+TEST(Catalogue, ASelectorIsThePositionAndTheElementAndNothingForTexts) {
+    const auto c = read(R"({"family": "x", "number": 1, "commands": [], "errors": [], "parameters": [
+      {"id": "T", "name": "t", "group": "g", "type": "text", "access": "R", "description": "d"},
+      {"id": "A", "name": "a", "group": "g", "type": "u8", "access": "R", "description": "d"},
+      {"id": "N", "name": "n", "group": "g", "type": "i32", "access": "R", "description": "d", "first": 1, "count": 3}]})");
+    EXPECT_EQ(c.selector({0, 0}), std::nullopt);
+    EXPECT_EQ(c.selector({1, 0}), 1u);
+    EXPECT_EQ(c.selector({2, 1}), 0x10002u);
+    EXPECT_EQ(c.selector({2, 3}), 0x30002u);
+    EXPECT_EQ(c.selector({2, 0}), std::nullopt);
+    EXPECT_EQ(c.selector({3, 0}), std::nullopt);
+}
+
+TEST(Catalogue, AClassSpeaksForTheCodesThatNothingElseNames) {
+    const auto c = read(R"({"family": "x", "number": 1, "commands": [], "parameters": [], "errors": [
+      {"code": 7, "kind": "system", "name": "seven", "text": "s"}, {"code": 1, "through": 99, "kind": "system", "name": "class", "text": "c"},
+      {"code": 100, "kind": "system", "through": null, "name": "hundred", "text": "h"}, {"code": 64, "kind": "command", "name": "answer", "text": "a"}]})");
+    EXPECT_EQ(c.error(7)->name, "seven");
+    EXPECT_EQ(c.error(1)->name, "class");
+    EXPECT_EQ(c.error(64)->name, "class") << "what stands first";
+    EXPECT_EQ(c.error(64, "command")->name, "answer");
+    EXPECT_EQ(c.error(99)->name, "class");
+    EXPECT_EQ(c.error(100)->name, "hundred");
+    for (const int none : {0, 101}) EXPECT_EQ(c.error(none), nullptr) << none;
+    for (const auto* wrong : {"\"9\"", "5", "4", "5.5"}) {
+        std::vector<std::string> faults;
+        const std::string written = std::string(R"({"family": "x", "number": 1, "commands": [], "parameters": [], "errors": [{"code": 5, "text": "t", "through": )") + wrong + "}]}";
+        EXPECT_FALSE(Catalogue::parse(written, faults)) << wrong;
+        ASSERT_EQ(faults.size(), 1u);
+        EXPECT_NE(faults[0].find("errors[0].through"), std::string::npos) << faults[0];
+    }
+}
+
 TEST(Catalogue, WritesAreCheckedAndRefusalsNameTheRange) {
     const auto c = read(page);
     EXPECT_EQ(c.check_write({0, 0}, Value{std::int64_t{65000000}}).fault, "");

@@ -394,6 +394,13 @@ public:
         modbus_asked.insert(modbus_asked.begin(), unit);
         then(modbus_answer);
     }
+    std::optional<ModbusReport> modbus_door;
+    void modbus_report(std::function<void(std::optional<ModbusReport>)> then) override { then(modbus_door); }
+    void set_modbus_read_only(bool on, Origin, std::function<void(std::string)> then) override {
+        if (!modbus_door) return then("there is no Modbus door");
+        modbus_door->read_only = on;
+        then("");
+    }
     void backup(std::function<void(std::optional<std::string>, std::string)> then) override { then("SQLite", ""); }
     void restore(std::string bytes, Origin, std::function<void(RestoreFault)> then) override {
         restored = std::move(bytes);

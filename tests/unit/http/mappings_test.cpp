@@ -51,6 +51,13 @@ TEST_F(HttpTest, MappingsAsCsv) {
     const auto dry = call("PUT", "/api/v1/mappings.csv?dry_run=1", two, type);
     EXPECT_EQ(dry.status, 200u) << dry.text;
     EXPECT_EQ(dry.at("mappings"), "2");
+    EXPECT_EQ(dry.at("rows"), "2") << "of the table";
+    for (const auto* method : {"PUT", "POST"}) {
+        const auto late = call(method, "/api/v1/mappings.csv?dry_run=1", two, {{"Content-Type", "text/csv"}, {"If-Match", "\"77\""}});
+        EXPECT_EQ(late.status, 412u) << method << " tries as it would be: " << late.text;
+        EXPECT_EQ(late.at("etag"), "\"1\"");
+    }
+    EXPECT_EQ(call("PUT", "/api/v1/mappings.csv?dry_run=1", two, {{"Content-Type", "text/csv"}, {"If-Match", "\"1\""}}).status, 200u);
     EXPECT_TRUE(gateway.applied.empty());
     EXPECT_EQ(call("PUT", "/api/v1/mappings.csv", two, type).status, 200u);
     EXPECT_EQ(gateway.site()->site.mappings.size(), 2u);
@@ -74,6 +81,27 @@ TEST_F(HttpTest, MappingsAsCsv) {
     EXPECT_EQ(lines, (std::set<std::string>{"/2", "/3", "/4"})) << mixed.text;
     EXPECT_EQ(gateway.site()->site.mappings.size(), 3u) << "all or nothing";
     EXPECT_EQ(call("POST", "/api/v1/mappings.csv", "{}").status, 415u);
+}
+
+TEST_F(HttpTest, RowsOfATableThatAreInEachOthersWayAreNamedByTheirLines) {
+    const auto faulty = [this](const char* method, std::string table) {
+        const auto a = call(method, "/api/v1/mappings.csv?dry_run=1", std::move(table), {{"Content-Type", "text/csv"}});
+        EXPECT_EQ(a.status, 422u) << a.text;
+        return std::string(a.fault().at("text").get_string());
+    };
+    const auto own = faulty("PUT", "unit,address,axis,point\n\n2,0,feeder,position\n2,1,slide,position\n");
+    EXPECT_EQ(own, "unit 2 holding_registers 1..1 is taken by row 3 (position of axis feeder); choose another address, or take one of the two rows out");
+    const auto added = faulty("POST", "unit,address,axis,point\n2,1,feeder,position\n");
+    EXPECT_EQ(added, "unit 2 holding_registers 1..1 is taken by mapping m1 (position of axis slide); choose another address, or remove that mapping");
+    const auto put_over = faulty("POST", "id,unit,address,axis,point\nm1,2,10,slide,position\n,2,11,feeder,position\n");
+    EXPECT_NE(put_over.find("is taken by row 2 (position"), std::string::npos) << "in the place of the one that was there: " << put_over;
+}
+
+TEST_F(HttpTest, ATemplateIsTriedOnTheSiteThatIsMeant) {
+    const std::string body = R"({"template":"standard_map","axis":"feeder","unit":9,"dry_run":true})";
+    EXPECT_EQ(call("POST", "/api/v1/mappings/template", body, {{"If-Match", "\"77\""}}).status, 412u);
+    EXPECT_EQ(call("POST", "/api/v1/mappings/template", body, {{"If-Match", "\"1\""}}).status, 200u);
+    EXPECT_TRUE(gateway.applied.empty());
 }
 
 TEST_F(HttpTest, PointsThatCanBeMapped) {

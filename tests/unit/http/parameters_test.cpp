@@ -22,7 +22,7 @@ TEST_F(HttpParameters, ListHasLiveAndStoredValues) {
     EXPECT_EQ(
         json_text(a[0]),
         R"({"id":"AC","name":"acceleration","group":"motion","type":"u32","unit":"pulse/s^2","min":1,"max":65000000,"default":20000,"access":"RW",)"
-        R"("storage":"eeprom","addressing":false,"live":false,"description":"Acceleration of motions.","allowed":null,"first":null,"count":null,"value":30000,"quality":"good",)"
+        R"("storage":"eeprom","addressing":false,"live":false,"description":"Acceleration of motions.","allowed":null,"first":null,"count":null,"selector":0,"value":30000,"quality":"good",)"
         R"("at":"2026-01-02T03:04:05.000000Z","stored":25000,"previous":20000,"written_at":"2023-11-14T22:13:20.000000Z","written_by":"127.0.0.1:5",)"
         R"("written_through":"http","text":""})");
     EXPECT_EQ(a[1].at("value"), nullptr);

@@ -100,6 +100,14 @@ TEST_F(AccessTest, EachRoleAgainstEachRoute) {
 TEST_F(AccessTest, ABackupThatCannotBeKeptIsNotCalledABadOne) {
     Fields headers = as("administrator");
     headers.emplace_back("Content-Type", "application/octet-stream");
+    ASSERT_EQ(from(far_peer, "GET", "/api/v1/backup", "", headers).status, 200u);
+    ASSERT_EQ(gateway.noted.size(), 1u) << "that all of it left the house is told";
+    EXPECT_EQ(gateway.noted[0].kind, "site");
+    EXPECT_NE(gateway.noted[0].text.find("the whole database"), std::string::npos) << gateway.noted[0].text;
+    EXPECT_NE(gateway.noted[0].who.find("administrator"), std::string::npos);
+    EXPECT_EQ(gateway.noted[0].door, "http");
+    EXPECT_EQ(from(far_peer, "HEAD", "/api/v1/backup", "", headers).status, 200u);
+    EXPECT_EQ(gateway.noted.size(), 1u) << "HEAD hands nothing out";
     const auto put = [&] { return from(far_peer, "PUT", "/api/v1/backup", std::string("SQLite format 3\0...", 19), headers); };
     EXPECT_EQ(put().status, 202u);
     gateway.keep_fault = "the file is damaged";
@@ -217,7 +225,7 @@ TEST_F(AccessTest, WhoseSessionHasEndedIsNotThisMachine) {
         EXPECT_TRUE(expires(a)) << target << a.headers.get("Set-Cookie");
     }
     Request watching = request("GET", "/api/v1/stream", {}, headers);
-    EXPECT_FALSE(door.may_still_watch(watching)) << "a live feed does not go on as this machine";
+    EXPECT_EQ(door.why_not_watched_on(watching), "signed out") << "a live feed does not go on as this machine";
     const auto session = from("127.0.0.1:5", "GET", "/api/v1/session", "", headers);
     EXPECT_EQ(session.status, 200u);
     EXPECT_EQ(session.at("via"), "none");
@@ -232,15 +240,17 @@ TEST_F(AccessTest, WhoseSessionHasEndedIsNotThisMachine) {
     EXPECT_EQ(from("127.0.0.1:5", "GET", "/api/v1/session").at("ended"), "null");
 }
 
-TEST_F(AccessTest, AnAdministratorConfirmsWhatAnotherApplied) {
+TEST_F(AccessTest, NobodyConfirmsWhatAnotherApplied) {
     const std::string site = R"({"lines":[],"drives":[],"axes":[],"mappings":[]})";
     ASSERT_EQ(from("127.0.0.1:5", "POST", "/api/v1/site/stage", site).status, 200u);
     ASSERT_EQ(from("127.0.0.1:5", "POST", "/api/v1/site/stage/apply", "{}").status, 200u);
     EXPECT_EQ(from(far_peer, "POST", "/api/v1/site/stage/confirm", "", as("engineer")).status, 409u);
     EXPECT_EQ(from("127.0.0.1:5", "POST", "/api/v1/site/stage/confirm", "", {{"X-Client", "other"}}).status, 409u);
-    const auto kept = from(far_peer, "POST", "/api/v1/site/stage/confirm", "", as("administrator"));
-    EXPECT_EQ(kept.status, 200u) << kept.text;
-    EXPECT_EQ(gateway.confirmed_by, "administrator 192.0.2.7:5123 for local 127.0.0.1");
+    const auto administrator = from(far_peer, "POST", "/api/v1/site/stage/confirm", "", as("administrator"));
+    EXPECT_EQ(administrator.status, 409u) << "nor does an administrator from elsewhere";
+    EXPECT_NE(administrator.at("detail").find("local 127.0.0.1"), std::string::npos);
+    EXPECT_EQ(gateway.confirmed_by, "");
+    EXPECT_EQ(from("127.0.0.1:7", "POST", "/api/v1/site/stage/confirm").status, 200u) << "another port is the same one";
 }
 
 TEST_F(AccessTest, WhoAppliedConfirmsInTheSameSession) {
@@ -405,9 +415,16 @@ TEST_F(AccessTest, LiveFeedIsOverWhenItsSessionIs) {
     const auto headers = as("viewer");
     Request r = request("GET", "/api/v1/stream", "", headers);
     r.peer = std::string(far_peer);
-    EXPECT_TRUE(door.may_still_watch(r));
+    EXPECT_EQ(door.why_not_watched_on(r), "");
     EXPECT_EQ(from(far_peer, "DELETE", "/api/v1/session", "", headers).status, 204u);
-    EXPECT_FALSE(door.may_still_watch(r));
+    EXPECT_EQ(door.why_not_watched_on(r), "signed out");
+    // A token is not signed out: it ends.
+    const auto made = from(far_peer, "POST", "/api/v1/tokens", R"({"name":"feed","role":"viewer","expires_in_s":60})", as("viewer"));
+    Request by_token = request("GET", "/api/v1/stream", "", {{"Authorization", "Bearer " + made.at("token")}});
+    by_token.peer = std::string(far_peer);
+    EXPECT_EQ(door.why_not_watched_on(by_token), "");
+    gateway.now_ns += 60'000'000'000;
+    EXPECT_EQ(door.why_not_watched_on(by_token), "the token has expired or was removed");
 }
 }  // namespace
 }  // namespace axisgate::http::test

@@ -178,8 +178,33 @@ TEST_F(HttpTest, Bodies) {
         EXPECT_EQ(a.at("reason"), "bad_request");
     }
     EXPECT_EQ(call("POST", path, std::string(100000, '[')).status, 400u) << "depth is bounded";
+    const auto commands = gateway.submitted.size();
+    const auto twice = call("POST", path, "{\"command\":\"halt\",\n\"\\u0063ommand\":\"enable\"}");
+    EXPECT_EQ(twice.status, 400u) << twice.text;
+    EXPECT_EQ(twice.at("reason"), "bad_request");
+    EXPECT_EQ(twice.at("detail"), "the member \"command\" stands twice (/command, line 2): keep one of them");
+    EXPECT_EQ(twice.fault().at("pointer"), "/command");
+    EXPECT_EQ(call("PUT", "/api/v1/site", R"({"lines":[{"name":"a"},{"name":"b","uri":"x","name":"c"}]})").fault().at("pointer"), "/lines/1/name");
+    EXPECT_EQ(call("PUT", "/api/v1/recipes/x", R"({"steps":[{"wait_s":1,"wait_s":2}]})").status, 400u);
+    EXPECT_EQ(gateway.submitted.size(), commands) << "neither of the two was done";
     const auto patch = call("PATCH", "/api/v1/axes/feeder", R"({"unit":"deg"})", {{"Content-Type", "application/merge-patch+json"}});
     EXPECT_EQ(patch.status, 200u);
+}
+
+TEST_F(HttpTest, PackedBodiesAreNotTakenForPlainOnes) {
+    const auto with = [this](std::string coding) {
+        return call("POST", "/api/v1/axes/feeder/commands", R"({"command":"enable"})", {{"Content-Encoding", std::move(coding)}});
+    };
+    for (const auto* good : {"identity", "Identity", "", " identity , identity"}) EXPECT_EQ(with(good).status, 0u) << good;
+    const auto commands = gateway.submitted.size();
+    for (const auto* bad : {"gzip", "br", "identity, gzip", "x"}) {
+        const auto a = with(bad);
+        EXPECT_EQ(a.status, 415u) << bad;
+        EXPECT_EQ(a.headers.get("Accept-Encoding"), "identity");
+    }
+    EXPECT_EQ(with("gzip").at("detail"), "the body comes with Content-Encoding: gzip: send it as it is, without one");
+    EXPECT_EQ(gateway.submitted.size(), commands);
+    EXPECT_EQ(call("PUT", "/api/v1/mappings.csv", "x", {{"Content-Type", "text/csv"}, {"Content-Encoding", "gzip"}}).status, 415u);
 }
 
 TEST_F(HttpTest, Accept) {
@@ -195,6 +220,16 @@ TEST_F(HttpTest, BadTargets) {
     for (const auto* target : {"", "api/v1/about", "/api/v1/axes/%zz", "/api/v1/axes/%00", "/a b", "//x:y z", "/api/v1/axes/%ff"})
         EXPECT_EQ(call("GET", target).status, 400u) << target;
     EXPECT_EQ(call("GET", "http://127.0.0.1:8080/healthz").status, 200u) << "absolute form";
+    // What the target says is the host, whatever the header says.
+    EXPECT_EQ(call("GET", "http://evil.example/api/v1/about").status, 421u);
+    EXPECT_NE(call("GET", "HTTPS://evil.example?x").at("detail").find("evil.example"), std::string::npos);
+    EXPECT_EQ(call("GET", "http://localhost/healthz", "", {{"Host", "evil.example"}}).status, 200u);
+    EXPECT_EQ(call("GET", "http:///healthz").status, 400u) << "no host at all";
+    auto old = request("GET", "http://evil.example/healthz");
+    old.headers.fields.clear();
+    old.http_1_0 = true;
+    EXPECT_EQ(send(old).status, 421u) << "HTTP/1.0 without the header";
+    EXPECT_EQ(call("PUT", "http://localhost/api/v1/site", "{}", {{"Origin", "http://127.0.0.1:8080"}}).status, 403u) << "another origin than the host that is meant";
 }
 
 TEST_F(HttpTest, AnExceptionIsA500) {

@@ -44,6 +44,15 @@ TEST_F(Keep, ASnapshotReadsEverythingThatCanBeRead) {
     EXPECT_EQ(call("GET", "/api/v1/axes/feeder/snapshot-progress").at("state"), "done");
     EXPECT_EQ(do_call("DELETE", "/api/v1/axes/feeder/snapshots/1").status, 204u);
     EXPECT_EQ(call("GET", "/api/v1/axes/feeder/snapshots/1").status, 404u);
+    ASSERT_EQ(gateway.noted.size(), 2u) << "both are told";
+    EXPECT_EQ(gateway.noted[0].text, "snapshot 1 \"first\" taken: 11 values");
+    EXPECT_EQ(gateway.noted[1].text, "snapshot 1 \"first\" removed");
+    for (const auto& e : gateway.noted) {
+        EXPECT_EQ(e.kind, "snapshot");
+        EXPECT_EQ(e.axis, "feeder");
+        EXPECT_EQ(e.who, "127.0.0.1:51123");
+        EXPECT_EQ(e.door, "http");
+    }
 }
 
 TEST_F(Keep, ASilentDriveGivesNoHalfSnapshot) {
@@ -53,6 +62,7 @@ TEST_F(Keep, ASilentDriveGivesNoHalfSnapshot) {
     EXPECT_EQ(a.status, 504u);
     EXPECT_EQ(a.at("read"), "3");
     EXPECT_TRUE(gateway.kept_snapshots["feeder"].empty());
+    EXPECT_TRUE(gateway.noted.empty()) << "none was taken";
     EXPECT_EQ(asked, 4) << "a silent drive is not asked on";
     EXPECT_EQ(call("GET", "/api/v1/axes/feeder/snapshot-progress").at("state"), "failed");
 }

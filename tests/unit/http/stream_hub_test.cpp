@@ -61,6 +61,8 @@ TEST(StreamRequest, ReadsAndRefuses) {
         EXPECT_FALSE(read_stream_request(bad, fault)) << bad;
         EXPECT_FALSE(fault.empty()) << bad;
     }
+    EXPECT_FALSE(read_stream_request(R"({"subscribe":["events"],"subscribe":["axes/*"]})", fault));
+    EXPECT_EQ(fault, "the member \"subscribe\" stands twice (/subscribe): keep one of them");
 }
 
 struct Message {

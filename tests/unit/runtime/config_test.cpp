@@ -36,6 +36,34 @@ TEST(Config, SetBeatsEnvironmentBeatsFile) {
     EXPECT_EQ(c.http_allowed_hosts, (std::vector<std::string>{"a", "b"}));
 }
 
+TEST(Config, ListsAreWrittenAsInTheFileOrWithCommasAlone) {
+    const auto with = [](std::vector<std::string> overrides, std::vector<std::string> environment = {}) {
+        ConfigSources s;
+        s.overrides = std::move(overrides);
+        s.environment = std::move(environment);
+        std::vector<ConfigFault> faults;
+        const Config c = read_config(s, faults);
+        EXPECT_TRUE(faults.empty()) << faults[0].text << ": " << faults[0].remedy;
+        return c;
+    };
+    using List = std::vector<std::string>;
+    for (const auto* text : {R"(["127.0.0.2", "fd00::/8"])", R"( [ '127.0.0.2','fd00::/8' , ] )", "[127.0.0.2,fd00::/8]", "127.0.0.2, fd00::/8", "127.0.0.2,fd00::/8"}) {
+        EXPECT_EQ(with({std::string("modbus.allow=") + text}).modbus_allow, (List{"127.0.0.2", "fd00::/8"})) << text;
+        EXPECT_EQ(with({}, {std::string("AXISGATE_MODBUS_ALLOW=") + text}).modbus_allow, (List{"127.0.0.2", "fd00::/8"})) << text;
+    }
+    EXPECT_EQ(with({"modbus.functions=[3,6, 16]"}).modbus_functions, (List{"3", "6", "16"}));
+    EXPECT_EQ(with({"modbus.functions=[]"}).modbus_functions, List{});
+    EXPECT_EQ(with({R"(http.allowed_hosts=["a", "b.example"])"}).http_allowed_hosts, (List{"a", "b.example"}));
+    EXPECT_EQ(with({"http.allowed_hosts=[::1],[::2]"}).http_allowed_hosts, (List{"[::1]", "[::2]"})) << "brackets of addresses are no list";
+    for (const auto* bad : {"modbus.functions=[3,six]", R"(modbus.allow=["127.0.0.2)", R"(modbus.allow=["127.0.0.2", "x])", "modbus.functions=[[3]]"}) {
+        ConfigSources s;
+        s.overrides = {bad};
+        std::vector<ConfigFault> faults;
+        (void)read_config(s, faults);
+        EXPECT_EQ(faults.size(), 1u) << bad;
+    }
+}
+
 TEST(Config, EveryFaultAtOnceWithLineAndRemedy) {
     ConfigSources s;
     s.file_name = "f.toml";
@@ -86,6 +114,12 @@ TEST(Config, HostAndPort) {
     EXPECT_EQ(parse_host_port("127.0.0.1:80")->port, 80);
     EXPECT_EQ(parse_host_port("[::1]:80")->host, "::1");
     for (const auto* bad : {"", ":80", "x", "x:", "x:y", "x:65536", "::1:80", "[]:1", "[::1]80"}) EXPECT_FALSE(parse_host_port(bad)) << bad;
+}
+
+TEST(MemoryFile, ATwinThatStandsTwiceIsRefused) {
+    std::map<std::string, NonVolatile> memories;
+    EXPECT_EQ(memories_from_json("{\"5\": {\"AC\": 1},\n\"5\": {\"AC\": 2}}", memories), "the member \"5\" stands twice in the memory of twins, in line 2 (/5): keep one of them");
+    EXPECT_TRUE(memories.empty());
 }
 
 TEST(MemoryFile, KeepsTypes) {

@@ -142,6 +142,7 @@ TEST_F(Restore, RefusesWhatIsNotAGoodBackupAndReplacesNothing) {
         const char* name;
         std::function<void(const std::string&)> make;
         Kind kind;
+        const char* words = "";
     };
     const std::string good = content_of(backup_);
     const std::vector<Case> cases{
@@ -150,6 +151,7 @@ TEST_F(Restore, RefusesWhatIsNotAGoodBackupAndReplacesNothing) {
         {"pipe", [](const std::string& f) { std::filesystem::remove(f), ::mkfifo(f.c_str(), 0600); }, Kind::cannot_open},
         {"empty", [](const std::string& f) { write_file(f, ""); }, Kind::corrupt},
         {"text", [](const std::string& f) { write_file(f, std::string(9000, 'x')); }, Kind::corrupt},
+        {"one_byte", [](const std::string& f) { write_file(f, "x"); }, Kind::corrupt, "is not a database"},
         {"cut", [&](const std::string& f) { write_file(f, good.substr(0, good.size() / 2)); }, Kind::corrupt},
         {"other_program", [](const std::string& f) { meddle(f, "PRAGMA application_id=5"); }, Kind::not_ours},
         {"newer", [](const std::string& f) { meddle(f, "PRAGMA user_version=99"); }, Kind::newer},
@@ -168,6 +170,7 @@ TEST_F(Restore, RefusesWhatIsNotAGoodBackupAndReplacesNothing) {
         EXPECT_EQ(error.kind, c.kind) << c.name << ": " << error.text;
         EXPECT_THAT(error.text, HasSubstr(backup_)) << c.name;
         EXPECT_THAT(error.text, Not(HasSubstr("incoming"))) << c.name;
+        EXPECT_THAT(error.text, HasSubstr(c.words)) << c.name;
         EXPECT_EQ(content_of_directory(dir_.path()), before) << c.name;
     }
     EXPECT_EQ(value_in(dir_.path()), 1);

@@ -48,7 +48,7 @@ export const catalogue = [
   return {
     id, name, group, type, unit, min, max, default: fallback, access, storage: access === 'R' ? null : 'flash', addressing: id === 'PP', live: false, description,
     allowed: allowed ? allowed.map((/** @type {[number, string]} */ [value, meaning]) => ({ value, meaning })) : null,
-    first: first ?? null, count: count ?? null,
+    first: first ?? null, count: count ?? null, selector: null,
   };
 });
 

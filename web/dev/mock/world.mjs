@@ -48,7 +48,7 @@ export class MockDrive {
     /** @type {'device' | 'twin' | 'offline'} */
     this.presence = this.spec.presence === 'twin' || (twinLine && this.spec.presence === 'auto') ? 'twin' : twinLine ? 'offline' : 'device';
     /** @type {Record<string, boolean | number>} */
-    this.hand = { power: true, silent: false, stall: false, inputs: 0, limit_positive: false, limit_negative: false, home_switch: false, temperature: 36, inject_error: 0, load: 0.2 };
+    this.hand = { power: true, silent: false, stall: false, inputs: 0, limit_positive: false, limit_negative: false, home_switch: false, temperature: 36, inject_error: 0, load: 0.2, position: 0 };
   }
 
   get online() {
@@ -81,10 +81,11 @@ export class MockDrive {
   }
 }
 
+const ofAnAxis = ['stall', 'limit_positive', 'limit_negative', 'home_switch', 'temperature', 'load', 'position'];
 const descriptions = {
   power: 'the drive has power', silent: 'hears, does not answer', stall: 'the shaft is held', inputs: 'digital inputs, one bit each',
   limit_positive: 'the positive limit switch is pressed', limit_negative: 'the negative limit switch is pressed', home_switch: 'the home switch is pressed',
-  temperature: 'deg C', inject_error: 'an error code of the drive; 0 clears', load: 'share of the torque, 0 to 1',
+  temperature: 'deg C', inject_error: 'an error code of the drive; 0 clears', load: 'share of the torque, 0 to 1', position: 'shaft position, increments',
 };
 
 export class World {
@@ -130,6 +131,8 @@ export class World {
       if (!drive) throw new Error(`axis ${a.name}: there is no drive ${a.drive}`);
       const axis = new MockAxis(a, drive);
       drive.axes.push(axis);
+      // As a control of several axes has it: those of channel 1 bare, the others named.
+      if ((a.channel ?? 1) > 1) for (const k of ofAnAxis) drive.hand[`axis${a.channel}.${k}`] = /** @type {boolean | number} */ (new MockDrive(drive.spec, '', true).hand[k]);
       this.axes.set(a.name, axis);
     }
   }
@@ -214,7 +217,7 @@ export class World {
   }
   /** @param {string} name */
   handList(name) {
-    return Object.entries(this.hand(name)).map(([n, value]) => ({ name: n, value, writable: true, description: descriptions[/** @type {keyof typeof descriptions} */ (n)] ?? '' }));
+    return Object.entries(this.hand(name)).map(([n, value]) => ({ name: n, value, writable: true, description: descriptions[/** @type {keyof typeof descriptions} */ (n.replace(/^axis\d+\./, ''))] ?? '' }));
   }
   /** @param {string} name @param {Record<string, any>} change */
   setHand(name, change) {

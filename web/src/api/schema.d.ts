@@ -561,7 +561,10 @@ export interface paths {
          *     503 or 504.
          */
         get: operations["readParameter"];
-        /** Writes one parameter; answered by what the drive said */
+        /**
+         * Writes one parameter; answered by what the drive said
+         * @description With `If-Match` it is written only if nobody has written it through the gateway since; else 412, `current` is the last write, and nothing goes to the drive. While another client's write is under way, 409 `busy`.
+         */
         put: operations["writeParameter"];
         post?: never;
         delete?: never;
@@ -1037,7 +1040,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** Keeps the applied site; only the client that applied it may, or an administrator */
+        /** Keeps the applied site; only the client that applied it may, in the same session */
         post: operations["confirmStage"];
         delete?: never;
         options?: never;
@@ -1503,7 +1506,7 @@ export interface paths {
         put?: never;
         /**
          * Make a token for a program; its secret is in this answer alone
-         * @description For whoever is signed in with a password. The role is not above one's own; a token is worth no more than its owner is at that time.
+         * @description For whoever is signed in with a password. The role is not above one's own; a token is worth no more than its owner is at that time. The name is the owner's alone once (409): by it events tell who did what.
          */
         post: operations["addToken"];
         delete?: never;
@@ -1789,7 +1792,7 @@ export interface components {
         Problem: {
             /** @description `stage_replaced`: the id of the stage that is there now; null if none is */
             stage?: string | null;
-            /** @description of 412: what is there now: the site in force; for a recipe the recipe, null if there is none any more */
+            /** @description of 412: what is there now: the site in force; the recipe, null if there is none any more; the user; the Modbus door; the last write of a parameter, null if nobody wrote it */
             current?: Record<string, never> | null;
             /** @description of 412: the ETag of what is there now */
             etag?: string | null;
@@ -1942,6 +1945,8 @@ export interface components {
             first: number | null;
             /** @description of an array, how many elements */
             count: number | null;
+            /** @description what the Modbus parameter channel knows the parameter by (written to registers 48 and 49 of an axis as u32); of an array, that of its first element: each further one is 65536 more; null: texts and bytes are not carried there */
+            selector: number | null;
         };
         CatalogueCommand: {
             id: string;
@@ -1950,6 +1955,8 @@ export interface components {
         };
         ErrorCode: {
             code: number;
+            /** @description of a class of codes that the manual does not list one by one, the last; null: `code` alone */
+            through: number | null;
             /** @example alarm */
             kind: string | null;
             name: string | null;
@@ -2305,7 +2312,7 @@ export interface components {
         NativeRequest: {
             /** @description text in the drive's language; the family completes it (terminator, checksum, address) */
             send?: string;
-            /** @description bytes as hex pairs */
+            /** @description bytes as hex pairs, in the form of the family: mcode the line's characters, with CR, LF or CR LF at its end or without; pacontrol one whole frame, 01 02 to 04, or 04 alone; uim342 control word, length 0 to 8 and data, once to four times. What has not that form is refused with 422 */
             send_hex?: string;
         };
         NativeReply: {
@@ -2386,6 +2393,8 @@ export interface components {
         };
         User: {
             name: string;
+            /** @description names this state of the user, for If-Match; a new password is another state, a sign-in is not */
+            etag: string;
             role: components["schemas"]["Role"];
             enabled: boolean;
             created_at: components["schemas"]["Time"];
@@ -2498,7 +2507,7 @@ export interface components {
             id: number;
             at: components["schemas"]["Time"];
             severity: components["schemas"]["Severity"];
-            /** @description alarm, write, line, presence, site, command, input, ... */
+            /** @description alarm, write, line, presence, site, command, input, snapshot, ... */
             kind: string;
             axis: string | null;
             drive: string | null;
@@ -3004,7 +3013,7 @@ export interface components {
                 "application/problem+json": components["schemas"]["Problem"];
             };
         };
-        /** @description the request cannot be read (not JSON, a query parameter that is none) */
+        /** @description the request cannot be read (not JSON, an object with two members of one name, a query parameter that is none) */
         BadRequest: {
             headers: {
                 [name: string]: unknown;
@@ -3142,6 +3151,26 @@ export interface components {
                 "application/problem+json": components["schemas"]["Problem"];
             };
         };
+        /** @description its state is another than `If-Match` says; `current` and `etag` are what is there now */
+        StatePreconditionFailed: {
+            headers: {
+                ETag: components["headers"]["StateETag"];
+                [name: string]: unknown;
+            };
+            content: {
+                "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description the parameter was written since: nothing was sent to the drive; `current` is the last write (parameter, value, written_at, written_by, written_through), null if nobody wrote it */
+        ParameterPreconditionFailed: {
+            headers: {
+                ETag: components["headers"]["ParameterETag"];
+                [name: string]: unknown;
+            };
+            content: {
+                "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
         /** @description the gateway is configured to demand `If-Match` */
         PreconditionRequired: {
             headers: {
@@ -3160,7 +3189,7 @@ export interface components {
                 "application/problem+json": components["schemas"]["Problem"];
             };
         };
-        /** @description the body is not `application/json` */
+        /** @description the body is not of a media type that is taken here, or comes with a `Content-Encoding` */
         UnsupportedMediaType: {
             headers: {
                 [name: string]: unknown;
@@ -3262,6 +3291,10 @@ export interface components {
         replaceStage: components["schemas"]["Flag"];
         /** @description the recipe is changed only if it is still the one with this `ETag`, or (`*`) if there is one; else 412 with what is there now */
         recipeIfMatch: string;
+        /** @description it is done only if the state is still the one with this `ETag`; else 412 with what is there now */
+        stateIfMatch: string;
+        /** @description it is written only if the last write is still the one with this `ETag`; else 412 with what is there now, and nothing goes to the drive */
+        parameterIfMatch: string;
         /** @description `*`: the recipe is made only if there is none of this name; else 412 with what is there now */
         recipeIfNoneMatch: string;
         /** @description 1 removes also what hangs on it (drives of a line, axes of a drive, mappings of an axis) */
@@ -3281,6 +3314,16 @@ export interface components {
          * @example "9f86d081884c7d65"
          */
         RecipeETag: string;
+        /**
+         * @description names this state of what is answered; for `If-Match`
+         * @example "9f86d081884c7d65"
+         */
+        StateETag: string;
+        /**
+         * @description names the last write of the parameter through the gateway (by whom, when, which value), not what the drive has; for `If-Match`
+         * @example "never-written"
+         */
+        ParameterETag: string;
         /** @description the revision of the site; in quotes it is the entity tag that `If-Match` takes */
         SiteRevision: number;
         /** @description where the new entry is */
@@ -4758,6 +4801,7 @@ export interface operations {
             /** @description the door */
             200: {
                 headers: {
+                    ETag: components["headers"]["StateETag"];
                     [name: string]: unknown;
                 };
                 content: {
@@ -4772,7 +4816,10 @@ export interface operations {
     changeModbus: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description it is done only if the state is still the one with this `ETag`; else 412 with what is there now */
+                "If-Match"?: components["parameters"]["stateIfMatch"];
+            };
             path?: never;
             cookie?: never;
         };
@@ -4790,6 +4837,7 @@ export interface operations {
             /** @description the door */
             200: {
                 headers: {
+                    ETag: components["headers"]["StateETag"];
                     [name: string]: unknown;
                 };
                 content: {
@@ -4798,6 +4846,7 @@ export interface operations {
             };
             400: components["responses"]["BadRequest"];
             403: components["responses"]["Forbidden"];
+            412: components["responses"]["StatePreconditionFailed"];
             415: components["responses"]["UnsupportedMediaType"];
             422: components["responses"]["Unprocessable"];
             503: components["responses"]["Unavailable"];
@@ -4863,6 +4912,7 @@ export interface operations {
             /** @description the parameter */
             200: {
                 headers: {
+                    ETag: components["headers"]["ParameterETag"];
                     [name: string]: unknown;
                 };
                 content: {
@@ -4880,7 +4930,10 @@ export interface operations {
     writeParameter: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description it is written only if the last write is still the one with this `ETag`; else 412 with what is there now, and nothing goes to the drive */
+                "If-Match"?: components["parameters"]["parameterIfMatch"];
+            };
             path: {
                 /** @example feeder */
                 axis: components["parameters"]["axis"];
@@ -4916,6 +4969,7 @@ export interface operations {
             403: components["responses"]["Forbidden"];
             404: components["responses"]["NotFound"];
             409: components["responses"]["Refused"];
+            412: components["responses"]["ParameterPreconditionFailed"];
             415: components["responses"]["UnsupportedMediaType"];
             422: components["responses"]["Unprocessable"];
             503: components["responses"]["Unavailable"];
@@ -6972,6 +7026,7 @@ export interface operations {
             /** @description made */
             201: {
                 headers: {
+                    ETag: components["headers"]["StateETag"];
                     [name: string]: unknown;
                 };
                 content: {
@@ -6996,6 +7051,7 @@ export interface operations {
             /** @description the user */
             200: {
                 headers: {
+                    ETag: components["headers"]["StateETag"];
                     [name: string]: unknown;
                 };
                 content: {
@@ -7009,7 +7065,10 @@ export interface operations {
     removeUser: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description it is done only if the state is still the one with this `ETag`; else 412 with what is there now */
+                "If-Match"?: components["parameters"]["stateIfMatch"];
+            };
             path: {
                 user: string;
             };
@@ -7026,13 +7085,17 @@ export interface operations {
             };
             404: components["responses"]["NotFound"];
             409: components["responses"]["Conflict"];
+            412: components["responses"]["StatePreconditionFailed"];
             default: components["responses"]["Problem"];
         };
     };
     changeUser: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description it is done only if the state is still the one with this `ETag`; else 412 with what is there now */
+                "If-Match"?: components["parameters"]["stateIfMatch"];
+            };
             path: {
                 user: string;
             };
@@ -7048,6 +7111,7 @@ export interface operations {
             /** @description changed */
             200: {
                 headers: {
+                    ETag: components["headers"]["StateETag"];
                     [name: string]: unknown;
                 };
                 content: {
@@ -7056,6 +7120,7 @@ export interface operations {
             };
             404: components["responses"]["NotFound"];
             409: components["responses"]["Conflict"];
+            412: components["responses"]["StatePreconditionFailed"];
             default: components["responses"]["Problem"];
         };
     };

@@ -4,13 +4,14 @@ import { useSignal } from '@preact/signals';
 import { asProblem } from '../api/problem';
 import type { Alarm } from '../api/types';
 import { useGateway } from '../gateway';
-import { axisPath, linePath } from '../router';
+import { linePath } from '../router';
 import { capital } from '../state/commander';
 import { alarmWord, canAcknowledge, shelfTimes, subjectOf, withoutSubject } from '../words/alarm';
 import { clockTime } from '../words/time';
 import { Choice, quiet, Tell, TextField, type Told } from './form';
 import { useBarred, Why } from './gate';
 import { Empty } from './lines';
+import { AxisName, DriveName } from './name';
 import { Pill } from './pill';
 import { Section } from './section';
 
@@ -101,13 +102,12 @@ function AlarmRow(p: RowProps) {
   const no = useBarred('operator');
   const a = p.alarm;
   const about = subjectOf(a);
-  const path = a.axis ? axisPath(a.axis) : a.line ? linePath(a.line) : null;
   return (
     <li class="row alarm-row" data-alarm={a.id} data-state={a.state}>
       <div class="alarm-line">
         <Pill word={alarmWord(a)} label="State" />
         <span class="alarm-what">
-          {path ? <a href={path}>{about}</a> : <b>{about}</b>} {withoutSubject(a.text, about)}
+          {a.axis ? <AxisName name={a.axis} /> : a.drive ? <b><DriveName name={a.drive} /></b> : a.line ? <a href={linePath(a.line)}>{about}</a> : <b>{about}</b>} {withoutSubject(a.text, about)}
           {a.code !== null && <span class="mono"> (code {a.code})</span>}
         </span>
         <span class="alarm-buttons">

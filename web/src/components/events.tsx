@@ -1,7 +1,6 @@
 // Events, newest first: severity in words and icon, what happened, to what, by whom. In: events. Out: a list.
 // Severity is a word and a shape before it is a colour.
 import type { GatewayEvent, Severity } from '../api/types';
-import { axisPath } from '../router';
 import { withoutSubject } from '../words/alarm';
 import { clockTime } from '../words/time';
 import { useComputed } from '@preact/signals';
@@ -9,6 +8,7 @@ import { useGateway } from '../gateway';
 import { inUnits, type Scale } from '../words/event';
 import { Icon, type IconName } from './icon';
 import { memo } from './memo';
+import { AxisName, DriveName } from './name';
 
 const marks: Record<Severity, { icon: IconName; text: string; tone: string }> = {
   info: { icon: 'info', text: 'Info', tone: 'muted' },
@@ -17,8 +17,8 @@ const marks: Record<Severity, { icon: IconName; text: string; tone: string }> = 
 };
 
 function subject(e: GatewayEvent) {
-  if (e.axis) return <a href={axisPath(e.axis)}>{e.axis}</a>;
-  return e.drive ?? e.line ?? null;
+  if (e.axis) return <AxisName name={e.axis} />;
+  return e.drive ? <DriveName name={e.drive} /> : (e.line ?? null);
 }
 
 function ItemView({ event, scale }: { event: GatewayEvent; scale?: Scale | undefined }) {

@@ -1,19 +1,21 @@
 // Hand: the outside conditions of a simulated drive, as switches and numbers: power, stall, limits, inputs, injected errors.
-// In: what the twin offers, asked again every 2 s while shown. Out: changes of one condition at a time. Only where a twin answers.
+// In: what the twin offers, asked again every 2 s while shown; the axis whose page it is. Out: changes of one condition at a time. Only where a
+// twin answers. What belongs to another axis than this one stands folded under that one's name, so that nobody takes the wrong one in hand.
 import { useSignal } from '@preact/signals';
 import { useEffect, useId } from 'preact/hooks';
 import { asProblem } from '../api/problem';
 import type { HandItem, Value } from '../api/types';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
+import { handGroups, handLabel, positionInUnit, type HandAxis, type HandGroup } from '../words/hand';
 import { editText } from '../words/parameter';
 import { parseNumber } from '../words/number';
 import { Empty } from './lines';
 
 const period_ms = 2_000;
-const words = (name: string) => capital(name.replaceAll('_', ' '));
 
-export function Hand({ drive }: { drive: string }) {
+/** `axis`: the one whose page it is; without it everything of the drive is shown, by axis. */
+export function Hand({ drive, axis }: { drive: string; axis?: string }) {
   const { client, store } = useGateway();
   const items = useSignal<HandItem[] | null>(null);
   const note = useSignal({ tone: 'none', text: '' });
@@ -39,30 +41,39 @@ export function Hand({ drive }: { drive: string }) {
     };
   }, [drive, simulated, connected]);
 
+  const axes = (store.drive(drive)?.value.data.axes ?? []).flatMap((n): HandAxis[] => {
+    const a = store.axis(n)?.peek().data; // name, channel and unit change only with the site
+    return a ? [{ name: n, channel: a.channel, unit: a.unit, increments_per_unit: a.increments_per_unit }] : [];
+  });
+  const own = axis === undefined ? null : (axes.find((a) => a.name === axis)?.channel ?? 1);
+  const whose = (name: string) => {
+    const g = handGroups(items.peek() ?? [], axes, own).find((x) => x.items.some((i) => i.item.name === name));
+    return g?.kind === 'axis' && axes.length > 1 ? `${g.title}: ` : '';
+  };
+
   /** Why it was refused; empty: it was not. */
   const set = async (name: string, value: Value): Promise<string> => {
-    note.value = { tone: 'busy', text: `${words(name)} …` };
+    note.value = { tone: 'busy', text: `${whose(name)}${handLabel(name)} …` };
     try {
       const now = await client.setHand(drive, { [name]: value });
       if (items.peek()) items.value = items.peek()!.map((i) => ({ ...i, value: now[i.name] ?? i.value }));
-      note.value = { tone: 'good', text: `${words(name)}: set to ${editText(now[name] ?? value)}` };
+      note.value = { tone: 'good', text: `${whose(name)}${handLabel(name)}: set to ${editText(now[name] ?? value)}` };
       return '';
     } catch (error) {
       const why = capital(asProblem(error).words);
-      note.value = { tone: 'refused', text: `${words(name)}: refused. ${why}` };
+      note.value = { tone: 'refused', text: `${whose(name)}${handLabel(name)}: refused. ${why}` };
       return why;
     }
   };
 
   if (!simulated) return <Empty text="This drive is not simulated now: there is nothing to take in hand." />;
   if (items.value === null) return <Empty text={note.value.text || 'Waiting for the twin.'} />;
+  const groups = handGroups(items.value, axes, own);
   return (
     <div class="hand card">
-      <ul>
-        {items.value.map((i) => (
-          <HandRow key={i.name} item={i} set={set} />
-        ))}
-      </ul>
+      {groups.map((g) => (
+        <Group key={g.title} group={g} set={set} named={g.kind === 'axis' && (g.folded || own === null)} />
+      ))}
       <p class={`result result-${note.value.tone}`} role="status">
         {note.value.text}
       </p>
@@ -70,10 +81,50 @@ export function Hand({ drive }: { drive: string }) {
   );
 }
 
-function HandRow({ item, set }: { item: HandItem; set: (name: string, value: Value) => Promise<string> }) {
+type Set = (name: string, value: Value) => Promise<string>;
+
+/** `named`: its fields are told apart from the same ones of another axis by the name of theirs. */
+function Group({ group: g, set, named }: { group: HandGroup; set: Set; named: boolean }) {
+  const list = (
+    <ul aria-label={g.title ? `Conditions: ${g.title}` : undefined}>
+      {g.items.map((i) => (
+        <HandRow key={i.item.name} item={i.item} label={i.label} of={named ? g.title : ''} axis={g.axis} set={set} />
+      ))}
+    </ul>
+  );
+  if (g.title === '') return list;
+  if (g.folded) {
+    return (
+      <details class="hand-group" data-hand-group={g.title}>
+        <summary>Another axis of this drive: {g.title}</summary>
+        {list}
+      </details>
+    );
+  }
+  return (
+    <div class="hand-group" data-hand-group={g.title}>
+      <p class="hand-head">{g.title}</p>
+      {list}
+    </div>
+  );
+}
+
+interface RowProps {
+  item: HandItem;
+  label: string;
+  /** The axis that it belongs to, where it has to be said; else empty. */
+  of: string;
+  axis: HandAxis | null;
+  set: Set;
+}
+
+function HandRow({ item, label: short, of, axis, set }: RowProps) {
   const typed = useSignal<string | null>(null);
   const wrong = useSignal('');
-  const label = words(item.name);
+  const label = of ? `${short}, ${of}` : short;
+  const isPosition = /(^|\.)position$/.test(item.name);
+  const typedNumber = typed.value === null ? null : parseNumber(typed.value);
+  const inUnit = isPosition ? positionInUnit(typedNumber === null ? item.value : typedNumber.good ? typedNumber.value : null, axis) : '';
   const why = useId();
   const send = async () => {
     const text = typed.peek();
@@ -93,7 +144,8 @@ function HandRow({ item, set }: { item: HandItem; set: (name: string, value: Val
   return (
     <li data-hand={item.name}>
       <span class="hand-name">
-        {label}
+        {short}
+        {isPosition && <span class="where">, increments</span>}
         {item.description && (
           <details class="hand-more">
             <summary>
@@ -128,6 +180,11 @@ function HandRow({ item, set }: { item: HandItem; set: (name: string, value: Val
           <button type="button" class="button small" aria-label={`Set ${label} of the twin`} onClick={() => void send()} disabled={typed.value === null}>
             Set
           </button>
+          {inUnit && (
+            <span class="hand-unit" data-field="hand-unit">
+              {inUnit}
+            </span>
+          )}
         </span>
       ) : (
         <span class="mono">{editText(item.value)}</span>

@@ -7,10 +7,11 @@ import { asProblem } from '../api/problem';
 import type { Axis } from '../api/types';
 import { useGateway } from '../gateway';
 import { kept } from '../state/kept';
-import { decodeWords, oneBased, tableOf, tables, types, widthOf, type Mapping, type RegisterType, type Table } from '../words/mapping';
-import { bitName, isStandard, notMapped } from '../words/register-map';
+import { decodeWords, oneBased, pointUnit, tableOf, tables, types, widthOf, type Mapping, type RegisterType, type Table } from '../words/mapping';
+import { bitAxis, bitName, isStandard, notMapped } from '../words/register-map';
 import { formatExact, parseNumber } from '../words/number';
 import { Choice, notOffered, TextField } from './form';
+import { SimulatedMark } from './name';
 import { Section } from './section';
 
 const unit = kept('hmi.unit', '1');
@@ -32,13 +33,22 @@ export function HmiView({ door, rows }: { door: MappingDoor; rows: readonly Mapp
   const answer = useSignal<Registers | null>(null);
   const why = useSignal('');
   const waiting = useSignal(false);
+  /** What the answer that is shown was asked with. */
+  const answerTo = useSignal('');
   const at = { unit: within(unit.value, 0, 255), address: within(address.value, 0, 65535), count: within(count.value, 1, 125) };
 
+  const asked = `${unit.value.trim()}/${table.value}/${address.value.trim()}/${count.value.trim()}`;
   const look = async (end?: AbortSignal) => {
-    if (at.unit === null || at.address === null || at.count === null) return;
+    if (at.unit === null || at.address === null || at.count === null) {
+      // Nothing stands below fields that it does not belong to.
+      answer.value = null;
+      why.value = 'Mend the fields that are marked; nothing was asked.';
+      return;
+    }
     waiting.value = true;
     try {
       answer.value = await door.registers({ unit: at.unit, table: table.value as Table, address: at.address, count: at.count }, end);
+      answerTo.value = asked;
       why.value = '';
     } catch (error) {
       if (end?.aborted) return;
@@ -102,19 +112,47 @@ export function HmiView({ door, rows }: { door: MappingDoor; rows: readonly Mapp
             {why.value || (a?.exception ? `The Modbus door answers exception ${a.exception.code}: ${a.exception.text}.${gaps ? ` Not mapped: ${gaps}.` : ''}` : waiting.value && !a ? 'Asking …' : '')}
           </p>
         </div>
-        {a && !a.exception && <Answer a={a} axes={axes} />}
+        {a && !a.exception && answerTo.value !== asked && (
+          <p class="form-told" role="status" data-field="hmi-former">
+            This is the former answer: unit {a.unit}, {tableOf(a.table).name.toLowerCase()} from {a.address} on. Press Look for what the fields say now.
+          </p>
+        )}
+        {a && !a.exception && <Answer a={a} axes={axes} rows={rows} former={answerTo.value !== asked} />}
       </form>
     </Section>
   );
 }
 
-function Answer({ a, axes }: { a: Registers; axes: readonly Axis[] }) {
+/** The axis and the point that a decoded value is of: by its mapping, or by the name that the standard map gives it. */
+function sourceOf(d: { name?: string; mapping?: string }, rows: readonly Mapping[], axes: readonly Axis[]): { axis: string; point: string } | null {
+  const m = d.mapping === undefined ? undefined : rows.find((r) => r.id === d.mapping);
+  if (m) return { axis: m.axis, point: m.point };
+  const axis = axes.filter((x) => d.name?.startsWith(`${x.name}.`)).sort((x, y) => y.name.length - x.name.length)[0];
+  return axis && d.name ? { axis: axis.name, point: d.name.slice(axis.name.length + 1) } : null;
+}
+
+/** In words: a bare number beside "position" could be anything. */
+function decodedUnit(unit: string | null | undefined, source: { axis: string; point: string } | null, axes: readonly Axis[]): string {
+  const told = unit || (source ? pointUnit(axes.find((x) => x.name === source.axis) ?? { unit: '' }, source.point) : '');
+  return told.replace(/^inc\b/, 'increments');
+}
+
+function What({ d, rows, axes }: { d: { name?: string; mapping?: string; type: string }; rows: readonly Mapping[]; axes: readonly Axis[] }) {
+  const source = sourceOf(d, rows, axes);
+  return (
+    <>
+      {d.name ?? d.mapping} {source && <SimulatedMark of={source.axis} />} <span class="where mono">{d.type}</span>
+    </>
+  );
+}
+
+function Answer({ a, axes, rows, former }: { a: Registers; axes: readonly Axis[]; rows: readonly Mapping[]; former: boolean }) {
   const raw = a.words ?? (a.bits ?? []).map(Number);
   const bits = a.words === undefined;
   const named = new Map((a.decoded ?? []).map((d) => [d.address, d]));
   const type = as.value as RegisterType;
   return (
-    <div class="table-scroll" tabIndex={0} role="region" aria-label="Registers as the Modbus door answers them">
+    <div class={`table-scroll${former ? ' is-old' : ''}`} tabIndex={0} role="region" aria-label={former ? 'The former answer of the Modbus door' : 'Registers as the Modbus door answers them'}>
       <table class="table hmi-table">
         <thead>
           <tr>
@@ -138,8 +176,8 @@ function Answer({ a, axes }: { a: Registers; axes: readonly Axis[] }) {
                 {!bits && <td data-label="Hex" class="mono">{w.toString(16).toUpperCase().padStart(4, '0')}</td>}
                 <td data-label={bits ? 'Bit' : 'u16'} class="num mono">{w}</td>
                 {!bits && <td data-label={`as ${type}`} class="num mono">{shown(decodeWords(type === 'string' ? raw.slice(i) : raw.slice(i, i + widthOf(type)), type, order.value as Mapping['word_order']))}</td>}
-                <td data-label="What it is">{d ? <>{d.name ?? d.mapping} <span class="where mono">{d.type}</span></> : <span class={bits && isStandard(a.unit) ? '' : 'where'}>{(bits && isStandard(a.unit) && bitName(at, axes)) || '–'}</span>}</td>
-                <td data-label="Decoded" class="num">{d ? <><span class="mono">{shown(d.value)}</span> <span class="unit">{d.unit ?? ''}</span> {d.text}</> : ''}</td>
+                <td data-label="What it is">{d ? <What d={d} rows={rows} axes={axes} /> : <span class={bits && isStandard(a.unit) ? '' : 'where'}>{(bits && isStandard(a.unit) && bitName(at, axes)) || '–'} {bits && isStandard(a.unit) && bitAxis(at, axes) && <SimulatedMark of={bitAxis(at, axes)} />}</span>}</td>
+                <td data-label="Decoded" class="num">{d ? <><span class="mono">{shown(d.value)}</span> <span class="unit">{decodedUnit(d.unit, sourceOf(d, rows, axes), axes)}</span> {d.text === shown(d.value) || d.text === String(d.value) ? '' : d.text}</> : ''}</td>
               </tr>
             );
           })}

@@ -1,11 +1,12 @@
 // Lines and drives, as rows of cards: state in words, load, what the protocol counted; who serves each drive, and why.
 // In: the store. Out: two lists that become stacked cards on a narrow screen. Old values are greyed like those of an axis.
 import { useGateway } from '../gateway';
-import { axisPath, linePath } from '../router';
+import { linePath } from '../router';
 import type { Drive, Line } from '../api/types';
 import type { Word } from '../words/axis';
 import { formatExact } from '../words/number';
 import { Icon } from './icon';
+import { AxisName } from './name';
 import { Pill } from './pill';
 
 export function lineWord(state: Line['status']['state']): Word {
@@ -104,7 +105,7 @@ function DriveCard({ name }: { name: string }) {
         {drive.axes.map((a, i) => (
           <>
             {i > 0 && ', '}
-            <a href={axisPath(a)}>{a}</a>
+            <AxisName name={a} />
           </>
         ))}
         {s.silent_exchanges > 0 && ` · silent ${s.silent_exchanges} times, next try within ${s.retry_pause_ms} ms`}

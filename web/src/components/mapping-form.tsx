@@ -9,6 +9,7 @@ import type { Clash, MappingBook } from '../state/mappings';
 import { checkTexts, conflictsOf, emptyTexts, fields, neighbourText, nextFree, oneBased, placeText, signWarning, tables, textsOf, types, widthOf, type Field, type Known, type Mapping, type Texts } from '../words/mapping';
 import { naturalType } from '../words/mapping-type';
 import { Choice, quiet, Tell, TextField, toldOf, type Told } from './form';
+import { useNamed } from './name';
 import { Section } from './section';
 
 type Draft = Record<Field, Signal<string>>;
@@ -38,6 +39,7 @@ export interface MappingFormProps {
 
 export function MappingForm({ book, known, editing, done }: MappingFormProps) {
   const { store } = useGateway();
+  const named = useNamed();
   const drafts = useRef(new Map<string, Draft>());
   if (editing && !drafts.current.has(editing.id)) drafts.current.set(editing.id, draftOf(editing));
   const d = editing ? (drafts.current.get(editing.id) as Draft) : adding;
@@ -120,7 +122,7 @@ export function MappingForm({ book, known, editing, done }: MappingFormProps) {
         }}
       >
         <div class="form-grid">
-          <Choice label="Axis" value={texts.axis} onChoice={set('axis')} fault={shown('axis')} choices={[{ value: '', text: 'choose' }, ...store.axisNames.value.map((n) => ({ value: n, text: n }))]} />
+          <Choice label="Axis" value={texts.axis} onChoice={set('axis')} fault={shown('axis')} choices={[{ value: '', text: 'choose' }, ...store.axisNames.value.map((n) => ({ value: n, text: named(n) }))]} />
           <TextField label="Point or parameter" class="wide" value={texts.point} onText={set('point')} fault={shown('point')} offers={offers} placeholder="position_units, MT[1] …" hint={known.points.find((p) => p.point === texts.point)?.description} />
           <TextField label="Unit" number value={texts.unit} onText={set('unit')} fault={shown('unit')} />
           <Choice label="Table" value={texts.table} onChoice={set('table')} fault={shown('table')} choices={tables.map((t) => ({ value: t.id, text: t.name }))} />

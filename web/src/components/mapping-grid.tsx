@@ -6,11 +6,11 @@ import { useGateway } from '../gateway';
 import { gridOf, oneBased, placeText, pointUnit, pointValue, tableOf, type Mapping, type Table } from '../words/mapping';
 import { formatExact } from '../words/number';
 import type { Heard } from '../state/register-look';
-import { axisPath } from '../router';
 import { useBarred } from './gate';
 import { Icon } from './icon';
 import { Empty } from './lines';
 import { memo } from './memo';
+import { AxisName } from './name';
 
 const rowsAtOnce = 400;
 
@@ -89,7 +89,7 @@ function RowView({ mapping: m, heard, edit, remove }: RowProps) {
         <span class="mono id">{placeText(m)}</span> <span class="where mono" title="Counted from 1, as many editors show it">{oneBased(m.table, m.address)}</span>
       </th>
       <td data-label="Point" class="point">
-        <a href={axisPath(m.axis)}>{m.axis}</a> <span class="mono">{m.point}</span> <span class="where">{m.id}</span>
+        <AxisName name={m.axis} /> <span class="mono">{m.point}</span> <span class="where">{m.id}</span>
       </td>
       <td data-label="Type">
         <span class="mono">{m.type}</span>

@@ -7,9 +7,11 @@ import { valueUnit } from '../words/mapping-type';
 import { notOffered } from './form';
 import { useLoaded, waiting } from './loaded';
 import { scaleText } from './mapping-grid';
+import { useNamed } from './name';
 
 export function PrintedList({ rows, known, hash }: { rows: readonly Mapping[]; known: Known; hash: string }) {
   const { store } = useGateway();
+  const named = useNamed();
   // The units of parameters stand in the catalogue of their axis.
   for (const a of new Set(rows.filter((m) => !known.points.some((p) => p.point === m.point)).map((m) => m.axis))) known.parameters(a);
   // Not followed: an axis is told ten times a second, its unit changes with the site.
@@ -48,7 +50,7 @@ export function PrintedList({ rows, known, hash }: { rows: readonly Mapping[]; k
                   <tr key={m.id}>
                     <td>{endOf(m) === m.address ? m.address : `${m.address}–${endOf(m)}`}</td>
                     <td>{oneBased(m.table, m.address)}</td>
-                    <td>{m.axis}</td>
+                    <td>{named(m.axis)}</td>
                     <td>{m.point}</td>
                     <td>{m.type}</td>
                     <td>{endOf(m) === m.address ? '' : m.word_order.replace('_', ' ')}</td>

@@ -9,6 +9,7 @@ import type { MappingBook } from '../state/mappings';
 import { nextFree, placeText, type Mapping } from '../words/mapping';
 import { parseNumber } from '../words/number';
 import { Choice, notOffered, quiet, Tell, TextField, toldOf, type Told } from './form';
+import { useNamed } from './name';
 import { Section } from './section';
 
 const axis = kept('template.axis');
@@ -19,6 +20,7 @@ const blockWidth = 64;
 
 export function MappingTemplates({ book, door }: { book: MappingBook; door: MappingDoor }) {
   const { store } = useGateway();
+  const named = useNamed();
   const told = useSignal<Told>(quiet);
   const differences = useSignal<string[]>([]);
   const whole = (text: string, min: number, max: number) => {
@@ -65,7 +67,7 @@ export function MappingTemplates({ book, door }: { book: MappingBook; door: Mapp
         }}
       >
         <div class="form-grid">
-          <Choice label="Axis" value={axis.value} onChoice={(v) => (axis.value = v)} choices={[{ value: '', text: 'choose' }, ...store.axisNames.value.map((n) => ({ value: n, text: n }))]} />
+          <Choice label="Axis" value={axis.value} onChoice={(v) => (axis.value = v)} choices={[{ value: '', text: 'choose' }, ...store.axisNames.value.map((n) => ({ value: n, text: named(n) }))]} />
           <TextField label="Unit" number value={unit.value} onText={(t) => (unit.value = t)} fault={u === null ? 'A whole number from 2 to 254.' : undefined} />
           <TextField
             label="Address"

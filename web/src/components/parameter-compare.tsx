@@ -6,11 +6,12 @@ import { asProblem } from '../api/problem';
 import { SnapshotDoor, type Snapshot } from '../api/snapshots';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
-import { unitWords, valueText } from '../words/parameter';
-import { axisChoice, snapshotChoice } from '../words/snapshot';
+import { steppedText, unitWords, valueText } from '../words/parameter';
+import { axisChoice, differentFamilies, snapshotChoice } from '../words/snapshot';
 import { compareWith, type Compared } from '../words/transfer';
 import { Choice, quiet, Tell, type Told } from './form';
 import { Empty } from './lines';
+import { SimulatedMark, useNamed } from './name';
 import { Section } from './section';
 
 const plain = { allowed: null };
@@ -25,15 +26,23 @@ export function ParameterCompare({ axis, family, snapshots }: { axis: string; fa
   const result = useSignal<{ title: string; rows: Compared[] } | null>(null);
   const others = store.axisNames.value.filter((n) => n !== axis);
   const fromSnapshot = base.value !== 'now';
+  const named = useNamed();
+  const familyOfAxis = (n: string) => store.axis(n)?.peek().data.family ?? family;
   const choices = [
     { value: 'default', text: 'the defaults of the family' },
     { value: 'stored', text: 'what the gateway has stored' },
     ...(fromSnapshot ? [{ value: 'device', text: 'the drive, read now' }] : []),
     ...snapshots.filter((s) => !fromSnapshot || String(s.n) !== base.value).map((s) => snapshotChoice(s, `snapshot:${s.n}`, family)),
-    ...others.map((n) => axisChoice(n, fromSnapshot ? (store.axis(n)?.peek().data.family ?? family) : family, family)),
+    ...others.map((n) => axisChoice(n, familyOfAxis(n), family, named(n))),
   ];
 
   const compare = async () => {
+    const theirs = other.value.startsWith('axis:') ? familyOfAxis(other.value.slice('axis:'.length)) : family;
+    if (theirs !== family) {
+      result.value = null;
+      told.value = { tone: 'refused', text: differentFamilies(axis, family, other.value.slice('axis:'.length), theirs, store.familyTitles.peek()) };
+      return;
+    }
     told.value = { tone: 'busy', text: 'Comparing …' };
     result.value = null;
     try {
@@ -62,7 +71,7 @@ export function ParameterCompare({ axis, family, snapshots }: { axis: string; fa
   };
   const rows = (result.value?.rows ?? []).filter((r) => all.value || !r.same);
   return (
-    <Section title="Compare" class="compare">
+    <Section title="Compare" class="compare" beside={<SimulatedMark of={axis} />}>
       <form
         class="card form"
         noValidate
@@ -73,8 +82,8 @@ export function ParameterCompare({ axis, family, snapshots }: { axis: string; fa
         }}
       >
         <div class="form-grid">
-          <Choice label="Compare" class="wide" value={base.value} onChoice={(v) => { base.value = v; result.value = null; if (v === 'now' && other.value === 'device') other.value = 'default'; }} choices={[{ value: 'now', text: 'the values known now' }, ...snapshots.map((s) => snapshotChoice(s, String(s.n), family))]} />
-          <Choice label="with" class="wide" value={other.value} onChoice={(v) => { other.value = v; result.value = null; }} choices={choices} />
+          <Choice label="Compare" class="wide" value={base.value} onChoice={(v) => { base.value = v; result.value = null; told.value = quiet; if (v === 'now' && other.value === 'device') other.value = 'default'; }} choices={[{ value: 'now', text: 'the values known now' }, ...snapshots.map((s) => snapshotChoice(s, String(s.n), family))]} />
+          <Choice label="with" class="wide" value={other.value} onChoice={(v) => { other.value = v; result.value = null; told.value = quiet; }} choices={choices} />
         </div>
         <div class="form-foot">
           <button type="submit" class="button primary">
@@ -85,7 +94,7 @@ export function ParameterCompare({ axis, family, snapshots }: { axis: string; fa
           </label>
           <Tell told={told.value} field="compare-told" />
         </div>
-        {result.value && rows.length === 0 && <Empty text="Nothing differs." />}
+        {result.value && result.value.rows.length > 0 && rows.length === 0 && <Empty text="Nothing differs." />}
         {result.value && rows.length > 0 && (
           <div class="table-scroll" tabIndex={0} role="region" aria-label="Comparison">
             <table class="table compare-table">
@@ -106,8 +115,8 @@ export function ParameterCompare({ axis, family, snapshots }: { axis: string; fa
                         <span class="name">{r.name.replaceAll('_', ' ')}</span>
                       </span>
                     </th>
-                    <td class="num mono" data-label={fromSnapshot ? 'Snapshot' : 'Now'}>{valueText(r.mine, plain)} <span class="unit">{unitWords(r.unit)}</span></td>
-                    <td class="num mono" data-label={capital(result.value?.title ?? '')}>{valueText(r.other, plain)} <span class="unit">{unitWords(r.unit)}</span></td>
+                    <td class="num mono" data-label={fromSnapshot ? 'Snapshot' : 'Now'}>{valueText(r.mine, plain)} <span class="unit">{unitWords(r.unit)} {steppedText(r.mine, r.unit)}</span></td>
+                    <td class="num mono" data-label={capital(result.value?.title ?? '')}>{valueText(r.other, plain)} <span class="unit">{unitWords(r.unit)} {steppedText(r.other, r.unit)}</span></td>
                     <td data-label="Verdict">{r.same ? 'equal' : <span class="flag">differs{r.writable ? '' : ', read only'}</span>}</td>
                   </tr>
                 ))}

@@ -8,8 +8,8 @@ import type { AxisParameter } from '../api/types';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
 import { kept } from '../state/kept';
-import { editText, valueText } from '../words/parameter';
-import { csvOfParameters, jsonOfParameters, readTransfer } from '../words/transfer';
+import { editText, steppedText, unitWords, valueText } from '../words/parameter';
+import { csvOfParameters, jsonOfParameters, parametersWords, readTransfer } from '../words/transfer';
 import { quiet, Tell, type Told } from './form';
 import { Section } from './section';
 
@@ -84,7 +84,7 @@ export function ParameterTransfer({ axis }: { axis: string }) {
     }
     if (done === wanted.length) {
       text.value = '';
-      told.value = { tone: 'good', text: `${done} parameters written.` };
+      told.value = { tone: 'good', text: `${parametersWords(done)} written.` };
     } else if (told.peek().tone === 'busy') told.value = { tone: 'refused', text: `Ended: ${done} of ${wanted.length} were written.` };
     busy.value = false;
     sending.current = null;
@@ -137,7 +137,7 @@ export function ParameterTransfer({ axis }: { axis: string }) {
             {read.rows.filter((r) => !r.same).slice(0, 300).map((r) => (
               <li key={r.line} data-line={r.line}>
                 <span class="mono">{r.id}</span>{' '}
-                {r.fault ? <span class="fault-text">{r.fault}</span> : <span class="mono">{valueText(byId.get(r.id)?.value ?? null, byId.get(r.id) ?? { allowed: null })} → {editText(r.value)}</span>}
+                {r.fault ? <span class="fault-text">{r.fault}</span> : <span class="mono">{valueText(byId.get(r.id)?.value ?? null, byId.get(r.id) ?? { allowed: null })} → {editText(r.value)} {unitWords(byId.get(r.id)?.unit ?? null)} {steppedText(r.value, byId.get(r.id)?.unit ?? null)}</span>}
               </li>
             ))}
           </ul>

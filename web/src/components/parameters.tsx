@@ -9,7 +9,7 @@ import type { AxisParameter } from '../api/types';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
 import { isApart, isChanged, isMarked, marks, type Marked } from '../words/transfer';
-import { editText, rangeText, readValue, sameValue, searchRank, unitWords, valueText } from '../words/parameter';
+import { editText, rangeText, readValue, sameValue, searchRank, steppedText, unitWords, valueText } from '../words/parameter';
 import { clockTime } from '../words/time';
 import { Icon } from './icon';
 import { Empty } from './lines';
@@ -258,7 +258,7 @@ function RowView({ axis, row, read, write, open }: RowProps) {
             <span class={`mono value${differs ? ' differs' : ''}`} title={p.at ? `The drive said it at ${clockTime(p.at)}` : 'Not read yet'}>
               {valueText(p.value, p)}
             </span>{' '}
-            <span class="unit">{p.value !== null && !p.allowed ? unitWords(p.unit) : ''}</span>
+            <span class="unit">{p.value !== null && !p.allowed ? `${unitWords(p.unit)} ${steppedText(p.value, p.unit)}`.trim() : ''}</span>
             {differs && <span class="flag changed" title="Not the default of the family"> changed</span>}
             {p.quality === 'stale' && <span class="flag"> stale</span>}
             {p.quality === 'unknown' && <span class="visually-hidden"> not read yet</span>}
@@ -292,7 +292,7 @@ function RowView({ axis, row, read, write, open }: RowProps) {
           )}
         </div>
         <p class={`row-note result-${n.tone}`} id={note} role="status">
-          {n.text}
+          {n.text || typedText(row.typed.value, p)}
         </p>
       </td>
       <td class="written" data-label="Last written">
@@ -301,6 +301,13 @@ function RowView({ axis, row, read, write, open }: RowProps) {
     </tr>
   );
 }
+/** What is typed for a unit that is counted in steps, as a quantity: the field itself takes the drive's own number. */
+function typedText(typed: string | null, p: AxisParameter): string {
+  const value = typed === null || typed.trim() === '' || p.allowed ? null : readValue(typed, p);
+  const text = value?.good ? steppedText(value.value, p.unit) : '';
+  return text && `${typed?.trim()} ${unitWords(p.unit)} ${text}`;
+}
+
 const ParameterRow = memo(RowView, (a, b) => a.row === b.row);
 
 function Editor({ row, describedBy, write }: { row: Row; describedBy: string; write: () => void }) {

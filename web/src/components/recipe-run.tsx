@@ -7,10 +7,11 @@ import { asProblem } from '../api/problem';
 import type { RecipeReport, RecipeReportHead } from '../api/types';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
-import { runWord, typedOf, valueOf, type Json, type RecipeDocument } from '../words/recipe';
+import { doneOf, runWord, typedOf, valueOf, type Json, type RecipeDocument } from '../words/recipe';
 import { clockTime, duration } from '../words/time';
 import { Icon } from './icon';
 import { useLoaded } from './loaded';
+import { AxisName, SimulatedMark, useNamed } from './name';
 import { Pill } from './pill';
 import { Section } from './section';
 
@@ -20,6 +21,7 @@ const isOver = (state: string) => state !== 'running' && state !== 'stopping';
 export function RunSection({ name, parameters, saved, typed }: { name: string; parameters: NonNullable<RecipeDocument['parameters']>; saved: boolean; typed: Signal<Record<string, string>> }) {
   const gateway = useGateway();
   const no = useBarred('operator');
+  const named = useNamed();
   const { client } = gateway;
   const report: Signal<RecipeReport | null> = useSignal(null);
   const runs: Signal<RecipeReportHead[]> = useSignal([]);
@@ -66,7 +68,7 @@ export function RunSection({ name, parameters, saved, typed }: { name: string; p
     try {
       if (dryRun) {
         const c = await client.checkRun(name, given());
-        result.value = { tone: 'good', text: `Can run: ${c.steps} steps, commands ${c.axes?.join(', ') || 'no axis'}.` };
+        result.value = { tone: 'good', text: `Can run: ${c.steps} steps, commands ${c.axes?.map(named).join(', ') || 'no axis'}.` };
       } else {
         report.value = await client.runRecipe(name, given());
         result.value = { tone: 'good', text: isOver(report.peek()?.state ?? '') ? '' : begun(report.peek()?.n ?? 0) };
@@ -96,6 +98,7 @@ export function RunSection({ name, parameters, saved, typed }: { name: string; p
                   {key}
                   {p.unit ? `, ${p.unit}` : ''}
                 </span>
+                {p.type === 'axis' && <SimulatedMark of={typed.value[key] || String(p.default ?? '')} />}
                 <input
                   type="text"
                   autocomplete="off"
@@ -164,7 +167,7 @@ export function Report({ report: r }: { report: RecipeReport }) {
       <div class="row">
         <div class="row-head">
           <Pill word={runWord(r.state)} label="State of the run" id="run-state" />
-          <progress max={r.of} value={isOver(r.state) && r.state === 'done' ? r.of : r.begun} aria-label="Steps begun" />
+          <progress max={r.of} value={doneOf(r)} aria-label="Steps done" />
           <span class="where">
             {clockTime(r.started_at)}
             {took && `, ${took}`} · {r.started_by}
@@ -178,7 +181,7 @@ export function Report({ report: r }: { report: RecipeReport }) {
         )}
         {r.stops.map((s) => (
           <p key={s.axis} class="why">
-            {s.axis}: {s.left_alone ? s.text : `${s.stopped ? 'stopped' : 'NOT stopped'}${s.text && `: ${s.text}`}`}
+            <AxisName name={s.axis} plain />: {s.left_alone ? s.text : `${s.stopped ? 'stopped' : 'NOT stopped'}${s.text && `: ${s.text}`}`}
           </p>
         ))}
       </div>
@@ -190,7 +193,7 @@ export function Report({ report: r }: { report: RecipeReport }) {
               <Icon name={word.icon} size={14} />
               <span class="report-word">{word.text}</span>
               <span class="report-what">
-                <b>{s.step}</b> {s.axis ?? ''}
+                <b>{s.step}</b> {s.axis && <AxisName name={s.axis} plain />}
                 {s.times > 1 && ` × ${s.times}`}
                 {s.value !== null && s.value !== undefined && <span class="mono"> = {typedOf(typeof s.value === 'number' ? Number(s.value.toPrecision(9)) : s.value)}</span>}
                 {s.text && <span> {s.text}</span>}

@@ -3,8 +3,9 @@
 import { createContext } from 'preact';
 import { useContext } from 'preact/hooks';
 import type { components } from '../api/schema';
-import { added, at, changed, commands, comparisons, fieldsOfStep, freshStep, kindOf, moved, pointerOf, points, removed, stepKinds, takesTolerance, titleOf, typedOf, unitOfField, valueOf, withCommand, type Json, type Path, type RecipeDocument, type Step, type StepField, type StepKind } from '../words/recipe';
+import { added, at, axisMeant, changed, commands, comparisons, fieldsOfStep, freshStep, kindOf, moved, pointerOf, points, removed, stepKinds, takesTolerance, titleOf, unknownAxes, unknownWords, typedOf, unitOfField, valueOf, withCommand, type Json, type Path, type RecipeDocument, type Step, type StepField, type StepKind } from '../words/recipe';
 import { Icon } from './icon';
+import { SimulatedMark } from './name';
 import { Typed } from './typed';
 
 export type Fault = components['schemas']['Fault'];
@@ -12,6 +13,8 @@ export interface Editing {
   document: RecipeDocument;
   change: (next: RecipeDocument) => void;
   axes: string[];
+  /** The axes of the site are known: one that is not among them is not there. */
+  listed: boolean;
   /** Unit of the axis that a step names, also by a parameter; null: it is not known. */
   unitOf: (axis: string) => string | null;
   faults: Fault[];
@@ -65,13 +68,14 @@ function StepList({ path, name }: { path: Path; name: string }) {
 }
 
 function StepRow({ step, list, i, last }: { step: Step; list: Path; i: number; last: boolean }) {
-  const { document, change, faults, unitOf } = useEditing();
+  const { document, change, faults, unitOf, axes, listed } = useEditing();
   const kind = kindOf(step);
   const path = [...list, i];
   const pointer = pointerOf(path);
   const inner = kind?.lists?.map((l) => `${pointer}/${kind.word}/${l}/`) ?? [];
   const mine = faults.filter((f) => (f.pointer === pointer || f.pointer.startsWith(`${pointer}/`)) && !inner.some((p) => f.pointer.startsWith(p)));
   const title = titleOf(path);
+  const nobody = listed ? unknownAxes(document, axes).filter((u) => u.pointer === pointer) : [];
   const body = kind ? step[kind.word] : undefined;
   return (
     <li class={`step${mine.length > 0 ? ' is-wrong' : ''}`} data-step={pointer}>
@@ -106,6 +110,11 @@ function StepRow({ step, list, i, last }: { step: Step; list: Path; i: number; l
           {f.text}. {f.remedy}.
         </p>
       ))}
+      {nobody.length > 0 && (
+        <p class="step-fault" data-field="no-axis">
+          {unknownWords(nobody)}
+        </p>
+      )}
       {kind?.lists?.map((l) => (
         <div key={l} class="step-inner">
           {kind.lists && kind.lists.length > 1 && <p class="step-side">{l === 'then' ? 'Then' : 'Else'}</p>}
@@ -114,6 +123,13 @@ function StepRow({ step, list, i, last }: { step: Step; list: Path; i: number; l
       ))}
     </li>
   );
+}
+
+/** Beside the field in which an axis is named: whether it is simulated now, also where a parameter names it. */
+function AxisMark({ named }: { named: unknown }) {
+  const { document } = useEditing();
+  const axis = typeof named === 'string' ? axisMeant(named, document.parameters) : null;
+  return axis ? <SimulatedMark of={axis} /> : null;
 }
 
 function StepInput({ field, path, value, title, unit }: { field: StepField; path: Path; value: unknown; title: string; unit: string }) {
@@ -146,6 +162,7 @@ function StepInput({ field, path, value, title, unit }: { field: StepField; path
         {field.label}
         {unit && <span class="unit">, {unit}</span>}
       </span>
+      {field.kind === 'axis' && <AxisMark named={value} />}
       <Typed
         spellcheck={false}
         list={field.kind === 'axis' ? 'recipe-axes' : undefined}
@@ -187,6 +204,7 @@ function ConditionFields({ kind, path, title }: { kind: StepKind; path: Path; ti
       {kind.condition === 'until' && <span class="step-word">until</span>}
       <label class="step-field">
         <span>Axis</span>
+        <AxisMark named={c['axis']} />
         <Typed list="recipe-axes" spellcheck={false} aria-label={`${title}: Axis`} value={typedOf(c['axis'])} onDone={(t) => set({ axis: t })} />
       </label>
       <label class="step-field">

@@ -12,6 +12,13 @@ import { Section } from './section';
 const askAgain_ms = 300;
 const askLater_ms = 2_000;
 
+/** "3 of 8 addresses asked, done, 1 found". A line that is asked as a whole has no addresses to count: how it was found is told then. */
+export function scanWords(r: Pick<ScanReport, 'asked' | 'of' | 'state' | 'text' | 'found'>): string {
+  const found = r.found.length === 1 ? '1 found' : `${r.found.length} found`;
+  const how = r.of > 0 ? `${r.asked} of ${r.of} addresses asked, ${r.state}, ${found}` : `The line was asked as a whole, not address by address: ${r.state}, ${found}`;
+  return `${how}${r.text ? `: ${r.text}` : ''}`;
+}
+
 export function ScanSection({ line }: { line: string }) {
   const { client } = useGateway();
   const no = useBarred('engineer');
@@ -63,11 +70,10 @@ export function ScanSection({ line }: { line: string }) {
               End
             </button>
           )}
-          {r && r.state !== 'none' && <progress max={1} value={r.progress} aria-label="Addresses asked" />}
+          {r && r.state !== 'none' && <progress max={1} value={r.state === 'done' ? 1 : r.progress} aria-label="Addresses asked" />}
           {r && r.state !== 'none' && (
             <span class="where" role="status">
-              {r.asked} of {r.of} asked, {r.state}
-              {r.text && `: ${r.text}`}
+              {scanWords(r)}
             </span>
           )}
         </div>

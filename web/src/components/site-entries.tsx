@@ -10,6 +10,7 @@ import { checkEntry, fieldsOf, freeNumber, oneOf, placeOf, sameDocument, textsOf
 import { Choice, TextField } from './form';
 import { useBarred } from './gate';
 import { Icon } from './icon';
+import { SimulatedMark } from './name';
 import { OptionFields } from './option-fields';
 import { Section } from './section';
 
@@ -27,7 +28,8 @@ export function openForm(room: Room, site: Site, entry: Entry | null, preset: Te
 
 const titles: Record<Room, string> = { lines: 'Lines', drives: 'Drives', axes: 'Axes' };
 
-export function SiteEntries({ room, draft, extra }: { room: Room; draft: SiteDraft; extra?: (entry: Entry) => ComponentChildren }) {
+/** `extra`: beside the name; `below`: under the entry. */
+export function SiteEntries({ room, draft, extra, below }: { room: Room; draft: SiteDraft; extra?: (entry: Entry) => ComponentChildren; below?: (entry: Entry) => ComponentChildren }) {
   const no = useBarred('engineer');
   const site = draft.draft.value;
   const list = site[room] ?? [];
@@ -59,7 +61,7 @@ export function SiteEntries({ room, draft, extra }: { room: Room; draft: SiteDra
               <li key={e.name} class="row" data-entry={`${room}/${e.name}`}>
                 <div class="row-head">
                   <h3>
-                    {e.name} {mark && <span class="flag">{mark}</span>}
+                    {e.name} {room !== 'lines' && old && <SimulatedMark of={e.name} kind={room === 'axes' ? 'axis' : 'drive'} />} {mark && <span class="flag">{mark}</span>}
                   </h3>
                   {extra?.(e)}
                   <button type="button" class="button small quiet square" aria-label={`Change ${oneOf[room]} ${e.name}`} title="Change" {...no} onClick={() => openForm(room, site, e)}>
@@ -94,6 +96,7 @@ export function SiteEntries({ room, draft, extra }: { room: Room; draft: SiteDra
                     </button>
                   </p>
                 )}
+                {below?.(e)}
                 {open?.own === e.name && <EntryForm room={room} draft={draft} own={e} open={forms[room] as Signal<Open>} gateway={own} />}
               </li>
             );

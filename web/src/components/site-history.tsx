@@ -27,6 +27,7 @@ export function SiteHistory({ draft, door }: { draft: SiteDraft; door: SiteDoor 
   const older = useSignal<{ more: boolean; busy: boolean; why: string }>({ more: false, busy: false, why: '' });
   const shown = useSignal<{ revision: number; changes: Difference[] } | null>(null);
   const revision = store.siteRevision.value;
+  const onTrial = draft.stage.value.state === 'applied';
   const load = async () => {
     const first = await door.history(atOnce);
     const last = first.at(-1)?.revision ?? 0;
@@ -71,7 +72,14 @@ export function SiteHistory({ draft, door }: { draft: SiteDraft; door: SiteDoor 
               {list.value.map((h) => (
                 <li key={h.revision} class="row" data-revision={h.revision}>
                   <div class="row-head">
-                    <h3>Revision {h.revision}</h3>
+                    <h3>
+                      Revision {h.revision}{' '}
+                      {h.revision === revision && (
+                        <span class="flag" data-field="in-force">
+                          {onTrial ? 'in force, on trial' : 'in force'}
+                        </span>
+                      )}
+                    </h3>
                     <button type="button" class="button small" aria-expanded={shown.value?.revision === h.revision} aria-label={`Difference to revision ${h.revision}`} onClick={() => void look(h.revision)}>
                       Difference
                     </button>

@@ -22,8 +22,13 @@ export function addFound(draft: SiteDraft, line: Entry, address: number | string
   draft.edit(withEntry(withDrive, 'axes', { name: axis, drive, channel: 1, number: freeNumber(site) }, null));
 }
 
-/** `begin`: it was asked for already, by the button that led here. */
-export function ScanPanel({ line, door, draft, begin = false }: { line: Entry; door: SiteDoor; draft: SiteDraft; begin?: boolean }) {
+/** `begin`: it was asked for already, by the button that led here. `headed`: it says whose it is, and the keyboard goes on there. */
+export function ScanPanel({ line, door, draft, begin = false, headed = false }: { line: Entry; door: SiteDoor; draft: SiteDraft; begin?: boolean; headed?: boolean }) {
+  const head = useRef<HTMLHeadingElement>(null);
+  useEffect(() => {
+    head.current?.focus({ preventScroll: true });
+    head.current?.closest('form')?.scrollIntoView?.({ block: 'nearest' });
+  }, []);
   const no = useBarred('engineer');
   const from = useSignal('');
   const to = useSignal('');
@@ -93,6 +98,11 @@ export function ScanPanel({ line, door, draft, begin = false }: { line: Entry; d
         void start();
       }}
     >
+      {headed && (
+        <h4 ref={head} tabIndex={-1} class="scan-head">
+          Scan of line {line.name}
+        </h4>
+      )}
       <div class="form-foot">
         <TextField label="From address" class="within" number value={from.value} onText={(t) => (from.value = t)} placeholder="first" />
         <TextField label="to" class="within" number value={to.value} onText={(t) => (to.value = t)} placeholder="last" />

@@ -12,6 +12,7 @@ import { Tell, TextField } from './form';
 import { useBarred } from './gate';
 import { Icon } from './icon';
 import { keepBarred, useTrialRest } from './trial';
+import { appliedWords, applyBarred, disturbedWords } from '../words/trial';
 
 const within = kept('site.within_s', '60');
 const mostShown = 200;
@@ -49,12 +50,16 @@ export function SiteStage({ draft }: { draft: SiteDraft }) {
   const ready = inView ? (stage.faults?.length ?? 0) === 0 : checked && faults.length === 0 && theirs === null && changes.length > 0;
   const list = inView ? (stage.faults ?? []) : checked ? faults : [];
   const asked = useSignal(false);
+  const disturbed = disturbedWords(draft.disturbs.value, draft.base.value, draft.draft.value);
 
   if (stage.state === 'applied') {
     return (
       <section class="card stage is-applied" aria-label="Applied change" data-field="stage" data-state="applied">
         <p class="stage-count" data-field="countdown">
           <Icon name="clock" /> The change is applied. {rest > 0 ? `It is rolled back by itself in ${rest} s.` : 'Its time is over.'}
+        </p>
+        <p class="form-told" data-field="applied-by">
+          {appliedWords(stage, tab.name.value, keepBarred(draft, session, tab.name.value))}
         </p>
         <div class="form-foot">
           <button type="button" class="button primary" disabled={busy} {...keep} onClick={() => void draft.confirm()}>
@@ -66,6 +71,14 @@ export function SiteStage({ draft }: { draft: SiteDraft }) {
           <Tell told={draft.told.value} field="stage-told" />
         </div>
         {(stage.diff?.length ?? 0) > 0 && <DifferenceList list={stage.diff ?? []} label="What was changed" />}
+        {changes.length > 0 && (
+          <details class="own-draft" data-field="own-draft">
+            <summary>
+              Your own draft waits: {changes.length === 1 ? '1 change' : `${changes.length} changes`}. It can be checked when the trial is over.
+            </summary>
+            <DifferenceList list={changes} label="What waits in your draft" />
+          </details>
+        )}
       </section>
     );
   }
@@ -127,7 +140,7 @@ export function SiteStage({ draft }: { draft: SiteDraft }) {
           ))}
         </ul>
       )}
-      {checked && draft.disturbs.value.length > 0 && <p class="form-told">Applying disturbs for a moment: {draft.disturbs.value.join(', ')}.</p>}
+      {checked && disturbed && <p class="form-told" data-field="disturbs">{disturbed}</p>}
       <div class="form-foot">
         {changes.length > 0 && !inView && (
           <button type="button" class={`button${ready ? '' : ' primary'}`} disabled={busy || theirs !== null} {...no} onClick={() => void draft.check()}>
@@ -140,6 +153,11 @@ export function SiteStage({ draft }: { draft: SiteDraft }) {
             <button type="button" class="button primary" disabled={busy || !ready || seconds === null} {...no} onClick={() => void draft.apply(seconds ?? 60)}>
               Apply{inView ? ' theirs' : ''}
             </button>
+            {!ready && !busy && !no.disabled && (
+              <span class="where" data-field="apply-why">
+                {applyBarred({ inView, theirs: theirs !== null, faults: list.length > 0 })}
+              </span>
+            )}
           </>
         )}
         {changes.length > 0 && !inView && (

@@ -6,15 +6,17 @@ import { useSignal } from '@preact/signals';
 import { useMemo } from 'preact/hooks';
 import { asProblem } from '../api/problem';
 import { SnapshotDoor, type RestoreReport, type Snapshot } from '../api/snapshots';
+import type { AxisParameter, MaybeValue } from '../api/types';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
 import { kept } from '../state/kept';
-import { valueText } from '../words/parameter';
+import { steppedText, unitWords, valueText } from '../words/parameter';
 import { foreignWords, snapshotWords } from '../words/snapshot';
-import { leftOut } from '../words/transfer';
+import { leftOut, parametersWords } from '../words/transfer';
 import { Choice, notOffered, quiet, Tell, TextField, type Told } from './form';
 import { Empty } from './lines';
 import { useLoaded } from './loaded';
+import { AxisName } from './name';
 import { Section } from './section';
 
 const plain = { allowed: null };
@@ -33,6 +35,7 @@ export function Snapshots({ axis, family, onList }: { axis: string; family: stri
   const no = useBarred('engineer');
   const live = useSignal(false);
   const titles = store.familyTitles.value;
+  const shapes = useSignal<Shapes>(new Map());
   const restoring = useSignal<{ snapshot: Snapshot; report: RestoreReport; chosen: Set<string> } | null>(null);
 
   const load = async () => {
@@ -64,6 +67,8 @@ export function Snapshots({ axis, family, onList }: { axis: string; family: stri
   const look = (s: Snapshot, withLive = live.peek()) =>
     tell('Comparing with the drive …', async () => {
       const report = await door.restore(s.n, withLive ? { dry_run: true, include_live: true } : { dry_run: true });
+      // Names and units only: what is to be written is in the report.
+      if (shapes.peek().size === 0) shapes.value = new Map((await client.parameters(axis).catch(() => [])).map((x) => [x.id, x]));
       live.value = withLive;
       restoring.value = { snapshot: s, report, chosen: new Set((report.changes ?? []).map((c) => c.parameter)) };
       return report.changes?.length ? 'Nothing has been changed yet.' : `The drive has all values of ${s.name} already.`;
@@ -71,12 +76,12 @@ export function Snapshots({ axis, family, onList }: { axis: string; family: stri
   const restore = () => {
     const r = restoring.value;
     if (!r || r.chosen.size === 0) return;
-    void tell(`Writing ${r.chosen.size} parameters …`, async () => {
+    void tell(`Writing ${parametersWords(r.chosen.size)} …`, async () => {
       const done = await door.restore(r.snapshot.n, { parameters: [...r.chosen], dry_run: false, ...(live.peek() ? { include_live: true } : {}) });
       restoring.value = null;
       const failed = done.failed ?? [];
       if (failed.length > 0) throw new Error(`${done.changed?.length ?? 0} written; NOT written: ${failed.map((f) => `${f.parameter} (${f.reason})`).join(', ')}`);
-      return `${done.changed?.length ?? r.chosen.size} parameters restored from ${r.snapshot.name}.`;
+      return `${parametersWords(done.changed?.length ?? r.chosen.size)} restored from ${r.snapshot.name}.`;
     });
   };
   const remove = (s: Snapshot) =>
@@ -187,7 +192,7 @@ export function Snapshots({ axis, family, onList }: { axis: string; family: stri
         {r && (r.report.changes?.length ?? 0) > 0 && (
           <fieldset class="changes">
             <legend>
-              Restoring {r.snapshot.name} changes {r.report.changes?.length} parameters of {axis}
+              Restoring {r.snapshot.name} changes {parametersWords(r.report.changes?.length ?? 0)} of <AxisName name={axis} plain />
             </legend>
             <ul>
               {r.report.changes?.map((c) => (
@@ -203,15 +208,18 @@ export function Snapshots({ axis, family, onList }: { axis: string; family: stri
                         restoring.value = { ...r, chosen };
                       }}
                     />
-                    <span class="mono id">{c.parameter}</span>
-                    <span class="mono">
-                      {valueText(c.from, plain)} → {valueText(c.to, plain)}
+                    <Known id={c.parameter} shapes={shapes.value} />
+                    <span>
+                      <span class="mono">
+                        {valueText(c.from, shapes.value.get(c.parameter) ?? plain)} → {valueText(c.to, shapes.value.get(c.parameter) ?? plain)}
+                      </span>{' '}
+                      <span class="unit">{unitAfter(c.to, shapes.value.get(c.parameter))}</span>
                     </span>
                   </label>
                 </li>
               ))}
             </ul>
-            {(r.report.skipped?.length ?? 0) > 0 && <LeftOut skipped={r.report.skipped ?? []} />}
+            {(r.report.skipped?.length ?? 0) > 0 && <LeftOut skipped={r.report.skipped ?? []} shapes={shapes.value} />}
             <div class="form-foot">
               <button type="button" class="button primary" disabled={r.chosen.size === 0} {...no} onClick={restore}>
                 Write {r.chosen.size === 1 ? '1 value' : `${r.chosen.size} values`} to the drive
@@ -227,17 +235,40 @@ export function Snapshots({ axis, family, onList }: { axis: string; family: stri
   );
 }
 
-function LeftOut({ skipped }: { skipped: { parameter: string; why: string }[] }) {
+type Shapes = ReadonlyMap<string, AxisParameter>;
+
+/** "AC[1] motor acceleration". */
+function Known({ id, shapes }: { id: string; shapes: Shapes }) {
+  const name = shapeOf(id, shapes)?.name.replaceAll('_', ' ') ?? '';
+  return (
+    <span class="both">
+      <span class="mono id">{id}</span>
+      {name && <span class="name"> {name}</span>}
+    </span>
+  );
+}
+/** An element of an array has the name of the array. */
+const shapeOf = (id: string, shapes: Shapes) => shapes.get(id) ?? shapes.get(id.replace(/\[\d+\]$/, ''));
+const unitAfter = (value: MaybeValue, p: AxisParameter | undefined): string => (!p || p.allowed ? '' : `${unitWords(p.unit)} ${steppedText(value, p.unit)}`.trim());
+
+function LeftOut({ skipped, shapes }: { skipped: { parameter: string; why: string }[]; shapes: Shapes }) {
   const groups = leftOut(skipped);
   return (
     <details class="where" data-field="left-out">
       <summary>
-        Left out: {skipped.length} ({groups.map((g) => `${g.parameters.length} ${g.why}`).join('; ')})
+        Left out: {parametersWords(skipped.length)} ({groups.map((g) => `${g.parameters.length}: ${g.why}`).join('; ')})
       </summary>
       <ul>
         {groups.map((g) => (
           <li key={g.why}>
-            {g.why}: <span class="mono">{g.parameters.join(', ')}</span>
+            {capital(g.why)}
+            <ul class="left-out-ids">
+              {g.parameters.map((id) => (
+                <li key={id}>
+                  <Known id={id} shapes={shapes} /> <span class="unit">{unitWords(shapeOf(id, shapes)?.unit ?? null)}</span>
+                </li>
+              ))}
+            </ul>
           </li>
         ))}
       </ul>

@@ -26,9 +26,9 @@ export function keepBarred(draft: SiteDraft, session: Session, tab = ''): string
   const role = session.mayNot('engineer', 'Keeping the site');
   const by = draft.stage.value.by ?? '';
   const info = session.info.value;
-  if (role || !by || !info || info.role === 'administrator') return role;
+  if (role || !by || !info) return role;
   const client = draft.stage.value.client ?? '';
-  if (client && tab) return client === tab || client.endsWith(` ${tab}`) ? '' : `Only the page of ${personOf(by)} that applied it, or an administrator, can keep it.`;
+  if (client && tab) return client === tab || client.endsWith(` ${tab}`) ? '' : `Only the page of ${personOf(by)} that applied it can keep it; take it back and apply it from here if need be.`;
   const me = info.user ?? (info.via === 'local' ? 'local' : '');
   return !me || by === me || by.startsWith(`${me} `) ? '' : `Only ${personOf(by)}, who applied it, can keep it.`;
 }

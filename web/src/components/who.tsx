@@ -6,7 +6,8 @@ import { Icon } from './icon';
 export function Who() {
   const { session } = useGateway();
   const info = session.info.value;
-  if (!info?.role) return null;
+  // While a sign-in is needed the head says that, and nothing else beside it.
+  if (!info?.role || session.needed.value) return null;
   const words = whoWords(info);
   return (
     <span class="who" data-field="who">

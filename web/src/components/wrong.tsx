@@ -2,10 +2,10 @@
 // Old values are no news: without a connection the strip says what there is to say. What there is no room for is one press away, never only counted.
 import { useSignal } from '@preact/signals';
 import { useGateway } from '../gateway';
-import { axisPath } from '../router';
 import { withoutSubject } from '../words/alarm';
 import { whatIsWrong, type Wrong } from '../words/wrong';
 import { Icon } from './icon';
+import { AxisName, SimulatedMark } from './name';
 import { Section } from './section';
 
 const most = 12;
@@ -34,7 +34,12 @@ export function WrongList() {
               <span class="wrong-word">
                 <Icon name={w.word.icon} size={14} /> {w.word.text}
               </span>
-              {w.about && <b>{w.about}</b>}
+              {w.about && (
+                <b>
+                  {w.about}
+                  <SimulatedMark of={w.about} kind={w.path.startsWith('/axes/') ? 'axis' : 'drive'} lead=" " />
+                </b>
+              )}
               <span class="wrong-text">{withoutSubject(w.text, w.about)}</span>
             </a>
             {w.axes.length > 0 && <WrongAxes of={w} />}
@@ -59,9 +64,7 @@ function WrongAxes({ of }: { of: Wrong }) {
     <p class="wrong-axes" data-wrong-axes={of.key}>
       <span>{of.axes.length === 1 ? 'Axis:' : 'Axes:'}</span>
       {shown.map((n) => (
-        <a key={n} href={axisPath(n)}>
-          {n}
-        </a>
+        <AxisName key={n} name={n} />
       ))}
       {of.axes.length > mostAxes && (
         <button type="button" class="link" aria-expanded={whole.value} onClick={() => (whole.value = !whole.value)}>

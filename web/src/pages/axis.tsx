@@ -1,6 +1,8 @@
 // Axis: one axis on its own page: readings, controls, scope, states, parameters, console, the twin's hand, its events.
 // In: its name. Out: a page. Follows the axis at 50 ms while it is open.
+import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
+import type { Authority, Axis } from '../api/types';
 import { FullControls } from '../components/axis-controls';
 import { Notice, Readout, StatePills } from '../components/axis-tile';
 import { AuthorityBar } from '../components/authority';
@@ -18,6 +20,7 @@ import { StateMachine } from '../components/state-machine';
 import { StopButton } from '../components/stop';
 import { useGateway } from '../gateway';
 import { linePath, parametersPath } from '../router';
+import { commandedWords } from '../words/authority';
 import { markOf, unitOf } from '../words/axis';
 
 const Controls = memo(FullControls, (a, b) => a.axis.name === b.axis.name && a.axis.unit === b.axis.unit);
@@ -53,7 +56,7 @@ export function AxisPage({ name }: { name: string }) {
         </div>
         <p class="where">
           {axis.family} · line <a href={linePath(axis.line)}>{axis.line}</a> · drive {axis.drive}, channel {axis.channel} · axis {axis.number} ·{' '}
-          {axis.authority === 'none' ? 'nobody has commanded it' : `commanded by ${axis.authority.replace('_', '/')}`}
+          <LastCommander axis={axis} />
         </p>
         <StopButton axis={name} large urgent={axis.moving} />
       </header>
@@ -78,7 +81,7 @@ export function AxisPage({ name }: { name: string }) {
         </Section>
         <Section title="Hand of the twin">
           <Gate need="engineer">
-            <Hand drive={axis.drive} />
+            <Hand drive={axis.drive} axis={name} />
           </Gate>
         </Section>
       </div>
@@ -93,6 +96,24 @@ export function AxisPage({ name }: { name: string }) {
       </Section>
     </main>
   );
+}
+
+/** Who commanded last: somebody who holds the axis now is told apart from that, by the bar below. Asked for when it may have changed. */
+function LastCommander({ axis }: { axis: Axis }) {
+  const { client, store, tab } = useGateway();
+  const who = useSignal('');
+  const times = useSignal(0);
+  const { name, authority } = axis;
+  useEffect(() => store.onEvent((e) => void (e.axis === name && e.kind === 'command' && (times.value += 1))), [store, name]);
+  useEffect(() => {
+    let here = true;
+    void Promise.resolve(client.call<Authority>(`/axes/${encodeURIComponent(name)}/authority`)).then(
+      (a) => here && (who.value = a?.last_commander ?? ''),
+      () => undefined, // an older gateway: the door alone is told
+    );
+    return () => void (here = false);
+  }, [client, name, authority, axis.authority_holder, times.value]);
+  return <span data-field="last-commander">{commandedWords(authority, who.value, tab.name.value)}</span>;
 }
 
 function AxisEvents({ name }: { name: string }) {

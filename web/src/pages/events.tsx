@@ -5,6 +5,7 @@ import { useEffect } from 'preact/hooks';
 import type { GatewayEvent } from '../api/types';
 import { AlarmSection } from '../components/alarms';
 import { EventList } from '../components/events';
+import { useNamed } from '../components/name';
 import { Section } from '../components/section';
 import { useGateway } from '../gateway';
 import { kept } from '../state/kept';
@@ -28,6 +29,7 @@ function save(events: readonly GatewayEvent[], format: 'csv' | 'text'): void {
 
 export function EventsPage() {
   const { client, store } = useGateway();
+  const named = useNamed();
   const had = useSignal<{ list: GatewayEvent[]; more: boolean }>({ list: [], more: false });
   const epoch = store.connection.value.epoch;
   const filter = { least: least.value, axis: axis.value, kind: kind.value, text: text.value };
@@ -73,7 +75,7 @@ export function EventsPage() {
               <option value="">all</option>
               {store.axisNames.value.map((n) => (
                 <option key={n} value={n}>
-                  {n}
+                  {named(n)}
                 </option>
               ))}
             </select>

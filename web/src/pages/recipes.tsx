@@ -17,7 +17,7 @@ import { useGateway } from '../gateway';
 import { go, recipePath } from '../router';
 import { capital } from '../state/commander';
 import { RecipeFile, type RecipeClash } from '../state/recipe-file';
-import { axisMeant, documentOf, recipeDifferences, runWord, valueOf, type RecipeDocument } from '../words/recipe';
+import { axisMeant, documentOf, recipeDifferences, runWord, unknownAxes, unknownWords, valueOf, type RecipeDocument } from '../words/recipe';
 import { unitOf } from '../words/axis';
 import { clockTime } from '../words/time';
 
@@ -111,7 +111,7 @@ export function RecipePage({ name }: { name: string }) {
   const textFault = useSignal('');
   const faults: Signal<Fault[]> = useSignal([]);
   const stored = useSignal('');
-  const result = useSignal<{ tone: 'none' | 'good' | 'refused'; text: string }>({ tone: 'none', text: '' });
+  const result = useSignal<{ tone: 'none' | 'good' | 'partly' | 'refused'; text: string }>({ tone: 'none', text: '' });
   const file = useMemo(() => new RecipeFile(client, name), [client, name]);
   const clash: Signal<(RecipeClash & { act: 'save' | 'remove' }) | null> = useSignal(null);
   const put = (d: RecipeDocument) => {
@@ -154,7 +154,8 @@ export function RecipePage({ name }: { name: string }) {
     if (outcome.good) {
       stored.value = sent;
       faults.value = [];
-      result.value = { tone: 'good', text: 'Saved.' };
+      const nobody = store.listed.peek() ? unknownAxes(d, store.axisNames.peek()) : [];
+      result.value = nobody.length > 0 ? { tone: 'partly', text: `Saved. But ${unknownWords(nobody)}` } : { tone: 'good', text: 'Saved.' };
     } else if (!outcome.clash) {
       faults.value = (outcome.problem.document.faults ?? []) as Fault[];
       result.value = { tone: 'refused', text: capital(outcome.problem.message) };
@@ -270,7 +271,7 @@ export function RecipePage({ name }: { name: string }) {
                 </Section>
                 <Section title="Steps">
                   <div class="card recipe-card">
-                    <StepEditor document={d} change={put} axes={store.axisNames.value} unitOf={unitMeant} faults={faults.value} />
+                    <StepEditor document={d} change={put} axes={store.axisNames.value} listed={store.listed.value} unitOf={unitMeant} faults={faults.value} />
                     {faults.value
                       .filter((f) => !f.pointer.startsWith('/steps/') && !Object.keys(d.parameters ?? {}).some((p) => f.pointer === `/parameters/${p}` || f.pointer.startsWith(`/parameters/${p}/`)))
                       .map((f) => (

@@ -42,7 +42,6 @@ export function SitePage() {
     return () => clearInterval(timer);
   }, [draft, staged]);
 
-  const site = draft.draft.value;
   const empty = (draft.base.value.axes ?? []).length === 0;
   // The wizard is all change: who may change nothing reads the site instead.
   const guided = session.mayNot('engineer') === '' && (wizard.value === 'open' || (wizard.value === '' && draft.state.value === 'there' && empty));
@@ -85,15 +84,11 @@ export function SitePage() {
                   </button>
                 )
               }
+              below={(l) => scanning.value === l.name && <ScanPanel line={l} door={door} draft={draft} headed />}
             />
             <SiteEntries room="drives" draft={draft} />
             <SiteEntries room="axes" draft={draft} />
           </div>
-          {scanning.value !== '' && (site.lines ?? []).some((l) => l.name === scanning.value) && (
-            <div class="card">
-              <ScanPanel key={scanning.value} line={(site.lines ?? []).find((l) => l.name === scanning.value)!} door={door} draft={draft} />
-            </div>
-          )}
           <SiteFiles draft={draft} door={door} />
           <SiteHistory draft={draft} door={door} />
         </>

@@ -113,6 +113,7 @@ export class Store {
   private readonly driveShelf = new Shelf<Drive>(byOrder);
   private readonly lineShelf = new Shelf<Line>(byOrder);
   private readonly trails = new Map<string, Trail>();
+  private readonly simulations = new Map<string, Signal<boolean>>();
   private readonly eventListeners = new Set<(event: GatewayEvent) => void>();
   private pendingEvents: GatewayEvent[] = [];
   private scheduled = false;
@@ -149,6 +150,22 @@ export class Store {
   }
   line(name: string): ReadonlySignal<Known<Line>> | undefined {
     return this.lineShelf.get(name);
+  }
+
+  /** Whether the model answers for it now. Changes only when that does, however often the rest is told: many places may follow it. */
+  simulation(kind: 'axis' | 'drive', name: string): ReadonlySignal<boolean> {
+    const key = `${kind}/${name}`;
+    let s = this.simulations.get(key);
+    if (!s) this.simulations.set(key, (s = signal(this.isSimulated(key))));
+    return s;
+  }
+  private isSimulated(key: string): boolean {
+    const name = key.slice(key.indexOf('/') + 1);
+    if (key.startsWith('axis/')) return this.axisShelf.entries.get(name)?.peek().data.presence === 'twin';
+    return this.driveShelf.entries.get(name)?.peek().data.status.simulated === true;
+  }
+  private lookAtSimulations(): void {
+    for (const [key, s] of this.simulations) s.value = this.isSimulated(key);
   }
 
   trail(axis: string): Trail {
@@ -190,6 +207,7 @@ export class Store {
       this.axisShelf.list(lists.axes, epoch);
       this.driveShelf.list(lists.drives, epoch);
       this.lineShelf.list(lists.lines, epoch);
+      this.lookAtSimulations();
       for (const name of this.trails.keys()) if (!this.axisShelf.entries.has(name)) this.trails.delete(name);
       this.listed.value = true;
     });
@@ -237,6 +255,7 @@ export class Store {
       if (this.axisShelf.waits) this.axisShelf.flush();
       if (this.driveShelf.waits) this.driveShelf.flush();
       if (this.lineShelf.waits) this.lineShelf.flush();
+      this.lookAtSimulations();
       this.flushEvents();
     });
   }

@@ -35,6 +35,19 @@ export function handOverChoices(held: readonly { door: string; holder: string }[
   return [...new Set([...users, ...all])].sort();
 }
 
+/**
+ * `door`: by which the last command came; `who`: by whom, as the gateway writes it, "http anna page-1a2b3c"; empty where it does not say. It says
+ * nothing about who holds the axis now.
+ */
+export function commandedWords(door: string, who: string, tab = ''): string {
+  const [first = '', ...rest] = who.split(' ');
+  const by = (who === '' ? (door === 'none' ? '' : door) : first).replace('_', '/');
+  const client = rest.join(' ');
+  if (by === '') return 'nobody has commanded it';
+  if (tab !== '' && (client === tab || client.endsWith(` ${tab}`))) return 'last commanded by this page';
+  return client === '' ? `last commanded by ${by}` : `last commanded by ${holderName(client)} (${by})`;
+}
+
 export function heldWords(h: Held): string {
   if (!h.holder) return 'Nobody holds it';
   return `${h.mine ? 'Held by this page' : `Held by ${holderName(h.holder)}`}, ${h.rest_s > 0 ? `${h.rest_s} s left` : 'about to end'}`;

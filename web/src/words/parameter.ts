@@ -1,7 +1,7 @@
 // A parameter in words: its range, its value, and what a person typed for it. In: the parameter as the gateway describes it.
 // Out: text, or a value of the right type, or why it is none, with the range. Never changes a value to make it fit.
 import type { AxisParameter, MaybeValue, Value } from '../api/types';
-import { formatExact, parseNumber } from './number';
+import { formatExact, formatNumber, parseNumber } from './number';
 
 type Described = Pick<AxisParameter, 'type' | 'min' | 'max' | 'unit' | 'allowed'>;
 
@@ -24,8 +24,21 @@ export function rangeOf(p: Described): { min: number | null; max: number | null 
   };
 }
 
-/** "pulse/s^2" as people write it. */
-export const unitWords = (unit: string | null): string => (unit ?? '').replace(/\^2\b/g, '²').replace(/\^3\b/g, '³').replace(/^deg C$/, '°C');
+/** A unit that is counted in steps, such as "0.1 A"; null: it is none. */
+export function steppedUnit(unit: string | null): { step: number; decimals: number; unit: string } | null {
+  const m = /^(\d+(?:\.(\d+))?)\s+(\S.*)$/.exec(unit ?? '');
+  if (!m || Number(m[1]) === 1 || Number(m[1]) === 0) return null;
+  return { step: Number(m[1]), decimals: m[2]?.length ?? 0, unit: m[3] as string };
+}
+
+/** "pulse/s^2" as people write it; of steps: "× 0.1 A", so that no number before it reads as a quantity. */
+export const unitWords = (unit: string | null): string => `${steppedUnit(unit) ? '× ' : ''}${(unit ?? '').replace(/\^2\b/g, '²').replace(/\^3\b/g, '³').replace(/^deg C$/, '°C')}`;
+
+/** "= 1.0 A": what a count of steps comes to; empty where the unit is an ordinary one. The value itself stays the drive's own number everywhere. */
+export function steppedText(value: MaybeValue, unit: string | null): string {
+  const s = steppedUnit(unit);
+  return s && typeof value === 'number' && Number.isFinite(value) ? `= ${formatNumber(value * s.step, s.decimals)} ${unitWords(s.unit)}` : '';
+}
 
 export function rangeText(p: Described): string {
   if (p.allowed && p.allowed.length > 0) {

@@ -263,6 +263,47 @@ export function editable(document: RecipeDocument): RecipeDocument {
   return copy;
 }
 
+/** How much of a run was carried out: the step in which a run ended that is not done was not. */
+export function doneOf(r: { state: string; of: number; begun: number }): number {
+  if (r.state === 'done') return r.of;
+  const before = Math.max(0, Math.min(r.begun, r.of) - 1);
+  return r.state === 'running' ? Math.min(r.begun, r.of) : before;
+}
+
+export interface Unknown {
+  pointer: string;
+  title: string;
+  axis: string;
+}
+/** Steps that name an axis which the site does not have. What comes by a parameter without a default is not known before the run. */
+export function unknownAxes(document: RecipeDocument, axes: readonly string[]): Unknown[] {
+  const found: Unknown[] = [];
+  const look = (body: unknown, path: Path) => {
+    const named = (body as { axis?: unknown } | null | undefined)?.axis;
+    const meant = typeof named === 'string' && named !== '' ? axisMeant(named, document.parameters) : null;
+    if (meant !== null && !axes.includes(meant)) found.push({ pointer: pointerOf(path), title: titleOf(path), axis: meant });
+  };
+  const walk = (list: Path) => {
+    const steps = at(document, list);
+    if (!Array.isArray(steps)) return;
+    (steps as Step[]).forEach((s, i) => {
+      const kind = kindOf(s);
+      if (!kind) return;
+      const path = [...list, i];
+      const body = s[kind.word];
+      look(kind.condition === 'condition' || kind.condition === 'until' ? (body as { [k: string]: Json } | null)?.[kind.condition] : body, path);
+      for (const l of kind.lists ?? []) walk([...path, kind.word, l]);
+    });
+  };
+  walk(['steps']);
+  return found;
+}
+/** "Step 2 names foo, which is no axis of this site"; each step of it once, at most five. */
+export function unknownWords(list: readonly Unknown[]): string {
+  const said = list.slice(0, 5).map((u) => `${u.title} names ${u.axis}, which is no axis of this site`);
+  return `${said.join('; ')}${list.length > 5 ? `; and ${list.length - 5} more` : ''}. A run would be refused.`;
+}
+
 export function runWord(state: string): Word {
   switch (state) {
     case 'running': return { text: 'Running', icon: 'arrow-right', tone: 'active', long: 'The run goes on' };

@@ -29,6 +29,9 @@ export function notMapped(span: { unit: number; table: Table; address: number; c
   return gaps.map(([a, b]) => (a === b ? `${a}` : `${a}–${b}`)).join(', ');
 }
 
+/** The axis that a bit of the standard map is of; empty: none. */
+export const bitAxis = (address: number, axes: readonly Pick<Axis, 'name' | 'number'>[]): string => axes.find((a) => a.number === Math.floor(address / perAxis) + 1)?.name ?? '';
+
 /** "feeder: moving"; "feeder: status word, bit 3, Fault". Empty: no axis is there. */
 export function bitName(address: number, axes: readonly Pick<Axis, 'name' | 'number'>[]): string {
   const axis = axes.find((a) => a.number === Math.floor(address / perAxis) + 1);

@@ -30,5 +30,9 @@ export interface Offer {
 }
 export const snapshotChoice = (s: Snapshot, value: string, family: string): Offer =>
   foreign(s, family) ? { value, text: `snapshot ${s.name}: of ${s.family}, not comparable`, disabled: true } : { value, text: `snapshot ${s.name}` };
-export const axisChoice = (name: string, theirs: string, family: string): Offer =>
-  theirs !== family ? { value: `axis:${name}`, text: `axis ${name}: ${theirs}, not comparable`, disabled: true } : { value: `axis:${name}`, text: `axis ${name}, values known now` };
+/** Another family can be chosen, to be told why it cannot be compared. `said`: the name as it is shown. */
+export const axisChoice = (name: string, theirs: string, family: string, said = name): Offer =>
+  theirs !== family ? { value: `axis:${name}`, text: `axis ${said}: ${theirs}, not comparable` } : { value: `axis:${name}`, text: `axis ${said}, values known now` };
+/** Why two axes are not compared. */
+export const differentFamilies = (axis: string, family: string, other: string, theirs: string, titles: ReadonlyMap<string, string>): string =>
+  `The families differ: ${other} is ${titled(theirs, titles)}, ${axis} is ${titled(family, titles)}. Their parameters are not the same ones, so they cannot be compared.`;

@@ -125,9 +125,18 @@ export function isMarked(p: AxisParameter, mark: Marked): boolean {
   }
 }
 
+export const parametersWords = (n: number): string => (n === 1 ? '1 parameter' : `${n} parameters`);
+
+/** Why a restore leaves something out, in the words of the form. The gateway names the parameter in its reason: that is said beside its id already. */
+export function leftOutWhy(why: string): string {
+  if (/include_live/.test(why)) return 'acts at once and is no setting; written with “Restore also what acts at once”';
+  if (/include_addressing/.test(why)) return 'the drive is reached by it, so it is never written back from here';
+  return why.replaceAll('_', ' ');
+}
+
 /** What a restore leaves out, by reason, most first. */
 export function leftOut(skipped: readonly { parameter: string; why: string }[]): { why: string; parameters: string[] }[] {
   const by = new Map<string, string[]>();
-  for (const s of skipped) by.set(s.why, [...(by.get(s.why) ?? []), s.parameter]);
+  for (const s of skipped) by.set(leftOutWhy(s.why), [...(by.get(leftOutWhy(s.why)) ?? []), s.parameter]);
   return [...by].map(([why, parameters]) => ({ why, parameters })).sort((a, b) => b.parameters.length - a.parameters.length);
 }

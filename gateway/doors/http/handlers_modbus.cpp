@@ -1,0 +1,87 @@
+// Handlers of the Modbus door: its locks and clients, and the lock that can be changed here.
+// In: calls. Out: the door as it is, with an ETag over its locks. What it answers to its own clients is not decided here.
+
+#include "gateway/doors/http/handlers.hpp"
+#include "gateway/doors/http/preconditions.hpp"
+
+namespace axisgate::http {
+namespace json = boost::json;
+namespace {
+using Report = std::optional<Gateway::ModbusReport>;
+
+Response late_modbus() { return problem(504, "no_answer", "the Modbus door did not say in time; come again in a moment"); }
+
+/// Over what can be set, not over who is connected: a client that comes does not make a change of the locks another one.
+std::string tag_of(const Gateway::ModbusReport& r) {
+    std::string allow, functions;
+    for (const auto& a : r.allow) allow += a + ",";
+    for (const auto& f : r.functions) functions += f + ",";
+    return tag_over({r.bind, allow, functions, r.read_only ? "read-only" : ""});
+}
+
+json::object document_of(const Gateway::ModbusReport& report) {
+    json::array allow, functions, connections;
+    for (const auto& a : report.allow) allow.emplace_back(a);
+    for (const auto& f : report.functions) functions.emplace_back(std::stoi(f));
+    for (const auto& x : report.connections) {
+        json::array holds;
+        for (const auto& h : x.holds) holds.emplace_back(h);
+        connections.push_back(json::object{{"peer", x.peer}, {"requests", x.requests}, {"writes", x.writes}, {"exceptions", x.exceptions},
+                                           {"since", x.since_unix_ns}, {"holds", std::move(holds)}});
+    }
+    return {{"bind", report.bind}, {"allow", std::move(allow)}, {"functions", std::move(functions)}, {"read_only", report.read_only},
+            {"connections", std::move(connections)}};
+}
+
+Response shown(const Report& report) {
+    if (!report) return problem(503, "busy", "the Modbus door is switched off, or cannot say now: see modbus.bind, or come again in a moment");
+    return with_tag(json_response(document_of(*report)), tag_of(*report));
+}
+}  // namespace
+
+Handled get_modbus_door(Call& c) {
+    c.gateway().modbus_report([respond = c.respond](const Report& r) { respond(shown(r)); });
+    return {gateway_limit, late_modbus()};
+}
+
+Handled change_modbus_door(Call& c) {
+    const json::object& body = c.body.get_object();
+    std::vector<Fault> faults;
+    for (const auto& [k, v] : body) {
+        if (k != "read_only") faults.push_back({"/" + std::string(k), std::string(k) + " is not known here", "write {\"read_only\": true} or false"});
+    }
+    const auto* value = body.if_contains("read_only");
+    if (!value || !value->is_bool()) faults.push_back({"/read_only", "read_only must be true or false", "write one of them"});
+    if (!faults.empty()) return invalid(std::move(faults));
+    Gateway* const gateway = &c.gateway();
+    auto set = [gateway, on = value->get_bool(), origin = c.origin(), respond = c.respond](std::function<void()> done) {
+        gateway->set_modbus_read_only(on, origin, [gateway, respond, done = std::move(done)](const std::string& fault) {
+            if (!fault.empty()) {
+                respond(problem(503, "busy", fault));
+                return done();
+            }
+            gateway->modbus_report([respond, done](const Report& r) {
+                respond(shown(r));
+                done();
+            });
+        });
+    };
+    const std::string if_match(c.request.headers.get("If-Match"));
+    if (if_match.empty()) {
+        set([] {});
+        return {gateway_limit, late_modbus()};
+    }
+    // In the queue of the site's changes: of two that mean the same state one comes first, and the other is told so.
+    const bool taken = c.context.changes->run([gateway, set, if_match, respond = c.respond](std::function<void()> done) {
+        gateway->modbus_report([set, if_match, respond, done = std::move(done)](const Report& now) {
+            if (now && !means_another(if_match, tag_of(*now))) return set(done);
+            respond(now ? overtaken("the locks of the Modbus door were changed by another client meanwhile: read them again", tag_of(*now), document_of(*now))
+                        : shown(now));
+            done();
+        });
+    });
+    if (!taken) return problem(503, "busy", "too many changes wait already: try again");
+    return {gateway_limit, late_modbus()};
+}
+
+}  // namespace axisgate::http

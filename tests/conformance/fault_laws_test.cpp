@@ -1,0 +1,163 @@
+// Conformance: faults, for every family: what a twin can raise has a number and a text in its catalogue; one fault is one alarm, once
+// raised and once cleared. In: all_families(), each condition that a twin's hand offers. Out: laws of adapters, catalogues, and the list
+// of alarms. Never names a family.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <set>
+
+#include "gateway/core/alarm.hpp"
+#include "tests/world/world.hpp"
+
+namespace axisgate::test {
+namespace {
+using namespace std::chrono_literals;
+
+/// One condition as the hand sets it, and as it was before.
+struct Condition {
+    std::string name;
+    Value value, before;
+};
+
+class FaultLaws : public testing::TestWithParam<FamilyEntry> {
+protected:
+    const FamilyEntry& e = GetParam();
+    std::unique_ptr<World> w;
+    AxisId a = no_axis;
+    DriveId d = no_drive;
+
+    void start() {
+        w = std::make_unique<World>();
+        const auto site = w->apply(w->make_site(e, "twin", 1));
+        a = site->axis_ids.at(0);
+        d = site->drive_ids.at(0);
+        ASSERT_TRUE(w->run_until_true([&] { return (w->picture(a).flags & flag_online) != 0; }, 10s));
+        w->run_for(1s);
+    }
+    /// Enabled and turning; false where this drive cannot now.
+    bool turn() {
+        const Result* r = w->wait(w->command(a, Enable{}, true), 5s);
+        if (!r || !good(*r)) return false;
+        Move jog;
+        jog.kind = Move::Kind::velocity;
+        jog.target = 4000;
+        jog.acceleration = jog.deceleration = 20000;
+        r = w->wait(w->command(a, jog, true), 5s);
+        return r && good(*r);
+    }
+    bool fault() { return (w->picture(a).flags & flag_fault) != 0; }
+    std::string set(const std::string& name, const Value& v) { return w->engine.set_hand(d, {{name, v}}, {}, w->now); }
+
+    /// Every condition of the hand and what it can be put to, but those that cut the drive off or mean a number of a fault.
+    std::vector<Condition> conditions() {
+        std::vector<Condition> list;
+        for (const HandItem& item : w->engine.twin(d)->hand()) {
+            if (!item.writable || item.name == "power" || item.name == "silent" || item.name.find("inject_error") != std::string::npos) continue;
+            if (const auto* on = std::get_if<bool>(&item.value)) {
+                list.push_back({item.name, Value{!*on}, item.value});
+            } else if (const auto number = as_number(item.value)) {
+                for (const double v : {0.0, 1.0, 3.0, 75.0, 90.0, 150.0, 200.0, -40.0, 1e6}) {
+                    if (v != *number) list.push_back({item.name, Value{v}, item.value});
+                }
+            }
+        }
+        return list;
+    }
+    void expect_told(std::int32_t code, const std::string& by) {
+        EXPECT_NE(code, 0) << by << ": a fault without a number";
+        const ErrorCode* known = e.catalogue->error(code);
+        ASSERT_TRUE(known) << by << ": " << code << " is not in the catalogue";
+        EXPECT_GT(known->text.size(), 3u) << by << ": " << code;
+        EXPECT_NE(known->kind, "command") << by << ": " << code << " is shown as the answer to a command";
+    }
+    /// What stands on the list of alarms about this drive, as the store would make it of the events.
+    AlarmList alarms() {
+        AlarmList list;
+        std::uint64_t id = 0;
+        for (Event ev : w->events) {
+            ev.id = ++id;
+            ev.at_unix_ns = static_cast<std::int64_t>(id);
+            (void)list.on_event(ev);
+        }
+        return list;
+    }
+};
+
+TEST_P(FaultLaws, WhatAHandCanRaiseHasANumberAndAText) {
+    start();
+    std::set<std::string> injectors;
+    for (const HandItem& item : w->engine.twin(d)->hand()) {
+        if (item.writable && item.name.find("inject_error") != std::string::npos) injectors.insert(item.name);
+    }
+    EXPECT_FALSE(injectors.empty());
+    for (const auto& name : injectors) {
+        int taken = 0;
+        for (std::int64_t code = 1; code <= 1100; ++code) {
+            if (!set(name, Value{code}).empty()) continue;  // the drive has no such error: refused with what it has
+            ++taken;
+            expect_told(static_cast<std::int32_t>(code), name);
+            w->run_for(5ms);
+        }
+        EXPECT_GT(taken, 0) << name;
+        (void)set(name, Value{std::int64_t{0}});
+    }
+}
+
+TEST_P(FaultLaws, OneFaultIsOneAlarmRaisedOnceAndClearedOnce) {
+    start();
+    auto list = conditions();
+    for (const HandItem& item : w->engine.twin(d)->hand()) {
+        if (item.name != "inject_error") continue;
+        for (const ErrorCode& known : e.catalogue->errors()) list.push_back({item.name, Value{std::int64_t{known.code}}, Value{std::int64_t{0}}});
+    }
+    int faults = 0, resets = 0;
+    for (const Condition& c : list) {
+        const std::string by = c.name + " " + to_text(c.value);
+        start();
+        if (!turn()) ADD_FAILURE() << "it does not turn";
+        w->events.clear();
+        if (!set(c.name, c.value).empty()) continue;
+        (void)w->run_until_true([&] { return fault(); }, 3s);
+        w->run_for(500ms);
+        if (!fault()) continue;
+        ++faults;
+        const auto raised = [&] { return std::ranges::count(w->events, std::string("fault"), &Event::kind); };
+        const auto cleared = [&] { return std::ranges::count(w->events, std::string("fault_cleared"), &Event::kind); };
+        EXPECT_EQ(raised(), 1) << by;
+        const auto told = std::ranges::find(w->events, std::string("fault"), &Event::kind);
+        ASSERT_NE(told, w->events.end()) << by;
+        // A drive may have a fault that it gives no number, such as an emergency stop: it is told so, and no other fault is.
+        if (w->picture(a).error_code != 0 || told->text.find("no number") == std::string::npos) expect_told(w->picture(a).error_code, by);
+        const auto before = alarms();
+        EXPECT_EQ(before.all().size(), 1u) << by;
+        for (const auto& [id, alarm] : before.all()) {
+            EXPECT_TRUE(alarm.active) << by << ": " << alarm.text;
+            EXPECT_EQ(alarm.kind, "fault") << by << ": " << alarm.text;
+            EXPECT_EQ(alarm.code, w->picture(a).error_code) << by;
+        }
+        (void)set(c.name, c.before);
+        w->run_for(500ms);
+        const Result* r = w->wait(w->command(a, ResetFault{}, true), 10s);
+        ASSERT_TRUE(r) << by;
+        w->run_for(2s);
+        EXPECT_EQ(raised(), 1) << by << ": raised anew by its reset";
+        EXPECT_EQ(cleared(), fault() ? 0 : 1) << by;
+        const auto after = alarms();
+        EXPECT_EQ(after.all().size(), 1u) << by;
+        for (const auto& [id, alarm] : after.all()) EXPECT_EQ(alarm.active, fault()) << by << ": " << alarm.text;
+        if (!fault()) ++resets;
+        if (HasFailure()) {
+            for (const auto& ev : w->events) ADD_FAILURE() << by << ": event " << ev.kind << " " << ev.code << " " << ev.text;
+            return;
+        }
+    }
+    EXPECT_GT(faults, 0) << "nothing that a hand does is a fault";
+    EXPECT_GT(resets, 0) << "no fault of this family can be reset";
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, FaultLaws, testing::ValuesIn(families().entries),
+                         [](const testing::TestParamInfo<FamilyEntry>& i) { return std::string(i.param.family->name); });
+
+}  // namespace
+}  // namespace axisgate::test

@@ -1,0 +1,31 @@
+// Words about a site that is checked, applied, and waits to be kept: whose it is, who may keep it, what applying does to the axes, why it cannot be
+// applied yet. In: the stage as the gateway tells it, the sites before and after. Out: sentences. Pure.
+import type { Stage } from '../api/site';
+import { personOf } from './authority';
+import type { Site } from './site';
+
+/** `barred`: why this page may not keep it; empty: it may. */
+export function appliedWords(stage: Pick<Stage, 'by' | 'client'>, tab: string, barred: string): string {
+  const client = stage.client ?? '';
+  if (client !== '' && tab !== '' && (client === tab || client.endsWith(` ${tab}`))) return 'Applied by this page.';
+  const by = stage.by ?? '';
+  const page = /(?:^| )(page-\S+)$/.exec(client)?.[1];
+  const who = by === '' ? 'Applied by somebody else' : `Applied by ${personOf(by)}`;
+  const first = `${who}${page ? ` (from the page ${page})` : ''}.`;
+  return barred ? `${first} ${barred}` : first;
+}
+
+/** Axes that are taken out are not disturbed for a moment: they are gone. */
+export function disturbedWords(disturbs: readonly string[], before: Site, after: Site): string {
+  const there = new Set((after.axes ?? []).map((a) => a.name));
+  const gone = (before.axes ?? []).map((a) => a.name).filter((n) => !there.has(n));
+  const shaken = disturbs.filter((n) => !gone.includes(n));
+  return [gone.length > 0 ? `Applying removes ${gone.join(', ')}.` : '', shaken.length > 0 ? `Applying disturbs for a moment: ${shaken.join(', ')}.` : ''].filter(Boolean).join(' ');
+}
+
+/** What to do before Apply can be pressed. */
+export function applyBarred(why: { inView: boolean; theirs: boolean; faults: boolean }): string {
+  if (why.theirs) return 'Decide first about what somebody else has changed.';
+  if (why.faults) return why.inView ? 'It has faults, so it cannot be applied.' : 'Mend the faults, then check again.';
+  return 'Check first.';
+}

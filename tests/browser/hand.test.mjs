@@ -33,7 +33,7 @@ after(async () => {
 test('what is taken in hand on the page of the second axis is the second axis', async () => {
   await group('gantry-y').getByRole('switch', { name: 'Limit positive' }).click();
   await becomes('the second axis has it, the first has not', async () => [(await hand())['axis2.limit_positive'], (await hand()).limit_positive], [true, false]);
-  await page.getByText('gantry-y: Limit positive: set to 1').waitFor();
+  await page.getByText('gantry-y: Limit positive: set to on').waitFor();
   await group('gantry-y').getByRole('switch', { name: 'Limit positive' }).click();
   await becomes('it is taken back', async () => (await hand())['axis2.limit_positive'], false);
   assert.equal(await page.getByRole('switch', { name: 'Stall', exact: true }).count(), 1, 'no second one of the same name is in sight');

@@ -19,7 +19,7 @@ describe('the hand', () => {
     await p.press('Limit positive');
     await soon(() => expect(handOf('gantry')['axis2.limit_positive']).toBe(true));
     expect(handOf('gantry').limit_positive).toBe(false);
-    await p.see('.hand .result', 'gantry-y: Limit positive: set to 1');
+    await p.see('.hand .result', 'gantry-y: Limit positive: set to on');
     await p.press('Stall, gantry-x');
     await soon(() => expect(handOf('gantry').stall).toBe(true));
     expect(handOf('gantry')['axis2.stall']).toBe(false);

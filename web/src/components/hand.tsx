@@ -57,7 +57,7 @@ export function Hand({ drive, axis }: { drive: string; axis?: string }) {
     try {
       const now = await client.setHand(drive, { [name]: value });
       if (items.peek()) items.value = items.peek()!.map((i) => ({ ...i, value: now[i.name] ?? i.value }));
-      note.value = { tone: 'good', text: `${whose(name)}${handLabel(name)}: set to ${editText(now[name] ?? value)}` };
+      note.value = { tone: 'good', text: `${whose(name)}${handLabel(name)}: set to ${typeof value === 'boolean' ? (value ? 'on' : 'off') : editText(now[name] ?? value)}` };
       return '';
     } catch (error) {
       const why = capital(asProblem(error).words);

@@ -3,6 +3,7 @@ import copy
 import socket
 
 from harness import DEMO, Gateway, Modbus, ModbusException, until
+from test_users import first
 
 
 def client(gateway, method, path, body=None, name=None):
@@ -73,9 +74,7 @@ def test_what_a_client_held_is_free_when_it_may_not_command_any_more(folder):
             s, answer, head = g.request(method, "/api/v1" + path, body, headers)
             return s, answer, head
 
-        assert ask("POST", "/session", {"code": g.code, "user": "anna", "password": "a-long-sentence-1"})[0] in (200, 201)
-        s, session, head = ask("POST", "/session", {"user": "anna", "password": "a-long-sentence-1"})
-        anna = {"Cookie": head["Set-Cookie"].split(";")[0], "X-CSRF-Token": session["csrf"]}
+        anna = first(g)
         assert ask("POST", "/users", {"name": "bert", "role": "operator", "password": "another-long-sentence-2"}, anna)[0] == 201
         s, session, head = ask("POST", "/session", {"user": "bert", "password": "another-long-sentence-2"})
         bert = {"Cookie": head["Set-Cookie"].split(";")[0], "X-CSRF-Token": session["csrf"]}

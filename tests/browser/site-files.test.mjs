@@ -5,22 +5,11 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { becomes, launch, open, pictures, shot, until } from './lib/browser.mjs';
+import { deskOf } from './lib/desk.mjs';
 import { Program } from './lib/program.mjs';
 
 let program, browser, page;
-const stage = () => page.locator('[data-field=stage]').first();
-const told = (field) => page.locator(`[data-field="${field}"]`).first().innerText();
-const site = async () => (await program.call('GET', '/site')).body;
-const axis = async (name) => (await site()).axes.find((a) => a.name === name);
-const applyIt = async (seconds) => {
-  await stage().getByLabel('Keep within, s').fill(String(seconds));
-  await stage().getByRole('button', { name: 'Apply', exact: true }).click();
-  await until('it is applied', async () => /^Applied/.test(await told('stage-told')) || (await told('stage-told')));
-};
-const keepIt = async () => {
-  await stage().getByRole('button', { name: 'Keep', exact: true }).click();
-  await until('it is kept', async () => (await stage().getAttribute('data-state')) === 'none');
-};
+const { told, site, axis, applyIt, keepIt } = deskOf(() => ({ program, page }));
 
 before(async () => {
   program = await Program.start();

@@ -5,13 +5,11 @@ import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { becomes, launch, open, pictures, shot, tileOf, until } from './lib/browser.mjs';
+import { deskOf } from './lib/desk.mjs';
 import { freePort, isMock, Process, Program } from './lib/program.mjs';
 
 let program, browser, page;
-const stage = () => page.locator('[data-field=stage]').first();
-const told = (field) => page.locator(`[data-field="${field}"]`).first().innerText();
-const site = async () => (await program.call('GET', '/site')).body;
-const axis = async (name) => (await site()).axes.find((a) => a.name === name);
+const { stage, told, site, axis, checkIt, applyIt, keepIt } = deskOf(() => ({ program, page }));
 /** Somebody else, with the revision as it is now. */
 const elsewhere = async (change) => {
   const r = await fetch(`${program.url}/api/v1/site`);
@@ -21,19 +19,6 @@ const elsewhere = async (change) => {
   assert.equal(answer.status, 200, await answer.text());
 };
 const form = (name) => page.getByRole('form', { name });
-const checkIt = async () => {
-  await stage().getByRole('button', { name: 'Check', exact: true }).click();
-  await until('it is checked', async () => /^Checked|fault/.test(await told('stage-told')) || (await told('stage-told')));
-};
-const applyIt = async (seconds) => {
-  await stage().getByLabel('Keep within, s').fill(String(seconds));
-  await stage().getByRole('button', { name: 'Apply', exact: true }).click();
-  await until('it is applied', async () => /^Applied/.test(await told('stage-told')) || (await told('stage-told')));
-};
-const keepIt = async () => {
-  await stage().getByRole('button', { name: 'Keep', exact: true }).click();
-  await until('it is kept', async () => (await stage().getAttribute('data-state')) === 'none');
-};
 
 before(async () => {
   program = await Program.start();

@@ -24,7 +24,7 @@ export interface Stage {
   confirm_by?: number | null;
   /** Who staged or applied it: the name and where from. */
   by?: string | null;
-  /** The client that did, with its X-Client; it alone, or an administrator, can keep what was applied. */
+  /** The client that did, with its X-Client; it alone can keep what was applied. */
   client?: string | null;
 }
 /** A restore that waits for the next start. */

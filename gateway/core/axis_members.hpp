@@ -9,7 +9,7 @@
 
 namespace axisgate {
 
-inline constexpr std::array<std::string_view, 32> axis_state_members{"online",
+inline constexpr std::array<std::string_view, 33> axis_state_members{"online",
                                                                      "simulated",
                                                                      "stale",
                                                                      "presence",
@@ -24,6 +24,7 @@ inline constexpr std::array<std::string_view, 32> axis_state_members{"online",
                                                                      "fault",
                                                                      "warning",
                                                                      "internal_limit",
+                                                                     "fail_safe_cause",
                                                                      "position",
                                                                      "demand_known",
                                                                      "demand_source",

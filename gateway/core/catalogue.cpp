@@ -5,12 +5,16 @@
 #include <boost/json/parse.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 
 namespace axisgate {
 namespace {
 namespace json = boost::json;
+
+constexpr std::array<std::string_view, 6> completion_names{"acknowledged", "target_reached", "standstill", "powered", "online_again", "reported"};
 
 std::string text_or_empty(const json::object& o, std::string_view key) {
     const auto* v = o.if_contains(key);
@@ -134,7 +138,13 @@ std::optional<Catalogue> Catalogue::parse(std::string_view text, std::vector<std
         for (const auto& v : *list) {
             if (v.is_object()) {
                 const auto& o = v.get_object();
-                c.commands_.push_back({text_or_empty(o, "id"), text_or_empty(o, "name"), text_or_empty(o, "description")});
+                CatalogueCommand command{text_or_empty(o, "id"), text_or_empty(o, "name"), text_or_empty(o, "description"), Completion::acknowledged};
+                if (const std::string word = text_or_empty(o, "completes"); !word.empty()) {
+                    const auto found = std::ranges::find(completion_names, word);
+                    if (found == completion_names.end()) faults.push_back(fmt::format("commands: {}: completes: {} is not known", command.id, word));
+                    else command.completes = static_cast<Completion>(found - completion_names.begin());
+                }
+                c.commands_.push_back(std::move(command));
             }
         }
     }
@@ -166,6 +176,13 @@ int Catalogue::most_channels() const noexcept {
     const auto* c = document_.if_contains("channels");
     const auto* max = c && c->is_object() ? c->get_object().if_contains("max") : nullptr;
     return max && max->is_int64() ? static_cast<int>(max->get_int64()) : 1;
+}
+
+std::string_view name_of(Completion completion) noexcept { return completion_names[static_cast<std::size_t>(completion)]; }
+
+const CatalogueCommand* Catalogue::command(std::string_view id_or_name) const noexcept {
+    const auto found = std::ranges::find_if(commands_, [&](const CatalogueCommand& c) { return c.id == id_or_name || c.name == id_or_name; });
+    return found == commands_.end() ? nullptr : &*found;
 }
 
 const Parameter* Catalogue::parameter(Point point) const noexcept {

@@ -47,10 +47,23 @@ struct Parameter {
     [[nodiscard]] bool writable() const noexcept { return access != Access::read; }
 };
 
+/// By what a command of the catalogue is complete: who asks for its end is answered `done` then, and not before.
+enum class Completion : std::uint8_t {
+    acknowledged,    ///< the drive has acknowledged it
+    target_reached,  ///< the axis has arrived where the command sent it
+    standstill,      ///< the axis stands
+    powered,         ///< the axis is enabled
+    online_again,    ///< the drive has gone silent and answers again: a restart
+    reported         ///< the drive reports it in its own way, and its adapter says so
+};
+/// "acknowledged", "target_reached", "standstill", "powered", "online_again", "reported".
+[[nodiscard]] std::string_view name_of(Completion completion) noexcept;
+
 struct CatalogueCommand {
     std::string id;
     std::string name;
     std::string description;
+    Completion completes = Completion::acknowledged;
 };
 
 struct ErrorCode {
@@ -86,6 +99,8 @@ public:
     [[nodiscard]] std::optional<std::uint32_t> selector(Point point) const noexcept;
     /// The id of a point, with its element where it is an array.
     [[nodiscard]] std::string id_of(Point point) const;
+    /// A command by its id or name; nullptr: there is none.
+    [[nodiscard]] const CatalogueCommand* command(std::string_view id_or_name) const noexcept;
     /// First entry with this code or a class that it belongs to (and kind, if given), in the order of the document: what a fault can be
     /// stands before what only answers a command by the same number.
     [[nodiscard]] const ErrorCode* error(std::int32_t code, std::string_view kind = {}) const noexcept;

@@ -12,6 +12,10 @@
 namespace axisgate {
 using namespace cia402;
 
+namespace {
+constexpr Duration reaction_again = std::chrono::seconds(1);
+}  // namespace
+
 std::string_view name_of(PowerState state) noexcept {
     constexpr std::array<std::string_view, 8> names{"not_ready_to_switch_on", "switch_on_disabled", "ready_to_switch_on", "switched_on",
                                                     "operation_enabled", "quick_stop_active", "fault_reaction_active", "fault"};
@@ -37,13 +41,6 @@ AxisProfile::Decision AxisProfile::refuse(Reason reason, std::string text) const
     return d;
 }
 
-Move AxisProfile::with_profile(const State& s, Move m) const {
-    if (!m.velocity && s.profile_velocity) m.velocity = s.profile_velocity;
-    if (!m.acceleration && s.profile_acceleration) m.acceleration = s.profile_acceleration;
-    if (!m.deceleration && s.profile_deceleration) m.deceleration = s.profile_deceleration;
-    return m;
-}
-
 void AxisProfile::forget_motion(State& s) {
     s.active.reset();
     s.buffered.reset();
@@ -53,10 +50,17 @@ void AxisProfile::forget_motion(State& s) {
     s.halted = false;
 }
 
-void AxisProfile::order_on(State& s, Decision& d) {
+void AxisProfile::order_on(State& s, const AuthorityClient& by, Decision& d) {
     forget_motion(s);
-    // The actual position is the first target: nothing moves because something was enabled.
-    s.target_position = static_cast<std::int32_t>(s.feedback.position);
+    // The actual position is the first target: nothing moves because something was enabled. What this very client has written for the
+    // set-point that it is about to give is kept; what was written or used before by anybody is not.
+    bool kept = false;
+    for (Written& w : s.written) {
+        w.target_known = w.target_pending && w.target_by == by;
+        w.target_pending = w.target_known;
+        kept = kept || w.target_known;
+    }
+    if (!kept) s.target_position = static_cast<std::int32_t>(s.feedback.position);
     s.power_pending = 1;
     d.orders.emplace_back(Enable{});
 }
@@ -103,7 +107,10 @@ void AxisProfile::settle(State& s) const {
     }
     if (s.feedback.power == AxisFeedback::Power::on) {
         if (s.power_pending == 0) return;  // it will be off soon; the answer decides
-        s.state = s.quick_stopped ? PowerState::quick_stop_active : PowerState::operation_enabled;
+        // The drive may have been stopped at itself: by its own panel, an input, or another master. It is left like any quick stop.
+        const bool stopped = s.quick_stopped || (s.feedback.quick_stopping && s.power_pending != 1);
+        if (stopped && s.state == PowerState::operation_enabled) forget_motion(s);
+        s.state = stopped ? PowerState::quick_stop_active : PowerState::operation_enabled;
         return;
     }
     if (s.power_pending == 1) return;
@@ -136,8 +143,9 @@ bool AxisProfile::change_unheard(State& s, std::uint16_t before, std::uint16_t c
     return true;
 }
 
-void AxisProfile::change_power(State& s, std::uint16_t cw, Decision& d) const {
+void AxisProfile::change_power(State& s, std::uint16_t before, std::uint16_t cw, const AuthorityClient& by, Decision& d) const {
     const bool so = cw & cw_switch_on, ev = cw & cw_enable_voltage, qs = cw & cw_quick_stop, eo = cw & cw_enable_operation;
+    constexpr std::uint16_t on_bits = cw_switch_on | cw_enable_voltage | cw_quick_stop | cw_enable_operation;
     const bool off_by_word = !ev || !qs || !so || !eo;
     if (s.power_pending == 1 && off_by_word && s.state != PowerState::operation_enabled && s.state != PowerState::quick_stop_active) {
         // On its way to being switched on: that is taken back, not waited for.
@@ -156,7 +164,7 @@ void AxisProfile::change_power(State& s, std::uint16_t cw, Decision& d) const {
                 s.virtual_step = 0;  // 7
             } else if (so && eo) {
                 s.virtual_step = 3;
-                order_on(s, d);  // 3 and 4 together
+                order_on(s, by, d);  // 3 and 4 together
                 return;
             } else if (so) {
                 s.virtual_step = 2;  // 3
@@ -169,7 +177,7 @@ void AxisProfile::change_power(State& s, std::uint16_t cw, Decision& d) const {
                 s.virtual_step = 1;  // 6
             } else if (eo) {
                 s.virtual_step = 3;
-                order_on(s, d);  // 4
+                order_on(s, by, d);  // 4
                 return;
             }
             return settle(s);
@@ -192,16 +200,17 @@ void AxisProfile::change_power(State& s, std::uint16_t cw, Decision& d) const {
             if (!ev) {
                 s.virtual_step = 0;  // 12
                 order_off(s, d);
-            } else if (qs && so && eo) {
+            } else if (qs && so && eo && (before & on_bits) != on_bits) {
+                // An edge: a controller that writes the same word again and again does not undo a stop that was made at the drive.
                 s.virtual_step = 3;
-                order_on(s, d);  // 16: the drive is told again, so that a lock that the stop has set is gone or is reported
+                order_on(s, by, d);  // 16: the drive is told again, so that a lock that the stop has set is gone or is reported
             }
             return;
     }
 }
 
 /// Halt, new set-points, homing start. False: refused, and `d` says why.
-bool AxisProfile::change_motion(State& s, std::uint16_t before, std::uint16_t cw, const ProcessData& data, Decision& d) const {
+bool AxisProfile::change_motion(State& s, std::uint16_t before, std::uint16_t cw, const ProcessData& data, Written& own, Decision& d) const {
     const std::uint16_t rising = cw & static_cast<std::uint16_t>(~before), falling = before & static_cast<std::uint16_t>(~cw);
     const bool enabled = s.state == PowerState::operation_enabled && s.power_pending != 0;
     const auto ends = [](const CommandBody& o) { return is_urgent(o) || std::holds_alternative<ResetFault>(o); };
@@ -232,17 +241,25 @@ bool AxisProfile::change_motion(State& s, std::uint16_t before, std::uint16_t cw
             d = refuse(Reason::wrong_state, "halt (bit 8 of the control word) is set: clear it first");
             return false;
         }
+        if (own.velocity == 0) {
+            d = refuse(Reason::out_of_range, "the profile velocity (registers 36 and 37) is 0 or was never written by this door: write it before the set-point");
+            return false;
+        }
         Move m;
         m.kind = (cw & cw_relative) ? Move::Kind::relative : Move::Kind::absolute;
-        m.target = s.target_position;
-        m = with_profile(s, m);
+        m.target = own.target_known ? own.target_position : s.target_position;
+        m.velocity = own.velocity;
+        if (own.acceleration) m.acceleration = own.acceleration;
+        if (own.deceleration) m.deceleration = own.deceleration;
+        own.target_pending = false;
+        s.target_position = static_cast<std::int32_t>(m.target);
         const bool under_way = s.active && s.feedback.moving && !s.feedback.target_reached;
         if (!(cw & cw_change_immediately) && under_way) {
             if (s.buffered) {
                 d = refuse(Reason::busy, "one set-point waits already: wait until bit 12 of the status word is 0, or set bit 5");
                 return false;
             }
-            s.buffered = m;
+            s.buffered = d.waits = m;
             s.setpoint_acknowledged = true;
             ++s.setpoints_accepted;
         } else {
@@ -261,24 +278,30 @@ bool AxisProfile::change_motion(State& s, std::uint16_t before, std::uint16_t cw
             Move m;
             m.kind = Move::Kind::velocity;
             m.target = s.target_velocity;
-            m = with_profile(s, m);
-            m.velocity.reset();
+            if (own.acceleration) m.acceleration = own.acceleration;
+            if (own.deceleration) m.deceleration = own.deceleration;
             d.orders.emplace_back(m);
         }
     }
     return true;
 }
 
-AxisProfile::Decision AxisProfile::on_process_data(const ProcessData& data) {
+AxisProfile::Decision AxisProfile::on_process_data(const ProcessData& data, const Origin& by) {
     State s = s_;
     Decision d;
+    const AuthorityClient who = AuthorityClient::of(by);
+    Written& own = s.written[std::min(static_cast<std::size_t>(by.door), doors - 1)];
     if (data.mode && *data.mode != mode_none && *data.mode != mode_profile_position && *data.mode != mode_profile_velocity && *data.mode != mode_homing) {
         return refuse(Reason::out_of_range, fmt::format("mode of operation {} is not offered; use 1 (profile position), 3 (profile velocity) or 6 (homing)", *data.mode));
     }
-    if (data.target_position) s.target_position = *data.target_position;
-    if (data.profile_velocity) s.profile_velocity = *data.profile_velocity;
-    if (data.profile_acceleration) s.profile_acceleration = *data.profile_acceleration;
-    if (data.profile_deceleration) s.profile_deceleration = *data.profile_deceleration;
+    if (data.target_position) {
+        s.target_position = own.target_position = *data.target_position;
+        own.target_known = own.target_pending = true;
+        own.target_by = who;
+    }
+    if (data.profile_velocity) s.profile_velocity = own.velocity = *data.profile_velocity;
+    if (data.profile_acceleration) s.profile_acceleration = own.acceleration = *data.profile_acceleration;
+    if (data.profile_deceleration) s.profile_deceleration = own.deceleration = *data.profile_deceleration;
     if (data.target_velocity) s.target_velocity = *data.target_velocity;
     if (data.homing_method) s.homing_method = *data.homing_method;
     if (data.mode && *data.mode != s.mode) {
@@ -303,15 +326,20 @@ AxisProfile::Decision AxisProfile::on_process_data(const ProcessData& data) {
             return d;
         }
         if ((cw & cw_fault_reset) && !(before & cw_fault_reset)) order_reset(s, power);
-        change_power(s, cw, power);
+        change_power(s, before, cw, who, power);
     }
-    if (!change_motion(s, before, cw, data, power)) return power;
+    const bool homes = s.mode == mode_homing && (cw & cw_new_setpoint) && !(before & cw_new_setpoint);
+    if (!change_motion(s, before, cw, data, own, power)) {
+        s_.homing_refused = s_.homing_refused || homes;
+        return power;
+    }
     for (auto& o : power.orders) d.orders.push_back(std::move(o));
+    d.waits = power.waits;
     s_ = std::move(s);
     return d;
 }
 
-AxisProfile::Decision AxisProfile::on_command(const CommandBody& body) {
+AxisProfile::Decision AxisProfile::on_command(const CommandBody& body, const Origin& by) {
     State s = s_;
     Decision d;
     const bool present = s.presence != Presence::offline && s.seen;
@@ -324,7 +352,7 @@ AxisProfile::Decision AxisProfile::on_command(const CommandBody& body) {
         s.controlword = cw_switch_on | cw_enable_voltage | cw_quick_stop | cw_enable_operation;
         if (s.state != PowerState::operation_enabled || s.power_pending == 0) {
             s.virtual_step = 3;
-            order_on(s, d);
+            order_on(s, AuthorityClient::of(by), d);
         }
     } else if (std::holds_alternative<Disable>(body)) {
         s.controlword = 0;
@@ -343,13 +371,17 @@ AxisProfile::Decision AxisProfile::on_command(const CommandBody& body) {
     } else if (std::holds_alternative<ResetFault>(body)) {
         order_reset(s, d);
     } else if (const auto* home = std::get_if<Home>(&body)) {
-        if (s.feedback.fault) return faulty();
+        if (s.feedback.fault) {
+            s_.homing_refused = true;
+            return faulty();
+        }
         s.buffered.reset();
         s.active.reset();
         s.mode = mode_homing;
         s.homing_method = home->method;
         d.orders.emplace_back(*home);
     } else if (const auto* set = std::get_if<SetPosition>(&body)) {
+        if (s.buffered) return refuse(Reason::wrong_state, "a set-point waits behind the running one: set the position when it has ended, or halt first");
         d.orders.emplace_back(*set);
     } else if (const auto* move = std::get_if<Move>(&body)) {
         if (s.feedback.fault) return faulty();
@@ -366,7 +398,7 @@ AxisProfile::Decision AxisProfile::on_command(const CommandBody& body) {
             const std::int64_t from = move->kind == Move::Kind::relative ? s.feedback.position : 0;
             s.target_position = static_cast<std::int32_t>(from + move->target);
         }
-        d.orders.emplace_back(with_profile(s, *move));
+        d.orders.emplace_back(*move);
         if (move->kind == Move::Kind::velocity) std::get<Move>(d.orders.back()).velocity.reset();
     } else if (const auto* together = std::get_if<StartTogether>(&body)) {
         d.orders.emplace_back(*together);
@@ -382,7 +414,7 @@ void AxisProfile::on_order_result(const CommandBody& order, bool good, Instant n
     if (std::holds_alternative<Enable>(order)) {
         s.power_pending = -1;
         if (good) {
-            s.quick_stopped = false;
+            s.quick_stopped = s.feedback.quick_stopping = false;
             s.feedback.power = AxisFeedback::Power::on;
             s.power_known_at = now;
         } else {
@@ -399,12 +431,23 @@ void AxisProfile::on_order_result(const CommandBody& order, bool good, Instant n
         settle(s);
     } else if (std::holds_alternative<QuickStop>(order)) {
         if (good && s.feedback.power == AxisFeedback::Power::on) s.quick_stopped = true;
+        if (!good) s.reacting = false;
         settle(s);
+    } else if (std::holds_alternative<Home>(order)) {
+        s.homing_refused = !good;
+    } else if (std::holds_alternative<SetPosition>(order)) {
+        if (good) s.active.reset();  // its target was a place by the old count
     } else if (const auto* m = std::get_if<Move>(&order)) {
         const bool again = s.told_again > 0;
         if (again) --s.told_again;
         if (!good) return;
         if (!again) ++s.setpoints_accepted;
+        const auto shown = [](std::uint32_t& into, const std::optional<std::int64_t>& v) {
+            if (v) into = static_cast<std::uint32_t>(*v);
+        };
+        shown(s.profile_velocity, m->velocity);
+        shown(s.profile_acceleration, m->acceleration);
+        shown(s.profile_deceleration, m->deceleration);
         // Bit 12 answers bit 4: whoever has not set it does not wait for it to fall.
         s.setpoint_acknowledged = (s.controlword & cw_new_setpoint) != 0;
         if (m->kind == Move::Kind::velocity) {
@@ -423,14 +466,24 @@ void AxisProfile::on_order_result(const CommandBody& order, bool good, Instant n
 
 std::optional<CommandBody> AxisProfile::on_feedback(const AxisFeedback& feedback, Instant now) {
     State& s = s_;
-    (void)now;
     AxisFeedback f = feedback;
     // Read before the drive acknowledged a power order: that part is already known better.
-    if (s.seen && f.at <= s.power_known_at) f.power = s.feedback.power;
+    if (s.seen && f.at <= s.power_known_at) {
+        f.power = s.feedback.power;
+        f.quick_stopping = s.feedback.quick_stopping;
+    }
     s.feedback = f;
     s.seen = true;
     s.heard = s.presence;
     settle(s);
+    if (s.state == PowerState::fault_reaction_active) {
+        if (s.reacting || (s.reaction_at != Instant{} && now - s.reaction_at < reaction_again)) return std::nullopt;
+        s.reacting = true;
+        s.reaction_at = now;
+        return CommandBody{QuickStop{}};
+    }
+    s.reacting = false;
+    s.reaction_at = {};
     if (s.state != PowerState::operation_enabled) return std::nullopt;
     if (f.target_reached && !f.moving) {
         if (s.buffered && !s.halted) {
@@ -466,8 +519,16 @@ void AxisProfile::on_presence(Presence presence) {
     s_.quick_stopped = false;
     s_.controlword = 0;
     s_.told_again = 0;
+    s_.homing_refused = s_.reacting = false;
+    s_.reaction_at = {};
+    for (Written& w : s_.written) w.target_known = w.target_pending = false;
     forget_motion(s_);
     settle(s_);
+}
+
+std::optional<std::int64_t> AxisProfile::active_target() const noexcept {
+    if (!s_.active || s_.feedback.target_reached) return std::nullopt;
+    return s_.active->target;
 }
 
 bool AxisProfile::commanded() const noexcept {
@@ -502,8 +563,8 @@ void AxisProfile::fill(AxisPicture& p) const noexcept {
             break;
         case mode_homing:
             reached = !f.moving && !f.homing;
-            if (f.homing_attained) sw |= sw_mode_12;
-            if (f.homing_error) sw |= sw_mode_13;
+            if (f.homing_attained && !s.homing_refused) sw |= sw_mode_12;
+            if (f.homing_error || s.homing_refused) sw |= sw_mode_13;
             break;
         default:
             if (s.halted) reached = !f.moving;

@@ -111,7 +111,8 @@ struct Command {
     Ticket ticket = no_ticket;
     AxisId axis = no_axis;
     CommandBody body;
-    /// false: the one Result comes when the drive has acknowledged. true: when it is done (target reached, homed, powered).
+    /// false: the one Result comes when the drive has acknowledged. true: when it is done (target reached, homed, powered). To an adapter it
+    /// is said of actions alone, and counts for those that the catalogue says are complete when the drive `reported` it.
     bool until_done = false;
     Origin origin;
 };

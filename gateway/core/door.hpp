@@ -3,8 +3,13 @@
 // Never used from another thread: those have gateway/core/gateway.hpp.
 #pragma once
 
+#include <optional>
+#include <string_view>
+
+#include "gateway/core/authority.hpp"
 #include "gateway/core/catalogue.hpp"
 #include "gateway/core/command.hpp"
+#include "gateway/core/fail_safe.hpp"
 #include "gateway/core/image.hpp"
 
 namespace axisgate {
@@ -17,6 +22,8 @@ namespace axisgate {
 
 struct ResultSink {
     virtual void on_result(const Result& result) = 0;
+    /// When a client of this door was last heard, by its stable name; nothing: none of that name is connected, or the door does not watch.
+    [[nodiscard]] virtual std::optional<Instant> heard(std::string_view /*client*/) const { return std::nullopt; }
     virtual ~ResultSink() = default;
 };
 
@@ -30,6 +37,8 @@ struct DoorPort {
     virtual void submit(Command command) = 0;
     /// Results for tickets of `door` go to `sink`, which outlives the port's use or is withdrawn with nullptr.
     virtual void attach(Door door, ResultSink* sink) = 0;
+    /// The last connection of a client has ended: what it commanded is treated as the axes' site entries say.
+    virtual void client_lost(const AuthorityClient& /*who*/, LossCause /*cause*/) {}
     virtual ~DoorPort() = default;
 };
 

@@ -126,7 +126,18 @@ void Engine::feedback(Side& side, AxisId id, const AxisFeedback& value, Instant 
     }
     check_run(*a, now);
     publish(*a, now);
-    if (next) give_order(*a, nullptr, std::move(*next), {}, now);
+    if (next) {
+        if (std::holds_alternative<QuickStop>(*next)) {
+            Event e;
+            e.severity = Severity::warning;
+            e.kind = "fault_reaction";
+            e.axis = a->spec.name;
+            e.code = value.error_code;
+            e.text = "the drive reports a fault and still moves: it is stopped";
+            event(std::move(e), now);
+        }
+        give_order(*a, nullptr, std::move(*next), {}, now);
+    }
     track(*a, now);
 }
 
@@ -155,6 +166,8 @@ void Engine::publish(Axis& a, Instant) {
     const bool simulated = a.drive->serving == Presence::twin, stale = a.stale || !online;
     put(p.flags, flag_online, online);
     if (a.at_limit) p.statusword |= cia402::sw_internal_limit;
+    p.fail_safe_cause = static_cast<std::uint16_t>(a.loss);
+    put(p.flags, flag_fail_safe, a.loss != LossCause::none);
     put(p.flags, flag_simulated, simulated);
     put(p.flags, flag_stale, stale);
     put(p.statusword, cia402::sw_simulated, simulated);
@@ -185,6 +198,7 @@ void Engine::on_command(Command c, Instant now) {
     if (const auto* wish = std::get_if<HoldAxis>(&c.body)) return hold(*a, c, *wish, now);
     const Catalogue& catalogue = *a->drive->line->family.catalogue;
     std::vector<CommandBody> orders;
+    std::optional<Move> waits;
     bool commands_motion = false, stops = false, lets_go = false;
 
     if (auto* hand = std::get_if<Hand>(&c.body)) {
@@ -230,15 +244,8 @@ void Engine::on_command(Command c, Instant now) {
             // Registers have no words to say so: there a disable that nobody heard stays an exception.
             lets_go = !word && a->drive->spec.presence == PresenceRule::automatic && a->drive->serving == Presence::device && !a->drive->device_online;
         }
-        std::optional<Refusal> no;
-        if (auto* m = std::get_if<Move>(&c.body)) no = guard_move(*m, a->limits, a->profile.feedback().position);
         auto* data = std::get_if<ProcessData>(&c.body);
-        if (data) no = guard_process_data(*data, a->limits);
-        if (auto* set = std::get_if<SetPosition>(&c.body)) {
-            Move probe;
-            probe.target = set->position;
-            no = guard_move(probe, AxisLimits{}, 0);
-        }
+        std::optional<Refusal> no = data ? guard_process_data(*data, a->limits) : beyond_limits(*a, c.body);
         // A block of registers whose word stops is not lost for a wrong value beside it: the stop is given, and the answer is about the value.
         const auto refuse_values = [&](Reason reason, const std::string& text) {
             if (stops && data && (data->target_position || data->target_velocity || data->profile_velocity || data->profile_acceleration ||
@@ -255,7 +262,7 @@ void Engine::on_command(Command c, Instant now) {
         if (no) return refuse_values(no->reason, no->text);
         if (hold_on(*a, c, now)) return;
         auto before = a->profile;
-        auto decision = data ? a->profile.on_process_data(*data) : a->profile.on_command(c.body);
+        auto decision = data ? a->profile.on_process_data(*data, c.origin) : a->profile.on_command(c.body, c.origin);
         if (decision.refused && decision.reason == Reason::no_answer) {
             if (const Side* side = side_of(*a->drive); side && !side->up) {
                 decision.reason = Reason::line_down;
@@ -263,20 +270,22 @@ void Engine::on_command(Command c, Instant now) {
             }
         }
         if (decision.refused) return refuse_values(decision.reason, decision.text);
-        if (data) {  // a set-point that starts with this word is checked as what it is
+        if (data) {  // a set-point that starts with this word, or waits because of it, is checked as what it is
             for (const auto& o : decision.orders) {
-                if (const auto* m = std::get_if<Move>(&o)) no = guard_move(*m, a->limits, a->profile.feedback().position);
-                if (no) {
-                    a->profile = before;
-                    return refuse(c, no->reason, fmt::format("axis {}: {}", name, no->text));
-                }
+                if (!no) no = beyond_limits(*a, o);
+            }
+            if (!no && decision.waits) no = guard_move(*decision.waits, a->limits, before.active_target().value_or(a->profile.feedback().position));
+            if (no) {
+                a->profile = before;
+                return refuse(c, no->reason, fmt::format("axis {}: {}", name, no->text));
             }
         }
+        waits = decision.waits;
         orders = std::move(decision.orders);
         commands_motion = true;
     }
-    if (commands_motion && !orders.empty() && !stops && !ask_authority(*a, c, now)) return;
-    if (!orders.empty() && (commands_motion || std::holds_alternative<Native>(c.body) || std::holds_alternative<Action>(c.body)) &&
+    if (commands_motion && (!orders.empty() || waits) && !stops && !ask_authority(*a, c, now)) return;
+    if ((!orders.empty() || waits) && (commands_motion || std::holds_alternative<Native>(c.body) || std::holds_alternative<Action>(c.body)) &&
         c.origin.door != Door::internal) {
         Event e;
         e.kind = "command";
@@ -289,6 +298,7 @@ void Engine::on_command(Command c, Instant now) {
             if (const auto* n = std::get_if<Native>(&o); n && n->is_text) e.text += " " + std::string(n->send.begin(), n->send.end());
             if (const auto* x = std::get_if<Action>(&o)) e.text += " " + x->name;
         }
+        if (waits) e.text += fmt::format("{}{} {} waits for the running motion", e.text.empty() ? "" : ", ", name_of(CommandBody{*waits}), waits->target);
         event(std::move(e), now);
     }
 
@@ -304,6 +314,7 @@ void Engine::on_command(Command c, Instant now) {
     client->result.outcome = Outcome::accepted;
     if (const auto* data = std::get_if<ProcessData>(&client->body); data && data->controlword && (*data->controlword & cia402::cw_new_setpoint))
         a->setpoint_ticket = client->ticket;
+    if (commands_motion && !stops && (!orders.empty() || waits)) a->loss = LossCause::none;
     Client& ref = *client;
     a->clients.push_back(ref.number);
     clients_.emplace(ref.number, std::move(client));
@@ -321,8 +332,46 @@ void Engine::on_command(Command c, Instant now) {
     }
 }
 
+/// The site's limits, for every order on its one way down: what moves the axis, now or when others are ready, and what it shall be called.
+std::optional<Refusal> Engine::beyond_limits(const Axis& a, const CommandBody& body) const {
+    const std::int64_t position = a.profile.feedback().position;
+    if (const auto* m = std::get_if<Move>(&body)) {
+        if (auto no = guard_move(*m, a.limits, position)) return no;
+        // Some drives count a distance from where they are, some from where they were going: neither may lead out.
+        const auto from = m->kind == Move::Kind::relative ? a.profile.active_target() : std::nullopt;
+        return from ? guard_move(*m, a.limits, *from) : std::nullopt;
+    }
+    if (const auto* set = std::get_if<SetPosition>(&body)) {
+        Move probe;
+        probe.target = set->position;
+        return guard_move(probe, AxisLimits{}, 0);
+    }
+    if (const auto* together = std::get_if<StartTogether>(&body)) {
+        for (const AxisId id : together->axes) {
+            const Axis* x = axis(id);
+            if (!x || !x->prepared) continue;
+            if (auto no = guard_move(*x->prepared, x->limits, x->profile.feedback().position)) {
+                no->text = fmt::format("axis {}: {}", x->spec.name, no->text);
+                return no;
+            }
+        }
+    }
+    return std::nullopt;
+}
+
 /// Sends one order to the adapter of the axis' line. `client`: whose command it is; null for the engine's own.
 void Engine::give_order(Axis& a, Client* client, CommandBody body, Origin origin, Instant now) {
+    if (!client) {  // a client's order was looked at before it changed anything; what waited since may not fit any more
+        if (const auto no = beyond_limits(a, body)) {
+            a.profile.on_order_result(body, false, now);
+            Event e;
+            e.severity = Severity::warning;
+            e.kind = "limit";
+            e.axis = a.spec.name;
+            e.text = fmt::format("{} that waited is not begun: {}", name_of(body), no->text);
+            return event(std::move(e), now);
+        }
+    }
     if (std::holds_alternative<Move>(body) || std::holds_alternative<Home>(body) || is_urgent(body)) {
         supersede(a, client ? client->number : 0, name_of(body), now);
         a.held = {};  // another motion, or a stop: nobody's finger holds this one
@@ -361,6 +410,8 @@ void Engine::give_order(Axis& a, Client* client, CommandBody body, Origin origin
     Command order;
     order.ticket = ticket;
     order.axis = a.id;
+    // What ends in the drive's own way is the adapter's to tell; every other end is watched here, by what the axis shows.
+    order.until_done = client && client->until_done && std::holds_alternative<Action>(body);
     order.body = std::move(body);
     order.origin = std::move(origin);
     Out out = take_out();
@@ -429,6 +480,7 @@ void Engine::order_result(const Result& given, Instant now) {
     if (const auto* move = std::get_if<Move>(&body); is_good && ((move && !move->prepare_only) || std::holds_alternative<Home>(body)))
         image_.picture(a->id).motion_ticket = mover;
     if (is_good && is_urgent(body)) image_.picture(a->id).motion_ticket = no_ticket;
+    if (is_good) remember_prepared(*a, body);
     a->profile.on_order_result(body, is_good, now);
     if (std::holds_alternative<Move>(body)) {
         if (!is_good)
@@ -472,6 +524,19 @@ void Engine::order_result(const Result& given, Instant now) {
     client.accepted = true;
     client.accepted_at = now;
     track(*a, now);
+}
+
+/// A move that was prepared counts until the axis is moved or stopped.
+void Engine::remember_prepared(Axis& a, const CommandBody& body) {
+    if (const auto* m = std::get_if<Move>(&body)) {
+        a.prepared = m->prepare_only ? std::optional<Move>(*m) : std::nullopt;
+    } else if (const auto* together = std::get_if<StartTogether>(&body)) {
+        for (const AxisId id : together->axes) {
+            if (Axis* x = axis(id)) x->prepared.reset();
+        }
+    } else if (is_urgent(body) || std::holds_alternative<Home>(body)) {
+        a.prepared.reset();
+    }
 }
 
 void Engine::on_stored(Ticket order, const std::string& fault, Instant now) {

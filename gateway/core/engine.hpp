@@ -3,6 +3,7 @@
 // Never touches a clock, thread, socket, file or log: lines are behind `struct Line`, everything else behind EngineHost.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <map>
 #include <memory>
@@ -13,6 +14,7 @@
 #include "gateway/core/authority.hpp"
 #include "gateway/core/cia402.hpp"
 #include "gateway/core/door.hpp"
+#include "gateway/core/fail_safe.hpp"
 #include "gateway/core/frame_log.hpp"
 #include "gateway/core/gateway.hpp"
 #include "gateway/core/guard.hpp"
@@ -41,6 +43,8 @@ struct EngineHost {
     virtual void on_event(Event event, Instant at) = 0;
     virtual void on_sample(const Sample& sample) = 0;
     virtual void on_store(StoreOrder order) = 0;
+    /// When a client that has commanded was last heard on its door; nothing: it is not connected, or its door does not watch.
+    [[nodiscard]] virtual std::optional<Instant> heard(const AuthorityClient&) const { return std::nullopt; }
     /// A twin's non-volatile memory has changed.
     virtual void on_twin_memory(const std::string& drive, NonVolatile memory) = 0;
     virtual ~EngineHost() = default;
@@ -66,6 +70,12 @@ public:
     void on_command(Command command, Instant now);
     /// How long a command holds an axis of mode "lease".
     void set_lease(Duration lease) noexcept { lease_ = lease; }
+    /// How long a Modbus client that commands an axis may be silent, where the axis' site entry does not say it; 0: for ever.
+    void set_watchdog(Duration limit) noexcept { watchdog_ = limit; }
+    /// A client is gone: what it commanded last is treated as the axes' site entries say.
+    void on_client_lost(const AuthorityClient& who, LossCause cause, Instant now);
+    /// How often axes were stopped since the start because of this cause.
+    [[nodiscard]] std::uint64_t losses(LossCause cause) const noexcept { return losses_[static_cast<std::size_t>(cause)]; }
     /// The store has (`fault` empty) or has not recorded an order.
     void on_stored(Ticket order, const std::string& fault, Instant now);
 
@@ -103,6 +113,8 @@ private:
     // routing (engine.cpp)
     void drain(Side& side, Out& out, Instant now);
     void give_order(Axis& axis, Client* client, CommandBody body, Origin origin, Instant now);
+    [[nodiscard]] std::optional<Refusal> beyond_limits(const Axis& axis, const CommandBody& body) const;
+    void remember_prepared(Axis& axis, const CommandBody& body);
     void order_result(const Result& result, Instant now);
     void finish(std::uint64_t client, Result result, Instant now);
     void refuse(const Command& command, Reason reason, std::string text);
@@ -124,6 +136,10 @@ private:
     void begin_hold(Axis& axis, const Move& move, const Origin& origin);
     void check_hold(Axis& axis, Instant now);
     void check_run(Axis& axis, Instant now);
+
+    // loss of command (engine_fail_safe.cpp)
+    void fail_safe(Axis& axis, LossCause cause, Instant now);
+    void check_watchdog(Axis& axis, Instant now);
 
     // the site (engine_site.cpp), presence (engine_presence.cpp), time (engine_turn.cpp), questions (engine_ask.cpp)
     void build_line(LineUnit& unit, Instant now);
@@ -172,6 +188,8 @@ private:
     std::size_t trace_frames_;
     std::uint32_t sources_ = 0;
     Duration lease_ = std::chrono::seconds(30);
+    Duration watchdog_ = std::chrono::seconds(5);
+    std::array<std::uint64_t, loss_causes.size() + 1> losses_{};
     bool closing_ = false;
 };
 

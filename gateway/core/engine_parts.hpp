@@ -114,9 +114,11 @@ struct Engine::Axis {
         Instant since{};
         double round_s = 0;             ///< between the last two positions: how late the next may be, and a halt on the same line
     } run;
+    std::optional<Move> prepared;  ///< taken by the drive, starts with StartTogether
     Ticket setpoint_ticket = no_ticket;  ///< the set-point that came last by a control word: it may wait and begin later, without its client
     bool at_limit = false;  ///< a velocity move was ended at a limit, and no motion has begun since
     AxisAuthority authority;
+    LossCause loss = LossCause::none;  ///< why it was stopped without a command, until the next command to it
     bool stale = true;
     bool was_fault = false;
     std::string homing_why;  ///< why the last search for a zero failed, by the adapter's notice
@@ -136,6 +138,7 @@ struct Engine::Client {
     Origin origin;
     bool until_done = false;
     bool lets_go = false;      ///< a disable whose device is silent: nobody need hear it for the twin to take over
+    bool was_silent = false;   ///< its drive has been silent since: the first half of a restart
     std::size_t waiting = 0;   ///< orders without an answer
     bool accepted = false;     ///< all orders were taken; the end of the motion is being watched
     Result result;             ///< the first bad answer, or the last good one

@@ -70,11 +70,33 @@ void Engine::track(Axis& a, Instant now) {
                 fail(Reason::interrupted, fmt::format("axis {} has stopped before its target (at {} increments)", x.spec.name, g.position));
             }
         };
+        const auto* action = std::get_if<Action>(&c.body);
+        const CatalogueCommand* listed = action ? a.drive->line->family.catalogue->command(action->name) : nullptr;
+        const Completion completes = listed ? listed->completes : Completion::acknowledged;
+        if (completes == Completion::online_again && !online) c.was_silent = true;
+        // Nobody waits for the end; or it is here; or only the adapter could have told it, and did not.
+        const bool over = !c.until_done || c.result.outcome == Outcome::done || completes == Completion::acknowledged || completes == Completion::reported;
+        if (action && over) {
+            if (completes == Completion::acknowledged) c.result.outcome = Outcome::done;
+            Result r = c.result;
+            finish(number, std::move(r), now);
+            continue;
+        }
         if (!c.until_done) {
             progress = Progress::done;
+        } else if (completes == Completion::online_again) {
+            if (c.was_silent && online && fresh) progress = Progress::done;
         } else if (!online && !std::holds_alternative<ProcessData>(c.body)) {
             fail(Reason::no_answer, fmt::format("axis {}: the drive went silent; whether it has finished is not known", a.spec.name));
-        } else if (std::holds_alternative<Enable>(c.body)) {
+        } else if (completes == Completion::target_reached) {
+            watch_motion(a);
+        } else if (completes == Completion::standstill) {
+            if (f.fault) {
+                fail(Reason::interrupted, fmt::format("axis {}: fault, drive's code {}", a.spec.name, f.error_code));
+            } else if (!f.moving && !f.homing && f.at - c.accepted_at > rest_before_interrupted) {
+                progress = Progress::done;
+            }
+        } else if (std::holds_alternative<Enable>(c.body) || completes == Completion::powered) {
             if (a.profile.state() == PowerState::operation_enabled) {
                 progress = Progress::done;
             } else if (f.fault) {

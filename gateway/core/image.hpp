@@ -34,7 +34,8 @@ struct AxisPicture {
     // CiA 402
     std::uint16_t statusword = 0;     ///< with 8 simulated, 14 stale, 15 referenced
     std::int16_t mode_display = 0;    ///< modes of operation display
-    std::uint16_t flags = 0;          ///< register 9: 0 online, 1 simulated, 2 stale, 3 referenced, 4 moving, 5 target reached, 6 fault, 7 warning
+    std::uint16_t flags = 0;          ///< register 9: 0 online, 1 simulated, 2 stale, 3 referenced, 4 moving, 5 target reached, 6 fault, 7 warning, 8 fail-safe
+    std::uint16_t fail_safe_cause = 0;  ///< register 22: the LossCause for which the axis was stopped without a command, until the next command
     // set-points as last accepted (registers 32..47 read back)
     std::uint16_t controlword = 0;
     std::int16_t mode = 0;            ///< modes of operation
@@ -67,7 +68,7 @@ struct AxisPicture {
 static_assert(std::is_trivially_copyable_v<AxisPicture>);
 
 inline constexpr std::uint16_t flag_online = 1u << 0, flag_simulated = 1u << 1, flag_stale = 1u << 2, flag_referenced = 1u << 3,
-                               flag_moving = 1u << 4, flag_target_reached = 1u << 5, flag_fault = 1u << 6, flag_warning = 1u << 7;
+                               flag_moving = 1u << 4, flag_target_reached = 1u << 5, flag_fault = 1u << 6, flag_warning = 1u << 7, flag_fail_safe = 1u << 8;
 
 /// One AxisPicture behind a sequence lock: one writer (the hot thread), any number of readers; readers never delay the writer.
 class AxisCell {

@@ -108,6 +108,12 @@ json::object to_json(const AxisSpec& a) {
     put_optional(o, "velocity_max", a.velocity_max);
     put_optional(o, "acceleration_max", a.acceleration_max);
     if (a.authority_mode != AuthorityMode::free) o["authority_mode"] = name_of(a.authority_mode);
+    json::object fail_safe;
+    for (const LossCause cause : loss_causes) {
+        if (const auto& action = a.fail_safe.of(cause)) fail_safe[name_of(cause)] = name_of(*action);
+    }
+    if (a.fail_safe.watchdog_ms) fail_safe["watchdog_ms"] = *a.fail_safe.watchdog_ms;
+    if (!fail_safe.empty()) o["fail_safe"] = std::move(fail_safe);
     return o;
 }
 

@@ -15,6 +15,7 @@
 
 #include "gateway/core/authority.hpp"
 #include "gateway/core/catalogue.hpp"
+#include "gateway/core/fail_safe.hpp"
 #include "gateway/core/family.hpp"
 #include "gateway/core/setup.hpp"
 
@@ -58,6 +59,7 @@ struct AxisSpec {
     std::optional<double> velocity_max; ///< unit/s, > 0
     std::optional<double> acceleration_max;
     AuthorityMode authority_mode = AuthorityMode::free;  ///< "lease": a command takes the axis for a while, and others are refused
+    FailSafe fail_safe;                 ///< what happens when the client that commands it is lost
     bool operator==(const AxisSpec&) const = default;
 };
 

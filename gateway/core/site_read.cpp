@@ -146,6 +146,21 @@ LineManners read_manners(const json::value* v, const std::string& pointer, std::
     return m;
 }
 
+FailSafe read_fail_safe(const json::value* v, const std::string& pointer, std::vector<SiteFault>& faults) {
+    FailSafe s;
+    if (!v) return s;
+    Fields f(*v, pointer, faults);
+    for (const LossCause cause : loss_causes) {
+        const auto* entry = f.get(name_of(cause));
+        if (!entry) continue;
+        if (entry->is_string()) s.of(cause) = fail_safe_action_of(std::string_view(entry->get_string()));
+        if (!s.of(cause)) f.fault(name_of(cause), "this is not a fail-safe action", "use nothing, halt, quick_stop or disable; leave it out to halt velocity moves alone");
+    }
+    s.watchdog_ms = f.integer("watchdog_ms", 0, 600'000);
+    f.unknown_keys();
+    return s;
+}
+
 template <class T, class Read>
 void read_list(const json::object& document, std::string_view key, std::vector<T>& into, std::vector<SiteFault>& faults, Read&& read) {
     const auto* v = document.if_contains(key);
@@ -306,7 +321,7 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
         d.options = f.options("options");
         return d;
     });
-    read_list(o, "axes", site.axes, faults, [&](Fields& f, const std::string&) {
+    read_list(o, "axes", site.axes, faults, [&](Fields& f, const std::string& pointer) {
         AxisSpec a;
         a.name = read_name(f, "feeder");
         a.drive = f.text("drive", true, "feeder");
@@ -329,6 +344,7 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
                 f.fault("authority_mode", fmt::format("axis {}: this is not an authority mode", a.name), "use free or lease");
             }
         }
+        a.fail_safe = read_fail_safe(f.get("fail_safe"), pointer + "/fail_safe", faults);
         if (a.position_min && a.position_max && *a.position_min >= *a.position_max) {
             f.fault("position_max", fmt::format("axis {}: position_max must be above position_min", a.name), "exchange them");
         }

@@ -129,6 +129,7 @@ const std::vector<Key>& keys() {
              return {};
          }},
         {"modbus", "idle_timeout_s", [](Config& c, const std::string& s) { return set_integer(c.modbus_idle_timeout_s, s, 1, 86400); }, Written::as_number},
+        {"modbus", "watchdog_ms", [](Config& c, const std::string& s) { return set_integer(c.modbus_watchdog_ms, s, 0, 600'000); }, Written::as_number},
         {"modbus", "max_connections", [](Config& c, const std::string& s) { return set_integer(c.modbus_max_connections, s, 1, 8192); }, Written::as_number},
         {"modbus", "allow",
          [](Config& c, const std::string& s) -> Fault {

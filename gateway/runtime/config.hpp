@@ -22,6 +22,7 @@ struct Config {
     std::vector<std::string> http_allowed_hosts; ///< [http] allowed_hosts: further names that a browser may use for this host
     std::string modbus_bind = "127.0.0.1:1502";  ///< [modbus] bind; empty: no Modbus/TCP door
     bool modbus_low_word_first = false;          ///< [modbus] word_order = "high_first" | "low_first"
+    std::int64_t modbus_watchdog_ms = 5000;      ///< [modbus] watchdog_ms, 0..600000; 0: a silent client is not watched
     std::int64_t modbus_idle_timeout_s = 60;     ///< [modbus] idle_timeout_s, 1..86400
     std::int64_t modbus_max_connections = 1024;  ///< [modbus] max_connections, 1..8192
     std::vector<std::string> modbus_allow;       ///< [modbus] allow: addresses and networks that may connect; empty: all

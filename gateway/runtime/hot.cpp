@@ -198,6 +198,7 @@ void Hot::publish_reports(Instant now) {
     }
     r->complaints = engine_.complaints();
     r->settled = engine_.settled();
+    for (const LossCause cause : loss_causes) r->losses[static_cast<std::size_t>(cause)] = engine_.losses(cause);
     reports_.store(std::move(r), std::memory_order_release);
 }
 

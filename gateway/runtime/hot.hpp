@@ -27,6 +27,7 @@ struct Reports {
     std::vector<std::shared_ptr<const FrameLog>> logs;  ///< by LineId
     std::vector<std::string> complaints;
     bool settled = false;
+    std::array<std::uint64_t, loss_causes.size() + 1> losses{};  ///< fail-safe actions since the start, by LossCause
 };
 
 struct HotSettings {
@@ -82,11 +83,16 @@ public:
     [[nodiscard]] const Image& image() const override { return image_; }
     [[nodiscard]] const Catalogue* catalogue(AxisId axis) const override { return engine_.catalogue(axis); }
     void submit(Command command) override;
+    void client_lost(const AuthorityClient& who, LossCause cause) override { engine_.on_client_lost(who, cause, now()); }
     void attach(Door door, ResultSink* sink) override { sinks_[static_cast<std::size_t>(door)] = sink; }
 
     // EngineHost (hot thread)
     std::unique_ptr<Line> make_line(const LineSpec& spec, const LineSetup& setup) override;
     void on_result(const Result& result) override { results_.push_back(result); }
+    [[nodiscard]] std::optional<Instant> heard(const AuthorityClient& who) const override {
+        const ResultSink* sink = sinks_[static_cast<std::size_t>(who.door)];
+        return sink ? sink->heard(who.name) : std::nullopt;
+    }
     void on_event(Event event, Instant at) override;
     void on_sample(const Sample& sample) override;
     void on_store(StoreOrder order) override;

@@ -197,6 +197,7 @@ int Service::open_store() {
     hs.cpu = static_cast<int>(options.config.hot_cpu);
     hs.trace_frames = static_cast<std::size_t>(options.config.trace_frames);
     hot = std::make_unique<Hot>(families, hs);
+    hot->engine().set_watchdog(std::chrono::milliseconds(options.config.modbus_watchdog_ms));
     hot->engine().set_lease(std::chrono::seconds(options.config.authority_lease_s));
     Cold::Answers answers;
     answers.stored = [this](std::vector<Stored> list) {

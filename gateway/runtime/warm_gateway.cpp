@@ -333,6 +333,9 @@ std::string WarmGateway::metrics() const {
     s += fmt::format("axisgate_lost_events_total {}\n", hot_.lost_events());
 
     const auto reports = hot_.reports();
+    head("axisgate_fail_safe_total", "counter", "Axes that were stopped because the client that commanded them was lost, by cause.");
+    for (const LossCause cause : loss_causes)
+        s += fmt::format("axisgate_fail_safe_total{{cause=\"{}\"}} {}\n", name_of(cause), reports->losses[static_cast<std::size_t>(cause)]);
     const auto& site = *site_;
     const auto per_line = [&](std::string_view name, std::string_view type, std::string_view help, auto&& value) {
         head(name, type, help);

@@ -66,6 +66,7 @@ public:
     std::map<std::string, FaultLine*> cables;   ///< simulated real lines by name: cut, heal, rates
     std::map<std::string, TwinBus*> buses;      ///< the "real" drives behind those cables
     std::map<std::string, NonVolatile> twin_memories;
+    std::optional<Instant> heard_at;            ///< when a client that commands was heard last on its door; nothing: nobody watches
     std::string store_fault;                    ///< what the store says to every order
     std::uint64_t next_ticket = 1;
     std::uint64_t steps = 0;
@@ -88,6 +89,7 @@ public:
     void on_event(Event event, Instant) override { events.push_back(std::move(event)); }
     void on_sample(const Sample& sample) override { samples.push_back(sample); }
     void on_store(StoreOrder order) override { to_store.push_back(std::move(order)); }
+    std::optional<Instant> heard(const AuthorityClient&) const override { return heard_at; }
     void on_twin_memory(const std::string& drive, NonVolatile memory) override { twin_memories[drive] = std::move(memory); }
 
     // --- what a test does

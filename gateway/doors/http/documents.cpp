@@ -114,6 +114,7 @@ json::object axis_document(const AxisView& v) {
     o["fault"] = flag(flag_fault);
     o["warning"] = flag(flag_warning);
     o["internal_limit"] = (p.statusword & cia402::sw_internal_limit) != 0;
+    o["fail_safe_cause"] = p.fail_safe_cause == 0 ? json::value(nullptr) : json::value(axisgate::name_of(static_cast<LossCause>(p.fail_safe_cause)));
     o["position"] = in_unit(p.position);
     const bool demanded = p.demand_source != DemandSource::none;
     o["demand_known"] = demanded;
@@ -252,7 +253,7 @@ json::object parameter_document(const Catalogue& catalogue, Point point, std::st
 }
 
 json::object command_document(const CatalogueCommand& c) {
-    return {{"id", c.id}, {"name", c.name}, {"description", text_or_null(c.description)}};
+    return {{"id", c.id}, {"name", c.name}, {"description", text_or_null(c.description)}, {"completes", axisgate::name_of(c.completes)}};
 }
 
 json::object error_document(const ErrorCode& e) {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -82,6 +83,9 @@ public:
     [[nodiscard]] std::size_t waiting() const noexcept { return tickets_.used(); }
 
     void on_result(const Result& result) override;
+    [[nodiscard]] std::optional<Instant> heard(std::string_view client) const override { return heard_ ? heard_(client) : std::nullopt; }
+    /// Who knows the connections: the server says when a host was last heard.
+    void ask_heard(std::function<std::optional<Instant>(std::string_view)> ask) { heard_ = std::move(ask); }
 
     [[nodiscard]] const Access& access() const noexcept { return settings_.access; }
     void set_read_only(bool on) noexcept { settings_.access.read_only = on; }
@@ -118,6 +122,7 @@ private:
     TicketTable tickets_;
     WritePlan plan_;
     Counters counters_;
+    std::function<std::optional<Instant>(std::string_view)> heard_;
 };
 
 }  // namespace axisgate::modbus

@@ -23,6 +23,7 @@ constexpr std::array rows{
     RegisterRow{reg::setpoints_accepted, u16, false, "set-points accepted"},
     RegisterRow{reg::authority, u16, false, "command authority"},
     RegisterRow{reg::mapping_revision, u32, false, "revision of the mapping"},
+    RegisterRow{reg::fail_safe_cause, u16, false, "cause of the last fail-safe action"},
     RegisterRow{reg::controlword, u16, true, "controlword"},
     RegisterRow{reg::mode, i16, true, "modes of operation"},
     RegisterRow{reg::target_position, i32, true, "target position"},
@@ -74,6 +75,7 @@ void render(const AxisPicture& picture, std::uint32_t mapping_revision, WordOrde
     word(reg::setpoints_accepted, picture.setpoints_accepted);
     word(reg::authority, static_cast<std::uint16_t>(picture.authority));
     pair(reg::mapping_revision, mapping_revision);
+    word(reg::fail_safe_cause, picture.fail_safe_cause);
     word(reg::controlword, picture.controlword);
     word(reg::mode, static_cast<std::uint16_t>(picture.mode));
     pair(reg::target_position, static_cast<std::uint32_t>(picture.target_position));

@@ -61,6 +61,7 @@ public:
         times_.resize(settings_.max_connections);
         for (std::size_t i = settings_.max_connections; i-- > 0;)
             free_.push_back(i);
+        responder_.ask_heard([this](std::string_view host) { return heard(host); });
     }
 
     std::string open(std::span<const std::string> binds) {
@@ -91,9 +92,11 @@ public:
             l->acceptor.close(ignored);
         listeners_.clear();
         timer_.cancel();
+        closing_ = true;
         for (const auto& place : places_) {
             if (place.connection) place.connection->close();
         }
+        closing_ = false;
         bury();
     }
 
@@ -160,10 +163,12 @@ public:
     }
     void closed(ConnectionToken token) override {
         const std::size_t i = place_of(token);
+        const std::string host = std::move(places_[i].host);
         buried_.push_back(std::move(places_[i].connection));  // it is still at work: destroyed by bury()
         times_[i] = {};
         free_.push_back(i);
         counters().connections_open.remove();
+        if (!closing_ && !heard(host)) port_.client_lost({Door::modbus, host}, LossCause::modbus_closed);
     }
 
 private:
@@ -175,6 +180,7 @@ private:
     struct Place {
         std::unique_ptr<Connection> connection;
         std::uint32_t users = 0;
+        std::string host;  // the client's stable name: its address without the port
         Instant since{};
     };
     [[nodiscard]] static std::size_t place_of(ConnectionToken token) noexcept { return static_cast<std::uint32_t>(token); }
@@ -287,10 +293,23 @@ private:
         free_.pop_back();
         times_[i] = {port_.now(), never};
         places_[i].since = port_.now();
+        Origin origin;
+        origin.door = Door::modbus;
+        origin.who = std::make_shared<const std::string>(to_text(from));
+        places_[i].host = AuthorityClient::of(origin).name;
         places_[i].connection = std::make_unique<Connection>(fd, poller_, *this, responder_, token, to_text(from));
         counters().connections_accepted.add();
         counters().connections_open.add();
         watch_time();
+    }
+
+    /// The newest request of any connection of this host.
+    [[nodiscard]] std::optional<Instant> heard(std::string_view host) const {
+        std::optional<Instant> newest;
+        for (std::size_t i = 0; i < places_.size(); ++i) {
+            if (places_[i].connection && places_[i].host == host && (!newest || times_[i].last_request > *newest)) newest = times_[i].last_request;
+        }
+        return newest;
     }
 
     /// Closes the connection that has been idle for longest, if one may be closed.
@@ -332,6 +351,7 @@ private:
     std::map<std::uint8_t, std::unique_ptr<OwnMap>> own_maps_;
     asio::steady_timer timer_;
     bool timing_ = false;
+    bool closing_ = false;  // the gateway's own end, or a change of its addresses: no client has gone
     std::vector<std::shared_ptr<Listener>> listeners_;
     std::vector<Place> places_;
     std::vector<ConnectionTimes> times_;

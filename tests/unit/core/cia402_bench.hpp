@@ -74,6 +74,7 @@ struct Bench {
     void enable(std::int16_t mode) {
         ProcessData d;
         d.mode = mode;
+        d.profile_velocity = 1000;  // a set-point without a velocity is refused
         obey(profile.on_process_data(d));
         to(PowerState::operation_enabled);
     }

@@ -129,17 +129,186 @@ TEST(Cia402, RefusedEnableFallsBack) {
     EXPECT_EQ(b.picture().controlword & cw_enable_operation, 0);
 }
 
+Origin client(std::string name) {
+    Origin o;
+    o.door = Door::modbus;
+    o.client = std::make_shared<const std::string>(std::move(name));
+    return o;
+}
+
 TEST(Cia402, EnableTakesTheActualPositionAsFirstTarget) {
     Bench b;
     ProcessData d;
     d.mode = mode_profile_position;
     d.target_position = 99999;
-    b.data(d);
+    b.obey(b.profile.on_process_data(d, client("panel")));
     b.drive.position = 1234;
     b.say();
-    b.to(oe);
+    b.to(oe);  // somebody else enables
     EXPECT_EQ(b.picture().target_position, 1234);
     EXPECT_EQ(b.picture().setpoints_accepted, 0);
+    d = {};
+    d.profile_velocity = 100;
+    d.controlword = 0x1F;
+    const auto r = b.profile.on_process_data(d, client("panel"));
+    ASSERT_EQ(r.orders.size(), 1u);
+    EXPECT_EQ(std::get<Move>(r.orders[0]).target, 1234) << "what was written before somebody else enabled moves nothing";
+}
+
+TEST(Cia402, ATargetThatTheEnablingClientHasWrittenIsTheTargetOfItsSetPoint) {
+    Bench b;
+    const Origin plc = client("plc");
+    const auto say = [&](std::uint16_t cw) {
+        ProcessData d;
+        d.controlword = cw;
+        auto r = b.profile.on_process_data(d, plc);
+        b.obey(r);
+        return r;
+    };
+    ProcessData d;
+    d.mode = mode_profile_position;
+    d.target_position = 5000;
+    d.profile_velocity = 100;
+    b.obey(b.profile.on_process_data(d, plc));
+    b.drive.position = 1234;
+    b.say();
+    say(0x06);
+    say(0x07);
+    EXPECT_EQ(say(0x0F).orders.size(), 1u) << "enable, and nothing else";
+    EXPECT_EQ(b.picture().target_position, 5000) << "register 34 reads what was written";
+    const auto r = say(0x1F);
+    ASSERT_EQ(r.orders.size(), 1u);
+    EXPECT_EQ(std::get<Move>(r.orders[0]).target, 5000);
+    // It has been used: the next enable begins at the actual position again.
+    b.drive.moving = false;
+    b.drive.target_reached = true;
+    b.drive.position = 5000;
+    b.say();
+    say(0x06);
+    b.drive.position = 777;
+    b.say();
+    say(0x0F);
+    EXPECT_EQ(b.picture().target_position, 777);
+    const auto again = say(0x1F);
+    ASSERT_EQ(again.orders.size(), 1u);
+    EXPECT_EQ(std::get<Move>(again.orders[0]).target, 777);
+}
+
+TEST(Cia402, ASetPointNeedsAVelocityThatItsOwnDoorHasWritten) {
+    Bench b;
+    ProcessData mode;
+    mode.mode = mode_profile_position;
+    b.data(mode);
+    b.to(oe);
+    ProcessData d;
+    d.target_position = 1000;
+    d.controlword = 0x1F;
+    const auto never_written = b.profile.on_process_data(d, client("plc"));
+    EXPECT_TRUE(never_written.refused);
+    EXPECT_EQ(never_written.reason, Reason::out_of_range);
+    EXPECT_NE(never_written.text.find("36"), std::string::npos) << never_written.text;
+    // Another door's move is no default for this one, but the registers show what the drive was given.
+    Move m;
+    m.target = 10;
+    m.velocity = 55;
+    m.acceleration = 66;
+    b.obey(b.profile.on_command(m));
+    EXPECT_EQ(b.picture().profile_velocity, 55u);
+    EXPECT_EQ(b.picture().profile_acceleration, 66u);
+    EXPECT_TRUE(b.profile.on_process_data(d, client("plc")).refused);
+    d.profile_velocity = 0;
+    EXPECT_TRUE(b.profile.on_process_data(d, client("plc")).refused) << "0 is no velocity";
+    d.profile_velocity = 20;
+    d.profile_deceleration = 40;
+    d.controlword = 0x3F;  // at once: the other door's motion runs
+    const auto r = b.profile.on_process_data(d, client("plc"));
+    b.obey(r);
+    ASSERT_EQ(r.orders.size(), 1u);
+    EXPECT_EQ(std::get<Move>(r.orders[0]).velocity, 20);
+    EXPECT_FALSE(std::get<Move>(r.orders[0]).acceleration.has_value());
+    Move n;
+    n.target = 30;
+    n.velocity = 5;
+    n.acceleration = 7;
+    const auto by_command = b.profile.on_command(n);
+    ASSERT_EQ(by_command.orders.size(), 1u);
+    EXPECT_FALSE(std::get<Move>(by_command.orders[0]).deceleration.has_value()) << "what stands in the registers is no default of a command";
+}
+
+TEST(Cia402, ADriveThatReportsAFaultAndMovesIsStoppedAndAskedAgain) {
+    Bench b;
+    b.to(oe);
+    b.drive.moving = true;
+    b.drive.fault = true;
+    b.drive.error_code = 26;
+    auto order = b.say();
+    ASSERT_TRUE(order.has_value());
+    EXPECT_TRUE(std::holds_alternative<QuickStop>(*order));
+    EXPECT_FALSE(b.say().has_value()) << "it is on its way";
+    b.profile.on_order_result(*order, false, b.now);
+    EXPECT_FALSE(b.say().has_value()) << "not at once again";
+    b.now += std::chrono::seconds(1);
+    order = b.say();
+    ASSERT_TRUE(order.has_value()) << "it still moves";
+    b.profile.on_order_result(*order, true, b.now);
+    EXPECT_EQ(b.profile.state(), far);
+    b.drive.moving = false;
+    EXPECT_FALSE(b.say().has_value());
+    EXPECT_EQ(b.profile.state(), flt);
+    Bench rest;
+    rest.to(oe);
+    rest.drive.fault = true;
+    EXPECT_FALSE(rest.say().has_value()) << "at rest there is nothing to stop";
+}
+
+TEST(Cia402, AStopMadeAtTheDriveIsShownAndLeftByAnEdgeAlone) {
+    Bench b;
+    b.enable(mode_profile_position);
+    ProcessData d;
+    d.target_position = 1000;
+    d.controlword = 0x1F;
+    b.data(d);
+    b.drive.quick_stopping = true;
+    b.drive.moving = false;
+    b.say();
+    EXPECT_EQ(b.profile.state(), qsa);
+    EXPECT_TRUE(b.word(0x0F).orders.empty()) << "the word that a controller repeats does not undo it";
+    EXPECT_EQ(b.profile.state(), qsa);
+    b.word(0x07);
+    const auto on = b.word(0x0F);
+    ASSERT_EQ(on.orders.size(), 1u);
+    EXPECT_TRUE(std::holds_alternative<Enable>(on.orders[0]));
+    EXPECT_EQ(b.profile.state(), qsa) << "the drive says that it is still stopped";
+    b.drive.quick_stopping = false;
+    b.say();
+    EXPECT_EQ(b.profile.state(), oe);
+    b.drive.quick_stopping = true;
+    b.say();
+    const auto by_command = b.profile.on_command(Enable{});
+    ASSERT_EQ(by_command.orders.size(), 1u) << "enable does what is needed, and is not done without an order";
+}
+
+TEST(Cia402, ARefusedHomingIsAHomingErrorAndNoOlderOneCounts) {
+    Bench b;
+    b.enable(mode_homing);
+    b.drive.homing_attained = true;
+    b.say();
+    ASSERT_NE(b.picture().statusword & sw_mode_12, 0);
+    ProcessData d;
+    d.homing_method = 99;
+    d.controlword = 0x1F;
+    const auto r = b.profile.on_process_data(d);
+    ASSERT_EQ(r.orders.size(), 1u);
+    b.profile.on_order_result(r.orders[0], false, b.now);
+    b.say();
+    EXPECT_EQ(b.picture().statusword & sw_mode_12, 0);
+    EXPECT_NE(b.picture().statusword & sw_mode_13, 0);
+    b.word(0x0F);
+    d.homing_method = 35;
+    const auto good = b.profile.on_process_data(d);
+    ASSERT_EQ(good.orders.size(), 1u);
+    b.profile.on_order_result(good.orders[0], true, b.now);
+    EXPECT_EQ(b.picture().statusword & sw_mode_13, 0);
 }
 
 TEST(Cia402, SetPointHandshake) {

@@ -2094,12 +2094,22 @@ export interface components {
             velocity_max?: number;
             /** @description unit/s^2 */
             acceleration_max?: number;
+            fail_safe?: components["schemas"]["FailSafe"];
             /**
              * @description lease: a command takes the axis for a while
              * @enum {string}
              */
             authority_mode?: "free" | "lease";
         };
+        /** @description what happens to the axis when the client that commands it is lost. What is left out: a velocity move is halted, a motion to a target goes on to it. What is given holds for every motion, and `disable` for an enabled axis at rest as well */
+        FailSafe: {
+            modbus_closed?: components["schemas"]["FailSafeAction"];
+            modbus_silent?: components["schemas"]["FailSafeAction"];
+            /** @description how long a connected Modbus client may ask nothing; 0: for ever; left out: [modbus] watchdog_ms */
+            watchdog_ms?: number;
+        };
+        /** @enum {string} */
+        FailSafeAction: "nothing" | "halt" | "quick_stop" | "disable";
         AxisSpec: components["schemas"]["AxisFields"] & Record<string, never>;
         /** @description a whole axis; `name` may be left out, and the members that only tell the state are ignored */
         AxisChange: components["schemas"]["AxisFields"] & Record<string, never>;
@@ -2143,6 +2153,11 @@ export interface components {
             readonly warning: boolean;
             /** @description status word bit 11 */
             readonly internal_limit: boolean;
+            /**
+             * @description why the gateway stopped the axis without a command, until the next command to it; null - it did not
+             * @enum {string|null}
+             */
+            readonly fail_safe_cause: "modbus_closed" | "modbus_silent" | null;
             /** @description in `unit`; null until the drive has said it */
             readonly position: number | null;
             /** @description whether somebody says where the axis should be now; if not, position_demand and following_error are null */

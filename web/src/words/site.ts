@@ -39,6 +39,14 @@ const presences = [
   { value: 'twin', text: 'twin: the model only' },
 ];
 
+const failSafeActions = [
+  { value: '', text: 'halt a velocity move, let a move to a target end' },
+  { value: 'nothing', text: 'nothing' },
+  { value: 'halt', text: 'halt every motion' },
+  { value: 'quick_stop', text: 'quick stop every motion' },
+  { value: 'disable', text: 'switch the axis off' },
+];
+
 export const fieldsOf: Record<Room, readonly FieldSpec[]> = {
   lines: [
     { key: 'name', label: 'Name', kind: 'name', required: true },
@@ -71,6 +79,9 @@ export const fieldsOf: Record<Room, readonly FieldSpec[]> = {
     { key: 'position_max', label: 'Highest position', kind: 'number', hint: 'software limit, in unit' },
     { key: 'velocity_max', label: 'Highest speed', kind: 'number', above: 0, hint: 'unit/s' },
     { key: 'acceleration_max', label: 'Highest acceleration', kind: 'number', above: 0, hint: 'unit/s²' },
+    { key: 'fail_safe.modbus_closed', label: 'When its Modbus client has closed', kind: 'choice', more: true, choices: failSafeActions },
+    { key: 'fail_safe.modbus_silent', label: 'When its Modbus client is silent', kind: 'choice', more: true, choices: failSafeActions },
+    { key: 'fail_safe.watchdog_ms', label: 'Silent after, ms', kind: 'integer', min: 0, max: 600000, more: true, placeholder: "the gateway's", hint: '0: silence is not watched' },
     { key: 'authority_mode', label: 'Authority', kind: 'choice', more: true, choices: [{ value: '', text: 'as the gateway has it' }, { value: 'free', text: 'free' }, { value: 'lease', text: 'lease' }] },
   ],
 };

@@ -1,0 +1,43 @@
+// Fail-safe: what is done with an axis when whoever commands it is lost: causes, actions, and one axis' choice among them.
+// In: names from the site's document. Out: values, and what the axis does for a cause. Never decides that somebody is lost: doors tell that.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "gateway/core/instant.hpp"
+
+namespace axisgate {
+
+/// Why the commander of an axis counts as lost. The numbers are register 22 of the standard map.
+enum class LossCause : std::uint8_t {
+    none = 0,
+    modbus_closed = 1,  ///< its last Modbus connection has ended: by itself, by the network, or closed by the gateway
+    modbus_silent = 2   ///< connected, but no request for longer than the watchdog time
+};
+inline constexpr std::array<LossCause, 2> loss_causes{LossCause::modbus_closed, LossCause::modbus_silent};
+/// "modbus_closed", "modbus_silent"; "none".
+[[nodiscard]] std::string_view name_of(LossCause cause) noexcept;
+
+enum class FailSafeAction : std::uint8_t { nothing, halt, quick_stop, disable };
+[[nodiscard]] std::string_view name_of(FailSafeAction action) noexcept;
+[[nodiscard]] std::optional<FailSafeAction> fail_safe_action_of(std::string_view name) noexcept;
+
+/// One axis' choice. What the site does not name has the default: a motion without an end of its own (a velocity move) is halted; a motion to a
+/// target goes on to its target, since a client may connect for each of its requests. What the site names holds for every motion, and
+/// `disable` for an enabled axis at rest as well.
+struct FailSafe {
+    std::array<std::optional<FailSafeAction>, loss_causes.size()> chosen;
+    std::optional<std::int64_t> watchdog_ms;  ///< 0: silence is not watched; absent: the gateway's [modbus] watchdog_ms
+
+    [[nodiscard]] std::optional<FailSafeAction>& of(LossCause cause) { return chosen.at(static_cast<std::size_t>(cause) - 1); }
+    [[nodiscard]] const std::optional<FailSafeAction>& of(LossCause cause) const { return chosen.at(static_cast<std::size_t>(cause) - 1); }
+    /// `endless`: the axis runs at a speed; `moving`: it moves at all; `powered`: it is enabled or about to be.
+    [[nodiscard]] FailSafeAction action(LossCause cause, bool endless, bool moving, bool powered) const;
+    [[nodiscard]] Duration watchdog(Duration by_default) const noexcept;
+    bool operator==(const FailSafe&) const = default;
+};
+
+}  // namespace axisgate

@@ -74,6 +74,9 @@ public:
         if (door == Door::modbus) sink = s;
     }
 
+    void client_lost(const AuthorityClient& who, LossCause cause) override { lost.emplace_back(who.text(), cause); }
+
+    std::vector<std::pair<std::string, LossCause>> lost;
     Instant time = at_ns(1'000'000'000'000);  // 1000 s
     std::deque<Command> commands;             // without a result
     std::size_t submitted = 0;

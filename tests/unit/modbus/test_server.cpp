@@ -339,6 +339,31 @@ TEST(Server, AClientThatGoesWithAWriteOnItsWay) {
     EXPECT_TRUE(serves(again.connect()));
 }
 
+TEST(Server, AHostIsLostWithItsLastConnectionAndHeardUntilThen) {
+    Net net;
+    TcpClient panel(net), tool(net);
+    panel.connect();
+    tool.connect();
+    EXPECT_TRUE(serves(panel));
+    const Instant asked = net.port.now();
+    ASSERT_EQ(net.port.sink->heard("127.0.0.1"), asked);
+    EXPECT_EQ(net.port.sink->heard("127.0.0.2"), std::nullopt);
+    net.pass(2s);
+    EXPECT_EQ(net.port.sink->heard("127.0.0.1"), asked) << "an open connection that asks nothing is silent";
+    panel.close();
+    net.turn();
+    EXPECT_TRUE(net.port.lost.empty()) << "another connection of the same host is there";
+    tool.close();
+    net.turn();
+    ASSERT_EQ(net.port.lost.size(), 1u);
+    EXPECT_EQ(net.port.lost[0], (std::pair{std::string("modbus 127.0.0.1"), LossCause::modbus_closed}));
+    EXPECT_EQ(net.port.sink->heard("127.0.0.1"), std::nullopt);
+    TcpClient again(net);
+    EXPECT_TRUE(serves(again.connect()));
+    net.server->close();
+    EXPECT_EQ(net.port.lost.size(), 1u) << "the gateway's own end is no client's";
+}
+
 TEST(Server, AResetIsNoHarm) {
     Net net;
     TcpClient c(net), other(net);

@@ -138,6 +138,7 @@ struct Engine::Client {
     Origin origin;
     bool until_done = false;
     bool lets_go = false;      ///< a disable whose device is silent: nobody need hear it for the twin to take over
+    bool was_moving = false;   ///< its axis has moved since
     bool was_silent = false;   ///< its drive has been silent since: the first half of a restart
     std::size_t waiting = 0;   ///< orders without an answer
     bool accepted = false;     ///< all orders were taken; the end of the motion is being watched

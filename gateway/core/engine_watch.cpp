@@ -74,9 +74,11 @@ void Engine::track(Axis& a, Instant now) {
         const CatalogueCommand* listed = action ? a.drive->line->family.catalogue->command(action->name) : nullptr;
         const Completion completes = listed ? listed->completes : Completion::acknowledged;
         if (completes == Completion::online_again && !online) c.was_silent = true;
-        // Nobody waits for the end; or it is here; or only the adapter could have told it, and did not.
-        const bool over = !c.until_done || c.result.outcome == Outcome::done || completes == Completion::acknowledged || completes == Completion::reported;
-        if (action && over) {
+        c.was_moving = c.was_moving || (fresh && f.moving);
+        const bool watched = completes != Completion::acknowledged && completes != Completion::reported;
+        // What the axis shows is not the adapter's to tell: its `done` is the drive's acknowledgement then.
+        if (watched) c.result.outcome = Outcome::accepted;
+        if (action && (!watched || !c.until_done)) {
             if (completes == Completion::acknowledged) c.result.outcome = Outcome::done;
             Result r = c.result;
             finish(number, std::move(r), now);
@@ -89,7 +91,8 @@ void Engine::track(Axis& a, Instant now) {
         } else if (!online && !std::holds_alternative<ProcessData>(c.body)) {
             fail(Reason::no_answer, fmt::format("axis {}: the drive went silent; whether it has finished is not known", a.spec.name));
         } else if (completes == Completion::target_reached) {
-            watch_motion(a);
+            // Before it has begun, the axis shows the end of the motion before.
+            if (c.was_moving || f.fault || f.at - c.accepted_at > rest_before_interrupted) watch_motion(a);
         } else if (completes == Completion::standstill) {
             if (f.fault) {
                 fail(Reason::interrupted, fmt::format("axis {}: fault, drive's code {}", a.spec.name, f.error_code));

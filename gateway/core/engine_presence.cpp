@@ -132,6 +132,7 @@ void Engine::serve(Drive& d, Presence by, std::string why, Instant now) {
             bus_options.bit_rate = setup.bit_rate;
             bus_options.bits_per_byte = setup.bits_per_byte;
             bus_options.full_duplex = option(unit.spec.options, "full_duplex", "false") == "true";
+            bus_options.converter = unit.kind == LineKind::bytes && unit.family.family->uses_can;
             auto bus = std::make_unique<TwinBus>(bus_options);
             unit.twins->bus = bus.get();
             unit.twins->line = std::move(bus);

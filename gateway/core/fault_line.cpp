@@ -55,20 +55,43 @@ FaultLine::FaultLine(std::unique_ptr<Line> inner, const FaultPlan& plan) : inner
 void FaultLine::set_rates(const FaultRates& to_drive, const FaultRates& from_drive) noexcept {
     out_.rates = to_drive;
     in_.rates = from_drive;
+    out_.since = in_.since = never;
 }
 
 void FaultLine::cut(Instant now, std::string why) {
     cut_ = true;
     cut_why_ = std::move(why);
-    counters_.swallowed += out_.late.size() + in_.late.size();
-    out_.late.clear();
-    in_.late.clear();
+    counters_.swallowed += out_.late.size() + in_.late.size() + (out_.held ? 1 : 0) + (in_.held ? 1 : 0);
+    drop_late();
+    heal_at_ = never;
     tell_at_ = now;
+}
+
+void FaultLine::bus_off(Instant now, Duration pause) {
+    if (cut_) return;
+    constexpr std::uint32_t bus_off_class = 0x40;  // CAN_ERR_BUSOFF of linux/can/error.h
+    cut(now, "bus-off after too many errors");
+    heal_at_ = now + pause;
+    if (events_ == nullptr) return;
+    Frame report;
+    report.kind = Frame::Kind::can_error;
+    report.id = bus_off_class;
+    report.assign(std::array<std::uint8_t, 8>{});
+    report.at = now;
+    events_->on_frame(report);
 }
 
 void FaultLine::heal(Instant now) {
     cut_ = false;
+    heal_at_ = never;
     tell_at_ = now;
+}
+
+void FaultLine::drop_late() {
+    for (Direction* d : {&out_, &in_}) {
+        d->late.clear();
+        d->held.reset();
+    }
 }
 
 void FaultLine::open(LineEvents& events, Instant now) {
@@ -80,10 +103,9 @@ void FaultLine::open(LineEvents& events, Instant now) {
 void FaultLine::close() {
     inner_->close();
     events_ = nullptr;
-    tell_at_ = never;
+    tell_at_ = heal_at_ = never;
     inner_up_ = told_up_ = false;
-    out_.late.clear();
-    in_.late.clear();
+    drop_late();
 }
 
 bool FaultLine::send(const Frame& frame, Priority priority, Instant now) {
@@ -98,9 +120,10 @@ bool FaultLine::send(const Frame& frame, Priority priority, Instant now) {
 
 Instant FaultLine::deadline() const {
     if (events_ == nullptr) return never;
-    Instant t = std::min(inner_->deadline(), tell_at_);
+    Instant t = std::min({inner_->deadline(), tell_at_, heal_at_});
     for (const Direction* d : {&out_, &in_}) {
         if (!d->late.empty()) t = std::min(t, d->late.front().due);
+        if (d->held) t = std::min(t, d->held->due);
     }
     return t;
 }
@@ -115,6 +138,12 @@ void FaultLine::on_deadline(Instant now) {
         if (tell_at_ <= t) {
             tell_at_ = never;
             tell();
+        } else if (heal_at_ <= t) {
+            heal(t);
+        } else if (out_.held && out_.held->due <= t) {
+            release_held(out_);
+        } else if (in_.held && in_.held->due <= t) {
+            release_held(in_);
         } else if (!out_.late.empty() && out_.late.front().due <= t) {
             release(out_);
         } else if (!in_.late.empty() && in_.late.front().due <= t) {
@@ -211,10 +240,31 @@ bool FaultLine::spoil_bytes(Direction& d, Frame frame, Priority priority, Instan
 
 bool FaultLine::give(Direction& d, const Frame& frame, Priority priority, Instant now) {
     Instant due = now;
+    if (d.rates.drift > Duration::zero()) {
+        if (d.since == never) d.since = now;
+        due += std::min(d.rates.drift_max, Duration{static_cast<Duration::rep>(static_cast<double>(d.rates.drift.count()) * seconds(now - d.since))});
+    }
     if (d.rates.delay_max > Duration::zero() && chance(d.random, d.rates.delay)) {
         ++counters_.delayed;
         due += Duration{1 + static_cast<std::int64_t>(below(d.random, static_cast<std::uint64_t>(d.rates.delay_max.count())))};
     }
+    if (d.held) {
+        Late overtaken = *d.held;
+        d.held.reset();
+        const bool good = queue(d, frame, priority, due, now);
+        overtaken.frame.at = frame.at;
+        (void)queue(d, overtaken.frame, overtaken.priority, due, now);
+        return good;
+    }
+    if (frame.kind == Frame::Kind::can && chance(d.random, d.rates.reorder)) {
+        ++counters_.reordered;
+        d.held = Late{frame, priority, std::max(due, d.late.empty() ? due : d.late.back().due) + overtaken_at_most};
+        return true;
+    }
+    return queue(d, frame, priority, due, now);
+}
+
+bool FaultLine::queue(Direction& d, const Frame& frame, Priority priority, Instant due, Instant now) {
     if (d.late.empty() && due == now) return pass(d, frame, priority);
     if (d.late.size() >= max_delayed) {
         ++counters_.overflowed;
@@ -239,11 +289,18 @@ void FaultLine::release(Direction& d) {
     (void)pass(d, late.frame, late.priority);  // a refusal is counted by the inner line
 }
 
+/// Nobody came to overtake it.
+void FaultLine::release_held(Direction& d) {
+    d.late.push_back(*d.held);
+    d.held.reset();
+    release(d);
+}
+
 LineStatus FaultLine::status(Instant now) const {
     LineStatus s = inner_->status(now);
     s.dropped += refused_;
     if (cut_ && events_ != nullptr) {
-        s.state = LineStatus::State::down;
+        s.state = heal_at_ == never ? LineStatus::State::down : LineStatus::State::bus_off;
         s.text = cut_why_;
     }
     return s;

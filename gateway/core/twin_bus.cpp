@@ -218,6 +218,12 @@ bool TwinBus::sending(Number sender) const noexcept {
     return std::ranges::any_of(wire_, [sender](const Transmission& t) { return t.sender == sender; });
 }
 
+/// Whether a twin that has something to say on a byte line would begin now.
+bool TwinBus::may_start(Number twin) const noexcept {
+    if (!options_.converter) return !sending(twin);
+    return std::ranges::none_of(wire_, [](const Transmission& t) { return t.sender != host; });
+}
+
 Instant TwinBus::first_end() const noexcept {
     Instant t = never;
     for (const Transmission& x : wire_)
@@ -232,7 +238,7 @@ Instant TwinBus::next_start() const noexcept {
     Instant t = never;
     if (can || !sending(host)) t = host_queue_.earliest();
     for (const Sender& s : senders_) {
-        if (can || !sending(s.number)) t = std::min(t, s.since);
+        if (can || may_start(s.number)) t = std::min(t, s.since);
     }
     if (t == never) return never;
     return std::max({t, processed_, can ? bus_free_ : Instant{}});
@@ -289,7 +295,7 @@ void TwinBus::start(Instant t) {
     if (host_queue_.front(t) != nullptr && !sending(host)) begin(host, host_queue_, t);
     for (std::size_t i = 0; i < senders_.size();) {
         const Number n = senders_[i].number;
-        if (!sending(n)) begin(n, nodes_[n]->queue, t);
+        if (may_start(n)) begin(n, nodes_[n]->queue, t);
         if (i < senders_.size() && senders_[i].number == n) ++i;  // else it has nothing more to send and has left the list
     }
 }
@@ -321,7 +327,7 @@ void TwinBus::begin(Number sender, SendQueue& queue, Instant t) {
     if (sender != host) note_sender(sender);
     if (can || x.end == t) return;
     for (Transmission& other : wire_) {
-        const bool same_wire = !options_.full_duplex || (other.sender != host && sender != host);
+        const bool same_wire = !(options_.full_duplex || options_.converter) || (other.sender != host && sender != host);
         if (&other != &x && same_wire && other.end > t) garble_overlap(other, x);
     }
 }
@@ -359,7 +365,7 @@ void TwinBus::finish_one() {
         if (events_ != nullptr) deliver_to_twins(t);
         return;
     }
-    if (can || !options_.full_duplex) deliver_to_twins(t);
+    if (can || !(options_.full_duplex || options_.converter)) deliver_to_twins(t);
     ++status_.frames_in;
     status_.bytes_in += done_.frame.size;
     events_->on_frame(done_.frame);

@@ -25,6 +25,9 @@ struct TwinBusOptions {
     /// Byte lines: two pairs of wires, host to drives and drives to host (RS-232, RS-422). Drives then hear the host alone. Without it
     /// there is one pair (RS-485): everybody hears everybody, and whoever sends at the same time garbles the other.
     bool full_duplex = false;
+    /// Byte lines of drives that are at home on CAN: a converter stands between. It has two pairs towards the host, and what several drives
+    /// say at once it sends one after the other.
+    bool converter = false;
 };
 
 /// Which frames of a CAN bus concern a node at all: those with (id & mask) == value. The default is every frame. A hint that spares a
@@ -109,6 +112,7 @@ private:
 
     [[nodiscard]] Number find(DriveId key) const noexcept;
     [[nodiscard]] bool sending(Number sender) const noexcept;
+    [[nodiscard]] bool may_start(Number twin) const noexcept;
     [[nodiscard]] Instant next_start() const noexcept;
     [[nodiscard]] Instant first_end() const noexcept;
     void step(Instant t);

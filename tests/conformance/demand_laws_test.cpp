@@ -6,38 +6,18 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "tests/world/world.hpp"
+#include "tests/conformance/laws.hpp"
 
 namespace axisgate::test {
 namespace {
 using namespace std::chrono_literals;
 
-class DemandLaws : public testing::TestWithParam<FamilyEntry> {
+class DemandLaws : public Laws {
 protected:
-    const FamilyEntry& e = GetParam();
-    World w;
-    AxisId a = no_axis;
-    DriveId d = no_drive;
+    World& w = *world;
 
-    AxisPicture now() { return w.picture(a); }
-    void start() {
-        const auto site = w.apply(w.make_site(e, "twin", 1));
-        a = site->axis_ids.at(0);
-        d = site->drive_ids.at(0);
-        ASSERT_TRUE(w.run_until_true([&] { return (now().flags & flag_online) != 0; }, 10s));
-        w.run_for(2s);
-    }
-    void order(CommandBody body, bool until_done = true) {
-        const Result* r = w.wait(w.command(a, std::move(body), until_done), 30s);
-        ASSERT_TRUE(r && good(*r)) << (r ? r->text : "no result");
-    }
-    static Move move(std::int64_t target) {
-        Move m;
-        m.target = target;
-        m.velocity = 4000;
-        m.acceleration = m.deceleration = 20000;
-        return m;
-    }
+    void order(CommandBody body) { Laws::order(a1, std::move(body)); }
+    static Move move(std::int64_t target) { return move_to(target); }
     /// What must be true of every picture at any time.
     void whole(const AxisPicture& p) {
         if (p.following_error_known()) return;
@@ -46,9 +26,10 @@ protected:
     }
     void ends_with(const CommandBody& stop) {
         start();
+    w.run_for(1s);
         order(Enable{});
         w.run_for(500ms);
-        w.command(a, move(now().position + 40000), false);
+        w.command(a1, move(now().position + 40000), false);
         ASSERT_TRUE(w.run_until_true([&] { return now().velocity >= 3500; }, 5s));
         order(stop);
         w.run_for(3s);
@@ -60,6 +41,7 @@ protected:
 
 TEST_P(DemandLaws, OffNobodyWantsItAnywhere) {
     start();
+    w.run_for(1s);
     EXPECT_EQ(now().demand_source, DemandSource::none);
     whole(now());
     order(Enable{});
@@ -74,11 +56,12 @@ TEST_P(DemandLaws, OffNobodyWantsItAnywhere) {
 
 TEST_P(DemandLaws, InAGoodMoveItIsWhereTheShaftIs) {
     start();
+    w.run_for(1s);
     order(Enable{});
     w.run_for(500ms);
     const std::int64_t home = now().position;
     for (const std::int64_t target : {home + 8000, home - 4000}) {
-        const Ticket go = w.command(a, move(target), true);
+        const Ticket go = w.command(a1, move(target), true);
         std::int64_t farthest = 0, most = 0;
         int moving = 0, nobodys = 0;
         for (int i = 0; i < 600; ++i) {
@@ -106,6 +89,7 @@ TEST_P(DemandLaws, InAGoodMoveItIsWhereTheShaftIs) {
 
 TEST_P(DemandLaws, AHeldShaftFallsBehindIt) {
     start();
+    w.run_for(1s);
     order(Enable{});
     w.run_for(500ms);
     if (now().demand_source == DemandSource::open_loop) {
@@ -113,23 +97,26 @@ TEST_P(DemandLaws, AHeldShaftFallsBehindIt) {
         EXPECT_FALSE(now().following_error_known());
         return;
     }
-    w.command(a, move(now().position - 40000), false);
+    w.command(a1, move(now().position - 40000), false);
     ASSERT_TRUE(w.run_until_true([&] { return now().velocity <= -3500; }, 5s));
-    ASSERT_EQ(w.engine.set_hand(d, {{"stall", Value{true}}}, {}, w.now), "");
+    ASSERT_EQ(hand("stall", Value{true}), "");
     std::int64_t least = 0;
+    Duration gave_up = 1h;
+    const Instant held = w.now;
     for (int i = 0; i < 400; ++i) {
         w.run_for(5ms);
         whole(now());
         least = std::min(least, now().following_error());
+        if (now().flags & flag_fault) gave_up = std::min(gave_up, w.now - held);
     }
-    EXPECT_LT(least, -50) << "it should be lower than it is, and is shown to be, until the drive gives up";
+    // A drive that gives up at once may do so before a slow line could tell of it even once more.
+    if (gave_up > 100ms) EXPECT_LT(least, -50) << "it should be lower than it is, and is shown to be, until the drive gives up";
 }
 
 TEST_P(DemandLaws, AHaltEndsItWhereTheAxisStands) { ends_with(Halt{}); }
 TEST_P(DemandLaws, AQuickStopEndsItWhereTheAxisStands) { ends_with(QuickStop{}); }
 
-INSTANTIATE_TEST_SUITE_P(Families, DemandLaws, testing::ValuesIn(families().entries),
-                         [](const testing::TestParamInfo<FamilyEntry>& i) { return std::string(i.param.family->name); });
+INSTANTIATE_TEST_SUITE_P(Families, DemandLaws, testing::ValuesIn(law_subjects()), name_of_subject);
 
 }  // namespace
 }  // namespace axisgate::test

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "gateway/core/alarm.hpp"
-#include "tests/world/world.hpp"
+#include "tests/conformance/laws.hpp"
 
 namespace axisgate::test {
 namespace {
@@ -20,39 +20,22 @@ struct Condition {
     Value value, before;
 };
 
-class FaultLaws : public testing::TestWithParam<FamilyEntry> {
+class FaultLaws : public Laws {
 protected:
-    const FamilyEntry& e = GetParam();
-    std::unique_ptr<World> w;
-    AxisId a = no_axis;
-    DriveId d = no_drive;
+    std::unique_ptr<World>& w = world;
 
-    void start() {
-        w = std::make_unique<World>();
-        const auto site = w->apply(w->make_site(e, "twin", 1));
-        a = site->axis_ids.at(0);
-        d = site->drive_ids.at(0);
-        ASSERT_TRUE(w->run_until_true([&] { return (w->picture(a).flags & flag_online) != 0; }, 10s));
-        w->run_for(1s);
+    /// A drive in a world of its own.
+    void begin() {
+        world = fresh();
+        start();
     }
-    /// Enabled and turning; false where this drive cannot now.
-    bool turn() {
-        const Result* r = w->wait(w->command(a, Enable{}, true), 5s);
-        if (!r || !good(*r)) return false;
-        Move jog;
-        jog.kind = Move::Kind::velocity;
-        jog.target = 4000;
-        jog.acceleration = jog.deceleration = 20000;
-        r = w->wait(w->command(a, jog, true), 5s);
-        return r && good(*r);
-    }
-    bool fault() { return (w->picture(a).flags & flag_fault) != 0; }
-    std::string set(const std::string& name, const Value& v) { return w->engine.set_hand(d, {{name, v}}, {}, w->now); }
+    bool fault() { return (now().flags & flag_fault) != 0; }
+    std::string set(const std::string& name, const Value& v) { return hand(name, v); }
 
     /// Every condition of the hand and what it can be put to, but those that cut the drive off or mean a number of a fault.
     std::vector<Condition> conditions() {
         std::vector<Condition> list;
-        for (const HandItem& item : w->engine.twin(d)->hand()) {
+        for (const HandItem& item : w->engine.twin(d1)->hand()) {
             if (!item.writable || item.name == "power" || item.name == "silent" || item.name.find("inject_error") != std::string::npos) continue;
             if (const auto* on = std::get_if<bool>(&item.value)) {
                 list.push_back({item.name, Value{!*on}, item.value});
@@ -85,9 +68,9 @@ protected:
 };
 
 TEST_P(FaultLaws, WhatAHandCanRaiseHasANumberAndAText) {
-    start();
+    begin();
     std::set<std::string> injectors;
-    for (const HandItem& item : w->engine.twin(d)->hand()) {
+    for (const HandItem& item : w->engine.twin(d1)->hand()) {
         if (item.writable && item.name.find("inject_error") != std::string::npos) injectors.insert(item.name);
     }
     EXPECT_FALSE(injectors.empty());
@@ -105,17 +88,18 @@ TEST_P(FaultLaws, WhatAHandCanRaiseHasANumberAndAText) {
 }
 
 TEST_P(FaultLaws, OneFaultIsOneAlarmRaisedOnceAndClearedOnce) {
-    start();
+    begin();
     auto list = conditions();
-    for (const HandItem& item : w->engine.twin(d)->hand()) {
+    for (const HandItem& item : w->engine.twin(d1)->hand()) {
         if (item.name != "inject_error") continue;
         for (const ErrorCode& known : e.catalogue->errors()) list.push_back({item.name, Value{std::int64_t{known.code}}, Value{std::int64_t{0}}});
     }
     int faults = 0, resets = 0;
     for (const Condition& c : list) {
         const std::string by = c.name + " " + to_text(c.value);
-        start();
-        if (!turn()) ADD_FAILURE() << "it does not turn";
+        begin();
+        ASSERT_NO_FATAL_FAILURE(order(a1, Enable{})) << by;
+        ASSERT_NO_FATAL_FAILURE(turn(a1)) << by;
         w->events.clear();
         if (!set(c.name, c.value).empty()) continue;
         (void)w->run_until_true([&] { return fault(); }, 3s);
@@ -128,17 +112,17 @@ TEST_P(FaultLaws, OneFaultIsOneAlarmRaisedOnceAndClearedOnce) {
         const auto told = std::ranges::find(w->events, std::string("fault"), &Event::kind);
         ASSERT_NE(told, w->events.end()) << by;
         // A drive may have a fault that it gives no number, such as an emergency stop: it is told so, and no other fault is.
-        if (w->picture(a).error_code != 0 || told->text.find("no number") == std::string::npos) expect_told(w->picture(a).error_code, by);
+        if (w->picture(a1).error_code != 0 || told->text.find("no number") == std::string::npos) expect_told(w->picture(a1).error_code, by);
         const auto before = alarms();
         EXPECT_EQ(before.all().size(), 1u) << by;
         for (const auto& [id, alarm] : before.all()) {
             EXPECT_TRUE(alarm.active) << by << ": " << alarm.text;
             EXPECT_EQ(alarm.kind, "fault") << by << ": " << alarm.text;
-            EXPECT_EQ(alarm.code, w->picture(a).error_code) << by;
+            EXPECT_EQ(alarm.code, w->picture(a1).error_code) << by;
         }
         (void)set(c.name, c.before);
         w->run_for(500ms);
-        const Result* r = w->wait(w->command(a, ResetFault{}, true), 10s);
+        const Result* r = w->wait(w->command(a1, ResetFault{}, true), 10s);
         ASSERT_TRUE(r) << by;
         w->run_for(2s);
         EXPECT_EQ(raised(), 1) << by << ": raised anew by its reset";
@@ -156,8 +140,7 @@ TEST_P(FaultLaws, OneFaultIsOneAlarmRaisedOnceAndClearedOnce) {
     EXPECT_GT(resets, 0) << "no fault of this family can be reset";
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, FaultLaws, testing::ValuesIn(families().entries),
-                         [](const testing::TestParamInfo<FamilyEntry>& i) { return std::string(i.param.family->name); });
+INSTANTIATE_TEST_SUITE_P(Families, FaultLaws, testing::ValuesIn(law_subjects()), name_of_subject);
 
 }  // namespace
 }  // namespace axisgate::test

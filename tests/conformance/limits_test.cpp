@@ -4,36 +4,37 @@
 
 #include <cstdlib>
 
-#include "tests/world/world.hpp"
+#include "tests/conformance/laws.hpp"
 
 namespace axisgate::test {
 namespace {
 using namespace std::chrono_literals;
 
-class LimitLaws : public testing::TestWithParam<FamilyEntry> {
+class LimitLaws : public Laws {
 protected:
-    const FamilyEntry& e = GetParam();
-    World w;
-    AxisId a = no_axis;
+    World& w = *world;
     static constexpr std::int64_t limit = 10'000;  // 100 units of 100 increments
 
-    AxisPicture now() { return w.picture(a); }
-    void start() {
-        Site site = w.make_site(e, "twin", 1);
-        site.axes[0].position_min = -100;
-        site.axes[0].position_max = 100;
-        a = w.apply(std::move(site))->axis_ids.at(0);
-        ASSERT_TRUE(w.run_until_true([&] { return (now().flags & flag_online) != 0; }, 10s));
-        w.run_for(1s);
-        const Result* r = w.wait(w.command(a, Enable{}, true), 10s);
-        ASSERT_TRUE(r && good(*r)) << (r ? r->text : "no result");
+    void begin() {
+        Site wanted = w.twins(e);
+        wanted.axes[0].position_min = -100;
+        wanted.axes[0].position_max = 100;
+        start(std::move(wanted));
+        order(a1, Enable{});
     }
-    const Result* jog(std::int64_t velocity) {
-        Move m;
-        m.kind = Move::Kind::velocity;
-        m.target = velocity;
-        m.acceleration = m.deceleration = 20'000;
-        return w.wait(w.command(a, m), 10s);
+    const Result* jog(std::int64_t velocity) { return ask(a1, move_to(velocity, Move::Kind::velocity), false); }
+    /// Where a drive has no velocity mode: it says so, and a positioning beyond the limit is refused, so that nothing leads out of it.
+    void no_velocity_leads_nowhere(const Result& refusal) {
+        EXPECT_EQ(refusal.reason, Reason::not_supported);
+        EXPECT_FALSE(refusal.text.empty());
+        for (const std::int64_t target : {limit + 100, -limit - 100}) {
+            const Result* r = ask(a1, move_to(target));
+            ASSERT_TRUE(r);
+            EXPECT_EQ(r->reason, Reason::out_of_range) << told(r);
+        }
+        w.run_for(2s);
+        EXPECT_EQ(speed(a1), 0);
+        EXPECT_EQ(now().position, 0);
     }
     /// It comes to rest at the limit: not beyond it by more than what one late feedback explains, and not far before it either.
     void rests_at(std::int64_t place) {
@@ -48,21 +49,16 @@ protected:
 };
 
 TEST_P(LimitLaws, AVelocityMoveIsHaltedAtTheLimitAndMayOnlyGoBack) {
-    start();
+    begin();
     for (const std::int64_t direction : {1, -1}) {
         const Result* r = jog(direction * 5'000);
         ASSERT_TRUE(r);
-        if (r->reason == Reason::not_supported) {
-            EXPECT_FALSE(r->text.empty()) << "where a drive cannot follow, it says so";
-            return;
-        }
+        if (r->reason == Reason::not_supported) return no_velocity_leads_nowhere(*r);
         ASSERT_TRUE(good(*r)) << r->text;
         ASSERT_TRUE(w.run_until_true([&] { return (now().flags & flag_moving) != 0; }, 5s));
         rests_at(direction * limit);
-        Move out;
-        out.target = direction * limit;
-        out.velocity = 2'000;
-        r = w.wait(w.command(a, out, true), 30s);  // whatever was left to it, by a positioning
+        const Move out = move_to(direction * limit);
+        r = w.wait(w.command(a1, out, true), 30s);  // whatever was left to it, by a positioning
         ASSERT_TRUE(r && good(*r)) << (r ? r->text : "no result");
         EXPECT_EQ(now().statusword & cia402::sw_internal_limit, 0) << "another motion has begun and ended since";
         r = jog(direction * 5'000);
@@ -74,11 +70,11 @@ TEST_P(LimitLaws, AVelocityMoveIsHaltedAtTheLimitAndMayOnlyGoBack) {
 }
 
 TEST_P(LimitLaws, RegistersDoNotLeadOutEither) {
-    start();
+    begin();
     const auto write = [&](auto&& fill) {
         ProcessData d;
         fill(d);
-        const Result* r = w.wait(w.command(a, d), 10s);
+        const Result* r = w.wait(w.command(a1, d), 10s);
         return r ? *r : Result{};
     };
     (void)write([](ProcessData& d) {
@@ -87,14 +83,13 @@ TEST_P(LimitLaws, RegistersDoNotLeadOutEither) {
     });
     for (const int cw : {0x06, 0x07, 0x0F}) (void)write([&](ProcessData& d) { d.controlword = static_cast<std::uint16_t>(cw); });
     const Result go = write([](ProcessData& d) { d.target_velocity = -5'000; });
-    if (go.reason == Reason::not_supported) return;
+    if (go.reason == Reason::not_supported) return no_velocity_leads_nowhere(go);
     ASSERT_TRUE(good(go)) << go.text;
     ASSERT_TRUE(w.run_until_true([&] { return (now().flags & flag_moving) != 0; }, 5s));
     rests_at(-limit);
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, LimitLaws, testing::ValuesIn(families().entries),
-                         [](const testing::TestParamInfo<FamilyEntry>& i) { return std::string(i.param.family->name); });
+INSTANTIATE_TEST_SUITE_P(Families, LimitLaws, testing::ValuesIn(law_subjects()), name_of_subject);
 
 }  // namespace
 }  // namespace axisgate::test

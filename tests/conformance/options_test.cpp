@@ -5,15 +5,14 @@
 #include <set>
 
 #include "gateway/core/options.hpp"
-#include "tests/world/world.hpp"
+#include "tests/conformance/laws.hpp"
 
 namespace axisgate::test {
 namespace {
 using namespace std::chrono_literals;
 
-class Options : public testing::TestWithParam<FamilyEntry> {
+class Options : public Laws {
 protected:
-    const FamilyEntry& e = GetParam();
     const boost::json::array& list() { return e.catalogue->document().at("options").as_array(); }
     static std::vector<OptionOf> places_of(const boost::json::object& o) {
         std::vector<OptionOf> out;
@@ -67,27 +66,26 @@ TEST_P(Options, AnUnknownOneIsNamedWithThoseThatAre) {
 }
 
 TEST_P(Options, ASiteWithAWrongOneIsUsedAndSaysSo) {
-    World w;
-    Site site = w.make_site(e, "twin", 2);
-    site.lines[0].options["modell"] = "1";
-    site.lines[0].options["full_duplex"] = "false";
-    site.drives.back().options["such option"] = "2";
+    World& w = *world;
+    Site wanted = w.twins(e, 2);
+    wanted.lines[0].options["modell"] = "1";
+    wanted.lines[0].options["full_duplex"] = "false";
+    wanted.drives.back().options["such option"] = "2";
     const auto told = [&](std::string_view text) {
         return std::ranges::count_if(w.events, [&](const Event& v) { return v.kind == "setup" && v.severity == Severity::warning && v.text.find(text) != std::string::npos; });
     };
-    const auto state = w.apply(site);
+    const auto state = w.apply(wanted);
     w.run_for(2s);
     EXPECT_NE(w.picture(state->axis_ids.at(0)).flags & flag_online, 0) << "an option that nobody knows stops nobody";
     EXPECT_EQ(told("modell"), 1);
     EXPECT_EQ(told("full_duplex"), 0) << "the gateway's own";
     EXPECT_EQ(told("such option"), 1);
-    w.apply(site);
+    w.apply(wanted);
     w.run_for(1s);
     EXPECT_EQ(told("modell"), 1) << "said of what is new, not with every change of the site";
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, Options, testing::ValuesIn(families().entries),
-                         [](const testing::TestParamInfo<FamilyEntry>& i) { return std::string(i.param.family->name); });
+INSTANTIATE_TEST_SUITE_P(Families, Options, testing::ValuesIn(law_subjects()), name_of_subject);
 
 }  // namespace
 }  // namespace axisgate::test

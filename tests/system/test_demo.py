@@ -70,10 +70,16 @@ def test_native_bytes_in_each_familys_form(folder):
             assert says in fault["detail"], fault
 
 
+def one_axis_of_each_family(site):
+    lines = {line["name"]: line["family"] for line in site["lines"]}
+    drives = {d["name"]: lines[d["line"]] for d in site["drives"]}
+    return list({drives[a["drive"]]: a["name"] for a in reversed(site["axes"])}.items())
+
+
 def test_the_selector_that_is_served_reads_that_parameter(folder):
     site = demo()
     with Gateway(folder, site) as g, g.modbus() as m:
-        for family, axis in (("uim342", "feeder"), ("pacontrol", "portal.x"), ("mcode", "lift")):
+        for family, axis in one_axis_of_each_family(site):
             base = (next(a["number"] for a in site["axes"] if a["name"] == axis) - 1) * 64
             shown = {p["id"]: p for p in g.get(f"/axes/{axis}/parameters")}
             read = carried = texts = 0

@@ -2,11 +2,14 @@
 import copy
 import json
 import os
+import pathlib
 import signal
 import time
 
 import harness
 from harness import DEMO, until
+
+TOP = pathlib.Path(__file__).resolve().parents[2]
 
 
 def changed_site():
@@ -39,16 +42,31 @@ def test_a_snapshot_is_read_from_the_drive_compared_and_restored(gateway):
     assert "no snapshot was stored" in refused["detail"] and len(gateway.get("/axes/feeder/snapshots")) == 1
 
 
-# What each family is reached by, as its manual has it; what else a catalogue may mark, it must have here too.
-REACHED_BY = {"uim342": {"PP[5]", "PP[7]", "PP[8]"}, "mcode": {"BD", "CK", "DN", "PY", "QD"}, "pacontrol": {"SP[17]"}}
+def facts():
+    """What the manual says of each family that the program has, a second time: adapters/FAMILY/tests/facts.json.
+
+    reached_by: the parameters that a drive is reached by; acts_at_once: those that act instead of configuring (what can only be written is in no
+    snapshot); acts_when_disabled: of those, what a snapshot taken while enabled would write to a disabled drive; a_move_changes_no_setting: nor
+    does the order for one; homed_first: it moves by positions only after homing; move: a motion that a new drive takes; line: what its line
+    needs beside the URI "twin".
+    """
+    _, out, _ = harness.run("families", "--format", "json", check=0)
+    names = [f["name"] for f in json.loads(out)]
+    assert names
+    all_facts = {}
+    for name in names:
+        path = TOP / "adapters" / name / "tests" / "facts.json"
+        assert path.is_file(), f"a new family says what its drives are reached by, and what acts at once: {path.relative_to(TOP)}"
+        all_facts[name] = json.loads(path.read_text())
+    return all_facts
 
 
 def test_every_family_says_what_its_drives_are_reached_by(gateway):
-    families = {f["name"] if "name" in f else f["family"] for f in gateway.get("/families")}
-    assert families == set(REACHED_BY), "a new family says what its drives are reached by"
-    for family, wanted in REACHED_BY.items():
+    wanted = facts()
+    assert {f["name"] for f in gateway.get("/families")} == set(wanted)
+    for family, fact in wanted.items():
         parameters = gateway.get(f"/families/{family}/parameters")
-        assert {p["id"] for p in parameters if p["addressing"]} == wanted, family
+        assert {p["id"] for p in parameters if p["addressing"]} == set(fact["reached_by"]), family
         assert all(p["access"] == "RW" for p in parameters if p["addressing"]), family
 
 
@@ -59,7 +77,7 @@ def test_a_restore_leaves_the_address_of_the_drive_alone(gateway):
         gateway.send("PUT", f"/axes/feeder/parameters/{parameter}", {"value": value})
     told = gateway.send("POST", "/axes/feeder/snapshots/1/restore", {"dry_run": True})
     changes = {c["parameter"] for c in told["changes"]}
-    assert "AC" in changes and not changes & REACHED_BY["uim342"], changes
+    assert "AC" in changes and not changes & set(facts()["uim342"]["reached_by"]), changes
     left_out = {s["parameter"]: s["why"] for s in told["skipped"]}
     assert "include_addressing" in left_out["PP[7]"] and "node_id" in left_out["PP[7]"] and "include_addressing" in left_out["PP[5]"], left_out
     done = gateway.send("POST", "/axes/feeder/snapshots/1/restore", {"parameters": ["PP[7]", "AC"]})
@@ -78,34 +96,34 @@ def test_a_restore_leaves_the_address_of_the_drive_alone(gateway):
     assert [c["parameter"] for c in done["changed"]] == ["PP[5]"], done
 
 
-# What acts at once instead of configuring; outputs, program and trip words can only be written, so snapshots have none of them.
-ACTS_AT_ONCE = {"uim342": "MO JV SP PR PA MF DI",
-                "mcode": "P C1 C2 DE AS FL ST ER IF O1 O2 O3 OT TI TP TC TT TR TA TM TE R1 R2 R3 R4 F1 F2 F3 F4 F5 F6 F7 F8",
-                "pacontrol": "O OW M MW N R"}
-FAMILIES = {
-    "lines": [{"name": "can0", "uri": "twin", "family": "uim342", "bitrate": 1000000}, {"name": "com1", "uri": "twin", "family": "mcode"},
-              {"name": "com2", "uri": "twin", "family": "pacontrol"}],
-    "drives": [{"name": "uim342", "line": "can0", "address": 5}, {"name": "mcode", "line": "com1", "address": "!"}, {"name": "pacontrol", "line": "com2"}],
-    "axes": [{"name": n, "drive": n, "number": i + 1} for i, n in enumerate(["uim342", "mcode", "pacontrol"])], "mappings": []}
-
-
 def test_every_family_says_what_acts_at_once(gateway):
-    assert {f["name"] for f in gateway.get("/families")} == set(ACTS_AT_ONCE), "a new family says what acts at once"
-    for family, wanted in ACTS_AT_ONCE.items():
-        assert {p["id"] for p in gateway.get(f"/families/{family}/parameters") if p["live"]} == set(wanted.split()), family
+    for family, fact in facts().items():
+        wanted = set(fact["acts_at_once"])
+        assert {p["id"] for p in gateway.get(f"/families/{family}/parameters") if p["live"]} == wanted, family
         _, out, _ = harness.run("catalogue", family, "parameters", "--format", "json", check=0)
-        assert {p["id"] for p in json.loads(out) if p["live"]} == set(wanted.split()), family
+        assert {p["id"] for p in json.loads(out) if p["live"]} == wanted, family
+
+
+def site_of_every_family():
+    """A line with one embedded drive at its factory address for each family."""
+    site = {"lines": [], "drives": [], "axes": [], "mappings": []}
+    for number, (family, fact) in enumerate(facts().items(), 1):
+        catalogue = json.loads((TOP / "schema" / "families" / f"{family}.json").read_text())
+        site["lines"].append({"name": f"line{number}", "uri": "twin", "family": family, **fact["line"]})
+        site["drives"].append({"name": family, "line": f"line{number}", "address": catalogue["address"]["default"]})
+        site["axes"].append({"name": family, "drive": family, "number": number})
+    return site
 
 
 def test_a_restore_neither_enables_nor_moves_the_origin(folder):
-    with harness.Gateway(folder, FAMILIES) as g:
-        for family in ACTS_AT_ONCE:
+    with harness.Gateway(folder, site_of_every_family()) as g:
+        for family, fact in facts().items():
             until(lambda: g.axis(family)["online"], 10, f"{family} is there")
             g.command(family, {"command": "enable"})
-            if family == "pacontrol":
+            if fact["homed_first"]:
                 g.command(family, {"command": "home"}, wait=60)
             g.send("POST", f"/axes/{family}/snapshots", {"name": "while enabled"}, 201)
-            g.command(family, {"command": "move_relative", "position": 1000, **({"velocity": 2000} if family == "uim342" else {})})
+            g.command(family, {"command": "move_relative", **fact["move"]})
             acts = f"/axes/{family}/snapshots/1/restore"
             changes = g.send("POST", acts, {"dry_run": True})["changes"]
             assert changes == [], (family, changes)
@@ -115,16 +133,16 @@ def test_a_restore_neither_enables_nor_moves_the_origin(folder):
             assert before["state"] != "operation_enabled", (family, before)
             report = g.send("POST", acts, {})
             assert report["changed"] == [] and report["failed"] == [], (family, report)
-            would = {"uim342": {"MO", "PA"}, "mcode": {"P", "DE"}, "pacontrol": set()}[family]
+            would = set(fact["acts_when_disabled"])
             for parameter in would:
                 g.get(f"/axes/{family}/parameters/{parameter}")  # what the drive says now
             changes = g.send("POST", acts, {"dry_run": True, "include_live": True})["changes"]
             assert would <= {c["parameter"] for c in changes}, ("it is these that would be written", changes)
             assert g.send("POST", acts, {"dry_run": True})["changes"] == [], family
-            if family == "uim342":
+            if fact["a_move_changes_no_setting"]:
                 with_device = g.get(f"/axes/{family}/snapshots/1/diff?with=device")
                 assert not [r for r in with_device["rows"] if r["writable"] and not r["same"]], with_device["rows"]
-                assert [r for r in with_device["live"] if r["parameter"] == "MO" and not r["same"]], with_device["live"]
+                assert would & {r["parameter"] for r in with_device["live"] if not r["same"]}, with_device["live"]
             time.sleep(1)
             after = g.axis(family)
             assert (after["state"], after["position_increments"]) == (before["state"], before["position_increments"]), (family, before, after)

@@ -96,7 +96,7 @@ def main():
             passed += 1
     families = sorted(p.parent.name for p in (TOP / "adapters").glob("*/family.cpp"))
     for f in families:
-        for need in (f"schema/families/{f}.json", f"adapters/{f}/README.md", f"adapters/{f}/vectors.txt"):
+        for need in (f"schema/families/{f}.json", f"adapters/{f}/README.md", f"adapters/{f}/vectors.txt", f"adapters/{f}/tests/facts.json"):
             if (TOP / need).is_file():
                 passed += 1
             else:

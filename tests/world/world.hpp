@@ -1,11 +1,13 @@
-// World: an engine with simulated lines in virtual time: the whole round without a clock, thread or socket.
-// In: a site, a seed, what shall go wrong. Out: results by ticket, events, the image; everything repeatable from the seed.
-// Never sleeps: run_for() goes from deadline to deadline.
+// World: an engine with simulated lines in virtual time: the whole round without a clock, thread or socket; and the subjects of the suites,
+// every family on each wire that it has. In: a site, a seed, what shall go wrong. Out: results by ticket, events, the image; everything
+// repeatable from the seed. Never sleeps: run_for() goes from deadline to deadline.
 #pragma once
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <boost/json.hpp>
+#include <deque>
 #include <map>
 #include <memory>
 #include <string>
@@ -52,22 +54,85 @@ inline std::vector<std::string> addresses(const FamilyEntry& e, std::size_t n) {
     return out;
 }
 
+/// What a drive hangs on. `serial` has the family's own bit rate, `network` carries bytes without one.
+enum class Wire : std::uint8_t { can, serial, network };
+
+/// One family on one of its wires: what the laws are asked of.
+struct Subject : FamilyEntry {
+    Wire wire = Wire::serial;
+    std::string variant{};  ///< not empty: a family that was changed for the test, with this word
+
+    [[nodiscard]] LineKind kind() const { return wire == Wire::can ? LineKind::can : LineKind::bytes; }
+    [[nodiscard]] std::string text() const {
+        static constexpr const char* wires[] = {"can", "serial", "network"};
+        return std::string(family->name) + "_" + wires[static_cast<int>(wire)] + (variant.empty() ? "" : "_" + variant);
+    }
+    /// URI of a cable of this wire; real drives are behind it (World::plug_in), or nobody.
+    [[nodiscard]] std::string cable() const {
+        return wire == Wire::can ? "can:sim" : wire == Wire::serial ? "serial:/dev/sim" : "tcp:127.0.0.1:9";
+    }
+    friend void PrintTo(const Subject& s, std::ostream* out) { *out << s.text(); }
+};
+
+inline std::vector<Subject> wires_of(const FamilyEntry& e) {
+    std::vector<Subject> list;
+    if (e.family->uses_can) list.push_back({e, Wire::can});
+    if (e.family->uses_bytes) list.insert(list.end(), {{e, Wire::serial}, {e, Wire::network}});
+    return list;
+}
+/// Every family on each wire that it has.
+inline const std::vector<Subject>& subjects() {
+    static const std::vector<Subject> all = [] {
+        std::vector<Subject> list;
+        for (const auto& e : families().entries) std::ranges::copy(wires_of(e), std::back_inserter(list));
+        return list;
+    }();
+    return all;
+}
+inline std::string name_of_subject(const testing::TestParamInfo<Subject>& i) { return i.param.text(); }
+
+/// The drives behind the cables, by line: they outlive the gateway that talks to them.
+struct Plant {
+    std::map<std::string, std::unique_ptr<TwinBus>> buses;
+};
+
+/// One end of a cable of the plant: the bus is closed with it, and stays.
+class PlantLine final : public Line {
+public:
+    explicit PlantLine(std::shared_ptr<Plant> plant, TwinBus& bus) : plant_(std::move(plant)), bus_(bus) {}
+    ~PlantLine() override { bus_.close(); }
+    void open(LineEvents& events, Instant now) override { bus_.open(events, now); }
+    void close() override { bus_.close(); }
+    bool send(const Frame& frame, Priority priority, Instant now) override { return bus_.send(frame, priority, now); }
+    [[nodiscard]] Instant deadline() const override { return bus_.deadline(); }
+    void on_deadline(Instant now) override { bus_.on_deadline(now); }
+    [[nodiscard]] LineStatus status(Instant now) const override { return bus_.status(now); }
+
+private:
+    std::shared_ptr<Plant> plant_;
+    TwinBus& bus_;
+};
+
 class World final : public EngineHost {
 public:
-    explicit World(std::uint64_t seed_value = 1) : seed(seed_value), engine(families(), *this, image) {}
+    /// A gateway that has just started; with `drives`, at those of another one that is gone.
+    explicit World(std::uint64_t seed_value = 1, std::shared_ptr<Plant> drives = std::make_shared<Plant>(), Families some = families())
+        : seed(seed_value), plant(std::move(drives)), engine(std::move(some), *this, image) {}
 
     std::uint64_t seed;
+    std::shared_ptr<Plant> plant;
     Image image;
+    std::map<std::string, FaultLine*> cables;  ///< simulated real lines by name: cut, heal, rates
+    std::map<std::string, TwinBus*> buses;     ///< the "real" drives behind those cables
     Engine engine;
     Instant now = at_ns(1'000'000'000);
     std::map<Ticket, std::vector<Result>> results;
     std::vector<Event> events;
     std::vector<Sample> samples;
-    std::map<std::string, FaultLine*> cables;   ///< simulated real lines by name: cut, heal, rates
-    std::map<std::string, TwinBus*> buses;      ///< the "real" drives behind those cables
     std::map<std::string, NonVolatile> twin_memories;
-    std::optional<Instant> heard_at;            ///< when a client that commands was heard last on its door; nothing: nobody watches
-    std::string store_fault;                    ///< what the store says to every order
+    std::optional<Instant> heard_at;  ///< when a client that commands was heard last on its door; nothing: nobody watches
+    std::string store_fault;          ///< what the store says to every order
+    Duration store_delay{};           ///< and how late
     std::uint64_t next_ticket = 1;
     std::uint64_t steps = 0;
 
@@ -77,33 +142,41 @@ public:
         options.kind = setup.kind;
         options.bit_rate = setup.bit_rate;
         options.bits_per_byte = setup.bits_per_byte;
-        auto bus = std::make_unique<TwinBus>(options);
+        options.converter = setup.kind == LineKind::bytes && families().find(spec.family).family->uses_can;
+        auto& bus = plant->buses[spec.name];
+        if (!bus) bus = std::make_unique<TwinBus>(options);
         buses[spec.name] = bus.get();
         FaultPlan plan;
         plan.seed = seed ^ std::hash<std::string>{}(spec.name);
-        auto line = std::make_unique<FaultLine>(std::move(bus), plan);
+        auto line = std::make_unique<FaultLine>(std::make_unique<PlantLine>(plant, *bus), plan);
         cables[spec.name] = line.get();
         return line;
     }
     void on_result(const Result& result) override { results[result.ticket].push_back(result); }
     void on_event(Event event, Instant) override { events.push_back(std::move(event)); }
     void on_sample(const Sample& sample) override { samples.push_back(sample); }
-    void on_store(StoreOrder order) override { to_store.push_back(std::move(order)); }
     std::optional<Instant> heard(const AuthorityClient&) const override { return heard_at; }
+    void on_store(StoreOrder order) override { to_store.emplace_back(std::max(now + store_delay, to_store.empty() ? now : to_store.back().first), order.ticket); }
     void on_twin_memory(const std::string& drive, NonVolatile memory) override { twin_memories[drive] = std::move(memory); }
 
     // --- what a test does
-    /// One line per entry of `lines` (uri "twin" or "can:x"/"tcp:x:1" for a simulated cable), `per_line` drives of one axis each.
-    Site make_site(const FamilyEntry& e, std::string_view uri, std::size_t drives, std::string_view presence = "auto") {
+    /// One line "line" of this URI with so many drives, as far as there are addresses, and an axis "a1", "a2"... for each of their channels.
+    Site make_site(const FamilyEntry& e, std::string_view uri, std::size_t drives, std::string_view presence = "auto", int channels = 1,
+                   const boost::json::object& line_options = {}) {
         namespace json = boost::json;
         json::array ds, as;
         const auto list = addresses(e, drives);
         for (std::size_t i = 0; i < list.size(); ++i) {
-            const std::string name = "a" + std::to_string(i + 1);
-            ds.push_back({{"name", name}, {"line", "line"}, {"address", list[i]}, {"presence", presence}});
-            as.push_back({{"name", name}, {"drive", name}, {"number", i + 1}, {"unit", "u"}, {"increments_per_unit", 100}});
+            const std::string drive = "a" + std::to_string(i * static_cast<std::size_t>(channels) + 1);
+            ds.push_back({{"name", drive}, {"line", "line"}, {"address", list[i]}, {"presence", presence}});
+            for (int c = 1; c <= channels; ++c) {
+                const std::size_t n = as.size() + 1;
+                as.push_back({{"name", "a" + std::to_string(n)}, {"drive", drive}, {"channel", c}, {"number", n}, {"unit", "u"}, {"increments_per_unit", 100}});
+            }
         }
-        const json::value doc{{"lines", {{{"name", "line"}, {"uri", uri}, {"family", e.family->name}}}}, {"drives", ds}, {"axes", as}, {"mappings", json::array{}}};
+        json::object line{{"name", "line"}, {"uri", uri}, {"family", e.family->name}};
+        if (!line_options.empty()) line["options"] = line_options;
+        const json::value doc{{"lines", {line}}, {"drives", ds}, {"axes", as}, {"mappings", json::array{}}};
         std::vector<SiteFault> faults;
         auto site = parse_site(doc, families(), faults);
         if (!site) {
@@ -112,15 +185,22 @@ public:
         }
         return std::move(*site);
     }
+    /// Embedded drives on the subject's wire.
+    Site twins(const Subject& s, std::size_t drives = 1, int channels = 1) {
+        if (s.wire == Wire::network) return make_site(s, s.cable(), drives, "twin", channels);
+        if (s.wire == Wire::serial && s.family->uses_can) return make_site(s, "twin", drives, "auto", channels, {{"kind", "bytes"}});
+        return make_site(s, "twin", drives, "auto", channels);
+    }
     std::shared_ptr<const SiteState> apply(Site site, SiteMemory memory = {}) {
         auto s = engine.apply_site(std::move(site), std::move(memory), ++revision, now);
         return s;
     }
     /// Puts a drive behind a simulated cable.
-    void plug_in(const std::string& line, DriveId key, const FamilyEntry& e, const std::string& address, LineKind kind, const NonVolatile& memory = {}) {
+    void plug_in(const std::string& line, DriveId key, const FamilyEntry& e, const std::string& address, LineKind kind, const NonVolatile& memory = {}, int channels = 1) {
         TwinSetup t;
         t.address = address;
         t.kind = kind;
+        t.axes = channels;
         buses.at(line)->add(key, e.family->make_twin(*e.catalogue, t), memory, now);
     }
     Ticket command(AxisId axis, CommandBody body, bool until_done = false) {
@@ -142,14 +222,19 @@ public:
     }
     AxisPicture picture(AxisId id) const { return image.picture(id); }
 
+    /// When something happens next.
+    [[nodiscard]] Instant next() const { return std::min(engine.deadline(), to_store.empty() ? never : to_store.front().first); }
+    void step(Instant at) {
+        now = std::max(now, at);
+        engine.on_deadline(now);
+        settle_store();
+        ++steps;
+    }
     void run_until(Instant end) {
         for (std::uint64_t n = 0;; ++n) {
-            const Instant d = engine.deadline();
+            const Instant d = next();
             if (d > end) break;
-            now = std::max(now, d);
-            engine.on_deadline(now);
-            settle_store();
-            ++steps;
+            step(d);
             if (n > most_steps) {
                 ADD_FAILURE() << "a storm: " << n << " steps in one run, and time stands at " << ns_of(now) << " ns";
                 std::abort();
@@ -163,15 +248,12 @@ public:
     bool run_until_true(F&& condition, Duration limit) {
         const Instant end = now + limit;
         while (!condition()) {
-            const Instant d = engine.deadline();
+            const Instant d = next();
             if (d > end) {
                 now = end;
                 return condition();
             }
-            now = std::max(now, d);
-            engine.on_deadline(now);
-            settle_store();
-            ++steps;
+            step(d);
         }
         return true;
     }
@@ -184,13 +266,13 @@ public:
 
 private:
     void settle_store() {
-        while (!to_store.empty()) {
-            auto list = std::move(to_store);
-            to_store.clear();
-            for (auto& o : list) engine.on_stored(o.ticket, store_fault, now);
+        while (!to_store.empty() && to_store.front().first <= now) {
+            const Ticket ticket = to_store.front().second;
+            to_store.pop_front();
+            engine.on_stored(ticket, store_fault, now);
         }
     }
-    std::vector<StoreOrder> to_store;
+    std::deque<std::pair<Instant, Ticket>> to_store;  // one writer: what is given later is stored later
     std::uint64_t revision = 0;
 };
 

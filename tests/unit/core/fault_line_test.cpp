@@ -233,6 +233,70 @@ TEST(FaultLine, lateCallsKeepTheOrderOfTimeWithTheInnerLine) {
     EXPECT_EQ(heard(true), on_time);
 }
 
+TEST(FaultLine, letsTheNextFrameOvertakeOnCanAndNeverOnBytes) {
+    World w(rates(&FaultRates::reorder), rates(&FaultRates::reorder));
+    for (std::uint32_t i = 1; i <= 4; ++i) {
+        w.send(can(i));
+        w.say(can(10 + i));
+    }
+    const auto ids = [](const std::vector<Frame>& list) {
+        std::vector<std::uint32_t> v;
+        for (const auto& f : list) v.push_back(f.id);
+        return v;
+    };
+    EXPECT_EQ(ids(w.inner->taken), (std::vector<std::uint32_t>{2, 1, 4, 3}));
+    EXPECT_EQ(ids(w.owner.frames), (std::vector<std::uint32_t>{12, 11, 14, 13}));
+    EXPECT_EQ(w.line->counters().reordered, 4u);
+    w.say(can(15));  // nobody comes to overtake it
+    EXPECT_EQ(w.owner.frames.size(), 4u);
+    EXPECT_EQ(w.line->deadline(), t0 + FaultLine::overtaken_at_most);
+    run(*w.line, t0 + ms(20));
+    ASSERT_EQ(w.owner.frames.size(), 5u);
+    EXPECT_EQ(w.owner.frames[4].at, t0 + FaultLine::overtaken_at_most);
+    for (const char* word : {"a", "b", "c"}) w.send(text(word), t0 + ms(20));
+    ASSERT_EQ(w.inner->taken.size(), 7u);
+    EXPECT_EQ(as_text(w.inner->taken[4]) + as_text(w.inner->taken[5]) + as_text(w.inner->taken[6]), "abc");
+}
+
+TEST(FaultLine, getsSlowerUntilItsBoundAndKeepsTheOrder) {
+    FaultRates r;
+    r.drift = ms(10);
+    r.drift_max = ms(25);
+    World w({}, r);
+    std::vector<std::int64_t> late_ms;
+    for (int s = 0; s < 5; ++s) {
+        const Instant at = t0 + std::chrono::seconds(s);
+        run(*w.line, at);
+        w.say(can(static_cast<std::uint32_t>(s)), at);
+        run(*w.line, at + ms(500));
+        ASSERT_EQ(w.owner.frames.size(), static_cast<std::size_t>(s) + 1);
+        late_ms.push_back((w.owner.frames.back().at - at) / ms(1));
+    }
+    EXPECT_EQ(late_ms, (std::vector<std::int64_t>{0, 10, 20, 25, 25}));
+    w.line->set_rates({}, r);  // other rates: it begins anew
+    w.say(can(9), t0 + std::chrono::seconds(6));
+    EXPECT_EQ(w.owner.frames.back().at, t0 + std::chrono::seconds(6));
+}
+
+TEST(FaultLine, goesBusOffAndComesBackByItself) {
+    World w({}, {});
+    w.line->bus_off(t0, ms(50));
+    ASSERT_EQ(w.owner.frames.size(), 1u) << "the controller's own report";
+    EXPECT_EQ(w.owner.frames[0].kind, Frame::Kind::can_error);
+    EXPECT_EQ(w.owner.frames[0].id, 0x40u);
+    run(*w.line, t0 + ms(10));
+    EXPECT_FALSE(w.owner.up());
+    EXPECT_EQ(w.line->status(t0).state, LineStatus::State::bus_off);
+    EXPECT_NE(w.line->status(t0).text.find("bus-off"), std::string::npos);
+    EXPECT_FALSE(w.line->send(can(1), Priority::urgent, t0 + ms(10)));
+    EXPECT_EQ(w.line->deadline(), t0 + ms(50));
+    run(*w.line, t0 + ms(60));
+    EXPECT_TRUE(w.owner.up());
+    EXPECT_EQ(w.line->status(t0).state, LineStatus::State::up);
+    w.send(can(2), t0 + ms(60));
+    EXPECT_EQ(w.inner->taken.size(), 1u);
+}
+
 TEST(FaultLine, isBoundedInWhatItHoldsBack) {
     FaultRates r = rates(&FaultRates::delay);
     r.delay_max = std::chrono::seconds(1000);

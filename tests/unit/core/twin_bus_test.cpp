@@ -418,6 +418,28 @@ TEST(TwinBusBytes, twoDrivesOnTheReturnPairCollideAlsoInFullDuplex) {
     EXPECT_NE(as_text(b.owner.frames[0]), "same address");
 }
 
+TEST(TwinBusBytes, aConverterSendsWhatDrivesSayAtOnceOneAfterTheOther) {
+    TwinBusOptions o = wires(10'000);
+    o.converter = true;
+    Bus b(o);
+    auto& first = b.add(1);
+    auto& second = b.add(2);
+    for (auto* t : {&first, &second}) t->hears = [](const Frame&, Instant, Out& out) { out.send(text("0123456789")); };
+    b.send(text("ask"));
+    b.run_to(t0 + ms(100));
+    ASSERT_EQ(b.owner.frames.size(), 2u);
+    for (const auto& f : b.owner.frames) EXPECT_EQ(as_text(f), "0123456789");
+    EXPECT_EQ(b.owner.frames[0].at, t0 + ms(13));  // three bytes there, ten back
+    EXPECT_EQ(b.owner.frames[1].at, t0 + ms(23));
+    EXPECT_EQ(first.heard.size(), 1u);  // no drive hears another one's bytes
+    EXPECT_EQ(b.bus.counters().collisions, 0u);
+    b.send(text("more"), t0 + ms(100));  // the host has a pair of its own
+    b.run_to(t0 + ms(105));
+    b.send(text("still"), t0 + ms(105));
+    b.run_to(t0 + ms(200));
+    EXPECT_EQ(b.bus.counters().collisions, 0u);
+}
+
 TEST(TwinBusBytes, withoutABitRateNothingCollides) {
     Bus b(wires(0));
     for (const int key : {1, 2})

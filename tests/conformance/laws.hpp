@@ -1,0 +1,117 @@
+// Laws: the ground that the conformance suites stand on: one subject (a family on one of its wires) in a world of its own, and how its drives
+// are brought up, enabled and set in motion. In: the subject. Out: helpers that say what the drive answered. Never names a family.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "tests/world/world.hpp"
+
+namespace axisgate::test {
+
+/// Every subject, and one family whose velocity mode was taken away: where a drive has none, the laws hold all the same.
+const std::vector<Subject>& law_subjects();
+
+/// "refused no_answer: ..." of a result, or that there is none.
+inline std::string told(const Result* r) {
+    return r ? std::string(name_of(r->outcome)) + " " + std::string(name_of(r->reason)) + ": " + r->text : "no result";
+}
+
+class Laws : public testing::TestWithParam<Subject> {
+protected:
+    const Subject& e = GetParam();
+    std::unique_ptr<World> world = fresh();
+    std::shared_ptr<const SiteState> site;
+    AxisId a1 = no_axis;   ///< the first axis
+    DriveId d1 = no_drive;  ///< and its drive
+
+    [[nodiscard]] std::unique_ptr<World> fresh() const {
+        Families mine = families();
+        for (auto& entry : mine.entries) {
+            if (entry.family->name == e.family->name) entry = e;
+        }
+        return std::make_unique<World>(1, std::make_shared<Plant>(), std::move(mine));
+    }
+    [[nodiscard]] AxisPicture now(AxisId axis) const { return world->picture(axis); }
+    [[nodiscard]] AxisPicture now() const { return now(a1); }
+    [[nodiscard]] bool online(AxisId axis) const { return (now(axis).flags & flag_online) && now(axis).ever_seen; }
+    [[nodiscard]] bool moving(AxisId axis) const { return (now(axis).flags & flag_moving) != 0; }
+
+    /// Puts a site in force; every axis comes up.
+    void start(Site wanted) {
+        site = world->apply(std::move(wanted));
+        a1 = site->axis_ids.at(0);
+        d1 = site->drive_ids.at(0);
+        ASSERT_TRUE(world->run_until_true([&] { return std::ranges::all_of(site->axis_ids, [&](AxisId x) { return online(x); }); }, std::chrono::seconds(60)))
+            << "the twins do not come up";
+        world->run_for(std::chrono::seconds(1));
+    }
+    void start(std::size_t drives = 1, int channels = 1) { start(world->twins(e, drives, channels)); }
+
+    const Result* ask(AxisId axis, CommandBody body, bool until_done = true, Duration limit = std::chrono::seconds(60)) {
+        return world->wait(world->command(axis, std::move(body), until_done), limit);
+    }
+    /// Asks and wants it to be taken, or done.
+    void order(AxisId axis, CommandBody body, bool until_done = true) {
+        const std::string what(name_of(body));
+        const Result* r = ask(axis, std::move(body), until_done);
+        ASSERT_TRUE(r && good(*r)) << what << ": " << told(r);
+    }
+    [[nodiscard]] static Move move_to(std::int64_t target, Move::Kind kind = Move::Kind::absolute) {
+        Move m;
+        m.kind = kind;
+        m.target = target;
+        if (kind != Move::Kind::velocity) m.velocity = 4000;
+        m.acceleration = m.deceleration = 20000;
+        return m;
+    }
+    /// By a velocity move; where the drive has none, and says so in words, by a positioning that takes half a minute.
+    void turn(AxisId axis, std::int64_t velocity = 4000) {
+        const Result* r = ask(axis, move_to(velocity, Move::Kind::velocity), false);
+        ASSERT_TRUE(r);
+        has_velocity = r->reason != Reason::not_supported;
+        if (!has_velocity) {
+            EXPECT_FALSE(r->text.empty()) << "where a drive cannot follow, it says so";
+            Move m = move_to(velocity * 30, Move::Kind::relative);
+            m.velocity = std::llabs(velocity);
+            r = ask(axis, m, false);
+            ASSERT_TRUE(r);
+        }
+        ASSERT_TRUE(good(*r)) << told(r);
+        ASSERT_TRUE(world->run_until_true([&] { return moving(axis) && std::llabs(now(axis).velocity) * 10 > std::llabs(velocity) * 9; }, std::chrono::seconds(20)))
+            << "it does not turn";
+    }
+    bool has_velocity = true;  ///< as turn() found it
+
+    [[nodiscard]] int channel_of(AxisId axis) const {
+        for (std::size_t i = 0; i < site->axis_ids.size(); ++i) {
+            if (site->axis_ids[i] == axis) return site->site.axes[i].channel;
+        }
+        return 0;
+    }
+    [[nodiscard]] DriveId drive_of(AxisId axis) const {
+        for (std::size_t i = 0; i < site->axis_ids.size(); ++i) {
+            for (std::size_t k = 0; site->axis_ids[i] == axis && k < site->site.drives.size(); ++k) {
+                if (site->site.drives[k].name == site->site.axes[i].drive) return site->drive_ids[k];
+            }
+        }
+        return no_drive;
+    }
+    /// The true state of its mechanics, past every wire.
+    [[nodiscard]] TwinMechanics mechanics(AxisId axis) const { return world->engine.twin(drive_of(axis))->mechanics(channel_of(axis), world->now); }
+    [[nodiscard]] double speed(AxisId axis) const { return std::fabs(mechanics(axis).velocity); }
+    [[nodiscard]] std::string hand(const std::string& name, const Value& v) { return world->engine.set_hand(d1, {{name, v}}, {}, world->now); }
+
+    [[nodiscard]] std::ptrdiff_t events(std::string_view kind) const {
+        return std::ranges::count_if(world->events, [&](const Event& v) { return v.kind == kind; });
+    }
+    [[nodiscard]] Point first_point(std::uint16_t parameter) const {
+        const Parameter& p = e.catalogue->parameters()[parameter];
+        return {parameter, p.count ? p.first : std::uint16_t{0}};
+    }
+};
+
+}  // namespace axisgate::test

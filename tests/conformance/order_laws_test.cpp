@@ -1,0 +1,183 @@
+// Conformance: the orders that change what a position means, and those of the family alone: homing, a position that is set, every action of
+// the catalogue, an answer for each of them; and the decoder says what was ordered. In: all_families(), each wire. Out: laws of adapters
+// and decoders, by the twins' mechanics. Never names a family.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "tests/conformance/laws.hpp"
+
+namespace axisgate::test {
+namespace {
+using namespace std::chrono_literals;
+
+class OrderLaws : public Laws {
+protected:
+    World& w = *world;
+
+    /// Without the point of a fraction: 1.234 turns are 1234 increments.
+    static std::string digits_of(std::string text) {
+        std::erase(text, '.');
+        return text;
+    }
+    void enabled() {
+        start();
+        order(a1, Enable{});
+        w.run_for(300ms);
+    }
+};
+
+TEST_P(OrderLaws, HomingEndsAtRestWithAKnownZeroOrSaysWhyNot) {
+    enabled();
+    const Result* r = ask(a1, Home{}, true, 120s);
+    ASSERT_TRUE(r) << "a search has an end";
+    if (r->outcome == Outcome::done) {
+        EXPECT_EQ(speed(a1), 0) << "done, and it turns";
+        w.run_for(1s);
+        EXPECT_NE(now().flags & flag_referenced, 0);
+        EXPECT_NE(now().statusword & cia402::sw_referenced, 0);
+        EXPECT_EQ(speed(a1), 0);
+        const auto home = now().position;
+        order(a1, move_to(home + 2000));
+        w.run_for(500ms);
+        EXPECT_EQ(now().position, home + 2000) << "the zero that was found holds";
+        EXPECT_NE(now().flags & flag_referenced, 0);
+    } else {
+        EXPECT_FALSE(r->text.empty()) << "why, in words";
+        EXPECT_NE(r->outcome, Outcome::accepted) << "asked until done";
+        w.run_for(1s);
+        EXPECT_EQ(speed(a1), 0) << "a search that has failed does not go on";
+    }
+}
+
+TEST_P(OrderLaws, AStopEndsAHoming) {
+    enabled();
+    const Ticket search = w.command(a1, Home{}, true);
+    const bool began = w.run_until_true([&] { return speed(a1) > 0 || w.result(search) != nullptr; }, 20s);
+    ASSERT_TRUE(began) << "neither a search nor a word why not";
+    if (const Result* r = w.result(search)) {
+        EXPECT_TRUE(r->outcome == Outcome::done || !r->text.empty()) << told(r);
+        EXPECT_EQ(speed(a1), 0);
+        return;
+    }
+    order(a1, QuickStop{});
+    EXPECT_EQ(speed(a1), 0);
+    const Result* r = w.wait(search, 5s);
+    ASSERT_TRUE(r);
+    EXPECT_EQ(r->outcome, Outcome::failed) << told(r);
+    EXPECT_EQ(r->reason, Reason::interrupted) << told(r);
+    const double place = mechanics(a1).position;
+    w.run_for(3s);
+    EXPECT_EQ(speed(a1), 0);
+    EXPECT_EQ(mechanics(a1).position, place) << "the rest of the search is forgotten";
+    if (now().mode_display == cia402::mode_homing) EXPECT_EQ(now().statusword & cia402::sw_mode_12, 0) << "a zero that was not found is not attained";
+    EXPECT_EQ(w.results[search].size(), 1u);
+}
+
+TEST_P(OrderLaws, ASetPositionRenamesThePlaceAndMovesNothing) {
+    enabled();
+    order(a1, move_to(now().position + 1500));
+    w.run_for(500ms);
+    for (const std::int64_t name : {std::int64_t{0}, std::int64_t{700}}) {
+        const std::int64_t was = now().position;
+        const Ticket set = w.command(a1, SetPosition{name}, true);
+        while (!w.result(set) && w.now < at_ns(600'000'000'000)) {
+            EXPECT_EQ(speed(a1), 0);
+            w.run_for(5ms);
+        }
+        const Result* r = w.result(set);
+        ASSERT_TRUE(r);
+        for (int i = 0; i < 100; ++i) {
+            w.run_for(10ms);
+            EXPECT_EQ(speed(a1), 0) << "a name was changed, and the shaft moves";
+        }
+        if (!good(*r)) {
+            EXPECT_FALSE(r->text.empty()) << "why, in words";
+            EXPECT_EQ(now().position, was) << "refused: nothing has changed";
+            continue;
+        }
+        EXPECT_EQ(now().position, name);
+        const double place = mechanics(a1).position;
+        order(a1, move_to(name + 1000));
+        w.run_for(500ms);
+        EXPECT_EQ(now().position, name + 1000);
+        EXPECT_NEAR(mechanics(a1).position - place, 1000, 1) << "as far as it says, by the shaft";
+    }
+}
+
+TEST_P(OrderLaws, EveryActionIsAnsweredOnce) {
+    for (const auto& action : e.catalogue->commands()) {
+        for (const char* argument : {"", "1", "x y z"}) {
+            world = fresh();
+            start();
+            Action body;
+            body.name = action.name;
+            body.argument = argument;
+            const Ticket t = world->command(a1, body, true);
+            const Result* r = world->wait(t, 60s);
+            ASSERT_TRUE(r) << action.name << " \"" << argument << "\": no answer in a minute";
+            EXPECT_TRUE(good(*r) || !r->text.empty()) << action.name;
+            EXPECT_EQ(good(*r), r->reason == Reason::none) << action.name << ": " << told(r);
+            EXPECT_NE(r->reason, Reason::internal) << action.name << ": " << told(r);
+            world->run_for(1s);
+            EXPECT_EQ(world->results[t].size(), 1u) << action.name;
+        }
+    }
+    start();
+    Action unknown;
+    unknown.name = "no_such_action";
+    const Result* r = ask(a1, unknown);
+    ASSERT_TRUE(r);
+    EXPECT_EQ(r->outcome, Outcome::refused);
+    EXPECT_NE(r->text.find("no_such_action"), std::string::npos) << r->text;
+}
+
+TEST_P(OrderLaws, TheDecoderSaysWhatWasOrdered) {
+    enabled();
+    auto decoder = e.family->make_decoder(*e.catalogue, e.kind());
+    std::uint64_t next = 1;
+    // What has crossed the line since the last call, as people read it.
+    const auto read = [&] {
+        std::string text;
+        const auto log = w.engine.frame_log(site->line_ids[0])->read(next, 100'000, 0);
+        next = w.engine.frame_log(site->line_ids[0])->next_sequence();
+        for (const auto& entry : log.entries) {
+            for (const auto& line : decoder->on_frame(entry.frame, entry.to_drive)) text += line + "\n";
+        }
+        return text;
+    };
+    (void)read();
+    order(a1, move_to(now().position + 1234, Move::Kind::relative), false);
+    const std::string move = read();
+    EXPECT_NE(digits_of(move).find("1234"), std::string::npos) << "a move, and nobody can read how far:\n" << move;
+    order(a1, Halt{});
+    EXPECT_FALSE(read().empty()) << "a stop, and nothing was said on the line";
+    // A parameter that was asked for is shown with the value that the drive gave. Some are shown as what they mean: a model, a mask in hex.
+    std::size_t asked = 0;
+    std::string unsaid;
+    std::size_t said = 0;
+    for (std::uint16_t i = 0; i < e.catalogue->parameters().size(); ++i) {
+        const Parameter& p = e.catalogue->parameters()[i];
+        if (!p.readable()) continue;
+        (void)read();
+        const auto counted = w.engine.line_report(site->line_ids[0], w.now).counters.exchanges;
+        const Result* r = ask(a1, ReadParameter{first_point(i)}, false);
+        ASSERT_TRUE(r) << p.id;
+        const auto number = as_integer(r->value);
+        if (!good(*r) || !number || w.engine.line_report(site->line_ids[0], w.now).counters.exchanges == counted) continue;
+        ++asked;
+        const std::string text = read();
+        if (digits_of(text).find(std::to_string(std::llabs(*number))) != std::string::npos) {
+            ++said;
+        } else {
+            unsaid += p.id + " = " + std::to_string(*number) + ", shown as:\n" + text;
+        }
+    }
+    EXPECT_GT(asked, 10u);
+    EXPECT_GE(said * 10, asked * 9) << unsaid;
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, OrderLaws, testing::ValuesIn(law_subjects()), name_of_subject);
+
+}  // namespace
+}  // namespace axisgate::test

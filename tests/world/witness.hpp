@@ -1,0 +1,101 @@
+// Witness: watches the true mechanics of the drives behind the cables, past every wire, and knows what was ordered of each.
+// In: orders and stops as a story gives them, and how they were answered. Out: a failed test where a shaft moves that nobody has told to,
+// does not rest after an acknowledged stop, leaves its limits, or has power that nobody gave it. Never changes a drive.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tests/world/world.hpp"
+
+namespace axisgate::test {
+
+class Witness {
+public:
+    /// Returns the number by which the shaft is called below. It must be at rest.
+    std::size_t watch(std::string name, TwinBus& bus, DriveId key, int channel, Instant now) {
+        Shaft& s = shafts_.emplace_back();
+        s.name = std::move(name);
+        s.bus = &bus;
+        s.key = key;
+        s.channel = channel;
+        const TwinMechanics m = mechanics(s, now);
+        s.place = m.position;
+        s.starts_with_power = m.powered;
+        if (m.powered) s.off_from = never;
+        return shafts_.size() - 1;
+    }
+    void limit(std::size_t n, double most) { shafts_[n].limit = most; }
+
+    void motion_ordered(std::size_t n) {
+        Shaft& s = shafts_[n];
+        ++s.motions;
+        s.rest_from = never;
+    }
+    void power_ordered(std::size_t n) { ++shafts_[n].powers, shafts_[n].off_from = never; }
+    /// What stood when a stop was given, for stopped() and switched_off().
+    [[nodiscard]] std::uint64_t motions(std::size_t n) const { return shafts_[n].motions; }
+    [[nodiscard]] std::uint64_t powers(std::size_t n) const { return shafts_[n].powers; }
+    /// A stop was acknowledged that was given when `motions` had been ordered: from `by` on the shaft rests until the next order.
+    void stopped(std::size_t n, std::uint64_t motions, Instant by) {
+        Shaft& s = shafts_[n];
+        if (s.motions != motions || s.rest_from <= by) return;
+        s.rest_from = by;
+        s.place.reset();
+    }
+    void switched_off(std::size_t n, std::uint64_t powers, Instant by) {
+        if (shafts_[n].powers == powers) shafts_[n].off_from = std::min(shafts_[n].off_from, by);
+    }
+    /// Its power fails or comes back, and its counter may begin anew.
+    void power_cycled(std::size_t n) {
+        shafts_[n].place.reset();
+        if (shafts_[n].starts_with_power) shafts_[n].off_from = never;
+    }
+
+    [[nodiscard]] double speed(std::size_t n, Instant now) const { return std::fabs(mechanics(shafts_[n], now).velocity); }
+
+    /// To be called as often as wanted; one fault is told once.
+    void look(Instant now) {
+        for (Shaft& s : shafts_) {
+            if (s.told) continue;
+            const TwinMechanics m = mechanics(s, now);
+            if (s.limit && std::fabs(m.position) > *s.limit) tell(s, "is beyond the limit of its axis", m);
+            if (m.powered && now >= s.off_from) tell(s, "has power that nobody gave it", m);
+            if (now < s.rest_from) continue;
+            if (m.velocity != 0) tell(s, "moves, and no order stands", m);
+            if (!s.place) s.place = m.position;
+            if (std::fabs(m.position - *s.place) > 1e-6) tell(s, "has moved, and no order stood", m);
+        }
+    }
+
+private:
+    struct Shaft {
+        std::string name;
+        TwinBus* bus = nullptr;
+        DriveId key = no_drive;
+        int channel = 1;
+        std::uint64_t motions = 0, powers = 0;
+        Instant rest_from{};          // from here on it rests; never: an order stands
+        Instant off_from{};
+        std::optional<double> place;  // where it rests
+        std::optional<double> limit;
+        bool starts_with_power = false;  // as some drives do; no other gets it by itself
+        bool told = false;
+    };
+    static TwinMechanics mechanics(const Shaft& s, Instant now) {
+        const Twin* t = s.bus->twin(s.key);
+        return t ? t->mechanics(s.channel, now) : TwinMechanics{};
+    }
+    static void tell(Shaft& s, const char* what, const TwinMechanics& m) {
+        s.told = true;
+        ADD_FAILURE() << "the shaft of " << s.name << " " << what << ": at " << m.position << ", speed " << m.velocity << (m.powered ? ", with" : ", without") << " power";
+    }
+
+    std::vector<Shaft> shafts_;
+};
+
+}  // namespace axisgate::test

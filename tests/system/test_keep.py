@@ -79,7 +79,7 @@ def test_a_restore_leaves_the_address_of_the_drive_alone(gateway):
 
 
 # What acts at once instead of configuring; outputs, program and trip words can only be written, so snapshots have none of them.
-ACTS_AT_ONCE = {"uim342": "MO JV SP PR PA MF DI",
+ACTS_AT_ONCE = {"uim342": "MO JV SP PR PA MF DI DI.OP1 " + " ".join(f"IL[{i}].{edge}_{part}" for i in range(3) for edge in ("falling", "rising") for part in ("action", "flag")),
                 "mcode": "P C1 C2 DE AS FL ST ER IF O1 O2 O3 OT TI TP TC TT TR TA TM TE R1 R2 R3 R4 F1 F2 F3 F4 F5 F6 F7 F8",
                 "pacontrol": "O OW M MW N R"}
 FAMILIES = {

@@ -86,8 +86,8 @@ TEST(TwinMechanics, TheShaftRunsOutWhenTheDriverGoesOff) {
         Bench b;
         b.setup({closed ? "86 06 01 00" : "86 06 00 00", "95 01", "9D " + le32(-10000), "96"});
         b.pass_ms(1500);
-        const double before = turns(b);
         const int there = b.position();
+        const double before = turns(b);
         b.setup({"95 00"});
         b.pass_ms(31.25);
         EXPECT_NEAR(b.mechanics().velocity, -5000, 1);

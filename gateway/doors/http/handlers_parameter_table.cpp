@@ -198,9 +198,9 @@ Handled put_parameters_csv(Call& c) {
             continue;
         }
         // What the table itself gives another parameter counts before what that has now: it will have been written.
-        auto checked = check_write_now(*axis->catalogue, *point, *value, [&](Point p) {
-            const auto it = given.find(axis->catalogue->id_of(p));
-            return it == given.end() ? c.gateway().live(axis->id(), p).value : it->second;
+        auto checked = check_write_now(*axis->catalogue, *point, *value, [&](Point other) {
+            const auto it = given.find(axis->catalogue->id_of(other));
+            return it == given.end() ? c.gateway().live(axis->id(), other).value : it->second;
         });
         if (!checked.fault.empty()) {
             wrong(line, checked.fault);

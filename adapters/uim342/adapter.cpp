@@ -69,6 +69,7 @@ void LineAdapter::take_manners(const LineSetup& setup) {
     if (crc != crc_ || setup_.id == no_line) {
         crc_ = crc;
         framer_ = UiFramer(crc);
+        other_crc_told_ = false;
     }
 }
 
@@ -136,6 +137,7 @@ void LineAdapter::on_line(bool up, Instant now, Out& out) {
     if (up == up_) return;
     up_ = up;
     framer_.reset();
+    other_crc_told_ = false;
     quiet_until_ = now;
     if (!up && joint_.kind != Joint::Kind::none) end_joint(Outcome::failed, Reason::line_down, "the line went down", 0, t);
     for (auto& n : nodes_) {
@@ -204,6 +206,7 @@ void LineAdapter::on_frame(const Frame& frame, Instant now, Out& out) {
         framer_.push(
             frame.data(), [&](const UiCheck& check, const UiBytes&) { deliver(check.message, t); },
             [&](std::uint8_t) { ++Bus::counters.garbled; });
+        if (framer_.other_seen()) tell_other_crc(t);
     } else {
         const auto m = from_can(frame);
         if (!m) {
@@ -213,6 +216,22 @@ void LineAdapter::on_frame(const Frame& frame, Instant now, Out& out) {
         deliver(m->message, t);
     }
     finish_turn(t);
+}
+
+/// Once each time the line comes up: nothing would be heard, and nobody would know why.
+void LineAdapter::tell_other_crc(Turn& t) {
+    if (other_crc_told_) return;
+    other_crc_told_ = true;
+    const auto words = [](CrcMode m) {
+        return m == CrcMode::twelve     ? "12 bytes (ID to d8)"
+               : m == CrcMode::thirteen ? "13 bytes (AA to d8)"
+                                        : "nothing: frames without a CRC";
+    };
+    const CrcMode seen = *framer_.other_seen();
+    t.out.notices.push_back({Severity::warning, no_drive, no_axis, "setup", 0,
+                             fmt::format("frames arrive whose CRC covers {}, and this line takes {}: write option crc = {} or auto for it",
+                                         words(seen), words(framer_.accepting()), name_of(seen)),
+                             t.now});
 }
 
 void LineAdapter::deliver(const Message& m, Turn& t) {

@@ -42,6 +42,7 @@ private:
 
     void take_manners(const LineSetup& setup);
     void deliver(const Message& m, Turn& t);
+    void tell_other_crc(Turn& t);
     void settle(Node& node, Turn& t);
     void clear_rings() noexcept;
     void pump(Turn& t);
@@ -75,6 +76,7 @@ private:
     CrcMode crc_ = CrcMode::twelve;
     UiFramer framer_;
     bool try_thirteen_ = false;  ///< auto: the next unproved frame goes out with the other range
+    bool other_crc_told_ = false;  ///< since the line came up
     std::size_t window_ = 16;
     std::size_t probe_window_ = 4;
     Duration pause_{};

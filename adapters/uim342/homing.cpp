@@ -163,6 +163,7 @@ void Node::search_check(Turn& t) {
     search_.checking = true;
     begin_job(JobKind::search, Command{no_ticket, axis_, search_.command.body, false, {}});
     job_.add(msg_get(cw::IL, restore_.input));
+    job_.add(msg_get(cw::MS, 1));  // where it stands, read behind its standstill: the end is told with it
     run_job(t);
 }
 

@@ -275,6 +275,11 @@ void Node::job_over(Outcome outcome, Reason reason, std::string text, Turn& t, s
     blind_.reset();
     const bool part = job_.kind == JobKind::together && outcome != Outcome::accepted && outcome != Outcome::done;
     if (part) bus_.part_done(*this, {false, reason, code, text}, t);
+    if (std::holds_alternative<Home>(job_.command.body) && (outcome == Outcome::refused || outcome == Outcome::failed)) {
+        fb_.homing_attained = false;  // bits 12 and 13 speak of the last homing that was asked for, and this one has not been
+        fb_.homing_error = true;
+        emit(t);
+    }
     result(job_.command.ticket, outcome, reason, std::move(text), t, code, std::move(value), std::move(job_.bytes));
 }
 
@@ -345,6 +350,7 @@ void Node::done_origin(Turn& t) {
     fb_.homing_error = false;
     if (std::holds_alternative<Home>(job_.command.body)) fb_.homing_attained = true;
     demand_rests(fb_.position = 0);  // "clear the position counter" [L1508], and it was acknowledged
+    position_at_ = t.now;
     motion_ = {};
     derive(t);
     emit(t);

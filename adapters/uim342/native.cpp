@@ -218,9 +218,10 @@ NativeScript parse_native(std::uint8_t node, std::span<const std::uint8_t> bytes
         }
         if (bytes.size() < 2 || bytes[1] > 8 || bytes.size() < 2u + bytes[1]) {
             const std::size_t place = all - bytes.size() + 1;
-            const std::string what = bytes.size() < 2 ? fmt::format("byte {} (0x{:02X}) is a CW without its DL", place, bytes[0])
-                                     : bytes[1] > 8   ? fmt::format("byte {} is 0x{:02X}, which is no DL", place + 1, bytes[1])
-                                                      : fmt::format("byte {} announces {} data bytes, and {} follow", place + 1, bytes[1], bytes.size() - 2);
+            const std::string what =
+                bytes.size() < 2 ? fmt::format("byte {} (0x{:02X}) is a CW without its DL", place, bytes[0])
+                : bytes[1] > 8   ? fmt::format("byte {} is 0x{:02X}, which is no DL", place + 1, bytes[1])
+                                 : fmt::format("byte {} announces {} data bytes, and {} follow", place + 1, bytes[1], bytes.size() - 2);
             s.fault = what + ": a message is CW, DL (0..8) and exactly DL data bytes";
             return s;
         }
@@ -316,7 +317,7 @@ std::string describe_answer(const Message& m) {
             if (m.dl < 6) return strange();
             const Model model = model_of(m);
             return fmt::format("ML = {}, firmware {} ({})", model.name.empty() ? "a model that the manual does not have" : model.name,
-                               get_u16(&m.d[4]), hex_of(m));
+                               get_u16(&m.d[4]), hex_of(m).substr(6));  // the data alone
         }
         case cw::SN:
             if (m.dl < 8) return strange();

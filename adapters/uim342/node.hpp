@@ -339,7 +339,8 @@ private:
     // what is known
     Status status_;
     bool status_known_ = false, position_known_ = false;
-    Instant status_at_{};
+    Instant status_at_{}, position_at_{};  ///< when MS[0] and MS[1] were said last
+    bool rest_unread_ = false;             ///< it stands, but the last MS[1] is from when it moved
     AxisFeedback fb_;
     Motion motion_;
     Cause cause_ = Cause::none;

@@ -81,7 +81,7 @@ void Node::probe_answered(const Message& m, Turn& t) {
     bus_.points.each(m, 0, [&](const Binding& b, Value v) {
         t.out.samples.push_back({axis_, b.point, std::move(v), Quality::good, t.now});
     });
-    status_known_ = position_known_ = false;
+    status_known_ = position_known_ = rest_unread_ = false;
     // A refusal of before the silence is no fault after it; a restart clears the flag, and then it says nothing.
     cause_ = before_.known && before_.own_error ? Cause::own : Cause::none;
     alarm_ = 0;

@@ -3,6 +3,7 @@
 // Never invents: PAIF alone says that a target was reached, STOP that the axis stands, SON that it is on.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "adapters/uim342/native.hpp"
@@ -24,7 +25,8 @@ bool Node::moving_now() const noexcept { return fb_.moving || search_.running ||
 
 void Node::emit(Turn& t) {
     if (axis_ == no_axis || !status_known_ || !position_known_) return;
-    fb_.at = t.now;
+    // Status and position are two answers: the picture is as old as the older of them.
+    fb_.at = std::min(status_at_, position_at_);
     fb_.homing = searching();
     t.out.feedback.push_back({axis_, fb_});
 }
@@ -134,8 +136,11 @@ void Node::on_status(const Message& m, Turn& t) {
         stop_ramp_ = false;
         supervise_at_ = never;
         if (motion_.stood_since == never) motion_.stood_since = t.now;
+        // Place and speed of a standing axis are those that were read after it stood: until then it is not called at rest.
+        if (fb_.moving && position_known_) rest_unread_ = poll_speed_ = true;
     } else {
         motion_.stood_since = never;
+        rest_unread_ = false;
     }
     if (!status_.err) {
         cause_ = Cause::none;
@@ -170,11 +175,13 @@ void Node::on_speed(const Message& m, Turn& t) {
     fb_.velocity = get_i24(&m.d[1]);
     fb_.position = position;
     position_known_ = true;
+    position_at_ = t.now;
+    rest_unread_ = false;
+    derive(t);
     demand_at_position(t.now);
     if (lost) {
         suspect_restart(t, true, "the position of the standing axis fell to 0: it was restarted, or somebody else has set its origin");
     }
-    derive(t);
     emit(t);
     check_waits(t);
 }
@@ -183,7 +190,7 @@ void Node::on_speed(const Message& m, Turn& t) {
 void Node::derive(Turn& t) {
     const bool starting = motion_.kind != Motion::Kind::none && !motion_.seen_moving && t.now - motion_.begun < start_grace;
     fb_.power = status_.on ? AxisFeedback::Power::on : AxisFeedback::Power::off;
-    fb_.moving = !status_.stop || starting;
+    fb_.moving = !status_.stop || starting || rest_unread_;
     fb_.target_reached = status_.paif && !fb_.moving && motion_.kind != Motion::Kind::velocity;
     fb_.fault = status_.lock || status_.tlif || (status_.err && cause_ == Cause::foreign && alarm_ != 0x1F) || alarm_is_fault(alarm_);
     fb_.warning = !fb_.fault && (status_.err || alarm_ != 0);
@@ -300,6 +307,8 @@ void Node::on_notification(const Message& m, Turn& t) {
         set_bit(status_.raw, 0x0300, true);
         fb_.velocity = 0;
         fb_.position = n.position;
+        status_at_ = position_at_ = t.now;
+        rest_unread_ = false;
         derive(t);
         demand_at_position(t.now);
         emit(t);
@@ -329,6 +338,7 @@ void Node::begin_motion(const Motion& motion, Turn& t) {
     stop_ramp_ = false;
     prepared_ = false;
     supervise_at_ = never;
+    rest_unread_ = false;
     status_.stop = false;  // until the next MS[0] says otherwise
     status_.paif = false;
     derive(t);

@@ -41,8 +41,8 @@ std::array<std::uint8_t, 3> model_named(std::string_view name) {
 std::unique_ptr<Twin> make_twin(const Catalogue&, const TwinSetup& setup) {
     twin::DeviceSetup d;
     d.kind = setup.kind;
-    const std::string crc = option(setup.options, "crc", "12");
-    d.crc = twin::crc_range_named(crc).value_or(twin::CrcRange::twelve);
+    const std::string crc = option(setup.options, "crc", "auto");
+    d.crc = twin::crc_range_named(crc).value_or(twin::CrcRange::automatic);
     if (d.crc == twin::CrcRange::thirteen) d.form = twin::Form::crc13;
     if (crc == "none") d.form = twin::Form::plain;
     const auto address = number(setup.address);
@@ -50,7 +50,9 @@ std::unique_ptr<Twin> make_twin(const Catalogue&, const TwinSetup& setup) {
     d.factory.node = node;
     constexpr std::array<std::uint32_t, 5> rates{1'000'000, 800'000, 500'000, 250'000, 125'000};
     for (std::uint8_t i = 0; i < rates.size(); ++i) {
-        if (setup.bit_rate == rates[i]) d.factory.bit_rate = i;
+        if (setup.bit_rate != rates[i]) continue;
+        d.factory.bit_rate = i;
+        if (setup.kind == LineKind::can) d.bus_rate = i;
     }
     d.identity.model = model_named(option(setup.options, "model", "342XS"));
     // The manual's example for the factory address, and one more for each address: drives of one bus differ.

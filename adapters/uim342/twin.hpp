@@ -17,10 +17,12 @@ namespace axisgate::uim342 {
 ///
 /// `setup.address`: node ID 5..126 in decimal (others: 5); PP[7] of the memory given to `power_on` goes before it.
 /// `setup.kind`: LineKind::can for 29-bit frames, LineKind::bytes for UIMessages.
-/// `setup.bit_rate`: factory value of PP[5] if it is 1000000, 800000, 500000, 250000 or 125000, else PP[5] = 2 (500 kbit/s). The twin
-///   hears its bus at every rate: PP[5] is stored only.
+/// `setup.bit_rate`: the rate of the bus and factory value of PP[5] if it is 1000000, 800000, 500000, 250000 or 125000, else PP[5] = 2
+///   (500 kbit/s). After a reboot with another PP[5] the twin neither hears nor is heard on that bus; where the rate is none of these, or
+///   the line carries bytes, PP[5] is stored only.
 /// `setup.options`: the line's and the drive's; other names are left alone:
-///   "crc"     "12" (default), "13", "auto": bytes that the CRC of a UIMessage covers; "none": the host speaks without. Messages without
+///   "crc"     "auto" (default: both), "12", "13": bytes that the CRC of a UIMessage covers; "none": the host speaks without. Messages
+///   without
 ///             a CRC are heard with every value, and answers go back as they were asked: this is for what comes before a question.
 ///   "model"   "342XS" (default), "342S", "342C02", "342C04", "342C08", "342H08": what ML says [L1143-1148].
 ///   "boot_ms" 0..60000 (default 0: the manual gives no boot time): deaf for so long after SY[1] and after power came back.

@@ -17,14 +17,16 @@ public:
         idle,
         jog,
         ptp,
-        slow_stop,      ///< on the DC ramp; a new start is allowed
-        emergency_stop  ///< on the SD ramp; no start before its end
+        slow_stop,       ///< on the DC ramp; a new start is allowed
+        emergency_stop,  ///< on the SD ramp; no start before its end
+        coast            ///< the driver is off and the shaft runs out, seen by the encoder (closed loop)
     };
     enum class Event : std::uint8_t {
         none,
         stopped,  ///< a motion is over without having reached a target
         arrived,  ///< a point-to-point motion is at its target
-        stalled   ///< lost pulses have reached the stall tolerance
+        stalled,  ///< lost pulses have reached the stall tolerance
+        too_fast  ///< the shaft has become faster than the motor may turn; told once per start
     };
     /// Values of one start, as they are in the registers [L803-805, L825].
     struct Values {
@@ -35,13 +37,22 @@ public:
         std::uint32_t bl = 0;
     };
 
-    /// Power came back: driver off, the counter begins here (absolute encoder: where the shaft is, incremental: 0).
-    void power_up(std::int32_t position) noexcept;
-    /// Loop and stall tolerance (pulses); at rest only.
-    void configure(bool closed_loop, std::uint32_t tolerance, Instant now) noexcept;
+    /// How pulses, encoder and shaft hang together.
+    struct Mechanics {
+        bool closed_loop = true;
+        std::uint32_t tolerance = 100;    ///< lost pulses at which a stall is told
+        double pulses_per_turn = 3200;    ///< that the motor takes: 200 steps, each divided by the microstepping
+        double feedback_per_turn = 3200;  ///< that the drive makes of the fitted encoder's turn; another number is a wrong QE or MT
+        int direction = 1;                ///< of the shaft for a growing counter: +1 counter-clockwise, facing the shaft [L771]
+    };
+
+    /// Power came back: driver off, the counter begins here (absolute encoder: where the shaft is, incremental: 0), the shaft stands.
+    void power_up(std::int32_t position, Instant now) noexcept;
+    /// At rest only.
+    void configure(const Mechanics& mechanics, Instant now) noexcept;
 
     [[nodiscard]] bool driver_on() const noexcept { return driver_on_; }
-    /// Off in motion: the shaft is free and, in this model, at rest at once.
+    /// Off in motion: the shaft is free and runs out by its own friction. On again before it stands: it is caught where it is.
     void set_driver(bool on, Instant now) noexcept;
 
     [[nodiscard]] State state() const noexcept { return state_; }
@@ -50,12 +61,14 @@ public:
     [[nodiscard]] std::int32_t position(Instant now) const noexcept;
     /// Position since the last start of a motion; frozen at rest.
     [[nodiscard]] std::int32_t relative(Instant now) const noexcept;
-    /// Rate of the pulses sent, pulse/s.
-    [[nodiscard]] double speed(Instant now) const noexcept { return profile_.at(now).velocity; }
+    /// Of the encoder in closed loop (0 while the shaft is held), of the pulses sent in open loop; pulse/s.
+    [[nodiscard]] double speed(Instant now) const noexcept;
     /// +1 or -1 against the present direction of motion, at rest against the last one, never moved: -1.
     [[nodiscard]] int reverse_direction(Instant now) const noexcept;
     /// The shaft itself, in the counter's numbering: it differs from the counter by pulses lost in open loop.
     [[nodiscard]] MotionState shaft(Instant now) const noexcept;
+    /// Turns of the shaft since the model was made, counter-clockwise positive; no origin and no setting renumbers them.
+    [[nodiscard]] double turns(Instant now) const noexcept;
 
     void jog(Instant now, double velocity, const Values& values) noexcept;
     void move_to(Instant now, std::int32_t target, double speed, const Values& values) noexcept;
@@ -75,7 +88,7 @@ public:
     [[nodiscard]] std::int64_t lost() const noexcept { return lost_; }
     void forget_lost(Instant now) noexcept;
     /// Moved by hand while free. Nobody counts it in open loop.
-    void displace(double position) noexcept;
+    void displace(double position, Instant now) noexcept;
 
     [[nodiscard]] Instant deadline() const noexcept { return deadline_; }
     /// To be called at `deadline()`.
@@ -91,13 +104,17 @@ private:
     void rest_at(double position) noexcept;
     Event stall(Instant at) noexcept;
     void plan(Instant now) noexcept;
+    void end_coast(Instant now) noexcept;
+    void keep_turns(Instant now) noexcept;
+    [[nodiscard]] double shaft_per_turn() const noexcept {
+        return mechanics_.closed_loop ? mechanics_.feedback_per_turn : mechanics_.pulses_per_turn;
+    }
     [[nodiscard]] double counter(Instant now) const noexcept;
 
     Profile profile_ = Profile::rest(0);
     State state_ = State::idle;
     bool driver_on_ = false;
-    bool closed_loop_ = true;
-    std::uint32_t tolerance_ = 100;
+    Mechanics mechanics_;
     double relative_zero_ = 0;
     double speed_ = 0;   // desired speed of the motion under way, pulse/s
     double cut_in_ = 0;  // SS of the motion under way
@@ -107,10 +124,17 @@ private:
     double held_at_ = 0;
     double slip_ = 0;
     std::int64_t lost_ = 0;
+    double started_at_ = 0;  // counter when it left its last standstill: from there a wrong resolution adds up
+    bool coasting_ = false;  // ... and `coast_` says where the free shaft is, in the counter's numbering
+    Profile coast_ = Profile::rest(0);
+    double turns_zero_ = 0;  // turns when the shaft was at `turns_from_`
+    double turns_from_ = 0;
+    bool speed_armed_ = false;      // too much speed is told once per start
     bool stall_armed_ = false;      // a stall is told once per start
     bool give_up_ = false;          // after a stall: where the shaft stands becomes where the drive is
     bool arrival_pending_ = false;  // pulses are at the target, the held shaft is not
     Instant stall_at_ = never;
+    Instant too_fast_at_ = never;
     Instant deadline_ = never;
 };
 

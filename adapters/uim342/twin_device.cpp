@@ -19,6 +19,7 @@ Device::Device(const DeviceSetup& setup)
     : kind_(setup.kind),
       identity_(setup.identity),
       boot_time_(setup.boot_time),
+      bus_rate_(setup.bus_rate),
       memory_(setup.factory, setup.identity.serial),
       reader_(setup.crc),
       form_(setup.form) {}
@@ -55,9 +56,13 @@ void Device::boot(Instant now, std::int32_t encoder_position) {
     memory_.reboot();
     node_ = memory_.flash().node;
     group_ = memory_.flash().group;
-    axis_.power_up(has_absolute_encoder() ? encoder_position : 0);
+    bit_rate_ = memory_.flash().bit_rate;
+    microsteps_ = memory_.ram().mt[0];
+    pulses_per_turn_ = memory_.ram().qe[4];
+    absolute_ = has_absolute_encoder();
+    axis_.power_up(absolute_ ? encoder_position : 0, now);
     keep_position(now);
-    configure_loop(now);
+    configure_axis(now);
     paif_ = tlif_ = err_ = lock_ = output_ = false;
     pending_group_ = 0;
     ptp_mode_ = target_is_relative_ = false;
@@ -95,7 +100,14 @@ void Device::power_on_actions(Instant at, Out& out) {
     }
 }
 
-void Device::configure_loop(Instant now) { axis_.configure(memory_.ram().ic[6] == 1, memory_.ram().qe[1], now); }
+/// The fitted encoder is the one that the factory settings describe; QE says what the drive takes it for.
+void Device::configure_axis(Instant now) {
+    const Settings& s = memory_.ram();
+    const Settings fitted;
+    const double counts = absolute_ ? 1u << fitted.qe[2] : 4u * fitted.qe[0];  // per turn [L839]
+    const double taken_for = absolute_ ? 1u << s.qe[2] : 4u * s.qe[0];
+    axis_.configure({s.ic[6] == 1, s.qe[1], 200.0 * microsteps_, pulses_per_turn_ * counts / taken_for, s.ic[1] == 1 ? 1 : -1}, now);
+}
 
 // --- time ---------------------------------------------------------------------------------------------------------------
 
@@ -104,7 +116,7 @@ void Device::on_frame(const Frame& frame, Instant now, Out& out) {
     if (next_ <= now) settle(now, out);
     last_ = now;
     if (kind_ == LineKind::can) {
-        if (!online_ || frame.kind != Frame::Kind::can || !is_for_me(consumer_of(frame.id))) return;
+        if (!online_ || !on_the_bus() || frame.kind != Frame::Kind::can || !is_for_me(consumer_of(frame.id))) return;
         if (const auto t = read_can(frame)) {
             // Another node's error report is no instruction: answering it would make two nodes report to each other for ever, once a
             // spoilt identifier has named a node as the producer.
@@ -164,7 +176,7 @@ void Device::step(Instant at, Out& out) {
 // --- what happens by itself -------------------------------------------------------------------------------------------
 
 void Device::send(const Telegram& telegram, Instant at, Out& out) const {
-    if (silent_) return;
+    if (silent_ || !on_the_bus()) return;
     if (kind_ == LineKind::can) {
         Frame f = write_can(telegram);
         f.at = at;
@@ -199,6 +211,8 @@ void Device::on_axis(Axis::Event event, Instant at, Out& out) {
         const auto p = static_cast<std::uint32_t>(axis_.position(at));
         const auto byte = [p](int n) { return static_cast<std::uint8_t>(p >> (8 * n)); };
         notify({code_arrived, 0, 0, 0, byte(0), byte(1), byte(2), byte(3)}, at, out);
+    } else if (event == Axis::Event::too_fast) {
+        raise(Alarm::overspeed, at, out);  // what the drive does about it is not printed: nothing (E-51)
     } else if (event == Axis::Event::stalled) {
         tlif_ = true;
         raise(Alarm::stall, at, out);

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,8 @@ struct DeviceSetup {
     Protocol factory;
     Identity identity;
     Duration boot_time{};
+    /// Of the bus, as PP[5] has it; nothing: not known, or a byte line, and then the drive hears whatever its own rate is.
+    std::optional<std::uint8_t> bus_rate;
 };
 
 class Device final : public Twin {
@@ -94,7 +97,8 @@ private:
     void run_action(std::uint8_t action, std::size_t group, Instant at, Out& out);
     void emergency_stop_by_input(Instant at, Out& out);
     void on_axis(Axis::Event event, Instant at, Out& out);
-    void configure_loop(Instant now);
+    void configure_axis(Instant now);
+    [[nodiscard]] bool on_the_bus() const noexcept { return !bus_rate_ || *bus_rate_ == bit_rate_; }
     [[nodiscard]] Axis::Values values_of(std::size_t group) const noexcept;
     [[nodiscard]] bool may_start() const noexcept;
     /// As configured; a change of IC[5] is always kept and acts at the next boot, when the counter begins at the encoder's place or at 0.
@@ -127,6 +131,7 @@ private:
     LineKind kind_;
     Identity identity_;
     Duration boot_time_;
+    std::optional<std::uint8_t> bus_rate_;
     Memory memory_;
     Axis axis_;
     Inputs inputs_;
@@ -145,6 +150,10 @@ private:
     bool online_ = false;
     std::uint8_t node_ = 5;
     std::uint8_t group_ = 10;
+    std::uint8_t bit_rate_ = 2;  // PP[5], MT[0], QE[4] and IC[5] as they were at boot: later writes act after the next one
+    std::uint16_t microsteps_ = 16;
+    std::uint16_t pulses_per_turn_ = 3200;
+    bool absolute_ = false;
     bool enable_at_boot_ = false;
     bool paif_ = false;
     bool tlif_ = false;

@@ -1,6 +1,6 @@
 // The tester's hand: outside conditions of the drive, by the names that all families share; see twin_device.hpp.
 // In: names and values. Out: what they cause on the wire, or why they make no sense.
-// Never writes a register.
+// Never writes a register, but for the bit rate that a service tool would set back.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -38,10 +38,9 @@ struct Switch {
     unsigned bit;
     std::string_view text;
 };
-constexpr std::array switches{
-    Switch{"home_switch", 0, "a switch at IN1 (bit 0 of inputs), true: high; IL[0] says what the drive does"},
-    Switch{"limit_positive", 1, "a switch at IN2 (bit 1 of inputs), true: high; IL[1] says what the drive does"},
-    Switch{"limit_negative", 2, "a switch at IN3 (bit 2 of inputs), true: high; IL[2] says what the drive does"}};
+constexpr std::array switches{Switch{"home_switch", 0, "a switch at IN1 (bit 0 of inputs), true: high; IL[0] says what the drive does"},
+                              Switch{"limit_positive", 1, "a switch at IN2 (bit 1 of inputs), true: high; IL[1] says what the drive does"},
+                              Switch{"limit_negative", 2, "a switch at IN3 (bit 2 of inputs), true: high; IL[2] says what the drive does"}};
 
 }  // namespace
 
@@ -69,6 +68,13 @@ std::vector<HandItem> Device::hand() const {
     const bool ever = last_ != Instant::min();
     items.push_back({"position", ever ? std::int64_t{wrap_i32(axis_.shaft(last_).position)} : std::int64_t{0}, true,
                      "shaft position, pulses; can be turned by hand while the driver is off"});
+    items.push_back({"shaft_turns", ever ? axis_.turns(last_) : 0.0, false,
+                     "turns of the shaft, counter-clockwise positive: what MT[0], QE[0], QE[2], QE[4] and IC[1] make of the pulses"});
+    if (bus_rate_) {
+        items.push_back({"bit_rate_code", std::int64_t{bit_rate_}, true,
+                         "bit rate of the CAN line that the drive hears, as a code of PP[5]; writing sets PP[5] and acts at once, as a "
+                         "service tool at the drive would: the way back after a wrong PP[5]"});
+    }
     return items;
 }
 
@@ -153,11 +159,21 @@ std::string Device::set_condition(const std::string& name, const Value& value, I
         if (!there || !(std::abs(*there) <= 2147483647.0))
             return "position: " + to_text(value) + " is not a position of 32 bits, in pulses";
         if (axis_.driver_on()) return "position: the driver holds the shaft; switch it off first (MO=0)";
-        axis_.displace(*there);
+        axis_.displace(*there, now);
         return {};
     }
-    return "there is no '" + name + "' here; power, silent, stall, inputs, home_switch, limit_positive, limit_negative, temperature, inject_error, lost_pulses, "
-           "encoder_error, battery_low, position";
+    if (name == "shaft_turns") return "shaft_turns: it is read only; position turns the shaft by hand";
+    if (name == "bit_rate_code" && bus_rate_) {
+        if (!number || *number < 0 || *number > 4)
+            return "bit_rate_code: " + to_text(value) + " is not 0..4 (1000, 800, 500, 250, 125 kbit/s)";
+        memory_.set_flash([&](Protocol& p) { p.bit_rate = static_cast<std::uint8_t>(*number); });
+        bit_rate_ = static_cast<std::uint8_t>(*number);
+        return {};
+    }
+    return "there is no '" + name +
+           "' here; power, silent, stall, inputs, home_switch, limit_positive, limit_negative, temperature, inject_error, lost_pulses, "
+           "encoder_error, battery_low, position" +
+           std::string(bus_rate_ ? ", bit_rate_code" : "");
 }
 
 /// An alarm is sent once when it comes in; the ones that the drive acts upon act.
@@ -176,6 +192,11 @@ std::string Device::inject(std::int64_t code, Instant now, Out& out) {
         case Alarm::emergency_lock:
             axis_.stop_fast(now, memory_.ram().sd);
             lock_ = true;
+            raise(alarm, now, out);
+            break;
+        case Alarm::lower_limit:
+        case Alarm::upper_limit:
+            axis_.stop_fast(now, memory_.ram().sd);  // "soft bumper limit is hit" [L1409]
             raise(alarm, now, out);
             break;
         case Alarm::stall:

@@ -271,4 +271,22 @@ Instant Profile::first_departure(Instant from, double centre, double distance) c
     return std::abs(end_position_ - centre) >= distance && end_ != never ? end_ : never;
 }
 
+Instant Profile::first_faster(Instant from, double limit) const noexcept {
+    if (from >= end_) return never;
+    const double now = std::max(seconds(from - start_), 0.0);
+    for (std::size_t i = 0; i < count_; ++i) {
+        const Segment& s = segments_[i];
+        if (now >= s.begin + s.duration) continue;
+        const double skip = std::max(now - s.begin, 0.0);
+        const double speed = std::abs(s.velocity_at(skip));
+        if (speed > limit) return std::max(from, later(start_, s.begin + skip));
+        // A piece does not change its direction, so its speed grows if speed and acceleration agree.
+        const double rate = s.velocity_at(skip) * s.acceleration >= 0 ? std::abs(s.acceleration) : 0;
+        if (!(rate > 0) || s.duration == endless) continue;
+        const double t = (limit - speed) / rate;
+        if (t < s.duration - skip && speed + rate * (s.duration - skip) > limit) return std::max(from, later(start_, s.begin + skip + t));
+    }
+    return never;
+}
+
 }  // namespace axisgate::uim342::twin

@@ -67,6 +67,8 @@ public:
     void shift(double pulses) noexcept;
     /// First instant, not before `from`, at which the position is `distance` or more away from `centre`; `never` if it does not come.
     [[nodiscard]] Instant first_departure(Instant from, double centre, double distance) const noexcept;
+    /// First instant, not before `from`, at which it is faster than `limit` in either direction; `never` if it never is.
+    [[nodiscard]] Instant first_faster(Instant from, double limit) const noexcept;
 
     [[nodiscard]] std::size_t size() const noexcept { return count_; }
     [[nodiscard]] const Segment& operator[](std::size_t i) const noexcept { return segments_[i]; }

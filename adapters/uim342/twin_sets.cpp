@@ -56,6 +56,8 @@ Fault Device::begin_motion(Instant now) {
     if (!ptp_mode_) {
         axis_.jog(now, desired_speed_, values_of(0));
     } else if (target_is_relative_) {
+        // What the distance comes to from here: DV[4] is where the motion ends, whichever way it was given.
+        desired_absolute_ = wrap_i32(static_cast<double>(axis_.position(now)) + desired_relative_);
         axis_.move_by(now, desired_relative_, speed, values_of(0));
     } else {
         axis_.move_to(now, desired_absolute_, speed, values_of(0));
@@ -152,7 +154,7 @@ Fault Device::set_indexed(const Telegram& t, Instant now, Telegram& reply, Out& 
             if (n > 1) return Fault::data;
             if (moving) return Fault::running;
             memory_.set(true, [&](Settings& s) { s.ic[i] = n; });  // it describes the power-on: kept whatever MO is
-            if (i == 6) configure_loop(now);
+            if (i == 1 || i == 6) configure_axis(now);
             break;
         case IE: {
             const auto slot = ie_slot(i);
@@ -166,7 +168,7 @@ Fault Device::set_indexed(const Telegram& t, Instant now, Telegram& reply, Out& 
             if (!qe_takes(i, n)) return Fault::data;
             if (moving) return Fault::running;
             memory_.set(keep, [&](Settings& s) { s.qe[i] = n; });
-            if (i == 1) configure_loop(now);
+            if (i <= 2) configure_axis(now);
             break;
         case MT:
             if (i >= memory_.ram().mt.size()) return Fault::sub_index;
@@ -207,7 +209,7 @@ Fault Device::set_indexed(const Telegram& t, Instant now, Telegram& reply, Out& 
             if (moving) return Fault::running;
             memory_.restore_factory();
             inputs_.set_modes(memory_.ram().tg, now);
-            configure_loop(now);
+            configure_axis(now);
             return Fault::none;
         default:
             return Fault::syntax;

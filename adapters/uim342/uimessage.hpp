@@ -66,6 +66,9 @@ public:
                     if (accept_ == CrcMode::automatic) accept_ = check.proved;
                     f(check, buffer_);
                 } else {
+                    if (!other_ && buffer_[0] == 0xAA) {
+                        if (const UiCheck with = check_uimessage(buffer_, CrcMode::automatic); with.good) other_ = with.proved;
+                    }
                     slide(junk);
                 }
             }
@@ -75,10 +78,13 @@ public:
     [[nodiscard]] std::span<const std::uint8_t> pending() const noexcept { return {buffer_.data(), fill_}; }
     /// What is accepted now: for `automatic` the pinned range once a frame has proved one.
     [[nodiscard]] CrcMode accepting() const noexcept { return accept_; }
+    /// The range of a CRC that was right, but is not the one that is accepted; nothing: none has been seen since `reset`.
+    [[nodiscard]] std::optional<CrcMode> other_seen() const noexcept { return other_; }
     /// Forgets half a frame and what was pinned: the line was down.
     void reset() noexcept {
         fill_ = 0;
         accept_ = wanted_;
+        other_.reset();
     }
 
 private:
@@ -98,6 +104,7 @@ private:
     std::size_t fill_ = 0;
     CrcMode wanted_;
     CrcMode accept_;
+    std::optional<CrcMode> other_;
 };
 
 }  // namespace axisgate::uim342

@@ -49,7 +49,7 @@ void Node::plan_write(const WriteParameter& write, Turn& t) {
     const std::string id = bus_.catalogue.id_of(write.point);
     if (!b || !p) return refuse_job(Reason::unknown_point, fmt::format("the UIM342 has no {}", id), t);
     const Instruction& i = *b->instruction;
-    if (!p->writable() || b->part || i.set_dl < 0 || i.data == Data::none || i.data == Data::raw) {
+    if (!p->writable() || (b->part && i.cw != cw::IL && i.cw != cw::DI) || i.set_dl < 0 || i.data == Data::none || i.data == Data::raw) {
         return refuse_job(Reason::not_writable, fmt::format("{} can only be read", id), t);
     }
     const auto v = as_integer(write.value);
@@ -68,6 +68,11 @@ void Node::plan_write(const WriteParameter& write, Turn& t) {
     }
     job_.binding = b;
     job_.wanted = *v;
+    if (b->part && i.cw == cw::IL) {
+        if (auto checked = bus_.catalogue.check_write(write.point, write.value); !checked.fault.empty())
+            return refuse_job(Reason::out_of_range, std::move(checked.fault), t);
+        return job_.add(make_get(address_, i, b->index));  // the other parts stay as they are: done_write puts the whole together
+    }
     if (i.cw == cw::MO && *v != 0) job_.add(msg_act(cw::ST));  // a residual motion would begin with the driver [L1264]
     if (b->mf != 0) job_.add(msg_set(cw::MF, b->mf), 0, true);
     job_.add(make_set(address_, i, b->index, *v), b->mf);
@@ -80,6 +85,15 @@ void Node::done_write(const Message& m, Turn& t) {
     const Message& request = job_.steps[job_.at - 1u].message;
     if (request.function() != i.cw) return;  // the ST before MO=1
     const auto told = value_of(request, m);
+    if (b.part && i.cw == cw::IL) {
+        if (form_of(request) == Form::get) {
+            const unsigned at = (b.byte - 1u) * 8u + b.bit;
+            const std::int64_t mask = ((std::int64_t{1} << b.bits) - 1) << at;
+            job_.add(make_set(address_, i, b.index, (told.value_or(0) & ~mask) | (job_.wanted << at & mask)));
+            return;
+        }
+        return job_over(Outcome::done, Reason::none, storage_note(i, b.index), t, 0, Points::value(b, m).value_or(Value{job_.wanted}));
+    }
     if (form_of(request) == Form::get) {  // PP: what is stored
         if (told == job_.wanted) {
             job_over(Outcome::done, Reason::none, "it is stored already: FLASH was not written", t, 0, Value{job_.wanted});
@@ -171,6 +185,7 @@ void Node::native_answered(const Step& step, const Message* answer, Turn& t) {
     if (step.message.function() == cw::OG) {
         fb_.referenced = true;
         demand_rests(fb_.position = 0);
+        position_at_ = t.now;
         emit(t);
     }
     poll_now(t);

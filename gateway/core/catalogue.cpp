@@ -10,6 +10,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "gateway/core/parameter_form.hpp"
+
 namespace axisgate {
 namespace {
 namespace json = boost::json;
@@ -168,6 +170,7 @@ std::optional<Catalogue> Catalogue::parse(std::string_view text, std::vector<std
                                  range ? static_cast<std::int32_t>(through->get_int64()) : 0});
         }
     }
+    check_forms(c, faults);
     if (faults.size() != before) return std::nullopt;
     return c;
 }
@@ -262,6 +265,7 @@ Catalogue::Checked Catalogue::check_write(Point point, const Value& value) const
     if (static_cast<double>(*i) < low || static_cast<double>(*i) > high) {
         return {{}, fmt::format("{}: {} is outside {:.0f}..{:.0f}{}", id, *i, low, high, unit)};
     }
+    if (const auto wrong = wrong_field(*this, point, *i); !wrong.empty()) return {{}, fmt::format("{}.{}", id, wrong)};
     return {p->type == ValueType::boolean ? Value{*i != 0} : Value{*i}, {}};
 }
 

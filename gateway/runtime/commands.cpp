@@ -10,6 +10,7 @@
 
 #include "gateway/core/assets.hpp"
 #include "gateway/core/options.hpp"
+#include "gateway/doors/http/documents.hpp"
 #include "gateway/runtime/catalogues.hpp"
 #include "gateway/runtime/clock.hpp"
 #include "gateway/runtime/config_host.hpp"
@@ -80,8 +81,17 @@ std::optional<Families> families_or_complain() {
     return families;
 }
 
-constexpr std::string_view parameter_fields[] = {"id", "name", "group", "type", "unit", "min", "max", "default", "access", "storage", "description", "addressing", "live"};
-constexpr bool is_mark(std::string_view field) { return field == "addressing" || field == "live"; }
+constexpr std::string_view parameter_fields[] = {"id",     "name",    "group",   "type",        "unit",       "min", "max",
+                                                 "default", "access", "storage", "description", "addressing", "live", "allowed"};
+
+/// {"0": "off", "1": "on"} as "0 = off, 1 = on"; everything else as it stands.
+std::string cell(std::string_view field, const json::value* v) {
+    if (field != "allowed" || !v || !v->is_object()) return plain(v);
+    std::string s;
+    for (const auto& [value, meaning] : v->get_object())
+        s += fmt::format("{}{} = {}", s.empty() ? "" : ", ", std::string_view(value), plain(&meaning));
+    return s;
+}
 }  // namespace
 
 int command_families(const std::string& format) {
@@ -127,17 +137,12 @@ int command_catalogue(const std::string& family, const std::string& what, const 
     }
     if (format == "json") {
         json::array out;
-        for (const auto& item : list->get_array()) {
-            if (what != "parameters") {
-                out.push_back(item);
-                continue;
-            }
-            json::object o;
-            for (const auto& f : head) {
-                const auto* v = item.get_object().if_contains(f);
-                o[f] = v ? *v : is_mark(f) ? json::value(false) : json::value(nullptr);
-            }
-            out.push_back(std::move(o));
+        if (what == "parameters") {  // as /families/{f}/parameters has them
+            const auto parameters = entry->catalogue->parameters();
+            for (std::size_t i = 0; i < parameters.size(); ++i)
+                out.push_back(http::parameter_document(*entry->catalogue, {static_cast<std::uint16_t>(i), parameters[i].first}, parameters[i].id));
+        } else {
+            out = list->get_array();
         }
         fmt::print("{}\n", json::serialize(out));
         return exit_good;
@@ -145,7 +150,7 @@ int command_catalogue(const std::string& family, const std::string& what, const 
     std::vector<Row> rows;
     for (const auto& item : list->get_array()) {
         Row r;
-        for (const auto& f : head) r.push_back(plain(item.get_object().if_contains(f)));
+        for (const auto& f : head) r.push_back(cell(f, item.get_object().if_contains(f)));
         rows.push_back(std::move(r));
     }
     if (format == "csv") {

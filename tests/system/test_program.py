@@ -36,11 +36,15 @@ def test_families_and_catalogue():
     wanted = {"id", "name", "group", "type", "unit", "min", "max", "default", "access", "storage", "description"}
     assert len(parameters) >= 93
     for p in parameters:
-        assert set(p) == wanted | {"addressing", "live"}, p
+        assert set(p) == wanted | {"addressing", "live", "allowed", "fields", "meanings", "alternate", "choice", "first", "count", "selector"}, p
         assert p["access"] in ("R", "W", "RW")
     rows = list(csv.reader(io.StringIO(run("catalogue", "uim342", "parameters", "--format", "csv", check=0)[1])))
     assert rows[0][0] == "id" and len(rows) == len(parameters) + 1
     assert any(r[0] == "PP[7]" for r in rows)
+    bit_rate = next(r for r in rows if r[0] == "PP[5]")
+    assert bit_rate[rows[0].index("allowed")].startswith("0 = 1000 kbit/s, 1 = 800 kbit/s"), bit_rate
+    loop = next(p for p in parameters if p["id"] == "IC[6]")
+    assert loop["allowed"] == [{"value": 0, "meaning": "open loop"}, {"value": 1, "meaning": "closed loop"}] and loop["choice"] == ["storage"]
     errors = json.loads(run("catalogue", "uim342", "errors", "--format", "json", check=0)[1])
     assert {e["code"] for e in errors} >= {50, 51, 52, 60, 61, 62, 63, 65}
     assert json.loads(run("catalogue", "uim342", "commands", "--format", "json", check=0)[1])

@@ -101,6 +101,18 @@ def main():
                 passed += 1
             else:
                 faults.append(f"{need} is missing: a family is a folder and a page of data")
+    # A family that lists the errata of its manual (`| E-04 |`, `**E-04**`) lists every one that it speaks of.
+    for f in families:
+        listed = {int(n) for page in (TOP / "adapters" / f).glob("*.md") for n in re.findall(r"^(?:[|*] *)?\**`?E-(\d+)\b", page.read_text(encoding="utf-8"), re.M)}
+        if not listed:
+            continue
+        pages = [p for p in (TOP / "adapters" / f).rglob("*") if p.is_file()] + [TOP / f"schema/families/{f}.json"]
+        for page in pages:
+            missing = {int(n) for n in re.findall(r"\bE-(\d+)\b", page.read_text(encoding="utf-8", errors="replace"))} - listed
+            if missing:
+                faults.append(f"{page.relative_to(TOP)}: E-{min(missing):02} stands in no list of adapters/{f}/*.md")
+            else:
+                passed += 1
     # The rule itself can fail: a core file that includes Asio must be found.
     probe = TOP / "gateway/core/engine.cpp"
     if may_include(probe, "boost/asio.hpp") and may_include(probe, "adapters/uim342/wire.hpp") and not may_include(probe, "vector"):

@@ -1,6 +1,6 @@
 // A parameter's range and what is typed for it: out of range tells the range; nothing is bent to fit.
 import { describe, expect, it } from 'vitest';
-import { rangeText, readValue, sameValue, searchRank, unitWords, valueText } from '../src/words/parameter';
+import { fieldLines, fieldValue, rangeText, readValue, sameValue, searchRank, unitWords, valueText, withField } from '../src/words/parameter';
 
 const p = (change: object) => ({ type: 'u32', min: null, max: null, unit: null, allowed: null, ...change }) as Parameters<typeof readValue>[1];
 
@@ -69,4 +69,34 @@ it('writes units as people do', () => {
   expect(unitWords('pulse/s^2')).toBe('pulse/s²');
   expect(unitWords('deg C')).toBe('°C');
   expect(unitWords(null)).toBe('');
+});
+
+describe('a number of parts', () => {
+  const actions = [{ value: 0, meaning: 'no action' }, { value: 6, meaning: 'origin, then stop' }];
+  const logic = p({
+    type: 'u16',
+    fields: [
+      { name: 'falling_edge_action', low_bit: 0, bits: 7, allowed: actions },
+      { name: 'flag', low_bit: 7, bits: 1, allowed: [{ value: 0, meaning: 'always' }, { value: 1, meaning: 'on a change' }] },
+      { name: 'rising_edge_action', low_bit: 8, bits: 7, allowed: actions },
+    ],
+  });
+  it('is told part by part', () => {
+    expect(fieldLines(0x0680, logic)).toEqual(['falling edge action: no action', 'flag: on a change', 'rising edge action: origin, then stop']);
+    expect(fieldLines(null, logic)).toEqual([]);
+  });
+  it('changes in one part alone', () => {
+    const [falling, flag, rising] = logic.fields as NonNullable<typeof logic.fields>;
+    expect(withField(0x8680, falling!, 6)).toBe(0x8686);
+    expect(withField(0x8686, flag!, 0)).toBe(0x8606);
+    expect(fieldValue(withField(0x8606, rising!, 0), rising!)).toBe(0);
+  });
+  it('is refused for one part, with what that part can be', () => {
+    expect(readValue('5', logic)).toMatchObject({ good: false, why: expect.stringMatching(/5 as falling edge action. Allowed: 0 \(no action\), 6 \(origin, then stop\)/) });
+    expect(readValue('1670', logic)).toEqual({ good: true, value: 0x0686 });
+  });
+  it('has words for ranges of values', () => {
+    const meanings = [{ from: 0, through: 0, meaning: 'continuous' }, { from: 1, through: 60000, meaning: 'filter, ms' }];
+    expect(valueText(100, { allowed: null, meanings })).toBe('100 = filter, ms');
+  });
 });

@@ -17,14 +17,15 @@ Value item(Twin& t, const std::string& name) {
 
 TEST(TwinHand, ItemsAndTheirValues) {
     Bench b;
-    const std::vector<std::string> names = {"power",       "silent",       "stall",       "inputs",        "home_switch", "limit_positive", "limit_negative",
-                                            "temperature", "inject_error", "lost_pulses", "encoder_error", "battery_low", "position"};
+    const std::vector<std::string> names = {"power",          "silent",         "stall",       "inputs",       "home_switch",
+                                            "limit_positive", "limit_negative", "temperature", "inject_error", "lost_pulses",
+                                            "encoder_error",  "battery_low",    "position",    "shaft_turns"};
     std::vector<std::string> got;
     for (const HandItem& i : b.drive().hand()) {
         got.push_back(i.name);
         EXPECT_FALSE(i.description.empty());
         EXPECT_TRUE(known(i.value)) << i.name;
-        EXPECT_TRUE(i.writable);
+        EXPECT_EQ(i.writable, i.name != "shaft_turns");
     }
     EXPECT_EQ(got, names);
     EXPECT_EQ(item(b.drive(), "power"), Value{true});
@@ -235,7 +236,7 @@ TEST(TwinHand, AlarmsByInjection) {
         EXPECT_EQ(item(b.drive(), "inject_error"), Value{std::int64_t{code}});
         EXPECT_TRUE(b.hand("inject_error", code).empty()) << "once per entry";
         EXPECT_TRUE(b.pass_ms(100).empty());
-        EXPECT_EQ(b.stopped(), code == 0x0A || code == 0x1D);
+        EXPECT_EQ(b.stopped(), code == 0x0A || code == 0x1A || code == 0x1B || code == 0x1D) << "limits stop with SD [L1409]";
         EXPECT_EQ(b.locked(), code == 0x0A);
         EXPECT_EQ(b.stalled(), code == 0x1D);
         EXPECT_TRUE(b.hand("inject_error", 0).empty());

@@ -103,6 +103,8 @@ TEST(TwinInputs, Action01DriverOff) {
         r.run(1000);
         EXPECT_EQ(r.trigger(), Lines{e.notification()});
         EXPECT_EQ(r.b.ask("95"), "15 00");
+        EXPECT_FALSE(r.b.stopped()) << "the shaft is free and runs out";
+        EXPECT_TRUE(r.b.pass_ms(10).empty());
         EXPECT_TRUE(r.b.stopped());
     }
 }

@@ -563,15 +563,17 @@ TEST(TwinMotion, DriverOffInMotionAndNoMotionByDriverOn) {
     b.setup({"95 01", "9D 10 27 00 00", "96"});
     b.pass_ms(1000);
     b.setup({"95 00"});
-    EXPECT_TRUE(b.stopped());
+    EXPECT_FALSE(b.stopped()) << "the shaft runs out";
     EXPECT_EQ(b.position(), 5000);
     EXPECT_TRUE(b.pass_ms(1000).empty());
+    EXPECT_TRUE(b.stopped());
+    EXPECT_EQ(b.position(), 5313) << "10000^2 / (2 * 50 turns/s^2 * 3200)";
     b.setup({"95 01"});
     b.pass_ms(1000);
-    EXPECT_EQ(b.position(), 5000) << "values stay pending, nothing moves by MO=1";
+    EXPECT_EQ(b.position(), 5313) << "values stay pending, nothing moves by MO=1";
     b.setup({"96"});
     b.pass_ms(1000);
-    EXPECT_EQ(b.position(), 10000);
+    EXPECT_EQ(b.position(), 10313);
 }
 
 TEST(TwinMotion, SpeedSaturatesInTwentyFourBits) {
@@ -589,9 +591,9 @@ TEST(TwinMotion, SpeedSaturatesInTwentyFourBits) {
 TEST(TwinMotion, CounterWrapsAtThirtyTwoBits) {
     Bench b;
     b.setup({"95 01", "99 40 D2 DF 03", "9C FF FF FF FF", "9A 40 D2 DF 03", "A0 " + le32(2147483000), "9E " + le32(100'000'000), "96"});
-    EXPECT_EQ(b.pass_ms(60000), Lines{rt_in_position + le32(2147483000)});
+    EXPECT_EQ(b.pass_ms(60000), (Lines{"5A 00 19 00 00 00", rt_in_position + le32(2147483000)})) << "too fast for any motor, too";
     b.setup({"9F " + le32(1000), "96"});
-    EXPECT_EQ(b.pass_ms(60000), Lines{rt_in_position + le32(2147484000)});
+    EXPECT_EQ(b.pass_ms(60000), (Lines{"5A 00 19 00 00 00", rt_in_position + le32(2147484000)}));
     EXPECT_EQ(b.position(), -2147483296);
     EXPECT_EQ(b.relative(), 1000);
     b.setup({"A0 " + le32(-2147483000), "96"});  // near by: the counter is where it says

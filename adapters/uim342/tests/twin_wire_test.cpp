@@ -140,7 +140,7 @@ TEST(TwinBytes, CrcRangeIsASettingAndAnswersComeAsTheyWereAsked) {
         const char* option;
         bool takes12, takes13;
     };
-    for (const Case& c : {Case{"", true, false}, Case{"12", true, false}, Case{"13", false, true}, Case{"auto", true, true}}) {
+    for (const Case& c : {Case{"", true, true}, Case{"12", true, false}, Case{"13", false, true}, Case{"auto", true, true}}) {
         EXPECT_EQ(ByteBench(c.option).send(mo_on_12), c.takes12 ? mo_on_12_ack : "") << c.option;
         EXPECT_EQ(ByteBench(c.option).send(mo_on_13), c.takes13 ? mo_on_13_ack : "") << c.option;
         EXPECT_EQ(ByteBench(c.option).send(mo_on_plain), mo_on_plain_ack) << c.option;

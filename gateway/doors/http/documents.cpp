@@ -7,6 +7,7 @@
 
 #include "gateway/core/axis_members.hpp"
 #include "gateway/core/cia402.hpp"
+#include "gateway/core/parameter_form.hpp"
 #include "gateway/doors/http/text.hpp"
 
 namespace axisgate::http {
@@ -222,6 +223,35 @@ json::object frame_document(const TraceEntry& e, const std::vector<std::string>&
             {"decoded", json::array(decoded.begin(), decoded.end())}};
 }
 
+namespace {
+json::value allowed_document(const std::vector<std::pair<std::int64_t, std::string>>& allowed) {
+    if (allowed.empty()) return nullptr;
+    json::array list;
+    for (const auto& [value, meaning] : allowed)
+        list.push_back(json::object{{"value", value}, {"meaning", meaning}});
+    return list;
+}
+
+/// What the number means: its bit fields, ranges of values, and the form that it has while another parameter has a certain value.
+void put_forms(json::object& o, const Catalogue& catalogue, Point point) {
+    json::array fields, meanings;
+    for (const auto& f : fields_of(catalogue, point))
+        fields.push_back(json::object{{"name", f.name}, {"low_bit", f.low_bit}, {"bits", f.bits}, {"allowed", allowed_document(f.allowed)}});
+    for (const auto& m : meanings_of(catalogue, point))
+        meanings.push_back(json::object{{"from", m.from}, {"through", m.through}, {"meaning", m.text}});
+    o["fields"] = fields.empty() ? json::value(nullptr) : json::value(std::move(fields));
+    o["meanings"] = meanings.empty() ? json::value(nullptr) : json::value(std::move(meanings));
+    o["alternate"] = nullptr;
+    if (const auto a = alternate_of(catalogue, point)) {
+        o["alternate"] = json::object{{"parameter", a->of ? json::value(catalogue.id_of(*a->of)) : json::value(nullptr)},
+                                      {"equals", a->of ? json::value(a->equals) : json::value(nullptr)},
+                                      {"unit", text_or_null(a->unit)},
+                                      {"min", bound(a->min)},
+                                      {"max", bound(a->max)}};
+    }
+}
+}  // namespace
+
 json::object parameter_document(const Catalogue& catalogue, Point point, std::string_view id) {
     const Parameter& p = *catalogue.parameter(point);
     const auto selector = catalogue.selector(point);
@@ -238,14 +268,10 @@ json::object parameter_document(const Catalogue& catalogue, Point point, std::st
                    {"addressing", p.addressing},
                    {"live", p.live},
                    {"description", p.description}};
-    if (p.allowed.empty()) {
-        o["allowed"] = nullptr;
-    } else {
-        json::array list;
-        for (const auto& [value, meaning] : p.allowed)
-            list.push_back(json::object{{"value", value}, {"meaning", meaning}});
-        o["allowed"] = std::move(list);
-    }
+    o["allowed"] = allowed_document(p.allowed);
+    put_forms(o, catalogue, point);
+    const auto* choice = entry_of(catalogue, point)->if_contains("choice");
+    o["choice"] = choice && choice->is_array() ? *choice : json::value(json::array());
     o["first"] = p.count == 0 ? json::value(nullptr) : json::value(p.first);
     o["count"] = p.count == 0 ? json::value(nullptr) : json::value(p.count);
     o["selector"] = selector ? json::value(*selector) : json::value(nullptr);
@@ -305,6 +331,7 @@ json::object axis_parameter_document(const Catalogue& catalogue, Point point, st
     o["written_by"] = stored ? text_or_null(stored->who) : json::value(nullptr);
     o["written_through"] = stored ? text_or_null(stored->door) : json::value(nullptr);
     o["text"] = text;
+    o["meaning"] = text_or_null(value_in_words(catalogue, point, live.value));
     return o;
 }
 

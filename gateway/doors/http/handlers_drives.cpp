@@ -102,11 +102,33 @@ Handled exchange_native(Call& c) {
     command.body = std::move(*native);
     Gateway& gateway = c.gateway();
     const std::int64_t begun_ns = gateway.now_unix_ns();
-    return submit_command(c, std::move(command), axes[*lowest].name, "native", 0, [&gateway, begun_ns](const Result& r) {
-        // To the microsecond: on a fast line an exchange is over within one millisecond.
-        const auto took_us = std::max<std::int64_t>(0, (gateway.now_unix_ns() - begun_ns) / 1'000);
-        return json_response(json::object{{"reply", r.text}, {"reply_hex", to_hex(r.bytes)}, {"took_ms", number(static_cast<double>(took_us) / 1000.0)}});
+    // To the microsecond: on a fast line an exchange is over within one millisecond.
+    const auto took_ms = [&gateway, begun_ns] {
+        return number(static_cast<double>(std::max<std::int64_t>(0, (gateway.now_unix_ns() - begun_ns) / 1'000)) / 1000.0);
+    };
+    const std::string axis = axes[*lowest].name;
+    command.origin = c.origin();
+    const Ticket ticket = gateway.submit(std::move(command), [took_ms, axis, respond = c.respond](const Result& r) {
+        if (good(r)) return respond(json_response(json::object{{"reply", r.text}, {"reply_hex", to_hex(r.bytes)}, {"took_ms", took_ms()}}));
+        if (r.reason != Reason::drive_refused || r.bytes.empty()) return respond(problem_of(r, axis, "native"));
+        // The drive has answered, if with its error: what it said belongs to the answer.
+        respond(to_response(Problem{.status = 409,
+                                    .reason = std::string(name_of(r.reason)),
+                                    .detail = r.text,
+                                    .code = r.code,
+                                    .axis = axis,
+                                    .more = {{"ticket", shown(r.ticket)},
+                                             {"result", name_of(r.outcome)},
+                                             {"command", "native"},
+                                             {"reply_hex", to_hex(r.bytes)},
+                                             {"took_ms", took_ms()}}}));
     });
+    Result none;
+    none.ticket = ticket;
+    none.outcome = Outcome::failed;
+    none.reason = Reason::no_answer;
+    none.text = fmt::format("native: no result within {} s; nobody knows whether it was done", gateway_limit.count());
+    return {gateway_limit, problem_of(none, axis, "native")};
 }
 
 namespace {

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "gateway/doors/http/axis_jobs.hpp"
+#include "gateway/core/parameter_form.hpp"
 #include "gateway/doors/http/documents.hpp"
 #include "gateway/doors/http/handlers.hpp"
 
@@ -154,6 +155,13 @@ Handled put_parameters_csv(Call& c) {
     std::map<std::string, Value> stored;
     for (const auto& s : c.gateway().stored(c.names[0]))
         stored[s.parameter] = s.value;
+    std::map<std::string, Value> given;
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+        const auto& cells = rows[i].second;
+        const auto point = axis->catalogue && cells.size() > std::max(id_column, value_column) ? axis->catalogue->find(trimmed(cells[id_column])) : std::nullopt;
+        const auto value = point ? parse_value(trimmed(cells[value_column]), axis->catalogue->parameter(*point)->type) : std::nullopt;
+        if (value) given[axis->catalogue->id_of(*point)] = *value;
+    }
     std::set<std::string> seen;
     json::array changes, skipped;
     std::vector<JobPoint> points;
@@ -189,7 +197,11 @@ Handled put_parameters_csv(Call& c) {
             wrong(line, fmt::format("{}: {} is no {}", id, text, name_of(p.type)));
             continue;
         }
-        auto checked = axis->catalogue->check_write(*point, *value);
+        // What the table itself gives another parameter counts before what that has now: it will have been written.
+        auto checked = check_write_now(*axis->catalogue, *point, *value, [&](Point other) {
+            const auto it = given.find(axis->catalogue->id_of(other));
+            return it == given.end() ? c.gateway().live(axis->id(), other).value : it->second;
+        });
         if (!checked.fault.empty()) {
             wrong(line, checked.fault);
             continue;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "gateway/core/parameter_form.hpp"
 #include "gateway/doors/http/documents.hpp"
 #include "gateway/doors/http/handlers.hpp"
 #include "gateway/doors/http/preconditions.hpp"
@@ -59,10 +60,25 @@ std::string tag_of(const StoredParameter* s) {
     return tag_over({json_text(to_json(s->value)), s->who, s->door, std::to_string(s->at_unix_ns)});
 }
 
+KnownValue known_now(Gateway& gateway, AxisId axis) {
+    return [&gateway, axis](Point p) { return gateway.live(axis, p).value; };
+}
+
+/// Unit and range are those that hold now, where they hang on another parameter's value.
+json::object document_now(Gateway& gateway, const AxisPlace& axis, Point point, std::string_view id, const LiveParameter& live,
+                          const StoredParameter* stored, std::string_view text) {
+    json::object o = axis_parameter_document(*axis.catalogue, point, id, live, stored, text);
+    const ParameterForm now = form_now(*axis.catalogue, point, known_now(gateway, axis.id()));
+    o["unit"] = text_or_null(now.unit);
+    o["min"] = now.min ? number(*now.min) : json::value(nullptr);
+    o["max"] = now.max ? number(*now.max) : json::value(nullptr);
+    return o;
+}
+
 /// What is answered for one parameter, from copies, so that it can be made after the exchange.
 Response whole(Gateway& gateway, const ParameterPlace& place, const LiveParameter& live, std::string_view text, std::int64_t history) {
     const auto stored = gateway.stored(place.axis.spec().name);
-    json::object o = axis_parameter_document(*place.axis.catalogue, place.point, place.id, live, stored_of(stored, place.id), text);
+    json::object o = document_now(gateway, place.axis, place.point, place.id, live, stored_of(stored, place.id), text);
     if (history > 0) {
         json::array list;
         for (const auto& h : gateway.history(place.axis.spec().name, place.id, static_cast<std::size_t>(history))) {
@@ -131,8 +147,8 @@ Handled list_parameters(Call& c) {
         if (!p) return;
         const std::string id = axis->catalogue->id_of(point);
         const auto it = by_id.find(id);
-        out.push_back(axis_parameter_document(*axis->catalogue, point, id, c.gateway().live(axis->id(), point),
-                                              it == by_id.end() ? nullptr : it->second, ""));
+        out.push_back(document_now(c.gateway(), *axis, point, id, c.gateway().live(axis->id(), point),
+                                   it == by_id.end() ? nullptr : it->second, ""));
     };
     bool array_found = false;
     const auto all = axis->catalogue->parameters();
@@ -232,7 +248,7 @@ Handled write_parameter(Call& c) {
         return to_response(
             Problem{.status = 409, .reason = "not_writable", .detail = fmt::format("{} can only be read", id), .axis = c.names[0]});
     }
-    auto checked = place->axis.catalogue->check_write(place->point, *value);
+    auto checked = check_write_now(*place->axis.catalogue, place->point, *value, known_now(c.gateway(), place->axis.id()));
     if (!checked.fault.empty()) {
         return invalid({{"/value", checked.fault, "write a value that the catalogue allows"}}, c.names[0], "out_of_range");
     }

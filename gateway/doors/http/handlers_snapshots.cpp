@@ -7,6 +7,7 @@
 #include <set>
 
 #include "gateway/doors/http/axis_jobs.hpp"
+#include "gateway/core/parameter_form.hpp"
 #include "gateway/doors/http/documents.hpp"
 #include "gateway/doors/http/handlers.hpp"
 
@@ -215,6 +216,14 @@ std::string why_left_out(const Parameter& p, WriteBack wanted) {
 
 Handled write_parameters(Call& c, const AxisPlace& axis, std::vector<JobPoint> points, json::object more) {
     const std::string name = axis.spec().name;
+    // What decides over the form of others goes before them.
+    if (axis.catalogue) {
+        std::set<std::pair<std::uint16_t, std::uint16_t>> deciding;
+        for (const auto& p : points) {
+            if (const auto a = alternate_of(*axis.catalogue, p.point); a && a->of) deciding.emplace(a->of->parameter, a->of->element);
+        }
+        std::ranges::stable_partition(points, [&](const JobPoint& p) { return deciding.contains({p.point.parameter, p.point.element}); });
+    }
     if (const auto why = why_not_written(c.gateway().picture(axis.id())); !points.empty() && !why.empty())
         return to_response(Problem{
             .status = 409, .reason = "wrong_state", .detail = fmt::format("{} before its parameters are written", why), .axis = name});
@@ -455,7 +464,13 @@ Handled restore_snapshot(Call& c) {
             skip("can only be read");
             continue;
         }
-        auto checked = found->axis.catalogue->check_write(*point, v.value);
+        // What the snapshot itself gives another parameter counts before what that has now: it will have been written.
+        auto checked = check_write_now(*found->axis.catalogue, *point, v.value, [&](Point other) {
+            const auto id = found->axis.catalogue->id_of(other);
+            const auto it = std::ranges::find(found->snapshot.parameters, id, &SnapshotValue::parameter);
+            const bool written = it != found->snapshot.parameters.end() && (!wanted || wanted->contains(id));
+            return written ? it->value : live_or(c.gateway(), found->axis, id, stored);
+        });
         if (!checked.fault.empty()) {
             skip(checked.fault);
             continue;

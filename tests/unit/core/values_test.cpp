@@ -110,6 +110,26 @@ TEST(Catalogue, WritesAreCheckedAndRefusalsNameTheRange) {
     }
 }
 
+TEST(Catalogue, FormsThatCannotBeReadAreFaultsWithTheirPlace) {
+    const auto faults_of = [](const std::string& members) {
+        std::vector<std::string> faults;
+        (void)Catalogue::parse(R"({"family": "f", "number": 1, "commands": [], "errors": [], "parameters": [{"id": "A", "name": "a", "group": "g",
+            "description": "d", "type": "u16", "min": 0, "max": 100, "access": "RW", )" + members + "}]}", faults);
+        return faults;
+    };
+    for (const auto& [members, says] : {std::pair<std::string, std::string>{R"("fields": [{"name": "x", "bits": "0..3"}])", "parameters[0].fields"},
+                                        {R"("fields": [{"name": "x", "bits": "3..0"}, {"name": "y", "bits": "3"}])", "shares its bits"},
+                                        {R"("fields": [{"name": "x", "bits": "3..0", "values": "none"}])", "names no list"},
+                                        {R"("meanings": {"1..": "x"})", "parameters[0].meanings"},
+                                        {R"("alternate": {"when": "B=1", "unit": "ms", "min": 0, "max": 9})", "parameters[0].alternate"},
+                                        {R"("alternate": {"when": "A=1", "unit": "ms", "min": 0, "max": 101})", "within min..max"}}) {
+        const auto faults = faults_of(members);
+        ASSERT_EQ(faults.size(), 1u) << members;
+        EXPECT_NE(faults[0].find(says), std::string::npos) << faults[0];
+    }
+    EXPECT_TRUE(faults_of(R"("alternate": {"when": "A=1", "unit": "ms", "min": 0, "max": 100}, "meanings": {"0": "x"}, "fields": null)").empty());
+}
+
 TEST(Catalogue, WhatADriveIsReachedByIsMarkedAndNothingElse) {
     const auto parse = [](std::string_view mark, std::vector<std::string>& faults) {
         return Catalogue::parse(fmt::format(R"({{"family": "x", "number": 1, "parameters": [{{"id": "A", "name": "a", "group": "g", "type": "u8", "access": "RW", "description": "d"{}}}],

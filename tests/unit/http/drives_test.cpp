@@ -50,6 +50,20 @@ TEST_F(HttpTest, Native) {
     gateway.finish(bad_result(Reason::no_answer, "drive feeder did not answer within 100 ms"));
     EXPECT_EQ(answered().status, 504u);
 
+    // The drive has answered, if with its error: what it said is shown.
+    call("POST", "/api/v1/drives/feeder/native", R"({"send":"MT[9]"})");
+    gateway.now_ns += 250'000;
+    Result no = bad_result(Reason::drive_refused, "MT[9]: the drive says 0x34 (sub-index)");
+    no.bytes = {0x0F, 0x06, 0x00, 0x34};
+    no.code = 0x34;
+    gateway.finish(no);
+    const auto refusal = answered();
+    EXPECT_EQ(refusal.status, 409u);
+    EXPECT_EQ(refusal.json.at("reply_hex"), "0F060034");
+    EXPECT_EQ(json_text(refusal.json.at("took_ms")), "0.25");
+    EXPECT_EQ(json_text(refusal.json.at("code")), "52");
+    EXPECT_EQ(refusal.json.at("reason"), "drive_refused");
+
     for (const auto* bad : {R"({})", R"({"send":"a","send_hex":"00"})", R"({"send":""})", R"({"send":5})", R"({"send_hex":"0"})",
                             R"({"send_hex":"zz"})", R"({"send_hex":""})", R"({"send":"a","x":1})"}) {
         EXPECT_EQ(call("POST", "/api/v1/drives/feeder/native", bad).status, 422u) << bad;

@@ -22,9 +22,9 @@ TEST_F(HttpParameters, ListHasLiveAndStoredValues) {
     EXPECT_EQ(
         json_text(a[0]),
         R"({"id":"AC","name":"acceleration","group":"motion","type":"u32","unit":"pulse/s^2","min":1,"max":65000000,"default":20000,"access":"RW",)"
-        R"("storage":"eeprom","addressing":false,"live":false,"description":"Acceleration of motions.","allowed":null,"first":null,"count":null,"selector":0,"value":30000,"quality":"good",)"
+        R"("storage":"eeprom","addressing":false,"live":false,"description":"Acceleration of motions.","allowed":null,"fields":null,"meanings":null,"alternate":null,"choice":[],"first":null,"count":null,"selector":0,"value":30000,"quality":"good",)"
         R"("at":"2026-01-02T03:04:05.000000Z","stored":25000,"previous":20000,"written_at":"2023-11-14T22:13:20.000000Z","written_by":"127.0.0.1:5",)"
-        R"("written_through":"http","text":""})");
+        R"("written_through":"http","text":"","meaning":null})");
     EXPECT_EQ(a[1].at("value"), nullptr);
     EXPECT_EQ(a[1].at("quality"), "unknown");
     EXPECT_EQ(a[1].at("stored"), nullptr);
@@ -43,6 +43,70 @@ TEST_F(HttpParameters, ListHasLiveAndStoredValues) {
     EXPECT_EQ(call("GET", base + "?array=AC").status, 404u);
     EXPECT_EQ(call("GET", base + "?first=x").status, 400u);
     EXPECT_EQ(call("GET", "/api/v1/axes/none/parameters").status, 404u);
+}
+
+/// Two parameters whose form hangs on a third, one of bits, one of ranges.
+constexpr std::string_view forms = R"({"family": "demo", "number": 9, "commands": [], "errors": [],
+  "actions": [{"code": 0, "title": "no action"}, {"code": 3, "title": "stop"}],
+  "parameters": [
+    {"id": "AC", "name": "acceleration", "group": "motion", "description": "x", "type": "u32", "unit": "pulse/s^2", "min": 1, "max": 65000000, "access": "RW",
+     "storage": "eeprom", "choice": ["storage"], "alternate": {"when": "IC[4]=1", "unit": "ms", "min": 1, "max": 60000}},
+    {"id": "IC[4]", "name": "ramp_unit", "group": "initial", "description": "x", "type": "u16", "access": "RW", "allowed": {"0": "pulse/s^2", "1": "ms"}},
+    {"id": "IL", "name": "logic", "group": "input", "description": "x", "type": "u16", "min": 0, "max": 255, "access": "RW",
+     "fields": [{"name": "action", "bits": "6..0", "values": "actions"}, {"name": "flag", "bits": "7", "allowed": {"0": "always", "1": "on a change"}}]},
+    {"id": "TG", "name": "trigger", "group": "input", "description": "x", "type": "u16", "min": 0, "max": 60001, "access": "RW",
+     "meanings": {"0": "continuous", "1..60000": "filter", "60001": "one time"}}]})";
+
+TEST_F(HttpParameters, UnitAndRangeAreThoseThatHoldNow) {
+    std::vector<std::string> faults;
+    gateway.catalogue = *Catalogue::parse(forms, faults);
+    const auto list = [&] { return call("GET", base).array(); };
+    EXPECT_EQ(json_text(list()[0].at("alternate")), R"({"parameter":"IC[4]","equals":1,"unit":"ms","min":1,"max":60000})");
+    EXPECT_EQ(json_text(list()[0].at("choice")), R"(["storage"])");
+    EXPECT_EQ(list()[0].at("unit"), "pulse/s^2") << "nobody knows IC[4]";
+    know("IC[4]", std::int64_t{1});
+    EXPECT_EQ(list()[0].at("unit"), "ms");
+    EXPECT_EQ(json_text(list()[0].at("max")), "60000");
+    auto no = call("PUT", base + "/AC", R"({"value":60001})");
+    EXPECT_EQ(no.status, 422u);
+    EXPECT_EQ(no.json.at("detail"), "AC: 60001 is outside 1..60000 ms, because IC[4] is 1");
+    EXPECT_TRUE(gateway.submitted.empty()) << "before the wire";
+    know("IC[4]", std::int64_t{0});
+    EXPECT_EQ(list()[0].at("unit"), "pulse/s^2");
+    call("PUT", base + "/AC", R"({"value":60001})");
+    EXPECT_EQ(gateway.submitted.size(), 1u);
+}
+
+TEST_F(HttpParameters, ATableGivesTheFormItsOwnValuesNeed) {
+    std::vector<std::string> faults;
+    gateway.catalogue = *Catalogue::parse(forms, faults);
+    know("IC[4]", std::int64_t{1});
+    know("AC", std::int64_t{500});
+    const auto put = [&](const std::string& rows) { return call("PUT", base + ".csv?dry_run=1", "parameter,value\n" + rows); };
+    EXPECT_EQ(put("AC,100000\n").status, 422u) << "the drive has times";
+    const auto both = put("AC,100000\nIC[4],0\n");
+    EXPECT_EQ(both.status, 200u) << both.text << "the table makes them rates";
+    know("IC[4]", std::int64_t{0});
+    EXPECT_EQ(put("AC,100000\nIC[4],1\n").status, 422u) << "and here times";
+}
+
+TEST_F(HttpParameters, BitsAndRangesAreLegible) {
+    std::vector<std::string> faults;
+    gateway.catalogue = *Catalogue::parse(forms, faults);
+    know("IL", std::int64_t{0x83});
+    know("TG", std::int64_t{100});
+    const auto list = call("GET", base).array();
+    EXPECT_EQ(list[1].at("meaning"), nullptr) << "not read yet";
+    EXPECT_EQ(list[2].at("meaning"), "action: stop; flag: on a change");
+    EXPECT_EQ(json_text(list[2].at("fields")),
+              R"([{"name":"action","low_bit":0,"bits":7,"allowed":[{"value":0,"meaning":"no action"},{"value":3,"meaning":"stop"}]},)"
+              R"({"name":"flag","low_bit":7,"bits":1,"allowed":[{"value":0,"meaning":"always"},{"value":1,"meaning":"on a change"}]}])");
+    EXPECT_EQ(list[3].at("meaning"), "filter");
+    EXPECT_EQ(json_text(list[3].at("meanings")),
+              R"([{"from":0,"through":0,"meaning":"continuous"},{"from":1,"through":60000,"meaning":"filter"},{"from":60001,"through":60001,"meaning":"one time"}])");
+    const auto no = call("PUT", base + "/IL", R"({"value":2})");
+    EXPECT_EQ(no.status, 422u);
+    EXPECT_EQ(no.json.at("detail"), "IL.action: 2 (bits 6..0 of 2) is not allowed; allowed: 0 (no action), 3 (stop)");
 }
 
 TEST_F(HttpParameters, ReadsFromTheDrive) {

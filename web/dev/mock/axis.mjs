@@ -48,6 +48,7 @@ export const catalogue = [
   return {
     id, name, group, type, unit, min, max, default: fallback, access, storage: access === 'R' ? null : 'flash', addressing: id === 'PP', live: false, description,
     allowed: allowed ? allowed.map((/** @type {[number, string]} */ [value, meaning]) => ({ value, meaning })) : null,
+    fields: null, meanings: null, alternate: null, choice: [], meaning: null,
     first: first ?? null, count: count ?? null, selector: null,
   };
 });

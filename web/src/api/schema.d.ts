@@ -1800,6 +1800,10 @@ export interface components {
             changes?: components["schemas"]["SiteDifference"][] | null;
             /** @description how many parameters were read before the drive fell silent */
             read?: number;
+            /** @description of a native exchange: the error that the drive answered with */
+            reply_hex?: string;
+            /** @description of a native exchange that the drive answered with an error */
+            took_ms?: number;
             dry_run?: boolean;
             changed?: components["schemas"]["WrittenValue"][];
             failed?: components["schemas"]["WriteFailure"][];
@@ -1941,6 +1945,34 @@ export interface components {
                 value: number;
                 meaning: string;
             }[] | null;
+            /** @description of a number whose bits mean something by themselves, its parts; a write that has another value than the allowed ones in a part is refused before the drive is asked; null where it has none */
+            fields: {
+                /** @description snake_case */
+                name: string;
+                low_bit: number;
+                bits: number;
+                /** @description the only values of this part; null means all that its bits hold */
+                allowed: {
+                    value: number;
+                    meaning: string;
+                }[] | null;
+            }[] | null;
+            /** @description what ranges of values mean */
+            meanings: {
+                from: number;
+                through: number;
+                meaning: string;
+            }[] | null;
+            /** @description unit and range while another parameter has a certain value; with `parameter` null, of what is written, where reading gives more. Of an axis, `unit`, `min` and `max` beside it are those that hold now, as far as that other parameter has been read */
+            alternate: {
+                parameter: string | null;
+                equals: number | null;
+                unit: string | null;
+                min: number;
+                max: number;
+            } | null;
+            /** @description members of this entry that the maker's manual does not print and that were decided here */
+            choice: string[];
             /** @description of an array, the number of its first element */
             first: number | null;
             /** @description of an array, how many elements */
@@ -2315,6 +2347,8 @@ export interface components {
             written_through: string | null;
             /** @description why the value is stale, else empty */
             text: string;
+            /** @description the value in words, where the catalogue has any */
+            meaning: string | null;
             history?: {
                 value: components["schemas"]["MaybeValue"];
                 previous: components["schemas"]["MaybeValue"];

@@ -9,7 +9,7 @@ import type { AxisParameter } from '../api/types';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
 import { isApart, isChanged, isMarked, marks, type Marked } from '../words/transfer';
-import { editText, rangeText, readValue, sameValue, searchRank, steppedText, unitWords, valueText } from '../words/parameter';
+import { editText, fieldLines, fieldValue, rangeText, readValue, sameValue, searchRank, steppedText, unitWords, valueText, withField } from '../words/parameter';
 import { clockTime } from '../words/time';
 import { Icon } from './icon';
 import { Empty } from './lines';
@@ -67,8 +67,9 @@ export function Parameters({ axis }: { axis: string }) {
     () =>
       store.onEvent((e) => {
         if (e.axis !== axis || !e.parameter) return;
-        const row = rows.peek().find((r) => r.data.peek().id === e.parameter);
-        if (row) void client.parameter(axis, row.data.peek().id, { cached: true }).then((p) => (row.data.value = p), () => undefined);
+        // The parameter itself, and those whose unit and range hang on it.
+        const touched = rows.peek().filter((r) => r.data.peek().id === e.parameter || r.data.peek().alternate?.parameter === e.parameter);
+        for (const row of touched) void client.parameter(axis, row.data.peek().id, { cached: true }).then((p) => (row.data.value = p), () => undefined);
       }),
     [axis],
   );
@@ -262,6 +263,11 @@ function RowView({ axis, row, read, write, open }: RowProps) {
             {differs && <span class="flag changed" title="Not the default of the family"> changed</span>}
             {p.quality === 'stale' && <span class="flag"> stale</span>}
             {p.quality === 'unknown' && <span class="visually-hidden"> not read yet</span>}
+            {fieldLines(p.value, p).map((line) => (
+              <span key={line} class="part">
+                {line}
+              </span>
+            ))}
           </>
         )}
       </td>
@@ -315,10 +321,34 @@ function Editor({ row, describedBy, write }: { row: Row; describedBy: string; wr
   const p = row.data.value;
   const wrong = row.note.value.tone === 'refused' && row.typed.value !== null;
   const text = row.typed.value ?? '';
+  const parts = p.access === 'RW' && p.fields?.every((f) => f.allowed) ? p.fields : null;
   const choices = p.type === 'bool' ? [{ value: 0, meaning: 'off' }, { value: 1, meaning: 'on' }] : p.allowed && p.allowed.length > 0 ? p.allowed : null;
   return (
     <>
-      {choices ? (
+      {parts && parts.length > 0 && p.alternate === null ? (
+        <span class="parts">
+          {parts.map((f) => {
+            const whole = typeof p.value === 'number' && text === '' ? p.value : Number(text || 0);
+            return (
+              <label key={f.name}>
+                <span>{f.name.replaceAll('_', ' ')}</span>
+                <select
+                  aria-label={`New ${f.name.replaceAll('_', ' ')} of ${p.id}`}
+                  aria-describedby={describedBy}
+                  value={String(fieldValue(whole, f))}
+                  onChange={(e) => (row.typed.value = String(withField(whole, f, Number(e.currentTarget.value))))}
+                >
+                  {f.allowed?.map((c) => (
+                    <option key={c.value} value={String(c.value)}>
+                      {c.value} {c.meaning}
+                    </option>
+                  ))}
+                </select>
+              </label>
+            );
+          })}
+        </span>
+      ) : choices ? (
         <select aria-label={`New value of ${p.id}`} aria-describedby={describedBy} value={text} onChange={(e) => (row.typed.value = e.currentTarget.value)}>
           <option value="" disabled>
             choose

@@ -3,7 +3,8 @@
 import type { AxisParameter, MaybeValue, Value } from '../api/types';
 import { formatExact, formatNumber, parseNumber } from './number';
 
-type Described = Pick<AxisParameter, 'type' | 'min' | 'max' | 'unit' | 'allowed'>;
+type Described = Pick<AxisParameter, 'type' | 'min' | 'max' | 'unit' | 'allowed'> & Partial<Pick<AxisParameter, 'fields' | 'meanings'>>;
+type Field = NonNullable<AxisParameter['fields']>[number];
 
 const limits: Record<string, readonly [number, number]> = {
   u8: [0, 255],
@@ -55,11 +56,37 @@ export function rangeText(p: Described): string {
   return `${formatExact(min)} … ${formatExact(max)}`;
 }
 
-export function valueText(value: MaybeValue, p: Pick<Described, 'allowed'>): string {
+/** What some bits of a number hold. */
+export const fieldValue = (value: number, f: Pick<Field, 'low_bit' | 'bits'>): number => Math.floor(value / 2 ** f.low_bit) % 2 ** f.bits;
+
+/** The number with other bits in one of its fields. */
+export const withField = (value: number, f: Pick<Field, 'low_bit' | 'bits'>, bits: number): number => value + (bits - fieldValue(value, f)) * 2 ** f.low_bit;
+
+/** A number whose bits mean something by themselves, a line for each part: "falling edge action: origin, then stop". */
+export function fieldLines(value: MaybeValue, p: Partial<Pick<Described, 'fields'>>): string[] {
+  if (!p.fields || typeof value !== 'number' || !Number.isInteger(value) || value < 0) return [];
+  return p.fields.map((f) => {
+    const bits = fieldValue(value, f);
+    return `${f.name.replaceAll('_', ' ')}: ${f.allowed?.find((a) => a.value === bits)?.meaning ?? formatExact(bits)}`;
+  });
+}
+
+/** What is wrong with a part of the number, with the values that it can have; null: nothing. */
+export function wrongField(value: number, p: Partial<Pick<Described, 'fields'>>): string | null {
+  for (const f of p.fields ?? []) {
+    const bits = fieldValue(value, f);
+    if (f.allowed && !f.allowed.some((a) => a.value === bits)) {
+      return `${formatExact(value)} has ${formatExact(bits)} as ${f.name.replaceAll('_', ' ')}. Allowed: ${f.allowed.map((a) => `${a.value} (${a.meaning})`).join(', ')}.`;
+    }
+  }
+  return null;
+}
+
+export function valueText(value: MaybeValue, p: Pick<Described, 'allowed'> & Partial<Pick<Described, 'meanings'>>): string {
   if (value === null) return '–';
   if (typeof value === 'boolean') return value ? 'on' : 'off';
   if (typeof value === 'string') return value === '' ? '(empty)' : value;
-  const meaning = p.allowed?.find((a) => a.value === value)?.meaning;
+  const meaning = p.allowed?.find((a) => a.value === value)?.meaning ?? p.meanings?.find((m) => value >= m.from && value <= m.through)?.meaning;
   if (!meaning) return formatExact(value);
   // "17 bits" says the 17 already, "500 kbit/s" does not say the code 5. Between code and meaning stands a sign: "2 500 kbit/s" reads as 2500.
   const said = meaning.startsWith(String(value)) && !/^[\d.,]/.test(meaning.slice(String(value).length));
@@ -109,7 +136,8 @@ export function readValue(text: string, p: Described): Read {
   if (p.allowed && p.allowed.length > 0 && !p.allowed.some((a) => a.value === value)) return { good: false, why: `${shown} is not allowed. Allowed: ${rangeText(p)}.` };
   const { min, max } = rangeOf(p);
   if ((min !== null && value < min) || (max !== null && value > max)) return { good: false, why: `${shown} is outside the range ${rangeText(p)}${unit}.` };
-  return { good: true, value };
+  const wrong = wrongField(value, p);
+  return wrong ? { good: false, why: wrong } : { good: true, value };
 }
 
 /** The same value? Numbers of f32 parameters come back rounded. */

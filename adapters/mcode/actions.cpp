@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -18,6 +19,34 @@ namespace {
 std::string_view form_of(const Parameter& p) {
     const auto* f = p.wire.if_contains("form");
     return f && f->is_string() ? std::string_view(f->get_string()) : std::string_view("value");
+}
+/// `Q1=25`, or a row of the drive's own listing, `Q1 = G 25`: as a line that sets the variable; what is wrong with it in `fault`. Rows of
+/// local variables (L) give nothing: a program makes them anew at each run [L554].
+std::string variable_line(std::string_view row, const Language& language, std::string& fault) {
+    std::string name, value;
+    const auto equals = row.find('=');
+    for (const char c : row.substr(0, equals))
+        if (c != ' ') name += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    if (equals != std::string_view::npos)
+        for (const char c : row.substr(equals + 1))
+            if (c != ' ') value += c;
+    const bool local = value.starts_with('L');
+    if (local || value.starts_with('G')) value.erase(0, 1);
+    const auto letter = [](char c) { return c >= 'A' && c <= 'Z'; };
+    const bool named =
+        !name.empty() && name.size() <= 2 && letter(name[0]) && (name.size() == 1 || letter(name[1]) || std::isdigit(name[1]));
+    if (!named || (language.find(name) && name != "PW")) {
+        fault = fmt::format("{} is no user variable: write NAME=VALUE, a name of one or two letters and digits",
+                            name.empty() ? "nothing" : name);
+        return {};
+    }
+    std::int64_t v = 0;
+    const auto [end, ec] = std::from_chars(value.data(), value.data() + value.size(), v);
+    if (ec != std::errc{} || end != value.data() + value.size() || v < INT32_MIN || v > INT32_MAX) {
+        fault = fmt::format("{}: {} is no whole number from -2147483648 to 2147483647", name, value.empty() ? "nothing" : value);
+        return {};
+    }
+    return local ? std::string() : fmt::format("{}={}", name, v);
 }
 bool is_link_word(std::string_view w) { return w == "PY" || w == "DN" || w == "CK" || w == "EM" || w == "ES"; }
 }  // namespace
@@ -44,7 +73,9 @@ std::optional<Value> Node::value_of(const Parameter& p, std::string_view text) c
 void Node::plan_read(const ReadParameter& read, Turn& t) {
     const Parameter* p = catalogue_.parameter(read.point);
     if (!p) return job_over(Outcome::refused, Reason::unknown_point, "there is no such parameter", t);
-    if (!p->readable()) return job_over(Outcome::refused, Reason::not_supported, fmt::format("{} can only be written", p->id), t);
+    if (!p->readable())
+        return job_over(Outcome::refused, Reason::not_supported,
+                        fmt::format("{}: the drive tells nothing back about it: it can only be written", p->id), t);
     Step s;
     s.what = Step::What::query;
     s.text = word(*p);
@@ -59,6 +90,26 @@ void Node::plan_write(const WriteParameter& write, Turn& t) {
     if (is_link_word(w)) {
         return job_over(Outcome::refused, Reason::not_supported,
                         fmt::format("{} belongs to the line: set it with the line's options, or with line.setup", w), t);
+    }
+    if (form_of(*p) == "variables") {
+        const std::string rows = to_text(write.value);
+        std::istringstream in(rows);
+        const Language language(catalogue_);
+        std::string fault;
+        for (std::string row; std::getline(in, row) && fault.empty();) {
+            if (!row.empty() && row.back() == '\r') row.pop_back();
+            if (row.find_first_not_of(' ') == std::string::npos) continue;
+            if (auto line = variable_line(row, language, fault); !line.empty()) job_.add(Step::What::send, std::move(line));
+        }
+        if (fault.empty() && (job_.steps.empty() || job_.steps.size() > 192))
+            fault = "write one variable or more, up to 192, each in a line of its own";
+        if (!fault.empty()) return job_over(Outcome::refused, Reason::out_of_range, fault, t);
+        Step s;
+        s.what = Step::What::query;
+        s.text = w;
+        s.end_mark = true;
+        job_.steps.push_back(std::move(s));
+        return;
     }
     const bool quoted = form_of(*p) == "text";
     std::string text = to_text(write.value);
@@ -80,6 +131,20 @@ void Node::query_answered(const std::string& data, Turn& t) {
     if (job_.kind == JobKind::relearn) {
         learn_values(data);
         return job_over(Outcome::done, Reason::none, {}, t);
+    }
+    if (job_.kind == JobKind::restart) {
+        ce_ = data.size() == 1 && data[0] >= '0' && data[0] <= '2' ? data[0] - '0' : 1;
+        if (ce_ == 0) {
+            return job_over(Outcome::refused, Reason::wrong_state,
+                            fmt::format("{} ignores CTRL+C (CE=0): write CE={} first", name(), link().party() ? 2 : 1), t);
+        }
+        if (link().party() && (ce_ == 1 || manners_.reset_hits_others)) {
+            return job_over(Outcome::refused, Reason::wrong_state,
+                            fmt::format("{}: CTRL+C restarts every drive of this line that has CE=1: write CE=2 to {} first", name(),
+                                        ce_ == 1 ? name() : std::string("the others")),
+                            t);
+        }
+        return step_done(t);
     }
     if (job_.kind == JobKind::shape) {
         aim_.shape(data == "0,1,1");
@@ -129,6 +194,7 @@ void Node::query_answered(const std::string& data, Turn& t) {
     if (number && w == "A") a_ = *number;
     if (number && w == "D") d_ = *number;
     if (number && w == "EE") encoder_mode_ = *number == 1;
+    if (number && w == "CE") ce_ = static_cast<int>(*number);
     if (write && (w == "MS" || w == "EE" || w == "AS")) {
         vi_ = user_vi_ = vm_ = a_ = d_ = 0;  // the drive has scaled them [L4293]
         aim_.knows({0, 0, 0, 0, encoder_mode_});
@@ -155,20 +221,43 @@ void Node::plan_native(const Native& native, Turn& t) {
         return job_over(Outcome::refused, Reason::not_supported,
                         fmt::format("{} belongs to the line: set it with the line's options, or with line.setup", w), t);
     }
+    if (w == "CE" && line.find('=') != std::string::npos) ce_ = 1;  // until it is read: perhaps
     const bool output = w == "PR" || w == "L";
     job_.add(output ? Step::What::block : Step::What::send, line, false);
 }
 
-void Node::block_ended(const ReplyReader& r, Turn& t) {
-    const std::string sent = request(link(), job_.steps[job_.at].text);
-    const std::string text = plain_text(r.raw(), std::string_view(sent).substr(0, sent.size() - 1), sums_);
-    if (r.raw().empty()) {
-        count_silence(t);
+/// A block is over when the question behind it was answered, which is a poll: it says as well whether the drive complained.
+void Node::block_came(Verdict v, const ReplyReader& r, Turn& t) {
+    const std::string line = job_.steps[job_.at].text;
+    if (v != Verdict::answered || r.overflowed() || !learn_poll(r.data(), t)) {
+        if (v == Verdict::waiting) count_silence(t);
         if (job_.kind == JobKind::none) return;
-        return job_over(Outcome::failed, Reason::no_answer, fmt::format("{} did not answer {}", name(), job_.steps[job_.at].text), t);
+        return job_over(Outcome::failed, Reason::no_answer,
+                        r.raw().empty() ? fmt::format("{} did not answer {}", name(), line)
+                                        : fmt::format("the end of what {} answers to {} was not heard: ask again", name(), line),
+                        t);
     }
-    if (sums_ && r.raw().find(nak) != std::string::npos && text.empty()) {
+    job_.listing = r.block();
+    if (!ef_) {
+        last_error_ = 0;
+        return block_ended(t);
+    }
+    job_.said = sums_ && job_.listing.find(nak) != std::string::npos ? Verdict::refused : Verdict::acknowledged;
+    job_.confirming = need_error_ = true;
+    error_is_ours_ = job_.said == Verdict::refused || !sums_ || quiet();  // an ACK means: no error [L2081]
+}
+
+void Node::block_ended(Turn& t) {
+    const std::string sent = request(link(), job_.steps[job_.at].text);
+    const std::string text = plain_text(job_.listing, std::string_view(sent).substr(0, sent.size() - 1), sums_);
+    if (sums_ && job_.listing.find(nak) != std::string::npos && text.empty()) {
         return job_over(Outcome::refused, Reason::drive_refused, fmt::format("{} refused {}", name(), job_.steps[job_.at].text), t);
+    }
+    if (sums_ && !block_sums_good(job_.listing)) {
+        ++counters_.garbled;
+        if (++job_.tries <= manners_.retries && job_.kind != JobKind::native) return;
+        return job_over(Outcome::failed, Reason::no_answer,
+                        fmt::format("what {} answers to {} does not fit its checksum", name(), job_.steps[job_.at].text), t);
     }
     if (job_.kind == JobKind::tidy) return tidy_up(text, t);
     if (job_.kind == JobKind::clear) return clear_if_half(text, t);
@@ -360,16 +449,21 @@ void Node::plan_action(const Action& a, Turn& t) {
         job_.text = a.argument.empty() ? fmt::format("a fresh drive answers to {} now; program.save keeps it", setup_.address)
                                        : fmt::format("a fresh drive answers to {} now, and has saved it", setup_.address);
     } else if (a.name == "reset") {
-        if (!manners_.alone) {
-            return refuse(Reason::not_supported,
-                          "CTRL+C restarts every drive of this line: reset is offered where one drive is alone on its line; "
-                          "use the drive's own reset input");
-        }
+        // CE is asked first: a drive that ignores the character must not be called restarted.
         job_.kind = JobKind::restart;
-        job_.add(Step::What::send, "\x03", false);
+        Step ask;
+        ask.what = Step::What::query;
+        ask.text = "CE";
+        job_.steps.push_back(std::move(ask));
+        job_.add(Step::What::send, std::string(reset_key), false);
         return;
     } else {
         const std::string w = word_of(a.name);
+        if (w == a.name && (w == "AL" || w == "UV")) {  // keywords of PR
+            job_.kind = JobKind::list;
+            job_.add(Step::What::block, "PR " + w);
+            return;
+        }
         const bool known = w == a.name && std::ranges::any_of(catalogue_.commands(), [&](const CatalogueCommand& c) { return c.id == w; });
         if (!known || w == "PG" || w == "PR" || w == "L" || w == "FD" || w == "UG") {
             return refuse(Reason::unknown_point, fmt::format("there is no action {}; see the family's commands", a.name));

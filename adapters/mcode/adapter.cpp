@@ -45,7 +45,6 @@ void LineAdapter::take_manners(const LineSetup& setup, Turn& t) {
         t.out.notices.push_back({Severity::warning, no_drive, no_axis, "setup", 0,
                                  fmt::format("option ethernet = {}: write on or off; off is used", ethernet), t.now});
     }
-    manners_.alone = setup.drives.size() == 1;
     manners_.rate_code = manners_.ethernet ? 0 : code_of(setup.bit_rate);
     const auto digit = [&](const char* name, int most, int otherwise) {
         const std::string text = option(setup.options, name, "");
@@ -218,8 +217,12 @@ void LineAdapter::on_frame(const Frame& frame, Instant now, Out& out) {
         return pump(t);
     }
     const Verdict v = reader_.push(bytes);
-    if (flight_.kind == Expect::Kind::block) {
-        flight_.deadline = std::min(flight_.latest, now + manners_.reply_timeout / 2 + wire(24));
+    if (flight_.kind == Expect::Kind::block && v == Verdict::waiting) {
+        // A drive that is still speaking must not be spoken to; behind the closing question its answer is waited for.
+        const Duration silence = manners_.reply_timeout / 2 + wire(24);
+        flight_.deadline = std::min(flight_.latest, reader_.closing() ? std::max(flight_.deadline, now + silence) : now + silence);
+    } else if (flight_.ends && v == Verdict::garbled) {
+        flight_.deadline = now;  // the closing answer was spoiled: asked again
     } else if (v == Verdict::waiting && reader_.maybe_refused()) {
         // Speaking into an answer that still comes would spoil the next one too. 25 ms: what USB converters hold bytes back, and more.
         flight_.deadline = std::min(flight_.latest, now + 25ms + wire(16));
@@ -233,6 +236,7 @@ void LineAdapter::on_frame(const Frame& frame, Instant now, Out& out) {
 }
 
 void LineAdapter::start(Node& node, Turn& t) {
+    manners_.reset_hits_others = std::ranges::any_of(nodes_, [&](const auto& n) { return n.get() != &node && n->hears_every_reset(); });
     Request r = node.next(t);
     flight_ = {};
     Expect e;
@@ -240,6 +244,7 @@ void LineAdapter::start(Node& node, Turn& t) {
     e.checksum = node.sums();
     e.prompt = node.prompts();
     e.end_mark = r.end_mark;
+    e.ends = flight_.ends = r.ends;
     std::string bytes;
     if (!r.raw.empty()) {
         bytes = r.raw;
@@ -264,11 +269,27 @@ void LineAdapter::start(Node& node, Turn& t) {
     const Duration expected = e.kind == Expect::Kind::nothing ? Duration{20ms} : manners_.reply_timeout + wire(64) + r.patience;
     flight_.deadline = t.now + wire(bytes.size()) + expected;
     // Drives that echo one another without end (line.setup with two fresh ones) hold the line for a second at most.
-    flight_.latest = flight_.deadline + (e.kind == Expect::Kind::block ? Duration{r.raw.empty() ? 60s : 1s} : Duration{wire(512) + 200ms});
+    flight_.latest = flight_.deadline + (e.kind != Expect::Kind::block ? wire(512) + 200ms
+                                         : r.raw.empty()               ? wire(ReplyReader::limit) + 60s
+                                                                       : Duration{1s});
     reader_.begin(std::move(e));
     for_each_run({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, [&](const Frame& f) {
         t.out.send(f, r.urgent ? Priority::urgent : r.purpose == Request::Purpose::poll ? Priority::poll : Priority::command);
     });
+}
+
+/// The line is silent behind a block: the question whose answer is its end. false: that was in vain, or it is no such block.
+bool LineAdapter::close_block(Turn& t) {
+    if (!flight_.ends || flight_.closings > manners_.retries || t.now >= flight_.latest) return false;
+    ++flight_.closings;
+    mark_ = (mark_ + 1) % static_cast<unsigned>(marks.size());
+    const std::string mark = fmt::format("#{}", marks[mark_]);
+    const std::string bytes = request(flight_.node->link(), fmt::format("PR \"{}\",{}", mark, flight_.node->closing_items(t.now)));
+    reader_.close_with(mark, bytes.substr(0, bytes.size() - 1));
+    flight_.node->heard_at(t.now + wire(bytes.size()));
+    flight_.deadline = t.now + wire(bytes.size()) + manners_.reply_timeout + wire(64);
+    for_each_run({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, [&](const Frame& f) { t.out.send(f); });
+    return true;
 }
 
 void LineAdapter::finish(Verdict v, Turn& t) {
@@ -288,7 +309,7 @@ void LineAdapter::finish(Verdict v, Turn& t) {
         for (const auto& n : nodes_) {
             if (!node.away()) n->line_missed();
         }
-    } else if (f.kind == Expect::Kind::query && v == Verdict::answered && dirty_ == &node) {
+    } else if ((f.kind == Expect::Kind::query || f.ends) && v == Verdict::answered && dirty_ == &node) {
         dirty_ = nullptr;  // a drive answers in order: nothing older can come any more
         dirty_until_ = t.now;
     }
@@ -362,7 +383,7 @@ void LineAdapter::pump(Turn& t) {
 
 void LineAdapter::on_deadline(Instant now, Out& out) {
     Turn t{now, out};
-    if (flight_.node && now >= flight_.deadline) finish(reader_.give_up(), t);
+    if (flight_.node && now >= flight_.deadline && !close_block(t)) finish(reader_.give_up(), t);
     pump(t);
 }
 

@@ -30,6 +30,7 @@ private:
     void pump(Turn& t);
     void start(Node& node, Turn& t);
     void finish(Verdict v, Turn& t);
+    [[nodiscard]] bool close_block(Turn& t);
     [[nodiscard]] bool stop_all_at_once(Turn& t);
     void stray(std::string_view bytes, Turn& t);
     void stray_line(Turn& t);
@@ -52,6 +53,8 @@ private:
         Expect::Kind kind = Expect::Kind::query;
         std::string sent;     ///< what its echo would be
         bool to_all = false;  ///< a line to `*`: nobody answers; `node` only keeps the line busy
+        bool ends = false;    ///< a block that a question closes
+        int closings = 0;     ///< such questions so far
         Instant deadline = never;
         Instant latest = never;
     } flight_;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace axisgate::mcode {
 
@@ -15,13 +16,14 @@ struct Expect {
         nothing,  ///< EM = 2: the drive says nothing [L2664]
         command,  ///< ACK, NAK, CR LF or a prompt, as EM and CK have it
         query,    ///< PR with a mark in quotes as its first item
-        block     ///< text of unknown length: everything until the line falls silent
+        block     ///< text of unknown length: everything until the line falls silent, or with `ends` what stands before the closing answer
     };
     Kind kind = Kind::query;
     std::string mark;       ///< query: what the data begin with
     bool end_mark = false;  ///< query: the data end with `end_of_data` and may have several lines
     bool checksum = false;  ///< CK is on
     bool prompt = false;    ///< EM = 0: a prompt is the last character
+    bool ends = false;      ///< block: silence is no end; a marked question asked behind it (close_with) is, since a drive answers in order
 };
 inline constexpr char end_of_data = '~';
 
@@ -40,9 +42,17 @@ public:
 
     void begin(Expect expect);
     [[nodiscard]] Verdict push(std::string_view bytes);
+    /// Block: the line is silent, and this question with this mark is being sent. Its answer, `data()`, ends the block; what comes before
+    /// that still belongs to it. May be called again with another mark.
+    void close_with(std::string mark, std::string sent);
+    [[nodiscard]] bool closing() const noexcept { return closing_; }
     /// The time is over, or the line has fallen silent: what can be said of what there is.
     [[nodiscard]] Verdict give_up();
     [[nodiscard]] const std::string& data() const noexcept { return data_; }
+    /// Block with `ends`: what came before its closing answer, without the echo of closing questions.
+    [[nodiscard]] const std::string& block() const noexcept { return block_; }
+    /// More came than is kept: the beginning is lost.
+    [[nodiscard]] bool overflowed() const noexcept { return overflowed_; }
     /// Everything that came, for native exchanges.
     [[nodiscard]] const std::string& raw() const noexcept { return raw_; }
     /// What came before the answer and is none: echo, output of programs, noise.
@@ -58,10 +68,18 @@ public:
 
 private:
     [[nodiscard]] Verdict look(bool over);
+    [[nodiscard]] Verdict look_for_end(bool over);
     Expect expect_;
-    std::string raw_, data_, before_, behind_;
+    std::string raw_, data_, before_, behind_, block_;
+    std::vector<std::string> asked_;  ///< closing questions, as sent without their terminator; bounded by the line's retries
+    std::size_t close_from_ = 0;      ///< of raw_: no closing answer begins before
+    bool closing_ = false, overflowed_ = false;
     bool maybe_refused_ = false;
 };
+
+/// Checksums in a block with CK on: one behind the whole (E-5) or one at the end of each line, both are taken. A block without any is good:
+/// nothing was printed.
+[[nodiscard]] bool block_sums_good(std::string_view raw);
 
 /// Text of a native answer: without echo of the request, ACK, NAK, checksum, prompt and outer line ends.
 [[nodiscard]] std::string plain_text(std::string_view raw, std::string_view sent, bool checksum);

@@ -207,8 +207,8 @@ void Node::plan_home(const Home& h, Turn& t) {
         int method;
         std::string_view line;
     };
-    constexpr std::array rows{Row{17, "HM 1"}, Row{18, "HM 3"}, Row{21, "HM 1"}, Row{22, "HM 2"}, Row{19, "HM 3"}, Row{20, "HM 4"},
-                              Row{33, "HI 1"}, Row{34, "HI 3"}, Row{-1, "HM 1"}, Row{-2, "HM 2"}, Row{-3, "HM 3"}, Row{-4, "HM 4"},
+    constexpr std::array rows{Row{21, "HM 1"}, Row{22, "HM 2"}, Row{19, "HM 3"}, Row{20, "HM 4"}, Row{33, "HI 1"},
+                              Row{34, "HI 3"}, Row{-1, "HM 1"}, Row{-2, "HM 2"}, Row{-3, "HM 3"}, Row{-4, "HM 4"},
                               Row{-5, "HI 1"}, Row{-6, "HI 2"}, Row{-7, "HI 3"}, Row{-8, "HI 4"}};
     for (const auto& r : rows) {
         if (r.method == method) {
@@ -223,7 +223,10 @@ void Node::plan_home(const Home& h, Turn& t) {
     }
     job_over(
         Outcome::refused, Reason::not_supported,
-        fmt::format("homing method {}: use 17..22 (HM), 33, 34 (HI), 35, 37 (here is 0), -1..-4 (HM 1..4) or -5..-8 (HI 1..4)", method), t);
+        fmt::format("homing method {}: {}use 19..22 (home switch, HM), 33, 34 (index, HI), 35, 37 (here is 0), -1..-4 (HM 1..4) or -5..-8 "
+                    "(HI 1..4)",
+                    method, method == 17 || method == 18 ? "the drive has no homing on a limit switch; " : ""),
+        t);
 }
 
 void Node::began_motion(Turn& t) {
@@ -269,7 +272,7 @@ void Node::step_ended(Verdict v, const ReplyReader& r, Turn& t) {
         at_factory_rate_ = true;
         return;
     }
-    if (job_.kind == JobKind::restart) {
+    if (job_.kind == JobKind::restart && job_.steps[job_.at].text == reset_key) {
         aim_lost();
         job_over(Outcome::done, Reason::none, fmt::format("{} restarts: it is looked for and set up again", name()), t);
         fail_all(Reason::interrupted, fmt::format("{} was restarted by reset", name()), t);
@@ -283,7 +286,8 @@ void Node::step_ended(Verdict v, const ReplyReader& r, Turn& t) {
         return begin_probing(t);
     }
     Step& step = job_.steps[job_.at];
-    if (job_.kind == JobKind::native && !r.raw().empty()) job_.bytes.assign(r.raw().begin(), r.raw().end());
+    const std::string& came = step.what == Step::What::block ? r.block() : r.raw();
+    if (job_.kind == JobKind::native && !came.empty()) job_.bytes.assign(came.begin(), came.end());
     switch (step.what) {
         case Step::What::send:
             job_.said = v;
@@ -313,7 +317,7 @@ void Node::step_ended(Verdict v, const ReplyReader& r, Turn& t) {
             }
             return job_over(Outcome::failed, Reason::no_answer, fmt::format("{} did not answer PR {}", name(), step.text), t);
         case Step::What::block:
-            return block_ended(r, t);
+            return block_came(v, r, t);
         case Step::What::standstill:
             return;
     }

@@ -94,6 +94,7 @@ void Node::begin_probing(Turn& t) {
 
 void Node::go_absent(Turn& t, std::string why) {
     phase_ = Phase::absent;
+    link_rounds_ = 0;
     if (retry_pause_ == Duration{}) retry_pause_ = manners_.pause_min;
     next_probe_ = t.now + retry_pause_;
     next_poll_ = never;
@@ -125,6 +126,7 @@ void Node::link_state(bool is_online, std::string text, Turn& t) {
 void Node::came(Turn& t) {
     phase_ = Phase::ready;
     known_sums_ = sums_;
+    link_rounds_ = 0;  // it may come again in another state: a power cycle brings back EM, CK, ES and CE of its memory
     enabled_ = false;
     retry_pause_ = {};
     motion_ = {};
@@ -281,12 +283,13 @@ void Node::ended(Verdict v, const ReplyReader& reader, Turn& t) {
 }
 
 void Node::probe_ended(Verdict v, const std::string& data, Turn& t) {
-    if (v == Verdict::answered && data.size() == (manners_.ethernet ? 1U : 3U)) {
+    if (v == Verdict::answered && data.size() == (manners_.ethernet ? 1U : 4U)) {
         em_ = data[0] - '0';
         ck_ = manners_.ethernet ? 0 : data[1] - '0';
         es_ = manners_.ethernet ? 1 : data[2] - '0';
+        ce_ = manners_.ethernet ? 1 : data[3] - '0';
         sums_ = ck_ > 0;
-        const bool again = ++link_rounds_ < 5;
+        const bool again = ++link_rounds_ <= link_round_limit;
         if (em_ != manners_.em && again) {
             link_line_ = fmt::format("EM={}", manners_.em);
             phase_ = Phase::linking;
@@ -296,6 +299,10 @@ void Node::probe_ended(Verdict v, const std::string& data, Turn& t) {
         } else if (link().party() && es_ != 3 && again) {
             // With ES = 1 an ESC meant for one drive would stop them all [L2742-2744].
             link_line_ = "ES=3";
+            phase_ = Phase::linking;
+        } else if (link().party() && ce_ == 1 && again) {
+            // With CE = 1 every CTRL+C on the wires restarts it; with 2 one behind its own name does [L2005-2006].
+            link_line_ = "CE=2";
             phase_ = Phase::linking;
         } else {
             if (em_ != manners_.em || (!manners_.ethernet && ck_ != manners_.ck)) {

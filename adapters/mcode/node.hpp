@@ -37,11 +37,11 @@ struct Manners {
     int silent_limit = 3;
     Duration pause_min = std::chrono::milliseconds(200);
     Duration pause_max = std::chrono::seconds(5);
-    int em = 1;             ///< echo mode wanted
-    int ck = 1;             ///< checksum mode wanted
-    bool ethernet = false;  ///< MCode/TCP: no CK, no names [L1173-1191]
-    bool alone = false;     ///< one drive on this line: CTRL+C can mean nobody else
-    int rate_code = 0;      ///< BD of the line's rate; 0: not known, or none of BD's [L1585]
+    int em = 1;                      ///< echo mode wanted
+    int ck = 1;                      ///< checksum mode wanted
+    bool ethernet = false;           ///< MCode/TCP: no CK, no names [L1173-1191]
+    bool reset_hits_others = false;  ///< another drive of this line has CE = 1: a CTRL+C for one restarts that too
+    int rate_code = 0;               ///< BD of the line's rate; 0: not known, or none of BD's [L1585]
 };
 
 /// bit/s of a BD code, 0 if there is none [L1585-1590, E-1]; and the code of a rate.
@@ -56,6 +56,7 @@ struct Request {
     std::string raw;   ///< bytes as they are, instead of text
     Expect::Kind kind = Expect::Kind::query;
     bool end_mark = false;
+    bool ends = false;  ///< block: its end is proven by a question behind it
     bool urgent = false;
     bool wake = false;    ///< a LF goes before: wakes a party line, ends half a line [L5002]
     Duration patience{};  ///< beyond the reply time-out
@@ -65,6 +66,7 @@ class Node {
 public:
     static constexpr std::size_t queue_limit = 64;   ///< waiting commands; one more is refused as busy
     static constexpr std::size_t urgent_limit = 16;  ///< waiting stops; one more is refused as busy
+    static constexpr int link_round_limit = 8;       ///< lines that set its link in a row; what it has then is used as it is
 
     Node(const Catalogue& catalogue, const Manners& manners, AdapterCounters& counters, const DriveSetup& setup);
 
@@ -90,6 +92,8 @@ public:
     /// When it will want something without being asked again.
     [[nodiscard]] Instant due() const noexcept;
     [[nodiscard]] Request next(Turn& t);
+    /// The items of the question that closes a block: those of a poll.
+    [[nodiscard]] std::string closing_items(Instant now) { return poll_text(now); }
     /// How the exchange ended. `waiting` as verdict: nobody answered.
     void ended(Verdict verdict, const ReplyReader& reader, Turn& t);
     /// Text that nobody asked for while this drive had the line.
@@ -107,6 +111,8 @@ public:
     /// Somebody on the line did not answer: the end of a line may be lost, so what has been seen of program mode proves nothing.
     void line_missed() noexcept { evidence_ = 0; }
     [[nodiscard]] bool away() const noexcept { return phase_ == Phase::absent; }
+    /// A CTRL+C for another drive restarts this one too (CE = 1) [L2005].
+    [[nodiscard]] bool hears_every_reset() const noexcept { return phase_ == Phase::ready && ce_ == 1; }
     /// An answer was late, cut, spoiled or lost, or came twice: told when it happens again and again.
     void trouble(Trouble::Kind kind, Turn& t);
     [[nodiscard]] bool prompts() const noexcept { return em_ == 0; }
@@ -146,7 +152,7 @@ private:
             send,   ///< a line; then a confirming poll says whether the drive complained
             bare,   ///< a line, its ACK alone (program mode, where a poll would become part of the program)
             query,  ///< PR with a mark
-            block,  ///< text of unknown length
+            block,  ///< text of unknown length, closed by a question
             standstill
         };
         What what = What::send;
@@ -166,6 +172,7 @@ private:
         bool memory_touched = false;  ///< download: the program memory has been cleared
         std::vector<ProgramLine> program;
         std::string text;
+        std::string listing;              ///< block: what came, as it came
         std::vector<std::uint8_t> bytes;  ///< native: what came back
         Instant give_up = never;
         void add(Step::What what, std::string line, bool repeatable = true) {
@@ -184,6 +191,7 @@ private:
     };
 
     static constexpr std::string_view escape_key = "ESC";         ///< Stop::lines: the character, not a line
+    static constexpr std::string_view reset_key = "CTRL+C";       ///< Step::text: the character, not a line
     static constexpr std::string_view already_typed = "error 6";  ///< Job::text of a write that the drive answered so
 
     // leaving.cpp
@@ -246,7 +254,8 @@ private:
     void plan_rate(const Action& a, Turn& t);
     void plan_action(const Action& a, Turn& t);
     void query_answered(const std::string& data, Turn& t);
-    void block_ended(const ReplyReader& r, Turn& t);
+    void block_came(Verdict v, const ReplyReader& r, Turn& t);
+    void block_ended(Turn& t);
     void download_failed(std::string why, Turn& t);
     void setting_refused(const std::string& why, Turn& t);
     void plan_download(const Action& a, Turn& t);
@@ -271,7 +280,7 @@ private:
     bool shown_online_ = false;
     bool sums_ = false;        ///< requests carry a checksum
     bool known_sums_ = false;  ///< they did when it answered last
-    int em_ = 1, ck_ = 0, es_ = 1;
+    int em_ = 1, ck_ = 0, es_ = 1, ce_ = 1;
     int link_rounds_ = 0;
     std::string link_line_;  ///< EM=, CK= to be sent next
     std::size_t startup_at_ = 0;

@@ -114,7 +114,7 @@ Request Node::next(Turn& t) {
                 return r;
             }
             // Perhaps stored, perhaps refused: the second question is one that cannot be refused.
-            return ask(What::probe, manners_.ethernet || suspected_ ? "EM" : "EM,CK,ES");
+            return ask(What::probe, manners_.ethernet || suspected_ ? "EM" : "EM,CK,ES,CE");
         case Phase::linking:
             return say(What::link, link_line_);
         case Phase::starting:
@@ -176,8 +176,10 @@ Request Node::next(Turn& t) {
                     clear_half_ = false;
                     note_mode_line(step.text);
                 }
-                if (job_.kind == JobKind::restart) {
-                    r.raw = (link().party() ? std::string(1, link().name) : std::string()) + step.text;  // CE = 2 wants the name
+                if (job_.kind == JobKind::restart && step.text == reset_key) {
+                    // With CE = 2 the name stands right before it, at the beginning of a line.
+                    if (link().party()) r.raw = std::string(1, lf) + link().name;
+                    r.raw += ctrl_c;
                     r.kind = Expect::Kind::nothing;
                 }
                 return r;
@@ -187,6 +189,7 @@ Request Node::next(Turn& t) {
             case Step::What::block:
                 r = say(What::step, step.text);
                 r.kind = Expect::Kind::block;
+                r.ends = true;
                 return r;
             case Step::What::standstill:
                 break;

@@ -164,6 +164,7 @@ void Node::confirmed(Turn& t) {
                                     changed ? "; values set before it stay" : ""),
                         t, last_error_);
     }
+    if (job_.steps[job_.at].what == Step::What::block) return block_ended(t);
     if (job_.said == Verdict::acknowledged || job_.said == Verdict::answered) return step_done(t);
     if (job_.steps[job_.at].repeatable && ++job_.tries <= manners_.retries) {
         ++counters_.retries;

@@ -3,6 +3,8 @@
 // Never keeps more than one line: the 65th character ends it.
 #include "adapters/mcode/twin_comm.hpp"
 
+#include <utility>
+
 namespace axisgate::mcode::twin {
 namespace {
 
@@ -48,7 +50,8 @@ LinkEvent Comm::receive(std::uint8_t byte, std::string& echo) {
         return {wanted ? LinkEvent::Kind::reset : LinkEvent::Kind::none};
     }
     if (stepping_ && line_.empty() && (byte == ' ' || byte == cr)) return {byte == ' ' ? LinkEvent::Kind::step : LinkEvent::Kind::run_on};
-    if (byte == (flags.py ? lf : cr)) return finish();
+    const bool second_half = std::exchange(after_cr_, byte == cr);
+    if (byte == (flags.py ? lf : cr) || (network && byte == lf && !second_half)) return finish();
     if (byte == lf || byte == cr) return {};
     // On one pair of wires the answers of the neighbours are heard too: an acknowledgement ends theirs.
     if (flags.py && (byte == ack || byte == nak)) {
@@ -74,7 +77,7 @@ LinkEvent Comm::receive(std::uint8_t byte, std::string& echo) {
         clear();
         discarding_ = true;
         if (!mine || quiet) return {};
-        echo += "\r\n";
+        echo += flags.em == 0 ? "\r\n?" : "\r\n";  // the prompt says that there is an error [L2696]
         return {LinkEvent::Kind::overrun};
     }
     return {};

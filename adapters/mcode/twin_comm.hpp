@@ -52,6 +52,7 @@ struct LinkEvent {
 class Comm {
 public:
     LinkFlags flags;
+    bool network = false;  ///< TCP or UDP: a bare LF ends a line as CR does, the LF of a CR LF nothing (E-6)
 
     /// As after power-up, or after PY = 1: in party mode nothing is obeyed until the first LF [L5002].
     void restart() noexcept;
@@ -80,6 +81,7 @@ private:
     bool armed_ = false;  // party mode: the first LF has come
     bool discarding_ = false;
     bool stepping_ = false;
+    bool after_cr_ = false;  // network: the last byte was CR
     Command command_;
 };
 

@@ -13,6 +13,7 @@ namespace axisgate::mcode::twin {
 Device::Device(DeviceSetup setup, std::unique_ptr<Mechanism> motor)
     : setup_(std::move(setup)), motor_(std::move(motor)), run_(program_, *this) {
     run_.base_two(setup_.base_two);
+    comm_.network = setup_.ethernet;
 }
 
 bool Device::deaf() const noexcept {
@@ -49,8 +50,7 @@ void Device::flush(Out& out) {
 }
 
 void Device::on_frame(const Frame& frame, Instant now, Out& out) {
-    now_ = std::max(now_, now);
-    settle(out);
+    pass_until(now, out);
     if (deaf() || frame.kind != Frame::Kind::bytes) return;
     const auto bytes = frame.data();
     for (std::size_t i = comm_.pass_over(bytes); i < bytes.size(); i += 1 + comm_.pass_over(bytes.subspan(i + 1))) {
@@ -88,7 +88,18 @@ void Device::on_frame(const Frame& frame, Instant now, Out& out) {
     settle(out);
 }
 
-void Device::on_deadline(Instant now, Out& out) {
+void Device::on_deadline(Instant now, Out& out) { pass_until(now, out); }
+
+/// What is due up to `now`, each at the instant of its cause, however late the call is.
+void Device::pass_until(Instant now, Out& out) {
+    Instant done = never;
+    for (int i = 0; i < events_per_call; ++i) {
+        const Instant next = due();
+        if (next >= now || next == done) break;  // what stays due must not hold up time
+        done = next;
+        now_ = std::max(now_, next);
+        settle(out);
+    }
     now_ = std::max(now_, now);
     settle(out);
 }
@@ -116,7 +127,6 @@ void Device::settle(Out& out) {
         if (waiting_.empty()) command_due_ = never;
 
         if (ending_ && paused_ && !moving()) stop_program();
-        int slices = 0;
         while (!run_.idle() && !paused_) {
             if (ending_) {
                 if (moving()) break;
@@ -125,13 +135,9 @@ void Device::settle(Out& out) {
             }
             const bool held = run_.state() != Run::State::running;
             if (!run_.awake(now_)) break;
-            // A hold is not time that the program may make up for.
-            if (held || slice_due_ == never) slice_due_ = now_;
+            // A hold is not time that the program may make up for, nor is what lies before the present instant.
+            if (held || slice_due_ == never || slice_due_ + slice_time <= now_) slice_due_ = now_;
             if (slice_due_ > now_) break;
-            if (++slices > slices_per_call) {
-                slice_due_ = now_ + slice_time;
-                break;
-            }
             run_slice(slice_due_);
             if (slice_due_ != never) slice_due_ += slice_time;  // never: the slice ended the program
             if (mode_ == Mode::step) break;
@@ -233,14 +239,16 @@ void Device::run_command(const Command& command) {
     tx_ += Comm::reply(command, data_given_ ? std::optional<std::string_view>(data) : std::nullopt, data_ended_, good, ef_, running);
 }
 
-Instant Device::deadline() const {
+Instant Device::deadline() const { return std::max(due(), now_); }
+
+Instant Device::due() const {
     if (!powered_) return never;
     Instant t = std::min({command_due_, trip_time_, motor_->deadline()});
     if (!run_.idle() && !paused_ && !ending_) {
         if (run_.state() == Run::State::running && !(mode_ == Mode::step && !step_now_)) t = std::min(t, slice_due_);
         if (run_.state() == Run::State::hold_time) t = std::min(t, run_.hold_until());
     }
-    return std::max(t, now_);
+    return t;
 }
 
 }  // namespace axisgate::mcode::twin

@@ -20,8 +20,8 @@ inline constexpr Duration command_time = std::chrono::milliseconds(1);
 /// A stored program runs in slices of 1 ms with 20 lines each: 50 us per line. The manual gives no figure.
 inline constexpr Duration slice_time = std::chrono::milliseconds(1);
 inline constexpr int lines_per_slice = 20;
-/// Slices that one late call makes up for; what is older is lost.
-inline constexpr int slices_per_call = 100;
+/// What one late call makes up for, each at its own instant; what is older than that many is done at the instant of the call.
+inline constexpr int events_per_call = 20'000;
 /// Typed lines that wait; one more is error 63 and lost.
 inline constexpr std::size_t waiting_lines = 8;
 /// Bytes of program output that wait for the line; more is error 66 and lost.
@@ -70,7 +70,9 @@ private:
     bool moving() override { return motor_->moving(now_); }
 
     // twin_device.cpp: time, link
+    void pass_until(Instant now, Out& out);
     void settle(Out& out);
+    [[nodiscard]] Instant due() const;
     void take_events();
     void run_command(const Command& command);
     void run_slice(Instant at);

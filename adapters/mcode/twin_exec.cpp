@@ -72,7 +72,13 @@ int Device::typed(std::string_view text) {
     if (input_pending_ && (text.empty() || is_digit(text[0]) || text[0] == '-' || text[0] == '+' || text[0] == '.'))
         return input_value(text);
     const Statement s = program_.compile_typed(text);
-    if (s.kind == Statement::Kind::faulty) return s.error;
+    if (s.kind == Statement::Kind::faulty) {
+        // What this drive does not have it does not judge the value of: DN=a over Ethernet is 37, not 21.
+        const Tokens tokens(text);
+        const auto word = tokens.peek().kind == Token::Kind::name ? word_named(tokens.peek().text) : std::nullopt;
+        const int missing = word ? available(*word) : 0;
+        return missing != 0 ? missing : s.error;
+    }
     if (s.kind == Statement::Kind::assign || s.kind == Statement::Kind::execute) {
         if (const int code = available(s.word); code != 0) return code;
         if (!info(s.word).immediate) return not_program;

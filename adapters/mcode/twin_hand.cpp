@@ -29,8 +29,7 @@ std::vector<HandItem> Device::hand() const {
 }
 
 std::string Device::set_hand(const std::string& name, const Value& value, Instant now, Out& out) {
-    now_ = std::max(now_, now);
-    settle(out);
+    pass_until(now, out);
     const auto flag = as_flag(value);
     if (name == "power") {
         if (!flag) return name + ": " + axisgate::to_text(value) + " is not true or false";

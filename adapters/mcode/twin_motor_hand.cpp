@@ -57,7 +57,9 @@ std::vector<HandItem> Motor::hand(Instant asked) const {
     items.push_back({"active_inputs", std::int64_t{inputs_.active_mask()}, true,
                      "switches at the inputs, bit 0 = input 1; 1 is active, whatever level IS makes that"});
     for (const auto& s : switch_names) {
-        items.push_back({s.name, inputs_.active(s.type), true,
+        // A switch beside the axis has a state of its own, also while no input is of its type.
+        const auto cam = s.type == InputType::limit_minus ? 0U : s.type == InputType::limit_plus ? 1U : 2U;
+        items.push_back({s.name, inputs_.with_type(s.type) || !cams_[cam].turns ? inputs_.active(s.type) : cam_active(cam, now), true,
                          "the input that IS has given type " + std::to_string(static_cast<int>(s.type)) + " becomes active"});
     }
     for (const auto& c : cam_names) {

@@ -227,8 +227,15 @@ bool TwinBus::may_start(Number twin) const noexcept {
 Instant TwinBus::first_end() const noexcept {
     Instant t = never;
     for (const Transmission& x : wire_)
-        t = std::min(t, x.end);
+        t = std::min(t, x.next);
     return t;
+}
+
+/// How many of its bytes the host has when the next run has crossed.
+std::uint16_t TwinBus::run_end(const Transmission& x) const noexcept {
+    if (options_.kind == LineKind::can || x.sender == host || x.end == x.start) return x.frame.size;
+    const auto each = std::max<std::int64_t>(1, run_time * x.frame.size / (x.end - x.start));
+    return static_cast<std::uint16_t>(std::min<std::int64_t>(x.frame.size, x.given + each));
 }
 
 /// When the next transmission may start, as far as is known now.
@@ -324,6 +331,8 @@ void TwinBus::begin(Number sender, SendQueue& queue, Instant t) {
     const bool can = options_.kind == LineKind::can;
     const std::uint64_t bits = can ? can_bits(x.frame) : std::uint64_t{x.frame.size} * options_.bits_per_byte;
     x.end = t + wire_time(bits, options_.bit_rate);
+    const std::uint16_t first = run_end(x);
+    x.next = first == x.frame.size ? x.end : t + (x.end - t) * first / x.frame.size;  // a CAN frame may have no bytes
     if (sender != host) note_sender(sender);
     if (can || x.end == t) return;
     for (Transmission& other : wire_) {
@@ -349,7 +358,8 @@ void TwinBus::garble_overlap(Transmission& a, Transmission& b) noexcept {
 }
 
 void TwinBus::finish_one() {
-    const auto first = std::ranges::min_element(wire_, {}, &Transmission::end);  // of equal ones, the one that began first
+    const auto first = std::ranges::min_element(wire_, {}, &Transmission::next);  // of equal ones, the one that began first
+    if (first->next < first->end) return give_run(*first);
     done_ = *first;
     wire_.erase(first);
     const Instant t = processed_;  // the end itself, unless a hand or a new twin has moved time on
@@ -367,8 +377,23 @@ void TwinBus::finish_one() {
     }
     if (can || !(options_.full_duplex || options_.converter)) deliver_to_twins(t);
     ++status_.frames_in;
-    status_.bytes_in += done_.frame.size;
-    events_->on_frame(done_.frame);
+    status_.bytes_in += done_.frame.size - done_.given;
+    if (done_.given == 0) return events_->on_frame(done_.frame);
+    Frame rest = Frame::run(done_.frame.data().subspan(done_.given));
+    rest.at = done_.end;
+    events_->on_frame(rest);
+}
+
+void TwinBus::give_run(Transmission& x) {
+    const std::uint16_t until = run_end(x);
+    Frame run = Frame::run(x.frame.data().subspan(x.given, until - x.given));
+    run.at = x.next;
+    x.given = until;
+    const std::uint16_t further = run_end(x);
+    x.next = further == x.frame.size ? x.end : x.start + (x.end - x.start) * further / x.frame.size;
+    ++status_.frames_in;
+    status_.bytes_in += run.size;
+    events_->on_frame(run);
 }
 
 void TwinBus::deliver_to_twins(Instant t) {

@@ -45,11 +45,15 @@ struct TwinBusCounters {
 
 /// CAN: one frame at a time. Frames that wait are arbitrated bit by bit as the identifiers are (lowest wins, standard before extended,
 /// data before remote); every node offers its oldest frame, the host its oldest of the highest priority. Every frame counts as
-/// acknowledged, also if no twin is on the bus. Bytes: a sender starts as soon as it is ready, whoever else is sending.
+/// acknowledged, also if no twin is on the bus. Bytes: a sender starts as soon as it is ready, whoever else is sending; what a twin sends
+/// reaches the host while it is on the wire, in runs of `run_time` as a port's driver hands them up, the last one at its end. Twins
+/// have a transmission as a whole at its end.
 class TwinBus final : public Line {
 public:
     /// Events handled by one on_deadline call at most; the rest follow at the next, with their own instants.
     static constexpr std::size_t max_events_per_call = 10'000;
+    /// Bytes of one run to the host take this long at most (the usual latency of a USB converter), or are a single byte.
+    static constexpr Duration run_time = std::chrono::milliseconds(16);
 
     explicit TwinBus(const TwinBusOptions& options);
     ~TwinBus() override;
@@ -92,6 +96,8 @@ private:
         Number sender = host;
         Instant start{};
         Instant end{};
+        Instant next{};                        ///< when its next bytes have crossed; `end` for the last ones
+        std::uint16_t given = 0;               ///< bytes that the host has
         std::bitset<Frame::capacity> garbled;  ///< bytes that another driver has overlaid
     };
     struct Due {
@@ -115,6 +121,8 @@ private:
     [[nodiscard]] bool may_start(Number twin) const noexcept;
     [[nodiscard]] Instant next_start() const noexcept;
     [[nodiscard]] Instant first_end() const noexcept;
+    [[nodiscard]] std::uint16_t run_end(const Transmission& x) const noexcept;
+    void give_run(Transmission& x);
     void step(Instant t);
     void start(Instant t);
     void start_can(Instant t);

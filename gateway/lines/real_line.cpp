@@ -63,7 +63,9 @@ void RealLine::drop_all() noexcept {
     queue_.clear();
 }
 
-void RealLine::drop_stale(Instant now) { status_.dropped += queue_.drop_older_than(now - stale_send_limit); }
+void RealLine::drop_stale(Instant now) {
+    if (base_.stale_after > Duration::zero()) status_.dropped += queue_.drop_older_than(now - base_.stale_after);
+}
 
 void RealLine::count_received(std::size_t frames, std::size_t bytes) noexcept {
     heard_ = true;

@@ -21,6 +21,7 @@ namespace axisgate {
 namespace asio = boost::asio;
 
 /// A frame that has waited this long is thrown away and counted: a command must not be carried out when nobody expects it any more.
+/// The drive's side of a line has no such limit: what it says is said late on a slow line, and whole.
 inline constexpr Duration stale_send_limit = std::chrono::seconds(2);
 
 /// What every real line is built on. Both outlive the line.
@@ -28,6 +29,7 @@ struct LineBase {
     asio::io_context& io;
     const Clock& clock;
     PauseRange pauses{};
+    Duration stale_after = stale_send_limit;  ///< zero: what waits is never too old
 };
 
 class RealLine : public Line {

@@ -136,9 +136,8 @@ TEST(McodeAdapter, HomingMethods) {
         std::int16_t method;
         const char* line;
     };
-    for (const Row& r :
-         {Row{21, "HM 1"}, Row{22, "HM 2"}, Row{19, "HM 3"}, Row{20, "HM 4"}, Row{17, "HM 1"}, Row{18, "HM 3"}, Row{33, "HI 1"},
-          Row{34, "HI 3"}, Row{-4, "HM 4"}, Row{-8, "HI 4"}, Row{35, "P=0"}, Row{37, "P=0"}, Row{0, "HM 1"}}) {
+    for (const Row& r : {Row{21, "HM 1"}, Row{22, "HM 2"}, Row{19, "HM 3"}, Row{20, "HM 4"}, Row{33, "HI 1"}, Row{34, "HI 3"},
+                         Row{-4, "HM 4"}, Row{-8, "HI 4"}, Row{35, "P=0"}, Row{37, "P=0"}, Row{0, "HM 1"}}) {
         Bench b;
         b.up();
         b.run(2s);
@@ -155,6 +154,11 @@ TEST(McodeAdapter, HomingMethods) {
     b.run(2s);
     ASSERT_EQ(b.wait(Enable{}).outcome, Outcome::done);
     EXPECT_EQ(b.wait(Home{1}).reason, Reason::not_supported);
+    for (const std::int16_t limit : {17, 18}) {
+        const Result r = b.wait(Home{limit});
+        EXPECT_EQ(r.reason, Reason::not_supported);
+        EXPECT_NE(r.text.find("limit switch"), std::string::npos) << r.text;
+    }
 }
 TEST(McodeAdapter, FaultsAreReadOnceKeptAndReset) {
     Bench b;
@@ -252,14 +256,16 @@ TEST(McodeAdapter, NativeBytesAreTheLineThatTheySpell) {
     b.up();
     b.run(2s);
     const auto bytes = [](std::string_view s) { return Native{{s.begin(), s.end()}, false}; };
-    for (const auto* same : {"PR VM", "PR VM\r", "PR VM\n", "PR VM\r\n"}) EXPECT_EQ(b.wait(bytes(same)).text, "768000") << same;
+    for (const auto* same : {"PR VM", "PR VM\r", "PR VM\n", "PR VM\r\n"})
+        EXPECT_EQ(b.wait(bytes(same)).text, "768000") << same;
     struct Bad {
         std::string_view bytes;
         const char* says;
     };
     using namespace std::string_view_literals;
-    for (const Bad& bad : {Bad{"PR VM\0"sv, "character 6 is 0x00"}, Bad{"\x80PR VM"sv, "character 1 is 0x80"}, Bad{"MA 1\rMA 2"sv, "character 5 is 0x0D"},
-                           Bad{"PR VM\r\r"sv, "character 6 is 0x0D"}, Bad{"PR\x7FVM\r\n"sv, "character 3 is 0x7F"}, Bad{"\r\n"sv, "empty"}}) {
+    for (const Bad& bad :
+         {Bad{"PR VM\0"sv, "character 6 is 0x00"}, Bad{"\x80PR VM"sv, "character 1 is 0x80"}, Bad{"MA 1\rMA 2"sv, "character 5 is 0x0D"},
+          Bad{"PR VM\r\r"sv, "character 6 is 0x0D"}, Bad{"PR\x7FVM\r\n"sv, "character 3 is 0x7F"}, Bad{"\r\n"sv, "empty"}}) {
         const Result r = b.wait(bytes(bad.bytes));
         EXPECT_EQ(r.outcome, Outcome::refused);
         EXPECT_EQ(r.reason, Reason::out_of_range);
@@ -410,7 +416,7 @@ TEST(McodeAdapter, ADriveThatWentAwayInProgramModeIsLedOutWhenItComesBack) {
     EXPECT_TRUE(b.online());
     EXPECT_FALSE(b.drives[0].in_program);
 }
-TEST(McodeAdapter, ResetIsOfferedToADriveAloneAndFindsItAgain) {
+TEST(McodeAdapter, ResetRestartsOneDriveAndFindsItAgain) {
     for (const char name : {'!', 'a'}) {
         Bench b({name});
         b.up();
@@ -423,13 +429,29 @@ TEST(McodeAdapter, ResetIsOfferedToADriveAloneAndFindsItAgain) {
         EXPECT_EQ(b.drives[0].ck, 1) << "its link is set again";
         EXPECT_EQ(b.feedback[AxisId{0}].power, AxisFeedback::Power::off);
     }
+    // On a party line by name (CE = 2, set when a drive is found), and only while it means nobody else.
     Bench b({'a', 'b'});
     b.up();
     b.run(3s);
-    const Result r = b.wait(Action{"reset", ""});
-    EXPECT_EQ(r.outcome, Outcome::refused);
-    EXPECT_NE(r.text.find("every drive"), std::string::npos) << r.text;
+    EXPECT_EQ(b.drives[0].values["CE"], "2");
+    EXPECT_EQ(b.wait(Action{"reset", ""}).outcome, Outcome::done);
+    EXPECT_EQ(b.drives[0].resets, 1);
     EXPECT_EQ(b.drives[1].resets, 0);
+    b.run(8s);
+    EXPECT_TRUE(b.online());
+    EXPECT_EQ(b.drives[0].values["CE"], "2") << "its link is set again";
+    for (const std::size_t who : {0U, 1U}) {
+        ASSERT_EQ(b.wait(WriteParameter{*catalogue().find("CE"), Value{std::int64_t{1}}}, who).outcome, Outcome::done);
+        const Result r = b.wait(Action{"reset", ""});
+        EXPECT_EQ(r.outcome, Outcome::refused);
+        EXPECT_NE(r.text.find("CE=2"), std::string::npos) << r.text;
+        ASSERT_EQ(b.wait(WriteParameter{*catalogue().find("CE"), Value{std::int64_t{2}}}, who).outcome, Outcome::done);
+    }
+    ASSERT_EQ(b.wait(WriteParameter{*catalogue().find("CE"), Value{std::int64_t{0}}}).outcome, Outcome::done);
+    const Result r = b.wait(Action{"reset", ""});
+    EXPECT_EQ(r.outcome, Outcome::refused) << "it would not hear";
+    EXPECT_NE(r.text.find("CE=0"), std::string::npos) << r.text;
+    EXPECT_EQ(b.drives[0].resets + b.drives[1].resets, 1);
 }
 TEST(McodeAdapter, ABrokenDownloadSaysThatTheMemoryIsCleared) {
     Bench b;

@@ -23,10 +23,10 @@ struct FakeDrive {
     bool awake = false, silent = false, in_program = false;
     bool stuck = false;  ///< PG does not lead it out
     int er = 0, resets = 0;
-    std::map<std::string, std::string> values{{"P", "0"},     {"V", "0"},         {"MV", "0"},      {"MP", "0"},      {"VC", "0"},
-                                              {"DE", "1"},    {"BY", "0"},        {"ST", "0"},      {"LR", "0"},      {"AS", "0"},
-                                              {"VI", "1000"}, {"VM", "768000"},   {"A", "1000000"}, {"D", "1000000"}, {"EE", "0"},
-                                              {"IF", "0"},    {"PN", "LMDCM571"}, {"VR", "6.011"},  {"ES", "1"},      {"BD", "96"}};
+    std::map<std::string, std::string> values{
+        {"P", "0"},  {"V", "0"},  {"MV", "0"},        {"MP", "0"},     {"VC", "0"},      {"DE", "1"},      {"BY", "0"},
+        {"ST", "0"}, {"LR", "0"}, {"AS", "0"},        {"VI", "1000"},  {"VM", "768000"}, {"A", "1000000"}, {"D", "1000000"},
+        {"EE", "0"}, {"IF", "0"}, {"PN", "LMDCM571"}, {"VR", "6.011"}, {"ES", "1"},      {"BD", "96"},     {"CE", "1"}};
     std::map<std::string, int> refuse;  ///< line -> error code
     std::set<std::string> lose;         ///< lines that are executed once and not answered
     std::string er_text;                ///< what ER prints instead of its code, and stays
@@ -43,11 +43,12 @@ struct FakeDrive {
     std::string take(std::string_view bytes) {
         std::string out;
         for (const char c : bytes) {
-            if (c == '\x03') {
+            if (c == '\x03' && (values["CE"] == "1" || (values["CE"] == "2" && (name == '!' || buffer == std::string(1, name))))) {
                 ++resets;
                 buffer.clear();
                 awake = in_program = false;
                 em = ck = 0;
+                values["ES"] = values["CE"] = "1";
             } else if (c == (name == '!' ? '\r' : '\n')) {
                 out += line(std::move(buffer));
                 buffer.clear();

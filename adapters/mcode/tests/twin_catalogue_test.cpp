@@ -40,7 +40,7 @@ std::vector<Parameter> parameters() {
         q.readable = access.find('R') != std::string::npos;
         q.writable = access.find('W') != std::string::npos;
         if (p.at("min").is_int64()) q.low = p.at("min").as_int64();
-        if (p.at("max").is_number()) q.high = p.at("max").to_number<std::int64_t>();
+        if (!q.real && p.at("max").is_number()) q.high = p.at("max").to_number<std::int64_t>();
         if (p.at("default").is_int64() && !q.real) q.factory = std::to_string(p.at("default").as_int64());
         if (p.at("allowed").is_object()) {
             for (const auto& [key, meaning] : p.at("allowed").as_object())

@@ -161,7 +161,7 @@ TEST(TwinComm, SixtyFourCharactersCommentIncluded) {  // trap 15
     ASSERT_EQ(good.size(), 64U);
     b.type(good);
     EXPECT_EQ(b.type("PR A"), "5000");
-    EXPECT_EQ(shown(b.send(good + "x")), good + "x<CR><LF>");
+    EXPECT_EQ(shown(b.send(good + "x")), good + "x<CR><LF>?");
     EXPECT_EQ(b.send("more of it\r"), "");
     EXPECT_EQ(b.type("PR ER"), "20");
 }

@@ -528,6 +528,33 @@ TEST(TwinBus, theOwnerMayCloseOrRemoveFromItsEvents) {
     EXPECT_NE(b.bus.twin(DriveId{9}), nullptr);
 }
 
+TEST(TwinBusBytes, whatATwinSaysReachesTheHostWhileItIsOnTheWire) {
+    for (const std::uint32_t rate : {1200U, 9600U, 115200U}) {
+        Bus b(wires(rate));
+        ScriptTwin& other = b.add(2);
+        ScriptTwin& twin = b.add(1);
+        const std::string said(200, 'x');
+        twin.next = t0;
+        twin.due = [&](Instant, Out& out) { out.send(Frame::run({reinterpret_cast<const std::uint8_t*>(said.data()), said.size()})); };
+        (void)b.bus.set_hand(DriveId{1}, "", {}, t0);
+        b.run_to(t0 + std::chrono::seconds(3));
+        const Duration byte = Duration{std::chrono::seconds(1)} * 10 / rate;
+        std::size_t got = 0;
+        Instant last = t0;
+        for (const Frame& f : b.owner.frames) {
+            got += f.size;
+            EXPECT_LE(f.at - last, std::max<Duration>(TwinBus::run_time, byte) + us(1)) << "no byte waits longer";
+            EXPECT_NEAR(static_cast<double>((f.at - t0).count()), static_cast<double>((byte * static_cast<std::int64_t>(got)).count()),
+                        2e3);
+            last = f.at;
+        }
+        EXPECT_EQ(got, 200U);
+        EXPECT_EQ(b.bus.status(last).bytes_in, 200U);
+        ASSERT_EQ(other.heard.size(), 1U) << "a twin has it as a whole, at its end";
+        EXPECT_EQ(other.heard[0].second, last);
+    }
+}
+
 TEST(TwinBus, aRemovedTwinCompletesTheFrameOnTheWireAndNoOther) {
     Bus b(can_bus());
     ScriptTwin& twin = b.add(1);

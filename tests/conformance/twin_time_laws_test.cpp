@@ -1,0 +1,150 @@
+// Conformance: a twin's reaction stands at the instant of its cause, not at the host's wake-up, for every family.
+// In: all_families(); a conversation of a gateway with a twin, recorded once. Out: the same conversation with twins that are called at
+// every deadline, in steps, or at frames alone: frames, their instants and motions must be the same. Never names a family.
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "tests/world/world.hpp"
+
+namespace axisgate::test {
+namespace {
+using namespace std::chrono_literals;
+
+struct Said {
+    Instant at;
+    std::string bytes;  ///< bytes lines: all of one instant; CAN: identifier and data of one frame
+};
+
+class TwinTimeLaws : public testing::TestWithParam<FamilyEntry> {
+protected:
+    const FamilyEntry& e = GetParam();
+    Instant begin{};
+    std::vector<Frame> heard;  ///< frames to the drive, at the instants at which it had them
+    std::string address;
+    LineKind kind = LineKind::bytes;
+
+    /// An axis that is found, enabled and sent on a way of some seconds; then nobody speaks any more.
+    void converse() {
+        World w;
+        begin = w.now;
+        const auto site = w.apply(w.make_site(e, "twin", 1));
+        const AxisId a = site->axis_ids.at(0);
+        address = addresses(e, 1).at(0);
+        ASSERT_TRUE(w.run_until_true([&] { return (w.picture(a).flags & flag_online) != 0; }, 10s));
+        w.run_for(500ms);
+        const Result* r = w.wait(w.command(a, Enable{}, true), 5s);
+        ASSERT_TRUE(r && good(*r)) << (r ? r->text : "none");
+        Move far;
+        far.kind = Move::Kind::relative;
+        far.target = 8000;
+        far.velocity = 4000;
+        far.acceleration = far.deceleration = 20000;
+        (void)w.command(a, far, true);
+        ASSERT_TRUE(w.run_until_true([&] { return (w.picture(a).flags & flag_moving) != 0; }, 5s));
+        const auto log = w.engine.frame_log(site->line_ids.at(0))->read(1, 100000, 0);
+        ASSERT_EQ(log.missed, 0U);
+        for (const auto& entry : log.entries) {
+            if (!entry.to_drive) continue;
+            heard.push_back(entry.frame);
+            heard.back().at = at_ns(entry.at_unix_ns);
+        }
+        ASSERT_GT(heard.size(), 5U);
+        kind = heard.front().kind == Frame::Kind::can ? LineKind::can : LineKind::bytes;
+    }
+
+    struct Played {
+        std::vector<Said> said;
+        std::vector<TwinMechanics> seen;
+    };
+    /// `step`: how often the twin is called beside frames; zero: never. `punctual`: at each of its deadlines as well.
+    Played play(Duration step, bool punctual) {
+        TwinSetup t;
+        t.address = address;
+        t.kind = kind;
+        t.bit_rate = kind == LineKind::can ? e.family->default_can_bit_rate : e.family->default_bit_rate;
+        const auto twin = e.family->make_twin(*e.catalogue, t);
+        Played p;
+        Out out;
+        const auto take = [&] {
+            for (const auto& tx : out.frames) {
+                const Frame& f = tx.frame;
+                std::string bytes(reinterpret_cast<const char*>(f.data().data()), f.size);
+                if (f.kind == Frame::Kind::bytes && !p.said.empty() && p.said.back().at == f.at) {
+                    p.said.back().bytes += bytes;
+                } else {
+                    p.said.push_back({f.at, f.kind == Frame::Kind::can ? std::to_string(f.id) + ":" + bytes : bytes});
+                }
+            }
+            out.clear();
+        };
+        twin->power_on({}, begin, out);
+        take();
+        Instant now = begin;
+        const auto pass = [&](Instant until) {
+            while (step > Duration::zero() && now < until) {
+                Instant next = std::min(now + step, until);
+                if (punctual) next = std::min(next, std::max(twin->deadline(), now + 1us));
+                now = next;
+                twin->on_deadline(now, out);
+                take();
+            }
+            now = until;
+        };
+        for (const Frame& f : heard) {
+            pass(f.at);
+            twin->on_frame(f, f.at, out);
+            take();
+        }
+        // In the middle of the way the shaft is held and let go again: two causes nobody is called for; then the way ends, unobserved.
+        const Instant last = now;
+        for (const auto& [after, held] : {std::pair{700ms, true}, {900ms, false}}) {
+            pass(last + after);
+            EXPECT_EQ(twin->set_hand("stall", Value{held}, now, out), "");
+            take();
+            p.seen.push_back(twin->mechanics(1, now));
+        }
+        pass(last + 9s);
+        p.seen.push_back(twin->mechanics(1, now));
+        Frame again = heard.back();  // the last question once more
+        again.at = now;
+        twin->on_frame(again, now, out);
+        take();
+        pass(now + 200ms);
+        if (twin->deadline() <= now || step == Duration::zero()) twin->on_deadline(now, out);
+        take();
+        p.seen.push_back(twin->mechanics(1, now));
+        return p;
+    }
+};
+
+TEST_P(TwinTimeLaws, WhatItSaysAndDoesStandsAtTheInstantOfItsCause) {
+    ASSERT_NO_FATAL_FAILURE(converse());
+    const Played fine = play(1ms, true);
+    ASSERT_GT(fine.said.size(), 3U);
+    for (const Duration step : {Duration{10ms}, Duration{86ms}, Duration{1s}, Duration{}}) {
+        SCOPED_TRACE(testing::Message() << "called every " << step / 1ms << " ms (0: for frames alone)");
+        const Played late = play(step, false);
+        std::size_t differ = 0;
+        for (std::size_t i = 0; i < std::max(fine.said.size(), late.said.size()) && differ < 5; ++i) {
+            const bool both = i < fine.said.size() && i < late.said.size();
+            if (both && fine.said[i].at == late.said[i].at && fine.said[i].bytes == late.said[i].bytes) continue;
+            ++differ;
+            ADD_FAILURE() << "frame " << i << (both ? "" : " is missing or one too many") << ": "
+                          << (i < fine.said.size() ? testing::PrintToString(fine.said[i].bytes) : "-") << " at "
+                          << (i < fine.said.size() ? (fine.said[i].at - begin) / 1us : 0) << " us, called late "
+                          << (i < late.said.size() ? testing::PrintToString(late.said[i].bytes) : "-") << " at "
+                          << (i < late.said.size() ? (late.said[i].at - begin) / 1us : 0) << " us";
+        }
+        for (std::size_t i = 0; i < fine.seen.size(); ++i) {
+            EXPECT_NEAR(fine.seen[i].position, late.seen[i].position, 1e-3) << "picture " << i;
+            EXPECT_NEAR(fine.seen[i].velocity, late.seen[i].velocity, 1e-3) << "picture " << i;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, TwinTimeLaws, testing::ValuesIn(families().entries),
+                         [](const testing::TestParamInfo<FamilyEntry>& i) { return std::string(i.param.family->name); });
+
+}  // namespace
+}  // namespace axisgate::test

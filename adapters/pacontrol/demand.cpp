@@ -10,7 +10,7 @@
 
 namespace axisgate::pacontrol {
 namespace {
-constexpr double microsteps = 3200;           // of one motor revolution [L3098]
+constexpr double microsteps = 3200;  // of one motor revolution [L3098]
 constexpr double full_step = microsteps / 200;
 constexpr double steady = microsteps / 100;   // from one answer of 1915 to the next
 constexpr double increments_per_unit = 1000;  // README, units

@@ -201,7 +201,9 @@ void Control::consider_give_back(Turn& t) {
     const auto waits_for_home = [](const Axis& a) {
         return (a.job.kind == Job::Kind::read || a.job.kind == Job::Kind::write) && a.job.want == Job::Want::wait;
     };
-    if (!(give_back_due_ || std::ranges::any_of(axes_, waits_for_home)) || !started_by_us_ || !options_.give_back_auto || leaving_ || exchange_.active()) return;
+    if (!(give_back_due_ || std::ranges::any_of(axes_, waits_for_home)) || !started_by_us_ || !options_.give_back_auto || leaving_ ||
+        exchange_.active())
+        return;
     if (mode_ != status::online && mode_ != status::online_stopped) return;
     for (const Axis& a : axes_) {
         if (a.on || a.running || a.motion.active()) return;

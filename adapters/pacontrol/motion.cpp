@@ -158,7 +158,8 @@ void Control::home_refused(Axis& a, Turn& t) {
     emit(a, t);
 }
 
-/// A run that has begun and did not come to its end. What ended it is told to whoever asked, and as an event: it may have its answer long since.
+/// A run that has begun and did not come to its end. What ended it is told to whoever asked, and as an event: it may have its answer long
+/// since.
 void Control::home_aborted(Axis& a, std::string text, std::int32_t code, Turn& t) {
     const Reason reason = in_trouble() || what_ended(a).empty() ? Reason::drive_refused : Reason::interrupted;
     a.running = false;
@@ -166,7 +167,8 @@ void Control::home_aborted(Axis& a, std::string text, std::int32_t code, Turn& t
     a.fb.homing_attained = false;
     a.fb.homing_error = reason != Reason::interrupted;
     emit(a, t);
-    notice(Severity::warning, "homing", code, fmt::format("axis {}: the reference run has not come to its end: {}", a.channel, text), t, a.id);
+    notice(Severity::warning, "homing", code, fmt::format("axis {}: the reference run has not come to its end: {}", a.channel, text), t,
+           a.id);
     job_over(a, Outcome::failed, reason, std::move(text), t, code);
 }
 

@@ -15,9 +15,9 @@ namespace {
 constexpr std::uint32_t referenced_flag = 50;  // SM51 is "axis 1 is referenced" [L3935]
 constexpr Duration longest_cycle = std::chrono::seconds(10);
 constexpr Duration standing_age = std::chrono::milliseconds(2400);  // below the 3 s from which a byte line's data count as stale
-constexpr int standing_cycles = 4;                                   // in which each axis that stands is asked once while none moves
-constexpr std::size_t axes_per_running = 16;                         // that move, for each 1911
-}
+constexpr int standing_cycles = 4;                                  // in which each axis that stands is asked once while none moves
+constexpr std::size_t axes_per_running = 16;                        // that move, for each 1911
+}  // namespace
 
 bool Control::poll_wanted(Instant now) const noexcept { return !polls_.empty() || cycle_at_ <= now; }
 
@@ -74,7 +74,8 @@ void Control::plan_standing(bool crowded) {
         const Axis& a = axes_[idle_at_];
         if (!stands(a)) continue;
         --left;
-        if (tells_following_error(a)) polls_.push_back({PollKind::following, idle_at_});  // held, it may be pushed without its counter moving
+        if (tells_following_error(a))
+            polls_.push_back({PollKind::following, idle_at_});  // held, it may be pushed without its counter moving
         polls_.push_back({PollKind::position, idle_at_});
         polls_.push_back({status_poll(a), idle_at_});
     }

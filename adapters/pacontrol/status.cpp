@@ -56,7 +56,7 @@ bool Control::fault_of_all(Instant now) const noexcept {
     for (const Axis& a : axes_) {
         if (a.id == no_axis || a.missing) continue;
         ++here;
-        read = read && a.status_at >= trouble_at_;
+        read = read && a.status >= 0 && a.status_at >= trouble_at_;
     }
     return here <= 1 || read || now - trouble_at_ > judge_limit;
 }
@@ -112,7 +112,8 @@ void Control::mode_changed(int before, Turn& t) {
     if (is_online(before) && !is_online(mode_)) return left_online(before, t);
     if (is_home(mode_) && !is_home(before)) parameters_may_have_changed();
     if (is_malfunction(mode_) && !is_malfunction(before)) {
-        notice(shown_by_axes() ? Severity::info : Severity::alarm, "mode", mode_, fmt::format("operating status is now {}", status_text(mode_)), t);
+        notice(shown_by_axes() ? Severity::info : Severity::alarm, "mode", mode_,
+               fmt::format("operating status is now {}", status_text(mode_)), t);
     } else if (mode_ == status::online_stop || (mode_ == status::online_stopped && before == status::online)) {
         const std::string text = fmt::format("operating status is now {}: stopped at the control or by its stop input", status_text(mode_));
         notice(Severity::warning, "mode", mode_, text, t);
@@ -222,7 +223,7 @@ void Control::learn_running(std::uint32_t mask, Turn& t) {
         } else if (motion_seen && a.motion.begun < exchanges_ && !a.motion.final_due) {
             // It stands, and was asked after the motion had begun. Status and position first, then everybody hears of its end.
             a.motion.final_due = true;
-            a.status = -1;
+            if (a.status != 4) a.status = -1;  // a malfunction that has been read meanwhile is the newest there is
             poll_standing(a);
             poll_soon(status_poll(a), a);
         } else if (was && !motion_seen) {

@@ -79,8 +79,8 @@ bool Axis::home_active() const noexcept {
     return model_.revolution > 0 ? switch_at_shaft(false) : rest_ - origin_ - lost_ < 0;
 }
 
-/// The edge of the home switch from which a reference run counts: at shaft position 0; of a rotary axis the whole turn at or below, where its
-/// switch is the reference switch first of all [L834]; on the switch the whole turn above.
+/// The edge of the home switch from which a reference run counts: at shaft position 0; of a rotary axis the whole turn at or below, where
+/// its switch is the reference switch first of all [L834]; on the switch the whole turn above.
 double Axis::edge_below(double shaft) const noexcept {
     if (model_.revolution <= 0) return 0;
     return (std::floor(shaft / model_.revolution + edge_slack) + (switch_at_shaft(false) ? 1 : 0)) * model_.revolution;

@@ -42,8 +42,8 @@ inline constexpr std::uint16_t outside_range = 0x41;
 inline constexpr std::uint16_t no_measuring = 0x6C;
 }  // namespace quit
 
-/// System error numbers: 205, 525, 529 and 560 are the manual's [L335, L716, L2825, L3812]; for the negative switch, the following error, the power
-/// pack and a traverse that a program cannot start it names none, so these four are the model's own.
+/// System error numbers: 205, 525, 529 and 560 are the manual's [L335, L716, L2825, L3812]; for the negative switch, the following error,
+/// the power pack and a traverse that a program cannot start it names none, so these four are the model's own.
 namespace error {
 inline constexpr std::uint16_t rotary_switches = 205;
 inline constexpr std::uint16_t no_reference = 525;
@@ -62,7 +62,7 @@ struct AxisModel {
     int switch_on_mode = 1;       ///< 0: an interrupted traverse is dropped at axis ON; 1..3: it goes on; 4: and displacement is watched
     double max_displacement = 1;  ///< AE, while the axis is off, for switch_on_mode 4
     double travel_min = -10'050, travel_max = 10'050;  ///< AE of the shaft: where the switches at the ends of travel are
-    double revolution = 0;        ///< AE; above 0 a rotary axis: one switch just before each whole turn, seen in both directions [L834]
+    double revolution = 0;  ///< AE; above 0 a rotary axis: one switch just before each whole turn, seen in both directions [L834]
     Duration watchdog = std::chrono::seconds(1);  ///< of a manual move [L3553]
 };
 
@@ -92,7 +92,7 @@ public:
     [[nodiscard]] double shaft(Instant t) const noexcept;     ///< AE, the true place of the mechanics; the home switch's edge is at 0
     [[nodiscard]] double encoder(Instant t) const noexcept { return shaft(t) + origin_; }  ///< AE, counted by the encoder
     [[nodiscard]] double lag(Instant t) const noexcept;                                    ///< AE, following error
-    [[nodiscard]] double greatest_lag(Instant t) const noexcept;                           ///< AE, the largest that has occurred since power on
+    [[nodiscard]] double greatest_lag(Instant t) const noexcept;  ///< AE, the largest that has occurred since power on
     [[nodiscard]] bool running() const noexcept { return running_; }
     /// A traverse task is not finished yet, be it interrupted.
     [[nodiscard]] bool busy() const noexcept { return running_ || interrupted_; }

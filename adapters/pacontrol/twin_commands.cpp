@@ -184,9 +184,8 @@ double microsteps(const Axis& a, double ae) { return ae / std::max(1e-9, static_
 
 /// The largest that has occurred since power on, in the microsteps of 1915. Only the EP has it; others: 15h (E-26).
 CommandReply get_greatest_lag(Control& k, const Call& c) {
-    return of_axis(k, c, [&](const Axis& a) {
-        return a.model().ep ? say_real(microsteps(a, a.greatest_lag(c.now))) : refuse(quit::not_executable);
-    });
+    return of_axis(
+        k, c, [&](const Axis& a) { return a.model().ep ? say_real(microsteps(a, a.greatest_lag(c.now))) : refuse(quit::not_executable); });
 }
 
 CommandReply get_axis_status(Control& k, const Call& c) {
@@ -455,7 +454,7 @@ constexpr std::array<CommandRow, 66> rows{{
     {0x0AA0, "cmd_set_measuring_mode", A | O, true, measuring},
     {0x0AA1, "cmd_reset_axis_measuring_mode", A | O, true, measuring},
     {0x0AA2, "cmd_put_limit_switch_monitoring_on_off", O, true, monitor_limits},  // modules have a bit of their own for it [L834]
-    {0x0AA3, "cmd_put_condition_move_axis", O, false, set_condition},  // the module interface needs it [L820]
+    {0x0AA3, "cmd_put_condition_move_axis", O, false, set_condition},             // the module interface needs it [L820]
 }};
 
 }  // namespace

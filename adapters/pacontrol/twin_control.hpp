@@ -37,8 +37,9 @@ struct ControlSetup {
     std::size_t inputs = elements, outputs = elements, flags = elements, n = elements, r = elements;
     std::set<std::uint16_t> lasting{205};  ///< errors of class 2 that cannot be reset
     bool absolute = true;                  ///< factory value of axis parameter 25h
-    bool axis_modules = false;       ///< the Profibus axis extension is configured: axis commands of the CMD interface are blocked [L640]
-    int profibus_switches = 0;  ///< 2..99: the address that the rotary switches hold; writing it is refused with 39h [L4072]. 1: E205 [L333-L335]
+    bool axis_modules = false;  ///< the Profibus axis extension is configured: axis commands of the CMD interface are blocked [L640]
+    int profibus_switches =
+        0;  ///< 2..99: the address that the rotary switches hold; writing it is refused with 39h [L4072]. 1: E205 [L333-L335]
     Profile profile;
     std::map<int, double> rotary;  ///< axis: AE of a revolution
 };
@@ -212,7 +213,7 @@ private:
     std::vector<bool> limits_monitored_;
     std::vector<Axis::Kept> kept_;
     std::size_t program_ = 0;
-    std::size_t program_move_ = 0;  ///< of the program that runs: the next one
+    std::size_t program_move_ = 0;     ///< of the program that runs: the next one
     std::optional<int> program_axis_;  ///< that it waits for
     bool external_stop_ = true;
     std::uint16_t error_ = 0;

@@ -152,19 +152,21 @@ void Control::run_single(Axis& a, const Reply* reply, Turn& t) {
     if (j.step == 30) {
         Axis& x = axes_[j.places[j.at]];
         x.running = false;
-        const bool good = reply->quit == 0 && error_ == 0 && mode_ == status::online;
+        const std::string cause = what_ended(x);
+        const bool good = reply->quit == 0 && cause.empty();
+        const Reason reason = in_trouble() || cause.empty() ? Reason::drive_refused : Reason::interrupted;
         if (x.motion.kind != Motion::Kind::reference && good) begin_motion(x, {Motion::Kind::reference, 0, false, false, exchanges_}, t);
         x.running = false;
-        end_motion(x, good, Reason::drive_refused, "the reference run did not end well", t);
-        if (reply->quit != 0) {
-            (void)ended_by_quit(a, *reply, t, fmt::format("axes before it in the order are referenced, {} of {}", j.at, j.places.size()));
-            return;
-        }
+        const std::string said = reply->quit == 0 ? std::string() : fmt::format("{}: {}", describe(j.request), describe_quit(reply->quit));
+        end_motion(x, good, reason, cause.empty() ? said : cause, t);
         if (!good) {
-            return job_over(a, Outcome::failed, Reason::drive_refused,
-                            fmt::format("axis {} did not come to its reference; operating status {}, PA-CONTROL error E{}", x.channel,
-                                        status_text(mode_), error_),
-                            t, error_);
+            const bool nothing = reply->quit != 0 && !j.begun;
+            counters_.refused += reply->quit != 0;
+            return job_over(
+                a, nothing ? Outcome::refused : Outcome::failed, reason,
+                fmt::format("axis {} did not come to its reference: {}{}{}; axes before it in the order are referenced, {} of {}",
+                            x.channel, cause, cause.empty() || said.empty() ? "" : "; ", said, j.at, j.places.size()),
+                t, error_ != 0 ? error_ : reply->quit);
         }
         j.step = 31;  // the position has a new zero: known before anybody hears of the end
         return ask(a, code::position, static_cast<std::uint32_t>(x.channel), t);
@@ -231,11 +233,10 @@ void Control::run_single(Axis& a, const Reply* reply, Turn& t) {
             learn_position(a, number_of(*reply).value_or(0), t);
             const bool by = sent == code::move_relative || sent == code::manual_relative;
             const bool by_hand = sent == code::manual_absolute || sent == code::manual_relative;
-            begin_motion(
-                a,
-                {by_hand ? Motion::Kind::manual : Motion::Kind::position,
-                 increments_of(real_of(j.request.data).value_or(0)) + (by ? a.counter : 0), a.condition_set, false, exchanges_},
-                t);
+            begin_motion(a,
+                         {by_hand ? Motion::Kind::manual : Motion::Kind::position,
+                          increments_of(real_of(j.request.data).value_or(0)) + (by ? a.counter : 0), a.condition_set, false, exchanges_},
+                         t);
             break;
         }
         default:

@@ -35,6 +35,7 @@ struct Job {
     bool poll = false;              ///< native: the lone EOT
     bool in_flight = false;         ///< its exchange is on the line
     bool processing = false;        ///< acknowledged, end of processing not yet reported
+    bool begun = false;             ///< was being processed: what ends badly now has failed, it was not refused
     bool unknown = false;           ///< no answer to what cannot be repeated: reads the position back and ends as failed
     std::uint8_t tries = 0;         ///< of the present request
     Instant limit = never;          ///< of waiting
@@ -85,7 +86,9 @@ struct Aim {
     bool speed_doubted = false;  ///< an override was sent and not acknowledged
     bool ramp_doubted = false;
 
-    std::optional<double> lag;      ///< 1915, microsteps
+    Instant shown_at{};         ///< when the oldest part of the position that is told now was said
+    std::optional<double> lag;  ///< 1915, microsteps
+    Instant lag_at{};
     bool lag_steady = true;         ///< the last two answers were alike: a position between two answers may be told with the older one
     bool lag_new = false;           ///< answered since the last position
     bool lag_pairs = false;         ///< answered just before the position that is told now
@@ -104,17 +107,17 @@ struct Axis {
     AxisFeedback fb;
     std::int64_t counter = 0;  ///< 190C as it was last told, increments
     bool position_known = false;
-    bool missing = false;  ///< the control says 20h: it has no such axis
-    bool on = false;       ///< 0A97 acknowledged since ONLINE began
-    bool quick_stopped = false;
+    bool missing = false;           ///< the control says 20h: it has no such axis
+    bool on = false;                ///< 0A97 acknowledged since ONLINE began
     bool referenced_own = false;    ///< as far as the gateway's own commands tell
     int status = -1;                ///< 1910: 0 in position, 1 moving, 2 stopped, 4 malfunction, 8 measuring; -1 not read yet
     bool malfunction_told = false;  ///< status 4 is known to everybody; asking anew does not make it news
-    std::uint16_t trouble = 0;      ///< PA-CONTROL error of the fault that lasts: status 4 may be read for a while after the number has gone
-    int limits = -1;                ///< 1921: bit 0 power pack ready, 1 positive switch free, 2 negative switch free; -1 not read
+    std::uint16_t trouble = 0;  ///< PA-CONTROL error of the fault that lasts: status 4 may be read for a while after the number has gone
+    int limits = -1;            ///< 1921: bit 0 power pack ready, 1 positive switch free, 2 negative switch free; -1 not read
     bool extended_missing = false;  ///< 1921 is not executable here: 1910 is read in its place
     bool reached = false;           ///< the last motion has ended at its target, by the control's counter
     bool running = false;
+    Instant counter_at{}, velocity_at{}, running_at{}, status_at{};  ///< when 190C, 190D, 1911 and 1910 or 1921 last told it
     Motion motion;
     std::optional<std::int64_t> speed, acceleration;  ///< overrides in force, increments/s and /s2
     Aim aim;

@@ -82,8 +82,8 @@ constexpr std::array<CommandInfo, 66> table{{
     {0x0A97, "cmd_on_axis", axis, no, no, false, true, true},
     {0x0A98, "cmd_off_axis", axis, no, no, false, true, true},
     {0x0A9A, "cmd_stop_axis_multi_cmd", axis, no, real, false, true, true},
-    {0x0AA0, "cmd_set_measuring_mode", axis, no, no, false, false, true},  // also in AUTOMATIC [L3774]
-    {0x0AA1, "cmd_reset_axis_measuring_mode", axis, no, no, false, true, true},
+    {0x0AA0, "cmd_set_measuring_mode", axis, no, no, false, false, true},         // also in AUTOMATIC [L3774]
+    {0x0AA1, "cmd_reset_axis_measuring_mode", axis, no, no, false, false, true},  // where it can be begun it can be ended
     {0x0AA2, "cmd_put_limit_switch_monitoring_on_off", group, bit, no, false, true, true},
     {0x0AA3, "cmd_put_condition_move_axis", group, whole, no, false, true, true},
 }};

@@ -361,7 +361,7 @@ void Control::job_answered(Axis& a, const Reply& reply, Turn& t) {
                         fmt::format("{}; the position read back is {}", j.text, reply.quit == 0 ? reply.data : "not known"), t);
     }
     if (goes_on) {
-        j.processing = true;
+        j.processing = j.begun = true;
         if (reply.real && (j.request.code == code::move_absolute_wait || j.request.code == code::move_relative_wait)) {
             learn_position(a, number_of(reply).value_or(0), t);
         }

@@ -136,6 +136,14 @@ private:
 
     // status.cpp
     void learn(const Reply& reply, Turn& t);
+    void ask_whose_fault(Turn& t);
+    [[nodiscard]] bool in_trouble() const noexcept;
+    /// The axis whose malfunction it is (1910, 1921); nothing: nobody's, or not read yet.
+    [[nodiscard]] const Axis* culprit() const noexcept;
+    [[nodiscard]] bool fault_of_all(Instant now) const noexcept;
+    [[nodiscard]] std::string error_text() const;
+    /// Why the control has ended what `a` was doing, as far as its status and its error tell; empty: they tell nothing.
+    [[nodiscard]] std::string what_ended(const Axis& a) const;
     void mode_changed(int before, Turn& t);
     void left_online(int before, Turn& t);
     void learn_running(std::uint32_t mask, Turn& t);
@@ -171,7 +179,7 @@ private:
     [[nodiscard]] static bool tells_following_error(const Axis& a) noexcept;
     /// By more than two full steps: the shaft is held, or has lost steps.
     [[nodiscard]] static bool stands_behind(const Axis& a) noexcept;
-    void following_answered(Axis& a, double microsteps_behind);
+    void following_answered(Axis& a, double microsteps_behind, Turn& t);
     void following_refused(Axis& a, const Reply& reply);
     [[nodiscard]] bool parameters_readable(Instant now) const noexcept;
     void parameters_may_have_changed();
@@ -181,6 +189,9 @@ private:
     // polls.cpp
     void plan_cycle(Turn& t);
     void poll_standing(Axis& a);
+    void plan_standing(bool crowded);
+    void plan_slow(Turn& t);
+    [[nodiscard]] PollKind status_poll(const Axis& a) const noexcept { return a.extended_missing ? PollKind::status : PollKind::extended; }
     [[nodiscard]] bool poll_wanted(Instant now) const noexcept;
     void send_next_poll(Turn& t);
     void poll_answered(const Poll& poll, const Reply& reply, Turn& t);
@@ -224,6 +235,8 @@ private:
     void run_move(Axis& a, const Reply* reply, Turn& t);
     void next_of_move(Axis& a, Turn& t);
     void run_home(Axis& a, const Reply* reply, Turn& t);
+    void home_refused(Axis& a, Turn& t);
+    void home_aborted(Axis& a, std::string text, std::int32_t code, Turn& t);
     void run_origin(Axis& a, const Reply* reply, Turn& t);
     void start_together(Axis& a, const StartTogether& what, Turn& t);
     void run_together(Axis& a, const Reply* reply, Turn& t);
@@ -288,6 +301,7 @@ private:
     int mode_ = -1;
     Instant mode_at_{};
     std::uint16_t error_ = 0;
+    Instant trouble_at_{};        ///< since when an error or a malfunction is shown: statuses from before do not tell whose it is
     bool started_by_us_ = false;  ///< this gateway brought it into ONLINE
     bool leaving_ = false;        ///< this gateway has told it to leave
     bool give_back_due_ = false;
@@ -302,6 +316,8 @@ private:
     // turns
     std::deque<Poll> polls_;
     Instant cycle_at_{};
+    Instant cycle_began_{};
+    Duration cycle_time_{};  ///< of the cycle before
     std::size_t slow_at_ = 0, idle_at_ = 0, job_at_ = 0;
     Instant parameters_at_{};  ///< not before: the control has just refused to tell them
     std::uint8_t commands_in_a_row_ = 0;

@@ -10,7 +10,7 @@
 
 namespace axisgate::pacontrol {
 namespace {
-constexpr double microsteps = 3200;           // of one motor revolution [L3098]
+constexpr double microsteps = 3200;  // of one motor revolution [L3098]
 constexpr double full_step = microsteps / 200;
 constexpr double steady = microsteps / 100;   // from one answer of 1915 to the next
 constexpr double increments_per_unit = 1000;  // README, units
@@ -171,12 +171,14 @@ void Control::show_demand(Axis& a, Instant now) {
     // then the last pair stays until the next is whole.
     const bool told = f.demand_source == DemandSource::drive && m.guided && tells_following_error(a) && m.lag;
     if (told && a.running && !m.lag_pairs && !m.lag_steady) return;
+    a.aim.shown_at = a.counter_at;
     f.position = f.position_demand = a.counter;
     f.demand_source = DemandSource::none;
     if (!m.guided) return;
     if (tells_following_error(a) && m.lag) {
         // 190C is the counter of the step motor, 1915 that counter less the encoder [L3098]: the shaft is behind the counter by so much.
         f.demand_source = DemandSource::drive;
+        a.aim.shown_at = std::min(a.counter_at, m.lag_at);
         f.position = a.counter - following_error(a);
     } else if (m.demand.known()) {
         f.demand_source = DemandSource::computed;
@@ -199,8 +201,9 @@ bool Control::stands_behind(const Axis& a) noexcept {
     return tells_following_error(a) && a.aim.lag && std::fabs(*a.aim.lag) > 2 * full_step;
 }
 
-void Control::following_answered(Axis& a, double microsteps_behind) {
+void Control::following_answered(Axis& a, double microsteps_behind, Turn& t) {
     Aim& m = a.aim;
+    m.lag_at = t.now;
     m.lag_steady = !m.lag || std::fabs(microsteps_behind - *m.lag) <= steady;
     m.lag = microsteps_behind;
     m.lag_new = true;
@@ -220,6 +223,7 @@ void Control::following_refused(Axis& a, const Reply& reply) {
 bool Control::parameters_readable(Instant now) const noexcept { return is_home(mode_) && now >= parameters_at_; }
 
 void Control::parameters_may_have_changed() {
+    parameters_at_ = {};  // an older refusal was the other mode's
     for (Axis& a : axes_)
         a.aim.parameters = {};
 }

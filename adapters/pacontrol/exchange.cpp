@@ -175,6 +175,7 @@ void Control::answered(const Reply& reply, Turn& t) {
                 (processing_.code == code::move_absolute_wait || processing_.code == code::move_relative_wait)) {
                 learn_position(axes_[x.axis], *number_of(reply), t);
             }
+            if (!reply.end) axes_[x.axis].running_at = t.now;
             emit_all(t);
             if (reply.end) processing_over(reply, t);
             return;

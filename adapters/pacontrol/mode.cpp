@@ -18,8 +18,10 @@ std::string Control::why_not_online() const {
         return fmt::format("operating status {}: an operator has the control; leave manual mode there", status_text(mode_));
     if (is_automatic(mode_))
         return fmt::format("operating status {}: a program has the axes; automatic.cancel ends it", status_text(mode_));
-    if (is_malfunction(mode_) || error_ != 0) {
-        return fmt::format("operating status {}, PA-CONTROL error E{}: reset the fault first", status_text(mode_), error_);
+    if (in_trouble()) {
+        const Axis* whose = culprit();
+        return fmt::format("operating status {}, {}: reset the fault{} first", status_text(mode_), error_text(),
+                           whose ? fmt::format(" of axis {}", whose->channel) : std::string());
     }
     return fmt::format("operating status {}", status_text(mode_));
 }
@@ -65,7 +67,6 @@ void Control::run_enable(Axis& a, const Reply* reply, Turn& t) {
         }
         if (asked == code::axis_on || asked == code::no_reference) {
             a.on = true;
-            a.quick_stopped = false;
             give_back_due_ = false;
             emit(a, t);
             return job_over(a, j.command.until_done ? Outcome::done : Outcome::accepted, Reason::none, "", t);
@@ -196,10 +197,17 @@ void Control::run_mode(Axis& a, const Reply* reply, Turn& t) {
 
 /// The last axis is off: a control that this gateway brought into ONLINE goes back to home position, where parameters can be read.
 void Control::consider_give_back(Turn& t) {
-    if (!give_back_due_ || !started_by_us_ || !options_.give_back_auto || leaving_ || exchange_.active()) return;
+    // A parameter that waits for home position is a reason to go there, not one to stay; what stands behind it in the queue waits with it.
+    const auto waits_for_home = [](const Axis& a) {
+        return (a.job.kind == Job::Kind::read || a.job.kind == Job::Kind::write) && a.job.want == Job::Want::wait;
+    };
+    if (!(give_back_due_ || std::ranges::any_of(axes_, waits_for_home)) || !started_by_us_ || !options_.give_back_auto || leaving_ ||
+        exchange_.active())
+        return;
     if (mode_ != status::online && mode_ != status::online_stopped) return;
     for (const Axis& a : axes_) {
-        if (a.on || a.running || a.motion.active() || a.job.active() || !a.queue.empty()) return;
+        if (a.on || a.running || a.motion.active()) return;
+        if (!waits_for_home(a) && (a.job.active() || !a.queue.empty())) return;
     }
     give_back_due_ = false;
     leaving_ = true;

@@ -151,17 +151,42 @@ void Control::run_move(Axis& a, const Reply* reply, Turn& t) {
 
 // --- references ------------------------------------------------------------------------------------------------------------------
 
+/// Nothing has begun, but it is the last homing that was asked for: an older "attained" is not true of it.
+void Control::home_refused(Axis& a, Turn& t) {
+    a.fb.homing_attained = false;
+    a.fb.homing_error = true;
+    emit(a, t);
+}
+
+/// A run that has begun and did not come to its end. What ended it is told to whoever asked, and as an event: it may have its answer long
+/// since.
+void Control::home_aborted(Axis& a, std::string text, std::int32_t code, Turn& t) {
+    const Reason reason = in_trouble() || what_ended(a).empty() ? Reason::drive_refused : Reason::interrupted;
+    a.running = false;
+    end_motion(a, false, reason, text, t);
+    a.fb.homing_attained = false;
+    a.fb.homing_error = reason != Reason::interrupted;
+    emit(a, t);
+    notice(Severity::warning, "homing", code, fmt::format("axis {}: the reference run has not come to its end: {}", a.channel, text), t,
+           a.id);
+    job_over(a, Outcome::failed, reason, std::move(text), t, code);
+}
+
 void Control::run_home(Axis& a, const Reply* reply, Turn& t) {
     Job& j = a.job;
     const auto ch = static_cast<std::uint32_t>(a.channel);
     if (!reply) {
         if (j.step != 0) return;
-        if (std::string why = why_not_movable(a); !why.empty()) return refuse(a, Reason::wrong_state, std::move(why), t);
+        if (std::string why = why_not_movable(a); !why.empty()) {
+            home_refused(a, t);
+            return refuse(a, Reason::wrong_state, std::move(why), t);
+        }
         const auto* home = std::get_if<Home>(&j.command.body);
         const int method = home ? home->method : 0;
         j.step = 1;
         if (method == 0) return ask(a, code::reference, ch, t);
         if (method == 35 || method == 37) return ask_real(a, code::reference_here, ch, "0.0", t);
+        home_refused(a, t);
         return refuse(
             a, Reason::not_supported,
             fmt::format("homing method {}: the control's own reference run (0) is set by its axis parameters; 35 and 37 reference "
@@ -169,40 +194,41 @@ void Control::run_home(Axis& a, const Reply* reply, Turn& t) {
                         method),
             t);
     }
+    const std::string cause = what_ended(a);
     if (j.step == 1) {
-        if (reply->quit != 0) {
-            if (a.motion.kind == Motion::Kind::reference) {
-                a.running = false;
-                end_motion(a, false, Reason::drive_refused, describe_quit(reply->quit), t);
-            }
+        if (reply->quit != 0 && !j.begun) {
+            home_refused(a, t);
             (void)ended_by_quit(a, *reply, t, advice_for(reply->quit));
             return;
         }
+        if (reply->quit != 0) {
+            ++counters_.refused;
+            const std::string said = fmt::format("{}: {}", describe(j.request), describe_quit(reply->quit));
+            return home_aborted(a, cause.empty() ? said : cause + "; " + said, error_ != 0 ? error_ : reply->quit, t);
+        }
+        if (!cause.empty()) return home_aborted(a, cause, error_, t);
         if (a.motion.kind != Motion::Kind::reference) begin_motion(a, {Motion::Kind::reference, 0, false, false, exchanges_}, t);
         j.step = 2;
         return ask(a, code::position, ch, t);
     }
+    if (!cause.empty()) return home_aborted(a, cause, error_, t);
     if (j.step == 2) {
         if (reply->quit == 0) {
             a.counter = increments_of(number_of(*reply).value_or(0));
+            a.counter_at = t.now;
             a.aim.fresh = true;
         }
         j.step = 3;
         if (!system_flags_missing_) return ask(a, {code::system_flag, referenced_flag + ch, false, "0"});
     }
-    // "Done" is believed when nothing speaks against it: the mode, the error, and the flag that says so where the control has it.
+    // "Done" is believed when the flag says so where the control has it.
     const bool asked = j.step == 3 && j.request.code == code::system_flag;
     const bool flag = !asked || reply->quit != 0 || number_of(*reply).value_or(0) != 0;
-    const bool good = flag && error_ == 0 && mode_ == status::online;
-    const std::string text =
-        good ? std::string()
-             : fmt::format("end of processing was reported, but {}; operating status {}, PA-CONTROL error E{}",
-                           flag ? "the control is not in order" : "the axis is not referenced (SM flag 0)", status_text(mode_), error_);
-    const Command c = j.command;
+    if (!flag) return home_aborted(a, "end of processing was reported, but the axis is not referenced (SM flag 0)", 0, t);
+    const bool until_done = j.command.until_done;
     a.running = false;
-    end_motion(a, good, Reason::drive_refused, text, t);
-    if (good) return job_over(a, c.until_done ? Outcome::done : Outcome::accepted, Reason::none, "", t);
-    job_over(a, Outcome::failed, Reason::drive_refused, text, t, error_);
+    end_motion(a, true, Reason::none, {}, t);
+    job_over(a, until_done ? Outcome::done : Outcome::accepted, Reason::none, "", t);
 }
 
 /// G29 shifts the software limits with the position, G26 leaves them where they are; option set_position chooses.

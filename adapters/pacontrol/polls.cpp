@@ -3,6 +3,7 @@
 // Never asks for what the control has said it does not have.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -12,28 +13,34 @@
 namespace axisgate::pacontrol {
 namespace {
 constexpr std::uint32_t referenced_flag = 50;  // SM51 is "axis 1 is referenced" [L3935]
-}
+constexpr Duration longest_cycle = std::chrono::seconds(10);
+constexpr Duration standing_age = std::chrono::milliseconds(2400);  // below the 3 s from which a byte line's data count as stale
+constexpr int standing_cycles = 4;                                  // in which each axis that stands is asked once while none moves
+constexpr std::size_t axes_per_running = 16;                        // that move, for each 1911
+}  // namespace
 
 bool Control::poll_wanted(Instant now) const noexcept { return !polls_.empty() || cycle_at_ <= now; }
 
 void Control::plan_cycle(Turn& t) {
+    cycle_time_ = std::clamp<Duration>(t.now - cycle_began_, manners_.poll_period, longest_cycle);
+    cycle_began_ = t.now;
     cycle_at_ = t.now + manners_.poll_period;
-    const auto here = [&](std::size_t i) { return axes_[i].id != no_axis && !axes_[i].missing; };
-    const std::size_t n = axes_.size();
+    std::size_t moving = 0;
     polls_.push_back({PollKind::running, 0});
-    bool idle_done = false;
-    for (std::size_t i = 0; i < n; ++i) {
-        if (!here(i)) continue;
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
         Axis& a = axes_[i];
+        if (a.id == no_axis || a.missing) continue;
         if (first_cycle_) {
             polls_.push_back({PollKind::position, i});
             if (!system_flags_missing_) polls_.push_back({PollKind::referenced, i});
-            polls_.push_back({a.extended_missing ? PollKind::status : PollKind::extended, i});
+            polls_.push_back({status_poll(a), i});
         } else if (a.motion.final_due) {
-            polls_.push_back({PollKind::status, i});
+            polls_.push_back({status_poll(a), i});
             if (tells_following_error(a)) polls_.push_back({PollKind::following, i});
             polls_.push_back({PollKind::position, i});
         } else if (a.running || a.motion.active() || !a.position_known) {
+            // Ends are heard soon, however many move.
+            if (++moving % axes_per_running == 0) polls_.push_back({PollKind::running, 0});
             // Following error and speed share a place, so that the cycle takes no longer for it; the position it belongs to comes next.
             a.aim.lag_turn = tells_following_error(a) && !a.aim.lag_turn;
             if (a.aim.lag_turn) polls_.push_back({PollKind::following, i});
@@ -44,31 +51,54 @@ void Control::plan_cycle(Turn& t) {
         }
     }
     if (!first_cycle_) {
-        // One axis that stands, in turn: it may be pushed, or its position be set at the control.
-        for (std::size_t k = 0; k < n && !idle_done; ++k) {
-            idle_at_ = (idle_at_ + 1) % n;
-            if (!here(idle_at_) || axes_[idle_at_].running) continue;
-            Axis& a = axes_[idle_at_];
-            a.aim.lag_turn = tells_following_error(a) && !a.aim.lag_turn;  // a held axis may be pushed without its counter moving
-            polls_.push_back({a.aim.lag_turn ? PollKind::following : PollKind::position, idle_at_});
-            idle_done = true;
-        }
-        for (std::size_t k = 0; k < 3 * n; ++k) {
-            slow_at_ = (slow_at_ + 1) % (3 * n);
-            const std::size_t i = slow_at_ / 3, what = slow_at_ % 3;
-            if (!here(i) || (what == 1 && system_flags_missing_) || (what == 2 && !parameters_readable(t.now))) continue;
-            if (what == 2) {
-                std::uint8_t& next = axes_[i].aim.next_parameter;
-                polls_.push_back({PollKind::parameter, i, next});
-                next = static_cast<std::uint8_t>((next + 1u) % Aim::numbers.size());
-            } else {
-                polls_.push_back({what == 1 ? PollKind::referenced : axes_[i].extended_missing ? PollKind::status : PollKind::extended, i});
-            }
-            break;
-        }
+        plan_standing(moving > 0);
+        plan_slow(t);
         plan_parameters(t);
     }
     first_cycle_ = false;
+}
+
+/// Axes that stand, in turn: they may be pushed, or their position be set at the control. So many of them that what is told of each is
+/// never older than `standing_age` where the line allows it; where axes move, not one more.
+void Control::plan_standing(bool crowded) {
+    const std::size_t n = axes_.size();
+    const auto stands = [&](const Axis& a) {
+        return a.id != no_axis && !a.missing && !a.running && !a.motion.active() && a.position_known;
+    };
+    const auto standing = static_cast<std::size_t>(std::ranges::count_if(axes_, stands));
+    const double wanted = crowded ? static_cast<double>(standing) * seconds(cycle_time_) / seconds(standing_age)
+                                  : static_cast<double>(standing) / standing_cycles;
+    auto left = std::min(standing, static_cast<std::size_t>(std::ceil(wanted)));
+    for (std::size_t k = 0; k < n && left > 0; ++k) {
+        idle_at_ = (idle_at_ + 1) % n;
+        const Axis& a = axes_[idle_at_];
+        if (!stands(a)) continue;
+        --left;
+        if (tells_following_error(a))
+            polls_.push_back({PollKind::following, idle_at_});  // held, it may be pushed without its counter moving
+        polls_.push_back({PollKind::position, idle_at_});
+        polls_.push_back({status_poll(a), idle_at_});
+    }
+}
+
+/// One thing per cycle of what seldom changes: the switches of an axis that moves, references, and in home position parameters.
+void Control::plan_slow(Turn& t) {
+    const std::size_t n = axes_.size();
+    for (std::size_t k = 0; k < 3 * n; ++k) {
+        slow_at_ = (slow_at_ + 1) % (3 * n);
+        const std::size_t i = slow_at_ / 3, what = slow_at_ % 3;
+        Axis& a = axes_[i];
+        if (a.id == no_axis || a.missing) continue;
+        if ((what == 0 && !a.running) || (what == 1 && system_flags_missing_) || (what == 2 && !parameters_readable(t.now))) continue;
+        if (what == 2) {
+            std::uint8_t& next = a.aim.next_parameter;
+            polls_.push_back({PollKind::parameter, i, next});
+            next = static_cast<std::uint8_t>((next + 1u) % Aim::numbers.size());
+        } else {
+            polls_.push_back({what == 1 ? PollKind::referenced : status_poll(a), i});
+        }
+        return;
+    }
 }
 
 void Control::poll_soon(PollKind kind, const Axis& a) {
@@ -76,8 +106,9 @@ void Control::poll_soon(PollKind kind, const Axis& a) {
     polls_.push_front({kind, place(a)});
 }
 
-/// Of an axis that has come to rest: what it is behind, then where it is.
+/// Of an axis that has come to rest: what it is behind, where it is, and how.
 void Control::poll_standing(Axis& a) {
+    poll_soon(status_poll(a), a);
     poll_soon(PollKind::position, a);
     if (tells_following_error(a)) poll_soon(PollKind::following, a);
 }
@@ -132,6 +163,7 @@ void Control::poll_answered(const Poll& p, const Reply& reply, Turn& t) {
                    t, a.id);
         } else if (reply.quit != quit::inadmissible) {
             if (p.kind == PollKind::extended) a.extended_missing = true;
+            if (p.kind == PollKind::status) a.status_at = t.now;  // asked, and it does not say
             if (p.kind == PollKind::referenced) system_flags_missing_ = true;
         }
         return;
@@ -143,6 +175,7 @@ void Control::poll_answered(const Poll& p, const Reply& reply, Turn& t) {
             return learn_running(n, t);
         case PollKind::speed:
             a.fb.velocity = increments_of(v);
+            a.velocity_at = t.now;
             if (a.motion.kind == Motion::Kind::velocity || a.motion.kind == Motion::Kind::position) {
                 // Whether the control gives the speed a sign is not said [L2885]: the direction of a commanded motion is known.
                 const bool down = a.motion.kind == Motion::Kind::velocity ? a.motion.target < 0 : a.motion.target < a.counter;
@@ -160,7 +193,7 @@ void Control::poll_answered(const Poll& p, const Reply& reply, Turn& t) {
             learn_status(a, static_cast<int>(n & 0xFFu), t);
             return;
         case PollKind::following:
-            following_answered(a, v);
+            following_answered(a, v, t);
             if (!a.running) emit(a, t);  // of one that runs the position is asked next: they are told together
             return;
         case PollKind::parameter:
@@ -174,13 +207,14 @@ void Control::poll_answered(const Poll& p, const Reply& reply, Turn& t) {
     const Motion m = a.motion;
     std::string why;
     bool reached = m.kind == Motion::Kind::position || m.kind == Motion::Kind::manual;
+    const std::string cause = what_ended(a);
     const std::int64_t slack = std::max<std::int64_t>(50, std::llabs(m.target) / 100'000);  // 7 digits, and the step of a gear
     if (a.status == 4) {
         reached = false;
-        why = "axis status 4, malfunction";
+        why = "axis status 4, malfunction" + (cause.empty() ? cause : ": " + cause);
     } else if (a.status == 2) {
         reached = false;
-        why = "axis status 2, stopped";
+        why = "axis status 2, stopped" + (cause.empty() ? cause : ": " + cause);
     } else if (a.status == 8) {
         reached = false;
         why = "axis status 8, measuring mode";
@@ -191,6 +225,7 @@ void Control::poll_answered(const Poll& p, const Reply& reply, Turn& t) {
         why = m.conditional ? "the condition has ended it" : "the manual move was not renewed in time, or was stopped";
     }
     a.counter = position;
+    a.counter_at = t.now;
     a.aim.fresh = true;
     a.running = false;
     rest(a, reached && m.kind == Motion::Kind::position ? m.target : position);

@@ -32,8 +32,9 @@ void Control::forget() {
         a.fb = {};
         a.fb.position = a.fb.position_demand = a.counter;
         a.aim = {};
-        a.position_known = a.missing = a.on = a.quick_stopped = a.running = a.prepared = a.condition_set = a.extended_missing = false;
+        a.position_known = a.missing = a.on = a.running = a.prepared = a.condition_set = a.extended_missing = false;
         a.status = a.limits = -1;
+        a.counter_at = a.velocity_at = a.running_at = a.status_at = {};
         a.motion = {};
         a.speed.reset();
         a.acceleration.reset();

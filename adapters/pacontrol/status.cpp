@@ -10,6 +10,9 @@
 #include "adapters/pacontrol/number.hpp"
 
 namespace axisgate::pacontrol {
+namespace {
+constexpr Duration judge_limit = std::chrono::seconds(2);  // for all statuses to be read: sixteen at 9600 baud take 0.7 s
+}
 
 void Control::result(Axis& a, Ticket ticket, Outcome outcome, Reason reason, std::string text, Turn& t, std::int32_t code, Value value,
                      std::vector<std::uint8_t> bytes) {
@@ -38,18 +41,61 @@ bool Control::shown_by_axes() const {
     return phase_ == Phase::ready && std::ranges::any_of(axes_, [](const Axis& a) { return a.id != no_axis && a.position_known; });
 }
 
+bool Control::in_trouble() const noexcept { return error_ != 0 || is_malfunction(mode_); }
+
+const Axis* Control::culprit() const noexcept {
+    const auto it = std::ranges::find_if(axes_, [](const Axis& a) { return a.id != no_axis && a.status == 4; });
+    return it == axes_.end() ? nullptr : &*it;
+}
+
+/// STATUS and ERROR do not say whose trouble it is: the axes' own statuses do. Nobody's is everybody's: then none can move.
+bool Control::fault_of_all(Instant now) const noexcept {
+    if (!in_trouble() || culprit()) return false;
+    std::size_t here = 0;
+    bool read = true;
+    for (const Axis& a : axes_) {
+        if (a.id == no_axis || a.missing) continue;
+        ++here;
+        read = read && a.status >= 0 && a.status_at >= trouble_at_;
+    }
+    return here <= 1 || read || now - trouble_at_ > judge_limit;
+}
+
+void Control::ask_whose_fault(Turn& t) {
+    trouble_at_ = t.now;
+    for (auto a = axes_.rbegin(); a != axes_.rend(); ++a) {
+        if (a->id != no_axis && !a->missing) poll_soon(status_poll(*a), *a);
+    }
+}
+
+std::string Control::error_text() const {
+    const ErrorCode* of_catalogue = catalogue_.error(error_, "system");
+    return fmt::format("PA-CONTROL error E{}{}{}", error_, of_catalogue ? ": " : "", of_catalogue ? of_catalogue->text : "");
+}
+
+std::string Control::what_ended(const Axis& a) const {
+    const std::string now = fmt::format("operating status {}", status_text(mode_));
+    if (in_trouble()) {
+        const Axis* whose = culprit();
+        return fmt::format("{}{}{}", error_ != 0 ? error_text() + "; " : std::string(), now,
+                           whose && whose != &a ? fmt::format("; it is axis {} that has the malfunction", whose->channel) : std::string());
+    }
+    if (mode_ == status::online_stop || mode_ == status::online_stopped) return "stopped at the control or by its stop input; " + now;
+    if (!is_online(mode_)) return "ONLINE has ended; " + now;
+    return {};
+}
+
 /// STATUS and ERROR of any acknowledgement.
 void Control::learn(const Reply& reply, Turn& t) {
     const int before = mode_;
+    const bool error_changed = error_ != reply.error, was_in_trouble = in_trouble();
     mode_ = reply.status;
     mode_at_ = t.now;
-    const bool error_changed = error_ != reply.error;
+    error_ = reply.error;
+    if (in_trouble() && (!was_in_trouble || (error_changed && error_ != 0))) ask_whose_fault(t);
     if (error_changed) {
-        error_ = reply.error;
         if (error_ != 0) {
-            const ErrorCode* known_error = catalogue_.error(error_, "system");
-            notice(shown_by_axes() ? Severity::info : Severity::alarm, "alarm", error_,
-                   fmt::format("PA-CONTROL error E{}{}{}", error_, known_error ? ": " : "", known_error ? known_error->text : ""), t);
+            notice(shown_by_axes() ? Severity::info : Severity::alarm, "alarm", error_, error_text(), t);
         } else {
             notice(Severity::info, "alarm", 0, "no PA-CONTROL error any more", t);
         }
@@ -66,7 +112,8 @@ void Control::mode_changed(int before, Turn& t) {
     if (is_online(before) && !is_online(mode_)) return left_online(before, t);
     if (is_home(mode_) && !is_home(before)) parameters_may_have_changed();
     if (is_malfunction(mode_) && !is_malfunction(before)) {
-        notice(shown_by_axes() ? Severity::info : Severity::alarm, "mode", mode_, fmt::format("operating status is now {}", status_text(mode_)), t);
+        notice(shown_by_axes() ? Severity::info : Severity::alarm, "mode", mode_,
+               fmt::format("operating status is now {}", status_text(mode_)), t);
     } else if (mode_ == status::online_stop || (mode_ == status::online_stopped && before == status::online)) {
         const std::string text = fmt::format("operating status is now {}: stopped at the control or by its stop input", status_text(mode_));
         notice(Severity::warning, "mode", mode_, text, t);
@@ -90,7 +137,7 @@ void Control::left_online(int before, Turn& t) {
         any = any || a.on;
         if (a.motion.active()) end_motion(a, false, Reason::interrupted, text, t);
         end_waits(a, Reason::interrupted, text, t);
-        a.on = a.quick_stopped = a.prepared = a.condition_set = false;
+        a.on = a.prepared = a.condition_set = false;
         a.speed.reset();
         a.acceleration.reset();
         a.renew_at = never;
@@ -106,7 +153,7 @@ void Control::left_online(int before, Turn& t) {
 void Control::derive(Axis& a, Instant now) {
     AxisFeedback& f = a.fb;
     f.power = mode_ < 0 ? AxisFeedback::Power::unknown : a.on && is_online(mode_) ? AxisFeedback::Power::on : AxisFeedback::Power::off;
-    f.fault = error_ != 0 || is_malfunction(mode_) || a.status == 4;
+    f.fault = a.status == 4 || fault_of_all(now);
     // The error's number goes before the status of the axis is read anew: until then it is the same fault, not one without a number.
     if (error_ != 0) a.trouble = error_;
     if (!f.fault) a.trouble = 0;
@@ -115,8 +162,9 @@ void Control::derive(Axis& a, Instant now) {
     if (f.moving) a.reached = false;
     if (!f.moving) f.velocity = 0;  // it stands: 1910 or 1911 has said so
     f.internal_limit = a.limits >= 0 && (a.limits & 6) != 6;
-    f.quick_stopping = a.on && (mode_ == status::online_stop || mode_ == status::online_stopped);
-    f.warning = a.limits >= 0 && a.on && !(a.limits & 1);
+    // Stopped by the control: by its stop input, by a key, by the malfunction of another axis. Only enable, or a reset there, ends it.
+    f.quick_stopping = a.on && !f.fault && is_online(mode_) && mode_ != status::online && mode_ != status::online_started;
+    f.warning = (a.limits >= 0 && a.on && !(a.limits & 1)) || (in_trouble() && !f.fault);
     show_demand(a, now);
     // The control calls it in position by its counter alone; whoever reads the flag means the shaft.
     const bool behind = !f.moving && stands_behind(a);
@@ -125,12 +173,18 @@ void Control::derive(Axis& a, Instant now) {
     const int status = a.status < 0 && a.running ? 1 : a.status;  // 1911 says as much as 1910 of an axis that moves
     f.native_status = static_cast<std::uint32_t>(mode_ & 0xFF) | static_cast<std::uint32_t>(status & 0xFF) << 8 |
                       static_cast<std::uint32_t>(a.limits & 0xFF) << 16;
+    // As old as the oldest of what is told together. The switches of an axis that moves are looked at in turn, and are not counted.
+    f.at = std::min(a.aim.shown_at, a.running_at);
+    if (f.moving) {
+        f.at = std::min(f.at, a.velocity_at);
+    } else if (a.status_at != Instant{}) {
+        f.at = std::min(f.at, a.status_at);
+    }
 }
 
 void Control::emit(Axis& a, Turn& t) {
     if (a.id == no_axis || !a.position_known || phase_ != Phase::ready) return;
     derive(a, t.now);
-    a.fb.at = t.now;
     t.out.feedback.push_back({a.id, a.fb});
     check_waits(a, t);
 }
@@ -142,6 +196,7 @@ void Control::emit_all(Turn& t) {
 
 void Control::learn_position(Axis& a, double units, Turn& t) {
     a.counter = increments_of(units);
+    a.counter_at = t.now;
     a.aim.fresh = true;
     if (a.aim.stands && a.aim.settle && !a.running && !a.motion.active()) rest(a, a.counter);
     const bool first = !a.position_known;
@@ -158,6 +213,8 @@ void Control::learn_running(std::uint32_t mask, Turn& t) {
         if (a.id == no_axis || a.missing) continue;
         const bool was = a.running;
         a.running = mask >> (a.channel - 1) & 1u;
+        a.running_at = t.now;
+        if (!a.running) a.velocity_at = t.now;
         const bool motion_seen = a.motion.active() && a.motion.kind != Motion::Kind::reference;
         if (a.running != was) wake_ = true;
         if (a.running) {
@@ -166,9 +223,9 @@ void Control::learn_running(std::uint32_t mask, Turn& t) {
         } else if (motion_seen && a.motion.begun < exchanges_ && !a.motion.final_due) {
             // It stands, and was asked after the motion had begun. Status and position first, then everybody hears of its end.
             a.motion.final_due = true;
-            a.status = -1;
+            if (a.status != 4) a.status = -1;  // a malfunction that has been read meanwhile is the newest there is
             poll_standing(a);
-            poll_soon(PollKind::status, a);
+            poll_soon(status_poll(a), a);
         } else if (was && !motion_seen) {
             poll_standing(a);
         }
@@ -179,6 +236,7 @@ void Control::learn_running(std::uint32_t mask, Turn& t) {
 
 void Control::learn_status(Axis& a, int s, Turn& t) {
     a.status = s;
+    a.status_at = t.now;
     if (s == 1) {
         a.running = true;
         a.motion.final_due = false;
@@ -194,11 +252,12 @@ void Control::learn_status(Axis& a, int s, Turn& t) {
 void Control::begin_motion(Axis& a, Motion motion, Turn& t) {
     a.motion = motion;
     a.motion.begun = exchanges_;
+    if (!a.running) a.velocity_at = t.now;  // it stood until then
     a.running = true;
+    a.running_at = t.now;
     a.status = -1;
     a.reached = a.fb.homing_attained = false;
     a.fb.homing_error = false;
-    a.quick_stopped = false;
     cycle_at_ = std::min(cycle_at_, t.now);
     emit(a, t);
 }

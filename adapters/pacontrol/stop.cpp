@@ -169,7 +169,6 @@ void Control::stop_answered(const Reply& reply, Turn& t) {
     cycle_at_ = t.now;
     if (sent == code::axis_off || (s.kind == Stop::Kind::off && !is_online(mode_)) || sent == code::abort_online) {
         a.on = false;
-        a.quick_stopped = false;
         give_back_due_ = true;
     } else if (sent == code::stop_axis || sent == code::abort_move || sent == code::stop) {
         if (reply.real && number_of(reply)) learn_position(a, *number_of(reply), t);

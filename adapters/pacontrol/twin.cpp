@@ -28,16 +28,59 @@ std::vector<std::string_view> split(std::string_view text, char at) {
     }
 }
 
+std::optional<double> real(std::string_view text, double least, double largest) {
+    double v = 0;
+    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), v);
+    if (fault != std::errc{} || end != text.data() + text.size() || !(v >= least && v <= largest)) return std::nullopt;
+    return v;
+}
+
+/// `A1=100/A2=-50`; empty: it cannot be read.
+std::vector<ProgramMove> moves_of(std::string_view text) {
+    std::vector<ProgramMove> moves;
+    for (const auto item : split(text, '/')) {
+        const auto part = split(item, '=');
+        const auto axis = part[0].starts_with('A') ? number(part[0].substr(1), 1, 16) : std::nullopt;
+        const auto target = part.size() == 2 ? real(part[1], -1e7, 1e7) : std::nullopt;
+        if (!axis || !target || moves.size() == 64) return {};
+        moves.push_back({static_cast<int>(*axis), *target});
+    }
+    return moves;
+}
+
+/// `NAME:ms[:error[:A1=100/A1=0]]`, with commas; what cannot be read is left out.
 std::vector<Program> programs_of(std::string_view text) {
     std::vector<Program> programs;
     for (const auto item : split(text, ',')) {
         const auto part = split(item, ':');
-        if (part.size() < 2 || part.size() > 3 || part[0].empty() || programs.size() == 32) continue;
+        if (part.size() < 2 || part.size() > 4 || part[0].empty() || programs.size() == 32) continue;
         const auto ms = number(part[1], 0, 86'400'000);
-        const auto error = part.size() == 3 ? number(part[2], 0, 999) : std::optional<std::int64_t>(0);
-        if (ms && error) programs.push_back({std::string(part[0]), std::chrono::milliseconds(*ms), static_cast<std::uint16_t>(*error)});
+        const auto error = part.size() >= 3 ? number(part[2], 0, 999) : std::optional<std::int64_t>(0);
+        auto moves = part.size() == 4 ? moves_of(part[3]) : std::vector<ProgramMove>{};
+        if (!ms || !error || (part.size() == 4 && moves.empty())) continue;
+        programs.push_back({std::string(part[0]), std::chrono::milliseconds(*ms), static_cast<std::uint16_t>(*error), std::move(moves)});
     }
     return programs;
+}
+
+/// `AP1:0.001:2000[:500]`, with commas: least, largest and, if it is another than now, the usual value.
+void limits_of(std::string_view text, int axes, Profile& profile) {
+    for (const auto item : split(text, ',')) {
+        const auto part = split(item, ':');
+        if (part.size() < 3 || part.size() > 4 || part[0].size() < 3) continue;
+        const bool of_axis = part[0].starts_with("AP");
+        const auto n = of_axis || part[0].starts_with("SP") ? number(part[0].substr(2), 1, of_axis ? 50 : 20) : std::nullopt;
+        const auto least = real(part[1], -1e9, 1e9), largest = real(part[2], -1e9, 1e9);
+        if (!n || !least || !largest || *least > *largest) continue;
+        const auto i = static_cast<std::size_t>(*n);
+        const double now = of_axis ? static_cast<double>(profile.axis(i).usual) : profile.system(i, axes).usual;
+        const double usual = std::clamp(part.size() == 4 ? real(part[3], -1e9, 1e9).value_or(now) : now, *least, *largest);
+        if (of_axis) {
+            (void)profile.set_axis(i, {static_cast<float>(*least), static_cast<float>(usual), static_cast<float>(*largest)});
+        } else {
+            (void)profile.set_system(i, {whole(Datum::integer(*least)), whole(Datum::integer(usual)), whole(Datum::integer(*largest))});
+        }
+    }
 }
 
 }  // namespace
@@ -45,7 +88,9 @@ std::vector<Program> programs_of(std::string_view text) {
 std::unique_ptr<Twin> make_twin(const Catalogue&, const TwinSetup& setup) {
     DeviceSetup d;
     const auto text = [&](const char* name) { return option(setup.options, name, ""); };
-    d.control.axes = std::clamp(setup.axes, 1, 16);
+    const auto built = number(text("axes"), 1, 16);
+    d.fixed_axes = built.has_value();
+    d.control.axes = static_cast<int>(built.value_or(std::clamp(setup.axes, 1, 16)));
     if (text("reply_check") == "text") d.reply_check = ReplyCheck::text;
     if (text("reply_check") == "zero") d.reply_check = ReplyCheck::zero;
     d.lenient = text("request_check") == "lenient";
@@ -66,6 +111,22 @@ std::unique_ptr<Twin> make_twin(const Catalogue&, const TwinSetup& setup) {
         }
     }
     d.control.axis_modules = text("axis_modules") == "on";
+    if (const auto n = number(text("profibus_switches"), 0, 99)) d.control.profibus_switches = static_cast<int>(*n);
+    if (const std::string list = text("limits"); !list.empty()) limits_of(list, d.control.axes, d.control.profile);
+    const std::string travel = text("travel"), rotary = text("rotary");
+    if (const auto ends = split(travel, ':'); ends.size() == 2) {
+        const auto low = real(ends[0], -1e8, 1e8), high = real(ends[1], -1e8, 1e8);
+        if (low && high && *low < *high) {
+            d.control.axis.travel_min = *low;
+            d.control.axis.travel_max = *high;
+        }
+    }
+    for (const auto item : split(rotary, ',')) {
+        const auto part = split(item, ':');
+        const auto n = number(part[0], 1, 16);
+        const auto ae = part.size() == 2 ? real(part[1], 0.001, 1e6) : std::nullopt;
+        if (n && ae) d.control.rotary[static_cast<int>(*n)] = *ae;
+    }
     return std::make_unique<Device>(d);
 }
 
@@ -79,6 +140,7 @@ void Device::power_on(const NonVolatile& memory, Instant now, Out&) {
 
 bool Device::fit_axes(int axes, Instant now) {
     last_ = std::max(now, last_);
+    if (setup_.fixed_axes) return true;
     setup_.control.axes = std::clamp(axes, 1, 16);
     control_.fit_axes(axes, last_);
     return true;

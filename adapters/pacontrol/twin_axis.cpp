@@ -10,6 +10,7 @@ namespace {
 constexpr double creep_way = 0.2;        // AE, off the switch and back to its edge
 constexpr double creep_way_forced = 10;  // AE, the most it creeps to leave a switch that a hand holds
 constexpr double place_limit = 1e9;      // AE: positions stay numbers of 7 digits that mean something
+constexpr double edge_slack = 1e-9;      // of a turn: a rotary axis that stands on the edge is off its switch
 }  // namespace
 
 double Axis::position(Instant t) const noexcept { return running_ ? path_.position(t) : rest_; }
@@ -18,6 +19,8 @@ double Axis::velocity(Instant t) const noexcept { return running_ && !held_ ? pa
 double Axis::lag(Instant t) const noexcept {
     return lost_ + (held_ ? position(t) - held_at_ : 0) + extra_lag_ + load_ * velocity(t) * 0.001;
 }
+double Axis::greatest_lag(Instant t) const noexcept { return std::max(greatest_lag_, std::abs(lag(t))); }
+void Axis::note_lag(Instant t) noexcept { greatest_lag_ = greatest_lag(t); }
 double Axis::shaft(Instant t) const noexcept { return position(t) - origin_ - lost_ - (held_ ? position(t) - held_at_ : 0); }
 
 std::uint8_t Axis::status() const noexcept {
@@ -51,6 +54,7 @@ void Axis::run(const Path& path, Instant t) {
 
 void Axis::start(const Motion& m, Instant t) {
     const double here = position(t);
+    now_ = std::max(now_, t);
     motion_ = m;
     target_ = m.target;
     task_ = m.task;
@@ -70,9 +74,19 @@ std::uint16_t Axis::may_reference() const {
     return quit::ok;
 }
 
-bool Axis::home_active() const noexcept { return home_forced_ || rest_ - origin_ - lost_ < 0; }
+bool Axis::home_active() const noexcept {
+    if (home_forced_) return true;
+    return model_.revolution > 0 ? switch_at_shaft(false) : rest_ - origin_ - lost_ < 0;
+}
 
-/// Seeks the edge of the home switch, which lies at shaft position 0, leaves it at creep speed and creeps back to it.
+/// The edge of the home switch from which a reference run counts: at shaft position 0; of a rotary axis the whole turn at or below, where
+/// its switch is the reference switch first of all [L834]; on the switch the whole turn above.
+double Axis::edge_below(double shaft) const noexcept {
+    if (model_.revolution <= 0) return 0;
+    return (std::floor(shaft / model_.revolution + edge_slack) + (switch_at_shaft(false) ? 1 : 0)) * model_.revolution;
+}
+
+/// Seeks the edge of the home switch, leaves it at creep speed and creeps back to it.
 void Axis::start_reference(Instant t) {
     motion_ = {};
     motion_.task = task_ = Task::reference;
@@ -87,7 +101,8 @@ void Axis::start_reference(Instant t) {
     rest_ = position(t);
     const bool on_switch = home_active();
     phase_ = on_switch ? Phase::creep_out : Phase::seek;
-    const double edge = origin_ + lost_;
+    const double edge = origin_ + lost_ + edge_below(rest_ - origin_ - lost_);
+    target_ = edge;
     const double out = home_forced_ ? rest_ + creep_way_forced : edge + creep_way;
     run(Path::to(rest_, on_switch ? out : edge, 0, static_cast<double>(p_[on_switch ? ap::creep_speed : ap::reference_speed]), 0,
                  motion_.acceleration, t),
@@ -96,7 +111,7 @@ void Axis::start_reference(Instant t) {
 
 void Axis::next_phase(Instant t) {
     const double creep = static_cast<double>(p_[ap::creep_speed]);
-    const double edge = origin_ + lost_;
+    const double edge = target_;
     switch (phase_) {
         case Phase::seek:
             phase_ = Phase::creep_out;
@@ -127,6 +142,8 @@ void Axis::next_phase(Instant t) {
 
 /// The end of a path: of a phase, of the motion, of a ramp.
 void Axis::path_ended(Instant t) {
+    note_lag(t);
+    greatest_lag_ = std::max(greatest_lag_, load_ * path_.peak() * 0.001);
     rest_ = path_.last();
     running_ = false;
     if (held_) {
@@ -217,6 +234,7 @@ void Axis::change_speed(double speed, Instant t) {
 
 /// Stands at once where it is, with an error.
 void Axis::abort_with(std::uint16_t number, std::uint16_t code, Instant t) {
+    note_lag(t);
     if (running_) rest_ = path_.position(t);
     if (held_) {
         lost_ += rest_ - held_at_;
@@ -252,24 +270,46 @@ Instant Axis::lag_exceeded() const noexcept {
     return path_.when(held_at_ + room);
 }
 
+/// When the shaft comes onto the switch in its way while that is monitored. Switches that are exchanged in the parameters stop nothing.
+Instant Axis::limit_passed() const noexcept {
+    if (!running_ || held_ || !motion_.limits_monitored || task_ == Task::reference || p_[ap::limits_exchanged] != 0) return never;
+    const bool up = path_.direction() > 0;
+    const double offset = origin_ + lost_;
+    if (model_.revolution <= 0) {
+        const double end = up ? model_.travel_max : model_.travel_min;
+        return switch_at_shaft(up) ? never : path_.when(end + offset);
+    }
+    const double turn = shaft(now_) / model_.revolution;
+    double next = std::floor(turn + edge_slack) + (up ? 1 - switch_share : 0);
+    if (up && turn >= next) next += 1;  // it began on the switch
+    return path_.when(next * model_.revolution + offset);
+}
+
 Instant Axis::deadline() const noexcept {
     if (!running_) return never;
-    return std::min({path_.end(), watchdog_, lag_exceeded()});
+    return std::min({path_.end(), watchdog_, lag_exceeded(), limit_passed()});
 }
 
 void Axis::advance(Instant t) {
+    if (running_) note_lag(t);
     for (int rounds = 0; running_ && rounds < 16; ++rounds) {  // a motion has at most a handful of events at one instant
-        const Instant exceeded = lag_exceeded();
-        if (exceeded <= t && exceeded <= path_.end()) {
+        const Instant exceeded = lag_exceeded(), passed = limit_passed();
+        if (passed <= t && passed <= path_.end() && passed <= exceeded) {
+            const bool up = path_.direction() > 0;
+            now_ = std::max(now_, passed);
+            hit_limit(up, passed);
+            if (model_.revolution > 0) rest_ += (up ? 1 : -1) * model_.revolution * switch_share / 100;  // stands on it
+        } else if (exceeded <= t && exceeded <= path_.end()) {
             abort_with(error::following_error, quit::not_ready, exceeded);
         } else if (watchdog_ <= t && watchdog_ < path_.end()) {
             finish(watchdog_);
         } else if (path_.end() <= t) {
             path_ended(path_.end());
         } else {
-            return;
+            break;
         }
     }
+    now_ = std::max(now_, t);
 }
 
 }  // namespace axisgate::pacontrol::twin

@@ -42,14 +42,16 @@ inline constexpr std::uint16_t outside_range = 0x41;
 inline constexpr std::uint16_t no_measuring = 0x6C;
 }  // namespace quit
 
-/// System error numbers: 525, 529 and 560 are the manual's [L716, L3812]; for the negative switch, the following error and the power
-/// pack it names none, so these three are the model's own.
+/// System error numbers: 205, 525, 529 and 560 are the manual's [L335, L716, L2825, L3812]; for the negative switch, the following error,
+/// the power pack and a traverse that a program cannot start it names none, so these four are the model's own.
 namespace error {
+inline constexpr std::uint16_t rotary_switches = 205;
 inline constexpr std::uint16_t no_reference = 525;
 inline constexpr std::uint16_t limit_positive = 529;
 inline constexpr std::uint16_t limit_negative = 530;
 inline constexpr std::uint16_t following_error = 531;
 inline constexpr std::uint16_t power_pack = 532;
+inline constexpr std::uint16_t program_move = 533;
 inline constexpr std::uint16_t no_encoder_edge = 560;
 }  // namespace error
 
@@ -59,11 +61,15 @@ struct AxisModel {
     bool manual_at_traverse = false;  ///< speed of 0A90/0A91: traverse speed instead of manual speed (E-32)
     int switch_on_mode = 1;       ///< 0: an interrupted traverse is dropped at axis ON; 1..3: it goes on; 4: and displacement is watched
     double max_displacement = 1;  ///< AE, while the axis is off, for switch_on_mode 4
+    double travel_min = -10'050, travel_max = 10'050;  ///< AE of the shaft: where the switches at the ends of travel are
+    double revolution = 0;  ///< AE; above 0 a rotary axis: one switch just before each whole turn, seen in both directions [L834]
     Duration watchdog = std::chrono::seconds(1);  ///< of a manual move [L3553]
 };
 
 /// Motor state as in the status word of the module interface [L734-L760].
 enum class AxisPower : std::uint8_t { on, halt, idle, safe, disabled };
+
+inline constexpr double switch_share = 0.01;  ///< of a turn of a rotary axis, on which its switch is actuated
 
 enum class Task : std::uint8_t { none, position, manual, reference, jog };
 
@@ -86,6 +92,7 @@ public:
     [[nodiscard]] double shaft(Instant t) const noexcept;     ///< AE, the true place of the mechanics; the home switch's edge is at 0
     [[nodiscard]] double encoder(Instant t) const noexcept { return shaft(t) + origin_; }  ///< AE, counted by the encoder
     [[nodiscard]] double lag(Instant t) const noexcept;                                    ///< AE, following error
+    [[nodiscard]] double greatest_lag(Instant t) const noexcept;  ///< AE, the largest that has occurred since power on
     [[nodiscard]] bool running() const noexcept { return running_; }
     /// A traverse task is not finished yet, be it interrupted.
     [[nodiscard]] bool busy() const noexcept { return running_ || interrupted_; }
@@ -97,6 +104,7 @@ public:
     [[nodiscard]] std::uint16_t ended_with() const noexcept { return ended_with_; }
     [[nodiscard]] bool referenced() const noexcept { return referenced_; }
     [[nodiscard]] AxisPower power() const noexcept { return power_; }
+    [[nodiscard]] bool switched_off() const noexcept { return off_; }  ///< axis ON was taken away
     [[nodiscard]] bool enabled() const noexcept { return power_ == AxisPower::on || power_ == AxisPower::halt; }
     [[nodiscard]] std::uint16_t fault() const noexcept { return fault_; }
     [[nodiscard]] bool measuring() const noexcept { return measuring_; }
@@ -105,12 +113,14 @@ public:
     [[nodiscard]] double shift() const noexcept { return shift_; }
     [[nodiscard]] double last_target() const noexcept { return target_; }              ///< SR71..
     [[nodiscard]] double position_when_off() const noexcept { return off_position_; }  ///< SR51..
+    /// At the instant of the last advance: by the place of the shaft, or by the hand.
     [[nodiscard]] bool limit_actuated(bool positive) const noexcept;
     [[nodiscard]] double area_min() const noexcept { return static_cast<double>(p_[ap::area_min]) + shift_; }
     [[nodiscard]] double area_max() const noexcept { return static_cast<double>(p_[ap::area_max]) + shift_; }
     [[nodiscard]] const AxisModel& model() const noexcept { return model_; }
     [[nodiscard]] const AxisParameters& parameters() const noexcept { return p_; }
     void set_parameter(std::size_t number, float value) noexcept { p_.at(number) = value; }
+    void set_revolution(double ae) noexcept { model_.revolution = ae; }
 
     // --- motions (0, or a command error: then nothing happened) ---
     [[nodiscard]] std::uint16_t may_start(const Motion& m, Instant t) const;
@@ -201,6 +211,10 @@ private:
     void abort_with(std::uint16_t number, std::uint16_t code, Instant t);
     [[nodiscard]] bool home_active() const noexcept;
     [[nodiscard]] Instant lag_exceeded() const noexcept;
+    [[nodiscard]] Instant limit_passed() const noexcept;
+    [[nodiscard]] bool switch_at_shaft(bool positive) const noexcept;
+    [[nodiscard]] double edge_below(double shaft) const noexcept;
+    void note_lag(Instant t) noexcept;
 
     AxisModel model_;
     AxisParameters p_;
@@ -213,6 +227,8 @@ private:
     double shift_ = 0;    ///< G29
     double target_ = 0;
     double extra_lag_ = 0;
+    double greatest_lag_ = 0;
+    Instant now_{};  ///< of the last advance
     double off_position_ = 0, off_shaft_ = 0;
     Path path_;
     Motion motion_;

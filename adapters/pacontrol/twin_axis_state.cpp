@@ -9,7 +9,16 @@ namespace axisgate::pacontrol::twin {
 
 bool Axis::limit_actuated(bool positive) const noexcept {
     const bool exchanged = p_[ap::limits_exchanged] != 0;
-    return positive != exchanged ? limit_positive_ : limit_negative_;
+    const bool at_positive = positive != exchanged;
+    return (at_positive ? limit_positive_ : limit_negative_) || switch_at_shaft(at_positive);
+}
+
+bool Axis::switch_at_shaft(bool positive) const noexcept {
+    const double at = shaft(now_);
+    if (model_.revolution <= 0) return positive ? at >= model_.travel_max - 1e-6 : at <= model_.travel_min + 1e-6;
+    const double turn = at / model_.revolution;
+    const double part = turn - std::floor(turn);
+    return part >= 1 - switch_share - 1e-9 && part < 1 - 1e-9;
 }
 
 void Axis::set_referenced(bool on) noexcept {
@@ -143,6 +152,7 @@ void Axis::boot(const Kept& kept) {
     referenced_ = absolute;
     held_at_ = target_ = off_position_ = rest_;
     off_shaft_ = kept.shaft;
+    greatest_lag_ = 0;
     off_ = static_cast<int>(p_[ap::enable_mode]) != 1;
     power_ = off_ ? AxisPower::idle : AxisPower::on;
 }
@@ -151,6 +161,7 @@ void Axis::boot(const Kept& kept) {
 
 void Axis::hold(bool held, Instant t) {
     if (held == held_) return;
+    note_lag(t);
     if (held) {
         held_at_ = position(t);
     } else {
@@ -183,6 +194,7 @@ void Axis::set_home_switch(bool active, Instant t) {
 
 void Axis::set_following_error(double ae, Instant t) {
     extra_lag_ = ae;
+    note_lag(t);
     const double most = static_cast<double>(p_[ap::following_error]);
     if (enabled() && !measuring_ && most > 0 && p_[ap::rotation_monitoring] != 0 && std::abs(lag(t)) > most && fault_ == 0) {
         abort_with(error::following_error, quit::not_ready, t);

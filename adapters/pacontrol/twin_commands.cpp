@@ -36,7 +36,7 @@ CommandReply set_system(Control& k, const Call& c) {
 CommandReply get_system(Control& k, const Call& c) {
     if (c.parameter < 1 || c.parameter > static_cast<std::int64_t>(system_parameters)) return refuse(quit::no_system_parameter);
     const auto i = static_cast<std::size_t>(c.parameter);
-    const auto limits = system_limits(i, k.axes());
+    const auto limits = k.system_limits(i);
     return say(c.code == 0x1700 ? k.system()[i] : c.code == 0x1701 ? limits.largest : limits.least);
 }
 
@@ -49,7 +49,7 @@ CommandReply get_axis_parameter(Control& k, const Call& c) {
     if (c.parameter < 0 || !k.has_axis(c.parameter >> 8)) return refuse(quit::no_axis);
     const auto number = static_cast<std::size_t>(c.parameter & 0xFF);
     if (number < 1 || number > axis_parameters) return refuse(quit::no_axis_parameter);
-    const auto& limits = axis_limits(number);
+    const auto& limits = k.axis_limits(number);
     const float v = c.code == 0x1801   ? limits.largest
                     : c.code == 0x1802 ? limits.least
                                        : k.axis(static_cast<int>(c.parameter >> 8)).parameters()[number];
@@ -177,14 +177,15 @@ CommandReply get_speed(Control& k, const Call& c) {
 }
 
 CommandReply get_encoder(Control& k, const Call& c) {
-    return of_axis(k, c, [&](const Axis& a) { return say_real(a.encoder(c.now)); });
+    return of_axis(k, c, [&](const Axis& a) { return a.model().ep ? say_real(a.encoder(c.now)) : refuse(quit::not_executable); });
 }
 
-/// Only the EP has it; others: 15h (E-26).
+double microsteps(const Axis& a, double ae) { return ae / std::max(1e-9, static_cast<double>(a.parameters()[ap::gear])) * 3200; }
+
+/// The largest that has occurred since power on, in the microsteps of 1915. Only the EP has it; others: 15h (E-26).
 CommandReply get_greatest_lag(Control& k, const Call& c) {
-    return of_axis(k, c, [&](const Axis& a) {
-        return a.model().ep ? say_real(static_cast<double>(a.parameters()[ap::following_error])) : refuse(quit::not_executable);
-    });
+    return of_axis(
+        k, c, [&](const Axis& a) { return a.model().ep ? say_real(microsteps(a, a.greatest_lag(c.now))) : refuse(quit::not_executable); });
 }
 
 CommandReply get_axis_status(Control& k, const Call& c) {
@@ -211,7 +212,7 @@ CommandReply get_area_max(Control& k, const Call& c) {
 CommandReply get_lag(Control& k, const Call& c) {
     return of_axis(k, c, [&](const Axis& a) {
         if (!a.model().ep) return refuse(quit::not_executable);
-        return say_real(a.lag(c.now) / std::max(1e-9, static_cast<double>(a.parameters()[ap::gear])) * 3200);
+        return say_real(microsteps(a, a.lag(c.now)));
     });
 }
 
@@ -290,7 +291,7 @@ CommandReply move(Control& k, const Call& c) {
 
 CommandReply set_speed(Control& k, const Call& c) {
     return of_axis(k, c, [&](Axis& a) {
-        const auto& limits = axis_limits(ap::traverse_speed);
+        const auto& limits = k.axis_limits(ap::traverse_speed);
         const double v = c.data.value;
         if (!(v >= static_cast<double>(limits.least)) || v > static_cast<double>(limits.largest)) return refuse(quit::value);
         if (a.running() && !a.model().ep) return refuse(quit::moves);  // while moving only on the EP [L3496]
@@ -303,7 +304,7 @@ CommandReply set_speed(Control& k, const Call& c) {
 
 CommandReply set_acceleration(Control& k, const Call& c) {
     return of_axis(k, c, [&](Axis&) {
-        const auto& limits = axis_limits(ap::acceleration);
+        const auto& limits = k.axis_limits(ap::acceleration);
         const double v = c.data.value;
         if (!(v >= static_cast<double>(limits.least)) || v > static_cast<double>(limits.largest)) return refuse(quit::value);
         k.overrides(axis_of(c)).acceleration = v;
@@ -452,8 +453,8 @@ constexpr std::array<CommandRow, 66> rows{{
     {0x0A9A, "cmd_stop_axis_multi_cmd", O, true, abort_move},
     {0x0AA0, "cmd_set_measuring_mode", A | O, true, measuring},
     {0x0AA1, "cmd_reset_axis_measuring_mode", A | O, true, measuring},
-    {0x0AA2, "cmd_put_limit_switch_monitoring_on_off", O, false, monitor_limits},
-    {0x0AA3, "cmd_put_condition_move_axis", O, false, set_condition},  // the module interface needs it [L820]
+    {0x0AA2, "cmd_put_limit_switch_monitoring_on_off", O, true, monitor_limits},  // modules have a bit of their own for it [L834]
+    {0x0AA3, "cmd_put_condition_move_axis", O, false, set_condition},             // the module interface needs it [L820]
 }};
 
 }  // namespace

@@ -17,30 +17,40 @@ Control::Control(const ControlSetup& setup) : setup_(setup), mode_(setup.times) 
     setup_.axes = static_cast<int>(n);
     if (setup_.programs.empty()) setup_.programs.push_back({"START", std::chrono::seconds(10), 0});
     elements_ = {Bits{setup.inputs}, Bits{setup.outputs}, Bits{setup.flags}, Registers<std::int32_t>{setup.n}, Registers<float>{setup.r}};
-    AxisParameters p = usual_axis_parameters();
-    p[ap::absolute] = setup.absolute ? 1.0F : 0.0F;
-    axes_.assign(n, Axis{setup.axis, p});
+    for (std::size_t i = 0; i < n; ++i)
+        axes_.push_back(new_axis(i));
     kept_.assign(n, {});
     overrides_.assign(n, {});
     next_condition_.assign(n, {});
     condition_.assign(n, {});
     condition_input_.assign(n, 1);
     limits_monitored_.assign(n, true);
-    system_ = usual_system_parameters(setup_.axes);
+    system_ = setup_.profile.usual_system(setup_.axes);
+}
+
+AxisParameters Control::factory_axis() const {
+    AxisParameters p = setup_.profile.usual_axis();
+    p[ap::absolute] = setup_.absolute ? 1.0F : 0.0F;
+    return p;
+}
+
+Axis Control::new_axis(std::size_t place) const {
+    Axis a{setup_.axis, factory_axis()};
+    if (const auto it = setup_.rotary.find(static_cast<int>(place) + 1); it != setup_.rotary.end()) a.set_revolution(it->second);
+    return a;
 }
 
 void Control::fit_axes(int n, Instant now) {
     advance(now);
     const auto before = axes_.size(), after = static_cast<std::size_t>(std::clamp(n, 1, 16));
     if (after <= before) return;
-    const SystemParameters was = usual_system_parameters(axes()), is = usual_system_parameters(static_cast<int>(after));
+    const SystemParameters was = setup_.profile.usual_system(axes()), is = setup_.profile.usual_system(static_cast<int>(after));
     for (std::size_t i = 1; i <= system_parameters; ++i) {
         if (system_[i] == was[i]) system_[i] = is[i];
     }
     setup_.axes = static_cast<int>(after);
-    AxisParameters p = usual_axis_parameters();
-    p[ap::absolute] = setup_.absolute ? 1.0F : 0.0F;
-    axes_.resize(after, Axis{setup_.axis, p});
+    for (std::size_t i = before; i < after; ++i)
+        axes_.push_back(new_axis(i));
     kept_.resize(after);
     overrides_.resize(after);
     next_condition_.resize(after);
@@ -97,6 +107,36 @@ void Control::settle(Instant now) {
         const Mode::Entered what = mode_.step(now, all_stand());
         if (what == Mode::Entered::nothing) break;
         entered(what, now);
+    }
+    run_program(now);
+}
+
+/// The moves of the program that runs: the next one begins when the axis of the one before has come to its end. A round that moves nothing
+/// is waited for no further.
+void Control::run_program(Instant now) {
+    const std::vector<ProgramMove>& moves = mode_.program().moves;
+    if (mode_.status() != status::automatic || mode_.leaving()) {
+        // Stopped, it goes on with the move that was interrupted; anywhere else it has ended.
+        if (mode_.column() != gate::automatic) {
+            program_move_ = 0;
+            program_axis_.reset();
+        }
+        return;
+    }
+    for (std::size_t tried = 0; tried < moves.size(); ++tried) {
+        if (program_axis_ && axis(*program_axis_).busy()) return;
+        const ProgramMove& next = moves[program_move_ % moves.size()];
+        if (!has_axis(next.axis)) return;
+        Axis& a = axis(next.axis);
+        Motion m;
+        m.target = next.target;
+        m.speed = static_cast<double>(a.parameters()[ap::traverse_speed]);
+        m.acceleration = static_cast<double>(a.parameters()[ap::acceleration]);
+        if (const std::uint16_t q = a.may_start(m, now); q != quit::ok)
+            return raise(q == quit::no_reference ? error::no_reference : error::program_move, now);
+        a.start(m, now);
+        ++program_move_;
+        program_axis_ = next.axis;
     }
 }
 
@@ -281,7 +321,7 @@ void Control::jog(int n, int direction, Instant now) {
     advance(now);
     Axis& a = axis(n);
     a.finish(now);
-    if (direction == 0 || a.running() || mode_.status() != status::manual) return settle(now);
+    if (direction == 0 || a.running() || mode_.column() != gate::manual) return settle(now);
     Motion m;
     m.task = Task::jog;
     m.free = true;

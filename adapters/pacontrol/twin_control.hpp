@@ -37,8 +37,11 @@ struct ControlSetup {
     std::size_t inputs = elements, outputs = elements, flags = elements, n = elements, r = elements;
     std::set<std::uint16_t> lasting{205};  ///< errors of class 2 that cannot be reset
     bool absolute = true;                  ///< factory value of axis parameter 25h
-    bool axis_modules = false;       ///< the Profibus axis extension is configured: axis commands of the CMD interface are blocked [L640]
-    bool profibus_switches = false;  ///< rotary switches set: the address parameter is refused with 39h [L4072]
+    bool axis_modules = false;  ///< the Profibus axis extension is configured: axis commands of the CMD interface are blocked [L640]
+    int profibus_switches =
+        0;  ///< 2..99: the address that the rotary switches hold; writing it is refused with 39h [L4072]. 1: E205 [L333-L335]
+    Profile profile;
+    std::map<int, double> rotary;  ///< axis: AE of a revolution
 };
 
 /// A traverse task of the module/axis interface [L660-L690].
@@ -115,6 +118,8 @@ public:
     [[nodiscard]] bool axis_modules() const noexcept { return setup_.axis_modules; }
     [[nodiscard]] bool all_stand() const noexcept;
     [[nodiscard]] const SystemParameters& system() const noexcept { return system_; }
+    [[nodiscard]] const Limits<float>& axis_limits(std::size_t number) const { return setup_.profile.axis(number); }
+    [[nodiscard]] Limits<std::int32_t> system_limits(std::size_t number) const { return setup_.profile.system(number, axes()); }
     [[nodiscard]] int condition_input(int n) const { return condition_input_.at(static_cast<std::size_t>(n - 1)); }
     /// Input `n` as the control sees it: `inputs`, and for the stop input the wire of the external stop.
     [[nodiscard]] bool input(std::int64_t n) const noexcept;
@@ -186,6 +191,9 @@ private:
     void entered(Mode::Entered what, Instant now);
     void leave_to(std::uint8_t target, Instant now);
     void interrupt_all(Instant now);
+    void run_program(Instant now);
+    [[nodiscard]] AxisParameters factory_axis() const;
+    [[nodiscard]] Axis new_axis(std::size_t place) const;
     void check_conditions(Instant now);
     void check_stop_input(Instant now);
     [[nodiscard]] bool fulfilled(const Condition& c) const noexcept;
@@ -205,6 +213,8 @@ private:
     std::vector<bool> limits_monitored_;
     std::vector<Axis::Kept> kept_;
     std::size_t program_ = 0;
+    std::size_t program_move_ = 0;     ///< of the program that runs: the next one
+    std::optional<int> program_axis_;  ///< that it waits for
     bool external_stop_ = true;
     std::uint16_t error_ = 0;
     Pending pending_;

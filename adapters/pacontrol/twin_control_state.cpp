@@ -88,10 +88,10 @@ std::uint16_t Control::start_task(int n, const AxisTask& task, Instant now) {
             m.target = a.position(now) + task.value;
             break;
         case AxisTask::Kind::to_max:
-            m.target = a.area_max();
+            m.target = static_cast<double>(a.parameters()[ap::area_max]);  // "the axis parameter as absolute position" [L814]
             break;
         case AxisTask::Kind::to_min:
-            m.target = a.area_min();
+            m.target = static_cast<double>(a.parameters()[ap::area_min]);
             break;
         case AxisTask::Kind::free_positive:
         case AxisTask::Kind::free_negative: {
@@ -257,10 +257,10 @@ std::optional<double> Control::system_real(std::int64_t n) const {
 std::uint16_t Control::set_system_parameter(std::int64_t number, const Datum& data) {
     if (number < 1 || number > static_cast<std::int64_t>(system_parameters)) return quit::no_system_parameter;
     const auto i = static_cast<std::size_t>(number);
-    const auto limits = system_limits(i, axes());
+    const auto limits = system_limits(i);
     const double v = std::round(data.value);
     if (v < limits.least || v > limits.largest || (i == sp::profibus_address && v == 1)) return quit::value;  // 1 is the master's
-    if (i == sp::profibus_address && setup_.profibus_switches) return quit::profibus_address;
+    if (i == sp::profibus_address && setup_.profibus_switches != 0) return quit::profibus_address;
     if (system_[i] != static_cast<std::int32_t>(v)) ++revision_;
     system_[i] = static_cast<std::int32_t>(v);
     return quit::ok;

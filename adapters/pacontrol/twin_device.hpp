@@ -18,6 +18,7 @@ struct DeviceSetup {
     ReplyCheck reply_check = ReplyCheck::with_etx;
     bool lenient = false;
     Duration reply_time{};
+    bool fixed_axes = false;  ///< so many axes are built, whatever the site uses
 };
 
 class Device final : public Twin {

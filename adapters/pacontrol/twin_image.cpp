@@ -274,8 +274,10 @@ void Image::axis(Control& control, std::size_t k, Instant now) {
             m.own_error = 0;
             control.reset_axis_error(channel, now);
         }
-        if (changed & 1u) control.set_axis_on(channel, (w & 1u) != 0, now);
         if (changed & 2u) control.disable_drive(channel, (w & 2u) != 0, now);
+        // A level [L727-L738]: an axis that is on by its enable mode is switched off by a 0 that has stood there from the start.
+        const Axis& a = control.axis(channel);
+        if (!(w & 2u) && (w & 1u) == (a.switched_off() || !a.enabled() ? 1u : 0u)) control.set_axis_on(channel, (w & 1u) != 0, now);
         const std::uint16_t speed = word(in_, at + 6);
         if ((w & 4u) && (changed & 4u)) {
             if (!moving) start(control, k, m, w, now);  // a start during a traverse is not seen [L742]

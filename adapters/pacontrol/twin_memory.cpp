@@ -31,12 +31,12 @@ std::map<std::string, Value> Control::memory() const {
         if (const auto v = elements_.n.get(n); v != 0) m["N" + std::to_string(n)] = std::int64_t{v};
         if (const auto v = elements_.r.get(n); v != 0) m["R" + std::to_string(n)] = static_cast<double>(v);
     }
-    const SystemParameters usual = usual_system_parameters(axes());
+    const SystemParameters usual = setup_.profile.usual_system(axes());
     for (std::size_t i = 1; i <= system_parameters; ++i) {
-        if (system_[i] != usual[i]) m["system." + std::to_string(i)] = std::int64_t{system_[i]};
+        const bool by_switches = i == sp::profibus_address && setup_.profibus_switches != 0;
+        if (system_[i] != usual[i] && !by_switches) m["system." + std::to_string(i)] = std::int64_t{system_[i]};
     }
-    AxisParameters factory = usual_axis_parameters();
-    factory[ap::absolute] = setup_.absolute ? 1.0F : 0.0F;
+    const AxisParameters factory = factory_axis();
     for (std::size_t a = 0; a < axes_.size(); ++a) {
         for (std::size_t i = 1; i <= axis_parameters; ++i) {
             if (const float v = axes_[a].parameters()[i]; v != factory[i])
@@ -53,9 +53,9 @@ std::map<std::string, Value> Control::memory() const {
 void Control::power_on(const std::map<std::string, Value>& memory, Instant now) {
     const Bits inputs = elements_.inputs;  // outside conditions stay
     elements_ = {inputs, Bits{setup_.outputs}, Bits{setup_.flags}, Registers<std::int32_t>{setup_.n}, Registers<float>{setup_.r}};
-    system_ = usual_system_parameters(axes());
-    AxisParameters factory = usual_axis_parameters();
-    factory[ap::absolute] = setup_.absolute ? 1.0F : 0.0F;
+    system_ = setup_.profile.usual_system(axes());
+    if (setup_.profibus_switches > 1) system_[sp::profibus_address] = setup_.profibus_switches;
+    const AxisParameters factory = factory_axis();
     for (std::size_t a = 0; a < axes_.size(); ++a) {
         for (std::size_t i = 1; i <= axis_parameters; ++i)
             axes_[a].set_parameter(i, factory[i]);
@@ -76,7 +76,7 @@ void Control::power_on(const std::map<std::string, Value>& memory, Instant now) 
         } else if (const auto r = numbered(name, "R"); r && number) {
             elements_.r.set(*r, single(Datum::number(*number)).value_or(0));
         } else if (const auto s = numbered(name, "system."); s && number) {
-            if (*s != static_cast<std::int64_t>(sp::profibus_address) || !setup_.profibus_switches)
+            if (*s != static_cast<std::int64_t>(sp::profibus_address) || setup_.profibus_switches == 0)
                 (void)set_system_parameter(*s, Datum::integer(*number));
         } else if (name == "program") {
             if (const auto* text = std::get_if<std::string>(&value)) (void)select_program(*text);
@@ -106,7 +106,7 @@ void Control::power_on(const std::map<std::string, Value>& memory, Instant now) 
         axes_[a].boot(kept_[a]);
     }
     mode_.reset();
-    error_ = 0;
+    error_ = setup_.profibus_switches == 1 ? error::rotary_switches : std::uint16_t{0};
     pending_ = {};
     last_ = {};
     ++revision_;

@@ -45,11 +45,19 @@ inline constexpr std::uint8_t all = 15;
 }  // namespace gate
 [[nodiscard]] std::uint8_t column_of(std::uint8_t status) noexcept;
 
-/// A program of the AUTOMATIC mode: it takes its time and ends well (error 0) or with a system error (E-37).
+/// One traverse of a program, `A1:=100` [L3437].
+struct ProgramMove {
+    int axis = 1;
+    double target = 0;  ///< AE
+};
+
+/// A program of the AUTOMATIC mode: it takes its time and ends well (error 0) or with a system error (E-37). Meanwhile it does its moves,
+/// one after the other, again and again.
 struct Program {
     std::string name;
     Duration duration{};
     std::uint16_t error = 0;
+    std::vector<ProgramMove> moves{};
 };
 
 struct ModeTimes {

@@ -7,7 +7,7 @@ namespace {
 
 constexpr float far = 1e7F;
 // 1 AE is thought of as 1 mm on a spindle of 10 mm per rotation.
-constexpr std::array<Limits<float>, axis_parameters + 1> profile{{
+constexpr std::array<Limits<float>, axis_parameters + 1> plausible{{
     {},
     {0.001F, 500, 100'000},     // 01 traverse speed
     {0.001F, 50, 100'000},      // 02 reference speed
@@ -61,11 +61,7 @@ constexpr std::array<Limits<float>, axis_parameters + 1> profile{{
     {0, 1, 3},                  // 32 enable mode
 }};
 
-}  // namespace
-
-const Limits<float>& axis_limits(std::size_t number) { return profile.at(number); }
-
-Limits<std::int32_t> system_limits(std::size_t number, int axes) {
+Limits<std::int32_t> plausible_system(std::size_t number, int axes) {
     switch (number) {
         case 0x01:
             return {0, 0, 10};  // language
@@ -93,24 +89,66 @@ Limits<std::int32_t> system_limits(std::size_t number, int axes) {
     }
 }
 
-AxisParameters usual_axis_parameters() {
+/// A speed or acceleration is put out in motor steps: what the step generator cannot do is found when AUTOMATIC or ONLINE starts. The
+/// manual prints no figure of it; these are the model's own, in steps/s and steps/s2.
+constexpr double slowest = 0.1, fastest = 1e8, flattest = 1, steepest = 1e10;
+constexpr double most_steps = 2147483647.0;  // 31 bits [L4097]
+
+}  // namespace
+
+Profile::Profile() : axis_(plausible) {}
+
+bool Profile::set_axis(std::size_t number, const Limits<float>& l) {
+    if (number < 1 || number > axis_parameters || !(l.least <= l.usual && l.usual <= l.largest)) return false;
+    axis_[number] = l;
+    return true;
+}
+
+bool Profile::set_system(std::size_t number, const Limits<std::int32_t>& l) {
+    if (number < 1 || number > system_parameters || !(l.least <= l.usual && l.usual <= l.largest)) return false;
+    system_[number] = l;
+    return true;
+}
+
+Limits<std::int32_t> Profile::system(std::size_t number, int axes) const {
+    return system_.at(number).value_or(plausible_system(number, axes));
+}
+
+AxisParameters Profile::usual_axis() const {
     AxisParameters p{};
     for (std::size_t i = 1; i < p.size(); ++i)
-        p[i] = profile[i].usual;
+        p[i] = axis_[i].usual;
     return p;
 }
 
-SystemParameters usual_system_parameters(int axes) {
+SystemParameters Profile::usual_system(int axes) const {
     SystemParameters p{};
     for (std::size_t i = 1; i < p.size(); ++i)
-        p[i] = system_limits(i, axes).usual;
+        p[i] = system(i, axes).usual;
     return p;
 }
 
 std::uint16_t inconsistent(const AxisParameters& p) noexcept {
     if (p[ap::area_min] >= p[ap::area_max]) return 0x33;
-    if (p[ap::creep_speed] > p[ap::reference_speed]) return 0x66;
-    if (p[ap::start_stop_speed] > p[ap::traverse_speed]) return 0x68;
+    const double steps = static_cast<double>(p[ap::motor_steps]) / static_cast<double>(p[ap::gear]);  // for one AE
+    const auto rate = [&](std::size_t number) { return static_cast<double>(p[number]) * steps; };
+    struct Row {
+        std::size_t number, bound;  ///< no faster than parameter `bound`; 0: none
+        std::uint16_t too_high;     ///< too low is the next number
+    };
+    constexpr std::array<Row, 5> speeds{{{ap::traverse_speed, 0, 0x60},
+                                         {ap::reference_speed, 0, 0x62},
+                                         {ap::manual_speed, 0, 0x64},
+                                         {ap::creep_speed, ap::reference_speed, 0x66},
+                                         {ap::start_stop_speed, ap::traverse_speed, 0x68}}};
+    for (const Row& r : speeds) {
+        if (rate(r.number) > fastest || (r.bound != 0 && p[r.number] > p[r.bound])) return r.too_high;
+        const bool none = r.number == ap::start_stop_speed && p[r.number] == 0;  // ramps from rest
+        if (!none && rate(r.number) < slowest) return static_cast<std::uint16_t>(r.too_high + 1);
+    }
+    if (rate(ap::acceleration) > steepest) return 0x6A;
+    if (rate(ap::acceleration) < flattest) return 0x6B;
+    if ((static_cast<double>(p[ap::area_max]) - static_cast<double>(p[ap::area_min])) * steps > most_steps) return 0x6D;
     return 0;
 }
 

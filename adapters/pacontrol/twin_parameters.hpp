@@ -1,6 +1,7 @@
 // System and axis parameters of the twin: their profile (default, least, largest) and their values.
 // In: numbers and values. Out: values, or that the number or the value is none.
-// The manual prints no ranges and no defaults (E-23): the profile here is a plausible machine, served by 1701/1702/1801/1802.
+// The manual prints no ranges and no defaults (E-23): the profile here is a plausible machine, served by 1701/1702/1801/1802, and can be
+// replaced piece by piece.
 #pragma once
 
 #include <array>
@@ -52,17 +53,29 @@ struct Limits {
     T least{}, usual{}, largest{};
 };
 
-/// Profile of axis parameter `number` 1..50.
-[[nodiscard]] const Limits<float>& axis_limits(std::size_t number);
-/// Profile of system parameter `number` 1..20 for a control with `axes` axes.
-[[nodiscard]] Limits<std::int32_t> system_limits(std::size_t number, int axes);
-
 using AxisParameters = std::array<float, axis_parameters + 1>;
 using SystemParameters = std::array<std::int32_t, system_parameters + 1>;
-[[nodiscard]] AxisParameters usual_axis_parameters();
-[[nodiscard]] SystemParameters usual_system_parameters(int axes);
 
-/// What entering ONLINE or AUTOMATIC finds wrong with them: a command error 33h, 66h or 68h, or 0 [L4067, L4090-4093].
+/// What the parameters of a control may be and are at first: a plausible machine, of which single entries can be replaced.
+class Profile {
+public:
+    Profile();
+    /// `least` <= `usual` <= `largest`, a number 1..50 or 1..20; what is none is left as it is: false.
+    bool set_axis(std::size_t number, const Limits<float>& limits);
+    bool set_system(std::size_t number, const Limits<std::int32_t>& limits);
+    /// Of axis parameter `number` 1..50.
+    [[nodiscard]] const Limits<float>& axis(std::size_t number) const { return axis_.at(number); }
+    /// Of system parameter `number` 1..20 for a control with `axes` axes.
+    [[nodiscard]] Limits<std::int32_t> system(std::size_t number, int axes) const;
+    [[nodiscard]] AxisParameters usual_axis() const;
+    [[nodiscard]] SystemParameters usual_system(int axes) const;
+
+private:
+    std::array<Limits<float>, axis_parameters + 1> axis_;
+    std::array<std::optional<Limits<std::int32_t>>, system_parameters + 1> system_;
+};
+
+/// What entering ONLINE or AUTOMATIC finds wrong with them: a command error 33h, 60h..6Bh, 6Dh, or 0 [L4067, L4084-L4097].
 [[nodiscard]] std::uint16_t inconsistent(const AxisParameters& p) noexcept;
 
 }  // namespace axisgate::pacontrol::twin

@@ -23,6 +23,7 @@ public:
     [[nodiscard]] Instant end() const noexcept { return end_; }
     [[nodiscard]] double direction() const noexcept { return direction_; }
     [[nodiscard]] double last() const noexcept { return x1_; }
+    [[nodiscard]] double peak() const noexcept { return peak_; }  ///< the highest speed on the way, AE/s
     [[nodiscard]] double position(Instant t) const noexcept;
     /// Signed, axis units/s.
     [[nodiscard]] double velocity(Instant t) const noexcept;

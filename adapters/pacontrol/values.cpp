@@ -47,6 +47,13 @@ void Control::run_value(Axis& a, const Reply* reply, Turn& t) {
             text = fmt::format("{}: {} was written, the control took {}", id, to_text(wanted), to_text(v));
     }
     sample(a, j.point, v, t);
+    if (!writes && b->drive) {
+        // What all axes share is asked once for all that wait for it: sixteen snapshots read the control's own parameters one time.
+        for (Axis& x : axes_) {
+            const bool same = x.job.kind == Job::Kind::read && x.job.want == Job::Want::send && x.job.point == j.point;
+            if (&x != &a && same) job_over(x, Outcome::done, Reason::none, {}, t, 0, v);
+        }
+    }
     job_over(a, Outcome::done, Reason::none, std::move(text), t, 0, std::move(v));
 }
 

@@ -56,6 +56,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (in.ConsumeBool()) setup.options["reply_ms"] = std::to_string(in.ConsumeIntegral<std::uint8_t>());
     if (in.ConsumeBool()) setup.options["axis_modules"] = "on";
     if (in.ConsumeBool()) setup.options["programs"] = in.ConsumeRandomLengthString(40);
+    for (const char* text : {"limits", "travel", "rotary"})
+        if (in.ConsumeBool()) setup.options[text] = in.ConsumeRandomLengthString(20);
     fuzz::TwinRun twin(entry.family->make_twin(*entry.catalogue, setup), setup.axes, [](const Frame& f) {
         require(f.kind == Frame::Kind::bytes && acknowledgement(f.data()), "a twin sends whole acknowledgements");
     });

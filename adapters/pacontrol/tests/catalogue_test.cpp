@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "adapters/pacontrol/tests/fake_bench.hpp"
+#include "adapters/pacontrol/tests/rig.hpp"
 
 namespace axisgate::pacontrol::test {
 namespace {
@@ -121,7 +122,7 @@ TEST(PacontrolCatalogue, EveryNumberOfAFaultIsASystemErrorWithAText) {
         EXPECT_FALSE(e->text.empty()) << code;
     }
     EXPECT_EQ(real_catalogue().error(64, "command")->text, "Limit switch actuated");
-    for (const int own : {530, 531, 532})  // negative switch, following error, power pack
+    for (const int own : {530, 531, 532, 533})  // negative switch, following error, power pack, a program's move
         EXPECT_NE(real_catalogue().error(own)->text.find("simulated control"), std::string::npos) << own << ": no number of the manual's";
 }
 
@@ -129,6 +130,71 @@ TEST(PacontrolCatalogue, CommandErrorsHaveTheSameWordsInBothPlaces) {
     for (const auto& e : real_catalogue().errors()) {
         if (e.kind != "command") continue;
         EXPECT_EQ(quit_text(static_cast<std::uint16_t>(e.code)).find("does not name"), std::string::npos) << e.code << " " << e.text;
+    }
+}
+
+/// What a snapshot of an axis reads: all but what the catalogue leaves out of it.
+std::vector<Point> snapshot_points() {
+    std::vector<Point> points;
+    const Catalogue& c = real_catalogue();
+    const auto& listed = c.document().at("parameters").as_array();
+    for (std::uint16_t i = 0; i < c.parameters().size(); ++i) {
+        const Parameter& p = c.parameters()[i];
+        const auto* wanted = listed[i].as_object().if_contains("snapshot");
+        if (p.readable() && p.count <= 256 && !(wanted && !wanted->as_bool())) points.push_back({i, p.first});
+    }
+    return points;
+}
+
+TEST(PacontrolCatalogue, ASnapshotOfAnAxisIsReadInLessThanFiveSeconds) {
+    Rig r(3, {}, real_catalogue());
+    const Instant begun = r.now;
+    const auto points = snapshot_points();
+    for (const Point p : points) {
+        const Result x = r.answer(r.command(ReadParameter{p}, 0));
+        EXPECT_EQ(x.outcome, Outcome::done) << real_catalogue().id_of(p) << ": " << x.text;
+    }
+    EXPECT_EQ(points.size(), 59u) << "the 13 system and 40 axis parameters that are used; area, position, statuses, error";
+    std::printf("a snapshot of an axis at 9600 baud takes %.2f s\n", seconds(r.now - begun));
+    EXPECT_LT(r.now - begun, 5s);
+}
+
+TEST(PacontrolCatalogue, SnapshotsOfSeveralAxesAtOnceAskOnceForWhatTheyShare) {
+    Rig r(3, {}, real_catalogue());
+    const std::size_t before = r.handed.size();
+    for (const Point p : snapshot_points()) {
+        std::vector<Ticket> tickets;
+        for (int axis = 0; axis < 3; ++axis)
+            tickets.push_back(r.command(ReadParameter{p}, axis));
+        std::vector<Result> results;
+        for (const Ticket t : tickets)
+            results.push_back(r.answer(t));
+        for (const Result& x : results) {
+            EXPECT_EQ(x.outcome, Outcome::done) << x.text;
+            if (real_catalogue().id_of(p).starts_with("SP")) EXPECT_EQ(x.value, results.front().value);
+        }
+    }
+    const auto asked = [&](const char* code) {
+        return std::count_if(r.handed.begin() + static_cast<std::ptrdiff_t>(before), r.handed.end(),
+                             [&](const auto& h) { return h.text.starts_with(code); });
+    };
+    EXPECT_EQ(asked("1700"), 13);
+    EXPECT_GE(asked("1800"), 120);
+}
+
+TEST(PacontrolCatalogue, TheManualsWordsAreFound) {
+    const auto found = [](std::string_view id, std::string_view words) {
+        const Parameter* p = real_catalogue().parameter(*real_catalogue().find(id));
+        return p->description.find(words) != std::string::npos;
+    };
+    EXPECT_TRUE(found("AP[17]", "Maximum towfault"));
+    EXPECT_TRUE(found("AP[8]", "Minimum traverse area"));
+    EXPECT_TRUE(found("FE", "towfault"));
+    EXPECT_NE(real_catalogue().error(16, "command")->cause.find("Sum of digits"), std::string::npos);
+    EXPECT_EQ(real_catalogue().document().at("telegram_fields").as_array().size(), 34u);
+    for (const auto& e : real_catalogue().document().at("errors").as_array()) {
+        if (e.at("kind").as_string() == "command")
+            EXPECT_EQ(e.at("source").as_string().find('-'), std::string::npos) << e.at("code") << ": its own line";
     }
 }
 

@@ -30,7 +30,8 @@ inline constexpr std::uint8_t bits = 9;
 /// One axisgate side of the line, one control at the other end.
 class Rig : public LineEvents {
 public:
-    explicit Rig(int axes, std::map<std::string, std::string> model = {}) : bus_({LineKind::bytes, baud, bits, true}) {
+    explicit Rig(int axes, std::map<std::string, std::string> model = {}, const Catalogue& catalogue = empty())
+        : catalogue_(catalogue), bus_({LineKind::bytes, baud, bits, true}) {
         LineSetup line;
         line.id = LineId{0};
         line.name = "com1";
@@ -159,7 +160,7 @@ private:
         static const Catalogue c;
         return c;
     }
-    const Catalogue& catalogue_ = empty();
+    const Catalogue& catalogue_;
     LineAdapter adapter_{catalogue_, LineKind::bytes};
     TwinBus bus_;
     Ticket tickets_ = 0;

@@ -77,15 +77,20 @@ void tell(Gateway& gateway, const SnapshotInfo& s, const std::string& axis, cons
     gateway.note(std::move(e));
 }
 
-/// Everything that can be read; what is too long goes into `left_out`.
+/// Everything that can be read; what is too long, and what the catalogue says is no matter for a snapshot (`"snapshot": false`: what it is
+/// doing now, on a line that is too slow to ask it all), goes into `left_out`.
 std::vector<JobPoint> readable_points(const Catalogue& catalogue, json::array& left_out) {
     std::vector<JobPoint> out;
     const auto all = catalogue.parameters();
+    const auto* listed = catalogue.document().if_contains("parameters");
+    const json::array* document = listed ? listed->if_array() : nullptr;
     for (std::size_t i = 0; i < all.size(); ++i) {
         const Parameter& p = all[i];
         if (!p.readable()) continue;
         const auto index = static_cast<std::uint16_t>(i);
-        if (p.count > most_elements || out.size() + std::max<std::size_t>(p.count, 1) > most_points) {
+        const auto* wanted = document && i < document->size() && (*document)[i].is_object() ? (*document)[i].as_object().if_contains("snapshot") : nullptr;
+        const bool kept = !wanted || !wanted->is_bool() || wanted->as_bool();
+        if (!kept || p.count > most_elements || out.size() + std::max<std::size_t>(p.count, 1) > most_points) {
             left_out.emplace_back(p.id);
             continue;
         }

@@ -63,11 +63,14 @@ build_page() {
     (cd web && npm run --silent build)
 }
 
+# gently COMMAND...: what builds without making a test wait that runs at the same time
+gently() { NICE="nice -n 10" "$@"; }
 # build PRESET [TARGET...]
 build() {
     local preset=$1; shift
     say "building $preset"
     cmake --preset "$preset" >"build/$preset.configure.log" 2>&1 || { cat "build/$preset.configure.log" >&2; die "cmake could not configure $preset"; }
-    if [ $# -gt 0 ]; then cmake --build "build/$preset" --target "$@"; else cmake --build "build/$preset"; fi
+    if [ $# -gt 0 ]; then set -- --target "$@"; fi
+    ${NICE:-} cmake --build "build/$preset" "$@"
 }
 mkdir -p build

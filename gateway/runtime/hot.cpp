@@ -7,7 +7,6 @@
 #include <sched.h>
 
 #include "gateway/lines/make_line.hpp"
-#include "gateway/runtime/clock.hpp"
 #include "gateway/runtime/threads.hpp"
 
 namespace axisgate {
@@ -30,7 +29,7 @@ Hot::Hot(Families families, HotSettings settings)
 
 Hot::~Hot() { stop(); }
 
-Instant Hot::now() const { return monotonic_now(); }
+Instant Hot::now() const { return settings_.clock(); }
 
 void Hot::start() {
     last_turn_ns_.store(ns_of(now()), std::memory_order_relaxed);

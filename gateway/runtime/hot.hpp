@@ -15,6 +15,7 @@
 #include "gateway/core/door.hpp"
 #include "gateway/core/engine.hpp"
 #include "gateway/core/mapping.hpp"
+#include "gateway/runtime/clock.hpp"
 #include "gateway/runtime/cold.hpp"
 #include "gateway/runtime/mailbox.hpp"
 
@@ -34,6 +35,7 @@ struct HotSettings {
     std::int64_t spin_us = 0;
     int cpu = -1;
     std::size_t trace_frames = 4096;
+    Instant (*clock)() noexcept = monotonic_now;  ///< never goes backwards; a test has its own
 };
 
 class Hot final : public EngineHost, public DoorPort {
@@ -76,6 +78,8 @@ public:
     /// Instant of the last turn: the watchdog looks at it.
     [[nodiscard]] Instant last_turn() const noexcept { return at_ns(last_turn_ns_.load(std::memory_order_relaxed)); }
     [[nodiscard]] std::uint64_t turns() const noexcept { return turns_.load(std::memory_order_relaxed); }
+    /// Any thread: an event found the way to this thread full. The next one that can be taken tells how many are missing.
+    void lose_event() noexcept { lost_events_.fetch_add(1, std::memory_order_relaxed); }
     [[nodiscard]] std::uint64_t lost_events() const noexcept { return lost_events_.load(std::memory_order_relaxed); }
 
     // DoorPort (hot thread)

@@ -9,13 +9,21 @@
 
 namespace axisgate {
 namespace {
+constexpr const char* too_much = "too much is asked at once; come again in a moment";
+/// A report that could not be had now.
+ScanReport no_report() {
+    ScanReport r;
+    r.state = ScanReport::State::failed;
+    r.text = too_much;
+    return r;
+}
 Gateway::Document shown(StoreDocument&& d) { return {std::move(d.name), std::move(d.text), std::move(d.who), d.at_unix_ns}; }
 }  // namespace
 
 void WarmGateway::note(Event event) {
     // Numbered and kept with all others: the hot thread hands events to the cold one.
-    if (hot_.jobs().push([this, event = std::move(event)](Engine&, Instant now) mutable { hot_.on_event(std::move(event), now); }))
-        hot_.jobs().announce();
+    if (!hot_.jobs().push([this, event = std::move(event)](Engine&, Instant now) mutable { hot_.on_event(std::move(event), now); })) return hot_.lose_event();
+    hot_.jobs().announce();
 }
 
 void WarmGateway::start_scan(LineId line, ScanWish wish, Origin origin, std::function<void(std::string)> then) {
@@ -35,7 +43,7 @@ void WarmGateway::start_scan(LineId line, ScanWish wish, Origin origin, std::fun
         boost::asio::post(io_, [then, fault = std::move(fault)]() mutable { then(std::move(fault)); });
     };
     if (!hot_.jobs().push(std::move(job))) {
-        boost::asio::post(io_, [then] { then("too much is asked at once; come again in a moment"); });
+        boost::asio::post(io_, [then] { then(too_much); });
         return;
     }
     hot_.jobs().announce();
@@ -43,7 +51,8 @@ void WarmGateway::start_scan(LineId line, ScanWish wish, Origin origin, std::fun
 
 void WarmGateway::scan_report(LineId line, std::function<void(ScanReport)> then) {
     auto job = [this, line, then](Engine& engine, Instant) { boost::asio::post(io_, [then, r = engine.scan_report(line)]() mutable { then(std::move(r)); }); };
-    if (hot_.jobs().push(std::move(job))) hot_.jobs().announce();
+    if (!hot_.jobs().push(std::move(job))) return boost::asio::post(io_, [then] { then(no_report()); });
+    hot_.jobs().announce();
 }
 
 void WarmGateway::cancel_scan(LineId line, std::function<void(ScanReport)> then) {
@@ -51,7 +60,8 @@ void WarmGateway::cancel_scan(LineId line, std::function<void(ScanReport)> then)
         engine.cancel_scan(line, now);
         boost::asio::post(io_, [then, r = engine.scan_report(line)]() mutable { then(std::move(r)); });
     };
-    if (hot_.jobs().push(std::move(job))) hot_.jobs().announce();
+    if (!hot_.jobs().push(std::move(job))) return boost::asio::post(io_, [then] { then(no_report()); });
+    hot_.jobs().announce();
 }
 
 std::vector<Gateway::Document> WarmGateway::documents(const std::string& kind) const {

@@ -61,7 +61,8 @@ void WarmGateway::tell_site(std::string text, const Origin& origin, Severity sev
     e.text = std::move(text);
     e.who = origin.who ? *origin.who : "";
     e.door = std::string(name_of(origin.door));
-    if (hot_.jobs().push([this, e = std::move(e)](Engine&, Instant now) { hot_.on_event(e, now); })) hot_.jobs().announce();
+    if (!hot_.jobs().push([this, e = std::move(e)](Engine&, Instant now) { hot_.on_event(e, now); })) return hot_.lose_event();
+    hot_.jobs().announce();
 }
 
 std::string WarmGateway::stage_site(Site site, std::uint64_t base_revision, const Origin& origin) {

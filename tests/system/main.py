@@ -1,9 +1,15 @@
 """Finds and runs every test_* function of the test_*.py files beside it; each gets what it names: `folder`, `gateway`.
 
-In: the program, and parts of names. Out: one line per test, then "N passed, N failed".
+In: the program, and parts of names; AXISGATE_SYSTEM_WORKERS (4): how many tests at a time, since they mostly wait. Each has its own folder,
+and every port is one that was free. Out: one line per test, then "N passed, N failed".
 """
+import concurrent.futures
+import contextlib
 import importlib
 import inspect
+import io
+import multiprocessing
+import os
 import pathlib
 import sys
 import time
@@ -33,28 +39,39 @@ def call(function):
             function(**({"folder": folder} if "folder" in wanted else {}))
 
 
+def attempt(stem, name):
+    """One test, in a process of the pool: whether it passed, and what there is to say."""
+    begun, said = time.monotonic(), io.StringIO()
+    with contextlib.redirect_stdout(said):
+        try:
+            call(getattr(importlib.import_module(stem), name))
+            return True, f"{said.getvalue()}pass: {stem}.{name} ({time.monotonic() - begun:.1f} s)"
+        except Exception:  # noqa: BLE001
+            return False, f"{said.getvalue()}FAIL: {stem}.{name}\n{traceback.format_exc()}"
+
+
 def main():
     harness.PROGRAM = str(pathlib.Path(sys.argv[1]).resolve())
-    passed = failed = 0
+    wanted = []
     for path in sorted(HERE.glob("test_*.py")):
         module = importlib.import_module(path.stem)
         for name, function in inspect.getmembers(module, inspect.isfunction):
-            full = f"{path.stem}.{name}"
             if not name.startswith("test_") or function.__module__ != path.stem:
                 continue
-            if len(sys.argv) > 2 and not any(part in full for part in sys.argv[2:]):
-                continue
-            begun = time.monotonic()
+            if len(sys.argv) <= 2 or any(part in f"{path.stem}.{name}" for part in sys.argv[2:]):
+                wanted.append((path.stem, name))
+    passed = failed = 0
+    workers = int(os.environ.get("AXISGATE_SYSTEM_WORKERS", "4"))
+    with concurrent.futures.ProcessPoolExecutor(workers, multiprocessing.get_context("fork")) as pool:
+        running = {pool.submit(attempt, *test): test for test in wanted}
+        for ended in concurrent.futures.as_completed(running):
             try:
-                call(function)
-                passed += 1
-                print(f"pass: {full} ({time.monotonic() - begun:.1f} s)", flush=True)
-            except BaseException as e:  # noqa: BLE001
-                if isinstance(e, KeyboardInterrupt):
-                    raise
-                failed += 1
-                print(f"FAIL: {full}", flush=True)
-                traceback.print_exc(file=sys.stdout)
+                good, text = ended.result()
+            except concurrent.futures.process.BrokenProcessPool as e:
+                good, text = False, "FAIL: {}.{}: {}".format(*running[ended], e)
+            passed += good
+            failed += not good
+            print(text, flush=True)
     print(f"{passed} passed, {failed} failed")
     return 1 if failed or not passed else 0
 

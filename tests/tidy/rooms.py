@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Keeps the rooms apart: reads every #include and every head comment, and the manners that no compiler checks.
 
-In: the source tree. Out: one line per fault, then "N passed, N failed". Never changes a file.
+In: the source tree. Out: one line per fault, one per rule, then "N passed, N failed" of rules. Never changes a file.
 """
 import pathlib
 import re
@@ -65,63 +65,71 @@ def may_include(path, included):
     return None
 
 
+RULES = {
+    "rooms": "who includes whom",
+    "time": "a pure room takes time as an argument",
+    "open": "nothing is left open or skipped",
+    "head": "a file opens with what it is, what comes in, what goes out, what it never does",
+    "once": "a header has #pragma once",
+    "length": "a file is one thing",
+    "families": "a family is a folder and a page of data",
+    "errata": "a family lists the errata that it speaks of",
+}
+
+
+def faults_of(path, text):
+    """What is wrong with one file: (rule, what)."""
+    rel, lines, pure = path.relative_to(TOP), text.split("\n"), room(path) in ("core", "adapter", "twin")
+    for n, line in enumerate(lines, 1):
+        m = re.match(r'\s*#\s*include\s*[<"]([^>"]+)[>"]', line)
+        why = m and may_include(path, m.group(1))
+        if why:
+            yield "rooms", f"{rel}:{n}: includes {m.group(1)}: {why}"
+        if pure and re.search(r"\b(system_clock|steady_clock|high_resolution_clock|sleep_for|this_thread)\b", line):
+            yield "time", f"{rel}:{n}: {RULES['time']}"
+        if re.search(r"\b(TODO|FIXME|XXX|HACK|GTEST_SKIP|DISABLED_)\b", line) or "DISABLED_" in line:
+            yield "open", f"{rel}:{n}: {RULES['open']}"
+    if not lines[0].startswith("// "):
+        yield "head", f"{rel}:1: {RULES['head']}"
+    if path.suffix == ".hpp" and "#pragma once" not in text:
+        yield "once", f"{rel}: no #pragma once"
+    if len(lines) > 900:
+        yield "length", f"{rel}: {len(lines)} lines: it is two things"
+
+
+# Each rule can fail: a file as it must not be, and the rule that has to find it.
+PROBES = (("rooms", "gateway/core/engine.cpp", "// x\n#include <boost/asio.hpp>\n"), ("rooms", "gateway/core/engine.cpp", '// x\n#include "adapters/uim342/wire.hpp"\n'),
+          ("rooms", "adapters/uim342/twin.cpp", '// x\n#include "adapters/uim342/wire.hpp"\n'), ("time", "gateway/core/engine.cpp", "// x\nsteady_clock::now();\n"),
+          ("open", "gateway/runtime/hot.cpp", "// x\n// TO" "DO\n"), ("head", "gateway/runtime/hot.cpp", "#include <vector>\n"),
+          ("once", "gateway/runtime/hot.hpp", "// x\n"), ("length", "gateway/runtime/hot.cpp", "// x\n" * 901))
+
+
 def main():
     files = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=TOP, capture_output=True, text=True, check=True).stdout.split("\n")
     sources = [TOP / f for f in files if f.endswith((".cpp", ".hpp")) and (TOP / f).is_file()]
-    faults, passed = [], 0
-    for path in sources:
-        rel = path.relative_to(TOP)
-        text = path.read_text(encoding="utf-8")
-        lines = text.split("\n")
-        wrong = []
-        for n, line in enumerate(lines, 1):
-            m = re.match(r'\s*#\s*include\s*[<"]([^>"]+)[>"]', line)
-            if m:
-                why = may_include(path, m.group(1))
-                if why:
-                    wrong.append(f"{rel}:{n}: includes {m.group(1)}: {why}")
-            if room(path) in ("core", "adapter", "twin") and re.search(r"\b(system_clock|steady_clock|high_resolution_clock|sleep_for|this_thread)\b", line):
-                wrong.append(f"{rel}:{n}: a pure room takes time as an argument")
-            if re.search(r"\b(TODO|FIXME|XXX|HACK|GTEST_SKIP|DISABLED_)\b", line) or "DISABLED_" in line:
-                wrong.append(f"{rel}:{n}: nothing is left open or skipped")
-        if not lines[0].startswith("// "):
-            wrong.append(f"{rel}:1: a file opens with what it is, what comes in, what goes out, what it never does")
-        if path.suffix == ".hpp" and "#pragma once" not in text:
-            wrong.append(f"{rel}: no #pragma once")
-        if len(lines) > 900:
-            wrong.append(f"{rel}: {len(lines)} lines: it is two things")
-        if wrong:
-            faults += wrong
-        else:
-            passed += 1
+    faults = [f for path in sources for f in faults_of(path, path.read_text(encoding="utf-8"))]
     families = sorted(p.parent.name for p in (TOP / "adapters").glob("*/family.cpp"))
     for f in families:
         for need in (f"schema/families/{f}.json", f"adapters/{f}/README.md", f"adapters/{f}/vectors.txt", f"adapters/{f}/tests/facts.json"):
-            if (TOP / need).is_file():
-                passed += 1
-            else:
-                faults.append(f"{need} is missing: a family is a folder and a page of data")
-    # A family that lists the errata of its manual (`| E-04 |`, `**E-04**`) lists every one that it speaks of.
-    for f in families:
+            if not (TOP / need).is_file():
+                faults.append(("families", f"{need} is missing: {RULES['families']}"))
+        # A family lists every erratum of its manual that it speaks of (`| E-04 |`, `**E-04**`).
         listed = {int(n) for page in (TOP / "adapters" / f).glob("*.md") for n in re.findall(r"^(?:[|*] *)?\**`?E-(\d+)\b", page.read_text(encoding="utf-8"), re.M)}
-        if not listed:
-            continue
-        pages = [p for p in (TOP / "adapters" / f).rglob("*") if p.is_file()] + [TOP / f"schema/families/{f}.json"]
-        for page in pages:
+        for page in [p for p in (TOP / "adapters" / f).rglob("*") if p.is_file()] + [TOP / f"schema/families/{f}.json"]:
             missing = {int(n) for n in re.findall(r"\bE-(\d+)\b", page.read_text(encoding="utf-8", errors="replace"))} - listed
             if missing:
-                faults.append(f"{page.relative_to(TOP)}: E-{min(missing):02} stands in no list of adapters/{f}/*.md")
-            else:
-                passed += 1
-    # The rule itself can fail: a core file that includes Asio must be found.
-    probe = TOP / "gateway/core/engine.cpp"
-    if may_include(probe, "boost/asio.hpp") and may_include(probe, "adapters/uim342/wire.hpp") and not may_include(probe, "vector"):
-        passed += 1
-    else:
-        faults.append("the include rule no longer finds what it is for")
-    for f in faults:
-        print(f)
-    print(f"{passed} passed, {len(faults)} failed")
+                faults.append(("errata", f"{page.relative_to(TOP)}: E-{min(missing):02} stands in no list of adapters/{f}/*.md"))
+    if len(sources) < 100 or not families:
+        faults.append(("rooms", f"only {len(sources)} sources and {len(families)} families were found"))
+    for rule, name, text in PROBES:
+        if [r for r, _ in faults_of(TOP / name, text)] != [rule]:
+            faults.append((rule, f"the rule no longer finds what it is for: {name}"))
+    for _, what in faults:
+        print(what)
+    broken = {rule for rule, _ in faults}
+    for rule, words in RULES.items():
+        print(f"{'FAIL' if rule in broken else 'pass'}: {words} ({len(sources)} files)")
+    print(f"{len(RULES) - len(broken)} passed, {len(broken)} failed")
     return 1 if faults else 0
 
 

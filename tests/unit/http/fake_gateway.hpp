@@ -39,7 +39,8 @@ inline std::string check_demo_address(std::string_view address) {
 struct DemoDecoder final : Decoder {
     int n = 0;
     std::vector<std::string> on_frame(const Frame& frame, std::optional<bool> to_drive) override {
-        return {std::string(to_drive.value_or(false) ? "to" : "from") + " the drive, frame " + std::to_string(++n) + " of " + std::to_string(frame.data().size()) + " bytes"};
+        return {std::string(to_drive.value_or(false) ? "to" : "from") + " the drive, frame " + std::to_string(++n) + " of " +
+                std::to_string(frame.data().size()) + " bytes"};
     }
     std::vector<std::string> finish() override { return {}; }
 };
@@ -47,20 +48,8 @@ inline std::unique_ptr<Decoder> make_demo_decoder(const Catalogue&, LineKind) { 
 
 class FakeGateway final : public Gateway {
 public:
-    explicit FakeGateway(std::string_view site_text = default_site) {
-        std::vector<std::string> faults;
-        catalogue = *Catalogue::parse(catalogue_text, faults);
-        family.name = "demo";
-        family.check_address = check_demo_address;
-        family.make_decoder = make_demo_decoder;
-        family.factory_address = "5";
-        family.default_bit_rate = 57600;
-        family.default_format = "8N1";
-        family.uses_can = true;
-        family.uses_bytes = true;
-        families_.entries.push_back({&family, &catalogue});
-        put_site(site_text);
-    }
+    explicit FakeGateway(std::string_view site_text = default_site);
+    ~FakeGateway() override;  ///< in fake_gateway.cpp, and with it the table of virtual functions: it is compiled once
 
     static constexpr std::string_view default_site = R"({
       "lines": [{"name": "can0", "uri": "twin", "family": "demo", "bitrate": 1000000}, {"name": "can1", "uri": "twin", "family": "demo"}],
@@ -70,27 +59,8 @@ public:
       "mappings": [{"unit": 2, "table": "holding", "address": 0, "point": "slide.position", "type": "i32"}] })";
 
     /// Puts a site in force as if it had been applied; ids stay with the names.
-    void put_site(std::string_view text) {
-        std::vector<SiteFault> faults;
-        auto site = parse_site(boost::json::parse(text), families_, faults);
-        if (!site) throw std::logic_error("the test's site is wrong: " + faults.front().text);
-        put_site(std::move(*site));
-    }
-    void put_site(Site site) {
-        auto state = std::make_shared<SiteState>();
-        state->revision = site_ ? site_->revision + 1 : 1;
-        for (const auto& l : site.lines)
-            state->line_ids.push_back(LineId{id_of("line " + l.name)});
-        for (const auto& d : site.drives)
-            state->drive_ids.push_back(DriveId{id_of("drive " + d.name)});
-        for (const auto& a : site.axes)
-            state->axis_ids.push_back(AxisId{id_of("axis " + a.name)});
-        state->site = std::move(site);
-        site_ = state;
-        const auto all = listeners;
-        for (auto* l : all)
-            l->on_site(site_);
-    }
+    void put_site(std::string_view text);
+    void put_site(Site site);
     [[nodiscard]] AxisId axis(const std::string& name) { return AxisId{id_of("axis " + name)}; }
     [[nodiscard]] DriveId drive(const std::string& name) { return DriveId{id_of("drive " + name)}; }
     [[nodiscard]] LineId line(const std::string& name) { return LineId{id_of("line " + name)}; }
@@ -367,7 +337,9 @@ public:
         return it == kept_sites.end() ? std::nullopt : std::optional(it->second);
     }
     const SiteStage& site_stage() const override { return stage; }
-    std::string stage_site(Site s, std::uint64_t base, const Origin& o) override { return stage.stage(std::move(s), base, o.who ? *o.who : ""); }
+    std::string stage_site(Site s, std::uint64_t base, const Origin& o) override {
+        return stage.stage(std::move(s), base, o.who ? *o.who : "");
+    }
     std::string discard_stage() override { return stage.discard(); }
     void apply_stage(std::uint32_t within, Origin o, std::function<void(SiteAnswer)> then) override {
         if (auto fault = stage.begin_apply(site_->revision, within, now_ns, *o.who); !fault.empty()) return then({false, fault, site_});
@@ -389,7 +361,8 @@ public:
         stage.rolled_back(true, 0);
         then({true, "", site_});
     }
-    void ask_modbus(std::uint8_t unit, std::vector<std::uint8_t> pdu, std::function<void(std::optional<std::vector<std::uint8_t>>)> then) override {
+    void ask_modbus(std::uint8_t unit, std::vector<std::uint8_t> pdu,
+                    std::function<void(std::optional<std::vector<std::uint8_t>>)> then) override {
         modbus_asked = std::move(pdu);
         modbus_asked.insert(modbus_asked.begin(), unit);
         then(modbus_answer);

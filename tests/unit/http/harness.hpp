@@ -33,77 +33,39 @@ struct Answer {
     }
 };
 
-inline Answer answer_from(Response r) {
-    Answer a;
-    a.status = r.status;
-    a.headers = std::move(r.headers);
-    a.text = std::move(r.body);
-    a.without_body = r.without_body;
-    boost::system::error_code ec;
-    if (auto v = boost::json::parse(a.text, ec); !ec) a.json = std::move(v);
-    return a;
-}
+Answer answer_from(Response r);
 
 struct Harness {
+    Harness();
+    ~Harness();
+
     FakeGateway gateway;
     Settings settings;
-    std::map<std::string, std::string, std::less<>> files{{"web/dist/index.html", "<html>page</html>"},
-                                                          {"web/dist/assets/main.js", "let a = 1;"},
-                                                          {"web/dist/assets/big.js", "let big = 1;"},
-                                                          {"web/dist/assets/big.js.gz", "PACKED"},
-                                                          {"web/dist/empty.txt", ""},
-                                                          {"web/secret.txt", "not for the page"},
-                                                          {"schema/openapi.yaml", "openapi: 3.0.3\n"}};
-    Instant clock = time_zero;  ///< of the recipes
-    std::shared_ptr<RecipeDesk> recipes = std::make_shared<RecipeDesk>(gateway, [this] { return clock; });
-    std::shared_ptr<AlarmDesk> alarms = std::make_shared<AlarmDesk>(gateway, [this] { return clock; });
-    Router router{Context{gateway, settings,
-                          [this](std::string_view path) {
-                              const auto it = files.find(path);
-                              return it == files.end()    ? std::string_view()
-                                     : it->second.empty() ? std::string_view("", 0)
-                                                          : std::string_view(it->second);
-                          },
-                          [] { return std::string("axisgate_http_own 1\n"); }, std::make_shared<ChangeQueue>(), recipes, std::make_shared<AxisJobs>(), nullptr, alarms}};
+    std::map<std::string, std::string, std::less<>> files;  ///< some of a page, packed and not, and what is none of it
+    Instant clock = time_zero;                              ///< of the recipes
+    std::shared_ptr<RecipeDesk> recipes;
+    std::shared_ptr<AlarmDesk> alarms;
+    Router router;
     std::vector<Response> later;       ///< answers that came through Respond
     std::chrono::nanoseconds limit{};  ///< of the last promise
     Response at_limit;
     bool promised = false;
 
     static Request request(std::string_view method, std::string target, std::string body = {},
-                           std::vector<std::pair<std::string, std::string>> headers = {}) {
-        Request r;
-        r.method = method_named(method);
-        r.target = std::move(target);
-        r.body = std::move(body);
-        r.peer = "127.0.0.1:51123";
-        r.headers.fields = std::move(headers);
-        if (r.headers.count("Host") == 0) r.headers.set("Host", "127.0.0.1:8080");
-        if (!r.body.empty() && r.headers.count("Content-Type") == 0) r.headers.set("Content-Type", "application/json");
-        return r;
-    }
+                           std::vector<std::pair<std::string, std::string>> headers = {});
     /// The answer, be it at once or (if the FakeGateway gave one inside the call) through the callback; status 0 if it is still to come.
     Answer call(std::string_view method, std::string target, std::string body = {},
-                std::vector<std::pair<std::string, std::string>> headers = {}) {
-        return send(request(method, std::move(target), std::move(body), std::move(headers)));
-    }
-    Answer send(const Request& r) {
-        later.clear();
-        auto handled = router.handle(r, [this](Response x) { later.push_back(std::move(x)); });
-        promised = !handled.now;
-        limit = handled.limit;
-        at_limit = handled.at_limit;
-        if (handled.now) return answer_from(std::move(*handled.now));
-        return {};
-    }
+                std::vector<std::pair<std::string, std::string>> headers = {});
+    Answer send(const Request& r);
     /// What came through the callback after a promise.
-    Answer answered() {
-        EXPECT_EQ(later.size(), 1u);
-        return later.empty() ? Answer{} : answer_from(later.front());
-    }
+    Answer answered();
 };
 
-class HttpTest : public ::testing::Test, public Harness {};
+class HttpTest : public ::testing::Test, public Harness {
+protected:
+    HttpTest();
+    ~HttpTest() override;
+};
 
 inline Result good_result(Outcome outcome = Outcome::accepted) {
     Result r;

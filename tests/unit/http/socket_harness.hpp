@@ -30,25 +30,9 @@ public:
     Settings settings;
     std::string big_file = std::string(8 * 1024 * 1024, 'x');
 
-    Door() { settings.bind = "127.0.0.1:0"; }
-    ~Door() {
-        if (!thread_.joinable()) return;
-        on([this] { server_.reset(); });
-        work_.reset();
-        context_.stop();
-        thread_.join();
-    }
-    void open() {
-        server_ = std::make_unique<Server>(context_, gateway, settings, [this](std::string_view path) {
-            return path == "web/dist/index.html" ? std::string_view("<html>page</html>")
-                   : path == "web/dist/big.txt"  ? std::string_view(big_file)
-                                                 : std::string_view();
-        });
-        ASSERT_EQ(server_->start(), "");
-        const std::string address = server_->address();
-        port = static_cast<std::uint16_t>(std::stoi(address.substr(address.rfind(':') + 1)));
-        thread_ = std::thread([this] { context_.run(); });
-    }
+    Door();
+    ~Door();
+    void open();
     /// Runs `f` on the door's thread and waits for it.
     template <class F>
     std::invoke_result_t<F> on(F f) {
@@ -82,95 +66,31 @@ struct HttpAnswer {
     ErrorCode error;
     beast::http::response<beast::http::string_body> message;
     [[nodiscard]] unsigned status() const { return error ? 0 : message.result_int(); }
-    [[nodiscard]] boost::json::value json() const {
-        ErrorCode ec;
-        return boost::json::parse(message.body(), ec);
-    }
+    [[nodiscard]] boost::json::value json() const;
 };
 
 /// A plain client: raw bytes out, answers or raw bytes in.
 class Client {
 public:
-    explicit Client(std::uint16_t port, int receive_buffer = 0) : socket_(context_) {
-        socket_.open(tcp::v4());
-        if (receive_buffer) socket_.set_option(asio::socket_base::receive_buffer_size(receive_buffer));
-        socket_.connect({asio::ip::make_address("127.0.0.1"), port}, connected);
-    }
+    explicit Client(std::uint16_t port, int receive_buffer = 0);
+    ~Client();
     /// False if the door closed the connection before everything was sent.
-    bool send(std::string_view bytes) {
-        ErrorCode ec =
-            wait([&](auto done) { asio::async_write(socket_, asio::buffer(bytes), [done](ErrorCode e, std::size_t) { done(e); }); });
-        return !ec;
-    }
-    HttpAnswer receive(bool to_head = false) {
-        HttpAnswer answer;
-        beast::http::response_parser<beast::http::string_body> parser;
-        parser.body_limit(64 * 1024 * 1024);
-        parser.skip(to_head);
-        answer.error =
-            wait([&](auto done) { beast::http::async_read(socket_, buffer_, parser, [done](ErrorCode e, std::size_t) { done(e); }); });
-        if (!answer.error) answer.message = parser.release();
-        return answer;
-    }
-    HttpAnswer get(std::string_view target, std::string_view more = {}) {
-        send(std::string("GET ").append(target).append(" HTTP/1.1\r\nHost: 127.0.0.1\r\n").append(more).append("\r\n"));
-        return receive();
-    }
-    HttpAnswer post(std::string_view target, std::string_view body) {
-        send(post_text(target, body));
-        return receive();
-    }
-    static std::string post_text(std::string_view target, std::string_view body, std::string_view method = "POST") {
-        return std::string(method) + " " + std::string(target) +
-               " HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\nContent-Length: " + std::to_string(body.size()) +
-               "\r\n\r\n" + std::string(body);
-    }
+    bool send(std::string_view bytes);
+    HttpAnswer receive(bool to_head = false);
+    HttpAnswer get(std::string_view target, std::string_view more = {});
+    HttpAnswer post(std::string_view target, std::string_view body);
+    static std::string post_text(std::string_view target, std::string_view body, std::string_view method = "POST");
     /// Everything up to the end of the connection; the test fails if the end does not come.
-    std::string rest() {
-        std::string all(beast::buffers_to_string(buffer_.data()));
-        buffer_.clear();
-        for (;;) {
-            std::array<char, 65536> piece;
-            std::size_t n = 0;
-            const ErrorCode ec = wait([&](auto done) {
-                socket_.async_read_some(asio::buffer(piece), [done, &n](ErrorCode e, std::size_t bytes) {
-                    n = bytes;
-                    done(e);
-                });
-            });
-            all.append(piece.data(), n);
-            if (ec == asio::error::timed_out) {
-                ADD_FAILURE() << "the connection was not closed";
-                return all;
-            }
-            if (ec) return all;
-        }
-    }
+    std::string rest();
     bool closed() { return rest().empty(); }
-    void shutdown_send() {
-        ErrorCode ignored;
-        socket_.shutdown(tcp::socket::shutdown_send, ignored);
-    }
-    void close() {
-        ErrorCode ignored;
-        socket_.close(ignored);
-    }
+    void shutdown_send();
+    void close();
     ErrorCode connected;
 
 private:
     /// Runs one operation to its end, at most for `patience`.
     template <class Start>
-    ErrorCode wait(Start start) {
-        std::optional<ErrorCode> result;
-        start([&result](ErrorCode e) { result = e; });
-        context_.restart();
-        context_.run_for(patience);
-        if (result) return *result;
-        socket_.close();
-        context_.restart();
-        context_.run();
-        return asio::error::timed_out;
-    }
+    ErrorCode wait(Start start);
     asio::io_context context_;
     tcp::socket socket_;
     beast::flat_buffer buffer_{64 * 1024 * 1024};
@@ -179,40 +99,15 @@ private:
 /// An independent judge of our WebSocket: Beast's own client.
 class StreamJudge {
 public:
-    explicit StreamJudge(std::uint16_t port, std::string origin = {}, int receive_buffer = 0) : ws_(context_) {
-        auto& socket = ws_.next_layer();
-        socket.open(tcp::v4());
-        if (receive_buffer) socket.set_option(asio::socket_base::receive_buffer_size(receive_buffer));
-        socket.connect({asio::ip::make_address("127.0.0.1"), port});
-        ws_.set_option(beast::websocket::stream_base::decorator([origin](beast::websocket::request_type& r) {
-            if (!origin.empty()) r.set("Origin", origin);
-        }));
-        ws_.control_callback([this](beast::websocket::frame_type type, beast::string_view) {
-            if (type == beast::websocket::frame_type::ping) ++pings;
-            if (type == beast::websocket::frame_type::pong) ++pongs;
-        });
-        beast::websocket::response_type response;
-        opened = wait([&](auto done) { ws_.async_handshake(response, "127.0.0.1:" + std::to_string(port), "/api/v1/stream", done); });
-        handshake_status = response.result_int();
-    }
-    ErrorCode say(std::string_view text) {
-        return wait([&](auto done) { ws_.async_write(asio::buffer(text), [done](ErrorCode e, std::size_t) { done(e); }); });
-    }
+    explicit StreamJudge(std::uint16_t port, std::string origin = {}, int receive_buffer = 0);
+    ~StreamJudge();
+    ErrorCode say(std::string_view text);
     /// The next message's object; null, with `ended` set, if there is none any more.
-    boost::json::value hear() {
-        beast::flat_buffer buffer;
-        ended = wait([&](auto done) { ws_.async_read(buffer, [done](ErrorCode e, std::size_t) { done(e); }); });
-        if (ended) return nullptr;
-        return boost::json::parse(beast::buffers_to_string(buffer.data()));
-    }
-    ErrorCode close(std::uint16_t code = 1000) {
-        return wait([&](auto done) { ws_.async_close(code, done); });
-    }
-    ErrorCode ping() {
-        return wait([&](auto done) { ws_.async_ping({}, done); });
-    }
+    boost::json::value hear();
+    ErrorCode close(std::uint16_t code = 1000);
+    ErrorCode ping();
     /// Bytes past the WebSocket layer.
-    void raw(std::string_view bytes) { asio::write(ws_.next_layer(), asio::buffer(bytes)); }
+    void raw(std::string_view bytes);
     [[nodiscard]] std::uint16_t close_code() const { return ws_.reason().code; }
     [[nodiscard]] std::string close_reason() const { return std::string(ws_.reason().reason.c_str()); }
     beast::websocket::stream<tcp::socket>& stream() { return ws_; }
@@ -223,19 +118,7 @@ public:
 
 private:
     template <class Start>
-    ErrorCode wait(Start start) {
-        std::optional<ErrorCode> result;
-        start([&result](ErrorCode e) { result = e; });
-        context_.restart();
-        const auto end = std::chrono::steady_clock::now() + patience;
-        while (!result && std::chrono::steady_clock::now() < end && context_.run_one_for(patience) > 0) {
-        }
-        if (result) return *result;
-        ws_.next_layer().close();
-        context_.restart();
-        context_.run();
-        return asio::error::timed_out;
-    }
+    ErrorCode wait(Start start);
     asio::io_context context_;
     beast::websocket::stream<tcp::socket> ws_;
 };

@@ -1,0 +1,298 @@
+// The hot thread and the service gateway when the ways between the threads are full, a thread is held up, the clock jumps or the disk
+// fails. In: rings that nobody empties, a clock of the test's own, a file layer that fails on purpose. Out: that everybody who asked is
+// answered exactly once, and that what was lost is counted and told. Never waits for time to go by, and never for ever.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <future>
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include "gateway/runtime/warm_gateway.hpp"
+#include "tests/unit/store/fault_vfs.hpp"
+#include "tests/unit/store/fixture.hpp"
+
+namespace axisgate::test {
+namespace {
+using namespace std::chrono_literals;
+constexpr std::size_t command_places = 1024, job_places = 256;
+
+std::atomic<std::int64_t> test_time{0};
+Instant test_clock() noexcept { return at_ns(test_time.load()); }
+
+HotSettings with_test_clock() {
+    HotSettings s;
+    s.clock = test_clock;
+    return s;
+}
+
+template <class Condition>
+bool until(Condition condition) {
+    for (const auto end = std::chrono::steady_clock::now() + 20s; std::chrono::steady_clock::now() < end; std::this_thread::yield()) {
+        if (condition()) return true;
+    }
+    return false;
+}
+
+/// A hot thread that is not running unless a test starts it, a disk thread likewise, and the gateway between them.
+struct Bench {
+    TempDir dir;
+    FaultVfs vfs;
+    std::unique_ptr<Store> store;
+    std::mutex mutex;
+    std::vector<Stored> stored;
+    std::vector<Event> events;
+    std::vector<std::string> faults;
+    std::unique_ptr<Cold> cold;
+    std::unique_ptr<Hot> hot = std::make_unique<Hot>(Families{}, with_test_clock());
+    boost::asio::io_context warm;
+    std::unique_ptr<WarmGateway> gateway;
+
+    Bench() {
+        test_time = ns_of(monotonic_now()) + 3'600'000'000'000;  // no timer of the real clock rings meanwhile
+        StoreOptions options = options_for(dir.path());
+        options.vfs = vfs.name();
+        store = open_store(options);
+        Cold::Answers answers;
+        answers.stored = [this](std::vector<Stored> list) {
+            const std::lock_guard hold(mutex);
+            stored.insert(stored.end(), list.begin(), list.end());
+        };
+        answers.events = [this](std::vector<Event> list) {
+            const std::lock_guard hold(mutex);
+            events.insert(events.end(), list.begin(), list.end());
+        };
+        answers.fault = [this](std::string text) {
+            const std::lock_guard hold(mutex);
+            faults.push_back(std::move(text));
+        };
+        cold = std::make_unique<Cold>(*store, std::move(answers));
+        gateway = std::make_unique<WarmGateway>(warm, *hot, *cold, Families{}, must(StoreReader::open(options)));
+        hot->connect({&gateway->results(), &gateway->samples(), &cold->from_hot()});
+    }
+    ~Bench() {
+        hot->stop();
+        cold->stop();
+    }
+    template <class Get>
+    auto locked(Get get) {
+        const std::lock_guard hold(mutex);
+        return get();
+    }
+    void run_warm() {
+        warm.restart();
+        warm.poll();
+    }
+    void fill_jobs() {
+        for (std::size_t i = 0; i < job_places; ++i)
+            ASSERT_TRUE(hot->jobs().push([](Engine&, Instant) {}));
+    }
+    /// What the hot thread would do with its jobs.
+    void empty_jobs() { hot->jobs().empty(); }
+};
+
+Event numbered(std::int32_t code, Severity severity = Severity::info) {
+    Event e;
+    e.kind = "command";
+    e.code = code;
+    e.severity = severity;
+    return e;
+}
+
+TEST(FullRings, EventsThatFindNoPlaceAreCountedAndToldOnce) {
+    boost::asio::io_context disk;
+    std::vector<Event> taken;
+    Mailbox<ColdJob> ring(3, disk.get_executor(), [&](ColdJob&& job) { taken.push_back(std::get<EventAt>(std::move(job)).event); });
+    Hot hot(Families{}, with_test_clock());
+    hot.connect({nullptr, nullptr, &ring});
+    for (int i = 1; i <= 3; ++i)
+        hot.on_event(numbered(i), time_zero);
+    EXPECT_EQ(hot.lost_events(), 0u);
+    for (int i = 4; i <= 8; ++i)
+        hot.on_event(numbered(i), time_zero);
+    EXPECT_EQ(hot.lost_events(), 5u);
+    ring.empty();
+    hot.on_event(numbered(9), time_zero);
+    hot.on_event(numbered(10), time_zero);
+    ring.empty();
+    ASSERT_EQ(taken.size(), 6u);
+    EXPECT_EQ(taken[2].code, 3);
+    EXPECT_EQ(taken[3].kind, "gap");
+    EXPECT_EQ(taken[3].text, "5 events could not be taken: more came than can be written");
+    EXPECT_EQ(taken[4].code, 9);
+    EXPECT_EQ(taken[5].code, 10) << "the gap is told once";
+    EXPECT_EQ(hot.lost_events(), 5u);
+}
+
+TEST(FullRings, AGapThatCannotBeToldYetIsToldLaterWithAllThatIsMissing) {
+    boost::asio::io_context disk;
+    std::vector<Event> taken;
+    Mailbox<ColdJob> ring(1, disk.get_executor(), [&](ColdJob&& job) { taken.push_back(std::get<EventAt>(std::move(job)).event); });
+    Hot hot(Families{}, with_test_clock());
+    hot.connect({nullptr, nullptr, &ring});
+    for (int i = 1; i <= 3; ++i)
+        hot.on_event(numbered(i), time_zero);  // the first has the place
+    ring.empty();
+    hot.on_event(numbered(4), time_zero);  // the gap takes the place of its own event
+    ring.empty();
+    hot.on_event(numbered(5), time_zero);
+    ring.empty();
+    ASSERT_EQ(taken.size(), 3u);
+    EXPECT_NE(taken[1].text.find("2 events"), std::string::npos) << taken[1].text;
+    EXPECT_NE(taken[2].text.find("1 events"), std::string::npos) << taken[2].text;
+}
+
+TEST(FullRings, NotesOfTheServiceThatFindNoPlaceAreCountedToo) {
+    Bench b;
+    b.fill_jobs();
+    b.gateway->note(numbered(1));
+    b.gateway->note(numbered(2));
+    EXPECT_EQ(b.hot->lost_events(), 2u);
+    b.empty_jobs();
+    b.gateway->note(numbered(3));
+    b.empty_jobs();
+    b.cold->start();
+    b.cold->from_hot().announce();
+    ASSERT_TRUE(until([&] { return b.locked([&] { return b.events.size() == 2; }); }));
+    EXPECT_EQ(b.events[0].kind, "gap");
+    EXPECT_EQ(b.events[1].code, 3);
+}
+
+TEST(FullRings, WhoeverAsksIsAnsweredOnceAlthoughNothingCanBeTaken) {
+    Bench b;
+    b.gateway->modbus_on_hot = [] { return Gateway::ModbusReport{}; };
+    b.gateway->modbus_answer = [](std::uint8_t, std::span<const std::uint8_t>) { return std::vector<std::uint8_t>{1}; };
+    b.fill_jobs();
+    std::map<std::string, int> answered;
+    std::map<std::string, std::string> said;
+    const auto told = [&](const std::string& who, std::string text) {
+        ++answered[who];
+        said[who] = std::move(text);
+    };
+    b.gateway->hand(DriveId{0}, [&](auto items) { told("hand", items ? "items" : "none"); });
+    b.gateway->set_hand(DriveId{0}, {}, {}, [&](std::string fault) { told("set_hand", fault); });
+    b.gateway->start_scan(LineId{0}, {}, {}, [&](std::string fault) { told("start_scan", fault); });
+    b.gateway->cancel_scan(LineId{0},
+                           [&](const ScanReport& r) { told("cancel_scan", r.state == ScanReport::State::failed ? r.text : "not failed"); });
+    b.gateway->scan_report(LineId{0},
+                           [&](const ScanReport& r) { told("scan_report", r.state == ScanReport::State::failed ? r.text : "not failed"); });
+    b.gateway->modbus_report([&](auto report) { told("modbus_report", report ? "report" : "none"); });
+    b.gateway->ask_modbus(1, {3, 0, 0, 0, 1}, [&](auto pdu) { told("ask_modbus", pdu ? "answer" : "none"); });
+    b.gateway->events_settled([&] { told("events_settled", ""); });
+    b.run_warm();
+    b.empty_jobs();
+    b.run_warm();
+    const std::string later = "too much is asked at once; come again in a moment";
+    const std::map<std::string, std::string> expected{{"hand", "none"},       {"set_hand", later},    {"start_scan", later},
+                                                      {"cancel_scan", later}, {"scan_report", later}, {"modbus_report", "none"},
+                                                      {"ask_modbus", "none"}, {"events_settled", ""}};
+    EXPECT_EQ(said, expected);
+    for (const auto& [who, times] : answered)
+        EXPECT_EQ(times, 1) << who;
+}
+
+TEST(FullRings, CommandsToAThreadThatIsHeldUpAreAnsweredExactlyOnceEach) {
+    Bench b;
+    b.hot->start();
+    std::promise<void> held, go;
+    ASSERT_TRUE(b.hot->jobs().push([&](Engine&, Instant) {
+        held.set_value();
+        go.get_future().wait();
+    }));
+    b.hot->jobs().announce();
+    ASSERT_EQ(held.get_future().wait_for(20s), std::future_status::ready);
+    std::map<Ticket, std::vector<Reason>> answers;
+    constexpr std::size_t asked = command_places + 476;
+    for (std::size_t i = 0; i < asked; ++i) {
+        Command c;
+        c.axis = AxisId{7};  // of no site
+        c.body = Halt{};
+        const Ticket t = b.gateway->submit(std::move(c), [&](const Result& r) { answers[r.ticket].push_back(r.reason); });
+        EXPECT_TRUE(answers.emplace(t, std::vector<Reason>{}).second) << "a ticket is given out once";
+    }
+    b.run_warm();
+    const auto with = [&](auto holds) {
+        return static_cast<std::size_t>(std::count_if(answers.begin(), answers.end(), [&](const auto& a) { return holds(a.second); }));
+    };
+    EXPECT_EQ(with([](const auto& list) { return list == std::vector{Reason::busy}; }), asked - command_places)
+        << "who finds no place is told at once";
+    EXPECT_EQ(with([](const auto& list) { return list.empty(); }), command_places);
+    go.set_value();
+    EXPECT_TRUE(until([&] {
+        b.run_warm();
+        return with([](const auto& list) { return list.empty(); }) == 0;
+    }));
+    for (const auto& [ticket, list] : answers)
+        EXPECT_EQ(list.size(), 1u) << ticket;
+    EXPECT_EQ(b.hot->commands().full(), 0u) << "the gateway takes no more than the ring holds";
+    bool again = false;
+    b.gateway->submit(Command{}, [&](const Result& r) { again = r.reason != Reason::busy; });
+    EXPECT_TRUE(until([&] {
+        b.run_warm();
+        return again;
+    })) << "and places are free again";
+}
+
+TEST(HotClock, AJumpOfAnHourCostsSomeTurnsAndNotOnePerPeriod) {
+    Bench b;
+    b.hot->start();
+    ASSERT_TRUE(until([&] { return b.hot->turns() > 0; }));
+    const auto before = b.hot->reports();
+    const auto turns = b.hot->turns();
+    test_time += 3'600'000'000'000;
+    std::promise<Instant> at;
+    ASSERT_TRUE(b.hot->jobs().push([&](Engine&, Instant now) { at.set_value(now); }));
+    b.hot->jobs().announce();
+    EXPECT_EQ(at.get_future().get(), test_clock()) << "a job hears the time as it is now";
+    ASSERT_TRUE(until([&] { return b.hot->last_turn() == test_clock() && b.hot->reports() != before; })) << "reports are made anew";
+    EXPECT_LT(b.hot->turns() - turns, 100u) << "36,000 periods were left out";
+}
+
+TEST(ColdDisk, AnOrderThatCannotBeSyncedIsReportedAndHealsWithTheDisk) {
+    Bench b;
+    b.cold->start();
+    const auto order = [&](Ticket t) {
+        StoreOrder o;
+        o.ticket = t;
+        o.axis_name = "x";
+        o.parameter = "AC";
+        o.value = std::int64_t{5};
+        b.hot->on_store(std::move(o));
+        b.cold->from_hot().announce();
+    };
+    order(1);
+    ASSERT_TRUE(until([&] { return b.locked([&] { return b.stored.size() == 1; }); }));
+    EXPECT_EQ(b.stored[0].fault, "");
+    EXPECT_TRUE(b.gateway->not_ready().empty());
+    std::promise<void> set;
+    b.cold->run([&](Store&) {
+        b.vfs.fail(FaultVfs::sync | FaultVfs::write, SQLITE_IOERR_FSYNC, EIO);
+        set.set_value();
+    });
+    set.get_future().wait();
+    b.hot->on_event(numbered(1, Severity::warning), test_clock());
+    order(2);
+    ASSERT_TRUE(until([&] { return b.locked([&] { return b.stored.size() == 2 && b.events.size() == 1; }); }));
+    EXPECT_EQ(b.stored[1].order, Ticket{2});
+    EXPECT_NE(b.stored[1].fault, "") << "never as written";
+    EXPECT_EQ(b.events[0].id, 0u) << "told, but not kept";
+    EXPECT_FALSE(b.cold->healthy());
+    ASSERT_EQ(b.gateway->not_ready().size(), 1u);
+    EXPECT_NE(b.gateway->not_ready()[0].find("cannot be written"), std::string::npos);
+    EXPECT_FALSE(b.locked([&] { return b.faults.empty(); })) << "and it is for the log";
+    std::promise<void> healed;
+    b.cold->run([&](Store&) {
+        b.vfs.heal();
+        healed.set_value();
+    });
+    healed.get_future().wait();
+    order(3);
+    ASSERT_TRUE(until([&] { return b.locked([&] { return b.stored.size() == 3; }); }));
+    EXPECT_EQ(b.stored[2].fault, "");
+    EXPECT_TRUE(b.cold->healthy());
+}
+
+}  // namespace
+}  // namespace axisgate::test

@@ -15,6 +15,7 @@
 #include "gateway/core/door.hpp"
 #include "gateway/core/engine.hpp"
 #include "gateway/core/mapping.hpp"
+#include "gateway/lines/pty_line.hpp"
 #include "gateway/runtime/cold.hpp"
 #include "gateway/runtime/mailbox.hpp"
 
@@ -33,6 +34,7 @@ struct HotSettings {
     std::int64_t spin_us = 0;
     int cpu = -1;
     std::size_t trace_frames = 4096;
+    PtyPlaces ptys{};  ///< where lines of the site may link pseudo-terminals
 };
 
 class Hot final : public EngineHost, public DoorPort {

@@ -1837,6 +1837,8 @@ export interface components {
             /** @description the command, where one is concerned */
             command?: string;
             faults?: components["schemas"]["Fault"][];
+            /** @description beside those in `faults`; there wherever `faults` is */
+            more_faults?: number;
         };
         CommandProblem: components["schemas"]["Problem"] & {
             /** @description null if nothing was sent */
@@ -3004,7 +3006,7 @@ export interface components {
             };
             content?: never;
         };
-        /** @description any other problem (405, 406, 408, 413, 421, 431, 500, 503) */
+        /** @description any other problem (405, 406, 408, 413, 421, 431, 500, 501, 503) */
         Problem: {
             headers: {
                 [name: string]: unknown;
@@ -3180,7 +3182,7 @@ export interface components {
                 "application/problem+json": components["schemas"]["Problem"];
             };
         };
-        /** @description the body is over 1 MiB (a backup 64 MiB); it is not read */
+        /** @description the body is over 1 MiB (a backup 64 MiB; 8 KiB without credentials); it is not read */
         TooLarge: {
             headers: {
                 [name: string]: unknown;
@@ -3198,7 +3200,7 @@ export interface components {
                 "application/problem+json": components["schemas"]["Problem"];
             };
         };
-        /** @description the document is JSON but not right; `faults` names every place, with a remedy */
+        /** @description the document is JSON but not right; `faults` names the first 20 places, each with a remedy, `more_faults` how many there are beside */
         Unprocessable: {
             headers: {
                 [name: string]: unknown;
@@ -4851,6 +4853,7 @@ export interface operations {
             422: components["responses"]["Unprocessable"];
             503: components["responses"]["Unavailable"];
             504: components["responses"]["NoAnswer"];
+            507: components["responses"]["NotStored"];
             default: components["responses"]["Problem"];
         };
     };
@@ -5638,6 +5641,7 @@ export interface operations {
             404: components["responses"]["NotFound"];
             409: components["responses"]["Conflict"];
             412: components["responses"]["RecipePreconditionFailed"];
+            507: components["responses"]["NotStored"];
             default: components["responses"]["Problem"];
         };
     };
@@ -6265,6 +6269,7 @@ export interface operations {
             412: components["responses"]["PreconditionFailed"];
             415: components["responses"]["UnsupportedMediaType"];
             422: components["responses"]["Unprocessable"];
+            507: components["responses"]["NotStored"];
             default: components["responses"]["Problem"];
         };
     };
@@ -6312,6 +6317,7 @@ export interface operations {
             };
             403: components["responses"]["Forbidden"];
             409: components["responses"]["Conflict"];
+            507: components["responses"]["NotStored"];
             default: components["responses"]["Problem"];
         };
     };
@@ -6986,6 +6992,7 @@ export interface operations {
                 };
             };
             409: components["responses"]["Conflict"];
+            507: components["responses"]["NotStored"];
             default: components["responses"]["Problem"];
         };
     };
@@ -7034,6 +7041,7 @@ export interface operations {
                 };
             };
             409: components["responses"]["Conflict"];
+            507: components["responses"]["NotStored"];
             default: components["responses"]["Problem"];
         };
     };
@@ -7086,6 +7094,7 @@ export interface operations {
             404: components["responses"]["NotFound"];
             409: components["responses"]["Conflict"];
             412: components["responses"]["StatePreconditionFailed"];
+            507: components["responses"]["NotStored"];
             default: components["responses"]["Problem"];
         };
     };
@@ -7121,6 +7130,7 @@ export interface operations {
             404: components["responses"]["NotFound"];
             409: components["responses"]["Conflict"];
             412: components["responses"]["StatePreconditionFailed"];
+            507: components["responses"]["NotStored"];
             default: components["responses"]["Problem"];
         };
     };
@@ -7146,6 +7156,7 @@ export interface operations {
                 };
                 content?: never;
             };
+            507: components["responses"]["NotStored"];
             default: components["responses"]["Problem"];
         };
     };
@@ -7193,6 +7204,7 @@ export interface operations {
                 };
             };
             409: components["responses"]["Conflict"];
+            507: components["responses"]["NotStored"];
             default: components["responses"]["Problem"];
         };
     };
@@ -7215,6 +7227,7 @@ export interface operations {
                 content?: never;
             };
             404: components["responses"]["NotFound"];
+            507: components["responses"]["NotStored"];
             default: components["responses"]["Problem"];
         };
     };

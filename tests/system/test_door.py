@@ -427,7 +427,7 @@ def test_a_snapshot_of_an_axis_that_was_removed_is_404(gateway):
     until(lambda: gateway.get("/axes/feeder/snapshot-progress")["state"] == "running" or answer[0], what="the drive is read")
     gateway.send("DELETE", "/axes/feeder", None, 204)
     thread.join(30)
-    assert answer[0] and answer[0][0] in (404, 201), answer
+    assert answer[0] and answer[0][0] in (404, 201, 202), answer  # 202: read for longer than the request waits
     for path in ("", "/1", "/1/diff?with=device"):
         assert ask(gateway, "GET", "/axes/feeder/snapshots" + path)[0] == 404, path
     drives = gateway.get("/drives/feeder")

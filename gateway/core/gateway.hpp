@@ -158,6 +158,7 @@ public:
         bool good = false;
         std::string fault;                     ///< why it could not be stored or applied
         std::shared_ptr<const SiteState> now;  ///< the site in force after it
+        bool not_stored = false;               ///< the database could not keep it
     };
     /// Puts a checked site in force: stored first, then applied without a restart; only what changed is disturbed.
     /// `expected_revision`: refuse if the site is another by now (0: do not care).
@@ -211,8 +212,8 @@ public:
     };
     /// Nothing: there is no Modbus door, or it is too busy to say.
     virtual void modbus_report(std::function<void(std::optional<ModbusReport>)> then) { then(std::nullopt); }
-    /// Empty: done and stored; else why not.
-    virtual void set_modbus_read_only(bool, Origin, std::function<void(std::string)> then) { then("there is no Modbus door"); }
+    /// Empty: done and stored; else why not, and whether it was the database that could not keep it.
+    virtual void set_modbus_read_only(bool, Origin, std::function<void(std::string fault, bool not_stored)> then) { then("there is no Modbus door", false); }
 
     // --- events --------------------------------------------------------------------------------------------------------
     [[nodiscard]] virtual std::vector<Event> events(const EventQuery& query) const = 0;

@@ -11,6 +11,7 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <climits>
@@ -52,11 +53,46 @@ std::string target_of(const std::string& path) {
     return n > 0 ? std::string(buffer.data(), static_cast<std::size_t>(n)) : std::string();
 }
 
-/// Puts the link; a link that is there already is taken as left over from before. Empty, or what is wrong.
-std::string put_link(const std::string& target, const std::string& path) {
+/// Where a pseudo-terminal of this system would be: what a link of ours points to, also when that one has gone with its program.
+bool names_a_pty(std::string_view target) noexcept {
+    constexpr std::string_view folder = "/dev/pts/";
+    if (!target.starts_with(folder) || target.size() == folder.size()) return false;
+    target.remove_prefix(folder.size());
+    return std::all_of(target.begin(), target.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// Links resolved, "." and ".." gone; empty if it is not there.
+std::string real_path(const std::string& path) {
+    std::array<char, PATH_MAX> buffer{};
+    return ::realpath(path.c_str(), buffer.data()) ? std::string(buffer.data()) : std::string();
+}
+
+bool lies_in(const std::string& path, const std::string& folder) {
+    return !folder.empty() && (path == folder || folder == "/" || (path.starts_with(folder) && path[folder.size()] == '/'));
+}
+
+/// Why the link must not stand there; empty: it may.
+std::string forbidden(const std::string& path, const PtyPlaces& places) {
+    const auto slash = path.rfind('/');
+    const std::string parent = slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
+    const std::string folder = real_path(parent);
+    if (folder.empty()) return {};  // the link itself cannot be made there, and says why
+    if (!places.never_in.empty() && lies_in(folder, real_path(places.never_in)))
+        return fmt::format("{} is in the gateway's data directory: choose another folder", path);
+    if (places.only_below.empty()) return {};
+    const std::string allowed = real_path(places.only_below);
+    if (allowed.empty()) return fmt::format("{} cannot be made: the folder {} ([lines] pty_dir) is not there; make it, or name another", path, places.only_below);
+    if (lies_in(folder, allowed)) return {};
+    return fmt::format("{} is not below {}: pseudo-terminals are linked there alone ([lines] pty_dir of the host's configuration)", path, places.only_below);
+}
+
+/// Puts the link; a link to a pseudo-terminal that is there already is taken as left over from before. Empty, or what is wrong.
+std::string put_link(const std::string& target, const std::string& path, const PtyPlaces& places) {
+    if (std::string wrong = forbidden(path, places); !wrong.empty()) return wrong;
     struct stat there {};
     if (::lstat(path.c_str(), &there) == 0) {
         if (!S_ISLNK(there.st_mode)) return fmt::format("{} exists and is not a link: choose another path, or remove it", path);
+        if (!names_a_pty(target_of(path))) return fmt::format("{} is a link to something else than a pseudo-terminal: choose another path, or remove it", path);
         if (::unlink(path.c_str()) != 0) return fmt::format("cannot remove the old link {}: {}", path, error_text(errno));
     }
     if (::symlink(target.c_str(), path.c_str()) != 0) {
@@ -67,9 +103,10 @@ std::string put_link(const std::string& target, const std::string& path) {
 
 }  // namespace
 
-PtyLine::PtyLine(const LineBase& base, std::string path, std::uint32_t pace_baud, const SerialFormat& pace_format)
+PtyLine::PtyLine(const LineBase& base, std::string path, std::uint32_t pace_baud, const SerialFormat& pace_format, PtyPlaces places)
     : StreamLine(base),
       path_(std::move(path)),
+      places_(std::move(places)),
       pace_baud_(pace_baud),
       pace_format_(pace_format),
       out_(wire_time(pace_format.bits_per_byte(), pace_baud)),
@@ -91,7 +128,7 @@ void PtyLine::start() {
     }
     // Opened and closed once, the master says from the beginning what it says later: that nobody is there.
     if (const int slave = ::open(name.data(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC); slave >= 0) ::close(slave);
-    if (std::string wrong = put_link(name.data(), path_); !wrong.empty()) {
+    if (std::string wrong = put_link(name.data(), path_, places_); !wrong.empty()) {
         ::close(master);
         return went_down(std::move(wrong));
     }

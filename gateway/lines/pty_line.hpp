@@ -1,6 +1,6 @@
 // PtyLine: a pseudo-terminal made by us, under a name of the user's choice: a serial port that any program can open.
 // In: a path at which to put the link. Out: see StreamLine.
-// Never overwrites anything but a link, and takes away at the end only its own. Bytes that are sent while nobody has the other side open
+// Never overwrites anything but a link to a pseudo-terminal, links only where PtyPlaces lets it, and takes away at the end only its own. Bytes that are sent while nobody has the other side open
 // are lost, as on a cable without a listener.
 // A pseudo-terminal has no rate: with settings that name one, bytes pass both ways as slowly as over a serial port; what waits meanwhile is
 // held by the send queue and by the terminal's own buffer, both bounded (a program that writes more is held up, as by a full port).
@@ -14,10 +14,16 @@
 
 namespace axisgate {
 
+/// Where links may be put. A site comes over the network from people who are not the owner of this machine's files.
+struct PtyPlaces {
+    std::string only_below{};  ///< folder; empty: anywhere, as the person at the machine wants it
+    std::string never_in{};    ///< folder; empty: none
+};
+
 class PtyLine final : public StreamLine {
 public:
     /// The pace to keep, as that of a serial port; a baud of 0: as fast as the other side takes and gives.
-    PtyLine(const LineBase& base, std::string path, std::uint32_t pace_baud = 0, const SerialFormat& pace_format = {});
+    PtyLine(const LineBase& base, std::string path, std::uint32_t pace_baud = 0, const SerialFormat& pace_format = {}, PtyPlaces places = {});
     ~PtyLine() override { close(); }
 
 private:
@@ -35,6 +41,7 @@ private:
     void watch_for_somebody();
 
     std::string path_;
+    PtyPlaces places_;
     std::uint32_t pace_baud_;
     SerialFormat pace_format_;
     BytePace out_, in_;

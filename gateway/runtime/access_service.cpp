@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include <boost/asio/post.hpp>
 
 #include "gateway/doors/http/secrets.hpp"
@@ -32,7 +34,11 @@ std::string AccessService::load(Store& store, bool new_code, std::string& code) 
     const auto users = store.documents("user");
     const auto tokens = store.documents("token");
     const auto first = store.document("first_sign_in", http::code_record_name);
-    if (!users || !tokens || !first) return "the users cannot be read: " + (!users ? users.error().text : !tokens ? tokens.error().text : first.error().text);
+    const auto uses = store.documents("last_use");
+    for (const auto* r : {&users, &tokens, &uses}) {
+        if (!*r) return "the users cannot be read: " + r->error().text;
+    }
+    if (!first) return "the users cannot be read: " + first.error().text;
     for (const auto& d : *users) {
         auto u = http::user_of(d.text);
         // A user who cannot be read must not make room for a first sign-in.
@@ -42,16 +48,43 @@ std::string AccessService::load(Store& store, bool new_code, std::string& code) 
     for (const auto& d : *tokens) {
         if (auto t = http::token_of(d.text)) desk_.load(std::move(*t));
     }
+    for (const auto& d : *uses)
+        desk_.load_use(d.name, d.text);
     if (desk_.has_users()) return {};
     if (*first && !new_code) {
         desk_.load_code(http::code_of((*first)->text));
         return {};
     }
     code = http::random_code();
-    const auto record = http::record_of_code(http::digest_of(http::plain_code(code)));
-    if (const auto saved = store.save_document({record.kind, record.name, *record.text, "", unix_now_ns()}); !saved) return saved.error().text;
-    desk_.load_code(http::code_of(*record.text));
+    new_code_ = http::record_of_code(http::digest_of(http::plain_code(code)));
+    desk_.load_code(http::code_of(*new_code_->text));
     return {};
+}
+
+bool AccessService::code_is_kept() {
+    if (!new_code_) return true;
+    if (std::exchange(keeping_code_, true)) return false;
+    const bool queued = changes->run(
+        [this](std::function<void()> done) {
+            if (desk_.has_users()) {  // it was used already
+                new_code_.reset();
+                return done();
+            }
+            keep({*new_code_}, "", [this, done](const std::string& fault) {
+                if (!fault.empty()) {
+                    Event e;
+                    e.kind = "access";
+                    e.severity = Severity::warning;
+                    e.text = "the code of the first sign-in is not stored, the next start shows another: " + fault;
+                    tell(std::move(e));
+                }
+                new_code_.reset();
+                done();
+            });
+        },
+        nullptr);
+    if (!queued) keeping_code_ = false;
+    return !new_code_;
 }
 
 template <class Make, class Then>

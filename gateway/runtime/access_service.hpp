@@ -8,6 +8,7 @@
 #include <boost/asio/thread_pool.hpp>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "gateway/doors/http/access_port.hpp"
@@ -23,8 +24,12 @@ public:
     ~AccessService() override;
 
     /// Reads what the store has; called before the threads run. Without users: makes the code of the first sign-in, if there is none yet
-    /// or `new_code`, stores it and gives it in `code`, which is the only time it can be read. Empty: good; else what is wrong.
+    /// or `new_code`, and gives it in `code`, which is the only time it can be read. Empty: good; else what is wrong.
     [[nodiscard]] std::string load(Store& store, bool new_code, std::string& code);
+
+    /// Whether the code of load() is on the disk, if it made one; asked until it is. Before that it is not used up: a start that does not
+    /// come so far leaves the next one to make and show another.
+    [[nodiscard]] bool code_is_kept();
 
     [[nodiscard]] http::AccessDesk& desk() override { return desk_; }
     [[nodiscard]] bool derive(std::string password, std::function<void(std::string)> then) override;
@@ -44,6 +49,8 @@ private:
     Tell tell_;
     std::unique_ptr<boost::asio::thread_pool> pool_;
     std::size_t waiting_ = 0;
+    std::optional<http::AccessRecord> new_code_;  ///< made by this start, and not on the disk yet
+    bool keeping_code_ = false;
 };
 
 }  // namespace axisgate

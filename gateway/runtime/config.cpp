@@ -17,6 +17,7 @@
 #include <charconv>
 #include <functional>
 
+#include "gateway/doors/http/hosts.hpp"
 #include "gateway/doors/modbus/access.hpp"
 
 namespace axisgate {
@@ -119,7 +120,11 @@ const std::vector<Key>& keys() {
         {"http", "allowed_hosts",
          [](Config& c, const std::string& s) -> Fault {
              c.http_allowed_hosts = split_list(s);
-             return {};
+             const auto is_name = [](const std::string& one) {
+                 return http::host_is_written_right(one) && (one.ends_with(']') || one.find(':') == std::string::npos);
+             };
+             if (std::ranges::all_of(c.http_allowed_hosts, is_name)) return {};
+             return "write names without scheme, port and path, such as [\"axisgate.example\"]";
          }, Written::as_list},
         {"modbus", "bind", [](Config& c, const std::string& s) { return set_bind(c.modbus_bind, s); }},
         {"modbus", "word_order",
@@ -150,6 +155,8 @@ const std::vector<Key>& keys() {
          }, Written::as_list},
         {"modbus", "read_only", [](Config& c, const std::string& s) { return set_bool(c.modbus_read_only, s); }, Written::as_switch},
         {"authority", "lease_s", [](Config& c, const std::string& s) { return set_integer(c.authority_lease_s, s, 1, 3600); }, Written::as_number},
+        {"lines", "pty_dir",
+         [](Config& c, const std::string& s) -> Fault { return s.starts_with('/') ? set_text(c.lines_pty_dir, s) : Fault("name a folder by its whole path, such as /run/axisgate"); }},
         {"modbus_rtu", "port", [](Config& c, const std::string& s) { return set_text(c.modbus_rtu_port, s); }},
         {"enip", "bind", [](Config& c, const std::string& s) { return set_bind(c.enip_bind, s); }},
         {"dds", "enabled", [](Config& c, const std::string& s) { return set_bool(c.dds_enabled, s); }, Written::as_switch},

@@ -19,7 +19,7 @@ struct Config {
     std::string http_bind = "127.0.0.1:8080";    ///< [http] bind; empty: no HTTP door
     std::string http_tls_cert, http_tls_key;     ///< [http] tls_cert, tls_key
     bool http_tls_self_signed = false;           ///< [http] tls = "off" | "self_signed": a certificate of our own making, in the data directory
-    std::vector<std::string> http_allowed_hosts; ///< [http] allowed_hosts: further names that a browser may use for this host
+    std::vector<std::string> http_allowed_hosts; ///< [http] allowed_hosts: names of this host beside its addresses and localhost; others get 421
     std::string modbus_bind = "127.0.0.1:1502";  ///< [modbus] bind; empty: no Modbus/TCP door
     bool modbus_low_word_first = false;          ///< [modbus] word_order = "high_first" | "low_first"
     std::int64_t modbus_watchdog_ms = 5000;      ///< [modbus] watchdog_ms, 0..600000; 0: a silent client is not watched
@@ -29,6 +29,7 @@ struct Config {
     std::vector<std::string> modbus_functions;   ///< [modbus] functions: function codes that are served; empty: all
     bool modbus_read_only = false;               ///< [modbus] read_only: writes but a pure stop get exception 1
     std::int64_t authority_lease_s = 30;         ///< [authority] lease_s, 1..3600: how long a command holds an axis of mode "lease"
+    std::string lines_pty_dir = "/tmp";          ///< [lines] pty_dir: folder below which a site's pty: lines may put their links
     std::string modbus_rtu_port;                 ///< [modbus_rtu] port; empty: none
     std::string enip_bind = "127.0.0.1:44818";   ///< [enip] bind
     bool dds_enabled = false;                    ///< [dds] enabled
@@ -38,7 +39,7 @@ struct Config {
     std::int64_t spin_us = 0;                    ///< [runtime] spin_us, 0..1000: how long the hot loop polls before it sleeps
     std::int64_t hot_cpu = -1;                   ///< [runtime] hot_cpu: processor for the hot loop; -1: any
     std::int64_t max_http_connections = 512;     ///< [limits] http_connections
-    std::string users_local_role = "engineer";   ///< [users] local_role: of requests from this machine without a sign-in; none: sign in always
+    std::string users_local_role = "engineer";   ///< [users] local_role: of requests from this machine without a sign-in; none: sign in always, as behind a proxy
     std::int64_t users_session_idle_min = 60;    ///< [users] session_idle_min, 1..1440
     std::int64_t users_session_max_h = 12;       ///< [users] session_max_h, 1..720
     bool users_new_code = false;                 ///< [users] new_code: print another code for the first sign-in, while there is no user

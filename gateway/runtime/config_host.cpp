@@ -11,6 +11,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include "gateway/doors/http/hosts.hpp"
+
 namespace axisgate {
 namespace {
 namespace fs = std::filesystem;
@@ -56,6 +58,12 @@ std::vector<ConfigFault> check_host(const Config& c) {
     if (c.hot_cpu >= 0 && sched_getaffinity(0, sizeof set, &set) == 0 && (c.hot_cpu >= CPU_SETSIZE || !CPU_ISSET(static_cast<int>(c.hot_cpu), &set))) {
         ConfigFault f{"runtime.hot_cpu", fmt::format("this process cannot run on processor {}: the hot loop will run on any", c.hot_cpu),
                       fmt::format("choose one of {}, or -1", processors(set))};
+        f.warning = true;
+        out.push_back(std::move(f));
+    }
+    if (!c.http_bind.empty() && c.http_allowed_hosts.empty() && !http::host_is_loopback(c.http_bind)) {
+        ConfigFault f{"http.allowed_hosts", fmt::format("the HTTP door listens beyond this machine ({}) and no name is allowed: clients reach it by its IP addresses alone, names get 421", c.http_bind),
+                      "write the names that clients use, such as allowed_hosts = [\"axisgate.example\"]; nothing to do if they use addresses"};
         f.warning = true;
         out.push_back(std::move(f));
     }

@@ -175,7 +175,7 @@ void Hot::on_twin_memory(const std::string& drive, NonVolatile memory) {
 }
 
 std::unique_ptr<Line> Hot::make_line(const LineSpec& spec, const LineSetup& setup) {
-    return make_real_line(spec.uri, setup, io_, find_family(spec.family)->default_format);
+    return make_real_line(spec.uri, setup, io_, find_family(spec.family)->default_format, settings_.ptys);
 }
 
 void Hot::publish_reports(Instant now) {

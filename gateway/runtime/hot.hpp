@@ -15,6 +15,7 @@
 #include "gateway/core/door.hpp"
 #include "gateway/core/engine.hpp"
 #include "gateway/core/mapping.hpp"
+#include "gateway/lines/pty_line.hpp"
 #include "gateway/runtime/clock.hpp"
 #include "gateway/runtime/cold.hpp"
 #include "gateway/runtime/mailbox.hpp"
@@ -36,6 +37,7 @@ struct HotSettings {
     int cpu = -1;
     std::size_t trace_frames = 4096;
     Instant (*clock)() noexcept = monotonic_now;  ///< never goes backwards; a test has its own
+    PtyPlaces ptys{};  ///< where lines of the site may link pseudo-terminals
 };
 
 class Hot final : public EngineHost, public DoorPort {

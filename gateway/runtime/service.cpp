@@ -151,6 +151,7 @@ struct Service {
     boost::asio::steady_timer tick{warm};
     Instant started = monotonic_now();
     bool ready_said = false;
+    std::string first_code;  ///< to be shown
     int code = exit_good;
 
     explicit Service(const ServeOptions& o) : options(o) {}
@@ -158,6 +159,7 @@ struct Service {
     int open_store();
     int load_site(Site& site, std::uint64_t& revision);
     int open_access();
+    void show_code();
     int open_doors();
     void watch();
     void say_ready();
@@ -183,6 +185,7 @@ int Service::open_store() {
         return exit_failed;
     }
     store = std::move(*opened);
+    remove_backup_leftovers(so.directory);
     if (const std::string fault = end_trial(*store, options.site_file.empty()); !fault.empty()) {
         complain(fault);
         return exit_failed;
@@ -196,6 +199,7 @@ int Service::open_store() {
     hs.spin_us = options.config.spin_us;
     hs.cpu = static_cast<int>(options.config.hot_cpu);
     hs.trace_frames = static_cast<std::size_t>(options.config.trace_frames);
+    hs.ptys = {options.config.lines_pty_dir, options.config.data_dir};
     hot = std::make_unique<Hot>(families, hs);
     hot->engine().set_watchdog(std::chrono::milliseconds(options.config.modbus_watchdog_ms));
     hot->engine().set_lease(std::chrono::seconds(options.config.authority_lease_s));
@@ -269,17 +273,22 @@ int Service::open_access() {
         if (!hot->jobs().push(std::move(job))) return log_event(e);  // not in the journal, but not lost either
         hot->jobs().announce();
     });
-    std::string first_code;
     if (const std::string fault = access->load(*store, options.config.users_new_code, first_code); !fault.empty()) {
         complain(fault);
         return exit_failed;
     }
+    return exit_good;
+}
+
+/// When every door could be opened, and before one answers: a start that fails shows no code, and who can use one can read it.
+void Service::show_code() {
+    if (!access) return;
     if (!first_code.empty()) {
         fmt::print("first sign-in: code {} (on the page, or POST /api/v1/session/first; shown this once)\n", first_code);
     } else if (!access->desk().has_users()) {
         fmt::print("first sign-in: with the code that was shown at the first start; --set users.new_code=true makes another one\n");
     }
-    return exit_good;
+    std::fflush(stdout);
 }
 
 int Service::open_doors() {
@@ -338,6 +347,7 @@ int Service::open_doors() {
 void Service::say_ready() {
     const auto reports = hot->reports();
     if (!reports->settled && monotonic_now() - started < ready_limit) return;
+    if (access && !access->code_is_kept()) return;  // on the disk first: after `ready` it is this one, also for the next start
     ready_said = true;
     std::string text = "ready";
     for (const auto& d : gateway->doors()) text += fmt::format(" {}={}", d.name, d.address);
@@ -386,6 +396,7 @@ int command_serve(const ServeOptions& options) {
         return exit_usage;
     }
     (void)std::signal(SIGPIPE, SIG_IGN);
+    (void)std::signal(SIGXFSZ, SIG_IGN);  // a bound on the size of files is a full disk, not the end
     std::vector<std::string> faults;
     Service s(options);
     s.families = load_families(faults);
@@ -402,6 +413,7 @@ int command_serve(const ServeOptions& options) {
         if (const int code = s.open_access(); code != exit_good) return code;
     }
     if (const int code = s.open_doors(); code != exit_good) return code;
+    s.show_code();
     std::vector<SiteFault> none;  // the site has been checked
     s.hot->mappings_changed(*state, parse_mappings(state->site.mappings, state->site, s.families, none).value_or(std::vector<Mapping>()));
 

@@ -235,7 +235,7 @@ int command_twin(const TwinOptions& o) {
     setup.name = o.line_uri;
     setup.kind = kind;
     setup.bit_rate = kind == LineKind::can ? family.default_can_bit_rate : family.default_bit_rate;
-    host.line = make_real_line(o.line_uri, setup, io, family.default_format, Duration::zero());
+    host.line = make_real_line(o.line_uri, setup, io, family.default_format, {}, Duration::zero());
     host.line->open(host, monotonic_now());
     host.power_on(memories);
 

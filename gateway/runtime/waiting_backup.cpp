@@ -6,14 +6,17 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cerrno>
+
 #include <boost/json/object.hpp>
 #include <boost/json/parse.hpp>
 #include <boost/json/serialize.hpp>
 #include <filesystem>
-#include <fstream>
+#include <vector>
 
 #include "gateway/runtime/files.hpp"
 #include "gateway/store/backup.hpp"
+#include "gateway/store/files.hpp"
 
 namespace axisgate {
 namespace {
@@ -22,17 +25,20 @@ namespace json = boost::json;
 constexpr std::size_t most_told_bytes = 65536;
 
 std::string file_in(const std::string& directory) { return directory + "/restore-at-start.db"; }
+std::string check_folder_in(const std::string& directory) { return directory + "/restore-check"; }
 std::string told_in(const std::string& directory) { return directory + "/restore-at-start.json"; }
 
+/// With rights for this user alone from its first moment: a backup has the users and their hashes in it.
 bool write_durably(const std::string& file, std::string_view bytes) {
-    {
-        std::ofstream out(file, std::ios::binary | std::ios::trunc);
-        out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-        out.flush();
-        if (!out) return false;
+    (void)::unlink(file.c_str());
+    const int fd = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
+    bool good = fd >= 0;
+    while (good && !bytes.empty()) {
+        const auto n = ::write(fd, bytes.data(), bytes.size());
+        good = n > 0 || (n < 0 && errno == EINTR);
+        if (n > 0) bytes.remove_prefix(static_cast<std::size_t>(n));
     }
-    const int fd = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-    const bool good = fd >= 0 && ::fsync(fd) == 0;
+    good = good && ::fsync(fd) == 0;
     if (fd >= 0) (void)::close(fd);
     return good;
 }
@@ -52,7 +58,7 @@ std::string words_for(const StoreError& e) {
 
 Gateway::RestoreFault lay_down_backup(const std::string& bytes, const std::string& who, std::int64_t at_unix_ns, const StoreOptions& options) {
     // Tried in a folder of its own first: what is laid down is a database that this program opens.
-    const std::string folder = options.directory + "/restore-check", part = options.directory + "/restore-at-start.part";
+    const std::string folder = check_folder_in(options.directory), part = options.directory + "/restore-at-start.part";
     std::error_code ec;
     fs::remove_all(folder, ec);
     Gateway::RestoreFault fault;
@@ -76,6 +82,7 @@ Gateway::RestoreFault lay_down_backup(const std::string& bytes, const std::strin
         (void)write_durably(told_in(options.directory), json::serialize(told));
         fs::rename(part, file_in(options.directory), ec);
         if (ec) fault = {"it could not be laid down: " + ec.message(), true};
+        if (fault.text.empty() && !files::sync_directory(options.directory)) fault = {"it could not be laid down durably: the disk failed", true};
     }
     if (!fault.text.empty()) fs::remove(part, ec);
     return fault;
@@ -115,6 +122,18 @@ std::string cancel_waiting_backup(const std::string& directory) {
     if (ec) return "it could not be taken away: " + ec.message();
     fs::remove(told_in(directory), ec);
     return was ? std::string() : std::string("none");
+}
+
+void remove_backup_leftovers(const std::string& directory) {
+    std::error_code ec;
+    fs::remove_all(check_folder_in(directory), ec);
+    std::vector<fs::path> gone;
+    for (fs::directory_iterator it(directory, ec), end; !ec && it != end; it.increment(ec)) {
+        const std::string name = it->path().filename().string();
+        if (name == "restore-at-start.part" || name.starts_with(download_name)) gone.push_back(it->path());
+    }
+    for (const auto& path : gone)
+        fs::remove(path, ec);
 }
 
 std::string take_waiting_backup(const StoreOptions& options) {

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "gateway/core/gateway.hpp"
 #include "gateway/store/records.hpp"
@@ -18,5 +19,10 @@ namespace axisgate {
 [[nodiscard]] std::string cancel_waiting_backup(const std::string& directory);
 /// At start, before the database is opened. Empty, or a fault; the file is then kept aside, so that the next start goes on without it.
 [[nodiscard]] std::string take_waiting_backup(const StoreOptions& options);
+
+/// Name under which a backup is made for a download, in the data directory; more may follow it.
+inline constexpr std::string_view download_name = "backup-for-download.tmp";
+/// At start, with the directory locked: what a killed gateway left of backups that it was making, taking or checking. What waits stays.
+void remove_backup_leftovers(const std::string& directory);
 
 }  // namespace axisgate

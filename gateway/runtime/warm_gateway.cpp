@@ -211,9 +211,9 @@ void WarmGateway::modbus_report(std::function<void(std::optional<ModbusReport>)>
 }
 
 /// Stored first, so that a lock that was seen to be on is on after a restart.
-void WarmGateway::set_modbus_read_only(bool on, Origin origin, std::function<void(std::string)> then) {
+void WarmGateway::set_modbus_read_only(bool on, Origin origin, std::function<void(std::string, bool)> then) {
     if (!modbus_read_only_on_hot) {
-        boost::asio::post(io_, [then = std::move(then)] { then("there is no Modbus door: set modbus.bind"); });
+        boost::asio::post(io_, [then = std::move(then)] { then("there is no Modbus door: set modbus.bind", false); });
         return;
     }
     cold_.run([this, on, origin = std::move(origin), then = std::move(then)](Store& store) mutable {
@@ -225,7 +225,7 @@ void WarmGateway::set_modbus_read_only(bool on, Origin origin, std::function<voi
         d.at_unix_ns = unix_now_ns();
         const auto saved = store.save_document(d);
         if (!saved) {
-            boost::asio::post(io_, [then = std::move(then), fault = saved.error().text] { then(fault); });
+            boost::asio::post(io_, [then = std::move(then), fault = saved.error().text] { then(fault, true); });
             return;
         }
         boost::asio::post(io_, [this, on, origin = std::move(origin), then = std::move(then)]() mutable {
@@ -238,9 +238,9 @@ void WarmGateway::set_modbus_read_only(bool on, Origin origin, std::function<voi
                 e.who = origin.who ? *origin.who : "";
                 e.door = std::string(name_of(origin.door));
                 hot_.on_event(std::move(e), now);
-                boost::asio::post(io_, [then] { then({}); });
+                boost::asio::post(io_, [then] { then({}, false); });
             };
-            if (!hot_.jobs().push(Hot::Job(std::move(job)))) return then("it is stored, but could not be put in force now: send it again");
+            if (!hot_.jobs().push(Hot::Job(std::move(job)))) return then("it is stored, but could not be put in force now: send it again", false);
             hot_.jobs().announce();
         });
     });
@@ -248,10 +248,10 @@ void WarmGateway::set_modbus_read_only(bool on, Origin origin, std::function<voi
 
 // --- site -----------------------------------------------------------------------------------------------------------
 
-void WarmGateway::finish_site(bool good, std::string fault, std::shared_ptr<const SiteState> state, const std::function<void(SiteAnswer)>& then) {
+void WarmGateway::finish_site(bool good, std::string fault, std::shared_ptr<const SiteState> state, const std::function<void(SiteAnswer)>& then, bool not_stored) {
     applying_ = false;
     if (good) set_site(std::move(state));
-    then({good, std::move(fault), site_});
+    then({good, std::move(fault), site_, not_stored});
 }
 
 void WarmGateway::apply_site(Site site, std::uint64_t expected_revision, Origin origin, std::function<void(SiteAnswer)> then) {
@@ -280,7 +280,7 @@ void WarmGateway::apply_site(Site site, std::uint64_t expected_revision, Origin 
         }
         const auto saved = store.save_site(boost::json::serialize(to_json(site)), who, unix_now_ns(), change);
         if (!saved) {
-            boost::asio::post(io_, [this, fault = saved.error().text, then = std::move(then)] { finish_site(false, fault, nullptr, then); });
+            boost::asio::post(io_, [this, fault = saved.error().text, then = std::move(then)] { finish_site(false, fault, nullptr, then, true); });
             return;
         }
         auto memory = read_site_memory(store, site);

@@ -35,7 +35,7 @@ public:
     std::function<ModbusReport()> modbus_on_hot;
     std::function<void(bool)> modbus_read_only_on_hot;
     void modbus_report(std::function<void(std::optional<ModbusReport>)> then) override;
-    void set_modbus_read_only(bool on, Origin origin, std::function<void(std::string)> then) override;
+    void set_modbus_read_only(bool on, Origin origin, std::function<void(std::string, bool)> then) override;
 
     [[nodiscard]] std::vector<DoorInfo> doors() const override { return doors_; }
     [[nodiscard]] double uptime_s() const override;
@@ -103,7 +103,7 @@ private:
     void take_back(Origin origin, std::string why, std::function<void(SiteAnswer)> then);
     void tell_site(std::string text, const Origin& origin, Severity severity);
     void answer(Result&& result);
-    void finish_site(bool good, std::string fault, std::shared_ptr<const SiteState> state, const std::function<void(SiteAnswer)>& then);
+    void finish_site(bool good, std::string fault, std::shared_ptr<const SiteState> state, const std::function<void(SiteAnswer)>& then, bool not_stored = false);
 
     boost::asio::io_context& io_;
     Hot& hot_;

@@ -86,7 +86,7 @@ void WarmGateway::apply_stage(std::uint32_t confirm_within_s, Origin origin, std
         return;
     }
     trial_base_ = site_->site;
-    auto apply = [this, confirm_within_s, origin, then = std::move(then)] {
+    auto apply = [this, confirm_within_s, origin, then] {
         on_trial_ = confirm_within_s != 0;
         apply_site(stage_.site(), stage_.base_revision(), origin, [this, confirm_within_s, then](SiteAnswer answer) {
             stage_.applied(answer.good);
@@ -104,7 +104,7 @@ void WarmGateway::apply_stage(std::uint32_t confirm_within_s, Origin origin, std
             io_, [this, good = bool(marked), fault = marked ? std::string() : marked.error().text, apply = std::move(apply), then] {
                 if (good) return apply();
                 stage_.applied(false);
-                then({false, fault, site_});
+                then({false, fault, site_, true});
             });
     });
 }
@@ -190,7 +190,7 @@ void WarmGateway::ask_modbus(std::uint8_t unit, std::vector<std::uint8_t> pdu,
 
 void WarmGateway::backup(std::function<void(std::optional<std::string> bytes, std::string fault)> then) {
     cold_.run([this, then = std::move(then)](Store& store) {
-        const std::string file = store.directory() + "/backup-for-download.tmp";
+        const std::string file = fmt::format("{}/{}", store.directory(), download_name);
         std::string fault;
         std::optional<std::string> bytes;
         if (const auto made = store.backup(file); !made) {

@@ -42,6 +42,13 @@ StoreResult<std::uint32_t> Store::save_snapshot(std::string_view axis, std::stri
         if (!once.insert(v.parameter).second) return fail(Kind::invalid, fmt::format("{}: parameter {} is there twice", what, v.parameter));
     }
     auto done = db_->transaction([&]() -> StoreResult<std::uint32_t> {
+        {
+            // An axis comes back with a site that has it, not with a snapshot that was still on its way when it went.
+            Query removed(*db_, "SELECT 1 FROM axis WHERE name = ? AND removed_unix_ns IS NOT NULL");
+            const auto row = removed.bind(axis).row();
+            if (!row) return fail(row);
+            if (*row) return fail(Kind::not_found, "the axis was removed meanwhile");
+        }
         const auto id = axis_id(axis);
         if (!id) return fail(id);
         {

@@ -2,6 +2,7 @@
 // In and out: credentials, times, identities.
 #include "gateway/doors/http/access_desk.hpp"
 
+#include <arpa/inet.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,8 +15,10 @@ namespace axisgate::http {
 namespace {
 constexpr std::int64_t kept_use_ns = std::int64_t{3600} * 1'000'000'000;  // a token's last use is stored once an hour: spares flash
 
-std::string user_key(std::string_view user) { return "user " + lower(user.substr(0, 64)); }
-std::string peer_key(std::string_view peer) { return fmt::format("peer {}", address_of(peer)); }
+constexpr std::size_t most_good_places = 8;                               // per user; beyond, the one that was not used for longest is forgotten
+
+std::string user_key(std::string_view user, std::string_view peer) { return fmt::format("user {} at {}", lower(user.substr(0, 64)), network_of(peer)); }
+std::string peer_key(std::string_view peer) { return "peer " + network_of(peer); }
 }  // namespace
 
 std::string_view name_of(Identity::Via via) noexcept {
@@ -53,6 +56,17 @@ std::string session_of(const Identity& i) {
 std::string_view address_of(std::string_view peer) noexcept {
     if (peer.starts_with('[')) return peer.substr(1, peer.find(']') - 1);
     return peer.substr(0, peer.rfind(':'));
+}
+
+std::string network_of(std::string_view peer) {
+    std::string address(address_of(peer));
+    if (address.starts_with("::ffff:")) return address.substr(7);
+    std::array<unsigned char, 16> bytes{};
+    if (::inet_pton(AF_INET6, address.c_str(), bytes.data()) != 1) return address;
+    std::string network;
+    for (std::size_t i = 0; i < 8; i += 2)
+        network += fmt::format("{:x}:", bytes[i] << 8 | bytes[i + 1]);
+    return network + ":/64";
 }
 
 bool is_loopback_peer(std::string_view peer) noexcept {
@@ -130,23 +144,23 @@ std::optional<Identity> AccessDesk::by_token(std::string_view secret, std::int64
     i.user = u->name;
     i.token = t.name;
     i.expires_ns = t.expires_ns;
-    if (touch) {
-        if (now_ns - t.last_used_ns >= kept_use_ns) {
-            t.last_used_ns = now_ns;
-            i.token_to_keep = t.id;
-        }
+    if (touch && now_ns - t.last_used_ns >= kept_use_ns) {
+        t.last_used_ns = now_ns;
+        uses_.insert("token " + t.id);
     }
     return i;
 }
 
 AccessDesk::Attempt AccessDesk::begin_sign_in(std::string_view name, std::string_view peer, std::int64_t now_ns) {
-    const std::string by_user = user_key(name), by_peer = peer_key(peer);
+    const std::string by_user = user_key(name, peer), by_peer = peer_key(peer);
+    const User* u = user(name);
+    const bool was_here = u && std::ranges::find(u->good_from, network_of(peer)) != u->good_from.end();
     Attempt a;
-    a.pause_s = std::max(lockout_.pause_s(by_user, now_ns), lockout_.pause_s(by_peer, now_ns, Lockout::free_failures_of_peer));
+    a.pause_s = lockout_.pause_s(by_user, now_ns);
+    if (!was_here) a.pause_s = std::max(a.pause_s, lockout_.pause_s(by_peer, now_ns, Lockout::free_failures_of_peer));
     if (a.pause_s > 0) return a;
     lockout_.failed(by_user, now_ns);
     lockout_.failed(by_peer, now_ns);
-    const User* u = user(name);
     a.hash = u && u->enabled ? u->hash : std::string(hash_of_nobody);
     return a;
 }
@@ -156,13 +170,22 @@ std::optional<AccessDesk::NewSession> AccessDesk::end_sign_in(std::string_view n
     const auto it = users_.find(name);
     if (!fits || it == users_.end() || !it->second.enabled || it->second.hash != hash) return std::nullopt;
     attempt_was_good(name, peer);
-    it->second.last_sign_in_ns = now_ns;
+    was_good(it->second, peer, now_ns);
     return open_session(it->second, now_ns);
 }
 
 void AccessDesk::attempt_was_good(std::string_view name, std::string_view peer) {
-    lockout_.clear(user_key(name));
+    lockout_.clear(user_key(name, peer));
     lockout_.take_back(peer_key(peer));
+}
+
+void AccessDesk::was_good(User& u, std::string_view peer, std::int64_t now_ns) {
+    u.last_sign_in_ns = now_ns;
+    const std::string place = network_of(peer);
+    std::erase(u.good_from, place);
+    u.good_from.insert(u.good_from.begin(), place);
+    if (u.good_from.size() > most_good_places) u.good_from.resize(most_good_places);
+    uses_.insert("user " + u.name);
 }
 
 AccessDesk::NewSession AccessDesk::open_session(const User& u, std::int64_t now_ns) {
@@ -220,6 +243,10 @@ void AccessDesk::put(User u) {
     const auto it = users_.find(u.name);
     if (it != users_.end() && (it->second.role != u.role || it->second.hash != u.hash || it->second.enabled != u.enabled)) {
         end_sessions_of(u.name);
+    }
+    if (it != users_.end()) {  // he may have signed in while the change was stored
+        u.last_sign_in_ns = std::max(u.last_sign_in_ns, it->second.last_sign_in_ns);
+        u.good_from = it->second.good_from;
     }
     users_.insert_or_assign(u.name, std::move(u));
 }

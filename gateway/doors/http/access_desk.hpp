@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,7 @@ struct User {
     std::string hash;  ///< of the password; never leaves the desk and the store
     std::int64_t created_ns = 0;
     std::int64_t last_sign_in_ns = 0;  ///< 0: never
+    std::vector<std::string> good_from{};  ///< where he signed in from, newest first; kept with his last use
 };
 struct Token {
     std::string id, name, owner;
@@ -33,13 +35,17 @@ struct Token {
     std::int64_t last_used_ns = 0;  ///< 0: never
 };
 
-/// A row for the store: kind "user", "token" or "first_sign_in".
+/// A row for the store: kind "user", "token", "last_use" or "first_sign_in". When somebody was here last is a record of its own: it is written
+/// beside changes, and must never bring back a user or a token as they were.
 struct AccessRecord {
     std::string kind, name;
     std::optional<std::string> text;  ///< nothing: the record goes
 };
 [[nodiscard]] AccessRecord record_of(const User& user);
 [[nodiscard]] AccessRecord record_of(const Token& token);
+/// Takes the last use of a user or a token away.
+[[nodiscard]] AccessRecord no_use_of_user(std::string_view name);
+[[nodiscard]] AccessRecord no_use_of_token(std::string_view id);
 [[nodiscard]] AccessRecord record_of_code(std::string_view digest);
 inline constexpr std::string_view code_record_name = "code";
 /// Nothing if the text is not what record_of writes.
@@ -58,7 +64,6 @@ struct Identity {
     std::int64_t expires_ns = 0;
     bool wrong_token = false;   ///< a token was shown that is none: the request is refused, also from this machine
     bool session_ended = false; ///< a session cookie was shown that is none any more: refused too, who signed out is not this machine
-    std::string token_to_keep;  ///< id of the token whose last use should be stored now
 };
 [[nodiscard]] std::string_view name_of(Identity::Via via) noexcept;
 /// "anna 192.0.2.7:5123", "token line3 (anna) 192.0.2.7:5123", "local 127.0.0.1:5123".
@@ -70,10 +75,12 @@ struct Credentials {
     std::vector<std::string_view> cookies;   ///< values of axisgate_session: there may be several, of other gateways on this host
     std::optional<std::string_view> bearer;
     std::string_view peer;                   ///< "127.0.0.1:51123"
-    bool forwarded = false;                  ///< a Forwarded, X-Forwarded-* or Via header is there: the peer is a proxy
+    bool forwarded = false;                  ///< a header of proxies is there, or the host of another way in: the peer speaks for somebody else
 };
 /// "127.0.0.1:51123" and "[::1]:51123" without the port.
 [[nodiscard]] std::string_view address_of(std::string_view peer) noexcept;
+/// Whose place it is: an IPv4 address, or the /64 network of an IPv6 address, since its lower half is anybody's to choose.
+[[nodiscard]] std::string network_of(std::string_view peer);
 [[nodiscard]] bool is_loopback_peer(std::string_view peer) noexcept;
 /// Local access alone: what a door without a desk uses.
 [[nodiscard]] Identity local_identity(const Credentials& credentials, Role local_role);
@@ -92,6 +99,8 @@ public:
     // --- records -------------------------------------------------------------------------------------------------------
     void load(User user) { users_.insert_or_assign(user.name, std::move(user)); }
     void load(Token token) { tokens_.insert_or_assign(token.id, std::move(token)); }
+    /// A record of kind "last_use", after users and tokens; one of somebody who is gone is passed over.
+    void load_use(std::string_view name, std::string_view text);
     void load_code(std::string digest) { code_digest_ = std::move(digest); }
 
     // --- identities ----------------------------------------------------------------------------------------------------
@@ -100,12 +109,18 @@ public:
     [[nodiscard]] bool has_users() const noexcept { return !users_.empty(); }
     [[nodiscard]] const AccessSettings& settings() const noexcept { return settings_; }
 
+    /// Somebody was here, and it is not stored yet.
+    [[nodiscard]] bool has_uses() const noexcept { return !uses_.empty(); }
+    /// Those records, for whoever is still there; they count as stored.
+    [[nodiscard]] std::vector<AccessRecord> take_uses();
+
     // --- signing in ------------------------------------------------------------------------------------------------------
     struct Attempt {
         std::int64_t pause_s = 0;  ///< not 0: refused, come again after it
         std::string hash;          ///< to be compared with the password; of nobody if there is no such user
     };
-    /// Counts as failed until end_sign_in says otherwise.
+    /// Counts as failed until end_sign_in says otherwise. Failures count by user and address, so that nobody locks out another by guessing his
+    /// name from elsewhere; and by address, for all names together. The second does not hold up a user who was let in from there before.
     [[nodiscard]] Attempt begin_sign_in(std::string_view user, std::string_view peer, std::int64_t now_ns);
     struct NewSession {
         std::string id;  ///< for the cookie; kept nowhere else
@@ -130,7 +145,7 @@ public:
     [[nodiscard]] const User* user(std::string_view name) const;
     [[nodiscard]] const std::map<std::string, Token, std::less<>>& tokens() const noexcept { return tokens_; }
     [[nodiscard]] bool is_last_administrator(std::string_view name) const;
-    /// Puts the user in place; sessions of a user that was there end if role, password or enabled differ.
+    /// Puts the user in place; what is known of his last use stays. Sessions of a user that was there end if role, password or enabled differ.
     void put(User user);
     /// The user, his sessions and his tokens go; ids of those tokens.
     std::vector<std::string> remove_user(std::string_view name);
@@ -148,11 +163,13 @@ private:
     [[nodiscard]] NewSession open_session(const User& user, std::int64_t now_ns);
     void end_sessions_of(std::string_view user);
     void make_room(std::string_view user);
+    void was_good(User& user, std::string_view peer, std::int64_t now_ns);
 
     AccessSettings settings_;
     std::map<std::string, User, std::less<>> users_;
     std::map<std::string, Token, std::less<>> tokens_;       // by id
     std::map<std::string, SignedIn, std::less<>> sessions_;  // by the digest of the id
+    std::set<std::string, std::less<>> uses_;  // names of "last_use" records
     std::string code_digest_;
     Lockout lockout_;
 };

@@ -4,6 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
+#include "gateway/doors/http/hosts.hpp"
 #include "gateway/doors/http/problem.hpp"
 #include "gateway/doors/http/secrets.hpp"
 #include "gateway/doors/http/text.hpp"
@@ -28,12 +32,20 @@ std::vector<std::string_view> cookies_of(const Request& request) {
     return out;
 }
 
+/// What proxies, balancers and content networks write when they speak for somebody else.
+constexpr std::array<std::string_view, 14> forwarding{"forwarded",        "via",              "x-real-ip",       "x-client-ip",   "x-cluster-client-ip",
+                                                      "x-originating-ip", "x-remote-ip",      "x-remote-addr",   "x-proxyuser-ip", "true-client-ip",
+                                                      "client-ip",        "cf-connecting-ip", "fastly-client-ip", "proxy-connection"};
+constexpr std::array<std::string_view, 4> forwarding_begins{"x-forwarded", "x-original-", "x-envoy-", "cdn-"};
+
 bool was_forwarded(const Request& request) {
+    if (host_is_outer_address(host_meant(request))) return true;
     for (const auto& [key, value] : request.headers.fields) {
         const char first = key.empty() ? ' ' : static_cast<char>(key.front() | 0x20);
-        if (first != 'f' && first != 'v' && first != 'x') continue;  // most fields of most requests
+        if (std::string_view("cfptvx").find(first) == std::string_view::npos) continue;  // most fields of most requests
         const std::string name = lower(key);
-        if (name == "forwarded" || name == "via" || name.starts_with("x-forwarded-") || name == "x-real-ip") return true;
+        if (std::ranges::find(forwarding, name) != forwarding.end()) return true;
+        if (std::ranges::any_of(forwarding_begins, [&name](auto begin) { return name.starts_with(begin); })) return true;
     }
     return false;
 }

@@ -25,8 +25,9 @@ public:
     virtual void keep(std::vector<AccessRecord> records, std::string who, std::function<void(std::string fault)> then) = 0;
     /// An event of kind "access".
     virtual void tell(Event event) = 0;
-    /// Changes of users and tokens, one after the other.
+    /// All that is stored of users and tokens goes through here, one after the other: what was put in the store later is later in force.
     std::shared_ptr<ChangeQueue> changes = std::make_shared<ChangeQueue>();
+    bool uses_wait = false;  ///< in that queue: one job for all that came since the last
 };
 
 }  // namespace axisgate::http

@@ -1,5 +1,6 @@
 // Access records: users and tokens as the small JSON documents that the store keeps.
 // In: records. Out: text; and back. Text that is not such a record gives nothing.
+#include <algorithm>
 #include <boost/json/object.hpp>
 #include <boost/json/parse.hpp>
 
@@ -35,6 +36,50 @@ AccessRecord record_of(const Token& t) {
     return {"token", t.id,
             json_text(json::object{{"id", t.id}, {"name", t.name}, {"owner", t.owner}, {"role", name_of(t.role)}, {"digest", t.digest},
                                    {"created_ns", t.created_ns}, {"expires_ns", t.expires_ns}, {"last_used_ns", t.last_used_ns}})};
+}
+
+AccessRecord no_use_of_user(std::string_view name) { return {"last_use", "user " + std::string(name), std::nullopt}; }
+AccessRecord no_use_of_token(std::string_view id) { return {"last_use", "token " + std::string(id), std::nullopt}; }
+
+std::vector<AccessRecord> AccessDesk::take_uses() {
+    std::vector<AccessRecord> records;
+    for (const auto& key : uses_) {
+        json::object use;
+        if (key.starts_with("user ")) {
+            const auto it = users_.find(key.substr(5));
+            if (it == users_.end()) continue;
+            json::array good;
+            for (const auto& place : it->second.good_from)
+                good.emplace_back(place);
+            use["at_ns"] = it->second.last_sign_in_ns;
+            use["good_from"] = std::move(good);
+        } else {
+            const auto it = tokens_.find(key.substr(6));
+            if (it == tokens_.end()) continue;
+            use["at_ns"] = it->second.last_used_ns;
+        }
+        records.push_back({"last_use", key, json_text(use)});
+    }
+    uses_.clear();
+    return records;
+}
+
+void AccessDesk::load_use(std::string_view name, std::string_view document) {
+    const auto o = read(document);
+    if (!o) return;
+    if (name.starts_with("user ")) {
+        const auto it = users_.find(name.substr(5));
+        if (it == users_.end()) return;
+        it->second.last_sign_in_ns = std::max(it->second.last_sign_in_ns, whole(*o, "at_ns"));
+        const auto* good = o->if_contains("good_from");
+        if (!good || !good->is_array()) return;
+        for (const auto& place : good->get_array()) {
+            if (place.is_string()) it->second.good_from.emplace_back(place.get_string());
+        }
+    } else if (name.starts_with("token ")) {
+        const auto it = tokens_.find(name.substr(6));
+        if (it != tokens_.end()) it->second.last_used_ns = std::max(it->second.last_used_ns, whole(*o, "at_ns"));
+    }
 }
 
 AccessRecord record_of_code(std::string_view digest) {

@@ -20,6 +20,10 @@ json::value time_or_null(std::int64_t ns) { return ns == 0 ? json::value(nullptr
 BodyReader::BodyReader(const json::object& body, std::initializer_list<std::string_view> known) : body_(body) {
     for (const auto& [k, v] : body) {
         if (std::ranges::find(known, std::string_view(k)) != known.end()) continue;
+        if (faults_.size() >= most_faults) {
+            ++more_;
+            continue;
+        }
         std::string list;
         for (const auto w : known)
             list += (list.empty() ? "" : ", ") + std::string(w);
@@ -28,6 +32,10 @@ BodyReader::BodyReader(const json::object& body, std::initializer_list<std::stri
 }
 
 void BodyReader::fault(std::string_view key, std::string text, std::string remedy) {
+    if (faults_.size() >= most_faults) {
+        ++more_;
+        return;
+    }
     faults_.push_back({"/" + std::string(key), std::move(text), std::move(remedy)});
 }
 
@@ -115,6 +123,18 @@ void tell_access(AccessPort& port, std::string by, std::string text, Severity se
     e.who = std::move(by);
     e.door = std::string(name_of(Door::http));
     port.tell(std::move(e));
+}
+
+void keep_uses(const std::shared_ptr<AccessPort>& port) {
+    if (port->uses_wait || !port->desk().has_uses()) return;
+    port->uses_wait = true;
+    const bool queued = port->changes->run([port](std::function<void()> done) {
+        port->uses_wait = false;
+        auto records = port->desk().take_uses();
+        if (records.empty()) return done();
+        port->keep(std::move(records), "axisgate", [done](const std::string&) { done(); });
+    }, nullptr);
+    if (!queued) port->uses_wait = false;  // the next use tries again
 }
 
 Response no_accounts() { return problem(503, "not_ready", "this door keeps no users"); }

@@ -26,11 +26,12 @@ public:
     std::optional<std::int64_t> whole(std::string_view key, std::int64_t low, std::int64_t high);
     void fault(std::string_view key, std::string text, std::string remedy);
     [[nodiscard]] bool good() const noexcept { return faults_.empty(); }
-    [[nodiscard]] Response refusal() { return invalid(std::move(faults_)); }
+    [[nodiscard]] Response refusal() { return invalid(std::move(faults_), {}, "invalid", more_); }
 
 private:
     const boost::json::object& body_;
     std::vector<Fault> faults_;
+    std::size_t more_ = 0;  ///< beyond those that are told; nobody has signed in yet, so they are not even kept
 };
 
 /// The answer of /session.
@@ -42,6 +43,9 @@ private:
 
 /// An event of kind "access".
 void tell_access(AccessPort& port, std::string who, std::string text, Severity severity = Severity::info);
+
+/// Stores who was here last, in its turn behind the changes that wait. Nobody waits for it, and it may be lost.
+void keep_uses(const std::shared_ptr<AccessPort>& port);
 
 /// 503: the door has no users; for the handlers that need them.
 [[nodiscard]] Response no_accounts();

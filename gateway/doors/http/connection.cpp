@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 
+#include "gateway/doors/http/head.hpp"
 #include "gateway/doors/http/websocket_session.hpp"
 
 namespace axisgate::http {
@@ -17,9 +18,10 @@ namespace beast = boost::beast;
 namespace {
 constexpr std::size_t most_buffered = 64 * 1024;         // read ahead of the request that is answered
 constexpr std::size_t first_read_bytes = 4 * 1024;       // of a request; an idle connection holds them
+constexpr int most_empty_lines = 2;                      // in front of a request, sent by themselves
 constexpr std::uint8_t tls_handshake_record = 0x16;      // RFC 8446 5.1
 constexpr std::size_t least_bytes_per_ms = 16;           // an answer of 1 MiB may take about a minute more than the limit of a step
-constexpr std::size_t most_read_anyway = 64 * 1024;      // of a body that is refused
+constexpr std::size_t small_bytes = 64 * 1024;           // of a body or an answer that is not counted: so much a connection may always have
 constexpr std::size_t usual_head_bytes = 768;            // of an answer
 constexpr std::size_t most_discarded = 2 * 1024 * 1024;  // read and thrown away so that the last answer arrives
 
@@ -68,8 +70,8 @@ std::string response_head(const Response& r, bool keep, std::int64_t now_unix_s)
     return s;
 }
 
-Connection::Connection(Transport socket, std::shared_ptr<SessionHost> host, std::string peer)
-    : socket_(std::move(socket)), host_(std::move(host)), peer_(std::move(peer)), timer_(socket_.get_executor()), buffer_(most_buffered) {}
+Connection::Connection(Transport socket, std::shared_ptr<SessionHost> host, std::string peer, PlaceHolder holder)
+    : socket_(std::move(socket)), host_(std::move(host)), peer_(std::move(peer)), holder_(holder), timer_(socket_.get_executor()), buffer_(most_buffered) {}
 
 void Connection::start() {
     if (host_->tls) return await_handshake();
@@ -105,15 +107,32 @@ void Connection::shake_hands() {
     });
 }
 
-std::optional<SteadyTime> Connection::idle_since() const {
-    // Also a handshake that does not go on: else silent clients could hold all places for its time.
-    if (phase_ == Phase::handshake || (phase_ == Phase::idle && buffer_.size() == 0)) return since_;
-    return std::nullopt;
+Guest Connection::guest() const {
+    Guest g;
+    g.holder = holder_;
+    g.since = Instant{since_.time_since_epoch()};
+    // Half a request and an answer that is not read are silence as well: else a few slow clients could hold all places.
+    const bool works = phase_ == Phase::answering || (known_ && phase_ == Phase::writing);
+    g.standing = stop_path_ ? Standing::stop_path : known_ ? (works ? Standing::knowns_work : Standing::known) : works ? Standing::strangers_work : Standing::stranger;
+    return g;
 }
 
 void Connection::stop() {
     stopping_ = true;
-    if (phase_ == Phase::handshake || phase_ == Phase::idle || phase_ == Phase::header || phase_ == Phase::lingering) close();
+    switch (phase_) {
+        case Phase::handshake:
+        case Phase::idle:
+        case Phase::header:
+        case Phase::body:
+        case Phase::lingering:
+            return close();
+        case Phase::answering:  // who still waits then hears what he would have heard at his own limit
+            set_timer(std::min<std::chrono::nanoseconds>(host_->settings.answer_limit_at_stop, due_ - std::chrono::steady_clock::now()));
+            return;
+        case Phase::writing:
+        case Phase::closed:
+            return;
+    }
 }
 
 void Connection::abort() { close(); }
@@ -176,12 +195,17 @@ void Connection::on_timer() {
 void Connection::await_request() {
     if (stopping_ || host_->stopping) return close();
     parser_.emplace();
-    parser_->header_limit(static_cast<std::uint32_t>(host_->settings.max_header_bytes));
+    parser_->header_limit(static_cast<std::uint32_t>(2 * host_->settings.max_header_bytes));  // scan_head keeps the bound, to the byte
     parser_->body_limit(boost::none);  // on_header says how much, before any of it is read
-    if (buffer_.size() > 0) return read_header();
+    empty_lines_ = 0;
     phase_ = Phase::idle;
     since_ = std::chrono::steady_clock::now();
     set_timer(first_ ? host_->settings.header_limit : host_->settings.idle_limit);
+    if (buffer_.size() > 0) return read_header();
+    await_bytes();
+}
+
+void Connection::await_bytes() {
     // Reading instead of waiting: over TLS bytes may be deciphered already while the socket below is silent, and plain it spares a call of
     // the system per request. They are counted when the parser takes them.
     socket_.async_read_some(buffer_.prepare(first_read_bytes), [self = shared_from_this()](ErrorCode ec, std::size_t bytes) {
@@ -193,36 +217,63 @@ void Connection::await_request() {
 }
 
 void Connection::read_header() {
-    phase_ = Phase::header;
-    first_ = false;
-    timed_out_ = false;
-    set_timer(host_->settings.header_limit);
-    if (buffer_.size() > 0) {
-        // What is here is usually a whole request: no need to go through the loop for it.
-        ErrorCode ec;
-        parser_->eager(false);  // the header alone, as async_read_header does: its limits come before the body
-        const auto used = parser_->put(buffer_.data(), ec);
-        buffer_.consume(used);
-        host_->counters.bytes_in += used;
-        if (ec != beast::http::error::need_more) return on_header(ec);
+    const auto bytes = buffer_.data();
+    const auto scan = scan_head({static_cast<const char*>(bytes.data()), bytes.size()}, host_->settings.max_header_bytes);
+    if (phase_ == Phase::idle && scan.verdict == HeadScan::Verdict::incomplete && scan.empty_lines == bytes.size() && ++empty_lines_ <= most_empty_lines) {
+        buffer_.consume(scan.empty_lines);  // an empty line alone begins no request
+        return await_bytes();
     }
-    beast::http::async_read_header(socket_, buffer_, *parser_, [self = shared_from_this()](ErrorCode ec, std::size_t bytes) {
-        self->host_->counters.bytes_in += bytes;
-        self->on_header(ec);
+    if (phase_ != Phase::header) {
+        phase_ = Phase::header;
+        since_ = std::chrono::steady_clock::now();
+        first_ = false;
+        timed_out_ = false;
+        set_timer(host_->settings.header_limit);
+    }
+    switch (scan.verdict) {
+        case HeadScan::Verdict::incomplete:
+            return read_more_header();
+        case HeadScan::Verdict::too_large:
+            return read_failed(beast::http::error::header_limit);
+        case HeadScan::Verdict::malformed:
+            return read_failed(beast::http::error::bad_line_ending);
+        case HeadScan::Verdict::whole:
+            buffer_.consume(scan.empty_lines);
+            return parse_header(scan.bytes);
+    }
+}
+
+void Connection::read_more_header() {
+    socket_.async_read_some(buffer_.prepare(first_read_bytes), [self = shared_from_this()](ErrorCode ec, std::size_t bytes) {
+        if (self->phase_ != Phase::header) return;
+        if (ec) return self->read_failed(ec == asio::error::eof ? make_error_code(beast::http::error::end_of_stream) : ec);
+        self->buffer_.commit(bytes);
+        self->read_header();
     });
+}
+
+void Connection::parse_header(std::size_t bytes) {
+    ErrorCode ec;
+    parser_->eager(false);  // the header alone: its limits come before the body
+    const auto used = parser_->put(asio::buffer(buffer_.data(), bytes), ec);
+    buffer_.consume(used);
+    host_->counters.bytes_in += used;
+    // "need more" of a whole head cannot be: it would be a head that this parser ends elsewhere.
+    on_header(ec == beast::http::error::need_more ? make_error_code(beast::http::error::bad_value) : ec);
 }
 
 void Connection::on_header(ErrorCode ec) {
     if (phase_ != Phase::header) return;
     if (ec) return read_failed(ec);
     take_head();
+    if (auto fault = framing_fault(request_.headers, request_.http_1_0)) return fail(fault->status, fault->status == 501 ? "not_supported" : "bad_request", std::move(fault->text));
     const auto expect = parser_->get()[beast::http::field::expect];
     if (!expect.empty() && !parser_->is_done() && !beast::iequals(expect, "100-continue"))
         return fail(417, "bad_request", "the only expectation that is met is 100-continue");
-    most_body_bytes_ = host_->settings.max_body_bytes;
+    most_body_bytes_ = host_->settings.max_stranger_bytes;
     // A small body is read before anything is decided: the connection can then be kept, and its answer cannot be lost. But nobody who may
     // not is waited for with a long one, with one that does not say how long it is, or when he asks first.
-    const bool small = expect.empty() && request_.announced_bytes && *request_.announced_bytes <= most_read_anyway;
+    const bool small = expect.empty() && request_.announced_bytes && *request_.announced_bytes <= most_body_bytes_;
     if (!parser_->is_done() && !small) {
         auto admission = host_->router.admit(request_);
         if (admission.refusal) return refuse(*std::move(admission.refusal));
@@ -230,6 +281,7 @@ void Connection::on_header(ErrorCode ec) {
     }
     if (request_.announced_bytes.value_or(0) > most_body_bytes_) return read_failed(beast::http::error::body_limit);
     parser_->body_limit(most_body_bytes_);
+    if (const std::size_t bytes = request_.announced_bytes.value_or(most_body_bytes_); !parser_->is_done() && bytes > small_bytes && !hold(bytes)) return refuse(too_much_held());
     if (expect.empty() || parser_->is_done()) return read_body();
     if (parser_->get().version() < 11 || buffer_.size() > 0) return read_body();
     head_ = "HTTP/1.1 100 Continue\r\n\r\n";
@@ -301,6 +353,21 @@ void Connection::take_head() {
     close_after_ = false;
 }
 
+/// Counts what a large body or answer will hold; false: no room for it now.
+bool Connection::hold(std::size_t bytes) {
+    if (!host_->budget.take(bytes)) return false;
+    held_ += bytes;
+    return true;
+}
+
+Response Connection::too_much_held() const {
+    Response r = problem(503, "busy",
+                         fmt::format("large answers and bodies of all clients together hold {} MiB already, and wait to be read: come again in a moment", host_->budget.most >> 20));
+    r.headers.set("Retry-After", "2");
+    r.headers.set("Cache-Control", "no-store");
+    return r;
+}
+
 /// Answers before the body has come. The connection ends with it; what the client has already sent is read for a while and thrown away.
 void Connection::refuse(Response response) {
     phase_ = Phase::answering;
@@ -320,6 +387,8 @@ void Connection::answer_request() {
         if (const auto me = self.lock()) me->answer(serial, std::move(r));
     });
     route_ = handled.route;
+    known_ = handled.known.value_or(known_);
+    commands_ = handled.commands;
     if (handled.now) return answer(serial, std::move(*handled.now));
     at_limit_ = std::move(handled.at_limit);
     set_timer(handled.limit);
@@ -330,6 +399,7 @@ void Connection::answer(std::uint64_t serial, Response response) {
     const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - since_).count();
     const auto method = request_.method == Method::other ? std::string_view("other") : name_of(request_.method);
     host_->counters.answered(route_, method, response.status, took_s);
+    stop_path_ = stop_path_ || (commands_ && response.status < 400);
     const bool keep = !close_after_ && parser_->get().keep_alive() && !stopping_ && !host_->stopping;
     write(std::move(response), keep);
 }
@@ -337,6 +407,10 @@ void Connection::answer(std::uint64_t serial, Response response) {
 void Connection::write(Response response, bool keep) {
     phase_ = Phase::writing;
     at_limit_.reset();
+    request_.body.clear();
+    request_.body.shrink_to_fit();
+    if (held_ > 0) host_->budget.give_back(held_);
+    if (!response.without_body && response.body.size() > small_bytes && !hold(response.body.size())) response = too_much_held();
     const auto now_s = std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch()).count();
     if (socket_.secure() && !host_->tls->self_made) response.headers.set("Strict-Transport-Security", "max-age=31536000");
     head_ = response_head(response, keep, now_s);
@@ -362,6 +436,11 @@ void Connection::write_on(bool keep, bool upgraded) {
 }
 
 void Connection::on_written(bool keep, bool upgraded) {
+    if (held_ > 0) {
+        body_ = {};
+        unsent_.reset();
+        host_->budget.give_back(held_);
+    }
     if (upgraded) return upgrade();
     if (keep && !stopping_) return await_request();
     linger();
@@ -371,7 +450,7 @@ void Connection::upgrade() {
     end_timer();
     phase_ = Phase::closed;
     const auto data = static_cast<const std::uint8_t*>(buffer_.data().data());
-    auto session = std::make_shared<WebSocketSession>(std::move(socket_), host_, std::move(request_));
+    auto session = std::make_shared<WebSocketSession>(std::move(socket_), host_, std::move(request_), holder_);
     std::vector<std::uint8_t> early(data, data + buffer_.size());
     auto self = shared_from_this();  // this connection ends here; its place is the session's
     host_->add(session);
@@ -403,6 +482,7 @@ void Connection::close() {
     if (phase_ == Phase::closed) return;
     phase_ = Phase::closed;
     end_timer();
+    if (held_ > 0) host_->budget.give_back(held_);
     ErrorCode ignored;
     socket_.close(ignored);
     host_->remove(this);

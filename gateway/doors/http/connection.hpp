@@ -20,10 +20,10 @@ namespace axisgate::http {
 
 class Connection final : public Session, public std::enable_shared_from_this<Connection> {
 public:
-    Connection(Transport socket, std::shared_ptr<SessionHost> host, std::string peer);
+    Connection(Transport socket, std::shared_ptr<SessionHost> host, std::string peer, PlaceHolder holder);
 
     void start();
-    [[nodiscard]] std::optional<SteadyTime> idle_since() const override;
+    [[nodiscard]] Guest guest() const override;
     void stop() override;
     void abort() override;
 
@@ -35,7 +35,10 @@ private:
     void await_handshake();
     void shake_hands();
     void await_request();
+    void await_bytes();
     void read_header();
+    void read_more_header();
+    void parse_header(std::size_t bytes);
     void on_header(ErrorCode ec);
     void read_body();
     void on_body(ErrorCode ec);
@@ -43,6 +46,8 @@ private:
     void take_head();
     void answer_request();
     void refuse(Response response);
+    [[nodiscard]] bool hold(std::size_t bytes);
+    [[nodiscard]] Response too_much_held() const;
     void answer(std::uint64_t serial, Response response);
     void fail(unsigned status, std::string_view reason, std::string detail);
     void write(Response response, bool keep);
@@ -60,6 +65,11 @@ private:
     Transport socket_;
     std::shared_ptr<SessionHost> host_;
     std::string peer_;
+    PlaceHolder holder_;
+    bool known_ = false;       ///< the last request came from somebody who had signed in, or from this machine
+    bool stop_path_ = false;   ///< something was set in motion over it
+    std::size_t held_ = 0;     ///< of the host's budget
+    int empty_lines_ = 0;      ///< in front of the request, when nothing else came
     boost::asio::steady_timer timer_;
     /// The limit of the phase is a value. The timer itself is only touched when it would come too late: when it comes too early, it is set
     /// anew, so that a request costs none of the system's timers.
@@ -72,10 +82,11 @@ private:
     std::string_view route_ = "none";  ///< of the request, for the counters
     std::optional<Response> at_limit_;
     std::uint64_t serial_ = 0;  ///< of the request that is answered; a late answer to another one is ignored
-    SteadyTime since_{};        ///< phase idle: when it began; later: when the request was whole
+    SteadyTime since_{};        ///< phases handshake, idle, header: when they began; later: when the request was whole
     Phase phase_ = Phase::idle;
     bool first_ = true;  ///< no request yet on this connection
     bool timed_out_ = false;
+    bool commands_ = false;            ///< the request is of a route that may set something in motion
     bool close_after_ = false;         ///< the answer is the last: a body that was not read may still be coming
     std::size_t most_body_bytes_ = 0;  ///< of the request that is read
     bool stopping_ = false;

@@ -41,6 +41,7 @@ std::string Counters::text() const {
     plain("connections", "gauge", "Open connections, live-feed clients included.", connections);
     plain("connections_accepted_total", "counter", "Connections accepted.", connections_accepted);
     plain("connections_refused_total", "counter", "Connections refused because too many were open.", connections_refused);
+    plain("connections_gave_way_total", "counter", "Connections closed to make room for others.", connections_gave_way);
     plain("connections_timed_out_total", "counter", "Connections closed because a client was too slow or idle.", connections_timed_out);
     plain("malformed_total", "counter", "Requests that were not HTTP, or over a bound.", malformed);
     plain("tls_handshakes_total", "counter", "TLS handshakes that came to their end.", tls_handshakes);

@@ -28,6 +28,11 @@
 
 namespace axisgate::http {
 
+/// For a change queue: 500 to whoever waits for a job that threw.
+[[nodiscard]] inline ChangeQueue::Failed thrown(Respond respond) {
+    return [respond = std::move(respond)](const std::string& what) { respond(problem(500, "internal", "a fault of the gateway itself: " + what)); };
+}
+
 class RecipeDesk;
 class AlarmDesk;
 

@@ -55,9 +55,9 @@ Handled change_modbus_door(Call& c) {
     if (!faults.empty()) return invalid(std::move(faults));
     Gateway* const gateway = &c.gateway();
     auto set = [gateway, on = value->get_bool(), origin = c.origin(), respond = c.respond](std::function<void()> done) {
-        gateway->set_modbus_read_only(on, origin, [gateway, respond, done = std::move(done)](const std::string& fault) {
+        gateway->set_modbus_read_only(on, origin, [gateway, respond, done = std::move(done)](const std::string& fault, bool not_stored) {
             if (!fault.empty()) {
-                respond(problem(503, "busy", fault));
+                respond(not_stored ? problem(507, "not_stored", fault) : problem(503, "busy", fault));
                 return done();
             }
             gateway->modbus_report([respond, done](const Report& r) {
@@ -67,19 +67,16 @@ Handled change_modbus_door(Call& c) {
         });
     };
     const std::string if_match(c.request.headers.get("If-Match"));
-    if (if_match.empty()) {
-        set([] {});
-        return {gateway_limit, late_modbus()};
-    }
     // In the queue of the site's changes: of two that mean the same state one comes first, and the other is told so.
     const bool taken = c.context.changes->run([gateway, set, if_match, respond = c.respond](std::function<void()> done) {
+        if (if_match.empty()) return set(std::move(done));
         gateway->modbus_report([set, if_match, respond, done = std::move(done)](const Report& now) {
             if (now && !means_another(if_match, tag_of(*now))) return set(done);
             respond(now ? overtaken("the locks of the Modbus door were changed by another client meanwhile: read them again", tag_of(*now), document_of(*now))
                         : shown(now));
             done();
         });
-    });
+    }, thrown(c.respond));
     if (!taken) return problem(503, "busy", "too many changes wait already: try again");
     return {gateway_limit, late_modbus()};
 }

@@ -15,7 +15,7 @@ namespace axisgate::http {
 namespace json = boost::json;
 namespace {
 constexpr std::uint16_t most_elements = 256;
-constexpr std::size_t most_faults = 1000;  // told of one file
+constexpr std::size_t most_kept_faults = 1000;  // of one file; the first of them are told
 
 /// RFC 4180; `;` as separator where the first line has one outside quotes and no comma.
 std::vector<std::pair<std::size_t, std::vector<std::string>>> rows_of(std::string_view text) {
@@ -135,7 +135,7 @@ Handled put_parameters_csv(Call& c) {
     if (fault) return *fault;
     std::vector<Fault> faults;
     const auto wrong = [&](std::size_t line, std::string text) {
-        if (faults.size() < most_faults)
+        if (faults.size() < most_kept_faults)
             faults.push_back({fmt::format("/{}", line), std::move(text), "mend the line: nothing has been taken from the file"});
     };
     if (!is_utf8(c.request.body)) return problem(400, "bad_request", "the table is not UTF-8");

@@ -173,7 +173,7 @@ Handled put_recipe(Call& c) {
             }
             done();
         });
-    });
+    }, thrown(c.respond));
     if (!taken) return too_busy();
     return {gateway_limit, problem(504, "no_answer", "the store has not answered")};
 }
@@ -206,7 +206,7 @@ Handled remove_recipe(Call& c) {
             }
             done();
         });
-    });
+    }, thrown(c.respond));
     if (!taken) return too_busy();
     return {gateway_limit, problem(504, "no_answer", "the store has not answered")};
 }

@@ -52,7 +52,7 @@ Handled sign_in(Call& c) {
             }
             if (!old.empty()) port->desk().sign_out(old);  // another cookie takes the old one's place
             tell_access(*port, who(session->identity, peer), fmt::format("{} signed in", name));
-            port->keep({record_of(*port->desk().user(name))}, name, [](const std::string&) {});
+            keep_uses(port);
             respond(signed_in(*port, *session, secure));
         });
     if (!taken) return too_many_passwords();
@@ -109,11 +109,12 @@ Handled first_sign_in(Call& c) {
                            port->desk().put(u);
                            port->desk().code_used();
                            const auto session = port->desk().end_sign_in(name, u.hash, true, peer, gateway.now_unix_ns());
+                           keep_uses(port);
                            tell_access(*port, session ? who(session->identity, peer) : peer, fmt::format("first sign-in: {} is administrator", name));
                            respond(session ? signed_in(*port, *session, secure) : problem(500, "internal", "the user was made, but not signed in"));
                            done();
                        });
-        });
+        }, thrown(respond));
         if (!queued) respond(too_many_passwords());
     });
     if (!taken) return too_many_passwords();

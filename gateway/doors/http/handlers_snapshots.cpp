@@ -287,10 +287,12 @@ Handled take_snapshot(Call& c) {
     s.family = axis->family;
     s.at_unix_ns = gateway.now_unix_ns();
     auto save = [&gateway, axis = *axis, respond = c.respond](AxisSnapshot taken, json::array left_out, json::array not_read) {
+        if (!find_axis(gateway, axis.spec().name)) return respond(nothing_named("axis", axis.spec().name));  // removed while it was read
         taken.values = taken.parameters.size();
         gateway.save_snapshot(taken, axis.spec().name,
                               [&gateway, respond, axis, taken, left_out = std::move(left_out), not_read = std::move(not_read)](
                                   std::uint32_t n, const std::string& fault) mutable {
+                                  if (!fault.empty() && !find_axis(gateway, axis.spec().name)) return respond(nothing_named("axis", axis.spec().name));
                                   if (!fault.empty()) return respond(problem(507, "not_stored", fault));
                                   taken.n = n;
                                   tell(gateway, taken, axis.spec().name, taken.who, fmt::format("taken: {} values", taken.values));
@@ -313,7 +315,8 @@ Handled take_snapshot(Call& c) {
     auto points = axis->catalogue ? readable_points(*axis->catalogue, left_out) : std::vector<JobPoint>();
     const bool started =
         AxisJobs::start(c.context.jobs, gateway, c.names[0], axis->id(), std::move(points), false, c.origin(),
-                        [save, s, left_out, respond = c.respond, name = c.names[0]](JobEnd end) mutable {
+                        [save, s, left_out, known = &gateway, respond = c.respond, name = c.names[0]](JobEnd end) mutable {
+                            if (!end.broken_off.empty() && !find_axis(*known, name)) return respond(nothing_named("axis", name));
                             if (!end.broken_off.empty())
                                 return respond(broken_off(end, name, "no snapshot was stored", {{"read", end.values.size()}}));
                             s.parameters = std::move(end.values);

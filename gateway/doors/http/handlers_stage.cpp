@@ -83,7 +83,7 @@ Handled stage_document(Call& c, const json::value& document) {
 
 auto show_after(Gateway& gateway, std::shared_ptr<StageDesk> desk, Respond respond) {
     return [&gateway, desk = std::move(desk), respond = std::move(respond)](const Gateway::SiteAnswer& answer) {
-        if (!answer.good) return respond(conflict(answer.fault));
+        if (!answer.good) return respond(answer.not_stored ? problem(507, "not_stored", answer.fault) : conflict(answer.fault));
         respond(stage_answer(gateway, *desk));
     };
 }
@@ -148,7 +148,11 @@ Handled confirm_stage(Call& c) {
                                     stage.by(), applier.empty() ? "" : fmt::format(" (client {})", applier), format_time(stage.confirm_by_unix_ns())));
     }
     if (auto fault = stage.check_confirm(*origin.who, c.gateway().now_unix_ns()); !fault.empty()) return conflict(std::move(fault));
+    // The disk is asked; until it has answered the stage still stands as applied, and it is confirmed once.
+    if (c.context.stages->confirming) return conflict("it is being confirmed already");
+    c.context.stages->confirming = true;
     c.gateway().confirm_stage(origin, [&gateway = c.gateway(), desk = c.context.stages, respond = c.respond](const std::string& fault) {
+        desk->confirming = false;
         respond(fault.empty() ? stage_answer(gateway, *desk) : problem(507, "not_stored", fault));
     });
     return {gateway_limit, problem(504, "time_out", in_time)};

@@ -75,7 +75,7 @@ Handled add_token(Call& c) {
             respond(std::move(r));
             done();
         });
-    });
+    }, thrown(c.respond));
     if (!queued) return problem(503, "busy", "too many changes wait: come again in a moment");
     return soon();
 }
@@ -86,7 +86,7 @@ Handled remove_token(Call& c) {
     const auto it = port->desk().tokens().find(c.names[0]);
     if (it == port->desk().tokens().end() || !may_see(c.identity, it->second)) return nothing_named("token", c.names[0]);
     const bool queued = port->changes->run([port, &gateway = c.gateway(), t = it->second, by = c.who(), respond = c.respond](std::function<void()> done) {
-        port->keep({{"token", t.id, std::nullopt}}, by, [port, &gateway, t, by, respond, done](const std::string& fault) {
+        port->keep({{"token", t.id, std::nullopt}, no_use_of_token(t.id)}, by, [port, &gateway, t, by, respond, done](const std::string& fault) {
             if (!fault.empty()) {
                 respond(not_kept(fault));
                 return done();
@@ -99,7 +99,7 @@ Handled remove_token(Call& c) {
             respond(std::move(r));
             done();
         });
-    });
+    }, thrown(c.respond));
     if (!queued) return problem(503, "busy", "too many changes wait: come again in a moment");
     return soon();
 }

@@ -39,9 +39,12 @@ void change(const std::shared_ptr<AccessPort>& port, std::string name, std::stri
             records.push_back(record_of(*user));
         } else {
             for (const auto& [id, t] : desk.tokens()) {
-                if (t.owner == name) records.push_back({"token", id, std::nullopt});
+                if (t.owner != name) continue;
+                records.push_back({"token", id, std::nullopt});
+                records.push_back(no_use_of_token(id));
             }
             records.push_back({"user", name, std::nullopt});
+            records.push_back(no_use_of_user(name));
         }
         port->keep(std::move(records), by, [=](const std::string& fault) {
             if (!fault.empty()) {
@@ -49,9 +52,7 @@ void change(const std::shared_ptr<AccessPort>& port, std::string name, std::stri
                 return done();
             }
             if (user) {
-                User kept = *user;
-                if (const User* now = port->desk().user(name)) kept.last_sign_in_ns = std::max(kept.last_sign_in_ns, now->last_sign_in_ns);
-                port->desk().put(std::move(kept));
+                port->desk().put(*user);
             } else {
                 (void)port->desk().remove_user(name);
             }
@@ -63,7 +64,7 @@ void change(const std::shared_ptr<AccessPort>& port, std::string name, std::stri
             respond(std::move(r));
             done();
         });
-    });
+    }, thrown(respond));
     if (!queued) respond(problem(503, "busy", "too many changes wait: come again in a moment"));
 }
 }  // namespace

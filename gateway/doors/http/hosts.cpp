@@ -36,6 +36,8 @@ bool is_loopback(std::string_view name) {
 }
 }  // namespace
 
+std::string_view host_meant(const Request& request) { return authority_of(request.target).value_or(request.headers.get("Host")); }
+
 bool same_host(std::string_view origin, std::string_view host) {
     const auto scheme = origin.find("://");
     if (scheme == std::string_view::npos) return false;
@@ -50,14 +52,30 @@ bool same_host(std::string_view origin, std::string_view host) {
     return !trimmed(host).empty() && with_port(origin.substr(scheme + 3)) == with_port(host);
 }
 
+bool host_is_written_right(std::string_view host) {
+    host = trimmed(host);
+    const std::string_view name = host_name(host);
+    std::string_view port = host.substr(name.size());
+    if (!port.empty() && (port.front() != ':' || (port.size() > 1 && !parse_whole(port.substr(1), 0, 65535)))) return false;
+    if (name.starts_with('[')) return is_ip_address(name);
+    return std::ranges::all_of(name, [](char c) {
+        return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || std::string_view("-._~%!$&'()*+,;=").find(c) != std::string_view::npos;
+    });
+}
+
 bool host_allowed(std::string_view host, const Settings& settings) {
     std::string name = lower(host_name(trimmed(host)));
     if (name.size() > 1 && name.back() == '.') name.pop_back();
-    const std::string bound = lower(host_name(settings.bind));
-    const auto listed = [&](const std::string& allowed) { return lower(allowed) == name; };
-    if (is_ip_address(name) || is_loopback(name) || (!bound.empty() && name == bound)) return true;
-    if (std::ranges::any_of(settings.allowed_hosts, listed)) return true;
-    return settings.allowed_hosts.empty() && !is_loopback(bound) && !name.empty();
+    const auto listed = [&](const std::string& allowed) { return lower(host_name(trimmed(allowed))) == name; };
+    return is_ip_address(name) || is_loopback(name) || (!name.empty() && std::ranges::any_of(settings.allowed_hosts, listed));
 }
+
+bool host_is_loopback(std::string_view host) {
+    std::string name = lower(host_name(trimmed(host)));
+    if (name.size() > 1 && name.back() == '.') name.pop_back();
+    return is_loopback(name);
+}
+
+bool host_is_outer_address(std::string_view host) { return is_ip_address(host_name(trimmed(host))) && !host_is_loopback(host); }
 
 }  // namespace axisgate::http

@@ -54,6 +54,8 @@ struct Handled {
     std::optional<Response> now;
     std::chrono::nanoseconds limit{};  ///< if `now` is empty: answer `at_limit` when this has passed without a call
     Response at_limit;
+    std::optional<bool> known{};      ///< whether it came from somebody: signed in, a token, or this machine; nothing: not looked at
+    bool commands = false;            ///< of a route that may set something in motion
     std::string_view route = "none";  ///< for a counter, set by the router: a path of its table, "static" for files, "none"
 
     Handled() = default;

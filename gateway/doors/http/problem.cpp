@@ -9,8 +9,21 @@
 namespace axisgate::http {
 namespace json = boost::json;
 
+namespace {
+constexpr std::size_t most_told_bytes = 1024;  // of one text: it may repeat what the client sent
+
+/// The beginning of a text that is too long, cut between two letters.
+std::string told(const std::string& text) {
+    if (text.size() <= most_told_bytes) return text;
+    std::size_t end = most_told_bytes;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80)
+        --end;
+    return text.substr(0, end) + "...";
+}
+}  // namespace
+
 json::object to_json(const Fault& f) {
-    return {{"document", f.in_body ? "body" : "site"}, {"pointer", f.pointer}, {"text", f.text}, {"remedy", f.remedy}};
+    return {{"document", f.in_body ? "body" : "site"}, {"pointer", told(f.pointer)}, {"text", told(f.text)}, {"remedy", told(f.remedy)}};
 }
 
 Response to_response(const Problem& p) {
@@ -18,15 +31,19 @@ Response to_response(const Problem& p) {
     for (auto& c : title)
         c = c == '_' ? ' ' : c;
     if (!title.empty() && title[0] >= 'a' && title[0] <= 'z') title[0] = static_cast<char>(title[0] - 'a' + 'A');
-    json::object o{{"type", "urn:axisgate:problem:" + p.reason}, {"title", title}, {"status", p.status}, {"detail", p.detail}};
+    json::object o{{"type", "urn:axisgate:problem:" + p.reason}, {"title", title}, {"status", p.status}, {"detail", told(p.detail)}};
     o["code"] = p.code == 0 ? json::value(nullptr) : json::value(p.code);
     o["reason"] = p.reason;
     if (!p.axis.empty()) o["axis"] = p.axis;
     if (!p.faults.empty()) {
         json::array list;
-        for (const auto& f : p.faults)
+        for (const auto& f : p.faults) {
+            if (list.size() == most_faults) break;
             list.push_back(to_json(f));
+        }
+        const std::size_t more = p.faults.size() - list.size() + p.more_faults;
         o["faults"] = std::move(list);
+        o["more_faults"] = more;
     }
     for (const auto& [k, v] : p.more)
         o[k] = v;
@@ -42,11 +59,15 @@ Response problem(unsigned status, std::string_view reason, std::string detail) {
     return to_response(Problem{.status = status, .reason = std::string(reason), .detail = std::move(detail)});
 }
 
-Response invalid(std::vector<Fault> faults, std::string_view axis, std::string_view reason) {
+Response invalid(std::vector<Fault> faults, std::string_view axis, std::string_view reason, std::size_t more) {
     std::string detail = faults.empty() ? std::string("the document is not right") : faults.front().text;
-    if (faults.size() > 1) detail += fmt::format(" (and {} more)", faults.size() - 1);
-    return to_response(Problem{
-        .status = 422, .reason = std::string(reason), .detail = std::move(detail), .axis = std::string(axis), .faults = std::move(faults)});
+    if (faults.size() + more > 1) detail += fmt::format(" (and {} more)", faults.size() + more - 1);
+    return to_response(Problem{.status = 422,
+                               .reason = std::string(reason),
+                               .detail = std::move(detail),
+                               .axis = std::string(axis),
+                               .faults = std::move(faults),
+                               .more_faults = more});
 }
 
 unsigned status_of(Reason reason) noexcept {

@@ -25,21 +25,25 @@ struct Fault {
 };
 [[nodiscard]] boost::json::object to_json(const Fault& fault);
 
+/// So many faults are told at once, with the number of the others: a list as long as a body would make an answer that is longer than it.
+inline constexpr std::size_t most_faults = 20;
+
 struct Problem {
     unsigned status = 500;
     std::string reason;  ///< stable word: "not_found", "wrong_state"
     std::string detail;
     std::int32_t code = 0;  ///< the drive's own; 0 is shown as null
     std::string axis{};
-    std::vector<Fault> faults{};
+    std::vector<Fault> faults{};  ///< the first ones are told
+    std::size_t more_faults = 0;  ///< found, but not kept in the list
     boost::json::object more{};  ///< further members
 };
 
 [[nodiscard]] Response to_response(const Problem& problem);
 /// The common case.
 [[nodiscard]] Response problem(unsigned status, std::string_view reason, std::string detail);
-/// 422 with all its faults; the detail is the first one, with the number of the others.
-[[nodiscard]] Response invalid(std::vector<Fault> faults, std::string_view axis = {}, std::string_view reason = "invalid");
+/// 422 with its first faults; the detail is the first one, with the number of the others. `more`: beside those in the list.
+[[nodiscard]] Response invalid(std::vector<Fault> faults, std::string_view axis = {}, std::string_view reason = "invalid", std::size_t more = 0);
 
 /// The status for a reason, as command.hpp gives it.
 [[nodiscard]] unsigned status_of(Reason reason) noexcept;

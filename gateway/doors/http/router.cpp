@@ -8,6 +8,7 @@
 #include <array>
 #include <iterator>
 
+#include "gateway/doors/http/accounts.hpp"
 #include "gateway/doors/http/hosts.hpp"
 #include "gateway/doors/http/request_checks.hpp"
 #include "gateway/doors/http/static_files.hpp"
@@ -54,9 +55,8 @@ constexpr std::array routes{
     Route{"/api/v1/axes/{axis}", Method::put, replace_axis, Takes::json},
     Route{"/api/v1/axes/{axis}", Method::patch, change_axis, Takes::patch},
     Route{"/api/v1/axes/{axis}", Method::remove, remove_axis, Takes::nothing, Gives::nothing}.asks("cascade"),
-    Route{"/api/v1/axes/{axis}/commands", Method::post, command_axis, Takes::json}.asks("wait").needs(
-        Role::viewer),  // stops; all others: operator
-    Route{"/api/v1/axes/{axis}/actions", Method::post, act_on_axis, Takes::json}.asks("wait"),
+    Route{"/api/v1/axes/{axis}/commands", Method::post, command_axis, Takes::json}.asks("wait").needs(Role::viewer).moves(),  // stops; all others: operator
+    Route{"/api/v1/axes/{axis}/actions", Method::post, act_on_axis, Takes::json}.asks("wait").moves(),
     Route{"/api/v1/authority", Method::get, list_authority},
     Route{"/api/v1/axes/{axis}/authority", Method::get, get_authority},
     Route{"/api/v1/axes/{axis}/authority", Method::put, take_authority, Takes::json}.needs(Role::operating),
@@ -67,7 +67,7 @@ constexpr std::array routes{
     Route{"/api/v1/axes/{axis}/parameters", Method::get, list_parameters}.asks("group array first"),
     Route{"/api/v1/axes/{axis}/parameters/{parameter}", Method::get, read_parameter}.asks("cached history"),
     Route{"/api/v1/axes/{axis}/parameters/{parameter}", Method::put, write_parameter, Takes::json},
-    Route{"/api/v1/moves/start", Method::post, start_moves, Takes::json}.asks("wait").needs(Role::operating),
+    Route{"/api/v1/moves/start", Method::post, start_moves, Takes::json}.asks("wait").needs(Role::operating).moves(),
     Route{"/api/v1/site", Method::get, get_site},
     Route{"/api/v1/site", Method::put, replace_site, Takes::json}.asks("dry_run"),
     Route{"/api/v1/mappings", Method::get, list_mappings}.asks("unit axis"),
@@ -116,7 +116,7 @@ constexpr std::array routes{
     Route{"/api/v1/recipes/{recipe}", Method::get, get_recipe},
     Route{"/api/v1/recipes/{recipe}", Method::put, put_recipe, Takes::json}.asks("dry_run"),
     Route{"/api/v1/recipes/{recipe}", Method::remove, remove_recipe, Takes::nothing, Gives::nothing},
-    Route{"/api/v1/recipes/{recipe}/run", Method::post, run_recipe, Takes::json}.needs(Role::operating),
+    Route{"/api/v1/recipes/{recipe}/run", Method::post, run_recipe, Takes::json}.needs(Role::operating).moves(),
     Route{"/api/v1/recipes/{recipe}/runs", Method::get, list_recipe_runs},
     Route{"/api/v1/recipes/{recipe}/runs/{run}", Method::get, get_recipe_run},
     Route{"/api/v1/recipes/{recipe}/runs/{run}/cancel", Method::post, cancel_recipe_run}.needs(Role::operating),
@@ -135,9 +135,6 @@ constexpr std::array routes{
     Route{"/api/v1/tokens/{token}", Method::remove, remove_token, Takes::nothing, Gives::nothing}.needs(Role::viewer),
     Route{"/api/v1/stream", Method::get, open_stream, Takes::nothing, Gives::own, true},
 };
-
-/// The host that a request is for: an absolute target says so in place of the header, whatever that says (RFC 9112 3.2.2).
-std::string_view host_meant(const Request& request) { return authority_of(request.target).value_or(request.headers.get("Host")); }
 
 constexpr std::array<Method, 5> told_methods{Method::get, Method::post, Method::put, Method::patch, Method::remove};
 
@@ -253,10 +250,10 @@ std::optional<Response> Router::check_host(const Request& request) const {
     if (named && named->empty()) return problem(400, "bad_request", "the request target names no host");
     if (count == 0 && !named) return std::nullopt;
     const auto host = host_meant(request);
+    if (!host_is_written_right(host)) return problem(400, "bad_request", "the Host header is not a name or an address with or without a port");
     if (host_allowed(host, context_.settings)) return std::nullopt;
-    return problem(
-        421, "misdirected",
-        fmt::format("this gateway is not called {}: use its IP address or localhost, or add the name to the allowed hosts", host));
+    return problem(421, "misdirected",
+                   fmt::format("this gateway is not called {}: use its IP address or localhost, or add the name to [http] allowed_hosts", host));
 }
 
 std::optional<Response> Router::check_origin(const Request& request) {
@@ -276,7 +273,8 @@ struct Router::Entry {
     Identity identity{};
 };
 
-std::size_t Router::most_bytes(const Route& route) const noexcept {
+std::size_t Router::most_bytes(const Route& route, const Identity& identity) const noexcept {
+    if (identity.role == Role::none) return context_.settings.max_stranger_bytes;
     return route.takes == Takes::bytes ? context_.settings.max_backup_bytes : context_.settings.max_body_bytes;
 }
 
@@ -329,7 +327,7 @@ Router::Entry Router::enter(const Request& request, std::optional<Target> target
     if (wanted != Method::get || e.route->same_origin_only) {
         if (auto refusal = check_origin(request)) return answer(*std::move(refusal));
     }
-    if (const auto most = most_bytes(*e.route); request.announced_bytes.value_or(0) > most)
+    if (const auto most = most_bytes(*e.route, e.identity); request.announced_bytes.value_or(0) > most)
         return answer(problem(413, "too_large", fmt::format("a body may have {} bytes here", most)));
     if (const auto media = media_given(e.route->gives); !media.empty() && !accepts(request.headers.get("Accept"), media))
         return answer(problem(406, "not_acceptable", fmt::format("this can be given as {}", media)));
@@ -341,10 +339,10 @@ Router::Entry Router::enter(const Request& request, std::optional<Target> target
 
 Admission Router::admit(const Request& head) const {
     Admission a;
-    a.max_body_bytes = context_.settings.max_body_bytes;
+    a.max_body_bytes = context_.settings.max_stranger_bytes;
     try {
         Entry e = enter(head, parse_target(head.target), false);
-        if (e.route) a.max_body_bytes = most_bytes(*e.route);
+        if (e.route) a.max_body_bytes = most_bytes(*e.route, e.identity);
         if (e.answer && e.answer->status >= 400) a.refusal = std::move(e.answer);
     } catch (const std::exception& x) {
         a.refusal = problem(500, "internal", fmt::format("a fault of the gateway itself: {}", x.what()));
@@ -355,20 +353,24 @@ Admission Router::admit(const Request& head) const {
 
 Handled Router::dispatch(const Request& request, std::optional<Target> target, const Respond& respond) const {
     Entry e = enter(request, std::move(target), true);
-    if (e.answer) return *std::move(e.answer);
-    AccessPort* port = context_.access.get();
-    if (!e.identity.token_to_keep.empty()) {
-        if (const auto it = port->desk().tokens().find(e.identity.token_to_keep); it != port->desk().tokens().end()) {
-            port->keep({record_of(it->second)}, who(e.identity, request.peer), [](const std::string&) {});
-        }
+    Handled handled;
+    if (e.route) handled.known = e.identity.role != Role::none;
+    if (e.answer) {
+        handled.now = std::move(e.answer);
+        return handled;
     }
+    if (context_.access) keep_uses(context_.access);
+    const bool known = *handled.known;
     Call call{context_, request, *e.target, std::move(e.names), nullptr, respond, std::move(e.identity)};
     if (auto refusal = read_body(request, e.route->takes, call.body)) return *std::move(refusal);
     // Named clients that may command: to one of them an axis can be handed over.
     if (call.identity.role >= Role::operating && (!call.identity.user.empty() || request.headers.count("X-Client") != 0)) {
         context_.clients->note(*call.origin().client, context_.gateway.now_unix_ns());
     }
-    return e.route->handler(call);
+    handled = e.route->handler(call);
+    handled.known = known;
+    handled.commands = e.route->commands;
+    return handled;
 }
 
 void Router::finish(Response& r, bool is_head) {

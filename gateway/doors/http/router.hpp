@@ -35,10 +35,16 @@ struct Route {
     /// Names that its query may have, with blanks between them; any other is refused with 400, so that nobody believes in a `dry_run` or
     /// a filter that does not exist. What a value may be is the handler's.
     std::string_view query = {};
+    bool commands = false;  ///< may set something in motion: the connection is then a path on which it is stopped
 
     [[nodiscard]] constexpr Route asks(std::string_view names) const {
         Route r = *this;
         r.query = names;
+        return r;
+    }
+    [[nodiscard]] constexpr Route moves() const {
+        Route r = *this;
+        r.commands = true;
         return r;
     }
     [[nodiscard]] constexpr Route needs(Role role) const {
@@ -77,7 +83,7 @@ private:
     struct Entry;
     [[nodiscard]] Handled dispatch(const Request& request, std::optional<Target> target, const Respond& respond) const;
     [[nodiscard]] Entry enter(const Request& head, std::optional<Target> target, bool touch) const;
-    [[nodiscard]] std::size_t most_bytes(const Route& route) const noexcept;
+    [[nodiscard]] std::size_t most_bytes(const Route& route, const Identity& identity) const noexcept;
     [[nodiscard]] std::optional<Response> check_host(const Request& request) const;
     [[nodiscard]] static std::optional<Response> check_origin(const Request& request);
     static void finish(Response& response, bool is_head);

@@ -18,6 +18,11 @@ using asio::ip::tcp;
 using ErrorCode = boost::system::error_code;
 
 namespace {
+PlaceHolder holder_of(const asio::ip::address& a) {
+    if (a.is_v6()) return place_holder(a.to_v6().to_bytes());
+    return place_holder(asio::ip::make_address_v6(asio::ip::v4_mapped, a.to_v4()).to_bytes());
+}
+
 std::string text_of(const tcp::endpoint& e) {
     return e.address().is_v6() ? fmt::format("[{}]:{}", e.address().to_string(), e.port())
                                : fmt::format("{}:{}", e.address().to_string(), e.port());
@@ -52,6 +57,7 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
           recipe_timer(c),
           alarm_timer(c),
           own_hub(gateway, own_settings, own_counters, [this] { rearm(); }) {
+        budget.most = own_settings.max_held_bytes;
         recipes->rearm = [this] { rearm_recipes(); };
         recipes->tell = [this](const std::string& recipe, const boost::json::object& report) { own_hub.on_recipe(recipe, report); };
         own_hub.recipes_now = [this] { return recipes->in_progress(); };
@@ -99,29 +105,33 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
         ErrorCode ec;
         const auto peer = socket.remote_endpoint(ec);
         if (ec) return;
-        if (sessions.size() >= own_settings.max_connections) close_longest_idle();
-        if (sessions.size() >= own_settings.max_connections) {
+        const PlaceHolder holder = holder_of(peer.address());
+        if (!make_place(holder)) {
             ++own_counters.connections_refused;
             refuse(std::move(socket));
             return;
         }
         ++own_counters.connections_accepted;
         socket.set_option(tcp::no_delay(true), ec);
-        auto connection = std::make_shared<Connection>(Transport(std::move(socket)), shared_from_this(), text_of(peer));
+        auto connection = std::make_shared<Connection>(Transport(std::move(socket)), shared_from_this(), text_of(peer), holder);
         add(connection);
         connection->start();
     }
-    void close_longest_idle() {
-        Session* oldest = nullptr;
-        SteadyTime since{};
+    bool make_place(PlaceHolder newcomer) {
+        if (sessions.size() < own_settings.max_connections) return true;  // no need to look who is there
+        std::vector<Session*> all;
+        std::vector<Guest> guests;
         for (const auto& [key, session] : sessions) {
-            const auto idle = session->idle_since();
-            if (idle && (!oldest || *idle < since)) {
-                oldest = session.get();
-                since = *idle;
-            }
+            all.push_back(session.get());
+            guests.push_back(session->guest());
         }
-        if (oldest) oldest->abort();
+        // Nobody has said who he is before his first request: he comes as a stranger, and counts as known from its answer on.
+        const auto verdict = find_place(guests, newcomer, false, {own_settings.max_connections, own_settings.max_connections / 8});
+        if (verdict.closes) {
+            ++own_counters.connections_gave_way;
+            all[*verdict.closes]->abort();
+        }
+        return verdict.let_in;
     }
     void refuse(tcp::socket socket) {
         // One small write into an empty socket buffer; whether it arrives is the client's matter.

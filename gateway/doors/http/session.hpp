@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "gateway/core/instant.hpp"
+#include "gateway/core/places.hpp"
 #include "gateway/doors/http/counters.hpp"
 #include "gateway/doors/http/router.hpp"
 #include "gateway/doors/http/settings.hpp"
@@ -16,11 +17,25 @@
 
 namespace axisgate::http {
 
+/// Of what large answers and bodies hold of the memory, all connections together.
+struct ByteBudget {
+    std::size_t most = 0, held = 0;
+    [[nodiscard]] bool take(std::size_t bytes) noexcept {
+        if (bytes > most - held) return false;
+        held += bytes;
+        return true;
+    }
+    void give_back(std::size_t& bytes) noexcept {
+        held -= bytes;
+        bytes = 0;
+    }
+};
+
 using SteadyTime = std::chrono::steady_clock::time_point;
 
 struct Session {
-    /// Since when nothing is in progress on it; nothing while a request is, and for the live feed.
-    [[nodiscard]] virtual std::optional<SteadyTime> idle_since() const = 0;
+    /// Whose it is, and whether it may be closed to make room for another.
+    [[nodiscard]] virtual Guest guest() const = 0;
     /// Ends after what is in progress; at once if nothing is.
     virtual void stop() = 0;
     /// Ends now.
@@ -36,6 +51,7 @@ struct SessionHost {
     StreamHub& hub;
     std::shared_ptr<TlsIdentity> tls;  ///< nothing: plain HTTP
     bool stopping = false;
+    ByteBudget budget;
 
     virtual void add(std::shared_ptr<Session> session) = 0;
     virtual void remove(const Session* session) = 0;

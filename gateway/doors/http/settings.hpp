@@ -18,22 +18,24 @@ using AssetLookup = std::function<std::string_view(std::string_view path)>;
 struct Settings {
     std::string bind = "127.0.0.1:8080";  ///< ADDRESS:PORT; "[::1]:8080", "localhost:8080"; port 0: any free one
     std::string version = "0";            ///< of the program, for /about
-    /// Names (without port) by which clients may call this gateway beside IP addresses and localhost. With a loopback `bind` all other
-    /// names are refused with 421, so that a page of another site cannot reach the gateway by re-binding its own name. With another
-    /// `bind` and an empty list every name is taken.
+    /// Names by which clients may call this gateway beside IP addresses and localhost. All other names are refused with 421, whatever
+    /// `bind` is: a page of another site may bind its own name to this machine, and its requests would come from this machine.
     std::vector<std::string> allowed_hosts;
     bool low_word_first = false;    ///< of the standard map, as `[modbus] word_order` has it: for what shows and describes its registers
     bool require_if_match = false;  ///< true: PUT /site without If-Match is refused with 428
 
-    std::size_t max_connections = 512;                ///< beyond: the longest idle one is closed; if none is idle, 503
-    std::size_t max_header_bytes = 8 * 1024;          ///< request line and headers; beyond: 431
+    std::size_t max_connections = 512;  ///< an eighth more for who has signed in; beyond: who gives way is told in gateway/core/places.hpp; if nobody may, 503
+    std::size_t max_header_bytes = 8 * 1024;          ///< request line and headers with the empty line behind them; beyond: 431
+    std::size_t max_stranger_bytes = 8 * 1024;        ///< body of a request without credentials, such as a sign-in; beyond: 413
     std::size_t max_body_bytes = 1024 * 1024;         ///< beyond: 413
     std::size_t max_backup_bytes = 64 * 1024 * 1024;  ///< PUT /backup alone
+    std::size_t max_held_bytes = 128 * 1024 * 1024;   ///< of all answers and bodies above 64 KiB together that are in the gateway's memory; beyond: 503
     std::chrono::milliseconds header_limit{10'000};   ///< from the first byte (or the connection) to the end of the headers; then 408
     std::chrono::milliseconds body_limit{30'000};     ///< for the whole body; then 408
     std::chrono::milliseconds idle_limit{60'000};     ///< between two requests of a connection; then it is closed
     std::chrono::milliseconds write_limit{30'000};  ///< without progress in writing an answer, or for one batch of the live feed; then cut
-    std::chrono::milliseconds stop_limit{5'000};    ///< for requests in progress when the door is closed
+    std::chrono::milliseconds answer_limit_at_stop{200};  ///< for requests that wait for an answer when the door is closed
+    std::chrono::milliseconds stop_limit{600};      ///< for all requests in progress then
     std::chrono::milliseconds linger_limit{2'000};  ///< for the client to read a last answer before the connection is cut
 
     std::chrono::milliseconds ping_period{20'000};    ///< of the live feed

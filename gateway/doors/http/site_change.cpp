@@ -130,7 +130,7 @@ Handled change_site(Call& c, bool if_match_demanded, std::function<Planned(const
     const bool taken = c.context.changes->run([order](std::function<void()> done) {
         order->done = std::move(done);
         order->attempt();
-    });
+    }, thrown(order->respond));
     if (!taken) return problem(503, "busy", "too many changes of the site wait already: try again");
     return {gateway_limit, problem(504, "time_out", "the change was not applied in time: look at the site before trying again")};
 }

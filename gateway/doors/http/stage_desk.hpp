@@ -13,6 +13,8 @@ namespace axisgate::http {
 
 class StageDesk {
 public:
+    bool confirming = false;  ///< the disk is asked to keep the applied site
+
     StageDesk();
 
     /// "k3f9Qa-2": another one for each stage, also of other runs of the program.

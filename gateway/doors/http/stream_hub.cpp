@@ -85,6 +85,10 @@ void StreamHub::on_text(StreamClient& c, std::string_view text, Instant now) {
         wake(c);
         return;
     }
+    if (!may_ask(c, *request, now)) {
+        c.close(close_policy, "too many requests: subscribe once, and change what you watch at most a few times a second");
+        return wake(c);
+    }
     c.wrong_in_a_row_ = 0;
     for (const auto& topic : request->unsubscribe)
         unsubscribe(c, topic);
@@ -94,6 +98,15 @@ void StreamHub::on_text(StreamClient& c, std::string_view text, Instant now) {
     keep_groups(now);
     wake(c);
     if (rearm_) rearm_();
+}
+
+bool StreamHub::may_ask(StreamClient& c, const StreamRequest& request, Instant now) {
+    double cost = 1 + static_cast<double>(request.subscribe.size() + request.unsubscribe.size()) / 50;
+    for (const auto& topic : request.subscribe)
+        cost += topic.ends_with("/frames") ? 4 : 0;
+    c.asked_ = std::max(0.0, c.asked_ - seconds(now - c.asked_at_) * allowance_per_s) + cost;
+    c.asked_at_ = now;
+    return c.asked_ <= allowance;
 }
 
 void StreamHub::subscribe(StreamClient& c, const std::string& topic, std::int64_t period_ms) {

@@ -59,6 +59,8 @@ private:
     bool recipes_ = false;
     bool alarms_ = false;
     int wrong_in_a_row_ = 0;
+    double asked_ = 0;    ///< of the client's allowance, see StreamHub::allowance
+    Instant asked_at_{};  ///< as of when
     std::uint16_t closing_ = 0;
     bool has_work_ = false;  ///< something was put into the queue since the last wake-up
 };
@@ -103,7 +105,12 @@ private:
     static constexpr std::size_t first_frames = 200;  ///< of a line, told at once
     static constexpr std::size_t most_frames = 4096;  ///< in one message
     static constexpr int wrong_requests = 3;          ///< in a row, then the client is closed
+    /// Every subscription tells the whole state anew: a client may ask for so much at once, and for so much more a second. A request costs 1,
+    /// with 1 more for each 50 topics, and 4 for each line's frames. Beyond, the client is closed.
+    static constexpr double allowance = 200, allowance_per_s = 20;
 
+    /// Counts a request against the allowance; false: it is used up.
+    [[nodiscard]] static bool may_ask(StreamClient& c, const StreamRequest& request, Instant now);
     void subscribe(StreamClient& c, const std::string& topic, std::int64_t period_ms);
     void unsubscribe(StreamClient& c, const std::string& topic);
     void resolve(StreamClient& c, Instant now, const std::vector<std::string>* snapshots_of);

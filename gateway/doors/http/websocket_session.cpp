@@ -15,8 +15,8 @@ constexpr std::size_t batch_bytes = 64 * 1024;
 constexpr int send_buffer_bytes = 128 * 1024;
 }  // namespace
 
-WebSocketSession::WebSocketSession(Transport socket, std::shared_ptr<SessionHost> host, Request opened_by)
-    : socket_(std::move(socket)), host_(std::move(host)), opened_by_(std::move(opened_by)), timer_(socket_.get_executor()), parser_(host_->settings.max_message_bytes) {}
+WebSocketSession::WebSocketSession(Transport socket, std::shared_ptr<SessionHost> host, Request opened_by, PlaceHolder holder)
+    : socket_(std::move(socket)), host_(std::move(host)), opened_by_(std::move(opened_by)), holder_(holder), timer_(socket_.get_executor()), parser_(host_->settings.max_message_bytes) {}
 
 WebSocketSession::~WebSocketSession() = default;
 

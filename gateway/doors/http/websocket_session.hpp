@@ -18,12 +18,12 @@ namespace axisgate::http {
 class WebSocketSession final : public Session, public std::enable_shared_from_this<WebSocketSession> {
 public:
     /// `opened_by`: the handshake; when its session or token no longer holds, the feed is closed with 1008 (looked at every `right_period`).
-    WebSocketSession(Transport socket, std::shared_ptr<SessionHost> host, Request opened_by);
+    WebSocketSession(Transport socket, std::shared_ptr<SessionHost> host, Request opened_by, PlaceHolder holder);
     ~WebSocketSession() override;
 
     /// `early`: bytes that came with the handshake.
     void start(std::span<const std::uint8_t> early);
-    [[nodiscard]] std::optional<SteadyTime> idle_since() const override { return std::nullopt; }
+    [[nodiscard]] Guest guest() const override { return {holder_, Standing::knowns_work, Instant{heard_.time_since_epoch()}}; }
     void stop() override;
     void abort() override;
 
@@ -44,6 +44,7 @@ private:
     Transport socket_;
     std::shared_ptr<SessionHost> host_;
     Request opened_by_;
+    PlaceHolder holder_;
     boost::asio::steady_timer timer_;
     std::shared_ptr<StreamClient> client_;
     WebSocketParser parser_;

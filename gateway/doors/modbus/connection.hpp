@@ -59,6 +59,9 @@ public:
     [[nodiscard]] std::uint64_t requests() const noexcept { return session_.requests(); }
     [[nodiscard]] std::uint64_t writes() const noexcept { return session_.writes(); }
     [[nodiscard]] std::uint64_t exceptions() const noexcept { return session_.exceptions(); }
+    [[nodiscard]] bool has_commanded() const noexcept { return session_.has_commanded(); }
+    /// Half a request came last, and nothing since.
+    [[nodiscard]] bool holds_half() const noexcept { return had_partial_; }
     [[nodiscard]] bool has_asked() const noexcept { return session_.requests() > 0; }
     /// Why it stands still, for whoever closes it at its deadline.
     [[nodiscard]] bool has_unsent() const noexcept { return !backlog_.empty(); }

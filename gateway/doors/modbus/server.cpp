@@ -16,6 +16,7 @@
 #include <cstring>
 #include <utility>
 
+#include "gateway/core/places.hpp"
 #include "gateway/doors/modbus/connection.hpp"
 #include "gateway/doors/modbus/endpoint.hpp"
 
@@ -30,6 +31,14 @@ constexpr int backlog = 1024;
 constexpr int socket_buffer = 64 * 1024;  // bytes each way: what a client that does not read can hold in the kernel is bounded too
 
 void set_option(int fd, int level, int name, int value) { (void)::setsockopt(fd, level, name, &value, sizeof value); }
+
+constexpr std::size_t most_commanders = 64;  // addresses that are remembered for having commanded
+constexpr PlaceHolder nobody = 0;
+
+PlaceHolder holder_of(const asio::ip::address& a) {
+    if (a.is_v6()) return place_holder(a.to_v6().to_bytes());
+    return place_holder(asio::ip::make_address_v6(asio::ip::v4_mapped, a.to_v4()).to_bytes());
+}
 
 bool someone_waits(int listening) {
     pollfd p{listening, POLLIN, 0};
@@ -57,9 +66,9 @@ public:
           timer_(io) {
         partial_timeout = settings_.partial_timeout;
         stall_timeout = settings_.stall_timeout;
-        places_.resize(settings_.max_connections);
-        times_.resize(settings_.max_connections);
-        for (std::size_t i = settings_.max_connections; i-- > 0;)
+        places_.resize(settings_.max_connections + kept_places());
+        times_.resize(places_.size());
+        for (std::size_t i = places_.size(); i-- > 0;)
             free_.push_back(i);
         responder_.ask_heard([this](std::string_view host) { return heard(host); });
     }
@@ -106,6 +115,7 @@ public:
         for (std::size_t i = 0; i < places_.size(); ++i) {
             Connection* const c = places_[i].connection.get();
             if (!c) continue;
+            if (c->has_commanded() && (commanders_.empty() || commanders_.back() != places_[i].holder)) note_commander(places_[i].holder);
             if (times_[i].deadline <= at) {
                 c->close(c->has_unsent() ? &counters().closed_not_reading : &counters().closed_partial);
             } else if (at - times_[i].last_request >= settings_.idle_timeout && !c->commands_now(port_.image())) {
@@ -163,6 +173,7 @@ public:
     }
     void closed(ConnectionToken token) override {
         const std::size_t i = place_of(token);
+        if (places_[i].connection->has_commanded()) note_commander(places_[i].holder);
         const std::string host = std::move(places_[i].host);
         buried_.push_back(std::move(places_[i].connection));  // it is still at work: destroyed by bury()
         times_[i] = {};
@@ -182,6 +193,7 @@ private:
         std::uint32_t users = 0;
         std::string host;  // the client's stable name: its address without the port
         Instant since{};
+        PlaceHolder holder = 0;
     };
     [[nodiscard]] static std::size_t place_of(ConnectionToken token) noexcept { return static_cast<std::uint32_t>(token); }
     /// nullptr: that connection is closed, whoever has its place now.
@@ -257,7 +269,7 @@ private:
                 // Told even if nobody is waiting: then nobody is closed for it. Else the waiting client stays in the listen queue; asking
                 // again at once would only burn the processor.
                 if (!someone_waits(l.acceptor.native_handle())) return;
-                if (!evict_one()) {
+                if (!make_place(nobody, true)) {
                     l.paused = true;
                     watch_time();
                     return;
@@ -277,7 +289,8 @@ private:
             ::close(fd);
             return;
         }
-        if (free_.empty() && !evict_one()) {
+        const PlaceHolder holder = holder_of(from.address());
+        if (!make_place(holder, false) || free_.empty()) {
             counters().connections_refused.add();
             ::close(fd);
             return;
@@ -297,6 +310,7 @@ private:
         origin.door = Door::modbus;
         origin.who = std::make_shared<const std::string>(to_text(from));
         places_[i].host = AuthorityClient::of(origin).name;
+        places_[i].holder = holder;
         places_[i].connection = std::make_unique<Connection>(fd, poller_, *this, responder_, token, to_text(from));
         counters().connections_accepted.add();
         counters().connections_open.add();
@@ -312,22 +326,38 @@ private:
         return newest;
     }
 
-    /// Closes the connection that has been idle for longest, if one may be closed.
-    bool evict_one() {
+    /// Closes a connection to make room for one of `newcomer`; false: there is no room. `full`: of descriptors, not of places.
+    bool make_place(PlaceHolder newcomer, bool full) {
+        if (!full && open_count() < settings_.max_connections) return true;  // no need to look who is there
         const Instant at = port_.now();
-        Connection* oldest = nullptr;
-        Instant since = never;
+        std::vector<std::size_t> indices;
+        std::vector<Guest> guests;
         for (std::size_t i = 0; i < places_.size(); ++i) {
-            Connection* const c = places_[i].connection.get();
-            if (!c || times_[i].last_request >= since) continue;
-            if (at - times_[i].last_request < settings_.idle_before_eviction && c->has_asked()) continue;
-            if (c->commands_now(port_.image())) continue;
-            oldest = c;
-            since = times_[i].last_request;
+            const Connection* const c = places_[i].connection.get();
+            if (!c) continue;
+            indices.push_back(i);
+            guests.push_back({places_[i].holder, standing_of(*c, at - times_[i].last_request), times_[i].last_request});
         }
-        if (oldest) oldest->close(&counters().connections_evicted);
-        return oldest != nullptr;
+        const auto verdict = find_place(guests, newcomer, has_commanded(newcomer), {settings_.max_connections, kept_places()}, full);
+        if (verdict.closes) places_[indices[*verdict.closes]].connection->close(&counters().connections_evicted);
+        return verdict.let_in;
     }
+    [[nodiscard]] Standing standing_of(const Connection& c, Duration silent) const {
+        if (c.commands_now(port_.image())) return Standing::stop_path;
+        const bool works = silent < settings_.idle_before_eviction && c.has_asked() && !c.holds_half();
+        if (c.has_commanded()) return works ? Standing::knowns_work : Standing::known;
+        return works ? Standing::strangers_work : Standing::stranger;
+    }
+    [[nodiscard]] std::size_t open_count() const noexcept { return places_.size() - free_.size(); }
+    [[nodiscard]] std::size_t kept_places() const noexcept { return settings_.max_connections / 8; }
+
+    // A Modbus client is its address, and comes back from another port: who has commanded finds a place again.
+    void note_commander(PlaceHolder holder) {
+        std::erase(commanders_, holder);
+        commanders_.push_back(holder);
+        if (commanders_.size() > most_commanders) commanders_.erase(commanders_.begin());
+    }
+    [[nodiscard]] bool has_commanded(PlaceHolder holder) const noexcept { return std::ranges::find(commanders_, holder) != commanders_.end(); }
 
     void watch_time() {
         if (std::exchange(timing_, true)) return;
@@ -358,6 +388,7 @@ private:
     std::vector<std::size_t> free_;
     std::vector<std::unique_ptr<Connection>> buried_;
     std::vector<ConnectionToken> ready_, resuming_;
+    std::vector<PlaceHolder> commanders_;  // the newest last
 };
 
 Server::Server(asio::io_context& io, DoorPort& port, ServerSettings settings)

@@ -3,9 +3,11 @@
 // Never blocks, never uses descriptor sets (select), and never lets one client's bytes, silence or slowness delay another's answer.
 //
 // What happens at the bounds:
-//   connections     at `max_connections` the longest idle one is closed for a new one; never one that commands (a write on its way, or an
-//                   axis moving that it set in motion under Modbus' authority), nor one whose last request is younger than
-//                   `idle_before_eviction`. If none is left to close, the new one is refused (closed at once).
+//   connections     at `max_connections` one gives way for a new one, see gateway/core/places.hpp: first those that have never commanded and
+//                   stand still, of the address that has most of them. Never the newest 16 of an address that command (a write on its way,
+//                   or an axis moving that it set in motion under Modbus' authority), and one whose last request is younger than
+//                   `idle_before_eviction` only if its address has more than an eighth of all. An eighth more places are kept for
+//                   addresses that have commanded. If none is left to close, the new one is refused (closed at once).
 //   idle            a connection without a request for `idle_timeout` is closed, unless it commands.
 //   half a request  is closed `partial_timeout` after its first byte, however slowly further bytes drip in.
 //   not reading     a client that takes no answers is not read from while some wait (at most 64 KiB here and the kernel's socket

@@ -64,6 +64,8 @@ public:
     /// This client commands: a write is on its way, or an axis that it wrote to successfully moves under Modbus' authority. Such a client
     /// is neither closed for being idle nor to make room.
     [[nodiscard]] bool commands_now(const Image& image) const;
+    /// A write of this client was carried out on some axis.
+    [[nodiscard]] bool has_commanded() const noexcept { return commanded_.any(); }
     /// The client has gone: its writes go on, but nobody waits for them, and the Responder is not used again.
     void abandon() noexcept;
 

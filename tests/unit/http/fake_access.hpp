@@ -2,6 +2,7 @@
 // In: what the test sets. Out: what the door stored and told. Never has a thread or a clock.
 #pragma once
 
+#include <deque>
 #include <string>
 #include <vector>
 
@@ -25,13 +26,25 @@ public:
         return true;
     }
     void keep(std::vector<AccessRecord> records, std::string, std::function<void(std::string)> then) override {
-        if (store_fault.empty()) kept.insert(kept.end(), records.begin(), records.end());
-        then(store_fault);
+        auto write = [this, records = std::move(records), then = std::move(then)] {
+            if (store_fault.empty()) kept.insert(kept.end(), records.begin(), records.end());
+            then(store_fault);
+        };
+        if (slow_disk) return writing.push_back(std::move(write));
+        write();
+    }
+    /// The disk has done what was asked of it first.
+    void write_one() {
+        const auto write = std::move(writing.front());
+        writing.pop_front();
+        write();
     }
     void tell(Event event) override { told.push_back(std::move(event)); }
 
     AccessDesk own_desk;
     bool full = false;
+    bool slow_disk = false;
+    std::deque<std::function<void()>> writing;
     int compared = 0;
     std::string store_fault;
     std::vector<AccessRecord> kept;

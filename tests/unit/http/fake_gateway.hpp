@@ -369,10 +369,11 @@ public:
     }
     std::optional<ModbusReport> modbus_door;
     void modbus_report(std::function<void(std::optional<ModbusReport>)> then) override { then(modbus_door); }
-    void set_modbus_read_only(bool on, Origin, std::function<void(std::string)> then) override {
-        if (!modbus_door) return then("there is no Modbus door");
+    void set_modbus_read_only(bool on, Origin, std::function<void(std::string, bool)> then) override {
+        if (!modbus_door) return then("there is no Modbus door", false);
+        if (!keep_fault.empty()) return then(keep_fault, true);
         modbus_door->read_only = on;
-        then("");
+        then("", false);
     }
     void backup(std::function<void(std::optional<std::string>, std::string)> then) override { then("SQLite", ""); }
     void restore(std::string bytes, Origin, std::function<void(RestoreFault)> then) override {

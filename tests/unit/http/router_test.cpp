@@ -103,30 +103,43 @@ TEST_F(HttpTest, SecurityHeadersEverywhere) {
     EXPECT_EQ(call("GET", "/").headers.get("Cache-Control"), "no-cache");
 }
 
-TEST_F(HttpTest, HostsOnALoopbackBind) {
-    const auto with = [this](std::string host) { return call("GET", "/healthz", "", {{"Host", std::move(host)}}).status; };
-    for (const auto* good : {"127.0.0.1:8080", "127.0.0.1", "localhost", "LOCALHOST:1", "page.localhost", "[::1]:8080", "192.0.2.7",
-                             "[2001:db8::1]", "localhost."})
-        EXPECT_EQ(with(good), 200u) << good;
-    for (const auto* bad : {"evil.example", "evil.example:8080", "", "127.0.0.1.evil.example", "localhost.evil.example", "1.2.3",
-                            "1.2.3.4.5", "256.1.1.1", "[x]", "gateway"}) {
-        EXPECT_EQ(with(bad), 421u) << bad;
+TEST_F(HttpTest, HostsThatAreNotListedAreMisdirectedWhateverTheBind) {
+    for (const auto* bind : {"127.0.0.1:8080", "[::1]:8080", "localhost:8080", "0.0.0.0:8080", "[::]:8080", "192.0.2.7:8080", "*:8080", ":8080"}) {
+        settings.bind = bind;
+        settings.allowed_hosts.clear();
+        const auto with = [this](std::string host) { return call("GET", "/api/v1/about", "", {{"Host", std::move(host)}}).status; };
+        for (const auto* good : {"127.0.0.1:8080", "127.0.0.1", "localhost", "LOCALHOST:1", "page.localhost", "[::1]:8080", "localhost.", "127.1.2.3"})
+            EXPECT_EQ(with(good), 200u) << bind << ' ' << good;
+        for (const auto* bad : {"evil.example", "evil.example:8080", "", "127.0.0.1.evil.example", "localhost.evil.example", "1.2.3", "1.2.3.4.5", "256.1.1.1", "gateway", ":8080"})
+            EXPECT_EQ(with(bad), 421u) << bind << ' ' << bad;
+        settings.allowed_hosts = {"Gateway.example", "*"};
+        EXPECT_EQ(with("gateway.EXAMPLE:8080"), 200u) << bind;
+        EXPECT_EQ(with("gateway.example."), 200u) << bind;
+        EXPECT_EQ(with("evil.example"), 421u) << bind << ": no name stands for all";
     }
-    settings.allowed_hosts = {"Gateway.example"};
-    EXPECT_EQ(with("gateway.EXAMPLE:8080"), 200u);
-    EXPECT_EQ(with("evil.example"), 421u);
     EXPECT_EQ(call("GET", "/healthz", "", {{"Host", "evil.example"}}).at("reason"), "misdirected");
     EXPECT_EQ(call("GET", "/", "", {{"Host", "evil.example"}}).status, 421u) << "the page too";
+    EXPECT_EQ(call("GET", "http://evil.example/api/v1/about", "", {{"Host", "localhost"}}).status, 421u) << "an absolute target counts";
 }
 
-TEST_F(HttpTest, HostsOnAnOpenBind) {
-    settings.bind = "0.0.0.0:8080";
-    const auto with = [this](std::string host) { return call("GET", "/healthz", "", {{"Host", std::move(host)}}).status; };
-    EXPECT_EQ(with("gateway.example"), 200u);
-    settings.allowed_hosts = {"gateway.example"};
-    EXPECT_EQ(with("gateway.example"), 200u);
-    EXPECT_EQ(with("other.example"), 421u);
-    EXPECT_EQ(with("192.0.2.7"), 200u);
+TEST_F(HttpTest, AnAddressOfAnotherWayInIsServedButIsNotThisMachine) {
+    for (const auto* host : {"192.0.2.7", "192.0.2.7:8080", "[2001:db8::1]", "[2001:db8::1]:80"}) {
+        EXPECT_EQ(call("GET", "/healthz", "", {{"Host", host}}).status, 200u) << host;
+        EXPECT_EQ(call("GET", "/api/v1/about", "", {{"Host", host}}).status, 401u) << host;
+        EXPECT_EQ(call("GET", "http://" + std::string(host) + "/api/v1/about", "", {{"Host", "localhost"}}).status, 401u) << host;
+    }
+}
+
+TEST_F(HttpTest, WhatAProxyWritesTakesLocalAccessAway) {
+    EXPECT_EQ(call("GET", "/api/v1/about").status, 200u);
+    for (const auto* name : {"Forwarded", "X-Forwarded-For", "x-forwarded-host", "X-FORWARDED-PROTO", "X-Forwarded-Prefix", "X-Forwarded", "X-Real-IP", "Via", "X-Client-IP",
+                             "X-Cluster-Client-Ip", "X-Original-Forwarded-For", "X-Original-Host", "X-Envoy-External-Address", "True-Client-IP", "CF-Connecting-IP", "Fastly-Client-IP", "Client-IP",
+                             "CDN-Loop", "Proxy-Connection"}) {
+        EXPECT_EQ(call("GET", "/api/v1/about", "", {{"Host", "localhost"}, {name, "192.0.2.9"}}).status, 401u) << name;
+        EXPECT_EQ(call("GET", "/api/v1/about", "", {{"Host", "localhost"}, {name, ""}}).status, 401u) << name << ", empty";
+    }
+    for (const auto* name : {"X-Client", "Cache-Control", "Pragma", "Priority", "TE", "From", "X-Requested-With"})
+        EXPECT_EQ(call("GET", "/api/v1/about", "", {{"Host", "localhost"}, {name, "x"}}).status, 200u) << name;
 }
 
 TEST_F(HttpTest, HostHeaderItself) {
@@ -137,6 +150,10 @@ TEST_F(HttpTest, HostHeaderItself) {
     EXPECT_EQ(send(r).status, 200u) << "HTTP/1.0 has none";
     r.headers.fields = {{"Host", "localhost"}, {"host", "localhost"}};
     EXPECT_EQ(send(r).status, 400u);
+    for (const auto* bad : {"a b", "localhost:", "localhost:x", "localhost:8080:1", "localhost:65536", "me@localhost", "localhost/", "local\x7Fhost", "[x]", "[::1", "[::1]x", "[::1]:", "::1", "localhost, evil.example"}) {
+        r.headers.fields = {{"Host", bad}};
+        EXPECT_EQ(send(r).status, std::string_view(bad) == "localhost:" || std::string_view(bad) == "[::1]:" ? 200u : 400u) << bad;
+    }
 }
 
 TEST_F(HttpTest, RequestsOfOtherSitesCannotChangeAnything) {

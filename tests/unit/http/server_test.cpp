@@ -156,6 +156,16 @@ TEST_F(HttpServer, WhatIsNotHttp) {
               "PUT /api/v1/site HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nTransfer-Encoding: chunked\r\n\r\nzz\r\n",
               400},
              {"NUL in a header", std::string("GET / HTTP/1.1\r\nHost: a\0b\r\n\r\n", 30), 400},
+             {"another coding", "POST /api/v1/moves/start HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: gzip\r\n\r\n", 501},
+             {"a coding and a length", "POST /api/v1/moves/start HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: identity\r\nContent-Length: 4\r\n\r\nGET ", 400},
+             {"a length and a coding", "POST /api/v1/moves/start HTTP/1.1\r\nHost: localhost\r\nContent-Length: 4\r\nTransfer-Encoding: xchunked\r\n\r\nGET ", 400},
+             {"two codings", "POST /api/v1/moves/start HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\nTransfer-Encoding: identity\r\n\r\n0\r\n\r\n", 400},
+             {"a space before the colon", "POST /api/v1/moves/start HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding : chunked\r\n\r\n0\r\n\r\n", 400},
+             {"a line that goes on", "POST /api/v1/moves/start HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding:\r\n chunked\r\n\r\n0\r\n\r\n", 400},
+             {"chunks in HTTP/1.0", "POST /api/v1/moves/start HTTP/1.0\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\n", 400},
+             {"bare line feeds", "GET /healthz HTTP/1.1\nHost: localhost\r\n\r\n", 400},
+             {"two hosts", "GET /healthz HTTP/1.1\r\nHost: localhost\r\nHost: localhost\r\n\r\n", 400},
+             {"two authorizations", "GET /healthz HTTP/1.1\r\nHost: localhost\r\nAuthorization: Bearer a\r\nauthorization: Bearer b\r\n\r\n", 400},
              {"other expectation", "POST / HTTP/1.1\r\nHost: localhost\r\nExpect: magic\r\nContent-Length: 2\r\n\r\n{}", 417}}) {
         Client c(door.port);
         ASSERT_TRUE(c.send(bytes)) << what;
@@ -166,7 +176,116 @@ TEST_F(HttpServer, WhatIsNotHttp) {
     }
     Client good(door.port);
     EXPECT_EQ(good.get("/healthz").status(), 200u) << "nobody else is touched";
-    EXPECT_EQ(door.on([&] { return door.server().counters().malformed; }), 12u);
+    EXPECT_EQ(door.on([&] { return door.server().counters().malformed; }), 22u);
+}
+
+TEST_F(HttpServer, TheBoundOfAHeadIsExact) {
+    door.settings.max_header_bytes = 300;
+    door.open();
+    const std::string begin = "GET /healthz HTTP/1.1\r\nHost: localhost\r\nX: ";
+    const auto of = [&begin](std::size_t bytes) { return begin + std::string(bytes - begin.size() - 4, 'x') + "\r\n\r\n"; };
+    Client good(door.port);
+    for (const std::size_t bytes : {100u, 299u, 300u}) {
+        good.send(of(bytes));
+        EXPECT_EQ(good.receive().status(), 200u) << bytes;
+    }
+    Client bad(door.port);
+    bad.send(of(301));
+    EXPECT_EQ(bad.receive().status(), 431u);
+    EXPECT_TRUE(bad.closed());
+    Client endless(door.port);
+    endless.send(of(400).substr(0, 300));
+    EXPECT_EQ(endless.receive().status(), 431u) << "it cannot become a good one any more";
+}
+
+TEST_F(HttpServer, EmptyLinesBeforeARequest) {
+    door.settings.header_limit = milliseconds(100);
+    door.open();
+    Client c(door.port);
+    EXPECT_EQ(c.get("/healthz").status(), 200u);
+    c.send("\r\nGET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    EXPECT_EQ(c.receive().status(), 200u);
+    c.send("\r\n");
+    std::this_thread::sleep_for(milliseconds(200));  // longer than half a request may take: an empty line is none
+    c.send("GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    EXPECT_EQ(c.receive().status(), 200u);
+    c.send("\r\n\r\n\r\n\r\n");
+    EXPECT_EQ(c.receive().status(), 400u);
+}
+
+TEST_F(HttpServer, HalfRequestsDoNotShutTheDoor) {
+    door.settings.max_connections = 16;
+    door.open();
+    Client path(door.port), watching(door.port);
+    path.send(Client::post_text("/api/v1/axes/feeder/commands", R"({"command":"enable"})"));
+    ASSERT_TRUE(door.until([&] { return door.gateway.waiting.size() == 1; }));
+    door.on([&] { door.gateway.finish(good_result()); });
+    EXPECT_EQ(path.receive().status(), 200u);
+    EXPECT_EQ(watching.get("/api/v1/about").status(), 200u);
+    std::vector<std::unique_ptr<Client>> half;
+    for (int i = 0; i < 60; ++i) {
+        half.push_back(std::make_unique<Client>(door.port));
+        half.back()->send(i % 3 == 0   ? "GET /healthz HTTP/1.1\r\nHo"
+                          : i % 3 == 1 ? "POST /api/v1/session HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 100\r\n\r\n{"
+                                       : "");
+    }
+    Client fresh(door.port);
+    EXPECT_EQ(fresh.get("/healthz").status(), 200u) << "there is always a place for one more";
+    EXPECT_EQ(path.get("/healthz").status(), 200u) << "the path of a stop stays";
+    EXPECT_EQ(watching.get("/healthz").status(), 200u) << "and so does who is known";
+    EXPECT_GE(door.on([&] { return door.server().counters().connections_gave_way; }), 40u);
+    EXPECT_EQ(door.on([&] { return door.server().counters().connections_refused; }), 0u);
+    EXPECT_TRUE(half.front()->closed()) << "the oldest went first";
+}
+
+TEST_F(HttpServer, AnswersThatAreNotReadDoNotShutTheDoorEither) {
+    door.settings.max_connections = 8;
+    door.open();
+    std::vector<std::unique_ptr<Client>> slow;
+    for (int i = 0; i < 8; ++i) {
+        slow.push_back(std::make_unique<Client>(door.port, 4096));
+        slow.back()->send("GET /big.txt HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    }
+    ASSERT_TRUE(door.until([&] { return door.server().counters().connections == 8; }));
+    Client fresh(door.port);
+    EXPECT_EQ(fresh.get("/healthz").status(), 200u);
+}
+
+TEST_F(HttpServer, WhatLargeAnswersHoldTogetherIsBounded) {
+    door.settings.max_held_bytes = 20 * 1024 * 1024;  // two of the big file, not three
+    door.open();
+    Client a(door.port, 4096), b(door.port, 4096), c(door.port);
+    for (auto* x : {&a, &b}) {
+        x->send("GET /big.txt HTTP/1.1\r\nHost: localhost\r\n\r\n");
+        ASSERT_TRUE(door.until([&] { return door.server().counters().bytes_out > 0; }));
+    }
+    ASSERT_TRUE(door.until([&] { return door.server().counters().requests.size() == 1 && door.server().counters().requests.begin()->second == 2; }));
+    const auto refused = c.get("/big.txt");
+    EXPECT_EQ(refused.status(), 503u);
+    EXPECT_EQ(refused.message[beast::http::field::retry_after], "2");
+    EXPECT_EQ(c.get("/healthz").status(), 200u) << "small answers are not counted, and the connection goes on";
+    c.send(Client::post_text("/api/v1/moves/start", R"({"axes":[]})" + std::string(1000000, ' ')));
+    EXPECT_EQ(c.receive().status(), 422u) << "1 MB of the 4 that are left";
+    a.close();
+    EXPECT_TRUE(door.until([&] { return door.server().counters().connections == 2; }));
+    EXPECT_EQ(Client(door.port).get("/big.txt").status(), 200u) << "what a client that has gone held is free again";
+}
+
+TEST_F(HttpServer, AStrangersBodyIsAFewKiB) {
+    door.open();
+    const auto head = [](std::size_t bytes, const char* more) {
+        return "POST /api/v1/session HTTP/1.1\r\nHost: localhost\r\nVia: proxy\r\nContent-Type: application/json\r\n" + std::string(more) + "Content-Length: " + std::to_string(bytes) + "\r\n\r\n";
+    };
+    Client c(door.port);
+    c.send(head(8193, "") + "{");
+    EXPECT_EQ(c.receive().status(), 413u);
+    EXPECT_TRUE(c.closed());
+    Client fits(door.port);
+    fits.send(head(8192, "") + "{}" + std::string(8190, ' '));
+    EXPECT_NE(fits.receive().status(), 413u);
+    Client chunks(door.port);
+    chunks.send("POST /api/v1/session HTTP/1.1\r\nHost: localhost\r\nVia: proxy\r\nContent-Type: application/json\r\nTransfer-Encoding: chunked\r\n\r\n3000\r\n" + std::string(0x3000, ' ') + "\r\n");
+    EXPECT_EQ(chunks.receive().status(), 413u);
 }
 
 TEST_F(HttpServer, ClientsThatGoAwayInTheMiddle) {
@@ -348,6 +467,7 @@ TEST_F(HttpServer, Metrics) {
 }
 
 TEST_F(HttpServer, StopsInOrder) {
+    door.settings.answer_limit_at_stop = door.settings.stop_limit = milliseconds(10'000);
     door.open();
     Client idle(door.port), busy(door.port), half(door.port);
     EXPECT_EQ(idle.get("/healthz").status(), 200u);
@@ -380,6 +500,24 @@ TEST_F(HttpServer, StopsEvenIfSomebodyNeverEnds) {
     EXPECT_TRUE(door.until([&] { return stopped; }));
     EXPECT_TRUE(busy.closed());
     door.on([&] { door.gateway.finish(good_result()); });  // nobody is there, and nothing happens
+}
+
+TEST_F(HttpServer, WhoWaitsForSomethingLongIsAnsweredAtTheStopAndHoldsNobodyUp) {
+    door.open();
+    Client waits(door.port), half(door.port), deaf(door.port, 4096);
+    waits.send(Client::post_text("/api/v1/axes/feeder/commands?wait=60", R"({"command":"home"})"));
+    half.send("POST /api/v1/moves/start HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 100\r\n\r\n{");
+    deaf.send("GET /big.txt HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    ASSERT_TRUE(door.until([&] { return door.gateway.waiting.size() == 1 && !door.server().counters().requests.empty(); }));
+    bool stopped = false;
+    const auto begun = std::chrono::steady_clock::now();
+    door.on([&] { door.server().stop([&stopped] { stopped = true; }); });
+    const auto a = waits.receive();
+    EXPECT_EQ(a.status(), 200u);
+    EXPECT_EQ(a.json().at("result"), "accepted") << "what he would have heard at his own limit";
+    EXPECT_TRUE(half.closed());
+    EXPECT_TRUE(door.until([&] { return stopped; }));
+    EXPECT_LT(std::chrono::steady_clock::now() - begun, milliseconds(5'000)) << "0.6 s, and much for a busy machine";
 }
 
 TEST_F(HttpServer, APortThatIsTaken) {

@@ -173,12 +173,56 @@ TEST_F(PtyLineTest, overwritesOnlyLinks) {
 }
 
 TEST_F(PtyLineTest, replacesALinkThatWasLeftOver) {
-    fs::create_symlink("/dev/pts/no-longer-there", path);
+    fs::create_symlink("/dev/pts/999999", path);
     make();
-    EXPECT_NE(fs::read_symlink(path), "/dev/pts/no-longer-there");
+    EXPECT_NE(fs::read_symlink(path), "/dev/pts/999999");
     const Fd f = program();
     f.write("x");
     EXPECT_TRUE(until([&] { return owner.heard() == "x"; }));
+}
+
+TEST_F(PtyLineTest, aLinkToAnythingElseStays) {
+    std::ofstream(folder / "precious") << "precious";
+    for (const std::string& target : {(folder / "precious").string(), std::string("/dev/null"), std::string("/dev/pts"), std::string("/dev/pts/"), std::string("/dev/pts/../null"),
+                                     std::string("/dev/pts/1x"), std::string("nowhere")}) {
+        fs::create_symlink(target, path);
+        line = std::make_unique<PtyLine>(base(), path);
+        owner.states.clear();
+        line->open(owner, clock.now());
+        ASSERT_TRUE(until([&] { return !owner.states.empty(); })) << target;
+        EXPECT_FALSE(owner.up()) << target;
+        EXPECT_THAT(status().text, HasSubstr("a link to something else than a pseudo-terminal")) << target;
+        line.reset();
+        EXPECT_EQ(fs::read_symlink(path), target);
+        fs::remove(path);
+    }
+}
+
+TEST_F(PtyLineTest, aSiteLinksBelowItsFolderAlone) {
+    const fs::path allowed = folder / "lines", data = allowed / "data";
+    fs::create_directories(data / "deep");
+    fs::create_directories(allowed / "sub");
+    fs::create_directories(folder / "lines-too");
+    fs::create_directory_symlink(folder, allowed / "out");
+    fs::create_directory_symlink(data, folder / "lines" / "in");
+    const PtyPlaces places{allowed, data};
+    const auto tried = [&](const fs::path& at) {
+        line = std::make_unique<PtyLine>(base(), at, 0, SerialFormat{}, places);
+        owner.states.clear();
+        line->open(owner, clock.now());
+        EXPECT_TRUE(until([&] { return !owner.states.empty(); })) << at;
+        const std::string text = owner.up() ? "up" : status().text;
+        line.reset();
+        return text;
+    };
+    for (const auto& good : {allowed / "a", allowed / "sub" / "a", allowed / "sub" / ".." / "a"}) EXPECT_EQ(tried(good), "up") << good;
+    for (const auto& bad : {folder / "a", folder / "lines-too" / "a", allowed / "out" / "a", allowed / "sub" / ".." / ".." / "a", fs::path("/a"), fs::path("a")})
+        EXPECT_THAT(tried(bad), HasSubstr("pty_dir")) << bad;
+    for (const auto& bad : {data / "a", data / "deep" / "a", allowed / "in" / "a"}) EXPECT_THAT(tried(bad), HasSubstr("data directory")) << bad;
+    EXPECT_FALSE(fs::exists(fs::symlink_status(folder / "a")));
+    fs::remove(allowed / "out");
+    fs::rename(allowed, folder / "gone");
+    EXPECT_THAT(tried(folder / "a"), HasSubstr("is not there")) << "the folder must be made by whoever owns the machine";
 }
 
 TEST_F(PtyLineTest, takesAwayOnlyItsOwnLink) {

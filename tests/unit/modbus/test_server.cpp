@@ -261,6 +261,25 @@ TEST(Server, AFloodOfSilentConnectionsDoesNotPushOutOneThatPolls) {
     EXPECT_EQ(net.server->counters().connections_evicted.value(), 37u);
 }
 
+TEST(Server, ABusyFloodOfOneAddressGivesWayToItselfAndNotWhoHasCommanded) {
+    ServerSettings settings;
+    settings.max_connections = 16;
+    Net net(settings);
+    TcpClient commanded(net);
+    commanded.connect().send(adu(1, control));
+    net.port.answer();
+    EXPECT_EQ(commanded.receive(control_size), adu(1, control));
+    net.pass(1s);
+    std::vector<TcpClient> flood;
+    for (int i = 0; i < 100; ++i) {
+        flood.emplace_back(net);
+        EXPECT_TRUE(serves(flood.back().connect())) << i << ": each has just asked, and the next gets in all the same";
+    }
+    EXPECT_EQ(net.server->counters().connections_refused.value(), 0u);
+    EXPECT_LE(net.server->counters().connections_open.value(), 18u) << "16, and an eighth more for who has commanded";
+    EXPECT_TRUE(serves(commanded)) << "it was silent for longer than any of them, but it has commanded";
+}
+
 TEST(Server, AClientThatDoesNotReadIsHeldBackAndClosed) {
     Net net;
     TcpClient deaf(net, 4096), other(net);

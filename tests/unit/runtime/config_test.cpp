@@ -1,6 +1,7 @@
 // Configuration: the file, the environment and --set; every fault with its place.
 // In: texts. Out: a Config or faults. Never reads a file.
 #include "gateway/runtime/config.hpp"
+#include "gateway/runtime/config_host.hpp"
 
 #include <gtest/gtest.h>
 
@@ -55,7 +56,8 @@ TEST(Config, ListsAreWrittenAsInTheFileOrWithCommasAlone) {
     EXPECT_EQ(with({"modbus.functions=[]"}).modbus_functions, List{});
     EXPECT_EQ(with({R"(http.allowed_hosts=["a", "b.example"])"}).http_allowed_hosts, (List{"a", "b.example"}));
     EXPECT_EQ(with({"http.allowed_hosts=[::1],[::2]"}).http_allowed_hosts, (List{"[::1]", "[::2]"})) << "brackets of addresses are no list";
-    for (const auto* bad : {"modbus.functions=[3,six]", R"(modbus.allow=["127.0.0.2)", R"(modbus.allow=["127.0.0.2", "x])", "modbus.functions=[[3]]"}) {
+    for (const auto* bad : {"modbus.functions=[3,six]", R"(modbus.allow=["127.0.0.2)", R"(modbus.allow=["127.0.0.2", "x])", "modbus.functions=[[3]]", "http.allowed_hosts=http://a", "http.allowed_hosts=a:80",
+                            "http.allowed_hosts=a,b/c", "http.allowed_hosts=a b", "lines.pty_dir=var", "lines.pty_dir="}) {
         ConfigSources s;
         s.overrides = {bad};
         std::vector<ConfigFault> faults;
@@ -108,6 +110,24 @@ TEST(Config, WhatThisVersionHasNotAndWhatIsWrittenAsAnotherKindIsAFault) {
     faults.clear();
     EXPECT_EQ(read_config(s, faults).data_dir, "7") << "on the command line all is text";
     EXPECT_TRUE(faults.empty()) << "what is overridden does not count";
+}
+
+TEST(Config, ADoorBeyondThisMachineWithoutNamesIsWarnedOf) {
+    for (const auto* bind : {"0.0.0.0:8080", "[::]:8080", "192.0.2.7:80"}) {
+        Config c;
+        c.http_bind = bind;
+        const auto said = check_host(c);
+        ASSERT_EQ(said.size(), 1u) << bind;
+        EXPECT_EQ(said[0].place, "http.allowed_hosts");
+        EXPECT_TRUE(said[0].warning);
+        c.http_allowed_hosts = {"axisgate.example"};
+        EXPECT_TRUE(check_host(c).empty()) << bind;
+    }
+    for (const auto* bind : {"127.0.0.1:8080", "127.9.9.9:1", "[::1]:8080", "localhost:8080", ""}) {
+        Config c;
+        c.http_bind = bind;
+        EXPECT_TRUE(check_host(c).empty()) << bind;
+    }
 }
 
 TEST(Config, HostAndPort) {

@@ -13,6 +13,20 @@ std::vector<std::uint32_t> numbers(Store& store, const std::string& axis) {
     return n;
 }
 
+TEST(Snapshots, OfAnAxisThatWasRemovedAreNotSavedAndDoNotBringItBack) {
+    const TempDir dir;
+    const auto store = open_store(dir);
+    EXPECT_EQ(must(store->save_snapshot("feeder", "before", "", "", 1, {})), 1u);
+    ASSERT_TRUE(store->remove_axis("feeder", 2));
+    const auto late = store->save_snapshot("feeder", "late", "", "", 3, {});
+    ASSERT_FALSE(late);
+    EXPECT_EQ(late.error().kind, StoreError::Kind::not_found);
+    EXPECT_THAT(late.error().text, HasSubstr("removed"));
+    ASSERT_EQ(must(store->axes()).size(), 1u);
+    EXPECT_TRUE(must(store->axes())[0].removed_unix_ns.has_value());
+    EXPECT_THAT(numbers(*store, "feeder"), ElementsAre(1u));
+}
+
 TEST(Snapshots, AreSavedListedReadAndDeleted) {
     const TempDir dir;
     const auto store = open_store(dir);

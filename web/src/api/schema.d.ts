@@ -1841,6 +1841,8 @@ export interface components {
             /** @description the command, where one is concerned */
             command?: string;
             faults?: components["schemas"]["Fault"][];
+            /** @description beside those in `faults`; there wherever `faults` is */
+            more_faults?: number;
         };
         CommandProblem: components["schemas"]["Problem"] & {
             /** @description null if nothing was sent */
@@ -3053,7 +3055,7 @@ export interface components {
             };
             content?: never;
         };
-        /** @description any other problem (405, 406, 408, 413, 421, 431, 500, 503) */
+        /** @description any other problem (405, 406, 408, 413, 421, 431, 500, 501, 503) */
         Problem: {
             headers: {
                 [name: string]: unknown;
@@ -3229,7 +3231,7 @@ export interface components {
                 "application/problem+json": components["schemas"]["Problem"];
             };
         };
-        /** @description the body is over 1 MiB (a backup 64 MiB); it is not read */
+        /** @description the body is over 1 MiB (a backup 64 MiB; 8 KiB without credentials); it is not read */
         TooLarge: {
             headers: {
                 [name: string]: unknown;
@@ -3247,7 +3249,7 @@ export interface components {
                 "application/problem+json": components["schemas"]["Problem"];
             };
         };
-        /** @description the document is JSON but not right; `faults` names every place, with a remedy */
+        /** @description the document is JSON but not right; `faults` names the first 20 places, each with a remedy, `more_faults` how many there are beside */
         Unprocessable: {
             headers: {
                 [name: string]: unknown;
@@ -4900,6 +4902,7 @@ export interface operations {
             422: components["responses"]["Unprocessable"];
             503: components["responses"]["Unavailable"];
             504: components["responses"]["NoAnswer"];
+            507: components["responses"]["NotStored"];
             default: components["responses"]["Problem"];
         };
     };
@@ -5687,6 +5690,7 @@ export interface operations {
             404: components["responses"]["NotFound"];
             409: components["responses"]["Conflict"];
             412: components["responses"]["RecipePreconditionFailed"];
+            507: components["responses"]["NotStored"];
             default: components["responses"]["Problem"];
         };
     };
@@ -6314,6 +6318,7 @@ export interface operations {
             412: components["responses"]["PreconditionFailed"];
             415: components["responses"]["UnsupportedMediaType"];
             422: components["responses"]["Unprocessable"];
+            507: components["responses"]["NotStored"];
             default: components["responses"]["Problem"];
         };
     };
@@ -6361,6 +6366,7 @@ export interface operations {
             };
             403: components["responses"]["Forbidden"];
             409: components["responses"]["Conflict"];
+            507: components["responses"]["NotStored"];
             default: components["responses"]["Problem"];
         };
     };
@@ -7035,6 +7041,7 @@ export interface operations {
                 };
             };
             409: components["responses"]["Conflict"];
+            507: components["responses"]["NotStored"];
             default: components["responses"]["Problem"];
         };
     };
@@ -7083,6 +7090,7 @@ export interface operations {
                 };
             };
             409: components["responses"]["Conflict"];
+            507: components["responses"]["NotStored"];
             default: components["responses"]["Problem"];
         };
     };
@@ -7135,6 +7143,7 @@ export interface operations {
             404: components["responses"]["NotFound"];
             409: components["responses"]["Conflict"];
             412: components["responses"]["StatePreconditionFailed"];
+            507: components["responses"]["NotStored"];
             default: components["responses"]["Problem"];
         };
     };
@@ -7170,6 +7179,7 @@ export interface operations {
             404: components["responses"]["NotFound"];
             409: components["responses"]["Conflict"];
             412: components["responses"]["StatePreconditionFailed"];
+            507: components["responses"]["NotStored"];
             default: components["responses"]["Problem"];
         };
     };
@@ -7195,6 +7205,7 @@ export interface operations {
                 };
                 content?: never;
             };
+            507: components["responses"]["NotStored"];
             default: components["responses"]["Problem"];
         };
     };
@@ -7242,6 +7253,7 @@ export interface operations {
                 };
             };
             409: components["responses"]["Conflict"];
+            507: components["responses"]["NotStored"];
             default: components["responses"]["Problem"];
         };
     };
@@ -7264,6 +7276,7 @@ export interface operations {
                 content?: never;
             };
             404: components["responses"]["NotFound"];
+            507: components["responses"]["NotStored"];
             default: components["responses"]["Problem"];
         };
     };

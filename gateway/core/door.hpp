@@ -9,6 +9,8 @@
 
 namespace axisgate {
 
+struct Event;  // gateway.hpp
+
 /// Tickets carry their door in the upper bits, so that a result finds its way back without a table.
 [[nodiscard]] constexpr Ticket make_ticket(Door door, std::uint64_t sequence) noexcept {
     return (static_cast<Ticket>(door) << 56) | (sequence & 0x00FF'FFFF'FFFF'FFFFull);
@@ -30,6 +32,8 @@ struct DoorPort {
     virtual void submit(Command command) = 0;
     /// Results for tickets of `door` go to `sink`, which outlives the port's use or is withdrawn with nullptr.
     virtual void attach(Door door, ResultSink* sink) = 0;
+    /// Something that a door wants to be kept and streamed; id, time and, where there is an axis, its name are filled in.
+    virtual void note(Event&& /*event*/, AxisId /*axis*/) {}
     virtual ~DoorPort() = default;
 };
 

@@ -82,6 +82,7 @@ public:
     [[nodiscard]] const Image& image() const override { return image_; }
     [[nodiscard]] const Catalogue* catalogue(AxisId axis) const override { return engine_.catalogue(axis); }
     void submit(Command command) override;
+    void note(Event&& event, AxisId axis) override;
     void attach(Door door, ResultSink* sink) override { sinks_[static_cast<std::size_t>(door)] = sink; }
 
     // EngineHost (hot thread)

@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "gateway/core/site.hpp"
+
 namespace axisgate::http {
 
 /// Bytes of an embedded file by its path in the source tree ("web/dist/index.html"); data() == nullptr if there is none.
@@ -22,6 +24,7 @@ struct Settings {
     /// names are refused with 421, so that a page of another site cannot reach the gateway by re-binding its own name. With another
     /// `bind` and an empty list every name is taken.
     std::vector<std::string> allowed_hosts;
+    MapGaps map_gaps = MapGaps::zero;  ///< [modbus] gaps: of units that the site does not name
     bool low_word_first = false;    ///< of the standard map, as `[modbus] word_order` has it: for what shows and describes its registers
     bool require_if_match = false;  ///< true: PUT /site without If-Match is refused with 428
 

@@ -227,8 +227,7 @@ void Engine::on_command(Command c, Instant now) {
         const auto* word = std::get_if<ProcessData>(&c.body);
         if (std::holds_alternative<Disable>(c.body) || (word && word->controlword && !(*word->controlword & cia402::cw_enable_voltage))) {
             a->drive->device_lost_while_commanded = false;  // nobody commands it any more: its twin may take over
-            // Registers have no words to say so: there a disable that nobody heard stays an exception.
-            lets_go = !word && a->drive->spec.presence == PresenceRule::automatic && a->drive->serving == Presence::device && !a->drive->device_online;
+            lets_go = a->drive->spec.presence == PresenceRule::automatic && a->drive->serving == Presence::device && !a->drive->device_online;
         }
         std::optional<Refusal> no;
         if (auto* m = std::get_if<Move>(&c.body)) no = guard_move(*m, a->limits, a->profile.feedback().position);

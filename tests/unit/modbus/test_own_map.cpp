@@ -67,7 +67,7 @@ TEST_F(OwnMapTest, ReadsPointsOfTheAxis) {
     EXPECT_EQ(read("03 00 09 00 01"), "03 02 00 01");
     EXPECT_EQ(read("03 00 14 00 04"), "03 08 01 02 03 00 FF FF FF FC") << "demand, and demand less position";
     EXPECT_EQ(read("02 00 03 00 02"), "02 01 01");
-    EXPECT_EQ(read("03 00 06 00 02"), "83 02") << "7 is a gap";
+    EXPECT_EQ(read("03 00 06 00 02"), "03 04 01 02 00 00") << "7 is a gap";
     EXPECT_EQ(read("03 00 0A 00 01"), "83 02");
     EXPECT_EQ(read("04 00 00 00 02"), "84 02") << "another table";
     EXPECT_EQ(ask("03 00 00 00 02", 3), "83 0A") << "another unit";

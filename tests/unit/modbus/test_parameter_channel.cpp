@@ -65,7 +65,7 @@ constexpr auto out_of_range_number = static_cast<int>(Reason::out_of_range);
 TEST(ParameterChannel, FractionsGoInTheFloatForm) {
     for (const auto order : {WordOrder::high_first, WordOrder::low_first}) {
         Channel c(order);
-        const auto read_as = [&](std::uint16_t parameter, Value said) {
+        const auto read_as = [&](std::uint32_t parameter, Value said) {
             c.result = [] {};
             EXPECT_EQ(c.start(parameter | float_form, 1), accepted);
             c.port.answer(Outcome::done, Reason::none, 0, std::move(said));

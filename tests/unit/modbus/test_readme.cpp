@@ -15,7 +15,10 @@ TEST(ModbusReadme, PrintsTheRegisterMapAsItIs) {
     ASSERT_TRUE(file) << "gateway/doors/modbus/README.md is missing";
     std::vector<std::string> printed;
     for (std::string line; std::getline(file, line);) {
-        if (line.starts_with("| ") && line[2] >= '0' && line[2] <= '9') printed.push_back(line);
+        if (line.starts_with("| ") && line[2] >= '0' && line[2] <= '9')
+            printed.push_back(line);
+        else if (!printed.empty())
+            break;  // the tables behind it are others
     }
     std::vector<std::string> expected;
     for (const auto& row : standard_registers()) {

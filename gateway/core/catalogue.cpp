@@ -9,6 +9,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "gateway/core/parameter_form.hpp"
 
@@ -244,6 +245,9 @@ Catalogue::Checked Catalogue::check_write(Point point, const Value& value) const
     if (p->type == ValueType::f32 || p->type == ValueType::f64) {
         const auto d = as_number(value);
         if (!d || !std::isfinite(*d)) return {{}, fmt::format("{} takes a number, not {}", id, to_text(value))};
+        if (p->type == ValueType::f32 && std::fabs(*d) > static_cast<double>(std::numeric_limits<float>::max())) {
+            return {{}, fmt::format("{}: {} is more than a number of single precision can be (3.4028235e+38)", id, *d)};
+        }
         if ((p->min && *d < *p->min) || (p->max && *d > *p->max)) {
             return {{}, fmt::format("{}: {} is outside {}..{}{}", id, *d, p->min ? fmt::format("{}", *p->min) : "", p->max ? fmt::format("{}", *p->max) : "", unit)};
         }

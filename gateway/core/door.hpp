@@ -14,6 +14,8 @@
 
 namespace axisgate {
 
+struct Event;  // gateway.hpp
+
 /// Tickets carry their door in the upper bits, so that a result finds its way back without a table.
 [[nodiscard]] constexpr Ticket make_ticket(Door door, std::uint64_t sequence) noexcept {
     return (static_cast<Ticket>(door) << 56) | (sequence & 0x00FF'FFFF'FFFF'FFFFull);
@@ -39,6 +41,8 @@ struct DoorPort {
     virtual void attach(Door door, ResultSink* sink) = 0;
     /// The last connection of a client has ended: what it commanded is treated as the axes' site entries say.
     virtual void client_lost(const AuthorityClient& /*who*/, LossCause /*cause*/) {}
+    /// Something that a door wants to be kept and streamed; id, time and, where there is an axis, its name are filled in.
+    virtual void note(Event&& /*event*/, AxisId /*axis*/) {}
     virtual ~DoorPort() = default;
 };
 

@@ -241,8 +241,7 @@ void Engine::on_command(Command c, Instant now) {
         const auto* word = std::get_if<ProcessData>(&c.body);
         if (std::holds_alternative<Disable>(c.body) || (word && word->controlword && !(*word->controlword & cia402::cw_enable_voltage))) {
             a->drive->device_lost_while_commanded = false;  // nobody commands it any more: its twin may take over
-            // Registers have no words to say so: there a disable that nobody heard stays an exception.
-            lets_go = !word && a->drive->spec.presence == PresenceRule::automatic && a->drive->serving == Presence::device && !a->drive->device_online;
+            lets_go = a->drive->spec.presence == PresenceRule::automatic && a->drive->serving == Presence::device && !a->drive->device_online;
         }
         auto* data = std::get_if<ProcessData>(&c.body);
         std::optional<Refusal> no = data ? guard_process_data(*data, a->limits) : beyond_limits(*a, c.body);

@@ -103,7 +103,8 @@ void Engine::decide_presence(Drive& d, Instant now) {
         bool commanded = d.device_lost_while_commanded;
         for (const AxisId id : d.axes) commanded = commanded || axes_[index_of(id)]->profile.commanded();
         if (commanded) {
-            d.why = "the drive went silent while it was commanded; the twin takes over after a disable";
+            d.why = "it went silent while it was powered, so its twin waits: whether the real drive is off is not known; mend the line or the drive, or "
+                    "disable the axis to let the twin take over";
             return;
         }
         serve(d, Presence::twin, "the drive does not answer", now);

@@ -60,6 +60,8 @@ constexpr std::array access_long_names{
     std::pair{std::string_view("rw"), MapAccess::read_write}};
 constexpr std::array order_names{std::pair{std::string_view("high_first"), MapWordOrder::high_first},
                                  std::pair{std::string_view("low_first"), MapWordOrder::low_first}};
+constexpr std::array overflow_names{std::pair{std::string_view("mark"), MapOverflow::mark},
+                                    std::pair{std::string_view("clamp"), MapOverflow::clamp}};
 
 using P = AxisPoint;
 constexpr std::array<AxisPointInfo, 33> points{{
@@ -234,6 +236,7 @@ std::string_view name_of(MapTable t) noexcept { return name_in(table_names, t); 
 std::string_view name_of(MapType t) noexcept { return name_in(type_names, t); }
 std::string_view name_of(MapAccess a) noexcept { return name_in(access_names, a); }
 std::string_view name_of(MapWordOrder o) noexcept { return name_in(order_names, o); }
+std::string_view name_of(MapOverflow o) noexcept { return name_in(overflow_names, o); }
 std::string_view name_of(AxisPoint p) noexcept { return points[static_cast<std::size_t>(p)].name; }
 bool writable(AxisPoint p) noexcept { return points[static_cast<std::size_t>(p)].writable; }
 std::span<const AxisPointInfo> axis_points() noexcept { return points; }
@@ -300,11 +303,11 @@ std::optional<std::vector<Mapping>> parse_mappings(const json::array& entries, c
         const std::size_t good_before = faults.size();
         Entry f(*o, i, faults);
         for (const auto& [key, value] : *o) {
-            constexpr std::array known{"id",         "unit",  "table",  "address", "axis",   "point",  "type",
-                                       "word_order", "scale", "offset", "access",  "length", "comment"};
+            constexpr std::array known{"id",    "unit",   "table",  "address", "axis",        "point",  "type", "word_order",
+                                       "scale", "offset", "access", "length",  "on_overflow", "comment"};
             if (std::ranges::find(known, std::string_view(key)) == known.end())
                 f.fault(key, fmt::format("{} is not known here", std::string_view(key)),
-                        "a mapping has id, unit, table, address, axis, point, type, word_order, scale, offset, access, length, comment");
+                        "a mapping has id, unit, table, address, axis, point, type, word_order, scale, offset, access, length, on_overflow, comment");
         }
         Mapping m;
         m.id = f.text("id", 64, false);
@@ -335,6 +338,11 @@ std::optional<std::vector<Mapping>> parse_mappings(const json::array& entries, c
         if (m.scale == 0) f.fault("scale", "scale must not be 0", "leave it out for 1");
         m.offset = f.number("offset", 0);
         m.comment = f.text("comment", 256, false);
+        if (const std::string t = f.text("on_overflow", 32, false); !t.empty()) {
+            const auto overflow = named(overflow_names, t);
+            if (!overflow) f.fault("on_overflow", fmt::format("there is no on_overflow {}", t), "use one of " + list(overflow_names));
+            m.on_overflow = overflow.value_or(MapOverflow::mark);
+        }
         m.axis = f.text("axis", 64, false);
         m.point = f.text("point", 128, true);
         split_axis(m.axis, m.point, site);
@@ -417,6 +425,7 @@ json::object to_json(const Mapping& m) {
                    {"offset", m.offset},
                    {"access", name_of(m.access)}};
     if (m.type == MapType::string) o["length"] = std::int64_t{m.length};
+    if (m.on_overflow != MapOverflow::mark) o["on_overflow"] = name_of(m.on_overflow);
     if (!m.comment.empty()) o["comment"] = m.comment;
     return o;
 }

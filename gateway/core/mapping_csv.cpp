@@ -13,8 +13,8 @@ namespace axisgate {
 namespace json = boost::json;
 namespace {
 
-constexpr std::array<std::string_view, 13> columns{"id",         "unit",  "table",  "address", "axis",   "point",  "type",
-                                                   "word_order", "scale", "offset", "access",  "length", "comment"};
+constexpr std::array<std::string_view, 14> columns{"id",    "unit",   "table",  "address", "axis",        "point",  "type", "word_order",
+                                                   "scale", "offset", "access", "length",  "comment", "on_overflow"};
 constexpr std::size_t longest_line = 4096;
 
 std::string quoted(std::string_view s) {
@@ -72,9 +72,10 @@ std::string mappings_to_csv(std::span<const Mapping> mappings) {
         out += (out.empty() ? "" : ",") + std::string(c);
     out += "\r\n";
     for (const auto& m : mappings) {
-        out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", quoted(m.id), m.unit, name_of(m.table), m.address, quoted(m.axis),
+        out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", quoted(m.id), m.unit, name_of(m.table), m.address, quoted(m.axis),
                            quoted(m.point), name_of(m.type), name_of(m.word_order), m.scale, m.offset, name_of(m.access),
-                           m.type == MapType::string ? std::to_string(m.length) : std::string(), quoted(m.comment));
+                           m.type == MapType::string ? std::to_string(m.length) : std::string(), quoted(m.comment),
+                           name_of(m.on_overflow));
     }
     return out;
 }
@@ -93,7 +94,7 @@ std::optional<json::array> mappings_from_csv(std::string_view csv, std::vector<s
     for (const auto& h : *header) {
         if (std::ranges::find(columns, std::string_view(h)) == columns.end())
             faults.push_back({1, fmt::format("there is no column {}: use id, unit, table, address, axis, point, type, word_order, scale, "
-                                             "offset, access, length, comment",
+                                             "offset, access, length, comment, on_overflow",
                                              h)});
         if (std::ranges::count(*header, h) > 1) faults.push_back({1, fmt::format("the column {} is there twice", h)});
     }

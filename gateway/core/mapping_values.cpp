@@ -56,42 +56,63 @@ std::optional<Whole> whole_of(MapType t) noexcept {
     }
 }
 
+/// What stands for a number that the type cannot show: the end that is nearest to `wanted`, or the mark. NaN is near to no end.
+void put_unfit(const Mapping& m, double wanted, std::uint8_t* out) noexcept {
+    const bool clamped = m.on_overflow == MapOverflow::clamp && !std::isnan(wanted);
+    if (m.type == MapType::f32) {
+        const float end = std::copysign(std::numeric_limits<float>::max(), wanted < 0 ? -1.0F : 1.0F);
+        put(std::bit_cast<std::uint32_t>(clamped ? end : std::numeric_limits<float>::quiet_NaN()), 2, m.word_order, out);
+    } else if (m.type == MapType::f64) {
+        const double end = std::copysign(std::numeric_limits<double>::max(), wanted < 0 ? -1.0 : 1.0);
+        put(std::bit_cast<std::uint64_t>(clamped ? end : std::numeric_limits<double>::quiet_NaN()), 4, m.word_order, out);
+    } else if (const auto whole = whole_of(m.type)) {
+        std::uint64_t bits = static_cast<std::uint64_t>(wanted < 0 ? whole->min : whole->max);
+        if (!clamped) bits = m.type == MapType::boolean ? 0 : whole->min < 0 ? static_cast<std::uint64_t>(whole->min) : ~std::uint64_t{0};
+        put(bits, whole->registers, m.word_order, out);
+    }
+}
+
 }  // namespace
 
 bool encode(const Mapping& m, const Value& value, std::uint8_t* out) noexcept {
     if (m.type == MapType::string) {
         const auto* text = std::get_if<std::string>(&value);
-        if (!text) return false;
         const std::size_t room = 2u * m.length;
         std::memset(out, 0, room);
+        if (!text) return false;
         std::memcpy(out, text->data(), std::min(text->size(), room));  // a longer one is cut: the reader sees its beginning
         return true;
     }
     const bool plain = m.scale == 1 && m.offset == 0;
+    const auto unfit = [&](double wanted) {
+        put_unfit(m, wanted, out);
+        return false;
+    };
     if (const auto whole = whole_of(m.type)) {
         std::int64_t n = 0;
         if (const auto exact = as_integer(value); exact && plain) {
             n = *exact;
         } else if (const auto x = as_number(value)) {
             const double y = std::round(*x * m.scale + m.offset);
-            if (!(std::fabs(y) < 9.2e18)) return false;
+            if (!(std::fabs(y) < 9.2e18)) return unfit(y);
             n = static_cast<std::int64_t>(y);
         } else {
-            return false;
+            return unfit(std::numeric_limits<double>::quiet_NaN());
         }
         if (m.type == MapType::boolean) n = n != 0;
-        if (n < whole->min || n > whole->max) return false;
+        if (n < whole->min || n > whole->max) return unfit(static_cast<double>(n));
         put(static_cast<std::uint64_t>(n), whole->registers, m.word_order, out);
         return true;
     }
     const auto x = as_number(value);
-    if (!x) return false;
+    if (!x) return unfit(std::numeric_limits<double>::quiet_NaN());
     const double y = *x * m.scale + m.offset;
+    if (!std::isfinite(y)) return unfit(y);
     if (m.type == MapType::f64) {
         put(std::bit_cast<std::uint64_t>(y), 4, m.word_order, out);
         return true;
     }
-    if (std::isfinite(y) && std::fabs(y) > static_cast<double>(std::numeric_limits<float>::max())) return false;
+    if (std::fabs(y) > static_cast<double>(std::numeric_limits<float>::max())) return unfit(y);
     put(std::bit_cast<std::uint32_t>(static_cast<float>(y)), 2, m.word_order, out);
     return true;
 }

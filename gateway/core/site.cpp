@@ -62,6 +62,14 @@ std::string_view name_of(PresenceRule rule) noexcept {
     return "auto";
 }
 
+std::string_view name_of(MapGaps gaps) noexcept { return gaps == MapGaps::zero ? "zero" : "refuse"; }
+std::optional<MapGaps> map_gaps_named(std::string_view name) noexcept {
+    for (const auto g : {MapGaps::zero, MapGaps::refuse}) {
+        if (name_of(g) == name) return g;
+    }
+    return std::nullopt;
+}
+
 bool LineSpec::operator==(const LineSpec& o) const { return to_json(*this) == to_json(o); }
 
 const LineSpec* Site::line(std::string_view name) const noexcept { return by_name(lines, name); }
@@ -122,7 +130,11 @@ json::object to_json(const Site& site) {
     for (const auto& l : site.lines) lines.push_back(to_json(l));
     for (const auto& d : site.drives) drives.push_back(to_json(d));
     for (const auto& a : site.axes) axes.push_back(to_json(a));
-    return {{"lines", std::move(lines)}, {"drives", std::move(drives)}, {"axes", std::move(axes)}, {"mappings", site.mappings}};
+    json::object o{{"lines", std::move(lines)}, {"drives", std::move(drives)}, {"axes", std::move(axes)}, {"mappings", site.mappings}};
+    json::array units;
+    for (const auto& [unit, gaps] : site.gaps) units.push_back(json::object{{"unit", std::int64_t{unit}}, {"gaps", name_of(gaps)}});
+    if (!units.empty()) o["modbus_units"] = std::move(units);
+    return o;
 }
 
 namespace {
@@ -205,6 +217,11 @@ std::vector<std::string> differences(const Site& from, const Site& to) {
     compare("line", from.lines, to.lines);
     compare("drive", from.drives, to.drives);
     compare("axis", from.axes, to.axes);
+    for (unsigned unit = 2; unit <= 254 && from.gaps != to.gaps; ++unit) {
+        const auto x = from.gaps.find(static_cast<std::uint8_t>(unit)), y = to.gaps.find(static_cast<std::uint8_t>(unit));
+        const auto before = x == from.gaps.end() ? "not set" : name_of(x->second), after = y == to.gaps.end() ? "not set" : name_of(y->second);
+        if (before != after) out.push_back(fmt::format("modbus unit {}: gaps {} -> {}", unit, before, after));
+    }
     if (from.mappings != to.mappings) compare_mappings(from.mappings, to.mappings, out);
     return out;
 }
@@ -226,6 +243,7 @@ std::uint32_t mapping_revision(const Site& site) noexcept {
         }
     }
     mix(json::serialize(site.mappings));
+    for (const auto& [unit, gaps] : site.gaps) mix(fmt::format("{} {}", unit, name_of(gaps)));
     return h;
 }
 

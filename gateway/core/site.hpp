@@ -63,11 +63,20 @@ struct AxisSpec {
     bool operator==(const AxisSpec&) const = default;
 };
 
+/// What reads of a unit 2..254 of the Modbus door show at addresses where nothing is mapped.
+enum class MapGaps : std::uint8_t {
+    zero,   ///< 0, where the same request touches something that is mapped: clients that read in blocks need it
+    refuse  ///< exception 2 for the whole request
+};
+[[nodiscard]] std::string_view name_of(MapGaps gaps) noexcept;
+[[nodiscard]] std::optional<MapGaps> map_gaps_named(std::string_view name) noexcept;
+
 struct Site {
     std::vector<LineSpec> lines;
     std::vector<DriveSpec> drives;
     std::vector<AxisSpec> axes;
     boost::json::array mappings;  ///< kept as they are; doors read what concerns them
+    std::map<std::uint8_t, MapGaps> gaps;  ///< "modbus_units": by unit 2..254, where it is not as `[modbus] gaps` has it
 
     [[nodiscard]] const LineSpec* line(std::string_view name) const noexcept;
     [[nodiscard]] const DriveSpec* drive(std::string_view name) const noexcept;

@@ -267,6 +267,24 @@ void check_relations(const Site& site, const Families& families, std::vector<Sit
         }
     }
 }
+
+void read_units(const json::value* list, Site& site, std::vector<SiteFault>& faults) {
+    if (!list || list->is_null()) return;
+    if (!list->is_array()) {
+        faults.push_back({"/modbus_units", "modbus_units must be a list", "write [{\"unit\": 2, \"gaps\": \"refuse\"}]"});
+        return;
+    }
+    for (std::size_t i = 0; i < list->get_array().size(); ++i) {
+        Fields f(list->get_array()[i], fmt::format("/modbus_units/{}", i), faults);
+        if (!f.get("unit")) f.fault("unit", "unit is missing", "write \"unit\": 2, a Modbus unit with a map of its own");
+        const auto unit = f.integer("unit", 2, 254);
+        const auto gaps = map_gaps_named(f.text("gaps", true, "refuse"));
+        if (!gaps && f.get("gaps")) f.fault("gaps", "this is not a way to show gaps", "use zero or refuse; leave the entry out for what the host's [modbus] gaps says");
+        f.unknown_keys();
+        if (unit && gaps && !site.gaps.emplace(static_cast<std::uint8_t>(*unit), *gaps).second)
+            f.fault("unit", fmt::format("unit {} is there twice", *unit), "keep one of the two entries");
+    }
+}
 }  // namespace
 
 std::optional<Site> parse_site(const json::value& document, const Families& families, std::vector<SiteFault>& faults) {
@@ -277,8 +295,8 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
     }
     const auto& o = document.get_object();
     for (const auto& [k, v] : o) {
-        if (k != "lines" && k != "drives" && k != "axes" && k != "mappings") {
-            faults.push_back({"/" + std::string(k), fmt::format("{} is not known here", std::string_view(k)), "a site has lines, drives, axes and mappings"});
+        if (k != "lines" && k != "drives" && k != "axes" && k != "mappings" && k != "modbus_units") {
+            faults.push_back({"/" + std::string(k), fmt::format("{} is not known here", std::string_view(k)), "a site has lines, drives, axes, mappings and modbus_units"});
         }
     }
     Site site;
@@ -360,6 +378,7 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
             faults.push_back({"/mappings", "mappings must be a list", "write []"});
         }
     }
+    read_units(o.if_contains("modbus_units"), site, faults);
     check_relations(site, families, faults);
     // In their full form from here on: ids that were given, defaults that were chosen.
     if (const auto mappings = parse_mappings(site.mappings, site, families, faults)) {

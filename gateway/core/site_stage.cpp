@@ -102,11 +102,12 @@ void SiteStage::rolled_back(bool good, std::int64_t again_unix_ns) {
 }
 
 namespace {
-std::string_view key_of(const json::object& entry) {
+std::string key_of(const json::object& entry) {
     for (const char* k : {"name", "id"}) {
-        if (const auto* v = entry.if_contains(k); v && v->is_string()) return v->get_string();
+        if (const auto* v = entry.if_contains(k); v && v->is_string()) return std::string(v->get_string());
     }
-    return {};
+    const auto* unit = entry.if_contains("unit");
+    return unit && unit->is_int64() ? std::to_string(unit->get_int64()) : std::string();
 }
 const json::object* find_in(const json::array& list, std::string_view key) {
     for (const auto& v : list) {
@@ -119,7 +120,7 @@ const json::object* find_in(const json::array& list, std::string_view key) {
 json::array site_diff(const Site& from, const Site& to) {
     json::array out;
     const json::object a = to_json(from), b = to_json(to);
-    for (const char* list : {"lines", "drives", "axes", "mappings"}) {
+    for (const char* list : {"lines", "drives", "axes", "mappings", "modbus_units"}) {
         const auto* before = a.if_contains(list);
         const auto* after = b.if_contains(list);
         const json::array none;

@@ -133,6 +133,13 @@ const std::vector<Key>& keys() {
              c.modbus_low_word_first = s == "low_first";
              return {};
          }},
+        {"modbus", "gaps",
+         [](Config& c, const std::string& s) -> Fault {
+             const auto gaps = map_gaps_named(s);
+             if (!gaps) return "write zero or refuse";
+             c.modbus_gaps = *gaps;
+             return {};
+         }},
         {"modbus", "idle_timeout_s", [](Config& c, const std::string& s) { return set_integer(c.modbus_idle_timeout_s, s, 1, 86400); }, Written::as_number},
         {"modbus", "watchdog_ms", [](Config& c, const std::string& s) { return set_integer(c.modbus_watchdog_ms, s, 0, 600'000); }, Written::as_number},
         {"modbus", "max_connections", [](Config& c, const std::string& s) { return set_integer(c.modbus_max_connections, s, 1, 8192); }, Written::as_number},

@@ -6,6 +6,8 @@
 #include <pthread.h>
 #include <sched.h>
 
+#include <algorithm>
+
 #include "gateway/lines/make_line.hpp"
 #include "gateway/runtime/threads.hpp"
 
@@ -143,6 +145,14 @@ void Hot::arm(Instant deadline) {
 }
 
 void Hot::submit(Command command) { submitted_.push_back(std::move(command)); }
+
+void Hot::note(Event&& event, AxisId axis) {
+    const SiteState& site = *engine_.site();
+    if (const auto it = std::ranges::find(site.axis_ids, axis); axis != no_axis && it != site.axis_ids.end()) {
+        event.axis = site.site.axes[static_cast<std::size_t>(it - site.axis_ids.begin())].name;
+    }
+    on_event(std::move(event), now());
+}
 
 void Hot::on_event(Event event, Instant at) {
     if (!out_.cold) return;

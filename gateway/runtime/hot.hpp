@@ -90,6 +90,7 @@ public:
     [[nodiscard]] const Catalogue* catalogue(AxisId axis) const override { return engine_.catalogue(axis); }
     void submit(Command command) override;
     void client_lost(const AuthorityClient& who, LossCause cause) override { engine_.on_client_lost(who, cause, now()); }
+    void note(Event&& event, AxisId axis) override;
     void attach(Door door, ResultSink* sink) override { sinks_[static_cast<std::size_t>(door)] = sink; }
 
     // EngineHost (hot thread)

@@ -305,6 +305,7 @@ int Service::open_doors() {
         // What was switched while it ran is newer than the file.
         if (const auto kept = store->document("setting", "modbus.read_only"); kept && *kept) ms.responder.access.read_only = (*kept)->text == "true";
         ms.max_connections = static_cast<std::size_t>(options.config.modbus_max_connections);
+        ms.gaps = options.config.modbus_gaps;
         ms.idle_timeout = std::chrono::seconds(options.config.modbus_idle_timeout_s);
         modbus = std::make_unique<modbus::Server>(hot->context(), *hot, ms);
         const std::string binds[] = {options.config.modbus_bind};
@@ -313,7 +314,7 @@ int Service::open_doors() {
             return exit_failed;
         }
         hot->tap_samples([this](const Sample& sample) { modbus->on_sample(sample); });
-        hot->on_mappings([this](const SiteState& site, std::vector<Mapping> mappings) { modbus->set_mappings(placed(site, std::move(mappings))); });
+        hot->on_mappings([this](const SiteState& site, std::vector<Mapping> mappings) { modbus->set_mappings(placed(site, std::move(mappings)), site.site.gaps); });
         hot->look_here_while_spinning([this] { return modbus->serve_now(); });
         gateway->modbus_answer = [this](std::uint8_t unit, std::span<const std::uint8_t> pdu) { return modbus->answer_read(unit, pdu); };
         for (const auto& a : modbus->addresses()) doors.push_back({"modbus", a});
@@ -324,6 +325,7 @@ int Service::open_doors() {
         http::Settings hs;
         hs.version = AXISGATE_VERSION;
         hs.bind = options.config.http_bind;
+        hs.map_gaps = options.config.modbus_gaps;
         hs.low_word_first = options.config.modbus_low_word_first;
         hs.allowed_hosts = options.config.http_allowed_hosts;
         hs.max_connections = static_cast<std::size_t>(options.config.max_http_connections);

@@ -10,6 +10,7 @@
 #include <boost/json/serialize.hpp>
 #include <fstream>
 
+#include "gateway/runtime/axis_metrics.hpp"
 #include "gateway/runtime/clock.hpp"
 #include "gateway/runtime/site_file.hpp"
 #include "gateway/runtime/site_names.hpp"
@@ -366,10 +367,10 @@ std::string WarmGateway::metrics() const {
     };
     per_drive("axisgate_drive_online", "1: the drive or its twin answers.", [](const DriveStatus& d) { return d.presence != Presence::offline ? 1 : 0; });
     per_drive("axisgate_drive_simulated", "1: the embedded twin serves the axes.", [](const DriveStatus& d) { return d.presence == Presence::twin ? 1 : 0; });
-    head("axisgate_axis_fault", "gauge", "1: the axis is in fault.");
-    for (std::size_t i = 0; i < site.axis_ids.size(); ++i) {
-        s += fmt::format("axisgate_axis_fault{{axis=\"{}\"}} {}\n", site.site.axes[i].name, (picture(site.axis_ids[i]).flags & flag_fault) ? 1 : 0);
-    }
+    std::vector<AxisPicture> pictures;
+    pictures.reserve(site.axis_ids.size());
+    for (const AxisId id : site.axis_ids) pictures.push_back(picture(id));
+    s += axis_metrics(site, pictures, monotonic_now());
     if (more_metrics) s += more_metrics();
     return s;
 }

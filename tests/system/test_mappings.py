@@ -1,7 +1,7 @@
 """Own maps: what the page or a script puts at an address, a Modbus client reads there, in every type and word order; and writes it."""
 import struct
 
-from harness import ModbusException, until
+from harness import DEMO, Gateway, ModbusException, until
 
 
 def registers(data):
@@ -102,3 +102,43 @@ def test_a_template_reads_like_the_standard_map_and_the_audit_says_what_changed(
     assert "mapping m1 (unit 2 holding_registers 0, feeder.position): address 0 -> 8" in said, said
     gateway.send("DELETE", "/mappings/m1", None, 204)
     assert "mapping m1 (unit 2 holding_registers 8, feeder.position): removed" in [e["text"] for e in gateway.get("/events?kind=site")][-1]
+
+
+def exception_of(ask):
+    try:
+        ask()
+    except ModbusException as e:
+        return e.code
+    return None
+
+
+def test_gaps_read_zero_unless_the_unit_refuses_them_and_the_event_names_the_address(folder):
+    with Gateway(folder, DEMO) as gateway:
+        add(gateway, id="gap-a", unit=11, address=10, axis="feeder", point="statusword", type="u16")
+        add(gateway, id="gap-b", unit=11, address=14, axis="feeder", point="position", type="i32")
+        with gateway.modbus() as m:
+            block = m.read(0, 40, unit=11)
+            assert [i for i, w in enumerate(block) if w and i not in (10, 14, 15)] == [] and block[10] != 0, block
+            assert exception_of(lambda: m.read(20, 4, unit=11)) == 2, "nothing that can be read is touched"
+            assert exception_of(lambda: m.write(11, [1], unit=11)) == 2
+            gateway.send("PUT", "/mappings/units/11", {"gaps": "refuse"})
+            assert exception_of(lambda: m.read(10, 2, unit=11)) == 2 and m.read(10, 1, unit=11)
+            text = until(lambda: [e["text"] for e in gateway.get("/events?kind=refused") if "holding registers 10..11" in e["text"]], 5, "the event")[-1]
+            assert "nothing is mapped at address 11" in text and "exception 2" in text, text
+            site = gateway.get("/site")
+            assert site["modbus_units"] == [{"unit": 11, "gaps": "refuse"}]
+            gateway.send("PUT", "/mappings/units/11", {"gaps": None})
+            assert "modbus_units" not in gateway.get("/site") and len(m.read(10, 2, unit=11)) == 2
+        assert gateway.send("DELETE", "/mappings?unit=11", None)["removed"] == ["gap-a", "gap-b"]
+
+
+def test_a_refusal_leaves_its_sentence_and_a_number_in_the_axis_block(folder):
+    with Gateway(folder, DEMO) as gateway:
+        with gateway.modbus() as m:
+            before = m.read(21, 1)[0]
+            gateway.command("feeder", {"command": "disable"})
+            assert exception_of(lambda: m.write(33, [9])) is not None, "there is no mode 9"
+            reason, count = m.read(20, 2)
+            assert reason != 0 and count == before + 1
+            event = until(lambda: [e for e in gateway.get("/events?kind=refused&axis=feeder") if "register 33 = 9" in e["text"]], 5, "the event")[-1]
+            assert event["door"] == "modbus" and event["who"].startswith("127.0.0.1:") and event["severity"] == "warning", event

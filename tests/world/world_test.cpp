@@ -177,6 +177,23 @@ TEST_P(PresenceStory, TheTwinDoesNotTakeOverACommandedAxis) {
     EXPECT_TRUE(w.run_until_true([&] { return serves(Presence::device); }, 12s));
 }
 
+TEST_P(PresenceStory, AControlWord0ThatLetsGoIsAccepted) {
+    start("auto", true);
+    ASSERT_TRUE(w.run_until_true([&] { return serves(Presence::device); }, 5s));
+    w.run_for(1s);
+    const Result* r = w.wait(w.command(a, Enable{}, true), 5s);
+    ASSERT_TRUE(r && good(*r)) << (r ? r->text : "none");
+    w.cables.at("line")->cut(w.now);
+    w.run_for(5s);
+    EXPECT_NE(w.engine.drive_status(d).text.find("disable the axis to let the twin take over"), std::string::npos) << w.engine.drive_status(d).text;
+    ProcessData word;
+    word.controlword = 0;
+    r = w.wait(w.command(a, word), 5s);
+    ASSERT_TRUE(r);
+    EXPECT_EQ(r->outcome, Outcome::accepted) << r->text;
+    EXPECT_TRUE(w.run_until_true([&] { return serves(Presence::twin); }, 5s));
+}
+
 TEST_P(PresenceStory, AnIdleAxisIsTakenOverWhenItsDeviceGoesAway) {
     start("auto", true);
     ASSERT_TRUE(w.run_until_true([&] { return serves(Presence::device); }, 5s));

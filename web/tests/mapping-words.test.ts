@@ -116,8 +116,13 @@ describe('tables', () => {
   });
   it('need no head', () => expect(readTable('2\tholding\t8\tfeeder\tposition\tf32', known, []).rows[0]?.spec).toMatchObject({ unit: 2, table: 'holding_registers', address: 8, type: 'f32' }));
   it('go back to the gateway with all columns', () => {
-    expect(csvOfSpecs([{ unit: 2, address: 8, axis: 'feeder', point: 'position', comment: 'a;b' }])).toBe('id,unit,table,address,axis,point,type,word_order,scale,offset,access,length,comment\n,2,,8,feeder,position,,,,,,,"a;b"\n');
-    expect(cellsOf(m('a', 4))).toHaveLength(13);
+    expect(csvOfSpecs([{ unit: 2, address: 8, axis: 'feeder', point: 'position', comment: 'a;b' }])).toBe('id,unit,table,address,axis,point,type,word_order,scale,offset,access,length,comment,on_overflow\n,2,,8,feeder,position,,,,,,,"a;b",\n');
+    expect(cellsOf(m('a', 4))).toHaveLength(14);
+  });
+  it('say what a value that does not fit shows: a mark unless the table says clamp', () => {
+    const read = (cell: string) => readTable(`unit,address,axis,point,type,on_overflow\n2,8,feeder,position,i16,${cell}`, known, []).rows[0];
+    expect([read('')?.spec?.on_overflow, read('mark')?.spec?.on_overflow, read('clamp')?.spec?.on_overflow]).toEqual([undefined, undefined, 'clamp']);
+    expect(read('cut')?.faults).toEqual(['on overflow: mark or clamp.']);
   });
 });
 

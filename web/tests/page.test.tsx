@@ -180,7 +180,7 @@ describe('a role', () => {
   });
   it('decides who can keep a site on trial: the one who applied it; anybody who may change it can take it back; all see it', async () => {
     const { draft } = draftOf(gateway.client);
-    draft.stage.value = { state: 'applied', by: 'anna 10.0.0.7', confirm_by: (gateway.store.gatewayNow_ms() + 42_000) * 1e6 };
+    draft.stage.value = { state: 'applied', by: 'anna 10.0.0.7', confirm_by: new Date(gateway.store.gatewayNow_ms() + 42_000).toISOString() };
     await as('viewer');
     expect(text('[data-field=trial-rest]')).toMatch(/^Site on trial: 4[12] s$/);
     const buttons = () => [button('Keep the applied site'), button('Roll back the applied site')].map((b) => b.disabled);

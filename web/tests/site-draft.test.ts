@@ -48,7 +48,7 @@ const door = {
     await typing();
     before = inForce;
     [inForce, tag] = [stage.site!, tag + 1];
-    stage = s > 0 ? { ...stage, state: 'applied', confirm_by: 1e18 } : { state: 'none' };
+    stage = s > 0 ? { ...stage, state: 'applied', confirm_by: '2027-01-02T03:04:05.678901Z' } : { state: 'none' };
     return stage;
   },
   confirm: async () => (stage = { state: 'none' }),

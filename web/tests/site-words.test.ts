@@ -81,6 +81,15 @@ describe('a site', () => {
     expect(r.site.axes![0]!.unit).toBe('deg');
     expect(rebase(site, mine, mine).clashes).toEqual([]);
   });
+  it('keeps how Modbus units answer through every change, and tells what became of it', () => {
+    const refusing = { ...site, modbus_units: [{ unit: 7, gaps: 'refuse' }] };
+    expect(withoutEntry(refusing, 'axes', 'feeder').modbus_units).toEqual(refusing.modbus_units);
+    expect(readSite(JSON.stringify(refusing))).toMatchObject({ modbus_units: refusing.modbus_units });
+    expect(rebase(site, site, refusing).site.modbus_units).toEqual(refusing.modbus_units);
+    expect(rebase(site, refusing, site).site.modbus_units).toEqual(refusing.modbus_units);
+    expect(rebase(site, site, site).site).not.toHaveProperty('modbus_units');
+    expect(differenceOf(site, refusing).map(differenceWords)).toEqual(['Modbus unit 7: unit 7, gaps refuse']);
+  });
   it('finds the place of a fault', () => {
     expect(placeOf('/axes/1/number', site)).toEqual({ room: 'axes', name: 'lift', key: 'number' });
     expect(placeOf('/lines/0/manners/retries', site)?.key).toBe('manners.retries');

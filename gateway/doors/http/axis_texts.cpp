@@ -18,6 +18,14 @@ namespace {
 constexpr std::int64_t clock_step_ns = 1'000'000;
 }  // namespace
 
+void put_age(bool ever_seen, std::int64_t at_unix_ns, std::int64_t now_unix_ns, std::string& text) {
+    if (ever_seen) {
+        fmt::format_to(std::back_inserter(text), ",\"age_ms\":{}}}", std::max<std::int64_t>(0, (now_unix_ns - at_unix_ns) / 1'000'000));
+    } else {
+        text += ",\"age_ms\":null}";
+    }
+}
+
 std::string AxisTexts::text(const Gateway& gateway, const std::shared_ptr<const SiteState>& site, std::size_t index) {
     if (site != site_) {
         site_ = site;
@@ -31,12 +39,7 @@ std::string AxisTexts::text(const Gateway& gateway, const std::shared_ptr<const 
     std::string out;
     out.reserve(k.text.size() + 32);
     out = k.text;
-    if (k.ever_seen) {
-        fmt::format_to(std::back_inserter(out), ",\"age_ms\":{}}}",
-                       std::max<std::int64_t>(0, (gateway.now_unix_ns() - k.at_unix_ns) / 1'000'000));
-    } else {
-        out += ",\"age_ms\":null}";
-    }
+    put_age(k.ever_seen, k.at_unix_ns, gateway.now_unix_ns(), out);
     return out;
 }
 

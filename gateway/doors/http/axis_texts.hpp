@@ -12,6 +12,9 @@
 
 namespace axisgate::http {
 
+/// Ends an axis' text, of which the closing brace has been taken off, with `age_ms`; null if it was never seen.
+void put_age(bool ever_seen, std::int64_t at_unix_ns, std::int64_t now_unix_ns, std::string& text);
+
 class AxisTexts {
 public:
     /// The axis with this index in `site`, with its age now.

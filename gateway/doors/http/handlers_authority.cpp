@@ -23,7 +23,7 @@ json::object authority_document(const Gateway& gateway, const AxisSpec& spec, Ax
                    {"holder", held ? p.authority_holder.data() : ""},
                    {"mode", axisgate::name_of(spec.authority_mode)}};
     o["expires_in_s"] = held ? number(static_cast<double>((until - now) / 1'000'000) / 1000.0) : json::value(nullptr);
-    o["since"] = held ? json::value(gateway.to_unix_ns(p.authority_since)) : json::value(nullptr);
+    o["since"] = held ? json::value(format_time(gateway.to_unix_ns(p.authority_since))) : json::value(nullptr);
     o["last_commander"] = p.authority_commander.data();
     return o;
 }

@@ -202,6 +202,96 @@ Handled remove_mapping(Call& c) {
         false);
 }
 
+Handled remove_mappings(Call& c) {
+    std::optional<Response> fault;
+    const std::int64_t unit = query_whole(c, "unit", 2, 254, 0, fault);
+    const bool all = query_flag(c, "all", fault), dry_run = query_flag(c, "dry_run", fault);
+    if (fault) return *fault;
+    const auto axis = c.target.query.get("axis"), ids = c.target.query.get("ids");
+    if (all ? (unit != 0 || axis || ids) : (unit == 0 && !axis && !ids))
+        return bad_query("all", "unit, axis, ids or several of them to say which mappings, or all=1 and none of the others");
+    std::vector<std::string> wanted;
+    for (std::string_view rest = ids ? std::string_view(*ids) : std::string_view(); !rest.empty();) {
+        const auto end = std::min(rest.find(','), rest.size());
+        wanted.emplace_back(rest.substr(0, end));
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    if (ids && wanted.empty()) return bad_query("ids", "ids of mappings with commas between them");
+    auto plan = [&gateway = c.gateway(), unit, wanted, by_id = ids.has_value(), axis = axis ? std::optional<std::string>(*axis) : std::nullopt](const SiteState& before) -> Planned {
+        for (const auto& id : wanted) {
+            if (!place_of(before.site.mappings, id)) return nothing_named("mapping", id);
+        }
+        json::object document = to_json(before.site);
+        json::array& list = document["mappings"].get_array();
+        json::array kept, removed;
+        for (auto& m : list) {
+            const auto& o = m.get_object();
+            const bool meant = (unit == 0 || o.at("unit") == unit) && (!axis || o.at("axis").get_string() == *axis) &&
+                               (!by_id || std::ranges::find(wanted, id_of(m)) != wanted.end());
+            (meant ? removed : kept).push_back(meant ? o.at("id") : m);
+        }
+        list = std::move(kept);
+        std::vector<SiteFault> faults;
+        auto site = parse_site(document, gateway.families(), faults);
+        if (!site) return refusal_for(faults, "", false);
+        return Plan{std::move(*site), [removed](const std::shared_ptr<const SiteState>& now) {
+                        return shown(*now, json::object{{"dry_run", false}, {"removed", removed}, {"mappings", now->site.mappings.size()}});
+                    }};
+    };
+    if (!dry_run) return change_site(c, false, std::move(plan));
+    const auto now = c.gateway().site();
+    if (auto refusal = precondition(c, *now, false)) return *std::move(refusal);
+    auto planned = plan(*now);
+    if (auto* refusal = std::get_if<Response>(&planned)) return std::move(*refusal);
+    const auto& left = std::get<Plan>(planned).site.mappings;
+    json::array removed;
+    for (const auto& m : now->site.mappings) {
+        if (!place_of(left, id_of(m))) removed.emplace_back(id_of(m));
+    }
+    return shown(*now, json::object{{"dry_run", true}, {"removed", std::move(removed)}, {"mappings", left.size()}});
+}
+
+namespace {
+json::object unit_document(const SiteState& site, std::uint8_t unit, MapGaps of_host) {
+    const auto it = site.site.gaps.find(unit);
+    const bool own = it != site.site.gaps.end();
+    const auto used = std::ranges::count_if(site.site.mappings, [&](const json::value& m) { return m.get_object().at("unit") == std::int64_t{unit}; });
+    return {{"unit", std::int64_t{unit}}, {"gaps", own ? json::value(name_of(it->second)) : json::value()}, {"shown", name_of(own ? it->second : of_host)}, {"mappings", used}};
+}
+}  // namespace
+
+Handled list_mapping_units(Call& c) {
+    const auto site = c.gateway().site();
+    json::array out;
+    for (std::uint8_t unit = 2; unit <= 254; ++unit) {
+        auto o = unit_document(*site, unit, c.context.settings.map_gaps);
+        if (!o.at("gaps").is_null() || o.at("mappings") != 0) out.push_back(std::move(o));
+    }
+    return shown(*site, out);
+}
+
+Handled change_mapping_unit(Call& c) {
+    const auto number = parse_whole(c.names[0], 2, 254);
+    if (!number) return nothing_named("unit", c.names[0]);
+    std::vector<Fault> faults;
+    const auto& body = c.body.get_object();
+    for (const auto& [k, v] : body) {
+        if (k != "gaps") faults.push_back({"/" + std::string(k), fmt::format("{} is not known here", std::string_view(k)), "write {\"gaps\": \"zero\"}, \"refuse\" or null"});
+    }
+    const auto* given = body.if_contains("gaps");
+    const auto gaps = given && given->is_string() ? map_gaps_named(std::string_view(given->get_string())) : std::nullopt;
+    if (!given || (!gaps && !given->is_null())) faults.push_back({"/gaps", "gaps must be zero, refuse or null", "null: as the host's [modbus] gaps says"});
+    if (!faults.empty()) return invalid(std::move(faults));
+    return change_site(c, false, [unit = static_cast<std::uint8_t>(*number), gaps, of_host = c.context.settings.map_gaps](const SiteState& before) -> Planned {
+        Site site = before.site;
+        if (gaps)
+            site.gaps[unit] = *gaps;
+        else
+            site.gaps.erase(unit);
+        return Plan{std::move(site), [unit, of_host](const std::shared_ptr<const SiteState>& now) { return shown(*now, unit_document(*now, unit, of_host)); }};
+    });
+}
+
 Handled get_mappings_csv(Call& c) {
     const auto site = c.gateway().site();
     std::vector<SiteFault> none;  // the site has been checked

@@ -27,7 +27,7 @@ json::object document_of(const Gateway::ModbusReport& report) {
         json::array holds;
         for (const auto& h : x.holds) holds.emplace_back(h);
         connections.push_back(json::object{{"peer", x.peer}, {"requests", x.requests}, {"writes", x.writes}, {"exceptions", x.exceptions},
-                                           {"since", x.since_unix_ns}, {"holds", std::move(holds)}});
+                                           {"since", format_time(x.since_unix_ns)}, {"holds", std::move(holds)}});
     }
     return {{"bind", report.bind}, {"allow", std::move(allow)}, {"functions", std::move(functions)}, {"read_only", report.read_only},
             {"connections", std::move(connections)}};

@@ -82,6 +82,8 @@ constexpr std::array standard{Standard{0, MapType::u16, "statusword", false},
                               Standard{16, MapType::u16, "setpoints_accepted", false},
                               Standard{17, MapType::u16, "authority", false},
                               Standard{18, MapType::u32, "mapping_revision", false},
+                              Standard{20, MapType::u16, "refusal_reason", false},
+                              Standard{21, MapType::u16, "refusals", false},
                               Standard{22, MapType::u16, "fail_safe_cause", false},
                               Standard{32, MapType::u16, "controlword", true},
                               Standard{33, MapType::i16, "mode", true},
@@ -96,6 +98,11 @@ bool is_standard_unit(std::int64_t unit) { return unit == 0 || unit == 1 || unit
 
 /// Of 32-bit values of the standard map.
 MapWordOrder standard_order(const Call& c) { return c.context.settings.low_word_first ? MapWordOrder::low_first : MapWordOrder::high_first; }
+
+std::string reason_text(const Value& v) {
+    const auto n = as_integer(v).value_or(-1);
+    return n >= 0 && n <= static_cast<int>(Reason::internal) ? std::string(axisgate::name_of(static_cast<Reason>(n))) : to_text(v);
+}
 
 json::array decoded(const SiteState& site, const Families& families, std::int64_t unit, MapTable table, std::uint32_t address,
                     std::uint32_t count, const std::vector<std::uint8_t>& data, MapWordOrder standard_order) {
@@ -113,7 +120,7 @@ json::array decoded(const SiteState& site, const Families& families, std::int64_
                                    {"type", name_of(m.type)},
                                    {"value", to_json(v)},
                                    {"unit", text_or_null(unit_text)},
-                                   {"text", to_text(v)}});
+                                   {"text", name.ends_with(".refusal_reason") ? reason_text(v) : to_text(v)}});
     };
     if (is_standard_unit(unit)) {
         if (is_bits(table)) return out;

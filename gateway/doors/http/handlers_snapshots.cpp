@@ -177,9 +177,22 @@ bool same(const Value& a, const Value& b) {
     return x && y ? *x == *y : a == b;
 }
 
+/// What is missing on the other side, for people: a value that is not known is not one that differs.
+std::string unknown_text(std::string_view with, std::size_t unknown, std::size_t all) {
+    if (unknown == 0) return {};
+    const std::string how_many = unknown == all ? std::string("none of the values") : fmt::format("{} of {} values", unknown, all);
+    const std::string is_not = unknown == all ? "is" : "are not";
+    if (with == "device") return fmt::format("{} {} be read from the drive", how_many, unknown == all ? "could" : "could not");
+    if (with == "stored") return fmt::format("{} {} kept here: only what was written through the gateway is", how_many, is_not);
+    if (with.starts_with("axis:") && std::ranges::count(with, ':') == 1)
+        return fmt::format("{} {} known of {}: it was not read since the gateway's start; take a snapshot of it and compare with that", how_many, is_not, with.substr(5));
+    return fmt::format("{} {} in {}", how_many, is_not, with);
+}
+
 json::object diff_document(Gateway& gateway, const Found& f, std::string_view with, const std::map<std::string, Value>& other) {
     const Catalogue* catalogue = catalogue_of(gateway, f.snapshot, f.axis);
     json::array rows, live;
+    std::size_t unknown = 0;
     std::set<std::string> ids;
     for (const auto& v : f.snapshot.parameters)
         ids.insert(v.parameter);
@@ -194,15 +207,19 @@ json::object diff_document(Gateway& gateway, const Found& f, std::string_view wi
         const auto* p = point ? catalogue->parameter(*point) : nullptr;
         // What acts at once is shown apart: it is no setting, and that it is another now is no difference.
         auto& list = p && p->live ? live : rows;
+        const bool other_known = known(b);
+        if (!other_known) ++unknown;
         list.push_back(json::object{{"parameter", id},
                                     {"name", p ? json::value(p->name) : json::value()},
                                     {"unit", p ? text_or_null(p->unit) : json::value()},
                                     {"snapshot", to_json(a)},
                                     {"other", to_json(b)},
+                                    {"other_known", other_known},
                                     {"same", same(a, b)},
                                     {"writable", p && p->writable()}});
     }
-    return {{"with", with}, {"rows", std::move(rows)}, {"live", std::move(live)}};
+    const std::string text = with == "default" ? std::string() : unknown_text(with, unknown, ids.size());
+    return {{"with", with}, {"not_known", unknown}, {"text", text}, {"rows", std::move(rows)}, {"live", std::move(live)}};
 }
 std::map<std::string, Value> as_map(const std::vector<SnapshotValue>& list) {
     std::map<std::string, Value> out;

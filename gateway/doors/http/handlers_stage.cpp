@@ -31,7 +31,7 @@ Response stage_answer(Gateway& gateway, const StageDesk& desk, unsigned status =
         o["client"] = text_or_null(desk.applier(stage).empty() ? desk.stager(stage) : desk.applier(stage));
         if (const auto at = desk.at_unix_ns(stage); at != 0) o["staged_at"] = format_time(at);
         o["base_revision"] = stage.base_revision();
-        if (stage.confirm_by_unix_ns() != 0) o["confirm_by"] = stage.confirm_by_unix_ns();
+        if (stage.confirm_by_unix_ns() != 0) o["confirm_by"] = format_time(stage.confirm_by_unix_ns());
     }
     if (stage.state() == SiteStage::State::staged) {
         o["diff"] = site_diff(now->site, stage.site());

@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "gateway/core/site.hpp"
+
 namespace axisgate::http {
 
 /// Bytes of an embedded file by its path in the source tree ("web/dist/index.html"); data() == nullptr if there is none.
@@ -21,6 +23,7 @@ struct Settings {
     /// Names by which clients may call this gateway beside IP addresses and localhost. All other names are refused with 421, whatever
     /// `bind` is: a page of another site may bind its own name to this machine, and its requests would come from this machine.
     std::vector<std::string> allowed_hosts;
+    MapGaps map_gaps = MapGaps::zero;  ///< [modbus] gaps: of units that the site does not name
     bool low_word_first = false;    ///< of the standard map, as `[modbus] word_order` has it: for what shows and describes its registers
     bool require_if_match = false;  ///< true: PUT /site without If-Match is refused with 428
 

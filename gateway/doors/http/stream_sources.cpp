@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "gateway/doors/http/axis_texts.hpp"
 #include "gateway/doors/http/documents.hpp"
 #include "gateway/doors/http/handlers.hpp"
 #include "gateway/doors/http/websocket_codec.hpp"
@@ -100,7 +101,12 @@ void StreamSources::look_axis(Source& s, Instant now, bool force) {
     s.picture = picture;
     s.fresh = false;
     if (!differs && !force) return;
-    s.frame = message_of(s.topic, gateway_.now_unix_ns(), data);
+    // The age belongs to the message, not to what is compared: alone it is no news.
+    const std::int64_t at = gateway_.now_unix_ns();
+    std::string shown = data;
+    shown.pop_back();
+    put_age(picture.ever_seen, gateway_.to_unix_ns(picture.at), at, shown);
+    s.frame = message_of(s.topic, at, shown);
     s.text = std::move(data);
     s.built = now;
     if (differs) ++s.version;

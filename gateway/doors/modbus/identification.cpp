@@ -41,16 +41,21 @@ void Identity::set_mapping_revision(std::uint32_t revision) {
         at->value[static_cast<std::size_t>(i)] = "0123456789abcdef"[(revision >> (28 - 4 * i)) & 0xFu];
 }
 
-std::size_t report_server_id(const Identity& identity, std::uint8_t* out) noexcept {
-    constexpr std::size_t room = max_pdu - 3;
-    const std::size_t id = std::min(identity.server_id.size(), room);
-    const std::size_t version = std::min(identity.version.size(), room - id);
+std::size_t report_server_id(const Identity& identity, std::uint8_t unit, std::uint8_t* out) noexcept {
+    std::size_t size = 4;
+    const auto put = [&](std::string_view text) {
+        const std::size_t n = std::min(text.size(), max_pdu - size);
+        std::memcpy(out + size, text.data(), n);
+        size += n;
+    };
+    put(identity.server_name);
+    put(" ");
+    put(identity.version);
     out[0] = function::report_server_id;
-    out[1] = static_cast<std::uint8_t>(id + 1 + version);
-    std::memcpy(out + 2, identity.server_id.data(), id);
-    out[2 + id] = 0xFF;
-    std::memcpy(out + 3 + id, identity.version.data(), version);
-    return 3 + id + version;
+    out[1] = static_cast<std::uint8_t>(size - 2);
+    out[2] = unit;
+    out[3] = 0xFF;
+    return size;
 }
 
 IdentityAnswer read_device_identification(const Identity& identity, std::uint8_t code, std::uint8_t object, std::uint8_t* out) noexcept {

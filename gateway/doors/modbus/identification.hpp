@@ -19,7 +19,7 @@ struct IdentityObject {
 };
 
 struct Identity {
-    std::string server_id = "axisgate";
+    std::string server_name = "axisgate";
     std::string version;
     std::vector<IdentityObject> objects;  ///< ascending ids; 0, 1 and 2 are there
 
@@ -29,8 +29,9 @@ struct Identity {
     void set_mapping_revision(std::uint32_t revision);
 };
 
-/// Function 17: byte count, server id, run indicator 0xFF, version. Returns the size of the PDU in `out` (max_pdu bytes).
-[[nodiscard]] std::size_t report_server_id(const Identity& identity, std::uint8_t* out) noexcept;
+/// Function 17: byte count, server id (one byte, as client libraries read it: the unit that was asked), run indicator 0xFF, then the text
+/// "axisgate 1.2.3". Returns the size of the PDU in `out` (max_pdu bytes).
+[[nodiscard]] std::size_t report_server_id(const Identity& identity, std::uint8_t unit, std::uint8_t* out) noexcept;
 
 /// Function 43/14 for read code 1..4 and an object id. Stream access (1..3) starts again at object 0 if the id is not one of the asked
 /// category, as the standard has it; individual access (4) to an unknown object is an illegal address; other codes are illegal values.

@@ -2,6 +2,8 @@
 // Never allocates in a read of points that are not texts.
 #include "gateway/doors/modbus/own_map.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstring>
 #include <optional>
@@ -104,7 +106,7 @@ Value axis_value(const Image& image, const AxisPicture& p, AxisPoint point, doub
 
 }  // namespace
 
-OwnMap::OwnMap(const DoorPort& port, std::vector<PlacedMapping> mappings, Ask ask) : port_(port), ask_(std::move(ask)) {
+OwnMap::OwnMap(const DoorPort& port, std::vector<PlacedMapping> mappings, MapGaps gaps, Ask ask) : port_(port), gaps_(gaps), ask_(std::move(ask)) {
     std::ranges::sort(mappings, {}, [](const PlacedMapping& m) { return m.mapping.address; });
     for (auto& m : mappings) {
         Place place{std::move(m), 0};
@@ -123,16 +125,50 @@ OwnMap::Places::const_iterator OwnMap::first_at(const Places& list, std::uint32_
 }
 
 template <class F>
-Exception OwnMap::each(Table table, std::uint16_t address, std::uint16_t count, F&& f) const {
+Exception OwnMap::each_written(Table table, std::uint16_t address, std::uint16_t count, F&& f) {
     const Places& list = places(table);
     const std::uint32_t end = std::uint32_t{address} + count;
     std::uint32_t at = address;
     for (auto it = first_at(list, address); at < end; ++it) {
-        if (it == list.end() || it->at.mapping.address > at) return Exception::illegal_address;
+        if (it == list.end() || it->at.mapping.address > at) return refuse_gap(table, at, false);
         if (const Exception e = f(*it); e != Exception::none) return e;
         at = it->at.mapping.end();
     }
     return Exception::none;
+}
+
+template <class F>
+Exception OwnMap::each_read(Table table, std::uint16_t address, std::uint16_t count, F&& f) {
+    const Places& list = places(table);
+    const std::uint32_t end = std::uint32_t{address} + count;
+    std::uint32_t at = address;
+    bool touched = false;
+    for (auto it = first_at(list, address); it != list.end() && it->at.mapping.address < end; ++it) {
+        if (it->at.mapping.access == MapAccess::write) continue;
+        if (gaps_ == MapGaps::refuse && it->at.mapping.address > at) break;
+        if (const Exception e = f(*it); e != Exception::none) return e;
+        touched = true;
+        at = it->at.mapping.end();
+    }
+    return !touched || (gaps_ == MapGaps::refuse && at < end) ? refuse_gap(table, at, !touched) : Exception::none;
+}
+
+Exception OwnMap::refuse_gap(Table table, std::uint32_t address, bool nothing_at_all) {
+    constexpr std::array names{"coils", "discrete inputs", "holding registers", "input registers"};
+    const Places& list = places(table);
+    const auto it = first_at(list, address);
+    const char* const name = names[static_cast<std::size_t>(table)];
+    if (it != list.end() && it->at.mapping.address <= address) {
+        return refuse(Exception::illegal_address, it->at.axis, Reason::not_writable,
+                      fmt::format("address {} of the {} ({} of axis {}) can only be written", address, name, it->at.mapping.point, it->at.mapping.axis));
+    }
+    return refuse(Exception::illegal_address, no_axis, Reason::unknown_point,
+                  nothing_at_all && gaps_ == MapGaps::zero ? fmt::format("nothing is mapped in the {} that the request asks for, from address {} on", name, address)
+                                                           : fmt::format("nothing is mapped at address {} of the {}", address, name));
+}
+
+Exception OwnMap::refuse_axis(const Place& place) {
+    return refuse(Exception::no_path, no_axis, Reason::line_down, fmt::format("axis {} is not configured any more", place.at.mapping.axis));
 }
 
 void OwnMap::want(std::uint32_t index, Instant now) {
@@ -167,7 +203,7 @@ void OwnMap::on_sample(const Sample& sample) {
 
 Exception OwnMap::value_of(const Place& place, Instant now, Value& value) {
     const AxisPicture& picture = port_.image().picture(place.at.axis);
-    if (picture.number == 0) return Exception::no_path;
+    if (picture.number == 0) return refuse_axis(place);
     if (const auto* point = std::get_if<AxisPoint>(&place.at.mapping.what)) {
         value = axis_value(port_.image(), picture, *point, place.at.increments_per_unit, now);
         return Exception::none;
@@ -179,21 +215,20 @@ Exception OwnMap::value_of(const Place& place, Instant now, Value& value) {
 }
 
 Exception OwnMap::check_read(Table table, std::uint16_t address, std::uint16_t count) {
-    return each(table, address, count, [&](const Place& p) {
-        if (p.at.mapping.access == MapAccess::write) return Exception::illegal_address;
-        return port_.image().picture(p.at.axis).number == 0 ? Exception::no_path : Exception::none;
+    return each_read(table, address, count, [&](const Place& p) {
+        return port_.image().picture(p.at.axis).number == 0 ? refuse_axis(p) : Exception::none;
     });
 }
 
 Exception OwnMap::read_registers(Table table, std::uint16_t address, std::uint16_t count, Instant now, std::uint8_t* out) {
     const std::uint32_t begin = address, end = begin + count;
-    return each(table, address, count, [&](const Place& p) {
+    std::memset(out, 0, 2 * std::size_t{count});
+    return each_read(table, address, count, [&](const Place& p) {
         const Mapping& m = p.at.mapping;
-        if (m.access == MapAccess::write) return Exception::illegal_address;
         Value value;
         if (const Exception e = value_of(p, now, value); e != Exception::none) return e;
         std::uint8_t bytes[widest];
-        if (!encode(m, value, bytes)) return Exception::device_failure;  // more than the type can show: no wrong number instead
+        (void)encode(m, value, bytes);  // a value that does not fit spoils itself alone: it shows its mark, or the end of its type
         const std::uint32_t from = std::max<std::uint32_t>(begin, m.address), to = std::min(end, m.end());
         std::memcpy(out + 2 * std::size_t{from - begin}, bytes + 2 * std::size_t{from - m.address}, 2 * std::size_t{to - from});
         return Exception::none;
@@ -203,40 +238,67 @@ Exception OwnMap::read_registers(Table table, std::uint16_t address, std::uint16
 Exception OwnMap::read_bits(Table table, std::uint16_t address, std::uint16_t count, std::uint8_t* out) {
     std::memset(out, 0, (count + 7u) / 8u);
     const Instant now = port_.now();
-    return each(table, address, count, [&](const Place& p) {
-        if (p.at.mapping.access == MapAccess::write) return Exception::illegal_address;
+    return each_read(table, address, count, [&](const Place& p) {
         Value value;
         if (const Exception e = value_of(p, now, value); e != Exception::none) return e;
         std::uint8_t bytes[2];
-        if (!encode(p.at.mapping, value, bytes)) return Exception::device_failure;
+        (void)encode(p.at.mapping, value, bytes);
         const std::uint32_t bit = p.at.mapping.address - std::uint32_t{address};
         if (bytes[1] != 0) out[bit / 8] = static_cast<std::uint8_t>(out[bit / 8] | (1u << (bit % 8)));
         return Exception::none;
     });
 }
 
+bool OwnMap::is_exact(std::uint16_t address, Instant now) {
+    const Places& list = places(Table::holding_registers);
+    const auto it = first_at(list, address);
+    Value value;
+    std::uint8_t bytes[widest];
+    if (it == list.end() || it->at.mapping.address > address || value_of(*it, now, value) != Exception::none) return true;  // refused elsewhere
+    if (encode(it->at.mapping, value, bytes)) return true;
+    (void)refuse(Exception::device_failure, it->at.axis, Reason::wrong_state,
+                 fmt::format("{} of axis {} is {}, which its register cannot show: a part of it cannot be changed", it->at.mapping.point, it->at.mapping.axis, to_text(value)));
+    return false;
+}
+
 Exception OwnMap::check_write(Table table, std::uint16_t address, std::uint16_t count) {
-    if (table == Table::discrete_inputs || table == Table::input_registers) return Exception::illegal_address;
+    if (table == Table::discrete_inputs || table == Table::input_registers)
+        return refuse(Exception::illegal_address, no_axis, Reason::not_writable, "inputs can only be read");
     const std::uint32_t end = std::uint32_t{address} + count;
-    bool halves = false, path = true;
-    const Exception e = each(table, address, count, [&](const Place& p) {
+    const Place* half = nullptr;
+    const Place* lost = nullptr;
+    const Exception e = each_written(table, address, count, [&](const Place& p) {
         const Mapping& m = p.at.mapping;
-        if (m.access == MapAccess::read) return Exception::illegal_address;
-        halves = halves || m.address < address || m.end() > end;
-        path = path && port_.image().picture(p.at.axis).number != 0;
+        if (m.access == MapAccess::read) {
+            return refuse(Exception::illegal_address, p.at.axis, Reason::not_writable,
+                          fmt::format("{} of axis {}, at address {}, can only be read", m.point, m.axis, m.address));
+        }
+        if (!half && (m.address < address || m.end() > end)) half = &p;
+        if (!lost && port_.image().picture(p.at.axis).number == 0) lost = &p;
         return Exception::none;
     });
     if (e != Exception::none) return e;
-    if (halves) return Exception::illegal_value;
-    return path ? Exception::none : Exception::no_path;
+    if (half) {
+        const Mapping& m = half->at.mapping;
+        return refuse(Exception::illegal_value, half->at.axis, Reason::out_of_range,
+                      fmt::format("{} of axis {} takes the registers {}..{}: write all of them in one request", m.point, m.axis, m.address, m.end() - 1));
+    }
+    return lost ? refuse_axis(*lost) : Exception::none;
 }
 
-Exception OwnMap::plan_value(const Place& place, const Value& value, WritePlan& plan) const {
-    if (!known(value)) return Exception::illegal_value;
+Exception OwnMap::plan_value(const Place& place, const Value& value, WritePlan& plan) {
     const AxisId axis = place.at.axis;
+    const Mapping& m = place.at.mapping;
+    const auto wrong = [&](std::string text) {
+        (void)refuse(Exception::illegal_value, axis, Reason::out_of_range, std::move(text));
+        refused_.value = to_text(value);
+        if (std::holds_alternative<Point>(m.what)) refused_.parameter = m.point;
+        return Exception::illegal_value;
+    };
+    if (!known(value)) return wrong(fmt::format("axis {}: what the registers of {} hold is no number", m.axis, m.point));
     if (const auto* point = std::get_if<AxisPoint>(&place.at.mapping.what)) {
         const auto n = as_integer(value);
-        if (!n) return Exception::illegal_value;
+        if (!n) return wrong(fmt::format("axis {}: {} is {}, which is no whole number", m.axis, m.point, to_text(value)));
         // All registers 32..44 of one axis in one request act together, the control word last.
         auto same = std::ranges::find_if(
             plan.commands, [&](const PlannedCommand& c) { return c.axis == axis && std::holds_alternative<ProcessData>(c.body); });
@@ -244,13 +306,14 @@ Exception OwnMap::plan_value(const Place& place, const Value& value, WritePlan& 
             plan.commands.push_back({axis, ProcessData{}, false, 0});
             same = std::prev(plan.commands.end());
         }
-        return put_process_data(std::get<ProcessData>(same->body), *point, *n) ? Exception::none : Exception::illegal_value;
+        if (put_process_data(std::get<ProcessData>(same->body), *point, *n)) return Exception::none;
+        return wrong(fmt::format("axis {}: {} {} does not fit its register", m.axis, m.point, *n));
     }
     const Point point = std::get<Point>(place.at.mapping.what);
     const Catalogue* catalogue = port_.catalogue(axis);
-    if (!catalogue || !catalogue->parameter(point)) return Exception::no_path;
+    if (!catalogue || !catalogue->parameter(point)) return refuse_axis(place);
     auto checked = catalogue->check_write(point, value);
-    if (!checked.fault.empty()) return Exception::illegal_value;
+    if (!checked.fault.empty()) return wrong(fmt::format("axis {}: {}", m.axis, checked.fault));
     plan.commands.push_back({axis, WriteParameter{point, std::move(checked.value)}, false, 0});
     return Exception::none;
 }
@@ -258,7 +321,7 @@ Exception OwnMap::plan_value(const Place& place, const Value& value, WritePlan& 
 Exception OwnMap::write(Table table, std::uint16_t address, std::uint16_t count, const std::uint8_t* data, WritePlan& plan) {
     if (const Exception e = check_write(table, address, count); e != Exception::none) return e;
     const bool bits = table == Table::coils;
-    const Exception e = each(table, address, count, [&](const Place& p) {
+    const Exception e = each_written(table, address, count, [&](const Place& p) {
         const std::uint32_t at = p.at.mapping.address - std::uint32_t{address};
         const Value value =
             bits ? Value{static_cast<std::int64_t>((data[at / 8] >> (at % 8)) & 1)} : decode(p.at.mapping, data + 2 * std::size_t{at});

@@ -33,11 +33,12 @@ public:
     /// Readings on their way at once, per unit.
     static constexpr std::size_t most_readings = 16;
 
-    OwnMap(const DoorPort& port, std::vector<PlacedMapping> mappings, Ask ask);
+    OwnMap(const DoorPort& port, std::vector<PlacedMapping> mappings, MapGaps gaps, Ask ask);
 
     Exception check_read(Table table, std::uint16_t address, std::uint16_t count) override;
     Exception read_registers(Table table, std::uint16_t address, std::uint16_t count, Instant now, std::uint8_t* out) override;
     Exception read_bits(Table table, std::uint16_t address, std::uint16_t count, std::uint8_t* out) override;
+    bool is_exact(std::uint16_t address, Instant now) override;
     Exception check_write(Table table, std::uint16_t address, std::uint16_t count) override;
     Exception write(Table table, std::uint16_t address, std::uint16_t count, const std::uint8_t* data, WritePlan& plan) override;
     void on_own_result(std::uint32_t note, const Result& result) override;
@@ -65,12 +66,20 @@ private:
     [[nodiscard]] Places::const_iterator first_at(const Places& list, std::uint32_t address) const noexcept;
     /// Calls `f` for each entry of the range in order; illegal_address if an address of it belongs to none.
     template <class F>
-    [[nodiscard]] Exception each(Table table, std::uint16_t address, std::uint16_t count, F&& f) const;
+    [[nodiscard]] Exception each_written(Table table, std::uint16_t address, std::uint16_t count, F&& f);
+    /// The same for a read. What can only be written is as if it were not there. With MapGaps::zero addresses without an entry are passed
+    /// over, as long as the range touches one that has: a client that reads in blocks asks for at least one value in each of them, and one
+    /// that asks for none has the wrong table or counts its addresses from 1.
+    template <class F>
+    [[nodiscard]] Exception each_read(Table table, std::uint16_t address, std::uint16_t count, F&& f);
+    [[nodiscard]] Exception refuse_gap(Table table, std::uint32_t address, bool nothing_at_all);
+    [[nodiscard]] Exception refuse_axis(const Place& place);
     [[nodiscard]] Exception value_of(const Place& place, Instant now, Value& value);
-    [[nodiscard]] Exception plan_value(const Place& place, const Value& value, WritePlan& plan) const;
+    [[nodiscard]] Exception plan_value(const Place& place, const Value& value, WritePlan& plan);
     void want(std::uint32_t index, Instant now);
 
     const DoorPort& port_;
+    MapGaps gaps_;
     Ask ask_;
     std::array<Places, 4> tables_;
     std::vector<ParameterValue> values_;

@@ -1,7 +1,13 @@
 // Parameter channel: see the header. Checks against the catalogue happen here, before anything goes to the line.
 #include "gateway/doors/modbus/parameter_channel.hpp"
 
+#include <fmt/format.h>
+
+#include <bit>
+#include <charconv>
+#include <cmath>
 #include <limits>
+#include <utility>
 
 #include "gateway/doors/modbus/register_map.hpp"
 
@@ -9,15 +15,32 @@ namespace axisgate::modbus {
 namespace {
 constexpr std::uint16_t request_none = 0, request_read = 1, request_write = 2;
 
+constexpr std::uint32_t float_form = 1u << 31;
+
 Point point_of(std::uint32_t selector) noexcept {
-    return {static_cast<std::uint16_t>(selector), static_cast<std::uint16_t>(selector >> 16)};
+    return {static_cast<std::uint16_t>(selector), static_cast<std::uint16_t>((selector & ~float_form) >> 16)};
 }
 bool is_text(ValueType type) noexcept { return type == ValueType::text || type == ValueType::bytes; }
+
+/// The number that people would write for a single: 0.1, not 0.10000000149011612.
+double shortest(float single) noexcept {
+    char text[32];
+    const auto [end, error] = std::to_chars(text, text + sizeof text, single);
+    double d = static_cast<double>(single);
+    if (error == std::errc()) (void)std::from_chars(text, end, d);
+    return d;
+}
 }  // namespace
 
 ParameterChannel::Outcome ParameterChannel::write(const Write& write, const Catalogue* catalogue) {
-    if (state_ == State::busy) return {Exception::busy, {}};
-    if (write.request && *write.request > request_write) return {Exception::illegal_value, {}};
+    if (state_ == State::busy) {
+        why_ = "the parameter channel is busy: write again when register 51 of the axis is no longer 1";
+        return {Exception::busy, {}};
+    }
+    if (write.request && *write.request > request_write) {
+        why_ = fmt::format("the parameter channel has no request {}: 1 reads, 2 writes, 0 goes back to idle", *write.request);
+        return {Exception::illegal_value, {}};
+    }
     if (write.selector) selector_ = *write.selector;
     if (write.value) value_ = *write.value;
     if (!write.request) return {};
@@ -25,32 +48,40 @@ ParameterChannel::Outcome ParameterChannel::write(const Write& write, const Cata
     request_ = *write.request;
     error_ = 0;
     state_ = State::idle;
+    reason_ = Reason::none;
+    parameter_.clear();
+    wanted_.clear();
     if (request_ == request_none) return {};
 
     const Point point = point_of(selector_);
     const Parameter* parameter = catalogue ? catalogue->parameter(point) : nullptr;
+    if (parameter) parameter_ = catalogue->id_of(point);
     if (!catalogue) {
-        refuse(Reason::line_down);
+        refuse(Reason::line_down, "the axis has no drive family: it is not configured");
     } else if (!parameter) {
-        refuse(Reason::unknown_point);
+        refuse(Reason::unknown_point, fmt::format("{} has no parameter {} with the element {}: the selector is in the list of its parameters",
+                                                  catalogue->family(), point.parameter, point.element));
     } else if (is_text(parameter->type)) {
-        refuse(Reason::not_supported);
+        refuse(Reason::not_supported, fmt::format("{} is a text, which the parameter channel does not carry", parameter_));
     } else if (request_ == request_read) {
         if (parameter->readable()) {
             state_ = State::busy;
             return {Exception::none, ReadParameter{point}};
         }
-        refuse(Reason::not_supported);
-    } else if (!parameter->writable()) {
-        refuse(Reason::not_writable);
+        refuse(Reason::not_supported, fmt::format("{} can only be written", parameter_));
     } else {
-        const Value wanted{parameter->type == ValueType::u32 ? std::int64_t{value_} : std::int64_t{static_cast<std::int32_t>(value_)}};
-        auto checked = catalogue->check_write(point, wanted);
+        const Value value = given(parameter->type);
+        wanted_ = to_text(value);
+        if (!parameter->writable()) {
+            refuse(Reason::not_writable, fmt::format("{} can only be read", parameter_));
+            return {};
+        }
+        auto checked = catalogue->check_write(point, value);
         if (checked.fault.empty()) {
             state_ = State::busy;
             return {Exception::none, WriteParameter{point, std::move(checked.value)}};
         }
-        refuse(Reason::out_of_range);
+        refuse(Reason::out_of_range, std::move(checked.fault));
     }
     return {};
 }
@@ -58,7 +89,8 @@ ParameterChannel::Outcome ParameterChannel::write(const Write& write, const Cata
 void ParameterChannel::finish(const Result& result, const Catalogue* catalogue) {
     if (state_ != State::busy) return;
     if (!good(result)) {
-        refuse(result.reason == Reason::none ? Reason::internal : result.reason, result.code);
+        const Reason reason = result.reason == Reason::none ? Reason::internal : result.reason;
+        refuse(reason, result.text.empty() ? fmt::format("{}: {}", parameter_, name_of(reason)) : result.text, result.code);
         return;
     }
     const Parameter* parameter = catalogue ? catalogue->parameter(point_of(selector_)) : nullptr;
@@ -66,20 +98,37 @@ void ParameterChannel::finish(const Result& result, const Catalogue* catalogue) 
     // A read value that does not fit is refused: nothing true could be shown. A write has happened, whatever came back with it: then
     // the value register keeps what was written.
     if (!shown && request_ == request_read) {
-        refuse(Reason::out_of_range);
+        refuse(Reason::out_of_range, (selector_ & float_form) != 0 ? fmt::format("{} is {}, which no single can show", parameter_, to_text(result.value))
+                                                                   : fmt::format("{} is {}, which is no whole number of 32 bits: read it in the float form (bit 31 of the selector)",
+                                                                                 parameter_, to_text(result.value)));
         return;
     }
     state_ = State::done;
 }
 
-void ParameterChannel::refuse(Reason reason, std::int32_t code) noexcept {
+void ParameterChannel::refuse(Reason reason, std::string why, std::int32_t code) {
     state_ = State::refused;
+    reason_ = reason;
+    why_ = std::move(why);
     // A drive's code of 0x10000 or more would show as 0 in its low half if that is 0; then the reason says more.
     const auto own = static_cast<std::uint16_t>(code);
     error_ = own != 0 ? own : static_cast<std::uint16_t>(reason);
 }
 
+/// What the value register means. No number and infinity stay what they are: the catalogue refuses them by name.
+Value ParameterChannel::given(ValueType type) const noexcept {
+    if ((selector_ & float_form) == 0) return type == ValueType::u32 ? std::int64_t{value_} : std::int64_t{static_cast<std::int32_t>(value_)};
+    const float single = std::bit_cast<float>(value_);
+    return std::isfinite(single) ? shortest(single) : static_cast<double>(single);
+}
+
 bool ParameterChannel::take(const Value& value, ValueType type) noexcept {
+    if ((selector_ & float_form) != 0) {
+        const auto d = as_number(value);
+        if (!d || !(std::fabs(*d) <= static_cast<double>(std::numeric_limits<float>::max()))) return false;
+        value_ = std::bit_cast<std::uint32_t>(static_cast<float>(*d));
+        return true;
+    }
     const auto i = as_integer(value);
     if (!i) return false;
     const std::int64_t low = type == ValueType::u32 ? 0 : std::numeric_limits<std::int32_t>::min();

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "gateway/core/catalogue.hpp"
 #include "gateway/core/command.hpp"
@@ -14,11 +15,14 @@ namespace axisgate::modbus {
 
 /// State of one axis' channel.
 ///
-///   selector  parameter: position in the family's catalogue (0-based) + element << 16 (0 if it is not an array)
+///   selector  bits 0..15: the parameter's position in the family's catalogue (0-based); bits 16..30: the element (0 if it is not an array);
+///             bit 31: the float form, in which `value` is an IEEE 754 single
 ///   request   1: read the parameter into `value`; 2: write `value` to it; 0: back to idle. Other numbers are illegal values.
 ///   state     0 idle, 1 busy, 2 done, 3 refused
 ///   value     i32. u32 parameters: the same 32 bits unsigned. f32 and f64: only whole numbers, other values are refused (out_of_range),
-///             never rounded. Texts and bytes are refused (not_supported). After a write it shows what the drive took.
+///             never rounded. In the float form: the single nearest to the value, of every number; written, the shortest decimal number
+///             that is this single (0.1 is 0.1), which must be whole where the parameter is. No number and infinity are refused
+///             (out_of_range). Texts and bytes are refused (not_supported). After a write it shows what the drive took.
 ///   error     0, or after a refusal the drive's own code if it gave one, else the number of the Reason
 ///
 /// While it is busy nobody writes to it (busy, exception 6): a value that was put there would be overwritten by the answer.
@@ -47,9 +51,16 @@ public:
     void render(WordOrder order, std::uint8_t* block) const noexcept;
 
     [[nodiscard]] State state() const noexcept { return state_; }
+    /// Of the last refusal, or of the last write() that was an exception: why, in the words of the other doors.
+    [[nodiscard]] const std::string& why() const noexcept { return why_; }
+    [[nodiscard]] Reason reason() const noexcept { return reason_; }
+    /// Id of the parameter that was asked for, and the value that was to be written; empty: none, or it is not known.
+    [[nodiscard]] const std::string& parameter() const noexcept { return parameter_; }
+    [[nodiscard]] const std::string& wanted() const noexcept { return wanted_; }
 
 private:
-    void refuse(Reason reason, std::int32_t code = 0) noexcept;
+    void refuse(Reason reason, std::string why, std::int32_t code = 0);
+    [[nodiscard]] Value given(ValueType type) const noexcept;
     [[nodiscard]] bool take(const Value& value, ValueType type) noexcept;
 
     std::uint32_t selector_ = 0;
@@ -57,6 +68,8 @@ private:
     State state_ = State::idle;
     std::uint32_t value_ = 0;
     std::uint16_t error_ = 0;
+    Reason reason_ = Reason::none;
+    std::string why_, parameter_, wanted_;
 };
 
 }  // namespace axisgate::modbus

@@ -1,6 +1,8 @@
 // PDU: see the header.
 #include "gateway/doors/modbus/pdu.hpp"
 
+#include <fmt/format.h>
+
 #include <cstring>
 #include <utility>
 
@@ -8,6 +10,23 @@ namespace axisgate::modbus {
 namespace {
 constexpr bool overflows(std::uint16_t address, std::uint16_t count) noexcept { return std::uint32_t{address} + count > 0x1'0000u; }
 constexpr bool outside(std::uint16_t count, std::uint16_t most) noexcept { return count == 0 || count > most; }
+/// What an exception means where nobody said more.
+Refused in_words(Exception e) {
+    switch (e) {
+        case Exception::illegal_function:
+            return {no_axis, Reason::not_supported, "this function is not served", {}, {}};
+        case Exception::illegal_address:
+            return {no_axis, Reason::unknown_point, "the request reaches beyond address 65535", {}, {}};
+        case Exception::illegal_value:
+            return {no_axis, Reason::out_of_range, "the request's count, length and data do not fit each other, or go beyond what one request may carry", {}, {}};
+        case Exception::busy:
+            return {no_axis, Reason::busy, "too many writes wait for their drives: wait for their answers", {}, {}};
+        case Exception::no_answer:
+            return {no_axis, Reason::no_answer, "the drive did not answer in time", {}, {}};
+        default:
+            return {no_axis, Reason::internal, "the write failed", {}, {}};
+    }
+}
 constexpr std::uint16_t coil_on = 0xFF00, coil_off = 0x0000;
 }  // namespace
 
@@ -28,7 +47,8 @@ Responder::Responder(DoorPort& port, Settings settings)
       settings_(std::move(settings)),
       standard_(port, settings_.word_order),
       identity_(Identity::gateway(settings_.version, settings_.word_order)),
-      tickets_(settings_.max_commands) {
+      tickets_(settings_.max_commands),
+      refusals_([&port](Event event, AxisId axis) { port.note(std::move(event), axis); }) {
     maps_[0] = maps_[1] = maps_[255] = &standard_;
     plan_.commands.reserve(WritePlan::max_commands);
     port_.attach(Door::modbus, this);
@@ -68,14 +88,60 @@ std::size_t Responder::exception_answer(std::uint8_t fn, Exception e, std::uint8
 std::size_t Responder::answer(const Client& client, std::uint8_t slot, std::uint8_t unit, std::span<const std::uint8_t> pdu, Instant now,
                               std::uint8_t* out, LateAnswer& late) {
     counters_.requests.add();
-    if (!settings_.access.serves(unit, pdu)) return exception_answer(pdu[0], Exception::illegal_function, out);
+    const bool write = is_write(pdu[0]);
+    if (!settings_.access.serves(unit, pdu)) {
+        if (write && client.who) {
+            const RequestNote request = note_of(unit, pdu);
+            refused(*client.who, refused_by_access(unit, request), request, Exception::illegal_function, now);
+        }
+        return exception_answer(pdu[0], Exception::illegal_function, out);
+    }
     UnitMap* const map = maps_[unit];
-    if (!map) return exception_answer(pdu[0], Exception::no_path, out);
+    if (!map) {
+        if (client.who) {
+            refused(*client.who, {no_axis, Reason::line_down, fmt::format("unit {} has no map: unit 1 is the standard map, others get theirs from the site's mappings", unit), {}, {}},
+                    note_of(unit, pdu), Exception::no_path, now);
+        }
+        return exception_answer(pdu[0], Exception::no_path, out);
+    }
     late.unit = unit;
     late.function = pdu[0];
     Request r{client, slot, *map, pdu, now, out, late};
     const Answer a = dispatch(r);
+    // A refused read is told where its address leads nowhere; a write always, also where the parameter channel alone shows it.
+    if (a.exception != Exception::none || write) {
+        Refused why = map->take_refused();
+        const bool said = why.reason != Reason::none;
+        if (client.who && (said || (write && a.exception != Exception::none))) {
+            const RequestNote request = note_of(unit, pdu);
+            if (!said) why = in_words(a.exception);
+            if (why.axis == no_axis) why.axis = axis_of(unit, request);
+            refused(*client.who, std::move(why), request, a.exception, now);
+        }
+    }
     return a.exception == Exception::none ? a.size : exception_answer(pdu[0], a.exception, out);
+}
+
+void Responder::refused(const std::string& who, Refused refused, const RequestNote& request, Exception e, Instant now) {
+    if (refused.axis != no_axis && is_write(request.function)) standard_.note_refusal(refused.axis, refused.reason);
+    refusals_.add(who, std::move(refused), request, e, now);
+}
+
+AxisId Responder::axis_of(std::uint8_t unit, const RequestNote& request) const {
+    return maps_[unit] == &standard_ && request.count > 0 ? port_.image().by_number(request.address / registers_per_axis + 1u) : no_axis;
+}
+
+Refused Responder::refused_by_access(std::uint8_t unit, const RequestNote& request) const {
+    Refused r;
+    r.axis = axis_of(unit, request);
+    if (settings_.access.functions.any() && !settings_.access.functions.test(request.function)) {
+        r.reason = Reason::not_supported;
+        r.text = fmt::format("function {} is switched off by [modbus] functions", request.function);
+    } else {
+        r.reason = Reason::not_writable;
+        r.text = "the Modbus door is read-only: it takes a quick stop or switching off by the control word alone";
+    }
+    return r;
 }
 
 std::size_t Responder::finish(const LateAnswer& late, Instant now, std::uint8_t* out) {
@@ -87,7 +153,10 @@ std::size_t Responder::finish(const LateAnswer& late, Instant now, std::uint8_t*
     UnitMap* const map = maps_[late.unit];
     const Exception e =
         map ? map->read_registers(Table::holding_registers, late.read_address, late.read_count, now, out + 2) : Exception::no_path;
-    if (e != Exception::none) return exception_answer(late.function, e, out);
+    if (e != Exception::none) {
+        if (map) (void)map->take_refused();  // of a read that was good when its write was taken: the axis has gone meanwhile
+        return exception_answer(late.function, e, out);
+    }
     out[0] = late.function;
     out[1] = static_cast<std::uint8_t>(2 * late.read_count);
     return 2 + 2 * std::size_t{late.read_count};
@@ -115,7 +184,7 @@ Responder::Answer Responder::dispatch(Request& r) {
             return diagnostics(r);
         case function::report_server_id:
             if (r.pdu.size() != 1) return {Exception::illegal_value, 0};
-            return {Exception::none, report_server_id(identity_, r.out)};
+            return {Exception::none, report_server_id(identity_, r.late.unit, r.out)};
         case function::encapsulated_interface:
             return encapsulated(r);
         default:
@@ -179,6 +248,7 @@ Responder::Answer Responder::mask_write(Request& r) {
     const std::uint16_t and_mask = r.word(3);
     const std::uint16_t or_mask = r.word(5);
     if (const auto e = r.map.check_write(Table::holding_registers, address, 1); e != Exception::none) return {e, 0};
+    if (!r.map.is_exact(address, r.now)) return {Exception::device_failure, 0};  // the rest of the value is not in the register
     std::uint8_t value[2];
     if (const auto e = r.map.read_registers(Table::holding_registers, address, 1, r.now, value); e != Exception::none) return {e, 0};
     put16(value, static_cast<std::uint16_t>((get16(value) & and_mask) | (or_mask & ~std::uint32_t{and_mask})));
@@ -241,6 +311,7 @@ Responder::Answer Responder::carry_out(Request& r, Table table, std::uint16_t ad
     late.echo_size = static_cast<std::uint8_t>(echo_size);
     if (echo_size > 0) std::memcpy(late.echo.data(), r.pdu.data(), echo_size);
     const Instant deadline = r.now + settings_.result_timeout;
+    const RequestNote request = note_of(late.unit, r.pdu);
     for (auto& c : plan_.commands) {
         TicketTable::Waiting waiting;
         waiting.axis = c.axis;
@@ -252,6 +323,8 @@ Responder::Answer Responder::carry_out(Request& r, Table table, std::uint16_t ad
             waiting.slot = r.slot;
             ++late.outstanding;
         }
+        waiting.who = r.client.who;
+        waiting.request = request;
         Command command;
         command.ticket = tickets_.open(waiting, deadline);
         command.axis = c.axis;
@@ -281,7 +354,12 @@ bool Responder::ask_for(UnitMap& map, PlannedCommand planned) {
 }
 
 void Responder::on_result(const Result& result) {
-    const auto waiting = tickets_.close(result.ticket);
+    auto waiting = tickets_.close(result.ticket);
+    if (waiting && waiting->who && !waiting->map && !good(result)) {  // also where the client has gone meanwhile
+        std::string text = result.text.empty() ? in_words(exception_of(result)).text : result.text;
+        refused(*waiting->who, {waiting->axis, result.reason == Reason::none ? Reason::internal : result.reason, std::move(text), {}, {}}, waiting->request,
+                exception_of(result), port_.now());
+    }
     if (!waiting || (!waiting->owner && !waiting->map)) {
         counters_.results_unclaimed.add();
         return;
@@ -289,8 +367,14 @@ void Responder::on_result(const Result& result) {
     if (waiting->owner) {
         waiting->owner->on_written(waiting->slot, waiting->axis, exception_of(result));
     } else {
-        waiting->map->on_own_result(waiting->note, result);
+        own_result(*waiting, result);
     }
+}
+
+void Responder::own_result(const TicketTable::Waiting& waiting, const Result& result) {
+    waiting.map->on_own_result(waiting.note, result);
+    Refused why = waiting.map->take_refused();
+    if (waiting.who && why.reason != Reason::none) refused(*waiting.who, std::move(why), waiting.request, Exception::none, port_.now());
 }
 
 void Responder::expire(Instant now) {
@@ -300,10 +384,15 @@ void Responder::expire(Instant now) {
         result.axis = waiting->axis;
         result.outcome = Outcome::failed;
         result.reason = Reason::no_answer;
+        if (waiting->who && !waiting->map) {
+            Refused why = in_words(Exception::no_answer);
+            why.axis = waiting->axis;
+            refused(*waiting->who, std::move(why), waiting->request, Exception::no_answer, now);
+        }
         if (waiting->owner) {
             waiting->owner->on_written(waiting->slot, waiting->axis, Exception::no_answer);
         } else if (waiting->map) {
-            waiting->map->on_own_result(waiting->note, result);
+            own_result(*waiting, result);
         }
     }
 }

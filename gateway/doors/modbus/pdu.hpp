@@ -14,6 +14,7 @@
 #include "gateway/doors/modbus/access.hpp"
 #include "gateway/doors/modbus/counters.hpp"
 #include "gateway/doors/modbus/identification.hpp"
+#include "gateway/doors/modbus/refusals.hpp"
 #include "gateway/doors/modbus/standard_map.hpp"
 #include "gateway/doors/modbus/ticket_table.hpp"
 #include "gateway/doors/modbus/unit_map.hpp"
@@ -81,6 +82,9 @@ public:
 
     /// Commands whose results have not come.
     [[nodiscard]] std::size_t waiting() const noexcept { return tickets_.used(); }
+    /// Tells what has gathered; the counts of refusals that were repeated. To be called now and then.
+    void tell_refusals(Instant now) { refusals_.flush(now); }
+    [[nodiscard]] bool has_refusals_to_tell() const noexcept { return refusals_.pending(); }
 
     void on_result(const Result& result) override;
     [[nodiscard]] std::optional<Instant> heard(std::string_view client) const override { return heard_ ? heard_(client) : std::nullopt; }
@@ -112,6 +116,12 @@ private:
     /// Carries a write out. Size 0 without an exception: it waits.
     [[nodiscard]] Answer carry_out(Request& r, Table table, std::uint16_t address, std::uint16_t count, const std::uint8_t* data,
                                    std::size_t echo_size);
+    /// Leaves an event and the axis' registers 20 and 21. `refused`: empty: in words for the exception alone.
+    void refused(const std::string& who, Refused refused, const RequestNote& request, Exception e, Instant now);
+    void own_result(const TicketTable::Waiting& waiting, const Result& result);
+    /// Of the standard map; else no_axis.
+    [[nodiscard]] AxisId axis_of(std::uint8_t unit, const RequestNote& request) const;
+    [[nodiscard]] Refused refused_by_access(std::uint8_t unit, const RequestNote& request) const;
     std::size_t exception_answer(std::uint8_t function, Exception e, std::uint8_t* out) noexcept;
 
     DoorPort& port_;
@@ -121,6 +131,7 @@ private:
     Identity identity_;
     TicketTable tickets_;
     WritePlan plan_;
+    RefusalLog refusals_;
     Counters counters_;
     std::function<std::optional<Instant>(std::string_view)> heard_;
 };

@@ -23,6 +23,8 @@ constexpr std::array rows{
     RegisterRow{reg::setpoints_accepted, u16, false, "set-points accepted"},
     RegisterRow{reg::authority, u16, false, "command authority"},
     RegisterRow{reg::mapping_revision, u32, false, "revision of the mapping"},
+    RegisterRow{reg::refusal_reason, u16, false, "reason of the last refusal"},
+    RegisterRow{reg::refusals, u16, false, "refusals"},
     RegisterRow{reg::fail_safe_cause, u16, false, "cause of the last fail-safe action"},
     RegisterRow{reg::controlword, u16, true, "controlword"},
     RegisterRow{reg::mode, i16, true, "modes of operation"},
@@ -94,6 +96,14 @@ std::uint32_t age_ms(const AxisPicture& picture, Instant now) noexcept {
 }
 
 std::uint16_t heartbeat(Instant now) noexcept { return static_cast<std::uint16_t>(ns_of(now) / 1'000'000'000); }
+
+bool is_writable(std::uint16_t offset) noexcept { return offset < registers_per_axis && parts[offset] != Part::fixed; }
+std::string_view name_at(std::uint16_t offset) noexcept {
+    for (const auto& row : rows) {
+        if (offset >= row.offset && offset < row.offset + row.width()) return row.name;
+    }
+    return {};
+}
 
 Exception check_write_offsets(std::uint16_t offset, std::uint16_t count) noexcept {
     if (count == 0 || offset + count > registers_per_axis) return Exception::illegal_address;

@@ -23,7 +23,7 @@ inline constexpr std::size_t block_size = 2 * registers_per_axis;  ///< bytes
 namespace reg {
 inline constexpr std::uint16_t statusword = 0, mode_display = 1, position = 2, velocity = 4, position_demand = 6, error_code = 8, flags = 9,
                                native_status = 10, age = 12, heartbeat = 14, family = 15, setpoints_accepted = 16, authority = 17,
-                               mapping_revision = 18, fail_safe_cause = 22, controlword = 32, mode = 33, target_position = 34, profile_velocity = 36,
+                               mapping_revision = 18, refusal_reason = 20, refusals = 21, fail_safe_cause = 22, controlword = 32, mode = 33, target_position = 34, profile_velocity = 36,
                                profile_acceleration = 38, profile_deceleration = 40, target_velocity = 42, homing_method = 44,
                                channel_selector = 48, channel_request = 50, channel_state = 51, channel_value = 52, channel_error = 54;
 }  // namespace reg
@@ -39,7 +39,8 @@ struct RegisterRow {
 /// Every mapped register in ascending order. Offsets that are not here read 0 and cannot be written.
 [[nodiscard]] std::span<const RegisterRow> standard_registers() noexcept;
 
-/// Makes registers 0..47 of `block` (block_size bytes) but for age and heartbeat, which depend on the moment of the request and stay 0.
+/// Makes registers 0..47 of `block` (block_size bytes) but for age and heartbeat, which depend on the moment of the request, and for what
+/// the door itself counts (20, 21); they stay 0.
 /// Position and position demand show the low 32 bits of the increments, so that differences stay right when a count passes 2^31.
 /// Velocity stops at the limits of i32. Registers 48..63 are not touched.
 void render(const AxisPicture& picture, std::uint32_t mapping_revision, WordOrder order, std::uint8_t* block) noexcept;
@@ -49,6 +50,9 @@ void render(const AxisPicture& picture, std::uint32_t mapping_revision, WordOrde
 /// Register 14: whole seconds of the gateway's time line, modulo 65536.
 [[nodiscard]] std::uint16_t heartbeat(Instant now) noexcept;
 
+[[nodiscard]] bool is_writable(std::uint16_t offset) noexcept;
+/// Name of the value that a register is or belongs to; empty: none.
+[[nodiscard]] std::string_view name_at(std::uint16_t offset) noexcept;
 /// Whether `count` registers from `offset` (both within one axis) may be written: illegal_address if one of them is not writable,
 /// illegal_value if the write begins or ends in the middle of a 32-bit value.
 [[nodiscard]] Exception check_write_offsets(std::uint16_t offset, std::uint16_t count) noexcept;

@@ -112,6 +112,7 @@ public:
     void sweep() {
         const Instant at = port_.now();
         responder_.expire(at);
+        responder_.tell_refusals(at);
         for (std::size_t i = 0; i < places_.size(); ++i) {
             Connection* const c = places_[i].connection.get();
             if (!c) continue;
@@ -136,7 +137,7 @@ public:
         return list;
     }
     bool serve_now() { return poller_.serve_now(); }
-    void set_mappings(std::vector<PlacedMapping> mappings) {
+    void set_mappings(std::vector<PlacedMapping> mappings, const std::map<std::uint8_t, MapGaps>& gaps) {
         std::map<std::uint8_t, std::vector<PlacedMapping>> by_unit;
         for (auto& m : mappings)
             by_unit[m.mapping.unit].push_back(std::move(m));
@@ -145,7 +146,8 @@ public:
         }
         std::map<std::uint8_t, std::unique_ptr<OwnMap>> made;
         for (auto& [unit, list] : by_unit) {
-            auto map = std::make_unique<OwnMap>(port_, std::move(list), [this](UnitMap& asking, PlannedCommand c) { return responder_.ask_for(asking, std::move(c)); });
+            const auto g = gaps.find(unit);
+            auto map = std::make_unique<OwnMap>(port_, std::move(list), g == gaps.end() ? settings_.gaps : g->second, [this](UnitMap& asking, PlannedCommand c) { return responder_.ask_for(asking, std::move(c)); });
             responder_.set_map(unit, map.get());
             map->begin(port_.now());
             made.emplace(unit, std::move(map));
@@ -369,7 +371,7 @@ private:
             if (!ec) self->sweep();
             // After close() the wait ends early, and clients of a new open() may be there already.
             const bool paused = std::any_of(self->listeners_.begin(), self->listeners_.end(), [](const auto& l) { return l->paused; });
-            if (paused || self->free_.size() < self->places_.size() || self->responder_.waiting() > 0) self->watch_time();
+            if (paused || self->free_.size() < self->places_.size() || self->responder_.waiting() > 0 || self->responder_.has_refusals_to_tell()) self->watch_time();
         });
     }
 
@@ -397,7 +399,7 @@ Server::~Server() { impl_->close(); }
 std::string Server::open(std::span<const std::string> binds) { return impl_->open(binds); }
 std::vector<std::string> Server::addresses() const { return impl_->addresses(); }
 void Server::close() { impl_->close(); }
-void Server::set_mappings(std::vector<PlacedMapping> mappings) { impl_->set_mappings(std::move(mappings)); }
+void Server::set_mappings(std::vector<PlacedMapping> mappings, const std::map<std::uint8_t, MapGaps>& gaps) { impl_->set_mappings(std::move(mappings), gaps); }
 void Server::on_sample(const Sample& sample) { impl_->on_sample(sample); }
 bool Server::serve_now() { return impl_->serve_now(); }
 std::vector<Server::ConnectionReport> Server::connections() const { return impl_->connections(); }

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <boost/asio/io_context.hpp>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -29,6 +30,7 @@ namespace axisgate::modbus {
 
 struct ServerSettings {
     Responder::Settings responder;
+    MapGaps gaps = MapGaps::zero;  ///< of units that the site does not name
     std::size_t max_connections = 1024;
     Duration idle_timeout = std::chrono::seconds(60);
     Duration idle_before_eviction = std::chrono::milliseconds(100);
@@ -53,7 +55,8 @@ public:
     void close();
 
     /// Puts the site's own maps behind their units, and takes away those of before. What is on its way for them is answered to nobody.
-    void set_mappings(std::vector<PlacedMapping> mappings);
+    /// `gaps`: of units that do not follow the settings.
+    void set_mappings(std::vector<PlacedMapping> mappings, const std::map<std::uint8_t, MapGaps>& gaps = {});
     /// A parameter value that a drive reported: own maps show it.
     void on_sample(const Sample& sample);
 

@@ -1,6 +1,8 @@
 // Standard map: see the header. A block is valid while its axis' cell has the revision it was rendered from.
 #include "gateway/doors/modbus/standard_map.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstring>
 
@@ -38,15 +40,36 @@ std::uint8_t* StandardMap::block(std::uint32_t index) {
         return bytes;
     }
     render(image.picture(id), mapping_revision_, order_, bytes);
+    put_refusals(row, bytes);
     row.revision = revision;
     ++renders_;
     return bytes;
 }
 
+void StandardMap::put_refusals(const Row& row, std::uint8_t* block) noexcept {
+    put16(block + 2 * std::size_t{reg::refusal_reason}, static_cast<std::uint16_t>(row.refused));
+    put16(block + 2 * std::size_t{reg::refusals}, row.refusals);
+}
+
+void StandardMap::note_refusal(AxisId axis, Reason reason) {
+    const std::uint16_t number = port_.image().picture(axis).number;
+    std::uint8_t* const bytes = number == 0 ? nullptr : block(number - 1u);
+    if (!bytes) return;
+    Row& row = rows_[number - 1u];
+    row.refused = reason;
+    ++row.refusals;
+    put_refusals(row, bytes);
+}
+
+Exception StandardMap::no_such_axis(std::uint32_t index) {
+    return refuse(Exception::no_path, no_axis, Reason::line_down,
+                  fmt::format("no axis has the number {}, to which addresses {}..{} belong", index + 1, index * registers_per_axis, (index + 1) * registers_per_axis - 1));
+}
+
 Exception StandardMap::check_read(Table, std::uint16_t address, std::uint16_t count) {
     const std::uint32_t last = index_at(std::uint32_t{address} + count - 1);
     for (std::uint32_t i = index_at(address); i <= last; ++i) {
-        if (axis_at(i) == no_axis) return Exception::no_path;
+        if (axis_at(i) == no_axis) return no_such_axis(i);
     }
     return Exception::none;
 }
@@ -57,7 +80,7 @@ Exception StandardMap::read_registers(Table, std::uint16_t address, std::uint16_
     const std::uint32_t first = index_at(begin);
     const std::uint32_t last = index_at(end - 1);
     for (std::uint32_t i = first; i <= last; ++i) {
-        if (!block(i)) return Exception::no_path;
+        if (!block(i)) return no_such_axis(i);
     }
     std::memcpy(out, blocks_.data() + 2 * std::size_t{begin}, 2 * std::size_t{count});
     for (std::uint32_t i = first; i <= last; ++i) {
@@ -80,7 +103,7 @@ Exception StandardMap::read_bits(Table, std::uint16_t address, std::uint16_t cou
     const std::uint32_t end = begin + count;
     for (std::uint32_t at = begin; at < end;) {
         const AxisId id = axis_at(index_at(at));
-        if (id == no_axis) return Exception::no_path;
+        if (id == no_axis) return no_such_axis(index_at(at));
         const std::uint16_t skip = offset_at(at);
         const std::uint32_t n = std::min<std::uint32_t>(registers_per_axis - skip, end - at);
         std::uint64_t bits = bits_of(port_.image().picture(id)) >> skip;
@@ -98,9 +121,25 @@ Exception StandardMap::read_bits(Table, std::uint16_t address, std::uint16_t cou
 
 Exception StandardMap::check_write(Table table, std::uint16_t address, std::uint16_t count) {
     // Coils show what is; what shall be is written as a control word. No range that is writable goes across two axes.
-    if (is_bits(table) || table == Table::input_registers) return Exception::illegal_address;
-    if (const auto e = check_write_offsets(offset_at(address), count); e != Exception::none) return e;
-    return axis_at(index_at(address)) == no_axis ? Exception::no_path : Exception::none;
+    const AxisId axis = axis_at(index_at(address));
+    if (is_bits(table) || table == Table::input_registers)
+        return refuse(Exception::illegal_address, axis, Reason::not_writable, "coils and inputs only show what is: write the control word, register 32 of the axis");
+    const std::uint16_t offset = offset_at(address);
+    switch (const auto e = check_write_offsets(offset, count)) {
+        case Exception::none:
+            break;
+        case Exception::illegal_value:
+            return refuse(e, axis, Reason::out_of_range, "half of a 32-bit value: write both of its registers in one request");
+        default: {
+            std::uint32_t wrong = offset;
+            while (wrong < offset + count && wrong < registers_per_axis && is_writable(static_cast<std::uint16_t>(wrong))) ++wrong;
+            const auto name = wrong < registers_per_axis ? name_at(static_cast<std::uint16_t>(wrong)) : std::string_view();
+            return refuse(e, axis, name.empty() ? Reason::unknown_point : Reason::not_writable,
+                          name.empty() ? fmt::format("register {} of the axis' 64 cannot be written: 32..45, 48..50, 52 and 53 can", wrong)
+                                       : fmt::format("register {} of the axis' 64 ({}) can only be read", wrong, name));
+        }
+    }
+    return axis == no_axis ? no_such_axis(index_at(address)) : Exception::none;
 }
 
 Exception StandardMap::write(Table table, std::uint16_t address, std::uint16_t count, const std::uint8_t* data, WritePlan& plan) {
@@ -127,7 +166,10 @@ Exception StandardMap::write_channel(std::uint32_t index, std::uint16_t offset, 
     if (has(reg::channel_value)) write.value = get32(at(reg::channel_value), order_);
 
     auto outcome = row.channel->write(write, port_.catalogue(row.id));
-    if (outcome.exception != Exception::none) return outcome.exception;
+    const ParameterChannel& channel = *row.channel;
+    if (outcome.exception != Exception::none)
+        return refuse(outcome.exception, row.id, outcome.exception == Exception::busy ? Reason::busy : Reason::out_of_range, channel.why());
+    if (write.request && channel.state() == ParameterChannel::State::refused) refused_ = {row.id, channel.reason(), channel.why(), channel.parameter(), channel.wanted()};
     if (outcome.command) {
         ++row.exchange;
         plan.commands.push_back({row.id, std::move(*outcome.command), true, (std::uint32_t{row.exchange} << 16) | index});
@@ -143,6 +185,7 @@ void StandardMap::on_own_result(std::uint32_t note, const Result& result) {
     // The axis may have been removed or replaced since: its channel went with it.
     if (!row.channel || row.exchange != (note >> 16)) return;
     row.channel->finish(result, port_.catalogue(row.id));
+    if (const auto& c = *row.channel; c.state() == ParameterChannel::State::refused) refused_ = {row.id, c.reason(), c.why(), c.parameter(), c.wanted()};
     row.channel->render(order_, blocks_.data() + index * block_size);
 }
 

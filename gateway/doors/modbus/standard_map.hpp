@@ -26,6 +26,9 @@ public:
     /// `note`: the axis number whose parameter channel asked, and which of its exchanges it was.
     void on_own_result(std::uint32_t note, const Result& result) override;
 
+    /// Registers 20 and 21: the reason of the axis' last refused write, and how many there were.
+    void note_refusal(AxisId axis, Reason reason);
+
     /// How many times a block was rendered anew (for tests: unchanged axes cost nothing).
     [[nodiscard]] std::uint64_t renders() const noexcept { return renders_; }
 
@@ -35,17 +38,23 @@ private:
         std::uint64_t revision = 0;  // of the axis' cell when the block was rendered
         std::uint16_t exchange = 0;  // counts the channel's exchanges: an answer to an older one is not taken for a newer one's
         std::unique_ptr<ParameterChannel> channel;  // made at the first write
+        std::uint16_t refusals = 0;  // modulo 65536
+        Reason refused = Reason::none;
 
         void belong_to(AxisId axis) {  // another axis, or none: its channel went with it; `exchange` goes on counting
             id = axis;
             revision = 0;
             channel.reset();
+            refusals = 0;
+            refused = Reason::none;
         }
     };
 
     /// Brings the block of the axis with this index (number - 1) up to date; nullptr: not configured.
     [[nodiscard]] std::uint8_t* block(std::uint32_t index);
     [[nodiscard]] AxisId axis_at(std::uint32_t index) const noexcept { return port_.image().by_number(index + 1); }
+    static void put_refusals(const Row& row, std::uint8_t* block) noexcept;
+    [[nodiscard]] Exception no_such_axis(std::uint32_t index);
     [[nodiscard]] Exception write_channel(std::uint32_t index, std::uint16_t offset, std::uint16_t count, const std::uint8_t* data,
                                           WritePlan& plan);
 

@@ -2,6 +2,7 @@
 #include "gateway/doors/modbus/ticket_table.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace axisgate::modbus {
 
@@ -49,7 +50,7 @@ TicketTable::Waiting TicketTable::take(std::uint16_t index) {
     e.older = none;
     free_ = index;
     --used_;
-    return e.waiting;
+    return std::exchange(e.waiting, {});
 }
 
 void TicketTable::forget(const WriteOwner* owner) noexcept {

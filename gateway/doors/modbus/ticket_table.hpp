@@ -4,7 +4,9 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "gateway/core/door.hpp"
@@ -26,6 +28,8 @@ public:
         std::uint32_t note = 0;  ///< for the map
         std::uint8_t slot = 0;   ///< for the owner
         AxisId axis = no_axis;
+        std::shared_ptr<const std::string> who;  ///< of a client's write; else nobody is told that it was refused
+        RequestNote request;
     };
 
     explicit TicketTable(std::size_t capacity);

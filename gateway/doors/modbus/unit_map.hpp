@@ -4,10 +4,13 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "gateway/core/command.hpp"
 #include "gateway/core/instant.hpp"
+#include "gateway/doors/modbus/refusals.hpp"
 #include "gateway/doors/modbus/wire.hpp"
 
 namespace axisgate::modbus {
@@ -29,7 +32,8 @@ struct WritePlan {
 };
 
 /// Addresses are 0-based; address + count <= 65536 and count >= 1 hold for every call.
-struct UnitMap {
+class UnitMap {
+public:
     /// Whether a read of this range would be served now.
     [[nodiscard]] virtual Exception check_read(Table table, std::uint16_t address, std::uint16_t count) = 0;
     /// 2 * count bytes, big-endian, all of one picture per axis. After an exception `out` is undefined.
@@ -37,6 +41,8 @@ struct UnitMap {
                                                    std::uint8_t* out) = 0;
     /// (count + 7) / 8 bytes, first bit lowest, unused bits 0.
     [[nodiscard]] virtual Exception read_bits(Table table, std::uint16_t address, std::uint16_t count, std::uint8_t* out) = 0;
+    /// Whether the register shows its whole value: what is to be changed in part (function 22) must be known.
+    [[nodiscard]] virtual bool is_exact(std::uint16_t /*address*/, Instant /*now*/) { return true; }
     /// Whether a write to this range would be tried: address and writability, then halves of values, then the axis.
     [[nodiscard]] virtual Exception check_write(Table table, std::uint16_t address, std::uint16_t count) = 0;
     /// Plans a write. `data`: registers big-endian, or bits as in read_bits. All or nothing: with an exception, nothing has changed and
@@ -46,6 +52,16 @@ struct UnitMap {
     /// The result of a command planned with `own`. If none comes in time, it is one with Reason::no_answer.
     virtual void on_own_result(std::uint32_t note, const Result& result) = 0;
     virtual ~UnitMap() = default;
+
+    /// What was refused since it was last asked; Reason::none: nothing. A write may be good and refuse: a parameter channel shows it.
+    [[nodiscard]] Refused take_refused() noexcept { return std::exchange(refused_, {}); }
+
+protected:
+    Exception refuse(Exception e, AxisId axis, Reason reason, std::string text) {
+        refused_ = {axis, reason, std::move(text), {}, {}};
+        return e;
+    }
+    Refused refused_;
 };
 
 }  // namespace axisgate::modbus

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <boost/json/parse.hpp>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "gateway/core/catalogue.hpp"
@@ -99,6 +101,7 @@ TEST(Mapping, SaysWhatIsWrongAndWhatIsRight) {
         {R"({"unit": 2, "address": 0, "point": "x.position", "word_order": "middle"})", "/mappings/0/word_order"},
         {R"({"unit": 2, "address": 0, "point": "x.ML", "length": 65})", "/mappings/0/length"},
         {R"({"id": "a b", "unit": 2, "address": 0, "point": "x.position"})", "/mappings/0/id"},
+        {R"({"unit": 2, "address": 0, "point": "x.position", "on_overflow": "cut"})", "/mappings/0/on_overflow"},
         {R"({"unit": 2, "address": 0, "point": "x.position", "colour": 1})", "/mappings/0/colour"},
         {R"(5)", "/mappings/0"}};
     for (const auto& [entry, pointer] : rows) {
@@ -194,6 +197,42 @@ TEST(MappingValues, EveryTypeAndWordOrder) {
         EXPECT_EQ(bytes(r.mapping, r.value), r.registers) << name_of(r.mapping.type) << " " << to_text(r.value);
 }
 
+TEST(MappingValues, WhatDoesNotFitIsMarkedOrClamped) {
+    using T = MapType;
+    const auto shown = [](Mapping m, const Value& v, MapOverflow overflow) {
+        m.on_overflow = overflow;
+        std::uint8_t out[128];
+        std::ranges::fill(out, std::uint8_t{0x55});
+        EXPECT_FALSE(encode(m, v, out)) << name_of(m.type) << " " << to_text(v);
+        std::string s;
+        for (std::size_t i = 0; i < 2u * m.size(); ++i) {
+            char hex[3];
+            std::snprintf(hex, sizeof hex, "%02X", out[i]);
+            s += hex;
+        }
+        return s;
+    };
+    const auto low = MapWordOrder::low_first;
+    const Value above{1e300}, below{-1e300}, nothing{};
+    struct Row {
+        Mapping mapping;
+        const char *mark, *highest, *lowest;
+    };
+    for (const auto& r : {Row{of(T::u16), "FFFF", "FFFF", "0000"}, Row{of(T::i16), "8000", "7FFF", "8000"}, Row{of(T::u32), "FFFFFFFF", "FFFFFFFF", "00000000"},
+                          Row{of(T::i32), "80000000", "7FFFFFFF", "80000000"}, Row{of(T::i32, low), "00008000", "FFFF7FFF", "00008000"},
+                          Row{of(T::u64), "FFFFFFFFFFFFFFFF", "7FFFFFFFFFFFFFFF", "0000000000000000"},
+                          Row{of(T::i64), "8000000000000000", "7FFFFFFFFFFFFFFF", "8000000000000000"}, Row{of(T::f32), "7FC00000", "7F7FFFFF", "FF7FFFFF"},
+                          Row{of(T::f64, MapWordOrder::high_first, 1e300), "7FF8000000000000", "7FEFFFFFFFFFFFFF", "FFEFFFFFFFFFFFFF"}}) {
+        EXPECT_EQ(shown(r.mapping, above, MapOverflow::mark), r.mark) << name_of(r.mapping.type);
+        EXPECT_EQ(shown(r.mapping, nothing, MapOverflow::mark), r.mark) << name_of(r.mapping.type);
+        EXPECT_EQ(shown(r.mapping, nothing, MapOverflow::clamp), r.mark) << "near to no end";
+        EXPECT_EQ(shown(r.mapping, above, MapOverflow::clamp), r.highest) << name_of(r.mapping.type);
+        EXPECT_EQ(shown(r.mapping, below, MapOverflow::clamp), r.lowest) << name_of(r.mapping.type);
+    }
+    EXPECT_EQ(shown(of(T::i16), Value{std::int64_t{40'000}}, MapOverflow::clamp), "7FFF");
+    EXPECT_EQ(shown(of(T::string), Value{std::int64_t{3}}, MapOverflow::mark), "000000000000");
+}
+
 TEST(MappingValues, WhatIsWrittenIsReadBack) {
     for (const auto type :
          {MapType::u16, MapType::i16, MapType::u32, MapType::i32, MapType::u64, MapType::i64, MapType::f32, MapType::f64}) {
@@ -222,13 +261,15 @@ TEST(MappingCsv, ThereAndBack) {
     Plant p;
     const auto m =
         *p.read(R"([{"id": "a", "unit": 2, "address": 0, "point": "x.position", "scale": 0.001, "comment": "say \"x\", twice\nand more"},
-        {"id": "b", "unit": 2, "address": 4, "point": "x.ML", "length": 5, "comment": "=1+1"}])");
+        {"id": "b", "unit": 2, "address": 4, "point": "x.ML", "length": 5, "comment": "=1+1"},
+        {"id": "c", "unit": 2, "address": 20, "point": "x.position", "type": "i16", "on_overflow": "clamp"}])");
+    EXPECT_EQ(m[2].on_overflow, MapOverflow::clamp);
     const std::string csv = mappings_to_csv(m);
     std::vector<std::size_t> lines;
     std::vector<CsvFault> faults;
     const auto rows = mappings_from_csv(csv, lines, faults);
     ASSERT_TRUE(rows) << faults.front().text;
-    EXPECT_EQ(lines, (std::vector<std::size_t>{2, 4})) << "the first entry's comment has two lines";
+    EXPECT_EQ(lines, (std::vector<std::size_t>{2, 4, 5})) << "the first entry's comment has two lines";
     EXPECT_EQ(csv.find(",=1+1"), std::string::npos) << "a spreadsheet does not carry it out";
     const auto again = parse_mappings(*rows, p.site, p.families, p.faults);
     ASSERT_TRUE(again) << p.faults.front().text;
@@ -277,6 +318,33 @@ TEST(MappingCsv, ADecimalCommaBetweenSemicolons) {
         faults.clear();
         (void)mappings_from_csv(wrong, lines, faults);
         EXPECT_EQ(faults.size(), 1u) << wrong;
+    }
+}
+
+TEST(ModbusUnits, AreReadCheckedAndTold) {
+    Plant p;
+    auto document = to_json(p.site);
+    EXPECT_FALSE(document.contains("modbus_units"));
+    document["modbus_units"] = json::parse(R"([{"unit": 9, "gaps": "zero"}, {"unit": 2, "gaps": "refuse"}])");
+    const auto site = parse_site(document, p.families, p.faults);
+    ASSERT_TRUE(site) << p.faults.front().text;
+    EXPECT_EQ(site->gaps, (std::map<std::uint8_t, MapGaps>{{2, MapGaps::refuse}, {9, MapGaps::zero}}));
+    EXPECT_EQ(to_json(*parse_site(to_json(*site), p.families, p.faults)), to_json(*site));
+    EXPECT_NE(mapping_revision(*site), mapping_revision(p.site)) << "what a register shows is another";
+    EXPECT_EQ(differences(p.site, *site), (std::vector<std::string>{"modbus unit 2: gaps not set -> refuse", "modbus unit 9: gaps not set -> zero"}));
+    const std::pair<const char*, const char*> rows[] = {{R"({})", "/modbus_units"},
+                                                        {R"([{"gaps": "zero"}])", "/modbus_units/0/unit"},
+                                                        {R"([{"unit": 1, "gaps": "zero"}])", "/modbus_units/0/unit"},
+                                                        {R"([{"unit": 2}])", "/modbus_units/0/gaps"},
+                                                        {R"([{"unit": 2, "gaps": "none"}])", "/modbus_units/0/gaps"},
+                                                        {R"([{"unit": 2, "gaps": "zero", "x": 1}])", "/modbus_units/0/x"},
+                                                        {R"([{"unit": 2, "gaps": "zero"}, {"unit": 2, "gaps": "zero"}])", "/modbus_units/1/unit"}};
+    for (const auto& [list, pointer] : rows) {
+        p.faults.clear();
+        document["modbus_units"] = json::parse(list);
+        EXPECT_FALSE(parse_site(document, p.families, p.faults)) << list;
+        ASSERT_EQ(p.faults.size(), 1u) << list << p.faults.back().text;
+        EXPECT_EQ(p.faults.front().pointer, pointer) << list;
     }
 }
 

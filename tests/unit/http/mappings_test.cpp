@@ -110,5 +110,40 @@ TEST_F(HttpTest, PointsThatCanBeMapped) {
     EXPECT_EQ(a.array()[0].at("point"), "statusword");
 }
 
+TEST_F(HttpTest, SeveralMappingsAreRemovedAtOnceOrNone) {
+    for (const auto* entry : {R"({"id": "a", "unit": 2, "address": 20, "point": "feeder.position"})", R"({"id": "b", "unit": 3, "address": 0, "point": "feeder.position"})",
+                              R"({"id": "c", "unit": 3, "address": 2, "point": "slide.position"})"})
+        ASSERT_EQ(call("POST", "/api/v1/mappings", entry).status, 201u);
+    EXPECT_EQ(call("DELETE", "/api/v1/mappings").status, 400u) << "never all by an oversight";
+    EXPECT_EQ(call("DELETE", "/api/v1/mappings?all=1&unit=3").status, 400u);
+    EXPECT_EQ(call("DELETE", "/api/v1/mappings?ids=").status, 400u);
+    EXPECT_EQ(call("DELETE", "/api/v1/mappings?ids=a,z").status, 404u);
+    EXPECT_EQ(call("GET", "/api/v1/mappings").array().size(), 4u);
+    const auto dry = call("DELETE", "/api/v1/mappings?unit=3&dry_run=1");
+    EXPECT_EQ(dry.status, 200u) << dry.text;
+    EXPECT_EQ(dry.at("removed"), R"(["b","c"])");
+    EXPECT_EQ(dry.at("mappings"), "2");
+    EXPECT_EQ(call("GET", "/api/v1/mappings").array().size(), 4u);
+    const auto some = call("DELETE", "/api/v1/mappings?unit=3&axis=slide");
+    EXPECT_EQ(some.at("removed"), R"(["c"])") << some.text;
+    EXPECT_EQ(call("DELETE", "/api/v1/mappings?ids=a,b").at("removed"), R"(["a","b"])");
+    EXPECT_EQ(call("DELETE", "/api/v1/mappings?all=1").at("removed"), R"(["m1"])");
+    EXPECT_EQ(call("GET", "/api/v1/mappings").array().size(), 0u);
+}
+
+TEST_F(HttpTest, AUnitSaysHowItAnswersWhereNothingIsMapped) {
+    EXPECT_EQ(call("GET", "/api/v1/mappings/units").text, R"([{"unit":2,"gaps":null,"shown":"zero","mappings":1}])");
+    const auto set = call("PUT", "/api/v1/mappings/units/7", R"({"gaps": "refuse"})");
+    EXPECT_EQ(set.status, 200u) << set.text;
+    EXPECT_EQ(set.text, R"({"unit":7,"gaps":"refuse","shown":"refuse","mappings":0})");
+    EXPECT_EQ(call("GET", "/api/v1/mappings/units").array().size(), 2u);
+    EXPECT_EQ(call("GET", "/api/v1/site").at("modbus_units"), R"([{"unit":7,"gaps":"refuse"}])");
+    EXPECT_EQ(call("PUT", "/api/v1/mappings/units/7", R"({"gaps": null})").at("shown"), "zero");
+    EXPECT_FALSE(call("GET", "/api/v1/site").object().contains("modbus_units"));
+    EXPECT_EQ(call("PUT", "/api/v1/mappings/units/1", R"({"gaps": "zero"})").status, 404u);
+    for (const auto* wrong : {R"({})", R"({"gaps": "none"})", R"({"gaps": 0})", R"({"gaps": "zero", "x": 1})"})
+        EXPECT_EQ(call("PUT", "/api/v1/mappings/units/7", wrong).status, 422u) << wrong;
+}
+
 }  // namespace
 }  // namespace axisgate::http::test

@@ -196,6 +196,20 @@ TEST(OpenApi, EveryOperationStatesTheRoleThatTheProgramAsksFor) {
     }
 }
 
+TEST(OpenApi, EveryOperationStatesItsSecurity) {
+    // A rule of the usual linters (security-defined): one for all, and none where nobody has to sign in.
+    const auto lines = lines_of_description();
+    EXPECT_NE(std::ranges::find(lines, "security: [{session: []}, {token: []}, {}]"), lines.end());
+    for (const auto* scheme : {"    session: {type: apiKey,", "    token: {type: http,"})
+        EXPECT_TRUE(std::ranges::any_of(lines, [&](const std::string& l) { return l.starts_with(scheme); })) << scheme;
+    const auto stated = told_at_each("security"), roles = told_at_each("x-role");
+    for (const auto& [at, role] : roles) {
+        const auto it = stated.find(at);
+        EXPECT_EQ(it == stated.end() ? "" : it->second, role == "none" ? "[]" : "") << at.second << " " << at.first;
+    }
+    EXPECT_EQ(std::ranges::find(lines, "    Options:"), lines.end()) << "a name that client generators use themselves";
+}
+
 TEST(OpenApi, VersionIsWhatToolsUnderstand) {
     const auto lines = lines_of_description();
     EXPECT_NE(std::ranges::find(lines, "openapi: 3.0.3"), lines.end());

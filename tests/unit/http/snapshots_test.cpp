@@ -100,6 +100,13 @@ TEST_F(Keep, RestoreWritesWhatDiffersAndNotWhileMoving) {
     EXPECT_EQ(call("POST", "/api/v1/axes/feeder/snapshots/1/restore", R"({"parameters":["zzz"]})").status, 422u);
     for (const auto* with : {"default", "stored", "snapshot:1", "axis:slide", "axis:feeder:1"})
         EXPECT_EQ(call("GET", std::string("/api/v1/axes/feeder/snapshots/1/diff?with=") + with).object().at("rows").get_array().size(), 3u) << with;
+    const auto never = call("GET", "/api/v1/axes/feeder/snapshots/1/diff?with=axis:slide");
+    EXPECT_EQ(never.at("not_known"), "3");
+    EXPECT_NE(never.at("text").find("of slide: it was not read since the gateway's start"), std::string::npos) << never.text;
+    EXPECT_EQ(never.object().at("rows").at(0).at("other_known"), false);
+    const auto itself = call("GET", "/api/v1/axes/feeder/snapshots/1/diff?with=snapshot:1");
+    EXPECT_EQ(itself.at("not_known"), "0");
+    EXPECT_EQ(itself.at("text"), "") << itself.text;
     EXPECT_EQ(call("GET", "/api/v1/axes/feeder/snapshots/1/diff?with=moon").status, 400u);
 }
 

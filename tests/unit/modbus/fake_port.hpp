@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "gateway/core/door.hpp"
+#include "gateway/core/gateway.hpp"
 
 namespace axisgate::modbus::test {
 
@@ -42,7 +43,7 @@ public:
     void set_mapping_revision(std::uint32_t revision) { image_.mapping_revision = revision; }
 
     /// Gives the result of the oldest command that has none. False: there is no such command.
-    bool answer(Outcome outcome = Outcome::accepted, Reason reason = Reason::none, std::int32_t code = 0, Value value = {}) {
+    bool answer(Outcome outcome = Outcome::accepted, Reason reason = Reason::none, std::int32_t code = 0, Value value = {}, std::string text = {}) {
         if (commands.empty()) return false;
         Command command = std::move(commands.front());
         commands.pop_front();
@@ -54,6 +55,7 @@ public:
         result.reason = reason;
         result.code = code;
         result.value = std::move(value);
+        result.text = std::move(text);
         if (sink) sink->on_result(result);
         return true;
     }
@@ -70,6 +72,7 @@ public:
         ++submitted;
         commands.push_back(std::move(command));
     }
+    void note(Event&& event, AxisId axis) override { notes.emplace_back(std::move(event), axis); }
     void attach(Door door, ResultSink* s) override {
         if (door == Door::modbus) sink = s;
     }
@@ -80,6 +83,7 @@ public:
     Instant time = at_ns(1'000'000'000'000);  // 1000 s
     std::deque<Command> commands;             // without a result
     std::size_t submitted = 0;
+    std::vector<std::pair<Event, AxisId>> notes;  // in order
     ResultSink* sink = nullptr;
 
 private:

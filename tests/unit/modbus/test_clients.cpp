@@ -159,8 +159,9 @@ TEST_F(LibmodbusTest, Identification) {
     std::uint8_t id[64] = {};
     const int n = api.modbus_report_slave_id(context, sizeof id, id);
     ASSERT_GT(n, 9) << api.modbus_strerror(errno);
-    EXPECT_EQ(std::string(id, id + 8), "axisgate");
-    EXPECT_EQ(id[8], 0xFF);
+    EXPECT_EQ(id[0], 255) << "the unit that it asks by itself";
+    EXPECT_EQ(id[1], 0xFF);
+    EXPECT_EQ(std::string(id + 2, id + 10), "axisgate");
 }
 
 TEST_F(LibmodbusTest, ParameterChannel) {

@@ -84,7 +84,7 @@ TEST(Identification, ServerIdIsCutToTheAnswersSize) {
     Identity i;
     i.version = std::string(300, 'x');
     std::uint8_t out[max_pdu];
-    EXPECT_EQ(report_server_id(i, out), max_pdu);
+    EXPECT_EQ(report_server_id(i, 1, out), max_pdu);
     EXPECT_EQ(out[1], max_pdu - 2);
 }
 

@@ -14,6 +14,8 @@ Mapping mapping(std::uint16_t address, std::variant<AxisPoint, Point> what, MapT
                 MapTable table = MapTable::holding_registers) {
     Mapping m;
     m.unit = 2;
+    m.axis = "x";
+    m.point = std::holds_alternative<AxisPoint>(what) ? std::string(name_of(std::get<AxisPoint>(what))) : test::catalogue().id_of(std::get<Point>(what));
     m.address = address;
     m.what = what;
     m.type = type;
@@ -25,13 +27,14 @@ Mapping mapping(std::uint16_t address, std::variant<AxisPoint, Point> what, MapT
 struct OwnMapTest : testing::Test, Desk {
     AxisId x = port.add_axis(1, &test::catalogue());
     std::unique_ptr<OwnMap> map;
+    MapGaps gaps = MapGaps::zero;
 
     static Point parameter(std::string_view id) { return *test::catalogue().find(id); }
     void put(std::vector<Mapping> list) {
         std::vector<PlacedMapping> placed;
         for (auto& m : list)
             placed.push_back({std::move(m), x, 100});
-        map = std::make_unique<OwnMap>(port, std::move(placed),
+        map = std::make_unique<OwnMap>(port, std::move(placed), gaps,
                                        [this](UnitMap& asking, PlannedCommand c) { return responder.ask_for(asking, std::move(c)); });
         responder.set_map(2, map.get());
     }
@@ -64,15 +67,75 @@ TEST_F(OwnMapTest, ReadsPointsOfTheAxis) {
     EXPECT_EQ(read("03 00 09 00 01"), "03 02 00 01");
     EXPECT_EQ(read("03 00 14 00 04"), "03 08 01 02 03 00 FF FF FF FC") << "demand, and demand less position";
     EXPECT_EQ(read("02 00 03 00 02"), "02 01 01");
-    EXPECT_EQ(read("03 00 06 00 02"), "83 02") << "7 is a gap";
+    EXPECT_EQ(read("03 00 06 00 02"), "03 04 01 02 00 00") << "7 is a gap";
     EXPECT_EQ(read("03 00 0A 00 01"), "83 02");
     EXPECT_EQ(read("04 00 00 00 02"), "84 02") << "another table";
     EXPECT_EQ(ask("03 00 00 00 02", 3), "83 0A") << "another unit";
 }
 
-TEST_F(OwnMapTest, AValueThatDoesNotFitIsNoWrongNumber) {
-    put({mapping(0, AxisPoint::position, MapType::i16)});
-    EXPECT_EQ(read("03 00 00 00 01"), "83 04");
+TEST_F(OwnMapTest, AValueThatDoesNotFitSpoilsItselfAlone) {
+    auto clamped = mapping(6, AxisPoint::position, MapType::u16);
+    clamped.on_overflow = MapOverflow::clamp;
+    auto below = mapping(7, AxisPoint::velocity, MapType::u16);
+    below.on_overflow = MapOverflow::clamp;
+    put({mapping(0, AxisPoint::position, MapType::i16), mapping(1, AxisPoint::position, MapType::i32), mapping(3, AxisPoint::position, MapType::u16),
+         mapping(4, AxisPoint::velocity, MapType::u32), clamped, below});
+    EXPECT_EQ(read("03 00 00 00 08"), "03 10 80 00 01 02 03 04 FF FF FF FF FF FF FF FF 00 00");
+}
+
+TEST_F(OwnMapTest, APartOfAValueThatDoesNotFitIsNotChanged) {
+    port.edit(x, [](AxisPicture& p) { p.target_position = 70'000; });
+    put({mapping(0, AxisPoint::target_position, MapType::u16, MapAccess::read_write)});
+    EXPECT_EQ(read("16 00 00 FF FE 00 01"), "96 04");
+    EXPECT_TRUE(port.commands.empty());
+    port.edit(x, [](AxisPicture& p) { p.target_position = 6; });
+    EXPECT_EQ(read("16 00 00 FF FE 00 01"), "16 00 00 FF FE 00 01");
+}
+
+TEST_F(OwnMapTest, GapsReadZeroWhereSomethingIsTouched) {
+    put({mapping(2, AxisPoint::velocity, MapType::i16), mapping(5, AxisPoint::target_position, MapType::i32, MapAccess::write),
+         mapping(8, AxisPoint::position, MapType::i32), mapping(3, AxisPoint::moving, MapType::boolean, MapAccess::read, MapTable::coils)});
+    EXPECT_EQ(read("03 00 00 00 0C"), "03 18 00 00 00 00 FF 06 00 00 00 00 00 00 00 00 00 00 01 02 03 04 00 00 00 00") << "before, between, behind";
+    EXPECT_EQ(read("03 00 09 00 02"), "03 04 03 04 00 00") << "the end of a value, and what follows";
+    EXPECT_EQ(read("01 00 00 00 0A"), "01 02 08 00");
+    EXPECT_EQ(read("17 00 01 00 03 00 05 00 02 04 00 00 00 07"), "17 06 00 00 FF 06 00 00") << "function 23 reads in the same way";
+    EXPECT_EQ(read("03 00 03 00 05"), "83 02") << "nothing that can be read";
+    EXPECT_EQ(read("04 00 02 00 01"), "84 02") << "another table";
+    EXPECT_EQ(ask("10 00 04 00 03 06 00 00 00 00 00 00", 2), "90 02") << "never written";
+    EXPECT_EQ(ask("06 00 00 00 01", 2), "86 02");
+    std::string texts;
+    for (const auto& [e, axis] : port.notes) texts += e.text + "\n";
+    EXPECT_EQ(texts, "nothing is mapped in the holding registers that the request asks for, from address 3 on (unit 2 holding registers 3..7: exception 2)\n"
+                     "nothing is mapped in the input registers that the request asks for, from address 2 on (unit 2 input register 2: exception 2)\n"
+                     "nothing is mapped at address 4 of the holding registers (unit 2 registers 4..6 = 0 0 0: exception 2)\n"
+                     "nothing is mapped at address 0 of the holding registers (unit 2 register 0 = 1: exception 2)\n");
+}
+
+TEST_F(OwnMapTest, GapsAreRefusedWhereTheSiteSaysSo) {
+    gaps = MapGaps::refuse;
+    put({mapping(2, AxisPoint::velocity, MapType::i16), mapping(3, AxisPoint::target_position, MapType::i32, MapAccess::write), mapping(8, AxisPoint::velocity, MapType::i16)});
+    EXPECT_EQ(read("03 00 02 00 01"), "03 02 FF 06");
+    EXPECT_EQ(read("03 00 01 00 02"), "83 02");
+    EXPECT_EQ(read("03 00 02 00 02"), "83 02");
+    EXPECT_EQ(read("03 00 08 00 02"), "83 02");
+    ASSERT_EQ(port.notes.size(), 3u);
+    EXPECT_EQ(port.notes[0].first.text, "nothing is mapped at address 1 of the holding registers (unit 2 holding registers 1..2: exception 2)");
+    EXPECT_EQ(port.notes[1].first.text, "address 3 of the holding registers (target_position of axis x) can only be written (unit 2 holding registers 2..3: exception 2)");
+    EXPECT_EQ(port.notes[2].first.text, "nothing is mapped at address 9 of the holding registers (unit 2 holding registers 8..9: exception 2)");
+    EXPECT_EQ(port.notes[0].first.severity, Severity::info);
+}
+
+TEST_F(OwnMapTest, ARefusedWriteSaysWhatTheOtherDoorsSay) {
+    auto half = mapping(0, parameter("A"), MapType::f32, MapAccess::read_write);
+    put({half, mapping(2, AxisPoint::target_position, MapType::f64, MapAccess::read_write)});
+    EXPECT_EQ(ask("10 00 00 00 02 04 44 FA 20 00", 2), "90 03") << "2001";
+    EXPECT_EQ(ask("10 00 02 00 04 08 7E 37 E4 3C 88 00 75 9C", 2), "90 03") << "1e300";
+    ASSERT_EQ(port.notes.size(), 2u);
+    EXPECT_EQ(port.notes[0].first.text, "axis x: A: 2001 is outside -1000..1000 (unit 2 registers 0..1 = 17658 8192: exception 3)");
+    EXPECT_EQ(port.notes[0].first.parameter, "A");
+    EXPECT_EQ(port.notes[0].first.new_value, "2001");
+    EXPECT_EQ(port.notes[0].second, x);
+    EXPECT_EQ(ask("03 00 14 00 02"), "03 04 00 01 00 02") << "reason and count in the axis' own block";
 }
 
 TEST_F(OwnMapTest, ParametersAreReadWhenTheyAreWanted) {

@@ -1,6 +1,10 @@
 // Parameter channel: reading and writing parameters through registers 48..54, as clients do it: with requests in hex.
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <cmath>
+#include <limits>
+
 #include "tests/unit/modbus/desk.hpp"
 
 namespace axisgate::modbus {
@@ -54,6 +58,73 @@ void PrintTo(const Channel::Seen& s, std::ostream* out) { *out << "state " << s.
 using Seen = Channel::Seen;
 constexpr int idle = 0, busy = 1, done = 2, refused = 3;
 constexpr const char* accepted = "10 00 30 00 03";
+constexpr std::uint32_t float_form = 1u << 31;
+std::uint32_t single(float f) { return std::bit_cast<std::uint32_t>(f); }
+constexpr auto out_of_range_number = static_cast<int>(Reason::out_of_range);
+
+TEST(ParameterChannel, FractionsGoInTheFloatForm) {
+    for (const auto order : {WordOrder::high_first, WordOrder::low_first}) {
+        Channel c(order);
+        const auto read_as = [&](std::uint32_t parameter, Value said) {
+            c.result = [] {};
+            EXPECT_EQ(c.start(parameter | float_form, 1), accepted);
+            c.port.answer(Outcome::done, Reason::none, 0, std::move(said));
+            return c.look();
+        };
+        EXPECT_EQ(read_as(par_f64, Value{-2.5}), (Seen{done, single(-2.5F), 0}));
+        EXPECT_EQ(read_as(par_f64, Value{0.1}), (Seen{done, single(0.1F), 0})) << "the nearest one";
+        EXPECT_EQ(read_as(par_i32, Value{std::int64_t{-7}}), (Seen{done, single(-7.0F), 0})) << "whole numbers too";
+        EXPECT_EQ(read_as(par_i64, Value{std::int64_t{1} << 40}), (Seen{done, single(1099511627776.0F), 0})) << "and those that i32 cannot show";
+        EXPECT_EQ(read_as(par_f64, Value{1e39}).state, refused) << "more than a single can be";
+        EXPECT_EQ(c.look().error, out_of_range_number);
+        EXPECT_EQ(read_as(par_array + (4u << 16), Value{std::int64_t{5}}), (Seen{done, single(5.0F), 0}));
+    }
+}
+
+TEST(ParameterChannel, WritesInTheFloatForm) {
+    Channel c;
+    const auto write = [&](std::uint32_t selector, float value) {
+        c.result = [] {};
+        EXPECT_EQ(c.put_value(single(value)), "10 00 34 00 02");
+        EXPECT_EQ(c.start(selector | float_form, 2), accepted);
+        return c.look();
+    };
+    EXPECT_EQ(write(par_f64, 0.1F).state, busy);
+    EXPECT_EQ(std::get<WriteParameter>(c.port.commands.front().body).value, Value{0.1}) << "and not 0.10000000149011612";
+    c.port.answer(Outcome::done, Reason::none, 0, Value{0.25});
+    EXPECT_EQ(c.look(), (Seen{done, single(0.25F), 0})) << "what the drive took";
+    EXPECT_EQ(write(par_i32, 12.0F).state, busy);
+    EXPECT_EQ(std::get<WriteParameter>(c.port.commands.front().body).value, Value{std::int64_t{12}});
+    c.port.answer(Outcome::done, Reason::none, 0, Value{std::int64_t{12}});
+    for (const float wrong : {0.5F, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 1001.0F})
+        EXPECT_EQ(write(par_i32, wrong), (Seen{refused, single(wrong), out_of_range_number})) << wrong;
+    EXPECT_EQ(write(par_f64, std::numeric_limits<float>::quiet_NaN()).state, refused);
+}
+
+TEST(ParameterChannel, ARefusalLeavesItsSentence) {
+    Channel c;
+    EXPECT_EQ(c.put_value(1001), "10 00 34 00 02");
+    EXPECT_EQ(c.start(par_i32, 2), accepted);
+    c.result = [] {};
+    EXPECT_EQ(c.start(par_f64, 1), accepted);
+    c.port.answer(Outcome::done, Reason::none, 0, Value{2.5});
+    EXPECT_EQ(c.start(par_i32, 1), accepted);
+    EXPECT_EQ(c.start(par_i32, 1), "90 06");
+    c.port.answer(Outcome::refused, Reason::drive_refused, 51, {}, "axis x: the drive refused A: code 51");
+    std::string texts;
+    for (const auto& [e, axis] : c.port.notes) {
+        texts += e.parameter + "|" + e.text + "\n";
+        EXPECT_EQ(axis, c.axis);
+        EXPECT_EQ(e.who, "192.0.2.7:51123");
+        EXPECT_EQ(e.severity, Severity::warning);
+    }
+    EXPECT_EQ(texts, "A|A: 1001 is outside -1000..1000 (unit 1 registers 48..50 = 0 0 2: the parameter channel shows it)\n"
+                     "F|F is 2.5, which is no whole number of 32 bits: read it in the float form (bit 31 of the selector) (unit 1 registers 48..50 = 0 5 1: the parameter "
+                     "channel shows it)\n"
+                     "|the parameter channel is busy: write again when register 51 of the axis is no longer 1 (unit 1 registers 48..50 = 0 0 1: exception 6)\n"
+                     "A|axis x: the drive refused A: code 51 (unit 1 registers 48..50 = 0 0 1: the parameter channel shows it)\n");
+    EXPECT_EQ(c.ask("03 00 14 00 02"), "03 04 00 06 00 04") << "reason of the last, and how many";
+}
 
 TEST(ParameterChannel, Read) {
     for (const auto order : {WordOrder::high_first, WordOrder::low_first}) {

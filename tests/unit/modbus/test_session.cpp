@@ -63,7 +63,7 @@ TEST_F(SessionTest, AnswersWithTheSameTransactionAndUnit) {
 
 TEST_F(SessionTest, AllRequestsOfOneArrivalAreAnsweredTogether) {
     EXPECT_EQ(client.send(join({adu(1, read_one), adu(2, "11"), adu(3, read_one, 0)})),
-              join({adu(1, read_answer), adu(2, "11 0A 61 78 69 73 67 61 74 65 FF 30"), adu(3, read_answer, 0)}));
+              join({adu(1, read_answer), adu(2, "11 0C 01 FF 61 78 69 73 67 61 74 65 20 30"), adu(3, read_answer, 0)}));
 }
 
 TEST_F(SessionTest, ByteByByteGivesTheSameAnswers) {

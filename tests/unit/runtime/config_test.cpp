@@ -16,6 +16,7 @@ TEST(Config, DefaultsAreLoopback) {
     EXPECT_TRUE(faults.empty());
     EXPECT_EQ(c.http_bind, "127.0.0.1:8080");
     EXPECT_EQ(c.modbus_bind, "127.0.0.1:1502");
+    EXPECT_EQ(c.modbus_gaps, MapGaps::zero);
     EXPECT_EQ(c.data_dir, "./var");
     EXPECT_FALSE(c.dds_enabled);
     EXPECT_EQ(c.spin_us, 0);
@@ -24,7 +25,7 @@ TEST(Config, DefaultsAreLoopback) {
 TEST(Config, SetBeatsEnvironmentBeatsFile) {
     ConfigSources s;
     s.file_name = "f.toml";
-    s.file_text = "[modbus]\nbind = \"127.0.0.1:1\"\nidle_timeout_s = 7\n[log]\nfile = \"/dev/x\"\n[http]\nallowed_hosts = [\"a\", \"b\"]\n";
+    s.file_text = "[modbus]\nbind = \"127.0.0.1:1\"\nidle_timeout_s = 7\ngaps = \"refuse\"\n[log]\nfile = \"/dev/x\"\n[http]\nallowed_hosts = [\"a\", \"b\"]\n";
     s.environment = {"AXISGATE_MODBUS_BIND=127.0.0.1:2", "AXISGATE_LOG_FILE=/dev/y", "AXISGATE_SOMETHING_ELSE=1", "PATH=/bin"};
     s.overrides = {"modbus.bind=127.0.0.1:3", "http.bind=off"};
     std::vector<ConfigFault> faults;
@@ -32,6 +33,7 @@ TEST(Config, SetBeatsEnvironmentBeatsFile) {
     EXPECT_TRUE(faults.empty()) << faults[0].text;
     EXPECT_EQ(c.modbus_bind, "127.0.0.1:3");
     EXPECT_EQ(c.modbus_idle_timeout_s, 7);
+    EXPECT_EQ(c.modbus_gaps, MapGaps::refuse);
     EXPECT_EQ(c.log_file, "/dev/y");
     EXPECT_EQ(c.http_bind, "");
     EXPECT_EQ(c.http_allowed_hosts, (std::vector<std::string>{"a", "b"}));

@@ -197,6 +197,6 @@ export class Access {
       return { status: 204 };
     }
     const now = this.holderOf(axis);
-    return { body: { axis, door: now ? 'http' : 'none', holder: now?.holder ?? '', mode: now ? 'lease' : 'free', expires_in_s: now ? (now.until - Date.now()) / 1000 : null, since: now ? now.since * 1e6 : null, last_commander: '' } };
+    return { body: { axis, door: now ? 'http' : 'none', holder: now?.holder ?? '', mode: now ? 'lease' : 'free', expires_in_s: now ? (now.until - Date.now()) / 1000 : null, since: now ? new Date(now.since).toISOString() : null, last_commander: '' } };
   }
 }

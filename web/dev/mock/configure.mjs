@@ -128,6 +128,19 @@ export class Configuration {
       return { body: { dry_run: dry, rows: lines.length, mappings: all.length, differences } };
     }
     const id = parts[1];
+    if (id === 'units') {
+      const units = () => /** @type {any[]} */ (this.world.site.modbus_units ?? []);
+      const told = (/** @type {number} */ unit) => {
+        const gaps = units().find((u) => u.unit === unit)?.gaps ?? null;
+        return { unit, gaps, shown: gaps ?? 'zero', mappings: this.mappings.filter((m) => m.unit === unit).length };
+      };
+      if (method === 'GET') return { body: [...new Set([...this.mappings, ...units()].map((m) => m.unit))].sort((a, b) => a - b).map(told) };
+      const unit = Number(parts[2]);
+      const gaps = JSON.parse(text).gaps;
+      this.world.site.modbus_units = [...units().filter((u) => u.unit !== unit), ...(gaps ? [{ unit, gaps }] : [])];
+      this.site.changed();
+      return { body: told(unit) };
+    }
     if (id === 'list') return { type: q.get('format') === 'html' ? 'text/html' : 'text/plain', text: `revision ${this.hash}\n${csv(this.mappings)}` };
     if (id === 'template') {
       const b = JSON.parse(text);
@@ -220,9 +233,9 @@ export class Configuration {
       const rows = Object.entries(s.values).map(([parameter, snapshot]) => {
         const p = axis.parameter(parameter);
         const value = other === 'default' ? p.default : other.startsWith('snapshot:') ? list.find((x) => `snapshot:${x.n}` === other)?.values[parameter] : other.startsWith('axis:') ? this.world.axisOf(other.split(':')[1] ?? '').parameter(parameter).value : axis.read(parameter).value;
-        return { parameter, name: p.name, unit: p.unit, snapshot, other: value ?? null, same: snapshot === value, writable: p.access !== 'R' };
+        return { parameter, name: p.name, unit: p.unit, snapshot, other: value ?? null, other_known: value !== undefined && value !== null, same: snapshot === value, writable: p.access !== 'R' };
       });
-      return { body: { with: other, rows } };
+      return { body: { with: other, not_known: rows.filter((r) => !r.other_known).length, text: '', rows, live: [] } };
     }
     if (parts[4] === 'restore') {
       const b = JSON.parse(text || '{}');

@@ -11,7 +11,7 @@ export { catalogue, Refusal };
 /** @typedef {{name: string, uri: string, family: string, bitrate?: number}} LineSpec */
 /** @typedef {{name: string, line: string, address?: number | string, presence?: 'device' | 'twin' | 'auto'}} DriveSpec */
 /** @typedef {{name: string, drive: string, channel?: number, number: number, unit?: string, increments_per_unit?: number, velocity_max?: number, position_min?: number, position_max?: number}} AxisSpec */
-/** @typedef {{lines: LineSpec[], drives: DriveSpec[], axes: AxisSpec[], mappings?: unknown[]}} Site */
+/** @typedef {{lines: LineSpec[], drives: DriveSpec[], axes: AxisSpec[], mappings?: unknown[], modbus_units?: {unit: number, gaps: string}[]}} Site */
 
 /** @type {Site} */
 export const demoSite = {

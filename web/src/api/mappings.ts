@@ -3,6 +3,7 @@ import type { Mapping, MappingPoint, MappingSpec, Table } from '../words/mapping
 import type { components } from './schema';
 import type { Client } from './client';
 
+export type ModbusUnit = components['schemas']['ModbusUnit'];
 export type MappingImport = components['schemas']['MappingImport'];
 export interface Registers {
   unit: number;
@@ -60,6 +61,9 @@ export class MappingDoor {
     const q = new URLSearchParams({ unit: String(at.unit), table: at.table, address: String(at.address), count: String(at.count) });
     return this.client.call<Registers>(`/registers?${q}`, signal ? { signal } : {});
   }
+  units = () => this.client.call<ModbusUnit[]>('/mappings/units');
+  /** null: as the host's configuration has it. */
+  setGaps = (unit: number, gaps: ModbusUnit['gaps']) => this.client.call<ModbusUnit>(`/mappings/units/${unit}`, { method: 'PUT', body: { gaps } });
   /** Whether the gateway makes printable lists; asks once, with the smallest of them. */
   hasLists = async (): Promise<boolean> => (await this.client.whole(listPath('csv'))).status === 200;
 }

@@ -623,7 +623,12 @@ export interface paths {
         put?: never;
         /** Adds a mapping; 409 names the one whose place it would take */
         post: operations["addMapping"];
-        delete?: never;
+        /**
+         * Removes several mappings at once, all or none
+         * @description Those that fit every condition that is given: of a unit, of an axis, with one of the ids. All of them only with `all=1`.
+         *     404 if one of the ids is none.
+         */
+        delete: operations["removeMappings"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1210,6 +1215,43 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/mappings/units": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Modbus units with mappings or settings of their own */
+        get: operations["listMappingUnits"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/mappings/units/{unit}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Modbus unit, 2 to 254 */
+                unit: string;
+            };
+            cookie?: never;
+        };
+        get?: never;
+        /** How a unit answers where nothing is mapped */
+        put: operations["changeMappingUnit"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/mappings/template": {
         parameters: {
             query?: never;
@@ -1370,7 +1412,7 @@ export interface paths {
          *
          *     | Topic | `data` | When |
          *     |---|---|---|
-         *     | `axes/NAME`, `axes/*` | `Axis` without `age_ms` | at once, then when it changed, at most once per period; when only `at` moved on, once per second; null when the axis was removed |
+         *     | `axes/NAME`, `axes/*` | `Axis`; its `age_ms` is of the moment `at` of the message | at once, then when it changed, at most once per period; when only `at` moved on, once per second; null when the axis was removed |
          *     | `drives/NAME`, `drives/*` | `Drive` | the same way, looked at every 250 ms at most |
          *     | `lines/NAME`, `lines/*` | `Line` | the same way, looked at every 250 ms at most |
          *     | `lines/NAME/frames` | `StreamFrames` | frames that crossed the line since, in one list per period |
@@ -1596,6 +1638,10 @@ export interface components {
         };
         SnapshotDiff: {
             with: string;
+            /** @description how many values the other side does not tell */
+            not_known: number;
+            /** @description why so, for people: an axis that was never read since the start says so; empty where there is nothing to say */
+            text: string;
             rows: components["schemas"]["DiffRow"][];
             /** @description apart: what acts at once (`live` of a parameter) is no setting, and that it is another now is no difference */
             live: components["schemas"]["DiffRow"][];
@@ -1606,6 +1652,8 @@ export interface components {
             unit: string | null;
             snapshot: components["schemas"]["MaybeValue"];
             other: components["schemas"]["MaybeValue"];
+            /** @description false: nobody said what it is there, so that it is neither the same nor another */
+            other_known: boolean;
             same: boolean;
             writable: boolean;
         };
@@ -1669,8 +1717,11 @@ export interface components {
             faults: components["schemas"]["Fault"][];
             diff: components["schemas"]["SiteDifference"][];
             disturbs: string[];
-            /** @description nanoseconds since 1970 */
-            confirm_by: number | null;
+            /**
+             * Format: date-time
+             * @description until then it must be confirmed; only while it is on trial
+             */
+            confirm_by: string | null;
         };
         SiteDifference: {
             /** @enum {string} */
@@ -1725,6 +1776,31 @@ export interface components {
             exception: Record<string, never> | null;
             decoded: components["schemas"]["DecodedRegister"][];
         };
+        /**
+         * @description Register 20 of an axis: why the last write over Modbus that concerned it was refused; register 21 counts them. The words are those of
+         *     `reason` in `Problem`.
+         *
+         *     | Number | Reason | Exception | What it means |
+         *     |---|---|---|---|
+         *     | 0 | none | - | nothing was refused |
+         *     | 1 | out_of_range | 3 | a value outside its type or range, or half of a 32-bit value |
+         *     | 2 | unknown_point | 2 | no such register, parameter or element |
+         *     | 3 | not_writable | 2 | it can only be read; the door is read-only (exception 1) |
+         *     | 4 | wrong_state | 4 | the axis is not in a state for it: not enabled, fault, moving |
+         *     | 5 | not_supported | 4 | this drive cannot do that; the function is switched off (exception 1) |
+         *     | 6 | drive_refused | 4 | the drive answered with an error |
+         *     | 7 | busy | 6 | a queue or the parameter channel is full |
+         *     | 8 | line_down | 10 | the line is down, or the axis is not configured |
+         *     | 9 | no_answer | 11 | the drive did not answer |
+         *     | 10 | interrupted | 4 | another command, a stop or a fault ended it |
+         *     | 11 | authority | 6 | another client holds the axis |
+         *     | 12 | not_stored | 4 | the drive took it, but the database could not |
+         *     | 13 | internal | 4 | a fault of the gateway itself |
+         *
+         *     The register list of the parameter channel (selector 48, request 50, state 51, value 52, error 54) and of the rest of an axis' block
+         *     stands in `gateway/doors/modbus/README.md`; bit 31 of the selector asks for the value as an IEEE 754 single.
+         */
+        RefusalReason: number;
         DecodedRegister: {
             address: number;
             name?: string;
@@ -1732,6 +1808,7 @@ export interface components {
             type: string;
             value: components["schemas"]["MaybeValue"];
             unit: string | null;
+            /** @description for people; of `refusal_reason` the word of `RefusalReason` */
             text: string;
         };
         Place: {
@@ -1770,7 +1847,7 @@ export interface components {
         /** @description a value, or null where none is known */
         MaybeValue: (boolean | null) | (number | null) | (string | null);
         /** @description the family's own options, as `options` of the family lists them */
-        Options: {
+        FamilyOptions: {
             [key: string]: string | number | boolean;
         };
         Fault: {
@@ -2016,7 +2093,7 @@ export interface components {
             family?: string;
             /** @description bit/s; left out or 0 - from the URI or the family's default */
             bitrate?: number;
-            options?: components["schemas"]["Options"];
+            options?: components["schemas"]["FamilyOptions"];
             manners?: components["schemas"]["Manners"];
         };
         /** @description 1 to 64 letters, digits, - _ and . */
@@ -2078,7 +2155,7 @@ export interface components {
              * @enum {string}
              */
             presence?: "device" | "twin" | "auto";
-            options?: components["schemas"]["Options"];
+            options?: components["schemas"]["FamilyOptions"];
         };
         DriveSpec: components["schemas"]["DriveFields"] & Record<string, never>;
         /** @description a whole drive; `name` may be left out, and `family`, `axes` and `status` are ignored */
@@ -2239,7 +2316,7 @@ export interface components {
              * @description when the drive said it
              */
             readonly at: string | null;
-            /** @description age of the data; not in the stream */
+            /** @description age of the data */
             readonly age_ms?: number | null;
         };
         Axis: components["schemas"]["AxisFields"] & components["schemas"]["AxisState"] & Record<string, never>;
@@ -2504,8 +2581,8 @@ export interface components {
             /** @enum {string} */
             mode: "free" | "lease";
             expires_in_s: number | null;
-            /** @description Unix time in ns */
-            since: number | null;
+            /** Format: date-time */
+            since: string | null;
             last_commander: string;
         };
         AuthorityList: {
@@ -2549,8 +2626,7 @@ export interface components {
                 requests: number;
                 writes: number;
                 exceptions: number;
-                /** @description Unix time in ns */
-                since: number;
+                since: components["schemas"]["Time"];
                 holds: string[];
             }[];
         };
@@ -2558,7 +2634,7 @@ export interface components {
             id: number;
             at: components["schemas"]["Time"];
             severity: components["schemas"]["Severity"];
-            /** @description alarm, write, line, presence, site, command, input, snapshot, ... */
+            /** @description alarm, write, line, presence, site, command, refused (over Modbus), input, snapshot, ... */
             kind: string;
             axis: string | null;
             drive: string | null;
@@ -2632,6 +2708,44 @@ export interface components {
             drives?: components["schemas"]["DriveSpec"][];
             axes?: components["schemas"]["AxisSpec"][];
             mappings?: components["schemas"]["MappingSpec"][];
+            /** @description units that answer otherwise than the host's `[modbus]` section has it */
+            modbus_units?: components["schemas"]["ModbusUnitSpec"][];
+        };
+        ModbusUnitSpec: {
+            /** @description each at most once */
+            unit: number;
+            gaps: components["schemas"]["Gaps"];
+        };
+        /**
+         * @description what a read shows at addresses where nothing is mapped. zero: 0, if the request touches something that is mapped and can be read
+         *     (else exception 2); refuse: exception 2 for the whole request. A write to such an address is always exception 2.
+         * @enum {string}
+         */
+        Gaps: "zero" | "refuse";
+        ModbusUnit: {
+            unit: number;
+            /**
+             * @description of the site; null: as the host's `[modbus] gaps` has it
+             * @enum {string|null}
+             */
+            gaps: "zero" | "refuse" | null;
+            shown: components["schemas"]["Gaps"];
+            /** @description how many it has */
+            mappings: number;
+        };
+        ModbusUnitChange: {
+            /**
+             * @description null: as the host's `[modbus] gaps` has it
+             * @enum {string|null}
+             */
+            gaps: "zero" | "refuse" | null;
+        };
+        MappingRemoval: {
+            dry_run: boolean;
+            /** @description ids */
+            removed: string[];
+            /** @description how many are left */
+            mappings: number;
         };
         /**
          * @description Puts a point of an axis at an address of a Modbus unit. Register value = point value * scale + offset, and back when it is written.
@@ -2674,6 +2788,7 @@ export interface components {
              * @enum {string}
              */
             access?: "R" | "W" | "RW";
+            on_overflow?: components["schemas"]["Overflow"];
             /**
              * @description registers of a string
              * @default 16
@@ -2697,9 +2812,17 @@ export interface components {
             offset: number;
             /** @enum {string} */
             access: "R" | "W" | "RW";
+            on_overflow?: components["schemas"]["Overflow"];
             length?: number;
             comment?: string;
         };
+        /**
+         * @description what registers show of a value that does not fit their type, while the rest of the request goes on. mark: 0x8000... for signed numbers,
+         *     0xFFFF... for unsigned ones, NaN for floating-point ones; clamp: the nearest end of the type. Left out where it is mark.
+         * @default mark
+         * @enum {string}
+         */
+        Overflow: "mark" | "clamp";
         ScanReport: {
             line: string;
             /**
@@ -5262,6 +5385,48 @@ export interface operations {
             default: components["responses"]["Problem"];
         };
     };
+    removeMappings: {
+        parameters: {
+            query?: {
+                /** @description of this Modbus unit alone */
+                unit?: number;
+                /** @description of this axis alone */
+                axis?: string;
+                /** @description ids with commas between them */
+                ids?: string;
+                /** @description 1 removes all; then without another condition */
+                all?: components["schemas"]["Flag"];
+                /** @description 1 answers what would be removed, and changes nothing */
+                dry_run?: components["schemas"]["Flag"];
+            };
+            header?: {
+                /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
+                "If-Match"?: components["parameters"]["ifMatch"];
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description removed; with `dry_run` what would be */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MappingRemoval"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            412: components["responses"]["PreconditionFailed"];
+            507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
     exportMappings: {
         parameters: {
             query?: never;
@@ -6637,6 +6802,73 @@ export interface operations {
             };
             400: components["responses"]["BadRequest"];
             409: components["responses"]["Conflict"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    listMappingUnits: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the units, ascending */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ModbusUnit"][];
+                };
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    changeMappingUnit: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
+                "If-Match"?: components["parameters"]["ifMatch"];
+            };
+            path: {
+                /** @description Modbus unit, 2 to 254 */
+                unit: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "gaps": "refuse"
+                 *     }
+                 */
+                "application/json": components["schemas"]["ModbusUnitChange"];
+            };
+        };
+        responses: {
+            /** @description the unit as it is now */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ModbusUnit"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            412: components["responses"]["PreconditionFailed"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            507: components["responses"]["NotStored"];
             default: components["responses"]["Problem"];
         };
     };

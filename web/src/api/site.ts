@@ -20,8 +20,8 @@ export interface Stage {
   diff?: StageDiff[];
   /** Axes that lose their connection for a moment. */
   disturbs?: string[];
-  /** ns since 1970, the gateway's clock; only while applied. */
-  confirm_by?: number | null;
+  /** The gateway's clock; only while applied. */
+  confirm_by?: string | null;
   /** Who staged or applied it: the name and where from. */
   by?: string | null;
   /** The client that did, with its X-Client; it alone can keep what was applied. */

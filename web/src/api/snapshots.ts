@@ -21,6 +21,8 @@ export interface DiffRow {
   unit: string | null;
   snapshot: MaybeValue;
   other: MaybeValue;
+  /** false: nobody said what it is there. An older gateway does not tell. */
+  other_known?: boolean;
   same: boolean;
   writable: boolean;
 }
@@ -49,6 +51,6 @@ export class SnapshotDoor {
   /** Reading all parameters from a drive on a slow line takes its time. */
   save = (body: { name: string; comment: string; from: string }) => this.client.call<Snapshot>(this.path(), { method: 'POST', body, timeout_ms: 180_000 });
   remove = (n: number) => this.client.call<void>(this.path(`/${n}`), { method: 'DELETE' });
-  diff = (n: number, other: string) => this.client.call<{ with: string; rows: DiffRow[] }>(this.path(`/${n}/diff?with=${part(other)}`), { timeout_ms: 180_000 });
+  diff = (n: number, other: string) => this.client.call<{ with: string; text?: string; rows: DiffRow[] }>(this.path(`/${n}/diff?with=${part(other)}`), { timeout_ms: 180_000 });
   restore = (n: number, body: { parameters?: string[]; dry_run: boolean; include_live?: boolean }) => this.client.call<RestoreReport>(this.path(`/${n}/restore`), { method: 'POST', body, timeout_ms: 180_000 });
 }

@@ -140,6 +140,7 @@ export function MappingForm({ book, known, editing, done }: MappingFormProps) {
           {width > 1 && texts.type !== 'string' && <Choice label="Word order" value={texts.word_order} onChoice={set('word_order')} choices={[{ value: 'high_first', text: 'high word first' }, { value: 'low_first', text: 'low word first' }]} />}
           {texts.type !== 'string' && !bits && <TextField label="Scale" number value={texts.scale} onText={set('scale')} fault={shown('scale')} hint="register = value × scale + offset" />}
           {texts.type !== 'string' && !bits && <TextField label="Offset" number value={texts.offset} onText={set('offset')} fault={shown('offset')} />}
+          {texts.type !== 'string' && !bits && <Choice label="Does not fit" value={texts.on_overflow} onChoice={set('on_overflow')} fault={shown('on_overflow')} hint="what the register shows then" choices={[{ value: 'mark', text: 'a mark: 8000h…, FFFFh… or NaN' }, { value: 'clamp', text: 'the nearest end of the type' }]} />}
           <Choice label="Access" value={texts.access} onChoice={set('access')} fault={shown('access')} choices={[{ value: '', text: 'as the point allows' }, { value: 'R', text: 'read' }, { value: 'W', text: 'write' }, { value: 'RW', text: 'read and write' }]} />
           <TextField label="Comment" class="wide" value={texts.comment} onText={set('comment')} fault={shown('comment')} />
         </div>

@@ -60,7 +60,7 @@ export function MappingPaste({ book, known }: { book: MappingBook; known: Known 
     <Section title="Paste or import a table" class="mapping-paste">
       <div class="card form">
         <p class="where">
-          Columns in any order, named by the first line: <span class="mono">unit, table, address, axis, point, type, word_order, scale, offset, access, length, comment, id</span>. Without such a line they are taken in
+          Columns in any order, named by the first line: <span class="mono">unit, table, address, axis, point, type, word_order, scale, offset, access, length, comment, on_overflow, id</span>. Without such a line they are taken in
           the order <span class="mono">unit, table, address, axis, point, type, scale, offset</span>. Separated by tabs, commas or semicolons.
         </p>
         <label class="visually-hidden" for="mapping-table">

@@ -48,11 +48,13 @@ export function ParameterCompare({ axis, family, snapshots }: { axis: string; fa
     try {
       const title = choices.find((c) => c.value === other.value)?.text ?? other.value;
       let rows: Compared[];
+      let missing = '';
       if (fromSnapshot || other.value.startsWith('snapshot:')) {
         // The gateway compares a snapshot with something; with the values known now it is the drive that counts.
         const n = Number(fromSnapshot ? base.value : other.value.slice('snapshot:'.length));
         const answer = await door.diff(n, fromSnapshot ? other.value : 'device');
-        rows = answer.rows.map((r) => ({ id: r.parameter, name: r.name, unit: r.unit, mine: fromSnapshot ? r.snapshot : r.other, other: fromSnapshot ? r.other : r.snapshot, same: r.same, writable: r.writable }));
+        rows = answer.rows.map((r) => ({ id: r.parameter, name: r.name, unit: r.unit, mine: fromSnapshot ? r.snapshot : r.other, other: fromSnapshot ? r.other : r.snapshot, same: r.same, known: r.other_known !== false, writable: r.writable }));
+        missing = answer.text ?? '';
       } else {
         const list = await client.parameters(axis);
         if (other.value.startsWith('axis:')) {
@@ -63,8 +65,8 @@ export function ParameterCompare({ axis, family, snapshots }: { axis: string; fa
         }
       }
       result.value = { title, rows };
-      const differ = rows.filter((r) => !r.same).length;
-      told.value = { tone: 'good', text: rows.length === 0 ? 'There is no value that both sides know. Read the parameters first.' : `${differ} of ${rows.length} values differ.` };
+      const differ = rows.filter((r) => !r.same && r.known !== false).length;
+      told.value = { tone: 'good', text: rows.length === 0 ? 'There is no value that both sides know. Read the parameters first.' : `${differ} of ${rows.length} values differ.${missing ? ` ${capital(missing)}.` : ''}` };
     } catch (error) {
       told.value = { tone: 'refused', text: capital(asProblem(error).words) };
     }
@@ -117,7 +119,7 @@ export function ParameterCompare({ axis, family, snapshots }: { axis: string; fa
                     </th>
                     <td class="num mono" data-label={fromSnapshot ? 'Snapshot' : 'Now'}>{valueText(r.mine, plain)} <span class="unit">{unitWords(r.unit)} {steppedText(r.mine, r.unit)}</span></td>
                     <td class="num mono" data-label={capital(result.value?.title ?? '')}>{valueText(r.other, plain)} <span class="unit">{unitWords(r.unit)} {steppedText(r.other, r.unit)}</span></td>
-                    <td data-label="Verdict">{r.same ? 'equal' : <span class="flag">differs{r.writable ? '' : ', read only'}</span>}</td>
+                    <td data-label="Verdict">{r.same ? 'equal' : r.known === false ? 'not known' : <span class="flag">differs{r.writable ? '' : ', read only'}</span>}</td>
                   </tr>
                 ))}
               </tbody>

@@ -18,7 +18,7 @@ export function useTrialRest(draft: SiteDraft): number {
   const by = draft.stage.value.confirm_by;
   if (!by) return 0;
   void tick.value;
-  return Math.max(0, Math.ceil((by / 1e6 - store.gatewayNow_ms()) / 1000));
+  return Math.max(0, Math.ceil((Date.parse(by) - store.gatewayNow_ms()) / 1000));
 }
 
 /** Why this page may not keep it; the gateway takes that from who applied it alone. */

@@ -13,6 +13,7 @@ import { addAt, MappingForm } from '../components/mapping-form';
 import { MappingGrid } from '../components/mapping-grid';
 import { ListLinks, PrintedList } from '../components/mapping-list';
 import { MappingPaste } from '../components/mapping-paste';
+import { MappingUnit } from '../components/mapping-unit';
 import { MappingTemplates } from '../components/mapping-templates';
 import { Section } from '../components/section';
 import { useGateway } from '../gateway';
@@ -143,6 +144,7 @@ export function MappingsPage() {
                 ))}
               </select>
             </label>
+            <MappingUnit door={door} unit={unit} revision={revision} />
             <div class="group tables" role="group" aria-label="Table">
               {tables.map((t) => (
                 <button key={t.id} type="button" class="button" aria-pressed={table === t.id} title={t.name} onClick={() => (tableShown.value = t.id)}>

@@ -100,16 +100,16 @@ export function spansOf(own: readonly Mapping[], most = 125): { address: number;
   return spans;
 }
 
-export const fields = ['unit', 'table', 'address', 'axis', 'point', 'type', 'word_order', 'scale', 'offset', 'access', 'length', 'comment'] as const;
+export const fields = ['unit', 'table', 'address', 'axis', 'point', 'type', 'word_order', 'scale', 'offset', 'access', 'length', 'comment', 'on_overflow'] as const;
 export type Field = (typeof fields)[number];
 export type Texts = Record<Field, string>;
 export const columns = ['id', ...fields] as const;
-export const emptyTexts: Texts = { unit: '2', table: 'holding_registers', address: '', axis: '', point: '', type: 'i32', word_order: 'high_first', scale: '1', offset: '0', access: '', length: '', comment: '' };
+export const emptyTexts: Texts = { unit: '2', table: 'holding_registers', address: '', axis: '', point: '', type: 'i32', word_order: 'high_first', scale: '1', offset: '0', access: '', length: '', on_overflow: 'mark', comment: '' };
 
 export function textsOf(m: Mapping): Texts {
   return {
     unit: String(m.unit), table: m.table, address: String(m.address), axis: m.axis, point: m.point, type: m.type, word_order: m.word_order,
-    scale: String(m.scale), offset: String(m.offset), access: m.access, length: m.length ? String(m.length) : '', comment: m.comment ?? '',
+    scale: String(m.scale), offset: String(m.offset), access: m.access, length: m.length ? String(m.length) : '', on_overflow: m.on_overflow ?? 'mark', comment: m.comment ?? '',
   };
 }
 
@@ -185,12 +185,15 @@ export function checkTexts(t: Partial<Texts>, known: Known): Checked {
     else length = n.value;
   }
   if (!address.why && address.value + widthOf(type, length) > 65536) fault('address', 'The value would end beyond address 65535.');
+  const overflow = (t.on_overflow ?? '').trim() || 'mark';
+  if (overflow !== 'mark' && overflow !== 'clamp') fault('on_overflow', 'mark or clamp.');
   const comment = t.comment?.trim() ?? '';
   if (comment.length > 256) fault('comment', 'At most 256 characters.');
   if (Object.keys(faults).length > 0 || !table) return { spec: null, faults };
   const spec: MappingSpec = { unit: unit.value, table, address: address.value, axis, point, type, word_order: order as Mapping['word_order'], scale, offset };
   if (access) spec.access = access as Mapping['access'];
   if (length !== undefined) spec.length = length;
+  if (overflow === 'clamp') spec.on_overflow = overflow;
   if (comment) spec.comment = comment;
   return { spec, faults };
 }

@@ -9,10 +9,12 @@ export interface Site {
   drives?: Entry[];
   axes?: Entry[];
   mappings?: ({ id?: string } & Record<string, unknown>)[];
+  /** Units of the Modbus door that answer in their own way; absent: none. */
+  modbus_units?: ({ unit?: number } & Record<string, unknown>)[];
 }
 export const rooms = ['lines', 'drives', 'axes'] as const;
 export type Room = (typeof rooms)[number];
-export const oneOf: Record<Room | 'mappings', string> = { lines: 'line', drives: 'drive', axes: 'axis', mappings: 'mapping' };
+export const oneOf: Record<Room | 'mappings' | 'modbus_units', string> = { lines: 'line', drives: 'drive', axes: 'axis', mappings: 'mapping', modbus_units: 'Modbus unit' };
 
 export interface FieldSpec {
   /** Where it stands in the entry; "manners.retries" in an object of it. */
@@ -189,7 +191,7 @@ export function withoutEntry(site: Site, room: Room, name: string): Site {
   gone[room].add(name);
   for (const d of site.drives ?? []) if (gone.lines.has(d.line)) gone.drives.add(d.name);
   for (const a of site.axes ?? []) if (gone.drives.has(a.drive)) gone.axes.add(a.name);
-  const next: Site = {};
+  const next: Site = { ...site };
   for (const r of rooms) next[r] = (site[r] ?? []).filter((e) => !gone[r].has(e.name));
   next.mappings = (site.mappings ?? []).filter((m) => !gone.axes.has(m.axis));
   return next;
@@ -202,8 +204,8 @@ export interface Difference {
   after: Record<string, unknown> | null;
 }
 
-const keyOf = (room: string, e: Record<string, unknown>, i: number): string => (room === 'mappings' ? String(e.id ?? `${e.unit}/${e.table ?? ''}/${e.address}`) : String(e.name ?? i));
-const allRooms = [...rooms, 'mappings'] as const;
+const keyOf = (room: string, e: Record<string, unknown>, i: number): string => (room === 'mappings' ? String(e.id ?? `${e.unit}/${e.table ?? ''}/${e.address}`) : String((room === 'modbus_units' ? e.unit : e.name) ?? i));
+const allRooms = [...rooms, 'mappings', 'modbus_units'] as const;
 const indexOf = (site: Site, room: (typeof allRooms)[number]) => new Map((site[room] ?? []).map((e, i) => [keyOf(room, e, i), e as Record<string, unknown>]));
 
 export function sameDocument(a: unknown, b: unknown): boolean {
@@ -257,7 +259,7 @@ export function rebase(base: Site, mine: Site, theirs: Site): { site: Site; clas
       if (c.after) list.set(key, c.after);
       else list.delete(key);
     }
-    (site as Record<string, unknown>)[room] = [...list.values()];
+    if (room !== 'modbus_units' || list.size > 0) (site as Record<string, unknown>)[room] = [...list.values()];
   }
   const clashes = changes.flatMap((c) => {
     const t = touched.get(c.what);
@@ -300,11 +302,11 @@ export function readSite(text: string): Site | string {
   }
   if (typeof d !== 'object' || d === null || Array.isArray(d)) return 'A site is an object with lines, drives, axes and mappings.';
   const wrong = Object.entries(d).find(([k, v]) => !(allRooms as readonly string[]).includes(k) || !(v === null || Array.isArray(v)));
-  if (wrong) return `“${wrong[0]}” is no list of a site: lines, drives, axes, mappings.`;
+  if (wrong) return `“${wrong[0]}” is no list of a site: lines, drives, axes, mappings, modbus_units.`;
   for (const room of rooms) {
     const bad = ((d as Site)[room] ?? []).findIndex((e) => typeof e?.name !== 'string');
     if (bad >= 0) return `${room}: entry ${bad + 1} has no name.`;
   }
   const site = d as Site;
-  return { lines: site.lines ?? [], drives: site.drives ?? [], axes: site.axes ?? [], mappings: site.mappings ?? [] };
+  return { lines: site.lines ?? [], drives: site.drives ?? [], axes: site.axes ?? [], mappings: site.mappings ?? [], ...(site.modbus_units?.length ? { modbus_units: site.modbus_units } : {}) };
 }

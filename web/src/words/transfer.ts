@@ -93,6 +93,8 @@ export interface Compared {
   mine: MaybeValue;
   other: MaybeValue;
   same: boolean;
+  /** false: the other side does not tell its value. */
+  known?: boolean;
   writable: boolean;
 }
 

@@ -1,0 +1,44 @@
+// Mapping unit: what a Modbus unit answers where nothing is mapped. In: the HTTP door, the unit that is shown. Out: one choice beside the grid.
+// Nothing is shown where the gateway does not offer it.
+import { useSignal } from '@preact/signals';
+import { useCallback } from 'preact/hooks';
+import type { MappingDoor, ModbusUnit } from '../api/mappings';
+import { asProblem } from '../api/problem';
+import { useBarred } from './gate';
+import { useLoaded } from './loaded';
+import { quiet, Tell, type Told } from './form';
+
+const words: Record<NonNullable<ModbusUnit['gaps']>, string> = { zero: 'read 0', refuse: 'are refused' };
+
+export function MappingUnit({ door, unit, revision }: { door: MappingDoor; unit: number; revision: unknown }) {
+  const units = useSignal<ModbusUnit[] | null>(null);
+  const told = useSignal<Told>(quiet);
+  const no = useBarred('engineer');
+  const load = useCallback(async () => void (units.value = await door.units()), [door]);
+  const why = useLoaded(load, [door, revision], (p) => p.words);
+  if (why || !units.value) return null;
+  const here = units.value.find((u) => u.unit === unit);
+  const set = async (gaps: ModbusUnit['gaps']) => {
+    told.value = { tone: 'busy', text: 'Changing …' };
+    try {
+      const now = await door.setGaps(unit, gaps);
+      told.value = { tone: 'good', text: `Gaps of unit ${unit} ${words[now.shown]} now.` };
+      await load();
+    } catch (error) {
+      told.value = { tone: 'refused', text: asProblem(error).words };
+    }
+  };
+  return (
+    <>
+      <label class="select" title="What a client gets for addresses between and around what is mapped. Panels that read in blocks need 0; a client that must never read a wrong address wants a refusal.">
+        <span>Gaps</span>
+        <select data-field="gaps" value={here?.gaps ?? ''} {...no} onChange={(e) => void set((e.currentTarget.value || null) as ModbusUnit['gaps'])}>
+          <option value="">as the host has it{here && !here.gaps ? `: ${words[here.shown]}` : ''}</option>
+          <option value="zero">{words.zero}</option>
+          <option value="refuse">{words.refuse}</option>
+        </select>
+      </label>
+      <Tell told={told.value} field="gaps-told" />
+    </>
+  );
+}

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string_view>
 
-#include "gateway/core/demand.hpp"
+#include "gateway/axis/demand.hpp"
 #include "gateway/core/sample.hpp"
 
 namespace axisgate::mcode {

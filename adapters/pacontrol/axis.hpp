@@ -11,7 +11,7 @@
 
 #include "adapters/pacontrol/elements.hpp"
 #include "gateway/core/adapter.hpp"
-#include "gateway/core/demand.hpp"
+#include "gateway/axis/demand.hpp"
 
 namespace axisgate::pacontrol {
 

@@ -13,7 +13,7 @@
 
 #include "adapters/uim342/bus.hpp"
 #include "adapters/uim342/exchange.hpp"
-#include "gateway/core/demand.hpp"
+#include "gateway/axis/demand.hpp"
 
 namespace axisgate::uim342 {
 

@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "gateway/core/line.hpp"
-#include "gateway/core/load_meter.hpp"
-#include "gateway/core/send_queue.hpp"
+#include "gateway/wire/load_meter.hpp"
+#include "gateway/wire/send_queue.hpp"
 #include "gateway/lines/clock.hpp"
 #include "gateway/lines/pauses.hpp"
 

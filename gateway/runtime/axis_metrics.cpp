@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 
-#include "gateway/core/cia402.hpp"
+#include "gateway/axis/cia402.hpp"
 
 namespace axisgate {
 namespace {

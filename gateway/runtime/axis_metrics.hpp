@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 
-#include "gateway/core/gateway.hpp"
-#include "gateway/core/image.hpp"
+#include "gateway/services/gateway.hpp"
+#include "gateway/axis/image.hpp"
 
 namespace axisgate {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "gateway/core/site.hpp"
+#include "gateway/site/site.hpp"
 
 namespace axisgate {
 

@@ -15,7 +15,7 @@
 #include <variant>
 #include <vector>
 
-#include "gateway/core/engine.hpp"
+#include "gateway/engine/engine.hpp"
 #include "gateway/runtime/mailbox.hpp"
 #include "gateway/store/store.hpp"
 

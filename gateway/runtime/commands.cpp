@@ -9,7 +9,7 @@
 #include <cstdio>
 
 #include "gateway/core/assets.hpp"
-#include "gateway/core/options.hpp"
+#include "gateway/site/options.hpp"
 #include "gateway/doors/http/documents.hpp"
 #include "gateway/runtime/catalogues.hpp"
 #include "gateway/runtime/clock.hpp"

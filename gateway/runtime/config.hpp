@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "gateway/core/site.hpp"
+#include "gateway/site/site.hpp"
 
 namespace axisgate {
 

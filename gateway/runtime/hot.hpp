@@ -12,9 +12,9 @@
 #include <thread>
 #include <vector>
 
-#include "gateway/core/door.hpp"
-#include "gateway/core/engine.hpp"
-#include "gateway/core/mapping.hpp"
+#include "gateway/engine/door.hpp"
+#include "gateway/engine/engine.hpp"
+#include "gateway/site/mapping.hpp"
 #include "gateway/lines/pty_line.hpp"
 #include "gateway/runtime/clock.hpp"
 #include "gateway/runtime/cold.hpp"

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "gateway/core/engine.hpp"
-#include "gateway/core/site.hpp"
+#include "gateway/engine/engine.hpp"
+#include "gateway/site/site.hpp"
 #include "gateway/store/reader.hpp"
 
 namespace axisgate {

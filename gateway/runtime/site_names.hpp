@@ -6,7 +6,7 @@
 
 #include <boost/json/value.hpp>
 
-#include "gateway/core/site.hpp"
+#include "gateway/site/site.hpp"
 #include "gateway/store/records.hpp"
 
 namespace axisgate {

@@ -13,7 +13,7 @@
 #include <memory>
 
 #include "gateway/core/line_uri.hpp"
-#include "gateway/core/options.hpp"
+#include "gateway/site/options.hpp"
 #include "gateway/doors/http/hand_server.hpp"
 #include "gateway/lines/make_line.hpp"
 #include "gateway/runtime/catalogues.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "gateway/core/gateway.hpp"
+#include "gateway/services/gateway.hpp"
 #include "gateway/store/records.hpp"
 
 namespace axisgate {

@@ -10,7 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "gateway/core/gateway.hpp"
+#include "gateway/services/gateway.hpp"
 #include "gateway/runtime/cold.hpp"
 #include "gateway/runtime/hot.hpp"
 #include "gateway/store/reader.hpp"

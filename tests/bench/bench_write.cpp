@@ -32,7 +32,7 @@
 #include "gateway/core/assets.hpp"
 #include "gateway/core/catalogue.hpp"
 #include "gateway/core/family.hpp"
-#include "gateway/core/site.hpp"
+#include "gateway/site/site.hpp"
 #include "tests/bench/report.hpp"
 
 namespace axisgate::bench {

@@ -20,7 +20,7 @@
 #include <cstring>
 #include <string>
 
-#include "gateway/core/door.hpp"
+#include "gateway/engine/door.hpp"
 #include "gateway/doors/modbus/server.hpp"
 
 namespace axisgate::bench {

@@ -7,7 +7,7 @@
 #include <memory>
 #include <set>
 
-#include "gateway/core/alarm.hpp"
+#include "gateway/services/alarms/alarm.hpp"
 #include "tests/conformance/laws.hpp"
 
 namespace axisgate::test {

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "gateway/core/options.hpp"
+#include "gateway/site/options.hpp"
 #include "tests/conformance/laws.hpp"
 
 namespace axisgate::test {

@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-#include "gateway/core/guard.hpp"
+#include "gateway/axis/guard.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 namespace axisgate::fuzz {

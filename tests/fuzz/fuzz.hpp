@@ -13,7 +13,7 @@
 #include "gateway/core/assets.hpp"
 #include "gateway/core/catalogue.hpp"
 #include "gateway/core/frame.hpp"
-#include "gateway/core/site.hpp"
+#include "gateway/site/site.hpp"
 
 namespace axisgate::fuzz {
 

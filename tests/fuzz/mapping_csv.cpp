@@ -3,7 +3,7 @@
 // the same; values survive the registers of their mapping.
 #include <boost/json.hpp>
 
-#include "gateway/core/mapping.hpp"
+#include "gateway/site/mapping.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 using namespace axisgate;

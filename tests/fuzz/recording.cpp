@@ -3,7 +3,7 @@
 // read again.
 #include "gateway/runtime/recording.hpp"
 
-#include "gateway/core/frame_export.hpp"
+#include "gateway/wire/frame_export.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 using namespace axisgate;

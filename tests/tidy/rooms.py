@@ -98,8 +98,8 @@ def faults_of(path, text):
 
 
 # Each rule can fail: a file as it must not be, and the rule that has to find it.
-PROBES = (("rooms", "gateway/core/engine.cpp", "// x\n#include <boost/asio.hpp>\n"), ("rooms", "gateway/core/engine.cpp", '// x\n#include "adapters/uim342/wire.hpp"\n'),
-          ("rooms", "adapters/uim342/twin.cpp", '// x\n#include "adapters/uim342/wire.hpp"\n'), ("time", "gateway/core/engine.cpp", "// x\nsteady_clock::now();\n"),
+PROBES = (("rooms", "gateway/engine/engine.cpp", "// x\n#include <boost/asio.hpp>\n"), ("rooms", "gateway/engine/engine.cpp", '// x\n#include "adapters/uim342/wire.hpp"\n'),
+          ("rooms", "adapters/uim342/twin.cpp", '// x\n#include "adapters/uim342/wire.hpp"\n'), ("time", "gateway/engine/engine.cpp", "// x\nsteady_clock::now();\n"),
           ("open", "gateway/runtime/hot.cpp", "// x\n// TO" "DO\n"), ("head", "gateway/runtime/hot.cpp", "#include <vector>\n"),
           ("once", "gateway/runtime/hot.hpp", "// x\n"), ("length", "gateway/runtime/hot.cpp", "// x\n" * 901))
 

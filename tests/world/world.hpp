@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "gateway/core/assets.hpp"
-#include "gateway/core/engine.hpp"
-#include "gateway/core/fault_line.hpp"
-#include "gateway/core/twin_bus.hpp"
+#include "gateway/engine/engine.hpp"
+#include "gateway/wire/fault_line.hpp"
+#include "gateway/wire/twin_bus.hpp"
 
 namespace axisgate::test {
 

@@ -7,7 +7,7 @@
 
 #include "adapters/mcode/tests/fake_drive.hpp"
 #include "adapters/mcode/twin.hpp"
-#include "gateway/core/twin_bus.hpp"
+#include "gateway/wire/twin_bus.hpp"
 #include "gateway/core/wire_time.hpp"
 
 namespace axisgate::mcode::test {

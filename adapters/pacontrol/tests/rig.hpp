@@ -17,7 +17,7 @@
 #include "adapters/pacontrol/adapter.hpp"
 #include "adapters/pacontrol/twin.hpp"
 #include "adapters/pacontrol/twin_device.hpp"
-#include "gateway/core/twin_bus.hpp"
+#include "gateway/wire/twin_bus.hpp"
 #include "gateway/core/wire_time.hpp"
 
 namespace axisgate::pacontrol::test {

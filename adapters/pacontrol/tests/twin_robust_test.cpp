@@ -5,7 +5,7 @@
 
 #include "adapters/pacontrol/tests/twin_bench.hpp"
 #include "adapters/pacontrol/twin_commands.hpp"
-#include "gateway/core/twin_bus.hpp"
+#include "gateway/wire/twin_bus.hpp"
 
 namespace axisgate::pacontrol::twin::test {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "gateway/core/gateway.hpp"
+#include "gateway/services/gateway.hpp"
 #include "gateway/doors/http/access_desk.hpp"
 #include "gateway/doors/http/change_queue.hpp"
 

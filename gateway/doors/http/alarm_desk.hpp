@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "gateway/core/alarm.hpp"
+#include "gateway/services/alarms/alarm.hpp"
 
 namespace axisgate::http {
 

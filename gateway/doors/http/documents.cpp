@@ -6,7 +6,7 @@
 #include <array>
 
 #include "gateway/core/axis_members.hpp"
-#include "gateway/core/cia402.hpp"
+#include "gateway/axis/cia402.hpp"
 #include "gateway/core/parameter_form.hpp"
 #include "gateway/doors/http/text.hpp"
 

@@ -11,9 +11,9 @@
 #include <string_view>
 
 #include "gateway/core/catalogue.hpp"
-#include "gateway/core/gateway.hpp"
-#include "gateway/core/image.hpp"
-#include "gateway/core/site.hpp"
+#include "gateway/services/gateway.hpp"
+#include "gateway/axis/image.hpp"
+#include "gateway/site/site.hpp"
 
 namespace axisgate::http {
 

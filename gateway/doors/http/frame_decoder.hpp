@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "gateway/core/family.hpp"
-#include "gateway/core/gateway.hpp"
+#include "gateway/services/gateway.hpp"
 
 namespace axisgate::http {
 

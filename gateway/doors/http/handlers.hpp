@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
-#include "gateway/core/alarm.hpp"
-#include "gateway/core/gateway.hpp"
+#include "gateway/services/alarms/alarm.hpp"
+#include "gateway/services/gateway.hpp"
 #include "gateway/doors/http/axis_jobs.hpp"
 #include "gateway/doors/http/axis_texts.hpp"
 #include "gateway/doors/http/access_gate.hpp"

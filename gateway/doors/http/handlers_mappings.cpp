@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "gateway/core/mapping.hpp"
+#include "gateway/site/mapping.hpp"
 #include "gateway/doors/http/site_change.hpp"
 
 namespace axisgate::http {

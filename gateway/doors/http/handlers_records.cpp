@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "gateway/core/frame_export.hpp"
+#include "gateway/wire/frame_export.hpp"
 #include "gateway/doors/http/alarm_desk.hpp"
 #include "gateway/doors/http/documents.hpp"
 #include "gateway/doors/http/frame_decoder.hpp"

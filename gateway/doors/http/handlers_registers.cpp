@@ -8,7 +8,7 @@
 #include <cctype>
 #include <tuple>
 
-#include "gateway/core/mapping.hpp"
+#include "gateway/site/mapping.hpp"
 #include "gateway/doors/http/documents.hpp"
 #include "gateway/doors/http/register_lists.hpp"
 #include "gateway/doors/http/site_change.hpp"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "gateway/core/command.hpp"
-#include "gateway/core/site.hpp"
+#include "gateway/site/site.hpp"
 #include "gateway/doors/http/message.hpp"
 
 namespace axisgate::http {

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-#include "gateway/core/authority.hpp"
-#include "gateway/core/cia402.hpp"
+#include "gateway/axis/authority.hpp"
+#include "gateway/axis/cia402.hpp"
 
 namespace axisgate::http {
 namespace {

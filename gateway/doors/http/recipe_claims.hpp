@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "gateway/core/gateway.hpp"
-#include "gateway/core/recipe_run.hpp"
+#include "gateway/services/gateway.hpp"
+#include "gateway/services/recipes/recipe_run.hpp"
 
 namespace axisgate::http {
 

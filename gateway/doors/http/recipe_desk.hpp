@@ -12,8 +12,8 @@
 #include <variant>
 #include <vector>
 
-#include "gateway/core/gateway.hpp"
-#include "gateway/core/recipe_run.hpp"
+#include "gateway/services/gateway.hpp"
+#include "gateway/services/recipes/recipe_run.hpp"
 #include "gateway/doors/http/change_queue.hpp"
 #include "gateway/doors/http/problem.hpp"
 #include "gateway/doors/http/recipe_claims.hpp"

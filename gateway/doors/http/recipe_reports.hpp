@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "gateway/core/gateway.hpp"
+#include "gateway/services/gateway.hpp"
 
 namespace axisgate::http {
 

@@ -8,8 +8,8 @@
 #include <array>
 #include <utility>
 
-#include "gateway/core/mapping.hpp"
-#include "gateway/core/process_data.hpp"
+#include "gateway/site/mapping.hpp"
+#include "gateway/axis/process_data.hpp"
 #include "gateway/doors/http/command_reader.hpp"
 #include "gateway/doors/http/handlers.hpp"
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "gateway/core/gateway.hpp"
-#include "gateway/core/recipe.hpp"
+#include "gateway/services/gateway.hpp"
+#include "gateway/services/recipes/recipe.hpp"
 
 namespace axisgate::http {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "gateway/core/mapping.hpp"
+#include "gateway/site/mapping.hpp"
 
 namespace axisgate::http {
 

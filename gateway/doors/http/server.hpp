@@ -10,7 +10,7 @@
 #include <memory>
 #include <string>
 
-#include "gateway/core/gateway.hpp"
+#include "gateway/services/gateway.hpp"
 #include "gateway/doors/http/access_port.hpp"
 #include "gateway/doors/http/counters.hpp"
 #include "gateway/doors/http/settings.hpp"

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "gateway/core/site.hpp"
+#include "gateway/site/site.hpp"
 
 namespace axisgate::http {
 

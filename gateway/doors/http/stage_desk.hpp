@@ -7,7 +7,7 @@
 #include <string>
 
 #include "gateway/core/command.hpp"
-#include "gateway/core/site_stage.hpp"
+#include "gateway/site/site_stage.hpp"
 
 namespace axisgate::http {
 

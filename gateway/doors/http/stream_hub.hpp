@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "gateway/core/gateway.hpp"
+#include "gateway/services/gateway.hpp"
 #include "gateway/doors/http/counters.hpp"
 #include "gateway/doors/http/frame_decoder.hpp"
 #include "gateway/doors/http/settings.hpp"

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "gateway/core/gateway.hpp"
+#include "gateway/services/gateway.hpp"
 #include "gateway/core/instant.hpp"
 #include "gateway/doors/http/stream_queue.hpp"
 

@@ -8,7 +8,7 @@
 #include <charconv>
 #include <string>
 
-#include "gateway/core/cia402.hpp"
+#include "gateway/axis/cia402.hpp"
 #include "gateway/doors/modbus/register_map.hpp"
 #include "gateway/doors/modbus/wire.hpp"
 

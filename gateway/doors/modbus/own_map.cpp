@@ -8,7 +8,7 @@
 #include <cstring>
 #include <optional>
 
-#include "gateway/core/process_data.hpp"
+#include "gateway/axis/process_data.hpp"
 #include "gateway/doors/modbus/register_map.hpp"
 
 namespace axisgate::modbus {

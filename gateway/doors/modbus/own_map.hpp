@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "gateway/core/door.hpp"
-#include "gateway/core/mapping.hpp"
+#include "gateway/engine/door.hpp"
+#include "gateway/site/mapping.hpp"
 #include "gateway/doors/modbus/unit_map.hpp"
 
 namespace axisgate::modbus {

@@ -10,7 +10,7 @@
 #include <span>
 #include <string>
 
-#include "gateway/core/door.hpp"
+#include "gateway/engine/door.hpp"
 #include "gateway/doors/modbus/access.hpp"
 #include "gateway/doors/modbus/counters.hpp"
 #include "gateway/doors/modbus/identification.hpp"

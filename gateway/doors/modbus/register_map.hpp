@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "gateway/core/command.hpp"
-#include "gateway/core/image.hpp"
+#include "gateway/axis/image.hpp"
 #include "gateway/core/instant.hpp"
 #include "gateway/doors/modbus/wire.hpp"
 

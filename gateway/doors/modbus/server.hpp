@@ -22,7 +22,7 @@
 #include <string>
 #include <vector>
 
-#include "gateway/core/door.hpp"
+#include "gateway/engine/door.hpp"
 #include "gateway/doors/modbus/own_map.hpp"
 #include "gateway/doors/modbus/pdu.hpp"
 

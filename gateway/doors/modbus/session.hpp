@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-#include "gateway/core/image.hpp"
+#include "gateway/axis/image.hpp"
 #include "gateway/doors/modbus/adu_framer.hpp"
 #include "gateway/doors/modbus/pdu.hpp"
 

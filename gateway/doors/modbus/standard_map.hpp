@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "gateway/core/door.hpp"
+#include "gateway/engine/door.hpp"
 #include "gateway/doors/modbus/parameter_channel.hpp"
 #include "gateway/doors/modbus/register_map.hpp"
 #include "gateway/doors/modbus/unit_map.hpp"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "gateway/core/door.hpp"
+#include "gateway/engine/door.hpp"
 #include "gateway/doors/modbus/unit_map.hpp"
 
 namespace axisgate::modbus {

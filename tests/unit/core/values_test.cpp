@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "gateway/core/catalogue.hpp"
-#include "gateway/core/guard.hpp"
-#include "gateway/core/image.hpp"
+#include "gateway/axis/guard.hpp"
+#include "gateway/axis/image.hpp"
 
 namespace axisgate {
 namespace {

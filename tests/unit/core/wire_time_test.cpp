@@ -6,7 +6,7 @@
 
 #include <random>
 
-#include "tests/unit/core/twin_bus_fixture.hpp"
+#include "tests/unit/wire/twin_bus_fixture.hpp"
 
 namespace axisgate {
 namespace {

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "gateway/core/door.hpp"
-#include "gateway/core/gateway.hpp"
+#include "gateway/engine/door.hpp"
+#include "gateway/services/gateway.hpp"
 
 namespace axisgate::modbus::test {
 

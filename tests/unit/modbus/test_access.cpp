@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "gateway/core/cia402.hpp"
+#include "gateway/axis/cia402.hpp"
 #include "tests/unit/modbus/desk.hpp"
 
 namespace axisgate::modbus::test {

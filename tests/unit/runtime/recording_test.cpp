@@ -6,7 +6,7 @@
 
 #include <random>
 
-#include "gateway/core/frame_export.hpp"
+#include "gateway/wire/frame_export.hpp"
 
 namespace axisgate {
 namespace {

@@ -1,0 +1,136 @@
+// CiA 402: the power state machine, control word, status word and modes 1, 3 and 6 (IEC 61800-7-201) over any drive of ours.
+// In: control words, set-points, commands; what the drive says; which orders it took. Out: orders for the adapter, the status word.
+// Never knows a family, a clock or a door. A refused request changes nothing.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gateway/axis/authority.hpp"
+#include "gateway/core/command.hpp"
+#include "gateway/axis/image.hpp"
+#include "gateway/core/sample.hpp"
+
+namespace axisgate {
+
+enum class PowerState : std::uint8_t {
+    not_ready_to_switch_on,  ///< nobody answers
+    switch_on_disabled,
+    ready_to_switch_on,
+    switched_on,
+    operation_enabled,
+    quick_stop_active,
+    fault_reaction_active,
+    fault
+};
+[[nodiscard]] std::string_view name_of(PowerState state) noexcept;
+/// State of a status word by the masks of IEC 61800-7-201, table of the state coding.
+[[nodiscard]] PowerState power_state_of(std::uint16_t statusword) noexcept;
+
+namespace cia402 {
+// control word bits
+inline constexpr std::uint16_t cw_switch_on = 1u << 0, cw_enable_voltage = 1u << 1, cw_quick_stop = 1u << 2 /* low active */,
+                               cw_enable_operation = 1u << 3, cw_new_setpoint = 1u << 4 /* mode 6: start homing */,
+                               cw_change_immediately = 1u << 5, cw_relative = 1u << 6, cw_fault_reset = 1u << 7, cw_halt = 1u << 8;
+// status word bits
+inline constexpr std::uint16_t sw_ready = 1u << 0, sw_switched_on = 1u << 1, sw_operation_enabled = 1u << 2, sw_fault = 1u << 3,
+                               sw_voltage = 1u << 4, sw_quick_stop = 1u << 5 /* low active */, sw_switch_on_disabled = 1u << 6,
+                               sw_warning = 1u << 7, sw_simulated = 1u << 8, sw_remote = 1u << 9, sw_target_reached = 1u << 10,
+                               sw_internal_limit = 1u << 11, sw_mode_12 = 1u << 12 /* set-point acknowledged, speed 0, homing attained */,
+                               sw_mode_13 = 1u << 13 /* mode 6: homing error */, sw_stale = 1u << 14, sw_referenced = 1u << 15;
+inline constexpr std::int16_t mode_none = 0, mode_profile_position = 1, mode_profile_velocity = 3, mode_homing = 6;
+}  // namespace cia402
+
+class AxisProfile {
+public:
+    /// What is to be done about a request. `orders` go to the adapter in this order; with none and no refusal it is done already.
+    struct Decision {
+        std::vector<CommandBody> orders;
+        std::optional<Move> waits;  ///< a set-point that was buffered behind the running one: on_feedback gives it back when its turn has come
+        bool refused = false;
+        Reason reason = Reason::none;
+        std::string text;
+    };
+
+    /// Registers 32..47: values are latched, then the control word is followed. Set-points act on edges, never on levels. A word that ends
+    /// a motion or the power is followed even if something else in it cannot be; without a drive that answers only such a word is sent.
+    /// `by`: whose registers these are. A set-point moves with the target and the profile that its own door has written, never with another's;
+    /// a profile velocity that this door has not written, or wrote as 0, is refused with the set-point.
+    [[nodiscard]] Decision on_process_data(const ProcessData& data, const Origin& by = {});
+    /// The commands of POST /axes/{name}/commands (all bodies but ProcessData, parameters and the like).
+    [[nodiscard]] Decision on_command(const CommandBody& body, const Origin& by = {});
+    /// The drive took an order, or did not.
+    void on_order_result(const CommandBody& order, bool good, Instant now);
+    /// What the drive says. Gives back what is to be ordered because of it: a buffered set-point whose turn has come, or the stop of a drive
+    /// that reports a fault and still moves (the fault reaction: asked for again every second until it stands or has no fault).
+    [[nodiscard]] std::optional<CommandBody> on_feedback(const AxisFeedback& feedback, Instant now);
+    /// Who answers now. A change forgets set-points and buffered motions: nothing moves because something started.
+    void on_presence(Presence presence);
+
+    [[nodiscard]] PowerState state() const noexcept { return s_.state; }
+    [[nodiscard]] const AxisFeedback& feedback() const noexcept { return s_.feedback; }
+    [[nodiscard]] bool commanded() const noexcept;  ///< enabled, stopping, or about to be: a twin must not take over now
+    /// Where the running absolute or relative motion ends, increments; nothing while none runs or the axis has arrived.
+    [[nodiscard]] std::optional<std::int64_t> active_target() const noexcept;
+    [[nodiscard]] bool at_rest() const noexcept { return !s_.feedback.moving && !s_.feedback.homing; }
+    /// Writes everything that this class knows into the picture (stale and authority are the engine's).
+    void fill(AxisPicture& picture) const noexcept;
+
+private:
+    /// What one door has written into registers 34..41. Kept apart per door, so that one client's values never move the axis for another.
+    struct Written {
+        std::int32_t target_position = 0;
+        bool target_known = false;    // since the last enable
+        bool target_pending = false;  // written, and no set-point has used it yet
+        AuthorityClient target_by;
+        std::uint32_t velocity = 0, acceleration = 0, deceleration = 0;  // 0: never written, or written as 0
+    };
+    static constexpr std::size_t doors = 6;
+    struct State {
+        PowerState state = PowerState::not_ready_to_switch_on;
+        Presence presence = Presence::offline;
+        AxisFeedback feedback;
+        bool seen = false;                        // since the present presence began
+        Presence heard = Presence::offline;      // whose feedback is kept: offline, nobody's
+        std::uint16_t controlword = 0;
+        std::int16_t mode = cia402::mode_none;
+        std::array<Written, doors> written;      // by Door
+        // As registers 34..41 show it: written last, or in force since the last motion that a drive took, whoever gave it.
+        std::int32_t target_position = 0;
+        std::uint32_t profile_velocity = 0;
+        std::uint32_t profile_acceleration = 0;
+        std::uint32_t profile_deceleration = 0;
+        std::int32_t target_velocity = 0;
+        std::int16_t homing_method = 0;
+        std::uint16_t setpoints_accepted = 0;
+        std::uint16_t virtual_step = 0;          // 0 switch on disabled, 1 ready, 2 switched on: where the drive only knows "off"; 3 enabled by us
+        std::int8_t power_pending = -1;          // -1 none, 0 off ordered, 1 on ordered
+        Instant power_known_at{};                // feedback up to here may be older than the acknowledged power order
+        bool quick_stopped = false;              // quick stop active until left by a control word or command
+        bool setpoint_acknowledged = false;      // bit 12 in mode 1
+        int told_again = 0;                      // moves on their way to the drive that are no new set-points: after a halt, or buffered before
+        bool halted = false;
+        bool homing_refused = false;             // the last homing was not taken: bit 13, and an older "attained" is not shown
+        bool reacting = false;                   // the stop of the present fault is on its way, or was taken
+        Instant reaction_at{};
+        std::int64_t ordered_velocity = 0;       // mode 3: last velocity given to the drive
+        std::optional<Move> active;              // motion that a halt interrupts and its end continues (absolute target)
+        std::optional<Move> buffered;            // one set-point that waits for the running one
+    };
+
+    [[nodiscard]] Decision refuse(Reason reason, std::string text) const;
+    [[nodiscard]] bool change_unheard(State& s, std::uint16_t before, std::uint16_t cw, Decision& d) const;
+    void change_power(State& s, std::uint16_t before, std::uint16_t cw, const AuthorityClient& by, Decision& d) const;
+    [[nodiscard]] bool change_motion(State& s, std::uint16_t before, std::uint16_t cw, const ProcessData& data, Written& own, Decision& d) const;
+    void settle(State& s) const;
+    static void order_on(State& s, const AuthorityClient& by, Decision& d);
+    static void order_off(State& s, Decision& d);
+    static void order_off_blindly(State& s, Decision& d);
+    static void order_reset(State& s, Decision& d);
+    static void forget_motion(State& s);
+    State s_;
+};
+
+}  // namespace axisgate

@@ -1,0 +1,99 @@
+// Guard: limits in increments, messages in the axis' own unit.
+// In and out: see the header. Never clips.
+#include "gateway/axis/guard.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+namespace axisgate {
+namespace {
+std::optional<std::int64_t> increments(const std::optional<double>& v, double scale) {
+    if (!v) return std::nullopt;
+    const double x = *v * scale;
+    if (!(std::fabs(x) < 9.2e18)) return std::nullopt;
+    return std::llround(x);
+}
+
+std::optional<Refusal> check_position(std::int64_t target, const AxisLimits& l) {
+    constexpr std::int64_t low = std::numeric_limits<std::int32_t>::min(), high = std::numeric_limits<std::int32_t>::max();
+    if (target < low || target > high) {
+        return Refusal{Reason::out_of_range, fmt::format("target {} is outside the 32 bits of a position ({}..{} increments)", target, low, high)};
+    }
+    if (l.position_min && target < *l.position_min) {
+        return Refusal{Reason::out_of_range, fmt::format("target {} is below the axis' position_min {}", in_unit(target, l), in_unit(*l.position_min, l))};
+    }
+    if (l.position_max && target > *l.position_max) {
+        return Refusal{Reason::out_of_range, fmt::format("target {} is above the axis' position_max {}", in_unit(target, l), in_unit(*l.position_max, l))};
+    }
+    return std::nullopt;
+}
+
+std::optional<Refusal> check_rate(std::string_view what, std::optional<std::int64_t> value, std::optional<std::int64_t> max, const AxisLimits& l, std::string_view per) {
+    if (!value) return std::nullopt;
+    constexpr std::int64_t high = std::numeric_limits<std::uint32_t>::max();
+    if (*value < 1 || *value > high) return Refusal{Reason::out_of_range, fmt::format("{} {} is outside 1..{} increments{}", what, *value, high, per)};
+    if (max && *value > *max) return Refusal{Reason::out_of_range, fmt::format("{} {} is above the axis' limit of {}", what, in_unit(*value, l, per), in_unit(*max, l, per))};
+    return std::nullopt;
+}
+}  // namespace
+
+std::string in_unit(std::int64_t increments, const AxisLimits& l, std::string_view per) {
+    if (l.unit.empty()) return fmt::format("{} increments{}", increments, per);
+    return fmt::format("{:.6g} {}{}", static_cast<double>(increments) / l.increments_per_unit, l.unit, per);
+}
+
+AxisLimits AxisLimits::of(const AxisSpec& a) {
+    AxisLimits l;
+    l.increments_per_unit = a.increments_per_unit;
+    l.unit = a.unit;
+    l.position_min = increments(a.position_min, a.increments_per_unit);
+    l.position_max = increments(a.position_max, a.increments_per_unit);
+    l.velocity_max = increments(a.velocity_max, a.increments_per_unit);
+    l.acceleration_max = increments(a.acceleration_max, a.increments_per_unit);
+    return l;
+}
+
+std::optional<Refusal> guard_move(const Move& m, const AxisLimits& l, std::int64_t position) {
+    if (m.kind == Move::Kind::velocity) {
+        constexpr std::int64_t high = std::numeric_limits<std::int32_t>::max();
+        if (m.target < -high || m.target > high) return Refusal{Reason::out_of_range, fmt::format("velocity {} is outside -{}..{} increments/s", m.target, high, high)};
+        if (l.velocity_max && std::llabs(m.target) > *l.velocity_max) {
+            return Refusal{Reason::out_of_range, fmt::format("velocity {} is above the axis' limit of {}", in_unit(m.target, l, "/s"), in_unit(*l.velocity_max, l, "/s"))};
+        }
+        if ((m.target > 0 && l.position_max && position >= *l.position_max) || (m.target < 0 && l.position_min && position <= *l.position_min)) {
+            const bool up = m.target > 0;
+            return Refusal{Reason::out_of_range, fmt::format("the axis is at {}, its {} is {}: it may only move the other way", in_unit(position, l),
+                                                             up ? "position_max" : "position_min", in_unit(up ? *l.position_max : *l.position_min, l))};
+        }
+    } else {
+        std::int64_t target = m.target;
+        if (m.kind == Move::Kind::relative && __builtin_add_overflow(position, m.target, &target)) target = std::numeric_limits<std::int64_t>::max();
+        if (auto r = check_position(target, l)) return r;
+    }
+    if (auto r = check_rate("velocity", m.velocity, l.velocity_max, l, "/s")) return r;
+    if (auto r = check_rate("acceleration", m.acceleration, l.acceleration_max, l, "/s^2")) return r;
+    return check_rate("deceleration", m.deceleration, l.acceleration_max, l, "/s^2");
+}
+
+std::optional<Refusal> guard_process_data(const ProcessData& d, const AxisLimits& l) {
+    const auto rate = [&](std::string_view what, std::optional<std::uint32_t> v, std::optional<std::int64_t> max, std::string_view per) -> std::optional<Refusal> {
+        if (!v || *v == 0) return std::nullopt;  // 0: as the drive has it
+        return check_rate(what, static_cast<std::int64_t>(*v), max, l, per);
+    };
+    if (auto r = rate("profile velocity", d.profile_velocity, l.velocity_max, "/s")) return r;
+    if (auto r = rate("profile acceleration", d.profile_acceleration, l.acceleration_max, "/s^2")) return r;
+    if (auto r = rate("profile deceleration", d.profile_deceleration, l.acceleration_max, "/s^2")) return r;
+    if (d.target_velocity) {
+        Move m;
+        m.kind = Move::Kind::velocity;
+        m.target = *d.target_velocity;
+        AxisLimits rates = l;  // whether it leads out of the limits is asked when it moves the axis
+        rates.position_min = rates.position_max = std::nullopt;
+        return guard_move(m, rates, 0);
+    }
+    return std::nullopt;
+}
+
+}  // namespace axisgate

@@ -1,0 +1,37 @@
+// Guard: what is refused before it reaches a drive: values outside the site's limits, the registers' width, the catalogue's ranges.
+// In: a command, the axis' place in the site, its position. Out: nothing if it may pass, else the reason in words with the range.
+// Never changes a command: nothing is clipped silently.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "gateway/core/command.hpp"
+#include "gateway/site/site.hpp"
+
+namespace axisgate {
+
+/// The limits of one axis in increments; absent: none.
+struct AxisLimits {
+    std::optional<std::int64_t> position_min, position_max, velocity_max, acceleration_max;
+    double increments_per_unit = 1.0;
+    std::string unit;
+
+    [[nodiscard]] static AxisLimits of(const AxisSpec& axis);
+};
+
+struct Refusal {
+    Reason reason = Reason::none;
+    std::string text;
+};
+
+/// "12.5 mm", or increments where the axis has no unit.
+[[nodiscard]] std::string in_unit(std::int64_t increments, const AxisLimits& limits, std::string_view per = {});
+
+/// `position`: the axis' actual position in increments, for relative moves and for velocity moves that would lead out of the limits.
+[[nodiscard]] std::optional<Refusal> guard_move(const Move& move, const AxisLimits& limits, std::int64_t position);
+/// Registers 32..47 before they are latched: speeds, accelerations and the absolute target when a set-point starts with this word.
+[[nodiscard]] std::optional<Refusal> guard_process_data(const ProcessData& data, const AxisLimits& limits);
+
+}  // namespace axisgate

@@ -1,0 +1,196 @@
+// Engine: the round. Commands go down through guard and profile to the adapter of their line; frames come up as feedback into the image.
+// In: the wanted site, commands, what lines report, the passing of time. Out: one result per ticket, the image, events, store orders.
+// Never touches a clock, thread, socket, file or log: lines are behind `struct Line`, everything else behind EngineHost.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "gateway/axis/authority.hpp"
+#include "gateway/axis/cia402.hpp"
+#include "gateway/engine/door.hpp"
+#include "gateway/site/fail_safe.hpp"
+#include "gateway/wire/frame_log.hpp"
+#include "gateway/services/gateway.hpp"
+#include "gateway/axis/guard.hpp"
+#include "gateway/core/line.hpp"
+#include "gateway/site/site.hpp"
+#include "gateway/wire/twin_bus.hpp"
+
+namespace axisgate {
+
+/// A parameter write that the drive has acknowledged and that must be on disk before the client hears of it.
+struct StoreOrder {
+    Ticket ticket = no_ticket;  ///< of the engine; comes back through Engine::on_stored
+    AxisId axis = no_axis;
+    std::string axis_name, parameter, storage;
+    Value value, previous;
+    Origin origin;
+};
+
+/// What the engine needs from the world around it. All calls come on the hot thread, from inside an engine call.
+struct EngineHost {
+    /// A line for a URI other than `twin`. It may come up later; nullptr is not allowed.
+    virtual std::unique_ptr<Line> make_line(const LineSpec& spec, const LineSetup& setup) = 0;
+    /// Results of commands, with the ticket that came with them.
+    virtual void on_result(const Result& result) = 0;
+    /// Names are filled in, `id` and `at_unix_ns` are not; `at` is the instant.
+    virtual void on_event(Event event, Instant at) = 0;
+    virtual void on_sample(const Sample& sample) = 0;
+    virtual void on_store(StoreOrder order) = 0;
+    /// When a client that has commanded was last heard on its door; nothing: it is not connected, or its door does not watch.
+    [[nodiscard]] virtual std::optional<Instant> heard(const AuthorityClient&) const { return std::nullopt; }
+    /// A twin's non-volatile memory has changed.
+    virtual void on_twin_memory(const std::string& drive, NonVolatile memory) = 0;
+    virtual ~EngineHost() = default;
+};
+
+/// What apply_site needs to know besides the site: memories of twins by drive name, stored parameter values by axis name and id.
+struct SiteMemory {
+    std::map<std::string, NonVolatile> twins;
+    std::map<std::string, std::map<std::string, Value>> stored;
+};
+
+class Engine {
+public:
+    Engine(Families families, EngineHost& host, Image& image, std::size_t trace_frames = 4096);
+    ~Engine();
+    Engine(const Engine&) = delete;
+    Engine& operator=(const Engine&) = delete;
+
+    /// Puts a checked site in force. Lines, drives and axes that are the same go on undisturbed.
+    std::shared_ptr<const SiteState> apply_site(Site site, SiteMemory memory, std::uint64_t revision, Instant now);
+    [[nodiscard]] const std::shared_ptr<const SiteState>& site() const noexcept { return site_; }
+
+    void on_command(Command command, Instant now);
+    /// How long a command holds an axis of mode "lease".
+    void set_lease(Duration lease) noexcept { lease_ = lease; }
+    /// How long a Modbus client that commands an axis may be silent, where the axis' site entry does not say it; 0: for ever.
+    void set_watchdog(Duration limit) noexcept { watchdog_ = limit; }
+    /// A client is gone: what it commanded last is treated as the axes' site entries say.
+    void on_client_lost(const AuthorityClient& who, LossCause cause, Instant now);
+    /// How often axes were stopped since the start because of this cause.
+    [[nodiscard]] std::uint64_t losses(LossCause cause) const noexcept { return losses_[static_cast<std::size_t>(cause)]; }
+    /// The store has (`fault` empty) or has not recorded an order.
+    void on_stored(Ticket order, const std::string& fault, Instant now);
+
+    [[nodiscard]] Instant deadline() const;
+    void on_deadline(Instant now);
+
+    [[nodiscard]] const Catalogue* catalogue(AxisId axis) const;
+    /// Looks for drives on a line. Empty: it has begun; else why not.
+    [[nodiscard]] std::string start_scan(LineId line, ScanWish wish, Instant now);
+    void cancel_scan(LineId line, Instant now);
+    [[nodiscard]] ScanReport scan_report(LineId line) const;
+    [[nodiscard]] LineReport line_report(LineId line, Instant now) const;
+    [[nodiscard]] DriveStatus drive_status(DriveId drive) const;
+    /// Outlives the line for those who still read it.
+    [[nodiscard]] std::shared_ptr<const FrameLog> frame_log(LineId line) const;
+    /// The tester's hand; nullptr-free only for drives that are simulated now.
+    [[nodiscard]] Twin* twin(DriveId drive);
+    [[nodiscard]] std::string set_hand(DriveId drive, const std::vector<std::pair<std::string, Value>>& items, const Origin& origin, Instant now);
+    /// True as soon as every line is up, or its drives are served by twins, or its first attempts have failed for good reason.
+    [[nodiscard]] bool settled() const;
+    /// What is not as it should be, a sentence each: lines down, drives offline.
+    [[nodiscard]] std::vector<std::string> complaints() const;
+    /// Stops every axis that is not at rest and closes all lines: the gateway's own end is a loss of command.
+    void shut_down(Instant now);
+
+private:
+    struct Axis;
+    struct Drive;
+    struct LineUnit;
+    struct Side;
+    struct Client;
+    struct OrderRecord;
+    struct Scan;
+
+    // routing (engine.cpp)
+    void drain(Side& side, Out& out, Instant now);
+    void give_order(Axis& axis, Client* client, CommandBody body, Origin origin, Instant now);
+    [[nodiscard]] std::optional<Refusal> beyond_limits(const Axis& axis, const CommandBody& body) const;
+    void remember_prepared(Axis& axis, const CommandBody& body);
+    void order_result(const Result& result, Instant now);
+    void finish(std::uint64_t client, Result result, Instant now);
+    void refuse(const Command& command, Reason reason, std::string text);
+    void feedback(Side& side, AxisId axis, const AxisFeedback& value, Instant now);
+    void track(Axis& axis, Instant now);
+    void publish(Axis& axis, Instant now);
+    void event(Event e, Instant now) { host_.on_event(std::move(e), now); }
+    [[nodiscard]] Side* side_of(const Drive& drive) const;
+    // authority (engine_authority.cpp)
+    [[nodiscard]] AxisAuthority::Verdict may_command(const Axis& axis, const Command& command, Instant now) const;
+    /// Ends motion and nothing else: not asked for a lease.
+    [[nodiscard]] static bool only_stops(const Axis& axis, const CommandBody& body);
+    /// False: another client holds the axis; the command has been refused with its name.
+    [[nodiscard]] bool ask_authority(Axis& axis, const Command& command, Instant now);
+    void hold(Axis& axis, const Command& command, const HoldAxis& wish, Instant now);
+    void authority_changed(Axis& axis, const AxisAuthority::Verdict& verdict, const Origin* by, Instant now);
+    void supersede(Axis& axis, std::uint64_t by, std::string_view what, Instant now);
+    [[nodiscard]] bool hold_on(Axis& axis, const Command& command, Instant now);
+    void begin_hold(Axis& axis, const Move& move, const Origin& origin);
+    void check_hold(Axis& axis, Instant now);
+    void check_run(Axis& axis, Instant now);
+
+    // loss of command (engine_fail_safe.cpp)
+    void fail_safe(Axis& axis, LossCause cause, Instant now);
+    void check_watchdog(Axis& axis, Instant now);
+
+    // the site (engine_site.cpp), presence (engine_presence.cpp), time (engine_turn.cpp), questions (engine_ask.cpp)
+    void build_line(LineUnit& unit, Instant now);
+    void tell_options(std::span<LineUnit* const> lines, std::span<Drive* const> drives, Instant now);
+    void configure_side(Side& side, Instant now);
+    [[nodiscard]] LineSetup setup_for(const LineUnit& unit, const Side& side) const;
+    void line_state(Side& side, bool up, const std::string& why, Instant now);
+    void link(Side& side, const DriveLink& link, Instant now);
+    void decide_presence(Drive& drive, Instant now);
+    void serve(Drive& drive, Presence by, std::string why, Instant now);
+    void plug_in_twin(Drive& drive, Instant now);
+    void refit_twin(Drive& drive, Instant now);
+    void begin_handback(Drive& drive, Instant now);
+    bool handback_result(const Result& result, Instant now);
+    void housekeeping(Instant now);
+    void save_twin_memory(Drive& drive);
+    void drop_axis(Axis& axis, std::string_view why, Instant now);
+    void new_source(Axis& axis);
+
+    // scans (engine_scan.cpp)
+    [[nodiscard]] static bool is_probe(DriveId id) noexcept;
+    void scan_turn(LineUnit& unit, Instant now);
+    void scan_link(Side& side, const DriveLink& link);
+    void end_scan(LineUnit& unit, ScanReport::State state, std::string why, Instant now);
+
+    Axis* axis(AxisId id) const;
+    Drive* drive(DriveId id) const;
+
+    Out take_out();
+    void give_back(Out&& out);
+
+    Families families_;
+    EngineHost& host_;
+    Image& image_;
+    std::shared_ptr<const SiteState> site_;
+    std::vector<std::unique_ptr<LineUnit>> lines_;    // by LineId; null: removed
+    std::vector<std::unique_ptr<Drive>> drives_;      // by DriveId
+    std::vector<std::unique_ptr<Axis>> axes_;         // by AxisId
+    std::vector<Side*> sides_;                        // all that exist, for the deadline scan
+    std::unordered_map<std::uint64_t, std::unique_ptr<Client>> clients_;   // by own number
+    std::unordered_map<Ticket, OrderRecord> orders_;  // by the ticket that the adapter or the store has
+    std::vector<Out> spare_;
+    std::uint64_t next_ = 1;
+    Instant now_{};
+    Instant next_housekeeping_{};
+    std::size_t trace_frames_;
+    std::uint32_t sources_ = 0;
+    Duration lease_ = std::chrono::seconds(30);
+    Duration watchdog_ = std::chrono::seconds(5);
+    std::array<std::uint64_t, loss_causes.size() + 1> losses_{};
+    bool closing_ = false;
+};
+
+}  // namespace axisgate

@@ -1,0 +1,101 @@
+// Engine, command authority. Who may command an axis, what a lease does to the others, and what is said about it.
+// In: commands with their origin. Out: refusals that name the holder, events of kind "authority", the image's holder and register 17.
+// Never holds up a stop, and never asks the gateway's own orders.
+#include <fmt/format.h>
+
+#include "gateway/engine/engine.hpp"
+#include "gateway/engine/engine_parts.hpp"
+
+namespace axisgate {
+namespace {
+bool is_asked(const Origin& origin) { return origin.door != Door::internal && origin.door != Door::none; }
+}  // namespace
+
+bool Engine::only_stops(const Axis& a, const CommandBody& body) {
+    if (is_urgent(body)) return true;
+    const auto* data = std::get_if<ProcessData>(&body);
+    if (!data || !data->controlword) return false;
+    const std::uint16_t word = *data->controlword;
+    if (word & cia402::cw_fault_reset) return false;
+    if (!(word & cia402::cw_enable_voltage) || !(word & cia402::cw_quick_stop)) return true;
+    if (a.profile.state() != PowerState::operation_enabled) return false;  // the same words would switch it on
+    return !(word & cia402::cw_enable_operation) || ((word & cia402::cw_halt) && !(word & cia402::cw_new_setpoint));
+}
+
+AxisAuthority::Verdict Engine::may_command(const Axis& a, const Command& c, Instant now) const {
+    if (!is_asked(c.origin)) return {};
+    const auto who = AuthorityClient::of(c.origin);
+    const auto ask = [&](const Axis& x) {
+        auto v = x.authority.may(who, now);
+        if (!v.allowed) v.text = fmt::format("axis {}: {}", x.spec.name, v.text);
+        return v;
+    };
+    if (const auto* together = std::get_if<StartTogether>(&c.body)) {
+        for (const AxisId id : together->axes) {
+            if (const Axis* x = axis(id)) {
+                if (auto v = ask(*x); !v.allowed) return v;
+            }
+        }
+    }
+    return ask(a);
+}
+
+bool Engine::ask_authority(Axis& a, const Command& c, Instant now) {
+    if (!is_asked(c.origin)) return true;
+    if (const auto v = may_command(a, c, now); !v.allowed) {
+        refuse(c, Reason::authority, v.text);
+        return false;
+    }
+    const auto who = AuthorityClient::of(c.origin);
+    const auto note = [&](Axis& x) {
+        authority_changed(x, x.authority.expire(now), nullptr, now);  // the end of a lease is told before the next one begins
+        const auto v = x.authority.command(who, x.spec.authority_mode, lease_, now);
+        authority_changed(x, v, &c.origin, now);
+    };
+    if (const auto* together = std::get_if<StartTogether>(&c.body)) {
+        for (const AxisId id : together->axes) {
+            if (Axis* x = axis(id); x && x != &a) note(*x);
+        }
+    }
+    note(a);
+    return true;
+}
+
+void Engine::hold(Axis& a, const Command& c, const HoldAxis& wish, Instant now) {
+    const auto who = AuthorityClient::of(c.origin);
+    const Duration lease = std::chrono::seconds(wish.lease_s);
+    if (wish.lease_s < 1 || wish.lease_s > 3600) return refuse(c, Reason::out_of_range, "a lease has 1 to 3600 s");
+    authority_changed(a, a.authority.expire(now), nullptr, now);
+    const AxisAuthority::Verdict v = wish.kind == HoldAxis::Kind::take      ? a.authority.take(who, lease, wish.take_over, now)
+                                     : wish.kind == HoldAxis::Kind::release ? a.authority.release(who, now)
+                                                                            : a.authority.hand_over(who, wish.to, lease, now);
+    if (!v.allowed) return refuse(c, Reason::authority, fmt::format("axis {}: {}", a.spec.name, v.text));
+    authority_changed(a, v, &c.origin, now);
+    publish(a, now);
+    Result r;
+    r.ticket = c.ticket;
+    r.axis = c.axis;
+    r.text = v.text;
+    host_.on_result(r);
+}
+
+void Engine::authority_changed(Axis& a, const AxisAuthority::Verdict& v, const Origin* by, Instant now) {
+    using Change = AxisAuthority::Change;
+    if (v.change == Change::none) {
+        return;  // a lease that a command prolongs is published with that command
+    }
+    publish(a, now);
+    if (v.change == Change::renewed) return;
+    Event e;
+    e.kind = "authority";
+    e.axis = a.spec.name;
+    e.text = v.text;
+    if (v.change == Change::taken_over) e.severity = Severity::warning;
+    if (by) {
+        e.who = by->who ? *by->who : "";
+        e.door = std::string(name_of(by->door));
+    }
+    event(std::move(e), now);
+}
+
+}  // namespace axisgate

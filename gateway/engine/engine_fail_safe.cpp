@@ -1,0 +1,53 @@
+// Engine, loss of command: an axis whose commander is gone, or silent for too long, is halted, stopped or switched off as its site entry says.
+// In: doors' word that a client is gone, and the instant at which a client was heard last. Out: the action, an event, register 22, a count.
+// Never touches an axis that somebody else has commanded since.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "gateway/engine/engine.hpp"
+#include "gateway/engine/engine_parts.hpp"
+
+namespace axisgate {
+
+void Engine::on_client_lost(const AuthorityClient& who, LossCause cause, Instant now) {
+    now_ = std::max(now_, now);
+    for (const auto& a : axes_) {
+        if (a && a->authority.commander() == who) fail_safe(*a, cause, now);
+    }
+}
+
+void Engine::fail_safe(Axis& a, LossCause cause, Instant now) {
+    const AxisFeedback& f = a.profile.feedback();
+    const bool moving = f.moving || f.homing || a.profile.active_target().has_value();
+    const auto action = a.spec.fail_safe.action(cause, a.run.velocity != 0, moving || a.run.velocity != 0, a.profile.commanded());
+    if (closing_ || action == FailSafeAction::nothing || a.loss != LossCause::none) return;
+    a.loss = cause;
+    ++losses_[static_cast<std::size_t>(cause)];
+    const CommandBody body = action == FailSafeAction::halt         ? CommandBody{Halt{}}
+                             : action == FailSafeAction::quick_stop ? CommandBody{QuickStop{}}
+                                                                    : CommandBody{Disable{}};
+    Event e;
+    e.severity = Severity::warning;
+    e.kind = "fail_safe";
+    e.axis = a.spec.name;
+    e.code = static_cast<std::int32_t>(cause);
+    e.text = fmt::format("{}: {} commanded the axis and {}", name_of(body), a.authority.commander().text(),
+                         cause == LossCause::modbus_silent ? fmt::format("has been silent for {} ms", milliseconds_of(a.spec.fail_safe.watchdog(watchdog_)))
+                                                           : "has closed its last connection");
+    event(std::move(e), now);
+    auto decision = a.profile.on_command(body);
+    for (auto& o : decision.orders) give_order(a, nullptr, std::move(o), {}, now);
+    publish(a, now);
+}
+
+/// Looked at with every housekeeping, so an action comes at most one of its periods late.
+void Engine::check_watchdog(Axis& a, Instant now) {
+    const AuthorityClient& who = a.authority.commander();
+    const Duration limit = a.spec.fail_safe.watchdog(watchdog_);
+    if (who.door != Door::modbus || limit <= Duration::zero() || !a.profile.commanded()) return;
+    const auto heard = host_.heard(who);
+    if (heard && now - *heard > limit) fail_safe(a, LossCause::modbus_silent, now);
+}
+
+}  // namespace axisgate

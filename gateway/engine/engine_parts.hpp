@@ -1,0 +1,165 @@
+// Engine parts: the engine's own records of lines, drives, axes and waiting clients. Included by engine*.cpp alone.
+// In and out: nothing; these are plain records with the one event handler that a line needs. Never used outside the engine.
+#pragma once
+
+#include "gateway/axis/authority.hpp"
+#include "gateway/engine/engine.hpp"
+
+namespace axisgate {
+
+/// One adapter with the line that it talks on: the real one, or the twin bus beside it.
+struct Engine::Side final : LineEvents {
+    Side(Engine& e, LineUnit& u, bool is_twin) : engine(e), unit(u), twin(is_twin) {}
+    Engine& engine;
+    LineUnit& unit;
+    bool twin;
+    bool up = false;
+    bool tried = false;  ///< has reported its state at least once
+    std::string why = "not opened yet";
+    std::unique_ptr<Adapter> adapter;
+    std::unique_ptr<Line> line;
+    std::vector<DriveSetup> probes;  ///< addresses that a scan asks now
+    TwinBus* bus = nullptr;  ///< `line` seen as what it is, on the twin's side
+    AdapterCounters counters_shown;
+    /// The earlier deadline of adapter and line, kept so that a turn of the engine need not ask all lines. Whoever calls one of the two
+    /// says touched(); drain() does it for most.
+    Instant due = never;
+    bool asked = false;
+    void touched() noexcept { asked = false; }
+    [[nodiscard]] Instant deadline() {
+        if (!asked) {
+            asked = true;
+            due = std::min(adapter->deadline(), line->deadline());
+        }
+        return due;
+    }
+
+    void on_frame(const Frame& frame) override;
+    void on_line_state(bool now_up, const std::string& text) override;
+    void on_sent(const Frame& frame) override;
+};
+
+/// One search for drives on a line; kept for its report until the next.
+struct Engine::Scan {
+    struct Asking {
+        DriveId id = no_drive;
+        std::string address;
+        Instant since{};
+        bool over = false, online = false;
+        std::string text;
+    };
+    std::vector<std::string> waiting;  ///< the next one at the back
+    std::vector<Asking> asking;
+    std::size_t at_once = 1;
+    std::uint32_t next_id = 0;
+    Instant ends_at{};
+    ScanReport report;
+};
+
+struct Engine::LineUnit {
+    LineSpec spec;
+    LineId id = no_line;
+    FamilyEntry family;
+    LineKind kind = LineKind::bytes;
+    std::unique_ptr<Side> real;  ///< null on a line with the URI "twin"
+    std::unique_ptr<Side> twins; ///< null while no drive is simulated
+    std::shared_ptr<FrameLog> log;
+    std::vector<DriveId> drives;
+    std::unique_ptr<Scan> scan;  ///< null: never scanned
+    Duration stale_after{};
+};
+
+struct Engine::Drive {
+    DriveSpec spec;
+    DriveId id = no_drive;
+    LineUnit* line = nullptr;
+    std::vector<AxisId> axes;
+    Presence serving = Presence::offline;  ///< whose word counts: the device's, the twin's, nobody's
+    bool device_online = false, twin_online = false;
+    bool device_lost_while_commanded = false;
+    Instant waiting_since{};               ///< when we began to wait for the device
+    DriveLink device_link, twin_link;
+    std::string why = "not seen yet";
+    int twin_axes = 1;  ///< that the running twin was built with
+    std::uint64_t memory_revision = 0;
+    NonVolatile memory;                    ///< what the twin starts from
+    /// The device is back: its parameters are read and compared before it gets its axes again.
+    struct Handback {
+        std::size_t waiting = 0;
+        std::size_t compared = 0;
+        std::size_t unread = 0;
+        std::vector<std::string> differences;
+    };
+    std::unique_ptr<Handback> handback;
+};
+
+struct Engine::Axis {
+    AxisSpec spec;
+    AxisId id = no_axis;
+    Drive* drive = nullptr;
+    AxisLimits limits;
+    AxisProfile profile;
+    /// The dead-man time-out of a velocity move under way; `until` is `never` if there is none.
+    struct Held {
+        Instant until = never;      ///< runs from the drive's acknowledgement on
+        Duration time{};            ///< 0: no hold
+        std::int64_t velocity = 0;  ///< increments/s
+        AuthorityClient who;
+    } held;
+    /// The velocity move under way, watched at the site's limits of position.
+    struct Run {
+        std::int64_t velocity = 0;      ///< increments/s; 0: none
+        std::int64_t deceleration = 0;  ///< increments/s^2; 0: the drive's own, not known here
+        std::int64_t position = 0;      ///< as last told, and when it became that
+        Instant since{};
+        double round_s = 0;             ///< between the last two positions: how late the next may be, and a halt on the same line
+    } run;
+    std::optional<Move> prepared;  ///< taken by the drive, starts with StartTogether
+    Ticket setpoint_ticket = no_ticket;  ///< the set-point that came last by a control word: it may wait and begin later, without its client
+    bool at_limit = false;  ///< a velocity move was ended at a limit, and no motion has begun since
+    AxisAuthority authority;
+    LossCause loss = LossCause::none;  ///< why it was stopped without a command, until the next command to it
+    bool stale = true;
+    bool was_fault = false;
+    std::string homing_why;  ///< why the last search for a zero failed, by the adapter's notice
+    std::uint16_t last_error = 0;
+    std::vector<std::uint64_t> clients;  ///< commands on their way or being watched, oldest first; bounded
+    std::map<Point, Value> stored;       ///< acknowledged writes, as the store has them
+    std::map<Point, Value> said;         ///< what who speaks for it said last; bounded by the catalogue
+    std::uint32_t source = 0;            ///< AxisPicture::source
+};
+
+/// One client's command on its way.
+struct Engine::Client {
+    std::uint64_t number = 0;
+    Ticket ticket = no_ticket;
+    AxisId axis = no_axis;
+    CommandBody body;
+    Origin origin;
+    bool until_done = false;
+    bool lets_go = false;      ///< a disable whose device is silent: nobody need hear it for the twin to take over
+    bool was_moving = false;   ///< its axis has moved since
+    bool was_silent = false;   ///< its drive has been silent since: the first half of a restart
+    std::size_t waiting = 0;   ///< orders without an answer
+    bool accepted = false;     ///< all orders were taken; the end of the motion is being watched
+    Result result;             ///< the first bad answer, or the last good one
+    Instant accepted_at{};
+};
+
+struct Engine::OrderRecord {
+    std::uint64_t client = 0;  ///< 0: of the engine's own making
+    AxisId axis = no_axis;
+    CommandBody body;
+    DriveId handback = no_drive;
+    Result kept;               ///< what the drive said, while the store works
+    Value before;              ///< of a write: what was there, as far as it is known
+    Instant given_at{};
+};
+
+/// Commands of one axis that may be on their way at the same time; beyond it: busy.
+inline constexpr std::size_t max_clients_per_axis = 64;
+/// How long an `auto` drive may be silent at the start before its twin takes over, if the adapter has not given it up earlier.
+inline constexpr Duration first_answer_limit = std::chrono::milliseconds(1500);
+inline constexpr Duration housekeeping_period = std::chrono::milliseconds(50);
+
+}  // namespace axisgate

@@ -1,0 +1,96 @@
+// Engine, time: whose deadline is next, who is due, and what is looked at every now and then.
+// In: the time. Out: turns of adapters and twins, stale axes, drives that are given up, memories of twins to keep.
+// Never looks at a side that nothing has touched and that is not due.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "gateway/engine/engine.hpp"
+#include "gateway/engine/engine_parts.hpp"
+
+namespace axisgate {
+
+// --- time -----------------------------------------------------------------------------------------------------------
+
+Instant Engine::deadline() const {
+    Instant t = lines_.empty() ? never : next_housekeeping_;
+    for (Side* s : sides_)
+        t = std::min(t, s->deadline());
+    return t;
+}
+
+void Engine::on_deadline(Instant now) {
+    now_ = std::max(now_, now);
+    // Bounded: a side that is due again at once gets its next turn with the next call.
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+        Side& s = *sides_[i];
+        if (s.deadline() > now) continue;
+        s.touched();
+        if (s.line->deadline() <= now) s.line->on_deadline(now);
+        if (s.adapter->deadline() <= now) {
+            Out out = take_out();
+            s.adapter->on_deadline(now, out);
+            drain(s, out, now);
+            give_back(std::move(out));
+        }
+    }
+    if (now >= next_housekeeping_) {
+        next_housekeeping_ = now + housekeeping_period;
+        housekeeping(now);
+        for (Side* s : sides_)
+            s->touched();
+    }
+}
+
+void Engine::housekeeping(Instant now) {
+    for (const auto& unit : lines_) {
+        if (unit) scan_turn(*unit, now);
+    }
+    for (const auto& slot : axes_) {
+        if (!slot) continue;
+        Axis& a = *slot;
+        const bool stale = now - a.profile.feedback().at > a.drive->line->stale_after || !image_.picture(a.id).current;
+        if (stale != a.stale) {
+            a.stale = stale;
+            publish(a, now);
+        }
+        if (!a.clients.empty()) track(a, now);
+        check_hold(a, now);
+        check_watchdog(a, now);
+        if (const auto v = a.authority.expire(now); v.change != AxisAuthority::Change::none) authority_changed(a, v, nullptr, now);
+    }
+    for (const auto& slot : drives_) {
+        if (!slot) continue;
+        Drive& d = *slot;
+        decide_presence(d, now);
+        if (d.handback && d.handback->waiting == 0 && d.device_online) {
+            bool rest = true;
+            for (const AxisId id : d.axes) rest = rest && axes_[index_of(id)]->profile.at_rest();
+            if (rest) {
+                auto h = std::move(d.handback);
+                serve(d, Presence::device, fmt::format("the drive is back; {} parameters compared, {} differ", h->compared, h->differences.size()), now);
+                for (const auto& text : h->differences) {
+                    Event e;
+                    e.severity = Severity::warning;
+                    e.kind = "parameters_differ";
+                    e.drive = d.spec.name;
+                    e.text = text;
+                    event(std::move(e), now);
+                }
+            }
+        }
+        save_twin_memory(d);
+    }
+}
+
+/// Hands a twin's non-volatile memory to the store if it has changed since.
+void Engine::save_twin_memory(Drive& d) {
+    if (d.serving != Presence::twin || !d.line->twins) return;
+    const Twin* t = d.line->twins->bus->twin(d.id);
+    if (!t || t->non_volatile_revision() == d.memory_revision) return;
+    d.memory_revision = t->non_volatile_revision();
+    d.memory = t->non_volatile();
+    host_.on_twin_memory(d.spec.name, d.memory);
+}
+
+}  // namespace axisgate

@@ -1,0 +1,289 @@
+// Gateway: what doors on the warm thread (HTTP, WebSocket, later DDS) see of everything else.
+// In: commands, wanted site, queries. Out: results through callbacks on the warm executor, pictures, events, traces.
+// Never blocks for longer than a local database read; everything that needs the hot thread answers through a callback.
+#pragma once
+
+#include <boost/json/object.hpp>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gateway/core/command.hpp"
+#include "gateway/axis/image.hpp"
+#include "gateway/core/line.hpp"
+#include "gateway/core/sample.hpp"
+#include "gateway/core/scan.hpp"
+#include "gateway/site/site.hpp"
+#include "gateway/site/site_stage.hpp"
+#include "gateway/core/twin.hpp"
+
+namespace axisgate {
+
+/// A site in force: immutable, shared with every reader. Ids are those of the running engine.
+struct SiteState {
+    Site site;
+    std::uint64_t revision = 0;     ///< counts up with each change; also the strong ETag of /site
+    std::vector<AxisId> axis_ids;   ///< by index in site.axes
+    std::vector<DriveId> drive_ids; ///< by index in site.drives
+    std::vector<LineId> line_ids;   ///< by index in site.lines
+};
+
+/// What happened; kept in the store and streamed.
+struct Event {
+    std::uint64_t id = 0;             ///< counts up, without gaps, over the life of the data directory
+    std::int64_t at_unix_ns = 0;
+    Severity severity = Severity::info;
+    std::string kind;                 ///< "alarm", "write", "line", "presence", "site", "command", "input", ...
+    std::string axis, drive, line;    ///< names; empty where they do not apply
+    std::int32_t code = 0;            ///< the drive's own, 0 if none
+    std::string text;
+    std::string who;                  ///< who and from where, for writes and commands; empty otherwise
+    std::string door;
+    std::string parameter, old_value, new_value;  ///< for writes
+};
+struct EventQuery {
+    std::uint64_t since_id = 0;       ///< events with a greater id
+    std::int64_t since_unix_ns = 0;   ///< and not older than this
+    std::string axis;                 ///< empty: any
+    std::optional<Severity> at_least;
+    std::size_t limit = 200;          ///< 1..1000; the newest ones if there are more, or the oldest ones
+    bool oldest_first = false;        ///< the oldest ones if there are more than `limit`: for reading on from `since_id`
+    std::string kind;                 ///< empty: any
+    std::uint64_t before_id = 0;      ///< events with a smaller id, for paging backwards; 0: no bound
+};
+
+struct StoredParameter {
+    std::string parameter;            ///< catalogue id
+    Value value;
+    Value previous;
+    std::string who, door;
+    std::int64_t at_unix_ns = 0;
+};
+struct LiveParameter {
+    Value value;
+    std::int64_t at_unix_ns = 0;
+    Quality quality = Quality::unknown;
+};
+
+struct DriveStatus {
+    Presence presence = Presence::offline;   ///< who serves the axes now
+    bool simulated = false;                  ///< the twin serves them, whether it answers or not
+    bool device_online = false;              ///< the real drive answers
+    std::string text;                        ///< why it is so, for people
+    std::uint32_t silent_exchanges = 0;
+    std::int64_t retry_pause_ms = 0;
+};
+struct LineReport {
+    LineStatus status;                 ///< of the real line; of the twin bus if the URI is "twin"
+    AdapterCounters counters;
+    bool has_twin_bus = false;         ///< some drives of it are simulated now
+    LineStatus twin_status;
+};
+
+/// One recorded frame.
+struct TraceEntry {
+    std::uint64_t sequence = 0;        ///< counts up per line; a gap means that older ones were overwritten
+    std::int64_t at_unix_ns = 0;
+    bool to_drive = false;
+    bool simulated = false;            ///< crossed the twin bus, not the cable
+    Frame frame;
+};
+
+// --- what is kept: snapshots of an axis' parameters, and documents of the site ---
+struct SnapshotValue {
+    std::string parameter;
+    Value value;
+};
+struct SnapshotInfo {
+    std::uint32_t n = 0;  ///< counts up per axis from 1; never given twice
+    std::string name;
+    std::string comment;
+    std::string who;
+    std::int64_t at_unix_ns = 0;
+    std::uint64_t values = 0;  ///< how many
+    std::string family;        ///< of the drive that it was taken from; empty: not known
+};
+struct AxisSnapshot : SnapshotInfo {
+    std::vector<SnapshotValue> parameters;  ///< in order of parameter id
+};
+
+struct SiteRevision {
+    std::uint64_t revision = 0;  ///< counts up; never given twice
+    std::int64_t at_unix_ns = 0;
+    std::string who;
+    std::string text;         ///< the document; empty in site_history()
+    std::uint64_t bytes = 0;  ///< length of the document
+};
+
+/// What a subscriber is told, on the warm executor.
+struct GatewayListener {
+    virtual void on_event(const Event& event) = 0;
+    /// The site has changed: names and ids must be looked up anew.
+    virtual void on_site(const std::shared_ptr<const SiteState>& site) = 0;
+    virtual ~GatewayListener() = default;
+};
+
+struct NativeReply {  // kept apart from Result so that its shape is the contract's
+    Result result;
+    std::int64_t took_ms = 0;
+};
+
+class Gateway {
+public:
+    virtual ~Gateway() = default;
+
+    // --- about ---------------------------------------------------------------------------------------------------------
+    struct DoorInfo {
+        std::string name;     ///< "http", "modbus", ...
+        std::string address;  ///< "127.0.0.1:1502"
+    };
+    [[nodiscard]] virtual std::vector<DoorInfo> doors() const = 0;
+    [[nodiscard]] virtual double uptime_s() const = 0;
+    [[nodiscard]] virtual std::int64_t now_unix_ns() const = 0;
+    /// Converts an instant of a picture to wall-clock time.
+    [[nodiscard]] virtual std::int64_t to_unix_ns(Instant instant) const = 0;
+    [[nodiscard]] virtual const Families& families() const = 0;
+    /// Not ready: what is missing, one sentence each; empty: ready.
+    [[nodiscard]] virtual std::vector<std::string> not_ready() const = 0;
+    /// Prometheus text of everything but the asking door's own counters.
+    [[nodiscard]] virtual std::string metrics() const = 0;
+
+    // --- site ----------------------------------------------------------------------------------------------------------
+    [[nodiscard]] virtual std::shared_ptr<const SiteState> site() const = 0;
+    struct SiteAnswer {
+        bool good = false;
+        std::string fault;                     ///< why it could not be stored or applied
+        std::shared_ptr<const SiteState> now;  ///< the site in force after it
+        bool not_stored = false;               ///< the database could not keep it
+    };
+    /// Puts a checked site in force: stored first, then applied without a restart; only what changed is disturbed.
+    /// `expected_revision`: refuse if the site is another by now (0: do not care).
+    virtual void apply_site(Site site, std::uint64_t expected_revision, Origin origin, std::function<void(SiteAnswer)> then) = 0;
+
+    // --- axes ----------------------------------------------------------------------------------------------------------
+    [[nodiscard]] virtual AxisPicture picture(AxisId axis) const = 0;
+    /// Grows with every change of the picture.
+    [[nodiscard]] virtual std::uint64_t picture_revision(AxisId axis) const = 0;
+    /// One command, one result; the ticket is given by the gateway and told at once. Result::reason busy if too many wait.
+    virtual Ticket submit(Command command, std::function<void(const Result&)> then) = 0;
+
+    // --- parameters ----------------------------------------------------------------------------------------------------
+    /// Last value that the drive said, asked for or not.
+    [[nodiscard]] virtual LiveParameter live(AxisId axis, Point point) const = 0;
+    /// Values written through the gateway and acknowledged, newest per parameter.
+    [[nodiscard]] virtual std::vector<StoredParameter> stored(const std::string& axis) const = 0;
+    [[nodiscard]] virtual std::vector<StoredParameter> history(const std::string& axis, const std::string& parameter, std::size_t limit) const = 0;
+
+    // --- lines and drives ----------------------------------------------------------------------------------------------
+    [[nodiscard]] virtual LineReport line_report(LineId line) const = 0;    ///< at most 200 ms old
+    [[nodiscard]] virtual DriveStatus drive_status(DriveId drive) const = 0;
+    struct Trace {
+        std::vector<TraceEntry> entries;
+        std::uint64_t missed = 0;      ///< asked for, but already overwritten
+        std::uint64_t next = 0;        ///< `since` for the next call
+    };
+    /// Frames with sequence >= since, at most `limit`.
+    [[nodiscard]] virtual Trace trace(LineId line, std::uint64_t since, std::size_t limit) const = 0;
+    /// Looks for drives on a line; empty: it has begun, else why not.
+    virtual void start_scan(LineId line, ScanWish wish, Origin origin, std::function<void(std::string)> then) = 0;
+    virtual void cancel_scan(LineId line, std::function<void(ScanReport)> then) = 0;
+    virtual void scan_report(LineId line, std::function<void(ScanReport)> then) = 0;
+    /// The tester's hand of a twin; nothing if the drive is not simulated now.
+    virtual void hand(DriveId drive, std::function<void(std::optional<std::vector<HandItem>>)> then) = 0;
+    /// Sets several items, all or none; empty: good, else what is wrong.
+    virtual void set_hand(DriveId drive, std::vector<std::pair<std::string, Value>> items, Origin origin, std::function<void(std::string)> then) = 0;
+
+    // --- Modbus locks --------------------------------------------------------------------------------------------------
+    struct ModbusConnection {
+        std::string peer;
+        std::uint64_t requests = 0, writes = 0, exceptions = 0;
+        std::int64_t since_unix_ns = 0;
+        std::vector<std::string> holds;  ///< axes
+    };
+    struct ModbusReport {
+        std::string bind;
+        std::vector<std::string> allow, functions;  ///< empty: all
+        bool read_only = false;
+        std::vector<ModbusConnection> connections;
+    };
+    /// Nothing: there is no Modbus door, or it is too busy to say.
+    virtual void modbus_report(std::function<void(std::optional<ModbusReport>)> then) { then(std::nullopt); }
+    /// Empty: done and stored; else why not, and whether it was the database that could not keep it.
+    virtual void set_modbus_read_only(bool, Origin, std::function<void(std::string fault, bool not_stored)> then) { then("there is no Modbus door", false); }
+
+    // --- events --------------------------------------------------------------------------------------------------------
+    [[nodiscard]] virtual std::vector<Event> events(const EventQuery& query) const = 0;
+    /// Calls `then` when events() tells of everything that has happened until now: what happened a moment ago may still be on its way to
+    /// the disk. At once if the gateway is too busy to say.
+    virtual void events_settled(std::function<void()> then) { then(); }
+    virtual void listen(GatewayListener* listener) = 0;
+    virtual void unlisten(GatewayListener* listener) = 0;
+    /// Something that a door wants to be kept and streamed; id and time are filled in.
+    virtual void note(Event event) = 0;
+
+    // --- documents -----------------------------------------------------------------------------------------------------
+    /// Small named texts of the doors' own: recipes, reports of their runs.
+    struct Document {
+        std::string name, text, who;
+        std::int64_t at_unix_ns = 0;
+    };
+    /// In order of name.
+    [[nodiscard]] virtual std::vector<Document> documents(const std::string& kind) const = 0;
+    [[nodiscard]] virtual std::optional<Document> document(const std::string& kind, const std::string& name) const = 0;
+    /// Answers when it is on disk; empty: good, else what is wrong.
+    virtual void save_document(const std::string& kind, Document document, std::function<void(std::string)> then) = 0;
+    virtual void delete_document(const std::string& kind, const std::string& name, std::function<void(std::string)> then) = 0;
+
+    // --- what is kept --------------------------------------------------------------------------------------------------
+    /// In order of n, without their values.
+    [[nodiscard]] virtual std::vector<SnapshotInfo> snapshots(const std::string& axis) const = 0;
+    [[nodiscard]] virtual std::optional<AxisSnapshot> snapshot(const std::string& axis, std::uint32_t n) const = 0;
+    /// `then`: its number, or 0 and why it could not be stored.
+    virtual void save_snapshot(AxisSnapshot snapshot, std::string axis, std::function<void(std::uint32_t n, std::string fault)> then) = 0;
+    virtual void delete_snapshot(std::string axis, std::uint32_t n, std::function<void(std::string fault)> then) = 0;
+    /// Newest first, without the documents, at most `limit`; with `before` those of smaller numbers.
+    [[nodiscard]] virtual std::vector<SiteRevision> site_history(std::size_t limit, std::uint64_t before) const = 0;
+    [[nodiscard]] virtual std::optional<SiteRevision> site_revision(std::uint64_t revision) const = 0;
+
+    // --- staged changes of the site ------------------------------------------------------------------------------------
+    [[nodiscard]] virtual const SiteStage& site_stage() const = 0;
+    /// Each: empty, or why not. Origin tells who; an identity is the same from any port.
+    virtual std::string stage_site(Site site, std::uint64_t base_revision, const Origin& origin) = 0;
+    virtual std::string discard_stage() = 0;
+    /// Puts the staged site in force. `confirm_within_s` 0: for good; else it is taken back by itself unless it is confirmed in that time.
+    virtual void apply_stage(std::uint32_t confirm_within_s, Origin origin, std::function<void(SiteAnswer)> then) = 0;
+    virtual void confirm_stage(Origin origin, std::function<void(std::string fault)> then) = 0;
+    virtual void roll_back_stage(Origin origin, std::function<void(SiteAnswer)> then) = 0;
+
+    // --- registers, as the Modbus door shows them ----------------------------------------------------------------------
+    /// A read request (functions 1 to 4) answered by the Modbus door itself; nothing if there is no such door or too much is asked at once.
+    virtual void ask_modbus(std::uint8_t unit, std::vector<std::uint8_t> pdu, std::function<void(std::optional<std::vector<std::uint8_t>>)> then) = 0;
+
+    // --- the database as one file --------------------------------------------------------------------------------------
+    /// A whole, checked copy of the database, or nothing and why.
+    virtual void backup(std::function<void(std::optional<std::string> bytes, std::string fault)> then) = 0;
+    /// Why a backup was not laid down; `text` empty: it was. Faults name no path.
+    struct RestoreFault {
+        std::string text;
+        bool no_room = false;  ///< the backup may be good: this machine could not keep it
+    };
+    /// Checks a backup and lays it down to be taken at the next start.
+    virtual void restore(std::string bytes, Origin origin, std::function<void(RestoreFault)> then) = 0;
+    /// A backup that was laid down and waits for the next start.
+    struct WaitingBackup {
+        std::int64_t at_unix_ns = 0;
+        std::string who;                  ///< empty: not known
+        std::uint64_t bytes = 0;
+        int version = 0;                  ///< of the database's structure; 0: not known
+        std::uint64_t site_revision = 0;  ///< in force in it; 0: none, or not known
+    };
+    virtual void waiting_backup(std::function<void(std::optional<WaitingBackup>)> then) = 0;
+    /// Takes it away again: empty, or why not; nothing waits: "none".
+    virtual void cancel_restore(Origin origin, std::function<void(std::string fault)> then) = 0;
+};
+
+}  // namespace axisgate

@@ -1,0 +1,33 @@
+// Fail-safe: names, and the choice of an action. In: a cause and what the axis does. Out: the action. Never acts by itself.
+#include "gateway/site/fail_safe.hpp"
+
+#include <algorithm>
+
+namespace axisgate {
+namespace {
+constexpr std::array<std::string_view, 3> cause_names{"none", "modbus_closed", "modbus_silent"};
+constexpr std::array<std::string_view, 4> action_names{"nothing", "halt", "quick_stop", "disable"};
+}  // namespace
+
+std::string_view name_of(LossCause cause) noexcept { return cause_names[static_cast<std::size_t>(cause)]; }
+
+std::string_view name_of(FailSafeAction action) noexcept { return action_names[static_cast<std::size_t>(action)]; }
+
+std::optional<FailSafeAction> fail_safe_action_of(std::string_view name) noexcept {
+    const auto found = std::ranges::find(action_names, name);
+    if (found == action_names.end()) return std::nullopt;
+    return static_cast<FailSafeAction>(found - action_names.begin());
+}
+
+FailSafeAction FailSafe::action(LossCause cause, bool endless, bool moving, bool powered) const {
+    const auto& wanted = of(cause);
+    if (!wanted) return endless && moving ? FailSafeAction::halt : FailSafeAction::nothing;
+    if (*wanted == FailSafeAction::disable) return powered || moving ? FailSafeAction::disable : FailSafeAction::nothing;
+    return moving ? *wanted : FailSafeAction::nothing;
+}
+
+Duration FailSafe::watchdog(Duration by_default) const noexcept {
+    return watchdog_ms ? Duration(std::chrono::milliseconds(*watchdog_ms)) : by_default;
+}
+
+}  // namespace axisgate

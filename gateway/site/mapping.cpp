@@ -1,0 +1,433 @@
+// Mapping: see mapping.hpp. In: JSON objects. Out: checked entries.
+// Never reads a value: only what may stand where.
+#include "gateway/site/mapping.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "gateway/core/catalogue.hpp"
+
+namespace axisgate {
+namespace json = boost::json;
+namespace {
+
+template <class E, std::size_t N>
+std::optional<E> named(const std::array<std::pair<std::string_view, E>, N>& names, std::string_view name) {
+    const auto it = std::ranges::find(names, name, &std::pair<std::string_view, E>::first);
+    return it == names.end() ? std::nullopt : std::optional(it->second);
+}
+template <class E, std::size_t N>
+std::string_view name_in(const std::array<std::pair<std::string_view, E>, N>& names, E e) {
+    return std::ranges::find(names, e, &std::pair<std::string_view, E>::second)->first;
+}
+template <class E, std::size_t N>
+std::string list(const std::array<std::pair<std::string_view, E>, N>& names) {
+    std::string s;
+    for (const auto& [n, e] : names)
+        s += (s.empty() ? "" : ", ") + std::string(n);
+    return s;
+}
+
+constexpr std::array table_names{std::pair{std::string_view("coils"), MapTable::coils},
+                                 std::pair{std::string_view("discrete_inputs"), MapTable::discrete_inputs},
+                                 std::pair{std::string_view("holding_registers"), MapTable::holding_registers},
+                                 std::pair{std::string_view("input_registers"), MapTable::input_registers}};
+// What people write for them as well.
+constexpr std::array table_short_names{std::pair{std::string_view("coil"), MapTable::coils},
+                                       std::pair{std::string_view("discrete"), MapTable::discrete_inputs},
+                                       std::pair{std::string_view("discrete_input"), MapTable::discrete_inputs},
+                                       std::pair{std::string_view("holding"), MapTable::holding_registers},
+                                       std::pair{std::string_view("holding_register"), MapTable::holding_registers},
+                                       std::pair{std::string_view("input"), MapTable::input_registers},
+                                       std::pair{std::string_view("input_register"), MapTable::input_registers}};
+constexpr std::array type_names{
+    std::pair{std::string_view("bool"), MapType::boolean}, std::pair{std::string_view("u16"), MapType::u16},
+    std::pair{std::string_view("i16"), MapType::i16},      std::pair{std::string_view("u32"), MapType::u32},
+    std::pair{std::string_view("i32"), MapType::i32},      std::pair{std::string_view("f32"), MapType::f32},
+    std::pair{std::string_view("u64"), MapType::u64},      std::pair{std::string_view("i64"), MapType::i64},
+    std::pair{std::string_view("f64"), MapType::f64},      std::pair{std::string_view("string"), MapType::string}};
+constexpr std::array access_names{std::pair{std::string_view("R"), MapAccess::read}, std::pair{std::string_view("W"), MapAccess::write},
+                                  std::pair{std::string_view("RW"), MapAccess::read_write}};
+constexpr std::array access_long_names{
+    std::pair{std::string_view("read"), MapAccess::read},    std::pair{std::string_view("r"), MapAccess::read},
+    std::pair{std::string_view("ro"), MapAccess::read},      std::pair{std::string_view("write"), MapAccess::write},
+    std::pair{std::string_view("w"), MapAccess::write},      std::pair{std::string_view("read_write"), MapAccess::read_write},
+    std::pair{std::string_view("rw"), MapAccess::read_write}};
+constexpr std::array order_names{std::pair{std::string_view("high_first"), MapWordOrder::high_first},
+                                 std::pair{std::string_view("low_first"), MapWordOrder::low_first}};
+constexpr std::array overflow_names{std::pair{std::string_view("mark"), MapOverflow::mark},
+                                    std::pair{std::string_view("clamp"), MapOverflow::clamp}};
+
+using P = AxisPoint;
+constexpr std::array<AxisPointInfo, 33> points{{
+    {P::statusword, "statusword", false, "CiA 402 status word, with 8 simulated, 14 stale, 15 referenced"},
+    {P::mode_display, "mode_display", false, "modes of operation display"},
+    {P::position, "position", false, "position actual value, increments"},
+    {P::velocity, "velocity", false, "velocity actual value, increments/s"},
+    {P::position_demand, "position_demand", false, "position demand value, increments; the position while nobody says another"},
+    {P::following_error, "following_error", false, "following error actual value: demand less position, increments; 0 while it is not known"},
+    {P::error_code, "error_code", false, "the drive's own error code, 0 = none"},
+    {P::flags, "flags", false, "0 online, 1 simulated, 2 stale, 3 referenced, 4 moving, 5 target reached, 6 fault, 7 warning"},
+    {P::native_status, "native_status", false, "the drive's own status"},
+    {P::age_ms, "age_ms", false, "age of the data, ms"},
+    {P::setpoints_accepted, "setpoints_accepted", false, "counts up with each accepted set-point"},
+    {P::authority, "authority", false, "who commands: 0 none, 1 Modbus, 2 EtherNet/IP, 3 HTTP, 4 DDS"},
+    {P::controlword, "controlword", true, "CiA 402 control word"},
+    {P::mode, "mode", true, "modes of operation: 1 position, 3 velocity, 6 homing"},
+    {P::target_position, "target_position", true, "target position, increments"},
+    {P::profile_velocity, "profile_velocity", true, "profile velocity, increments/s"},
+    {P::profile_acceleration, "profile_acceleration", true, "profile acceleration, increments/s^2"},
+    {P::profile_deceleration, "profile_deceleration", true, "profile deceleration, increments/s^2"},
+    {P::target_velocity, "target_velocity", true, "target velocity, increments/s"},
+    {P::homing_method, "homing_method", true, "CiA 402 homing method"},
+    {P::online, "online", false, "the drive or its model answers"},
+    {P::simulated, "simulated", false, "the drive's model answers"},
+    {P::stale, "stale", false, "the data are too old to be trusted"},
+    {P::referenced, "referenced", false, "the position has a known zero"},
+    {P::moving, "moving", false, "the axis moves"},
+    {P::target_reached, "target_reached", false, "the last motion ended at its target"},
+    {P::fault, "fault", false, "an error that must be reset"},
+    {P::warning, "warning", false, "a warning"},
+    {P::position_units, "position_units", false, "position actual value in the axis' unit"},
+    {P::velocity_units, "velocity_units", false, "velocity actual value in the axis' unit per second"},
+    {P::heartbeat, "heartbeat", false, "counts up each second"},
+    {P::family, "family", false, "number of the drive's family"},
+    {P::mapping_revision, "mapping_revision", false, "revision of the mapping (hash)"},
+}};
+
+constexpr bool is_bits(MapTable t) noexcept { return t == MapTable::coils || t == MapTable::discrete_inputs; }
+
+/// Reads one entry's members; each fault gets its pointer.
+class Entry {
+public:
+    Entry(const json::object& o, std::size_t index, std::vector<SiteFault>& faults)
+        : o_(o), base_(fmt::format("/mappings/{}", index)), faults_(faults) {}
+
+    void fault(std::string_view key, std::string text, std::string remedy) {
+        faults_.push_back({key.empty() ? base_ : fmt::format("{}/{}", base_, key), std::move(text), std::move(remedy)});
+    }
+    void conflict(std::string_view key, std::string text, std::string remedy) {
+        fault(key, std::move(text), std::move(remedy));
+        faults_.back().conflict = true;
+    }
+    [[nodiscard]] const json::value* member(std::string_view key) const {
+        const auto* v = o_.if_contains(key);
+        return v && !v->is_null() ? v : nullptr;
+    }
+    std::string text(std::string_view key, std::size_t most, bool needed) {
+        const auto* v = member(key);
+        if (!v) {
+            if (needed) fault(key, fmt::format("{} is missing", key), fmt::format("write \"{}\": \"...\"", key));
+            return {};
+        }
+        if (v->is_int64()) return std::to_string(v->get_int64());
+        if (!v->is_string() || v->get_string().size() > most) {
+            fault(key, fmt::format("{} must be a text of at most {} bytes", key, most), "write it in quotes");
+            return {};
+        }
+        return std::string(v->get_string());
+    }
+    std::optional<std::int64_t> whole(std::string_view key, std::int64_t low, std::int64_t high, std::optional<std::int64_t> fallback) {
+        const auto* v = member(key);
+        if (!v) {
+            if (!fallback) fault(key, fmt::format("{} is missing", key), fmt::format("write a whole number {}..{}", low, high));
+            return fallback;
+        }
+        std::int64_t n = 0;
+        bool good = v->is_int64() || v->is_uint64() || v->is_double();
+        if (v->is_int64()) n = v->get_int64();
+        if (v->is_uint64()) {
+            good = v->get_uint64() < 1'000'000'000;
+            n = good ? static_cast<std::int64_t>(v->get_uint64()) : 0;
+        }
+        if (v->is_double()) {
+            good = v->get_double() == std::floor(v->get_double()) && std::fabs(v->get_double()) < 1e9;
+            n = good ? static_cast<std::int64_t>(v->get_double()) : 0;
+        }
+        if (!good || n < low || n > high) {
+            fault(key, fmt::format("{} must be a whole number {}..{}", key, low, high), fmt::format("write a number {}..{}", low, high));
+            return std::nullopt;
+        }
+        return n;
+    }
+    double number(std::string_view key, double fallback) {
+        const auto* v = member(key);
+        if (!v) return fallback;
+        boost::system::error_code ec;
+        const double n = v->to_number<double>(ec);
+        if (ec || !std::isfinite(n)) {
+            fault(key, fmt::format("{} must be a number", key), fmt::format("leave it out for {}", fallback));
+            return fallback;
+        }
+        return n;
+    }
+
+private:
+    const json::object& o_;
+    std::string base_;
+    std::vector<SiteFault>& faults_;
+};
+
+std::string unique_id(const std::set<std::string>& taken, std::size_t& next) {
+    for (;; ++next) {
+        std::string id = fmt::format("m{}", next);
+        if (!taken.contains(id)) return id;
+    }
+}
+
+/// "feeder.position", "feeder/position", "feeder:AC": an axis in front of its point, if no axis is named apart.
+void split_axis(std::string& axis, std::string& point, const Site& site) {
+    if (!axis.empty()) return;
+    const AxisSpec* best = nullptr;
+    for (const auto& a : site.axes) {
+        const bool fits = point.size() > a.name.size() + 1 && point.starts_with(a.name) &&
+                          std::string_view("./:").find(point[a.name.size()]) != std::string_view::npos;
+        if (fits && (!best || a.name.size() > best->name.size())) best = &a;
+    }
+    if (!best) return;
+    axis = best->name;
+    point.erase(0, axis.size() + 1);
+    for (const std::string_view prefix : {"parameters/", "parameters."}) {
+        if (point.starts_with(prefix)) point.erase(0, prefix.size());
+    }
+}
+
+FamilyEntry family_of(const Site& site, const Families& families, std::string_view axis) {
+    const AxisSpec* a = site.axis(axis);
+    const DriveSpec* d = a ? site.drive(a->drive) : nullptr;
+    const LineSpec* l = d ? site.line(d->line) : nullptr;
+    return l ? families.find(l->family) : FamilyEntry{};
+}
+
+using Called = std::function<std::string(std::size_t index)>;
+
+void check_conflicts(const std::vector<Mapping>& all, const std::vector<std::size_t>& index_of, const Called& called, std::vector<SiteFault>& faults) {
+    std::map<std::pair<std::uint8_t, MapTable>, std::vector<std::size_t>> by_place;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        by_place[{all[i].unit, all[i].table}].push_back(i);
+    for (auto& [place, list] : by_place) {
+        std::ranges::sort(list, [&](std::size_t a, std::size_t b) { return std::pair(all[a].address, a) < std::pair(all[b].address, b); });
+        std::size_t farthest = list.front();
+        for (std::size_t k = 1; k < list.size(); ++k) {
+            const Mapping& before = all[farthest];
+            const Mapping& here = all[list[k]];
+            if (before.end() > here.address) {
+                const std::size_t later = std::max(farthest, list[k]), earlier = std::min(farthest, list[k]);
+                const std::string other = called ? called(index_of[earlier]) : std::string();
+                faults.push_back({fmt::format("/mappings/{}/address", index_of[later]),
+                                  fmt::format("unit {} {} {}..{} is taken by {} ({} of axis {})", here.unit, name_of(here.table),
+                                              std::max<std::uint32_t>(before.address, here.address), std::min(before.end(), here.end()) - 1,
+                                              other.empty() ? "mapping " + all[earlier].id : other, all[earlier].point, all[earlier].axis),
+                                  other.empty() ? "choose another address, or remove that mapping" : "choose another address, or take one of the two rows out", true});
+            }
+            if (here.end() > before.end()) farthest = list[k];
+        }
+    }
+}
+
+}  // namespace
+
+std::string_view name_of(MapTable t) noexcept { return name_in(table_names, t); }
+std::string_view name_of(MapType t) noexcept { return name_in(type_names, t); }
+std::string_view name_of(MapAccess a) noexcept { return name_in(access_names, a); }
+std::string_view name_of(MapWordOrder o) noexcept { return name_in(order_names, o); }
+std::string_view name_of(MapOverflow o) noexcept { return name_in(overflow_names, o); }
+std::string_view name_of(AxisPoint p) noexcept { return points[static_cast<std::size_t>(p)].name; }
+bool writable(AxisPoint p) noexcept { return points[static_cast<std::size_t>(p)].writable; }
+std::span<const AxisPointInfo> axis_points() noexcept { return points; }
+
+std::optional<AxisPoint> axis_point_named(std::string_view name) noexcept {
+    // CiA 402's longer names are known too.
+    constexpr std::array<std::pair<std::string_view, AxisPoint>, 7> longer{{{"position_actual_value", P::position},
+                                                                            {"velocity_actual_value", P::velocity},
+                                                                            {"position_demand_value", P::position_demand},
+                                                                            {"following_error_actual_value", P::following_error},
+                                                                            {"modes_of_operation", P::mode},
+                                                                            {"modes_of_operation_display", P::mode_display},
+                                                                            {"position_increments", P::position}}};
+    if (const auto p = named(longer, name)) return p;
+    const auto it = std::ranges::find(points, name, &AxisPointInfo::name);
+    return it == points.end() ? std::nullopt : std::optional(it->point);
+}
+
+std::uint16_t Mapping::size() const noexcept {
+    if (is_bits(table)) return 1;
+    switch (type) {
+        case MapType::boolean:
+        case MapType::u16:
+        case MapType::i16:
+            return 1;
+        case MapType::u32:
+        case MapType::i32:
+        case MapType::f32:
+            return 2;
+        case MapType::u64:
+        case MapType::i64:
+        case MapType::f64:
+            return 4;
+        case MapType::string:
+            return length;
+    }
+    return 1;
+}
+
+std::optional<std::vector<Mapping>> parse_mappings(const json::array& entries, const Site& site, const Families& families,
+                                                   std::vector<SiteFault>& faults, const std::function<std::string(std::size_t index)>& called) {
+    const std::size_t before = faults.size();
+    if (entries.size() > most_mappings) {
+        faults.push_back({"/mappings", fmt::format("{} mappings are too many", entries.size()), fmt::format("at most {}", most_mappings)});
+        return std::nullopt;
+    }
+    std::set<std::string> ids;
+    for (const auto& e : entries) {
+        if (const auto* o = e.if_object()) {
+            if (const auto* id = o->if_contains("id"); id && id->is_string()) ids.insert(std::string(id->get_string()));
+        }
+    }
+    std::vector<Mapping> out;
+    std::vector<std::size_t> index_of;  // place in `entries` of each good one
+    std::set<std::string> used;
+    std::size_t next_id = 1;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const auto* o = entries[i].if_object();
+        if (!o) {
+            faults.push_back({fmt::format("/mappings/{}", i), "a mapping is an object",
+                              "write {\"unit\": 2, \"address\": 0, \"axis\": ..., \"point\": ...}"});
+            continue;
+        }
+        const std::size_t good_before = faults.size();
+        Entry f(*o, i, faults);
+        for (const auto& [key, value] : *o) {
+            constexpr std::array known{"id",    "unit",   "table",  "address", "axis",        "point",  "type", "word_order",
+                                       "scale", "offset", "access", "length",  "on_overflow", "comment"};
+            if (std::ranges::find(known, std::string_view(key)) == known.end())
+                f.fault(key, fmt::format("{} is not known here", std::string_view(key)),
+                        "a mapping has id, unit, table, address, axis, point, type, word_order, scale, offset, access, length, on_overflow, comment");
+        }
+        Mapping m;
+        m.id = f.text("id", 64, false);
+        if (m.id.empty()) {
+            m.id = unique_id(ids, next_id);
+            ids.insert(m.id);
+        } else if (!std::ranges::all_of(m.id, [](char c) {
+                       return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' || c == '_' ||
+                              c == '.';
+                   })) {
+            f.fault("id", fmt::format("\"{}\" is no id", m.id), "use 1 to 64 letters, digits, - _ and .");
+        }
+        if (!used.insert(m.id).second)
+            f.conflict("id", fmt::format("the id {} is there twice", m.id), "give each mapping its own, or none");
+        m.unit = static_cast<std::uint8_t>(f.whole("unit", 2, 254, std::nullopt).value_or(2));
+        m.address = static_cast<std::uint16_t>(f.whole("address", 0, 65535, std::nullopt).value_or(0));
+        if (const std::string t = f.text("table", 32, false); !t.empty()) {
+            const auto table = named(table_names, t) ? named(table_names, t) : named(table_short_names, t);
+            if (!table) f.fault("table", fmt::format("there is no table {}", t), "use one of " + list(table_names));
+            m.table = table.value_or(MapTable::holding_registers);
+        }
+        if (const std::string t = f.text("word_order", 32, false); !t.empty()) {
+            const auto order = named(order_names, t);
+            if (!order) f.fault("word_order", fmt::format("there is no word order {}", t), "use one of " + list(order_names));
+            m.word_order = order.value_or(MapWordOrder::high_first);
+        }
+        m.scale = f.number("scale", 1);
+        if (m.scale == 0) f.fault("scale", "scale must not be 0", "leave it out for 1");
+        m.offset = f.number("offset", 0);
+        m.comment = f.text("comment", 256, false);
+        if (const std::string t = f.text("on_overflow", 32, false); !t.empty()) {
+            const auto overflow = named(overflow_names, t);
+            if (!overflow) f.fault("on_overflow", fmt::format("there is no on_overflow {}", t), "use one of " + list(overflow_names));
+            m.on_overflow = overflow.value_or(MapOverflow::mark);
+        }
+        m.axis = f.text("axis", 64, false);
+        m.point = f.text("point", 128, true);
+        split_axis(m.axis, m.point, site);
+
+        bool point_writable = false, point_readable = true, point_is_text = false, point_is_bit = false;
+        if (m.axis.empty()) {
+            f.fault("axis", "axis is missing", "write \"axis\": \"NAME\" of an axis of the site");
+        } else if (!site.axis(m.axis)) {
+            f.fault("axis", fmt::format("there is no axis {}", m.axis), "use the name of an axis of the site");
+        } else if (!m.point.empty()) {
+            const FamilyEntry family = family_of(site, families, m.axis);
+            if (const auto p = axis_point_named(m.point)) {
+                m.what = *p;
+                point_writable = writable(*p);
+                point_is_bit = *p >= P::online && *p <= P::warning;
+            } else if (const auto found = family.catalogue ? family.catalogue->find(m.point) : std::nullopt) {
+                m.what = *found;
+                const Parameter& parameter = *family.catalogue->parameter(*found);
+                point_writable = parameter.writable();
+                point_readable = parameter.readable();
+                point_is_text = parameter.type == ValueType::text || parameter.type == ValueType::bytes;
+                point_is_bit = parameter.type == ValueType::boolean;
+            } else {
+                f.fault("point", fmt::format("axis {} has no point {}", m.axis, m.point),
+                        "use a name of the register map such as position, or the id of a parameter of its family");
+            }
+        }
+        m.type = is_bits(m.table) || point_is_bit ? MapType::boolean : point_is_text ? MapType::string : MapType::i32;
+        if (const std::string t = f.text("type", 32, false); !t.empty()) {
+            const auto type = t == "boolean" ? std::optional(MapType::boolean) : named(type_names, t);
+            if (!type) f.fault("type", fmt::format("there is no type {}", t), "use one of " + list(type_names));
+            m.type = type.value_or(m.type);
+        }
+        if (is_bits(m.table) && m.type != MapType::boolean)
+            f.fault("type", fmt::format("{} hold type bool alone, not {}", name_of(m.table), name_of(m.type)),
+                    "use bool, or a table of registers");
+        if (point_is_text != (m.type == MapType::string) && !m.point.empty() && faults.size() == good_before)
+            f.fault("type",
+                    fmt::format("{} is {}", m.point, point_is_text ? "a text: its type is string" : "no text: its type is not string"),
+                    "choose the type that fits");
+        m.length = static_cast<std::uint16_t>(f.whole("length", 1, 64, 16).value_or(16));
+        const bool may_write = m.table == MapTable::coils || m.table == MapTable::holding_registers;
+        m.access = !point_readable ? MapAccess::write : point_writable && may_write ? MapAccess::read_write : MapAccess::read;
+        if (const std::string t = f.text("access", 32, false); !t.empty()) {
+            const auto access = named(access_names, t) ? named(access_names, t) : named(access_long_names, t);
+            if (!access) {
+                f.fault("access", fmt::format("there is no access {}", t), "use R, W or RW");
+            } else if (*access != MapAccess::read && !may_write) {
+                f.fault("access", fmt::format("{} can only be read", name_of(m.table)), "use R, or coils or holding_registers");
+            } else if (*access != MapAccess::read && !point_writable && faults.size() == good_before) {
+                f.fault("access", fmt::format("{} of axis {} can only be read", m.point, m.axis), "use R");
+            } else if (*access != MapAccess::write && !point_readable && faults.size() == good_before) {
+                f.fault("access", fmt::format("{} of axis {} can only be written", m.point, m.axis), "use W");
+            }
+            m.access = access.value_or(m.access);
+        }
+        if (m.end() > 65536)
+            f.fault("address", fmt::format("{} registers from {} go beyond 65535", m.size(), m.address),
+                    fmt::format("use an address up to {}", 65536 - m.size()));
+        if (faults.size() == good_before) {
+            out.push_back(std::move(m));
+            index_of.push_back(i);
+        }
+    }
+    if (!out.empty()) check_conflicts(out, index_of, called, faults);
+    if (faults.size() != before) return std::nullopt;
+    return out;
+}
+
+json::object to_json(const Mapping& m) {
+    json::object o{{"id", m.id},
+                   {"unit", std::int64_t{m.unit}},
+                   {"table", name_of(m.table)},
+                   {"address", std::int64_t{m.address}},
+                   {"axis", m.axis},
+                   {"point", m.point},
+                   {"type", name_of(m.type)},
+                   {"word_order", name_of(m.word_order)},
+                   {"scale", m.scale},
+                   {"offset", m.offset},
+                   {"access", name_of(m.access)}};
+    if (m.type == MapType::string) o["length"] = std::int64_t{m.length};
+    if (m.on_overflow != MapOverflow::mark) o["on_overflow"] = name_of(m.on_overflow);
+    if (!m.comment.empty()) o["comment"] = m.comment;
+    return o;
+}
+
+}  // namespace axisgate

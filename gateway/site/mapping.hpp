@@ -1,0 +1,138 @@
+// Mapping: one entry of a site's own register maps: which point of which axis stands at which address, and how it is written there.
+// In: the JSON objects of a site's `mappings`. Out: checked entries, all faults at once with a remedy, conflicts between entries.
+// Never knows a protocol or a value: the doors read and write what stands behind an entry.
+#pragma once
+
+#include <boost/json/object.hpp>
+#include <boost/json/value.hpp>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "gateway/core/ids.hpp"
+#include "gateway/site/site.hpp"
+#include "gateway/core/value.hpp"
+
+namespace axisgate {
+
+enum class MapTable : std::uint8_t { coils, discrete_inputs, holding_registers, input_registers };
+enum class MapType : std::uint8_t { boolean, u16, i16, u32, i32, f32, u64, i64, f64, string };
+enum class MapAccess : std::uint8_t { read, write, read_write };
+enum class MapWordOrder : std::uint8_t { high_first, low_first };
+/// What registers show of a value that does not fit their type. mark: a number that says so (see encode). clamp: the nearest end of the type.
+enum class MapOverflow : std::uint8_t { mark, clamp };
+
+[[nodiscard]] std::string_view name_of(MapTable table) noexcept;
+[[nodiscard]] std::string_view name_of(MapType type) noexcept;
+[[nodiscard]] std::string_view name_of(MapAccess access) noexcept;
+[[nodiscard]] std::string_view name_of(MapWordOrder order) noexcept;
+[[nodiscard]] std::string_view name_of(MapOverflow overflow) noexcept;
+
+/// What every axis has beside its parameters. The names are those of the register map and of CiA 402; positions and velocities are in the
+/// axis' increments, as in the standard map, unless the name ends in _units.
+enum class AxisPoint : std::uint8_t {
+    statusword,
+    mode_display,
+    position,
+    velocity,
+    position_demand,
+    following_error,
+    error_code,
+    flags,
+    native_status,
+    age_ms,
+    setpoints_accepted,
+    authority,
+    controlword,
+    mode,
+    target_position,
+    profile_velocity,
+    profile_acceleration,
+    profile_deceleration,
+    target_velocity,
+    homing_method,
+    online,
+    simulated,
+    stale,
+    referenced,
+    moving,
+    target_reached,
+    fault,
+    warning,
+    position_units,
+    velocity_units,
+    heartbeat,
+    family,
+    mapping_revision
+};
+[[nodiscard]] std::string_view name_of(AxisPoint point) noexcept;
+[[nodiscard]] std::optional<AxisPoint> axis_point_named(std::string_view name) noexcept;
+/// Registers 32..44 of the standard map.
+[[nodiscard]] bool writable(AxisPoint point) noexcept;
+/// One per line: name, whether it is writable, in words what it is. For the API and messages.
+struct AxisPointInfo {
+    AxisPoint point;
+    std::string_view name;
+    bool writable;
+    std::string_view description;
+};
+[[nodiscard]] std::span<const AxisPointInfo> axis_points() noexcept;
+
+/// Register value = point value * scale + offset; written back: point value = (register value - offset) / scale.
+struct Mapping {
+    std::string id;         ///< 1..64 letters, digits, - _ . ; unique
+    std::uint8_t unit = 2;  ///< 2..254
+    MapTable table = MapTable::holding_registers;
+    std::uint16_t address = 0;  ///< 0-based
+    std::string axis;           ///< name of the site's axis
+    std::string point;          ///< as written: an AxisPoint's name, or a parameter's id or name, also with its element ("N[17]")
+    std::variant<AxisPoint, Point> what;
+    MapType type = MapType::i32;
+    MapWordOrder word_order = MapWordOrder::high_first;
+    double scale = 1;   ///< finite, not 0
+    double offset = 0;  ///< finite
+    MapAccess access = MapAccess::read;
+    std::uint16_t length = 16;  ///< type string: registers, 1..64; two characters each
+    MapOverflow on_overflow = MapOverflow::mark;
+    std::string comment;        ///< up to 256 bytes, for people
+
+    /// Registers, or bits, that it takes.
+    [[nodiscard]] std::uint16_t size() const noexcept;
+    [[nodiscard]] std::uint32_t end() const noexcept { return std::uint32_t{address} + size(); }
+};
+inline constexpr std::size_t most_mappings = 4096;
+
+/// Reads all entries against the site's axes and their catalogues; conflicts are faults of the later entry and name the other one. Entries
+/// without an id get one ("m" and a number). Nothing is returned if there is a fault. `called`: how people call the entry with this index
+/// where it is the other one of a conflict, such as "row 3"; by its id where it is empty or gives nothing.
+[[nodiscard]] std::optional<std::vector<Mapping>> parse_mappings(const boost::json::array& entries, const Site& site,
+                                                                 const Families& families, std::vector<SiteFault>& faults,
+                                                                 const std::function<std::string(std::size_t index)>& called = {});
+/// The entry in its full form; parse_mappings of it gives the same.
+[[nodiscard]] boost::json::object to_json(const Mapping& mapping);
+
+/// The whole list as CSV with a header line, and back. A row's faults name its line.
+[[nodiscard]] std::string mappings_to_csv(std::span<const Mapping> mappings);
+struct CsvFault {
+    std::size_t line = 0;  ///< 1-based
+    std::string text;
+};
+/// The rows that can be read, with the line of each in `lines`, and the faults of those that cannot: only without any may the rows be used;
+/// with some they still tell what else is wrong with the file. Nothing if the columns cannot be read. `faults` comes empty.
+[[nodiscard]] std::optional<boost::json::array> mappings_from_csv(std::string_view csv, std::vector<std::size_t>& lines,
+                                                                  std::vector<CsvFault>& faults);
+
+/// The registers of a mapping (2 * size() bytes, big-endian) that show `value`; whole numbers without scale and offset are exact at every
+/// width. False: the value is not known, is no number where one is needed, or does not fit the type; then `out` holds what stands for that:
+/// with MapOverflow::clamp the end of the type that is nearest to it; else, and where no end is nearer, 0x8000... for signed numbers, 0xFFFF...
+/// for unsigned ones, a NaN for floating-point ones, 0 for bool and an empty text.
+bool encode(const Mapping& mapping, const Value& value, std::uint8_t* out) noexcept;
+/// What registers of a mapping mean; whole numbers stay whole. Unknown for a floating-point register that is no number.
+[[nodiscard]] Value decode(const Mapping& mapping, const std::uint8_t* in);
+
+}  // namespace axisgate

@@ -1,0 +1,392 @@
+// Site, reading: a document read whole and checked: each entry by itself, then what they say of each other.
+// In: JSON. Out: a site, or every fault with its place and what would be right. Never stops at the first fault.
+#include "gateway/site/site.hpp"
+
+#include <boost/json/serialize.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "gateway/axis/image.hpp"
+#include "gateway/core/line_uri.hpp"
+#include "gateway/site/mapping.hpp"
+
+namespace axisgate {
+namespace {
+namespace json = boost::json;
+
+std::string quoted_list(const std::vector<std::string_view>& words) {
+    std::string s;
+    for (const auto w : words) s += (s.empty() ? "" : ", ") + std::string(w);
+    return s;
+}
+
+/// Reads one object of the document; collects faults; remembers which keys were asked for, so that unknown ones can be named.
+class Fields {
+public:
+    Fields(const json::value& v, std::string pointer, std::vector<SiteFault>& faults) : pointer_(std::move(pointer)), faults_(faults) {
+        if (v.is_object()) {
+            object_ = &v.get_object();
+        } else {
+            fault("", "this must be an object", "write {...}");
+        }
+    }
+    void fault(std::string_view key, std::string text, std::string remedy) {
+        faults_.push_back({key.empty() ? pointer_ : pointer_ + "/" + std::string(key), std::move(text), std::move(remedy)});
+    }
+    const json::value* get(std::string_view key) {
+        known_.push_back(key);
+        if (!object_) return nullptr;
+        const auto* v = object_->if_contains(key);
+        return v && !v->is_null() ? v : nullptr;
+    }
+    std::string text(std::string_view key, bool required, std::string_view example) {
+        const auto* v = get(key);
+        if (v && v->is_string() && (!required || !v->get_string().empty())) return std::string(v->get_string());
+        if (v || required) {
+            fault(key, v ? fmt::format("{} must be a text", key) : fmt::format("{} is missing", key), fmt::format("write \"{}\": \"{}\"", key, example));
+        }
+        return {};
+    }
+    std::optional<double> number(std::string_view key, std::string_view example) {
+        const auto* v = get(key);
+        if (!v) return std::nullopt;
+        if (v->is_number()) {
+            const double d = v->to_number<double>();
+            if (std::isfinite(d)) return d;
+        }
+        fault(key, fmt::format("{} must be a number", key), fmt::format("write \"{}\": {}", key, example));
+        return std::nullopt;
+    }
+    std::optional<std::int64_t> integer(std::string_view key, std::int64_t low, std::int64_t high) {
+        const auto* v = get(key);
+        if (!v) return std::nullopt;
+        std::optional<std::int64_t> i;
+        if (v->is_int64()) i = v->get_int64();
+        if (v->is_uint64() && v->get_uint64() <= INT64_MAX) i = static_cast<std::int64_t>(v->get_uint64());
+        if (v->is_double() && std::nearbyint(v->get_double()) == v->get_double() && std::fabs(v->get_double()) < 9e15) {
+            i = static_cast<std::int64_t>(v->get_double());
+        }
+        if (i && *i >= low && *i <= high) return i;
+        fault(key, fmt::format("{} must be a whole number", key), fmt::format("write a value from {} to {}", low, high));
+        return std::nullopt;
+    }
+    std::map<std::string, std::string> options(std::string_view key) {
+        std::map<std::string, std::string> out;
+        const auto* v = get(key);
+        if (!v) return out;
+        if (!v->is_object()) {
+            fault(key, fmt::format("{} must be an object of names and values", key), "write {\"name\": \"value\"}");
+            return out;
+        }
+        for (const auto& [k, x] : v->get_object()) {
+            if (x.is_string()) {
+                out[std::string(k)] = std::string(x.get_string());
+            } else if (x.is_bool()) {
+                out[std::string(k)] = x.get_bool() ? "true" : "false";
+            } else if (x.is_number()) {
+                out[std::string(k)] = json::serialize(x);
+            } else {
+                fault(std::string(key) + "/" + std::string(k), "an option is a text, a number, true or false", "write one of them");
+            }
+        }
+        return out;
+    }
+    void unknown_keys() {
+        if (!object_) return;
+        for (const auto& [k, v] : *object_) {
+            if (std::ranges::find(known_, std::string_view(k)) == known_.end()) {
+                fault(k, fmt::format("{} is not known here", std::string_view(k)), "remove it, or use one of: " + quoted_list(known_));
+            }
+        }
+    }
+
+private:
+    const json::object* object_ = nullptr;
+    std::string pointer_;
+    std::vector<SiteFault>& faults_;
+    std::vector<std::string_view> known_;
+};
+
+bool good_name(std::string_view s) {
+    if (s.empty() || s.size() > 64) return false;
+    return std::ranges::all_of(s, [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
+    });
+}
+
+std::string read_name(Fields& f, std::string_view example) {
+    std::string name = f.text("name", true, example);
+    if (!name.empty() && !good_name(name)) {
+        f.fault("name", fmt::format("\"{}\" cannot be a name", name), "use 1 to 64 letters, digits, - _ and .");
+    }
+    return name;
+}
+
+LineManners read_manners(const json::value* v, const std::string& pointer, std::vector<SiteFault>& faults) {
+    LineManners m;
+    if (!v) return m;
+    Fields f(*v, pointer, faults);
+    using std::chrono::milliseconds;
+    if (const auto x = f.integer("reply_timeout_ms", 0, 60'000)) m.reply_timeout = milliseconds(*x);
+    if (const auto x = f.integer("poll_period_ms", 0, 60'000)) m.poll_period = milliseconds(*x);
+    if (const auto x = f.integer("pause_ms", 0, 10'000)) m.pause = milliseconds(*x);
+    if (const auto x = f.integer("stale_after_ms", 0, 600'000)) m.stale_after = milliseconds(*x);
+    if (const auto x = f.integer("retries", -1, 20)) m.retries = static_cast<int>(*x);
+    if (const auto x = f.integer("silent_limit", 1, 1000)) m.silent_limit = static_cast<int>(*x);
+    if (const auto x = f.integer("retry_pause_min_ms", 1, 600'000)) m.retry_pause_min = milliseconds(*x);
+    if (const auto x = f.integer("retry_pause_max_ms", 1, 600'000)) m.retry_pause_max = milliseconds(*x);
+    if (m.retry_pause_max < m.retry_pause_min) {
+        f.fault("retry_pause_max_ms", "the longest pause is shorter than the first", "make retry_pause_max_ms at least retry_pause_min_ms");
+    }
+    f.unknown_keys();
+    return m;
+}
+
+FailSafe read_fail_safe(const json::value* v, const std::string& pointer, std::vector<SiteFault>& faults) {
+    FailSafe s;
+    if (!v) return s;
+    Fields f(*v, pointer, faults);
+    for (const LossCause cause : loss_causes) {
+        const auto* entry = f.get(name_of(cause));
+        if (!entry) continue;
+        if (entry->is_string()) s.of(cause) = fail_safe_action_of(std::string_view(entry->get_string()));
+        if (!s.of(cause)) f.fault(name_of(cause), "this is not a fail-safe action", "use nothing, halt, quick_stop or disable; leave it out to halt velocity moves alone");
+    }
+    s.watchdog_ms = f.integer("watchdog_ms", 0, 600'000);
+    f.unknown_keys();
+    return s;
+}
+
+template <class T, class Read>
+void read_list(const json::object& document, std::string_view key, std::vector<T>& into, std::vector<SiteFault>& faults, Read&& read) {
+    const auto* v = document.if_contains(key);
+    if (!v || v->is_null()) return;
+    const std::string base = "/" + std::string(key);
+    if (!v->is_array()) {
+        faults.push_back({base, fmt::format("{} must be a list", key), "write [...]"});
+        return;
+    }
+    if (v->get_array().size() > Image::max_axes) {
+        faults.push_back({base, fmt::format("{} has {} entries", key, v->get_array().size()), fmt::format("at most {} are possible", Image::max_axes)});
+        return;
+    }
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < v->get_array().size(); ++i) {
+        const std::string pointer = fmt::format("{}/{}", base, i);
+        Fields f(v->get_array()[i], pointer, faults);
+        T item = read(f, pointer);
+        f.unknown_keys();
+        if (!item.name.empty() && !names.insert(item.name).second) {
+            f.fault("name", fmt::format("the name {} is there twice", item.name), "give each a name of its own");
+        }
+        into.push_back(std::move(item));
+    }
+}
+
+template <class T>
+std::string names_of(const std::vector<T>& list) {
+    std::string s;
+    for (const auto& x : list) s += (s.empty() ? "" : ", ") + x.name;
+    return s.empty() ? "none" : s;
+}
+
+void check_relations(const Site& site, const Families& families, std::vector<SiteFault>& faults) {
+    const auto at = [](std::string_view list, std::size_t i, std::string_view key) { return fmt::format("/{}/{}/{}", list, i, key); };
+    std::set<std::string> uris;
+    for (std::size_t i = 0; i < site.lines.size(); ++i) {
+        const auto& l = site.lines[i];
+        const auto family = families.find(l.family);
+        if (!l.family.empty() && !family.family) {
+            faults.push_back({at("lines", i, "family"), fmt::format("there is no family {}", l.family), "use one of: " + families.names()});
+        }
+        if (l.uri.empty()) continue;
+        const auto uri = parse_line_uri(l.uri);
+        if (!uri.good()) {
+            faults.push_back({at("lines", i, "uri"), uri.fault, "see the line URIs in the manual page: can:can0, serial:/dev/ttyUSB0?baud=9600, tcp:HOST:PORT, twin"});
+            continue;
+        }
+        if (family.family) {
+            const bool is_can = uri.uri.kind == LineUri::Kind::can;
+            const bool is_twin = uri.uri.kind == LineUri::Kind::twin;
+            if ((is_can && !family.family->uses_can) || (!is_can && !is_twin && !family.family->uses_bytes)) {
+                faults.push_back({at("lines", i, "uri"), fmt::format("{} does not speak on {}", l.family, is_can ? "CAN" : "a byte line"),
+                                  is_can ? "use serial:, tcp: or twin" : "use can: or twin"});
+            }
+        }
+        if (uri.uri.kind != LineUri::Kind::twin && !uris.insert(l.uri).second) {
+            faults.push_back({at("lines", i, "uri"), fmt::format("{} is used by two lines", l.uri), "put their drives on one line"});
+        }
+    }
+    std::set<std::pair<std::string, std::string>> addresses;
+    for (std::size_t i = 0; i < site.drives.size(); ++i) {
+        const auto& d = site.drives[i];
+        const LineSpec* line = site.line(d.line);
+        if (!d.line.empty() && !line) {
+            faults.push_back({at("drives", i, "line"), fmt::format("drive {}: there is no line {}", d.name, d.line), "lines: " + names_of(site.lines)});
+        }
+        if (!line) continue;
+        if (const auto family = families.find(line->family); family.family && !d.address.empty()) {
+            if (std::string wrong = family.family->check_address(d.address); !wrong.empty()) {
+                faults.push_back({at("drives", i, "address"), fmt::format("drive {}: {}", d.name, wrong), "the factory address is " + std::string(family.family->factory_address)});
+            }
+        }
+        if (!addresses.emplace(d.line, d.address).second) {
+            faults.push_back({at("drives", i, "address"), fmt::format("two drives on {} have the address {}", d.line, d.address), "give each drive an address of its own"});
+        }
+        if (line->uri == "twin" && d.presence == PresenceRule::device) {
+            faults.push_back({at("drives", i, "presence"), fmt::format("drive {}: a twin line has no real drives", d.name), "use presence twin or auto, or a real line"});
+        }
+    }
+    std::set<int> numbers;
+    std::set<std::pair<std::string, int>> channels;
+    for (std::size_t i = 0; i < site.axes.size(); ++i) {
+        const auto& a = site.axes[i];
+        const DriveSpec* drive = site.drive(a.drive);
+        if (!a.drive.empty() && !drive) {
+            faults.push_back({at("axes", i, "drive"), fmt::format("axis {}: there is no drive {}", a.name, a.drive), "drives: " + names_of(site.drives)});
+        }
+        if (a.number > 0 && !numbers.insert(a.number).second) {
+            faults.push_back({at("axes", i, "number"), fmt::format("axis {}: the number {} is taken", a.name, a.number), "give each axis a number of its own: it is its place in the register map"});
+        }
+        if (!channels.emplace(a.drive, a.channel).second) {
+            faults.push_back({at("axes", i, "channel"), fmt::format("axis {}: channel {} of {} is taken", a.name, a.channel, a.drive), "one axis per channel"});
+        }
+        if (drive) {
+            if (const LineSpec* line = site.line(drive->line)) {
+                if (const auto family = families.find(line->family); family.catalogue) {
+                    const int highest = family.catalogue->most_channels();
+                    if (a.channel > highest) {
+                        faults.push_back({at("axes", i, "channel"), fmt::format("axis {}: a {} has {} channel{}", a.name, line->family, highest, highest == 1 ? "" : "s"), fmt::format("use 1 to {}", highest)});
+                    }
+                }
+            }
+        }
+    }
+}
+
+void read_units(const json::value* list, Site& site, std::vector<SiteFault>& faults) {
+    if (!list || list->is_null()) return;
+    if (!list->is_array()) {
+        faults.push_back({"/modbus_units", "modbus_units must be a list", "write [{\"unit\": 2, \"gaps\": \"refuse\"}]"});
+        return;
+    }
+    for (std::size_t i = 0; i < list->get_array().size(); ++i) {
+        Fields f(list->get_array()[i], fmt::format("/modbus_units/{}", i), faults);
+        if (!f.get("unit")) f.fault("unit", "unit is missing", "write \"unit\": 2, a Modbus unit with a map of its own");
+        const auto unit = f.integer("unit", 2, 254);
+        const auto gaps = map_gaps_named(f.text("gaps", true, "refuse"));
+        if (!gaps && f.get("gaps")) f.fault("gaps", "this is not a way to show gaps", "use zero or refuse; leave the entry out for what the host's [modbus] gaps says");
+        f.unknown_keys();
+        if (unit && gaps && !site.gaps.emplace(static_cast<std::uint8_t>(*unit), *gaps).second)
+            f.fault("unit", fmt::format("unit {} is there twice", *unit), "keep one of the two entries");
+    }
+}
+}  // namespace
+
+std::optional<Site> parse_site(const json::value& document, const Families& families, std::vector<SiteFault>& faults) {
+    const std::size_t before = faults.size();
+    if (!document.is_object()) {
+        faults.push_back({"", "a site is an object", "write {\"lines\": [], \"drives\": [], \"axes\": [], \"mappings\": []}"});
+        return std::nullopt;
+    }
+    const auto& o = document.get_object();
+    for (const auto& [k, v] : o) {
+        if (k != "lines" && k != "drives" && k != "axes" && k != "mappings" && k != "modbus_units") {
+            faults.push_back({"/" + std::string(k), fmt::format("{} is not known here", std::string_view(k)), "a site has lines, drives, axes, mappings and modbus_units"});
+        }
+    }
+    Site site;
+    read_list(o, "lines", site.lines, faults, [&](Fields& f, const std::string& pointer) {
+        LineSpec l;
+        l.name = read_name(f, "can0");
+        l.uri = f.text("uri", true, "twin");
+        l.family = f.text("family", true, families.entries.empty() ? "uim342" : families.entries.front().family->name);
+        l.bitrate = static_cast<std::uint32_t>(f.integer("bitrate", 0, 100'000'000).value_or(0));
+        l.options = f.options("options");
+        l.manners = read_manners(f.get("manners"), pointer + "/manners", faults);
+        return l;
+    });
+    read_list(o, "drives", site.drives, faults, [&](Fields& f, const std::string&) {
+        DriveSpec d;
+        d.name = read_name(f, "feeder");
+        d.line = f.text("line", true, "can0");
+        if (const auto* a = f.get("address")) {
+            if (a->is_string()) {
+                d.address = std::string(a->get_string());
+                if (d.address.empty()) f.fault("address", "the address is empty", "write the drive's address, or leave it out for the factory's");
+            } else if (a->is_int64() || a->is_uint64()) {
+                d.address = json::serialize(*a);
+            } else {
+                f.fault("address", "an address is a number or a text", "write \"address\": 5");
+            }
+        } else if (const LineSpec* l = site.line(d.line)) {
+            if (const auto e = families.find(l->family); e.family) d.address = std::string(e.family->factory_address);
+        }
+        const std::string presence = f.get("presence") ? f.text("presence", false, "auto") : "auto";
+        if (presence == "device") {
+            d.presence = PresenceRule::device;
+        } else if (presence == "twin") {
+            d.presence = PresenceRule::twin;
+        } else if (presence == "auto") {
+            d.presence = PresenceRule::automatic;
+        } else {
+            f.fault("presence", fmt::format("\"{}\" is not a presence", presence), "use device, twin or auto");
+        }
+        d.options = f.options("options");
+        return d;
+    });
+    read_list(o, "axes", site.axes, faults, [&](Fields& f, const std::string& pointer) {
+        AxisSpec a;
+        a.name = read_name(f, "feeder");
+        a.drive = f.text("drive", true, "feeder");
+        a.channel = static_cast<int>(f.integer("channel", 1, 256).value_or(1));
+        if (!f.get("number")) f.fault("number", fmt::format("axis {}: number is missing", a.name), "write \"number\": 1, its place in the register map");
+        a.number = static_cast<int>(f.integer("number", 1, Image::max_axes).value_or(0));
+        a.unit = f.get("unit") ? f.text("unit", false, "mm") : "";
+        if (const auto x = f.number("increments_per_unit", "3200")) {
+            a.increments_per_unit = *x;
+            if (!(*x > 0)) f.fault("increments_per_unit", "increments_per_unit must be above 0", "write how many increments of the drive make one unit; turn the direction round in the drive");
+        }
+        a.position_min = f.number("position_min", "-100");
+        a.position_max = f.number("position_max", "100");
+        a.velocity_max = f.number("velocity_max", "50");
+        a.acceleration_max = f.number("acceleration_max", "500");
+        if (const auto* mode = f.get("authority_mode")) {
+            if (mode->is_string() && mode->get_string() == "lease") {
+                a.authority_mode = AuthorityMode::lease;
+            } else if (!mode->is_string() || mode->get_string() != "free") {
+                f.fault("authority_mode", fmt::format("axis {}: this is not an authority mode", a.name), "use free or lease");
+            }
+        }
+        a.fail_safe = read_fail_safe(f.get("fail_safe"), pointer + "/fail_safe", faults);
+        if (a.position_min && a.position_max && *a.position_min >= *a.position_max) {
+            f.fault("position_max", fmt::format("axis {}: position_max must be above position_min", a.name), "exchange them");
+        }
+        for (const auto& [key, x] : {std::pair{"velocity_max", a.velocity_max}, std::pair{"acceleration_max", a.acceleration_max}}) {
+            if (x && !(*x > 0)) f.fault(key, fmt::format("axis {}: {} must be above 0", a.name, key), "leave it out for no limit");
+        }
+        return a;
+    });
+    if (const auto* m = o.if_contains("mappings"); m && !m->is_null()) {
+        if (m->is_array()) {
+            site.mappings = m->get_array();
+        } else {
+            faults.push_back({"/mappings", "mappings must be a list", "write []"});
+        }
+    }
+    read_units(o.if_contains("modbus_units"), site, faults);
+    check_relations(site, families, faults);
+    // In their full form from here on: ids that were given, defaults that were chosen.
+    if (const auto mappings = parse_mappings(site.mappings, site, families, faults)) {
+        site.mappings.clear();
+        for (const auto& mapping : *mappings) site.mappings.push_back(to_json(mapping));
+    }
+    if (faults.size() != before) return std::nullopt;
+    return site;
+}
+
+}  // namespace axisgate

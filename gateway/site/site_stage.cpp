@@ -1,0 +1,164 @@
+// Site stage: see the header. In and out: see the header. Never reads a clock.
+#include "gateway/site/site_stage.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace axisgate {
+namespace json = boost::json;
+std::string identity_of(std::string_view who) {
+    const auto colon = who.rfind(':');
+    const bool port =
+        colon != std::string_view::npos && colon + 1 < who.size() &&
+        std::all_of(who.begin() + static_cast<std::ptrdiff_t>(colon) + 1, who.end(), [](char c) { return c >= '0' && c <= '9'; });
+    return std::string(port ? who.substr(0, colon) : who);
+}
+
+std::string_view name_of(SiteStage::State state) noexcept {
+    switch (state) {
+        case SiteStage::State::none:
+            return "none";
+        case SiteStage::State::staged:
+            return "staged";
+        case SiteStage::State::applying:
+            return "applying";
+        case SiteStage::State::applied:
+            return "applied";
+        case SiteStage::State::rolling_back:
+            return "rolling_back";
+    }
+    return "none";
+}
+
+void SiteStage::clear() {
+    state_ = State::none;
+    site_ = {};
+    by_.clear();
+    base_revision_ = 0;
+    confirm_by_unix_ns_ = 0;
+}
+
+std::string SiteStage::stage(Site site, std::uint64_t base_revision, std::string_view who) {
+    if (busy()) return fmt::format("a site that {} applied is on trial: confirm it or roll it back first", by_);
+    state_ = State::staged;
+    ++id_;
+    site_ = std::move(site);
+    base_revision_ = base_revision;
+    by_ = identity_of(who);
+    return {};
+}
+
+std::string SiteStage::discard() {
+    if (busy()) return fmt::format("the site that {} applied is on trial: roll it back instead", by_);
+    clear();
+    return {};
+}
+
+std::string SiteStage::begin_apply(std::uint64_t revision, std::uint32_t confirm_within_s, std::int64_t now_unix_ns, std::string_view who) {
+    if (state_ == State::none) return "nothing is staged: stage a site first";
+    if (busy()) return fmt::format("the site that {} applied is on trial already: confirm it or roll it back first", by_);
+    if (revision != base_revision_)
+        return fmt::format("the site has changed since this was staged: it is revision {} now, not {}; stage it again", revision,
+                           base_revision_);
+    if (confirm_within_s != 0 && (confirm_within_s < min_trial_s || confirm_within_s > max_trial_s))
+        return fmt::format("confirm_within_s must be 0 or {} to {}", min_trial_s, max_trial_s);
+    state_ = State::applying;
+    by_ = identity_of(who);
+    confirm_by_unix_ns_ = confirm_within_s == 0 ? 0 : now_unix_ns + std::int64_t{confirm_within_s} * 1'000'000'000;
+    return {};
+}
+
+void SiteStage::applied(bool good) {
+    if (state_ != State::applying) return;
+    if (!good) {
+        state_ = State::staged;
+        confirm_by_unix_ns_ = 0;
+    } else if (confirm_by_unix_ns_ == 0) {
+        clear();
+    } else {
+        state_ = State::applied;
+    }
+}
+
+std::string SiteStage::check_confirm(std::string_view who, std::int64_t now_unix_ns) const {
+    if (state_ != State::applied) return "no applied site waits to be confirmed";
+    if (expired(now_unix_ns)) return "the time to confirm has passed: the site is being rolled back";
+    if (identity_of(who) != by_) return fmt::format("only {}, who applied the site, can confirm it", by_);
+    return {};
+}
+
+std::string SiteStage::begin_roll_back() {
+    if (state_ != State::applied) return "no applied site waits to be confirmed: there is nothing to roll back";
+    state_ = State::rolling_back;
+    return {};
+}
+
+void SiteStage::rolled_back(bool good, std::int64_t again_unix_ns) {
+    if (state_ != State::rolling_back) return;
+    if (good) return clear();
+    state_ = State::applied;
+    confirm_by_unix_ns_ = again_unix_ns;
+}
+
+namespace {
+std::string key_of(const json::object& entry) {
+    for (const char* k : {"name", "id"}) {
+        if (const auto* v = entry.if_contains(k); v && v->is_string()) return std::string(v->get_string());
+    }
+    const auto* unit = entry.if_contains("unit");
+    return unit && unit->is_int64() ? std::to_string(unit->get_int64()) : std::string();
+}
+const json::object* find_in(const json::array& list, std::string_view key) {
+    for (const auto& v : list) {
+        if (v.is_object() && key_of(v.get_object()) == key) return &v.get_object();
+    }
+    return nullptr;
+}
+}  // namespace
+
+json::array site_diff(const Site& from, const Site& to) {
+    json::array out;
+    const json::object a = to_json(from), b = to_json(to);
+    for (const char* list : {"lines", "drives", "axes", "mappings", "modbus_units"}) {
+        const auto* before = a.if_contains(list);
+        const auto* after = b.if_contains(list);
+        const json::array none;
+        const auto& old_list = before && before->is_array() ? before->get_array() : none;
+        const auto& new_list = after && after->is_array() ? after->get_array() : none;
+        const auto put = [&](const char* kind, std::string_view key, const json::object* x, const json::object* y) {
+            out.push_back(json::object{{"kind", kind},
+                                       {"what", fmt::format("{}/{}", list, key)},
+                                       {"before", x ? json::value(*x) : json::value()},
+                                       {"after", y ? json::value(*y) : json::value()}});
+        };
+        for (const auto& v : old_list) {
+            const auto& x = v.get_object();
+            const auto* y = find_in(new_list, key_of(x));
+            if (!y)
+                put("removed", key_of(x), &x, nullptr);
+            else if (*y != x)
+                put("changed", key_of(x), &x, y);
+        }
+        for (const auto& v : new_list) {
+            const auto& y = v.get_object();
+            if (!find_in(old_list, key_of(y))) put("added", key_of(y), nullptr, &y);
+        }
+    }
+    return out;
+}
+
+std::vector<std::string> disturbed_axes(const Site& from, const Site& to) {
+    std::vector<std::string> out;
+    for (const auto& a : from.axes) {
+        const auto* b = to.axis(a.name);
+        const auto *d = from.drive(a.drive), *e = to.drive(a.drive);
+        const auto* l = d ? from.line(d->line) : nullptr;
+        const auto* m = d ? to.line(d->line) : nullptr;
+        const bool same = b && b->drive == a.drive && b->channel == a.channel && d && e && *d == *e && l && m && *l == *m;
+        if (!same) out.push_back(a.name);
+    }
+    return out;
+}
+
+}  // namespace axisgate

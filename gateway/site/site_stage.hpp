@@ -1,0 +1,72 @@
+// Site stage: a wanted site on its way: staged, applied on trial, then confirmed or taken back; and what it changes.
+// In: sites, who asks, times. Out: the state, refusals as text, when the trial ends. Pure: time is an argument.
+// Never puts a site in force and never stores anything: whoever holds it does, and tells it the outcome. Holds one site at most.
+#pragma once
+
+#include <boost/json/array.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gateway/site/site.hpp"
+
+namespace axisgate {
+
+/// Who, without the port that changes with each connection: "anna 192.0.2.7:5123" is "anna 192.0.2.7".
+[[nodiscard]] std::string identity_of(std::string_view who);
+
+class SiteStage {
+public:
+    enum class State : std::uint8_t { none, staged, applying, applied, rolling_back };
+    static constexpr std::uint32_t min_trial_s = 5, max_trial_s = 600;
+
+    [[nodiscard]] State state() const noexcept { return state_; }
+    [[nodiscard]] std::uint64_t id() const noexcept { return id_; }
+    [[nodiscard]] const Site& site() const noexcept { return site_; }
+    [[nodiscard]] const std::string& by() const noexcept { return by_; }
+    /// Staged on this revision; the one that is taken back to while it is on trial.
+    [[nodiscard]] std::uint64_t base_revision() const noexcept { return base_revision_; }
+    [[nodiscard]] std::int64_t confirm_by_unix_ns() const noexcept { return confirm_by_unix_ns_; }
+    /// The site may not be changed otherwise: one is on trial or on its way.
+    [[nodiscard]] bool busy() const noexcept { return state_ != State::none && state_ != State::staged; }
+
+    /// A staged site replaces the one staged before. Empty, or why not.
+    [[nodiscard]] std::string stage(Site site, std::uint64_t base_revision, std::string_view who);
+    [[nodiscard]] std::string discard();
+    /// Begins to apply. `revision`: in force now.
+    [[nodiscard]] std::string begin_apply(std::uint64_t revision, std::uint32_t confirm_within_s, std::int64_t now_unix_ns,
+                                          std::string_view who);
+    /// The outcome: on trial, or for good (begun with 0 s); after a failure it is staged again.
+    void applied(bool good);
+    /// Whether this identity may confirm now.
+    [[nodiscard]] std::string check_confirm(std::string_view who, std::int64_t now_unix_ns) const;
+    void confirmed() { clear(); }
+    /// The trial is over unconfirmed: take it back now.
+    [[nodiscard]] bool expired(std::int64_t now_unix_ns) const noexcept {
+        return state_ == State::applied && now_unix_ns >= confirm_by_unix_ns_;
+    }
+    [[nodiscard]] std::string begin_roll_back();
+    /// After a failure it is on trial still, and will be tried again from `again_unix_ns` on.
+    void rolled_back(bool good, std::int64_t again_unix_ns);
+
+private:
+    void clear();
+
+    State state_ = State::none;
+    std::uint64_t id_ = 0;
+    Site site_;
+    std::string by_;
+    std::uint64_t base_revision_ = 0;
+    std::int64_t confirm_by_unix_ns_ = 0;
+};
+[[nodiscard]] std::string_view name_of(SiteStage::State state) noexcept;
+
+/// Entry by entry: {"kind": "added|removed|changed", "what": "lines/can0", "before": {}, "after": {}}; before or after null where there is
+/// none.
+[[nodiscard]] boost::json::array site_diff(const Site& from, const Site& to);
+/// Axes of `from` that lose their connection: their own place, their drive or their line changes or goes.
+[[nodiscard]] std::vector<std::string> disturbed_axes(const Site& from, const Site& to);
+
+}  // namespace axisgate

@@ -1,0 +1,29 @@
+// Frame export: recorded frames as files that other tools read: candump logs, pcapng captures, and lines for people.
+// In: TraceEntry values (frame_log.hpp), whose wall-clock time is already set. Out: text or bytes, as one string.
+// Never interprets what a frame means: that is `axisgate decode`.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "gateway/services/gateway.hpp"
+
+namespace axisgate {
+
+/// The log form of `candump -L`: `(1436509052.249713) can0 04280095#01`, one line per CAN frame, remote frames as `#R8`, reports of the
+/// controller with the error flag in the identifier. Runs of bytes have no such form and are left out: use trace_text for byte lines.
+[[nodiscard]] std::string candump_text(std::span<const TraceEntry> entries, std::string_view line);
+
+/// One line per frame of any kind, with direction and side: `(1436509052.249713) ttyS1 device > AA 05 95`; `>` is to the drive.
+[[nodiscard]] std::string trace_text(std::span<const TraceEntry> entries, std::string_view line);
+
+inline constexpr std::uint16_t linktype_can_socketcan = 227;
+inline constexpr std::uint16_t linktype_user0 = 147;  ///< runs of bytes as they are
+
+/// A pcapng section, little endian, times in nanoseconds, direction in epb_flags (inbound: from the drive). What crossed the cable and what
+/// crossed the twin bus are two interfaces, "LINE" and "LINE (twin)".
+[[nodiscard]] std::string pcapng(std::span<const TraceEntry> entries, std::string_view line);
+
+}  // namespace axisgate

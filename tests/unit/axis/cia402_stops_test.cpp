@@ -1,0 +1,205 @@
+// CiA 402 profile: a word that ends something is followed whatever else it carries, and bit 12 answers bit 4 alone.
+// In: control words as real controllers send them, also to a drive that does not answer. Out: orders and status words.
+#include <algorithm>
+
+#include "tests/unit/axis/cia402_bench.hpp"
+
+namespace axisgate {
+namespace {
+using namespace cia402;
+using cia402_bench::Bench;
+using Power = AxisFeedback::Power;
+
+std::vector<std::uint16_t> words(std::initializer_list<int> list) { 
+    std::vector<std::uint16_t> out;
+    for (const int w : list)
+        out.push_back(static_cast<std::uint16_t>(w));
+    return out;
+}
+
+template <class T>
+bool has(const AxisProfile::Decision& d) {
+    return std::ranges::any_of(d.orders, [](const CommandBody& o) { return std::holds_alternative<T>(o); });
+}
+
+/// Nobody answers any more, perhaps out of the middle of its work.
+void fall_silent(Bench& b, bool enabled_before) {
+    if (enabled_before) b.enable(mode_profile_position);
+    b.profile.on_presence(Presence::offline);
+}
+
+void moving_to(Bench& b, std::int32_t target, std::uint16_t word = 0x1F) {
+    ProcessData d;
+    d.target_position = target;
+    d.controlword = word;
+    EXPECT_TRUE(has<Move>(b.data(d)));
+}
+
+TEST(Cia402Stops, AStopWithANewSetPointBesideItIsAStop) {
+    for (const std::uint16_t word : words({0x1B, 0x10, 0x17, 0x16, 0x12, 0x11F, 0x3B})) {
+        Bench b;
+        b.enable(mode_profile_position);
+        moving_to(b, 1000);
+        b.word(0x0F);
+        ProcessData d;
+        d.target_position = 2000;
+        d.controlword = word;
+        const auto r = b.data(d);
+        EXPECT_FALSE(r.refused) << std::hex << word;
+        EXPECT_TRUE(has<QuickStop>(r) || has<Halt>(r) || has<Disable>(r)) << std::hex << word;
+        EXPECT_FALSE(has<Move>(r)) << std::hex << word;
+        EXPECT_FALSE(b.drive.moving && b.drive.power == Power::on) << std::hex << word;
+    }
+}
+
+TEST(Cia402Stops, ASearchIsNotBegunByTheWordThatHalts) {
+    Bench b;
+    b.enable(mode_homing);
+    const auto r = b.word(0x11F);
+    EXPECT_TRUE(has<Halt>(r));
+    EXPECT_FALSE(has<Home>(r));
+}
+
+TEST(Cia402Stops, AFaultIsResetByAWordWithBit4) {
+    Bench b;
+    b.enable(mode_profile_position);
+    b.drive.fault = true;
+    b.drive.error_code = 3;
+    b.say();
+    const auto r = b.word(0x9F);
+    EXPECT_FALSE(r.refused);
+    EXPECT_TRUE(has<ResetFault>(r));
+    EXPECT_FALSE(has<Move>(r));
+}
+
+TEST(Cia402Stops, ASetPointToADriveThatIsOffIsStillRefused) {
+    Bench b;
+    ProcessData mode;
+    mode.mode = mode_profile_position;
+    b.data(mode);
+    EXPECT_TRUE(b.word(0x10).refused);
+    EXPECT_EQ(b.profile.state(), PowerState::switch_on_disabled);
+}
+
+TEST(Cia402Stops, WhatIsBeingSwitchedOnIsTakenBackByAnyLowerWord) {
+    for (const std::uint16_t word : words({0x00, 0x02, 0x06, 0x07, 0x0B})) {
+        Bench b;
+        b.to(PowerState::switched_on);
+        ProcessData on;
+        on.controlword = 0x0F;
+        const auto enabling = b.profile.on_process_data(on);
+        ASSERT_TRUE(has<Enable>(enabling));
+        ProcessData back;
+        back.controlword = word;
+        const auto off = b.profile.on_process_data(back);
+        EXPECT_TRUE(has<Disable>(off)) << std::hex << word;
+        b.obey(enabling);
+        b.obey(off);
+        EXPECT_NE(b.profile.state(), PowerState::operation_enabled) << std::hex << word;
+        EXPECT_EQ(b.drive.power, Power::off) << std::hex << word;
+    }
+}
+
+TEST(Cia402Stops, WithoutAnAnswerOnlyWhatStopsIsSent) {
+    for (const bool seen_before : {false, true}) {
+        for (const std::uint16_t word : words({0x00, 0x01, 0x05, 0x02, 0x0B, 0x1B, 0x10, 0x10F, 0x106})) {
+            Bench b;
+            fall_silent(b, seen_before);
+            ProcessData d;
+            d.controlword = word;
+            const auto r = b.profile.on_process_data(d);
+            EXPECT_FALSE(r.refused) << std::hex << word;
+            ASSERT_EQ(r.orders.size(), 1U) << std::hex << word;
+            EXPECT_TRUE(is_urgent(r.orders[0])) << std::hex << word;
+            // The same word again is another try.
+            if (!(word & cw_halt)) EXPECT_EQ(b.profile.on_process_data(d).orders.size(), 1U) << std::hex << word;
+        }
+        for (const std::uint16_t word : words({0x06, 0x07, 0x0F, 0x1F, 0x86, 0x8F, 0x9F})) {
+            Bench b;
+            fall_silent(b, seen_before);
+            ProcessData d;
+            d.controlword = word;
+            const auto r = b.profile.on_process_data(d);
+            EXPECT_TRUE(r.refused) << std::hex << word;
+            EXPECT_EQ(r.reason, Reason::no_answer) << std::hex << word;
+            EXPECT_EQ(b.picture().controlword, 0) << std::hex << word << ": a refused word is not taken";
+        }
+    }
+}
+
+TEST(Cia402Stops, ValuesAloneAreKeptWhileNobodyAnswers) {
+    Bench b;
+    b.profile.on_presence(Presence::offline);
+    ProcessData d;
+    d.profile_velocity = 77;
+    EXPECT_FALSE(b.profile.on_process_data(d).refused);
+    EXPECT_EQ(b.picture().profile_velocity, 77U);
+}
+
+TEST(Cia402Handshake, ABufferedSetPointThatStartsByItselfDoesNotAcknowledge) {
+    Bench b;
+    b.enable(mode_profile_position);
+    moving_to(b, 1000);
+    b.word(0x0F);
+    ProcessData d;
+    d.target_position = 2000;
+    d.controlword = 0x1F;
+    EXPECT_TRUE(b.data(d).orders.empty()) << "it waits";
+    EXPECT_NE(b.picture().statusword & sw_mode_12, 0);
+    b.word(0x0F);
+    EXPECT_NE(b.picture().statusword & sw_mode_12, 0) << "there is no room for another one";
+    EXPECT_EQ(b.picture().setpoints_accepted, 2);
+    b.drive.moving = false;
+    b.drive.target_reached = true;
+    const auto next = b.say();
+    ASSERT_TRUE(next && std::holds_alternative<Move>(*next));
+    b.profile.on_order_result(*next, true, b.now);
+    EXPECT_EQ(b.picture().statusword & sw_mode_12, 0) << "bit 4 is 0";
+    EXPECT_EQ(b.picture().setpoints_accepted, 2) << "it was counted when it was taken";
+}
+
+TEST(Cia402Handshake, TheEndOfAHaltGoesOnWithoutANewSetPoint) {
+    Bench b;
+    b.enable(mode_profile_position);
+    moving_to(b, 1000);
+    b.word(0x0F);
+    b.word(0x10F);
+    const auto on = b.word(0x0F);
+    ASSERT_TRUE(has<Move>(on));
+    EXPECT_EQ(b.picture().setpoints_accepted, 1);
+    EXPECT_EQ(b.picture().statusword & sw_mode_12, 0);
+    b.word(0x10F);
+    ProcessData d;
+    d.target_position = 3000;
+    d.controlword = 0x1F;
+    const auto both = b.data(d);
+    ASSERT_EQ(both.orders.size(), 1U) << "the new one, not the old one before it";
+    EXPECT_EQ(std::get<Move>(both.orders[0]).target, 3000);
+    EXPECT_EQ(b.picture().setpoints_accepted, 2);
+}
+
+TEST(Cia402Handshake, ACommandOfSomebodyElseDoesNotAcknowledge) {
+    Bench b;
+    b.enable(mode_profile_position);
+    Move m;
+    m.kind = Move::Kind::absolute;
+    m.target = 500;
+    b.obey(b.profile.on_command(m));
+    EXPECT_EQ(b.picture().statusword & sw_mode_12, 0);
+    EXPECT_EQ(b.picture().setpoints_accepted, 1);
+}
+
+TEST(Cia402Homing, ASearchThatStandsBetweenItsPartsIsUnderWay) {
+    Bench b;
+    b.enable(mode_homing);
+    b.word(0x1F);
+    b.drive.homing = true;
+    b.drive.moving = false;
+    b.say();
+    EXPECT_EQ(b.picture().statusword & (sw_target_reached | sw_mode_12 | sw_mode_13), 0);
+    EXPECT_FALSE(b.profile.at_rest());
+    EXPECT_TRUE(has<Halt>(b.word(0x0F))) << "bit 4 falls: it is given up";
+}
+
+}  // namespace
+}  // namespace axisgate

@@ -1,0 +1,64 @@
+// Recipe bench: one run of a recipe in virtual time, with a world and answers that the test gives.
+// In: a document, answers, time. Out: the run's requests and its state. Never a gateway.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <boost/json/parse.hpp>
+#include <map>
+#include <memory>
+
+#include "gateway/services/recipes/recipe_run.hpp"
+
+namespace axisgate::recipe_test {
+namespace json = boost::json;
+using std::chrono::milliseconds;
+
+inline json::object object(std::string_view text) { return json::parse(text).get_object(); }
+
+struct World final : RecipeWorld {
+    std::map<std::string, json::value, std::less<>> points;
+    [[nodiscard]] json::value point(std::string_view axis, std::string_view p) const override {
+        const auto it = points.find(std::string(axis) + "." + std::string(p));
+        return it == points.end() ? json::value(nullptr) : it->second;
+    }
+    std::map<std::string, Claim, std::less<>> claims;
+    [[nodiscard]] Claim claim(std::string_view axis) const override {
+        const auto it = claims.find(axis);
+        return it == claims.end() ? Claim{} : it->second;
+    }
+};
+using Told = RecipeAnswer::Motion;
+using Whose = RecipeWorld::Claim::Whose;
+
+class Runs : public ::testing::Test {
+protected:
+    Instant now = at_ns(1'000'000'000);
+    World world;
+    std::vector<RecipeRequest> requests;
+    std::unique_ptr<RecipeRun> run;
+
+    void start(std::string_view document) {
+        std::vector<SiteFault> faults;
+        auto r = read_recipe(object(document), nullptr, faults);
+        ASSERT_TRUE(r) << faults.front().pointer << " " << faults.front().text;
+        run = std::make_unique<RecipeRun>(std::move(*r), now);
+        turn();
+    }
+    void turn() {
+        requests.clear();
+        run->turn(now, world, requests);
+    }
+    void pass(Duration d) {
+        now += d;
+        turn();
+    }
+    void answer(bool good = true, std::string text = {}, json::value value = nullptr, Told motion = Told::told) {
+        ASSERT_EQ(requests.size(), 1u);
+        run->answer(requests[0].number, {good, std::move(text), std::move(value), motion});
+        EXPECT_LE(run->deadline(), now);
+        turn();
+    }
+};
+
+}  // namespace axisgate::recipe_test

@@ -20,7 +20,6 @@ std::string cut(std::string_view name) {
 }
 }  // namespace
 
-std::string_view name_of(AuthorityMode mode) noexcept { return mode == AuthorityMode::lease ? "lease" : "free"; }
 
 AuthorityClient AuthorityClient::of(const Origin& origin) {
     AuthorityClient c;

@@ -10,15 +10,9 @@
 
 #include "gateway/core/command.hpp"
 #include "gateway/core/instant.hpp"
+#include "gateway/site/authority_mode.hpp"
 
 namespace axisgate {
-
-/// Whether a command needs a lease.
-enum class AuthorityMode : std::uint8_t {
-    free,  ///< no; but while somebody holds one, the others are refused
-    lease  ///< a command takes one by itself, and renews it
-};
-[[nodiscard]] std::string_view name_of(AuthorityMode mode) noexcept;
 
 /// A client that can hold an axis: its door and its stable name. Two connections with the same name are one client: a Modbus client is its
 /// host, because a PLC comes from another port after each interruption.

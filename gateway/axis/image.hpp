@@ -106,7 +106,7 @@ private:
 /// Cells by AxisId. Cells are never moved or removed while the process runs, so a reader may keep a reference.
 class Image {
 public:
-    static constexpr std::size_t max_axes = 1024;  ///< axis numbers of the register map: 1..1024 (65536 / 64)
+    static constexpr std::size_t max_axes = axisgate::max_axes;  ///< axis numbers of the register map: 1..1024 (65536 / 64)
     static constexpr std::size_t max_ids = 16384;  ///< ids are not given twice: so many axes can be added before a restart
 
     /// Hot thread: the picture to read or change; call publish afterwards.

@@ -90,4 +90,13 @@ void for_each_run(std::span<const std::uint8_t> data, F&& f) {
 /// Order in which frames that wait for the same line leave it. `urgent` is for stop, quick stop and disable alone.
 enum class Priority : std::uint8_t { urgent, command, poll };
 
+/// One recorded frame.
+struct TraceEntry {
+    std::uint64_t sequence = 0;        ///< counts up per line; a gap means that older ones were overwritten
+    std::int64_t at_unix_ns = 0;
+    bool to_drive = false;
+    bool simulated = false;            ///< crossed the twin bus, not the cable
+    Frame frame;
+};
+
 }  // namespace axisgate

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 
@@ -20,6 +21,9 @@ inline constexpr AxisId no_axis{0xFFFF};
 [[nodiscard]] constexpr std::uint16_t index_of(LineId id) noexcept { return static_cast<std::uint16_t>(id); }
 [[nodiscard]] constexpr std::uint16_t index_of(DriveId id) noexcept { return static_cast<std::uint16_t>(id); }
 [[nodiscard]] constexpr std::uint16_t index_of(AxisId id) noexcept { return static_cast<std::uint16_t>(id); }
+
+/// Axes, drives and lines that a site may have, each.
+inline constexpr std::size_t max_axes = 1024;
 
 /// Names one Command on its way; exactly one Result carries it back. 0 means "nobody waits".
 using Ticket = std::uint64_t;

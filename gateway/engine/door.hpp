@@ -1,6 +1,6 @@
 // Door: what a protocol server on the hot thread sees of the gateway.
 // In: commands with an origin. Out: the image, and one result per ticket through the door's own sink.
-// Never used from another thread: those have gateway/services/gateway.hpp.
+// Never used from another thread: those have the services' gateway.hpp.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@
 
 namespace axisgate {
 
-struct Event;  // gateway.hpp
+struct Event;
 
 /// Tickets carry their door in the upper bits, so that a result finds its way back without a table.
 [[nodiscard]] constexpr Ticket make_ticket(Door door, std::uint64_t sequence) noexcept {

@@ -75,10 +75,10 @@ void Engine::track(Axis& a, Instant now) {
         const Completion completes = listed ? listed->completes : Completion::acknowledged;
         if (completes == Completion::online_again && !online) c.was_silent = true;
         c.was_moving = c.was_moving || (fresh && f.moving);
-        const bool watched = completes != Completion::acknowledged && completes != Completion::reported;
+        const bool by_axis = completes != Completion::acknowledged && completes != Completion::reported;
         // What the axis shows is not the adapter's to tell: its `done` is the drive's acknowledgement then.
-        if (watched) c.result.outcome = Outcome::accepted;
-        if (action && (!watched || !c.until_done)) {
+        if (by_axis) c.result.outcome = Outcome::accepted;
+        if (action && (!by_axis || !c.until_done)) {
             if (completes == Completion::acknowledged) c.result.outcome = Outcome::done;
             Result r = c.result;
             finish(number, std::move(r), now);

@@ -13,6 +13,10 @@
 #include <vector>
 
 #include "gateway/core/command.hpp"
+#include "gateway/core/event.hpp"
+#include "gateway/core/records.hpp"
+#include "gateway/engine/report.hpp"
+#include "gateway/site/site_state.hpp"
 #include "gateway/axis/image.hpp"
 #include "gateway/core/line.hpp"
 #include "gateway/core/sample.hpp"
@@ -22,102 +26,6 @@
 #include "gateway/core/twin.hpp"
 
 namespace axisgate {
-
-/// A site in force: immutable, shared with every reader. Ids are those of the running engine.
-struct SiteState {
-    Site site;
-    std::uint64_t revision = 0;     ///< counts up with each change; also the strong ETag of /site
-    std::vector<AxisId> axis_ids;   ///< by index in site.axes
-    std::vector<DriveId> drive_ids; ///< by index in site.drives
-    std::vector<LineId> line_ids;   ///< by index in site.lines
-};
-
-/// What happened; kept in the store and streamed.
-struct Event {
-    std::uint64_t id = 0;             ///< counts up, without gaps, over the life of the data directory
-    std::int64_t at_unix_ns = 0;
-    Severity severity = Severity::info;
-    std::string kind;                 ///< "alarm", "write", "line", "presence", "site", "command", "input", ...
-    std::string axis, drive, line;    ///< names; empty where they do not apply
-    std::int32_t code = 0;            ///< the drive's own, 0 if none
-    std::string text;
-    std::string who;                  ///< who and from where, for writes and commands; empty otherwise
-    std::string door;
-    std::string parameter, old_value, new_value;  ///< for writes
-};
-struct EventQuery {
-    std::uint64_t since_id = 0;       ///< events with a greater id
-    std::int64_t since_unix_ns = 0;   ///< and not older than this
-    std::string axis;                 ///< empty: any
-    std::optional<Severity> at_least;
-    std::size_t limit = 200;          ///< 1..1000; the newest ones if there are more, or the oldest ones
-    bool oldest_first = false;        ///< the oldest ones if there are more than `limit`: for reading on from `since_id`
-    std::string kind;                 ///< empty: any
-    std::uint64_t before_id = 0;      ///< events with a smaller id, for paging backwards; 0: no bound
-};
-
-struct StoredParameter {
-    std::string parameter;            ///< catalogue id
-    Value value;
-    Value previous;
-    std::string who, door;
-    std::int64_t at_unix_ns = 0;
-};
-struct LiveParameter {
-    Value value;
-    std::int64_t at_unix_ns = 0;
-    Quality quality = Quality::unknown;
-};
-
-struct DriveStatus {
-    Presence presence = Presence::offline;   ///< who serves the axes now
-    bool simulated = false;                  ///< the twin serves them, whether it answers or not
-    bool device_online = false;              ///< the real drive answers
-    std::string text;                        ///< why it is so, for people
-    std::uint32_t silent_exchanges = 0;
-    std::int64_t retry_pause_ms = 0;
-};
-struct LineReport {
-    LineStatus status;                 ///< of the real line; of the twin bus if the URI is "twin"
-    AdapterCounters counters;
-    bool has_twin_bus = false;         ///< some drives of it are simulated now
-    LineStatus twin_status;
-};
-
-/// One recorded frame.
-struct TraceEntry {
-    std::uint64_t sequence = 0;        ///< counts up per line; a gap means that older ones were overwritten
-    std::int64_t at_unix_ns = 0;
-    bool to_drive = false;
-    bool simulated = false;            ///< crossed the twin bus, not the cable
-    Frame frame;
-};
-
-// --- what is kept: snapshots of an axis' parameters, and documents of the site ---
-struct SnapshotValue {
-    std::string parameter;
-    Value value;
-};
-struct SnapshotInfo {
-    std::uint32_t n = 0;  ///< counts up per axis from 1; never given twice
-    std::string name;
-    std::string comment;
-    std::string who;
-    std::int64_t at_unix_ns = 0;
-    std::uint64_t values = 0;  ///< how many
-    std::string family;        ///< of the drive that it was taken from; empty: not known
-};
-struct AxisSnapshot : SnapshotInfo {
-    std::vector<SnapshotValue> parameters;  ///< in order of parameter id
-};
-
-struct SiteRevision {
-    std::uint64_t revision = 0;  ///< counts up; never given twice
-    std::int64_t at_unix_ns = 0;
-    std::string who;
-    std::string text;         ///< the document; empty in site_history()
-    std::uint64_t bytes = 0;  ///< length of the document
-};
 
 /// What a subscriber is told, on the warm executor.
 struct GatewayListener {

@@ -10,6 +10,8 @@
 #include <map>
 
 namespace axisgate {
+
+std::string_view name_of(AuthorityMode mode) noexcept { return mode == AuthorityMode::lease ? "lease" : "free"; }
 namespace {
 namespace json = boost::json;
 

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "gateway/axis/authority.hpp"
+#include "gateway/site/authority_mode.hpp"
 #include "gateway/core/catalogue.hpp"
 #include "gateway/site/fail_safe.hpp"
 #include "gateway/core/family.hpp"

@@ -10,7 +10,6 @@
 #include <map>
 #include <set>
 
-#include "gateway/axis/image.hpp"
 #include "gateway/core/line_uri.hpp"
 #include "gateway/site/mapping.hpp"
 
@@ -170,8 +169,8 @@ void read_list(const json::object& document, std::string_view key, std::vector<T
         faults.push_back({base, fmt::format("{} must be a list", key), "write [...]"});
         return;
     }
-    if (v->get_array().size() > Image::max_axes) {
-        faults.push_back({base, fmt::format("{} has {} entries", key, v->get_array().size()), fmt::format("at most {} are possible", Image::max_axes)});
+    if (v->get_array().size() > max_axes) {
+        faults.push_back({base, fmt::format("{} has {} entries", key, v->get_array().size()), fmt::format("at most {} are possible", max_axes)});
         return;
     }
     std::set<std::string> names;
@@ -345,7 +344,7 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
         a.drive = f.text("drive", true, "feeder");
         a.channel = static_cast<int>(f.integer("channel", 1, 256).value_or(1));
         if (!f.get("number")) f.fault("number", fmt::format("axis {}: number is missing", a.name), "write \"number\": 1, its place in the register map");
-        a.number = static_cast<int>(f.integer("number", 1, Image::max_axes).value_or(0));
+        a.number = static_cast<int>(f.integer("number", 1, max_axes).value_or(0));
         a.unit = f.get("unit") ? f.text("unit", false, "mm") : "";
         if (const auto x = f.number("increments_per_unit", "3200")) {
             a.increments_per_unit = *x;

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gateway/core/twin.hpp"
 #include "gateway/store/files.hpp"
 #include "gateway/store/records.hpp"
 #include "gateway/store/sqlite.hpp"

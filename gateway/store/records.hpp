@@ -2,7 +2,7 @@
 // In: built by the runtime from results, samples, notices and the site. Out: the same, read back.
 // Never holds ids of the running process (AxisId, DriveId): names alone outlive it. Times are nanoseconds since 1970 (UTC).
 //
-// Event, EventQuery, StoredParameter, SiteRevision and the snapshots are gateway/services/gateway.hpp's; what is added to them here is added by derivation, so that a
+// Event, EventQuery, StoredParameter, SiteRevision and the snapshots are gateway/core/records.hpp's; what is added to them here is added by derivation, so that a
 // vector of ours can be handed on as a vector of theirs.
 #pragma once
 
@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "gateway/core/command.hpp"
-#include "gateway/services/gateway.hpp"
+#include "gateway/core/records.hpp"
 #include "gateway/core/value.hpp"
 #include "gateway/store/migrate.hpp"
 

@@ -19,6 +19,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gateway/core/twin.hpp"
 #include "gateway/store/reader.hpp"
 #include "gateway/store/records.hpp"
 

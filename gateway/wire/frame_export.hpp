@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "gateway/services/gateway.hpp"
+#include "gateway/core/frame.hpp"
 
 namespace axisgate {
 

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "gateway/core/frame.hpp"
-#include "gateway/services/gateway.hpp"
 
 namespace axisgate {
 

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "gateway/services/gateway.hpp"
+#include "gateway/core/event.hpp"
 #include "gateway/doors/modbus/wire.hpp"
 
 namespace axisgate::modbus {

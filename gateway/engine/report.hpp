@@ -1,0 +1,29 @@
+// Reports: how a line and a drive are doing, as the engine tells it to whoever asks.
+// In: made by the engine. Out: doors and metrics. Never a part of the round.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "gateway/axis/image.hpp"
+#include "gateway/core/adapter.hpp"
+#include "gateway/core/line.hpp"
+
+namespace axisgate {
+
+struct DriveStatus {
+    Presence presence = Presence::offline;   ///< who serves the axes now
+    bool simulated = false;                  ///< the twin serves them, whether it answers or not
+    bool device_online = false;              ///< the real drive answers
+    std::string text;                        ///< why it is so, for people
+    std::uint32_t silent_exchanges = 0;
+    std::int64_t retry_pause_ms = 0;
+};
+struct LineReport {
+    LineStatus status;                 ///< of the real line; of the twin bus if the URI is "twin"
+    AdapterCounters counters;
+    bool has_twin_bus = false;         ///< some drives of it are simulated now
+    LineStatus twin_status;
+};
+
+}  // namespace axisgate

@@ -374,6 +374,10 @@ void Control::job_answered(Axis& a, const Reply& reply, Turn& t) {
         }
         if (j.kind == Job::Kind::single && !j.places.empty()) {
             begin_motion(axes_[j.places[j.at]], {Motion::Kind::reference, 0, false, false, exchanges_}, t);
+            if (!j.command.until_done) {  // nobody waits for the end: it has begun
+                const Ticket ticket = std::exchange(j.command.ticket, no_ticket);
+                result(a, ticket, Outcome::accepted, Reason::none, "", t);
+            }
         }
         if (j.kind == Job::Kind::native) run_native(a, &reply, t);  // the answer is the answer; the polls go on without it
         return;

@@ -2063,6 +2063,11 @@ export interface components {
             id: string;
             name: string;
             description: string | null;
+            /**
+             * @description by what an action of this name is complete; until then it is accepted, and never done
+             * @enum {string}
+             */
+            completes: "acknowledged" | "target_reached" | "standstill" | "powered" | "online_again" | "reported";
         };
         ErrorCode: {
             code: number;

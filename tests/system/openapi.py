@@ -222,6 +222,9 @@ class Description:
         references(d, "")
         if any("leads nowhere" in x for x in out):
             return out
+        # Security schemes are named by requirements, not by reference.
+        needs = [d.get("security", [])] + [o.get("security", []) for item in d.get("paths", {}).values() for o in item.values() if isinstance(o, dict)]
+        used |= {f"#/components/securitySchemes/{name}" for need in needs for choice in need for name in choice}
         for kind, items in d.get("components", {}).items():
             for name in items:
                 if f"#/components/{kind}/{name}" not in used and f"`{name}`" not in self.text:

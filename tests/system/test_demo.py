@@ -137,7 +137,7 @@ def test_an_auto_drive_whose_far_end_is_killed_is_told_offline_and_let_go(folder
             axis, drive = g.axis("a"), g.get("/drives/a")["status"]
             assert (axis["presence"], axis["online"], axis["simulated"]) == ("offline", False, False), axis
             assert (drive["presence"], drive["online"], drive["simulated"]) == ("offline", False, False), drive
-            assert "after a disable" in drive["text"], drive
+            assert "disable the axis to let the twin take over" in drive["text"], drive
             for body in ({"command": "enable"}, {"command": "quick_stop"}):
                 g.command("a", body, status=503)
             assert g.axis("a")["presence"] == "offline", "a stop that nobody heard lets nothing go"

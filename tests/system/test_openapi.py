@@ -22,7 +22,7 @@ from openapi import Description, sample, strict_json
 TOP = pathlib.Path(__file__).resolve().parents[2]
 TEXT = (TOP / "schema/openapi.yaml").read_text()
 API = Description(TEXT)
-NAMES = {"family": ["uim342"], "line": ["can0"], "drive": ["feeder", "slide"], "axis": ["feeder", "slide"], "parameter": ["AC", "PP[5]", "node_id"], "mapping": ["m1"], "recipe": ["warm-up"], "run": ["1"], "snapshot": ["1"], "revision": ["1"], "user": ["anna"], "token": ["none"], "alarm": ["1"]}
+NAMES = {"family": ["uim342"], "line": ["can0"], "drive": ["feeder", "slide"], "axis": ["feeder", "slide"], "parameter": ["AC", "PP[5]", "node_id"], "mapping": ["m1"], "recipe": ["warm-up"], "run": ["1"], "snapshot": ["1"], "revision": ["1"], "user": ["anna"], "token": ["none"], "alarm": ["1"], "unit": ["2"]}
 RECIPE = {"description": "on and off", "parameters": {"pause": {"type": "number", "default": 0.05}}, "steps": [{"enable": {"axis": "slide"}}, {"wait_s": "${pause}"}, {"disable": {"axis": "slide"}}]}
 
 
@@ -263,6 +263,7 @@ def test_every_write_answers_as_described(gateway):
         ("addMapping", {}, {"unit": 2, "address": 21, "axis": "feeder", "point": "flags"}, 409), ("addMapping", {}, {"unit": 1, "address": 21, "axis": "feeder", "point": "flags"}, 422),
         ("replaceMapping", {"mapping": "new"}, {"unit": 2, "address": 30, "axis": "feeder", "point": "AC", "type": "f64", "scale": 0.5}, 200),
         ("replaceMapping", {"mapping": "nobody"}, {"unit": 2, "address": 30, "axis": "feeder", "point": "AC"}, 404), ("removeMapping", {"mapping": "new"}, None, 204),
+        ("changeMappingUnit", {"unit": "2"}, {"gaps": "refuse"}, 200), ("changeMappingUnit", {"unit": "2"}, {"gaps": "zero"}, 200), ("changeMappingUnit", {"unit": "2"}, {"gaps": "perhaps"}, 422),
         ("addMappings", {}, "unit,address,axis,point\n3,0,feeder,position\n3,2,slide,position\n", 200), ("addMappings", {}, "unit,address,axis,point\n3,0,feeder,position\n", 422),
         ("replaceMappings", {}, "unit;address;axis;point\r\n3;0;feeder;velocity\r\n", 200),
         ("startScan", {"line": "can0"}, {"from": 5, "to": 9, "limit_s": 30}, 202), ("startScan", {"line": "can0"}, {"from": 1}, 409), ("startScan", {"line": "can0"}, {"x": 1}, 422), ("startScan", {"line": "nobody"}, {}, 404),
@@ -321,6 +322,7 @@ def test_every_write_answers_as_described(gateway):
     answers = [check(o, client.request("POST", "/api/v1/axes/feeder/actions", json.dumps({"name": a}).encode()), f"action {a}") for a in actions + ["nothing"]]
     assert answers[-1] in (404, 409, 422), answers
     seen |= {("actOnAxis", s) for s in answers}
+    seen.add(("removeMappings", check(operation("removeMappings"), client.request("DELETE", "/api/v1/mappings?all=1&dry_run=1"), "what would be removed")))
     missing = {(o.id, s) for o in API.operations if o.method != "GET" for s in o.good()} - seen - {("actOnAxis", 200), ("takeSnapshot", 202), ("restoreSnapshot", 202), ("importParameters", 202)}
     assert not missing, f"described but never seen: {missing}"
     assert gateway.get("/site") == site

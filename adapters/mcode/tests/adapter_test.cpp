@@ -154,7 +154,7 @@ TEST(McodeAdapter, HomingMethods) {
     b.run(2s);
     ASSERT_EQ(b.wait(Enable{}).outcome, Outcome::done);
     EXPECT_EQ(b.wait(Home{1}).reason, Reason::not_supported);
-    for (const std::int16_t limit : {17, 18}) {
+    for (const std::int16_t limit : {std::int16_t{17}, std::int16_t{18}}) {
         const Result r = b.wait(Home{limit});
         EXPECT_EQ(r.reason, Reason::not_supported);
         EXPECT_NE(r.text.find("limit switch"), std::string::npos) << r.text;

@@ -244,7 +244,7 @@ Handled write_parameters(Call& c, const AxisPlace& axis, std::vector<JobPoint> p
         for (const auto& p : points) {
             if (const auto a = alternate_of(*axis.catalogue, p.point); a && a->of) deciding.emplace(a->of->parameter, a->of->element);
         }
-        std::ranges::stable_partition(points, [&](const JobPoint& p) { return deciding.contains({p.point.parameter, p.point.element}); });
+        std::stable_partition(points.begin(), points.end(), [&](const JobPoint& p) { return deciding.contains({p.point.parameter, p.point.element}); });
     }
     if (const auto why = why_not_written(c.gateway().picture(axis.id())); !points.empty() && !why.empty())
         return to_response(Problem{

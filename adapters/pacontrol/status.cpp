@@ -174,11 +174,9 @@ void Control::derive(Axis& a, Instant now) {
     f.native_status = static_cast<std::uint32_t>(mode_ & 0xFF) | static_cast<std::uint32_t>(status & 0xFF) << 8 |
                       static_cast<std::uint32_t>(a.limits & 0xFF) << 16;
     // As old as the oldest of what is told together. The switches of an axis that moves are looked at in turn, and are not counted.
-    f.at = std::min(a.aim.shown_at, a.running_at);
-    if (f.moving) {
-        f.at = std::min(f.at, a.velocity_at);
-    } else if (a.status_at != Instant{}) {
-        f.at = std::min(f.at, a.status_at);
+    f.at = a.aim.shown_at;
+    for (const Instant part : {a.running_at, f.moving ? a.velocity_at : a.status_at}) {
+        if (part != Instant{}) f.at = std::min(f.at, part);  // what was not told since the drive answers is not shown either
     }
 }
 

@@ -5,6 +5,7 @@
 #include "gateway/core/command.hpp"
 #include "gateway/core/frame.hpp"
 #include "gateway/core/sample.hpp"
+#include "gateway/core/scan.hpp"
 
 namespace axisgate {
 
@@ -109,6 +110,22 @@ std::string to_text(const Frame& frame) {
     }
     for (const auto b : frame.data()) s += fmt::format("{:02X}", b);
     return s;
+}
+
+std::string_view name_of(ScanReport::State state) noexcept {
+    switch (state) {
+        case ScanReport::State::none:
+            return "none";
+        case ScanReport::State::running:
+            return "running";
+        case ScanReport::State::done:
+            return "done";
+        case ScanReport::State::failed:
+            return "failed";
+        case ScanReport::State::cancelled:
+            return "cancelled";
+    }
+    return "none";
 }
 
 }  // namespace axisgate

@@ -15,22 +15,6 @@ constexpr std::size_t most_at_once = 16;
 constexpr Duration address_limit = std::chrono::seconds(2);
 }  // namespace
 
-std::string_view name_of(ScanReport::State state) noexcept {
-    switch (state) {
-        case ScanReport::State::none:
-            return "none";
-        case ScanReport::State::running:
-            return "running";
-        case ScanReport::State::done:
-            return "done";
-        case ScanReport::State::failed:
-            return "failed";
-        case ScanReport::State::cancelled:
-            return "cancelled";
-    }
-    return "none";
-}
-
 bool Engine::is_probe(DriveId id) noexcept { return id != no_drive && index_of(id) >= first_probe; }
 
 std::string Engine::start_scan(LineId id, ScanWish wish, Instant now) {

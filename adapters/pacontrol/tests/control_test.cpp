@@ -530,12 +530,12 @@ TEST(PacontrolMotion, TraverseUntilInputSetsTheConditionTheOtherWayRound) {
 TEST(PacontrolMotion, ReferencesOfSeveralAxesFollowTheirOrder) {
     Enabled b(4, {{"reference_order", "3,1"}});
     b.control.reference_time = 500ms;
-    const Result r = b.action("reference", "all");
+    const Result r = b.ask(Action{"reference", "all"}, true);
     EXPECT_EQ(r.outcome, Outcome::done) << r.text;
     EXPECT_EQ(b.said(), (Lines{"0A84;3;0;0", "0A84;1;0;0", "0A84;2;0;0", "0A84;4;0;0"}));
     b.mark();
-    EXPECT_TRUE(good(b.action("reference", "2,4")));
-    EXPECT_TRUE(good(b.action("reference", "0x1")));
+    EXPECT_TRUE(good(b.ask(Action{"reference", "2,4"}, true)));
+    EXPECT_TRUE(good(b.ask(Action{"reference", "0x1"}, true)));
     EXPECT_TRUE(good(b.action("reference", "", 3)));
     EXPECT_EQ(b.said(), (Lines{"0A84;2;0;0", "0A84;4;0;0", "0A84;1;0;0", "0A84;4;0;0"}));
     for (const char* bad : {"7", "0", "0x0", "all of them", "17"})

@@ -10,7 +10,7 @@ TEST(PacontrolFeedback, AReferenceRunIsOverOnlyWhenItsPositionIsKnown) {
         a.position = 77;
     b.run(3s);
     ASSERT_EQ(b.feedback(1).position, 77000);
-    const Result r = b.action("reference", "1,2");
+    const Result r = b.ask(Action{"reference", "1,2"}, true);
     EXPECT_EQ(r.outcome, Outcome::done) << r.text;
     for (const std::uint16_t i : {std::uint16_t{0}, std::uint16_t{1}}) {
         EXPECT_EQ(b.feedback(i).position, 0) << "axis " << i + 1 << ", at the instant of the result";

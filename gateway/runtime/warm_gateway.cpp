@@ -1,5 +1,5 @@
-// WarmGateway: see the header.
-// In and out: see the header. Never blocks but for a local read of the database.
+// WarmGateway: the calls that go to the hot thread and come back: commands, sites, samples, scans, events.
+// In: calls, mailboxes. Out: callbacks. At most 1024 commands wait. Never blocks but for a local read of the database.
 #include "gateway/runtime/warm_gateway.hpp"
 
 #include <fmt/format.h>

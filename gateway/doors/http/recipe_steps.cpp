@@ -1,5 +1,5 @@
-// Recipe steps: see the header.
-// In and out: see the header.
+// Recipe steps: a step becomes the body of POST .../commands and goes through its reader; a register goes through the site's mappings.
+// In: steps, the site. Out: commands, faults with pointers. Never submits anything.
 #include "gateway/doors/http/recipe_steps.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Recipe steps: a command goes through the reader of POST .../commands, a register through the standard map's offsets or the site's mappings.
+// Recipe steps: a command goes through the reader of POST .../commands, a register by the standard map's offsets or the mappings.
 // In: steps, the site. Out: commands, faults with pointers. Never submits anything.
 #include "gateway/doors/http/recipe_steps.hpp"
 

@@ -1,4 +1,4 @@
-// WarmGateway: the calls that go to the hot thread and come back: commands, sites, samples, scans, events.
+// WarmGateway: commands, the site, values and events as they are now, twins' hands, the Modbus door's report, metrics.
 // In: calls, mailboxes. Out: callbacks. At most 1024 commands wait. Never blocks but for a local read of the database.
 #include "gateway/runtime/warm_gateway.hpp"
 

@@ -1,5 +1,6 @@
-// Authority: see the header.
-// In and out: there. Never allows two holders.
+// Authority: a lease by client; one that was given to a user alone is bound to the first client of that user that commands.
+// In: requests and their instant. Out: verdicts whose text names the holder.
+// Never allows two holders, and never makes a longer lease shorter.
 #include "gateway/axis/authority.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// CiA 402 over drives that know little more than on, off, move and stop.
-// In and out: see the header. The states that such a drive does not have (ready, switched on) are kept here.
+// CiA 402: a change is tried on a copy of the state and kept only if nothing refused it.
+// In: words, commands, feedback. Out: orders. States that a drive with mere on and off has not (ready, switched on) are kept here.
 // Never sends by itself: every order is a return value.
 #include "gateway/axis/cia402.hpp"
 

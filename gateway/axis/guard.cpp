@@ -1,5 +1,5 @@
-// Guard: limits in increments, messages in the axis' own unit.
-// In and out: see the header. Never clips.
+// Guard: compares in increments, and words its refusals in the axis' own unit.
+// In: a command, limits, the position. Out: nothing, or the refusal with the range that is allowed. Never clips.
 #include "gateway/axis/guard.hpp"
 
 #include <fmt/format.h>

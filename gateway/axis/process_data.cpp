@@ -1,5 +1,5 @@
-// Process data: see the header.
-// In: a number. Out: the member that it belongs to, if it fits.
+// Process data: which member of a write belongs to a point of the standard map, and whether a number fits its width.
+// In: a point and a number. Out: the member set, or false. Never wraps a number that is too large.
 #include "gateway/axis/process_data.hpp"
 
 #include <utility>

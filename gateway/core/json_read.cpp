@@ -1,4 +1,4 @@
-// JSON read: see the header. Boost's parser calls a handler that builds the value and keeps, for each object that is open, its names.
+// JSON read: Boost's parser calls a handler that builds the value and keeps, for each object that is open, the names seen in it.
 // In: text. Out: a value or a fault. Never keeps names of an object that has ended.
 #include "gateway/core/json_read.hpp"
 

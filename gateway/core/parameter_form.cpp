@@ -1,5 +1,5 @@
-// Parameter forms: reading the members from the catalogue's document, and the checks and words made of them.
-// In: document, values. Out: see the header. Read when asked: a write or a page's list is rare beside what is polled.
+// Parameter forms: read from the catalogue's document each time they are asked for: a write or a page's list is rare beside what is polled.
+// In: the document, values. Out: fields, meanings, the form in force, checks in words.
 // Never guesses: what is not written as it should be is a fault at the start (check_forms) and nothing here.
 #include "gateway/core/parameter_form.hpp"
 

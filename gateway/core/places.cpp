@@ -1,5 +1,5 @@
-// Places: see the header.
-// In and out: values. Looked at only when a door is nearly full: its cost is one walk over all connections, and a table of their holders.
+// Places: one walk over all connections and a table of their holders, made only when a door is nearly full.
+// In: connections as values. Out: who gives way. Never spares a holder's work beyond an eighth of all places.
 #include "gateway/core/places.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Access service: see the header.
+// Access service: a queue of hashes and one thread that is started with the first of them.
 // In and out: passwords in, hashes and records out. Never logs a password, a token or a code.
 #include "gateway/runtime/access_service.hpp"
 

@@ -1,5 +1,5 @@
-// Catalogues: see the header.
-// In and out: see the header. Never reads twice.
+// Catalogues: parses schema/families/<family>.json as it was built in; a family whose page has a fault is left out, and the fault is told.
+// In: assets. Out: families with their catalogues, faults in words. Never reads twice.
 #include "gateway/runtime/catalogues.hpp"
 
 #include <memory>

@@ -1,5 +1,5 @@
 // Cold: gathers what came in since the last write into one transaction, writes it, and says so.
-// In and out: see the header. Never holds more than its mailboxes' bounds plus one batch.
+// In: orders of two threads. Out: what was stored, faults. Never holds more than its mailboxes' bounds plus one batch.
 #include "gateway/runtime/cold.hpp"
 
 

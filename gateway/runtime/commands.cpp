@@ -1,5 +1,5 @@
 // Commands: families, catalogue, check, backup, restore.
-// In and out: see the header. Never starts a thread.
+// In: arguments. Out: tables, CSV or JSON on standard output, faults on standard error, the exit code. Never starts a thread.
 #include "gateway/runtime/commands.hpp"
 
 #include <fmt/format.h>

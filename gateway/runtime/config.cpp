@@ -1,5 +1,5 @@
 // Configuration: one table of keys serves the file, the environment and --set.
-// In and out: see the header. Never stops at the first fault.
+// In: texts. Out: values, or faults with file, line and remedy. Never stops at the first fault.
 #include "gateway/runtime/config.hpp"
 
 // The library asserts what hostile text makes untrue ("[*x]"), and in a release build tells the compiler that it holds. It checks the same

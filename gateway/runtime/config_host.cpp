@@ -1,5 +1,5 @@
-// Configuration against this host: see the header. In and out: see the header.
-// A log file or folder that is not there yet is made and taken away again, since rights alone do not tell (a full or read-only disk, /proc).
+// Configuration against this host: tries what rights alone do not tell (a full or read-only disk, /proc).
+// In: a Config. Out: faults. A log file or folder that is not there yet is made and taken away again. Never leaves a file behind.
 #include "gateway/runtime/config_host.hpp"
 
 #include <fcntl.h>

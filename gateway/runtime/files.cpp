@@ -1,5 +1,5 @@
-// Files: see the header.
-// In and out: see the header. Never throws.
+// Files: a file is written beside its place, flushed to disk, and moved over what was there; "-" reads standard input.
+// In: paths, text. Out: text, or a sentence with the system's reason. Never throws, and never reads beyond the limit that is given.
 #include "gateway/runtime/files.hpp"
 
 #include <fcntl.h>

@@ -1,5 +1,6 @@
-// Hot: the turn. Everything that is ready is done, then what it caused is handed on in one go, then the loop sleeps until the next deadline.
-// In and out: see the header. Never does more than a bounded amount of work between two looks at the clock.
+// Hot: the turn. Everything that is ready is done, then what it caused is handed on, then the loop sleeps until the next deadline.
+// In: handlers of the loop, mailboxes, deadlines. Out: results to doors, everything else to the other threads.
+// Never does more than a bounded amount of work between two looks at the clock.
 #include "gateway/runtime/hot.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// Memory file: see the header.
-// In and out: see the header. Never throws.
+// Memory file: an empty text is no memories; a number that does not fit is a fault and not the nearest one.
+// In: memories or text. Out: the other, or a sentence. Never throws.
 #include "gateway/runtime/memory_file.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// Recording: see the header.
-// In and out: see the header. Never throws, whatever the text is.
+// Recording: within the format that is named each line is taken in every form of it: candump's log and screen, hex, the trace's text.
+// In: text of any origin. Out: frames, and what could not be read with its place. Never throws, whatever the text is.
 #include "gateway/runtime/recording.hpp"
 
 #include <fmt/format.h>

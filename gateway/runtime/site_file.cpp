@@ -1,5 +1,5 @@
-// Site file: see the header.
-// In and out: see the header. Never stops at the first fault, but JSON that is none has only one.
+// Site file: a fault's line is found by the JSON pointer of the place that is wrong.
+// In: a path. Out: a site or all its faults; JSON that is none has only one. Never stops at the first fault.
 #include "gateway/runtime/site_file.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// Site names: see the header. In and out: see the header.
-// Never takes one former name for two new ones.
+// Site names: an entry is known by where it stands: a drive by line and address, an axis by drive and channel.
+// In: two documents. Out: what is there and what was renamed. Never takes one former name for two new ones.
 #include "gateway/runtime/site_names.hpp"
 
 #include <boost/json/serialize.hpp>

@@ -1,4 +1,6 @@
-// Site trial: see the header. In and out: see the header.
+// Site trial: the mark is on disk before the site is: a mark without a newer site means that nothing was applied.
+// In: the store. Out: the former site as the newest revision, or, where that is not kept any more, an event that says so.
+// Never leaves the mark behind when it has succeeded.
 #include "gateway/runtime/site_trial.hpp"
 
 #include <fmt/format.h>

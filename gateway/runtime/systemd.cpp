@@ -1,5 +1,5 @@
 // systemd: sd_notify(3)'s protocol is one datagram, which spares the library.
-// In and out: see the header. Never blocks: the socket is sent to without waiting.
+// In: texts like "READY=1". Out: datagrams; the watchdog's interval from the environment. Never blocks: it sends without waiting.
 #include "gateway/runtime/systemd.hpp"
 
 #include <sys/socket.h>

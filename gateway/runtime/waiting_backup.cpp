@@ -1,5 +1,6 @@
-// Waiting backup: see the header. In and out: see the header.
-// The file is the backup itself; who laid it down stands beside it in a small text, which may be missing.
+// Waiting backup: tried in a folder of its own first: what is laid down is a database that this program opens.
+// In: bytes. Out: the file; who laid it down stands beside it in a small text, which may be missing.
+// Never leaves a text that tells of another file.
 #include "gateway/runtime/waiting_backup.hpp"
 
 #include <fcntl.h>

@@ -1,5 +1,5 @@
-// WarmGateway: see the header.
-// In and out: see the header. Never blocks but for a local read of the database.
+// WarmGateway: commands, the site, values and events as they are now, twins' hands, the Modbus door's report, metrics.
+// In: calls, mailboxes. Out: callbacks. At most 1024 commands wait. Never blocks but for a local read of the database.
 #include "gateway/runtime/warm_gateway.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // WarmGateway, second part: snapshots, the site's history and its staged changes, registers as the Modbus door shows them, backups.
-// In and out: see the header. Reads of the database are local and short; everything that writes goes to the cold thread.
+// In: calls, the end of a trial. Out: callbacks. Reads of the database are local and short. Never writes by itself: the cold thread does.
 #include <fmt/format.h>
 
 #include <boost/asio/post.hpp>

@@ -1,4 +1,5 @@
-// AuthorityMode: what the site chooses for an axis: whether commanding it takes a lease. In and out: a value. Never decides who may command.
+// AuthorityMode: what the site chooses for an axis: whether commanding it takes a lease.
+// In and out: a value. Never decides who may command.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// Fail-safe: names, and the choice of an action. In: a cause and what the axis does. Out: the action. Never acts by itself.
+// Fail-safe: names, and the choice of an action: the site's for that axis and cause, else a halt of a velocity move.
+// In: a cause and what the axis does. Out: the action. Never acts by itself.
 #include "gateway/site/fail_safe.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// Site stage: see the header. In and out: see the header. Never reads a clock.
+// Site stage: a step begins with begin_...() and counts when its storing is told; the difference is made entry by entry, by name.
+// In: sites, callers, times. Out: states, refusals, differences. Never reads a clock.
 #include "gateway/site/site_stage.hpp"
 
 #include <fmt/format.h>

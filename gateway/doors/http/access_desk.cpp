@@ -1,5 +1,5 @@
-// Access desk: see the header.
-// In and out: credentials, times, identities.
+// Access desk: a cookie's session goes before a token, and local access comes last.
+// In: credentials and times. Out: identities. Never lets an unknown cookie or a wrong token pass for local access.
 #include "gateway/doors/http/access_desk.hpp"
 
 #include <arpa/inet.h>

@@ -1,5 +1,5 @@
-// Access gate: see the header.
-// In: headers. Out: identities and refusals.
+// Access gate: reads cookies, Authorization and the headers by which proxies speak for somebody else.
+// In: headers. Out: identities and refusals. Never takes an unknown scheme for no credentials.
 #include "gateway/doors/http/access_gate.hpp"
 
 #include <fmt/format.h>

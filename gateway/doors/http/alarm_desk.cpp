@@ -1,5 +1,6 @@
-// Alarm desk: see the header.
-// In and out: see the header.
+// Alarm desk: changed alarms go to the disk in batches, one at a time, each with the number of the last event that it knows of.
+// In: events, what people do about alarms, deadlines. Out: documents of the store, answers when they are on disk.
+// Never answers an acknowledgement before it is stored.
 #include "gateway/doors/http/alarm_desk.hpp"
 
 #include <fmt/format.h>

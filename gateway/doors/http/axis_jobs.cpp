@@ -1,4 +1,5 @@
-// Axis jobs: see the header. In and out: see the header. Never blocks: each step begins in the answer of the one before.
+// Axis jobs: each step begins in the answer of the one before; where a Gateway answers inside submit, a loop goes on, no deeper call.
+// In: points, answers. Out: values and failures, told once. Never blocks.
 #include "gateway/doors/http/axis_jobs.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// Axis texts: see the header.
-// In: pictures. Out: text.
+// Axis texts: a text is made anew when its picture has another revision, or when the machine's clock has been set since.
+// In: pictures. Out: text. Never reads the picture before its revision: a newer picture is then at worst rendered twice.
 #include "gateway/doors/http/axis_texts.hpp"
 
 #include <fmt/format.h>

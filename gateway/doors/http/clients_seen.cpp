@@ -1,4 +1,5 @@
-// ClientsSeen: see the header. In and out: there. Never grows beyond its bound.
+// ClientsSeen: a short list behind a lock, searched from end to end and sorted when it is asked for.
+// In: names with the moment. Out: the list, newest first, without those that are too old. Never grows beyond its bound.
 #include "gateway/doors/http/clients_seen.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Command reader: see the header.
-// In: JSON. Out: a CommandBody or faults.
+// Command reader: one table of the commands with the members that each may have; whole increments stay exact below 2^53.
+// In: JSON. Out: a CommandBody or all faults. Never takes a member that the command has no use for.
 #include "gateway/doors/http/command_reader.hpp"
 
 #include <fmt/format.h>

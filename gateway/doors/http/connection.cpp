@@ -1,5 +1,6 @@
-// Connection: see the header. Beast parses; what is written is made here.
-// In: bytes. Out: bytes.
+// Connection: Beast parses requests; the text of every answer's head is made here, and leaves in one gathered write with the body.
+// In: bytes. Out: bytes. What is read after a last answer is thrown away for a while, so that the answer is not lost in a reset.
+// Never takes a line end within a header's value.
 #include "gateway/doors/http/connection.hpp"
 
 #include <fmt/format.h>

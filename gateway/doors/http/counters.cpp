@@ -1,5 +1,5 @@
-// Counters: as Prometheus text, exposition format 0.0.4.
-// In and out: see the header.
+// Counters: Prometheus text, exposition format 0.0.4.
+// In: what the door has counted. Out: lines with HELP and TYPE. Never a label that a client chose.
 #include "gateway/doors/http/counters.hpp"
 
 #include <fmt/format.h>

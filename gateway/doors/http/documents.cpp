@@ -1,5 +1,5 @@
-// Documents: see the header; schema/openapi.yaml names every member.
-// In: values of the core. Out: JSON. What was never said by a drive is null here, not 0.
+// Documents: schema/openapi.yaml names every member; a test compares both ways.
+// In: values of the core. Out: JSON. What was never told by a drive is null here, not 0. Never asks the gateway.
 #include "gateway/doors/http/documents.hpp"
 
 #include <algorithm>

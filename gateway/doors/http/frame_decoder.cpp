@@ -1,5 +1,5 @@
-// Frame decoder: see the header.
-// In: recorded frames. Out: sentences.
+// Frame decoder: a reader of its own for the cable and for the twin bus, since an answer is read by the request that went before it.
+// In: recorded frames. Out: sentences; none for a line or family that is not known. Never mixes the two.
 #include "gateway/doors/http/frame_decoder.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// HandServer: see the header.
-// In and out: see the header. Never keeps a connection past its time.
+// HandServer: Beast's server in its plainest form; a PATCH looks up all names first, so that all items are set or none.
+// In: requests. Out: the hand's items as JSON. Never keeps a connection past its time.
 #include "gateway/doors/http/hand_server.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// Head: see the header.
-// In and out: bytes and fields. Looks at each byte of a head once it is whole, and only for its end before.
+// Head: looks at each byte of a head once when it is whole, and only for its end before.
+// In: bytes and fields. Out: where it ends, or what two programs could read in two ways. Never takes a folded line or a bare line end.
 #include "gateway/doors/http/head.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// Hosts: see the header.
-// In and out: texts of headers.
+// Hosts: upper case, a port and a final dot make no other name; an Origin and a Host are compared with the scheme's port filled in.
+// In: texts of headers. Out: yes or no. Never takes what is written wrongly for a name.
 #include "gateway/doors/http/hosts.hpp"
 
 #include <algorithm>

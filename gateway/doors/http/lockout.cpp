@@ -1,5 +1,5 @@
-// Lockout: see the header.
-// In and out: keys, times, pauses.
+// Lockout: doubling pauses in a table by key. A clock that was set back holds nobody up for longer than the pause itself.
+// In: keys and times. Out: pauses. Never reads a clock.
 #include "gateway/doors/http/lockout.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Message: lookups in headers and the words for methods.
-// In and out: see the header.
+// Message: lookups in headers and the names of methods.
+// In: a request or a response. Out: values of fields. Never changes what came.
 #include "gateway/doors/http/message.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Preconditions: see the header.
-// In and out: see the header. Keeps nothing.
+// Preconditions: tags are FNV-1a of what makes a state; nothing depends on their being hard to forge.
+// In: states, headers. Out: tags, 412. Keeps nothing; never decides for the site, which has its revision.
 #include "gateway/doors/http/preconditions.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// Problem: see the header.
-// In: faults and results. Out: responses.
+// Problem: one table from a refusal's reason to the status and the title that HTTP gives it.
+// In: faults and results. Out: responses. Texts that may repeat what a client sent are cut at 1024 bytes. Never drops the drive's code.
 #include "gateway/doors/http/problem.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
-// Recipe claims: see the header.
-// In and out: see the header.
+// Recipe claims: read from the ticket that the axis' picture names as its motion, and from who holds the axis now.
+// In: commands, results, pictures. Out: whose a motion is.
+// Never claims a motion that went on under another command beside a run's action.
 #include "gateway/doors/http/recipe_claims.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// Recipe desk: see the header.
-// In and out: see the header.
+// Recipe desk: turns a run when its deadline has come or an answer is there, and hands each request on as a command of this door.
+// In: runs, answers, time. Out: commands, reports, events. Never keeps a pointer into the site: it may change during a run.
 #include "gateway/doors/http/recipe_desk.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
-// Recipe reports: see the header.
-// In and out: see the header. A run under way is one document per recipe of a kind of its own, so that a start finds it without reading all.
+// Recipe reports: a run under way is one document per recipe of a kind of its own, so that a start finds it without reading all.
+// In: reports. Out: documents of at most 1,000,000 bytes: a larger report loses the ends of its texts, then all of them.
+// Never orders the removal of a run's mark before its report: whatever ends the program between the two leaves both.
 #include "gateway/doors/http/recipe_reports.hpp"
 
 #include <fmt/format.h>

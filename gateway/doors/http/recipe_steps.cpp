@@ -1,5 +1,5 @@
-// Recipe steps: see the header.
-// In and out: see the header.
+// Recipe steps: a command goes through the reader of POST .../commands, a register by the standard map's offsets or the mappings.
+// In: steps, the site. Out: commands, faults with pointers. Never submits anything.
 #include "gateway/doors/http/recipe_steps.hpp"
 
 #include <fmt/format.h>

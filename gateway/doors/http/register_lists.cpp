@@ -1,5 +1,5 @@
-// Register lists: see the header. In: mappings. Out: texts.
-// Never lets a comment or a name end what it stands in.
+// Register lists: names become identifiers of IEC 61131-3; truth values and texts become words: BOOL and STRING would move what follows.
+// In: mappings. Out: CSV, a page, structured text. Never lets a comment or a name end what it stands in.
 #include "gateway/doors/http/register_lists.hpp"
 
 #include <fmt/format.h>

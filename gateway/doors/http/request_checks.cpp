@@ -1,5 +1,5 @@
-// Request checks: see the header.
-// In and out: see the header. Nothing here knows a route by its name.
+// Request checks: by the list at the route; packed bodies are refused, since a few bytes can unpack to any number.
+// In: a request, its route's list. Out: a refusal, or nothing. Never knows a route by its name.
 #include "gateway/doors/http/request_checks.hpp"
 
 #include <fmt/format.h>

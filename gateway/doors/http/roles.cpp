@@ -1,5 +1,5 @@
-// Roles: their names.
-// In and out: see the header.
+// Roles: their names, in the order of what they may do.
+// In: a name or a role. Out: the other, or nothing. Never a role for an unknown name.
 #include "gateway/doors/http/roles.hpp"
 
 #include <array>

@@ -1,5 +1,5 @@
 // Secrets: libsodium does the work; the rules for names and passwords are here.
-// In and out: see the header.
+// In: texts. Out: ids, digests, hashes, refusals. Passwords that are tried first are found by rule and a short list. Never stores anything.
 #include "gateway/doors/http/secrets.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// Server: see the header.
-// In: connections. Out: sessions.
+// Server: puts desks, hub, router and listeners together, and makes room when all connections are taken.
+// In: connections, timers. Out: sessions. A client that is turned away gets one small 503 that nobody waits for. Never blocks.
 #include "gateway/doors/http/server.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// Site change: see the header. In: plans. Out: answers, through the Gateway.
-// Never runs two changes at a time: the queue of the door gives each its turn.
+// Site change: a change that lost a race against another one is planned anew on the newer site, three times at most.
+// In: plans. Out: answers, through the Gateway. Never runs two changes at a time: the queue of the door gives each its turn.
 #include "gateway/doors/http/site_change.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// Site edit: see the header.
-// In and out: JSON documents.
+// Site edit: a new name of a line or drive is put into what hangs on it; an axis that mappings name keeps its name until they are changed.
+// In: JSON documents. Out: the changed document. Never renames by a name that is missing or no text: parse_site refuses that.
 #include "gateway/doors/http/site_edit.hpp"
 
 #include <fmt/format.h>

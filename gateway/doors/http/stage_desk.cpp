@@ -1,4 +1,5 @@
-// Stage desk: see the header. In and out: see the header. Never keeps more than the present stage.
+// Stage desk: ids are letters of this run of the program and a number, so that an id of before a restart fits nothing.
+// In: the stage, callers. Out: ids, whose it is. Never keeps more than the present stage.
 #include "gateway/doors/http/stage_desk.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// Static files: see the header.
-// In: targets. Out: responses.
+// Static files: packed when the page was built; the packed form is a representation with a tag of its own.
+// In: targets, Accept fields. Out: responses. Never packs during a request.
 #include "gateway/doors/http/static_files.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// Stream hub: see the header.
-// In: requests, events, time. Out: frames in queues.
+// Stream hub: asks each source for its version once per period and hands the same frame to all who subscribed to it.
+// In: requests, events, time. Out: frames in queues. A period that was missed is not made up for. Never waits for a slow client.
 #include "gateway/doors/http/stream_hub.hpp"
 
 #include <fmt/format.h>

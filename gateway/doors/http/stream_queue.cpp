@@ -1,5 +1,5 @@
-// Stream queue: see the header.
-// In: frames. Out: batches.
+// Stream queue: a newer state takes the place of the one that waits, so the order of topics stays.
+// In: frames. Out: batches. Never drops an event without saying so: one too many is refused.
 #include "gateway/doors/http/stream_queue.hpp"
 
 namespace axisgate::http {

@@ -1,5 +1,5 @@
-// Stream request: see the header.
-// In: text. Out: a request or a fault.
+// Stream request: a JSON object whose members are all known.
+// In: text. Out: a request or a fault. Never reads on behind the first fault.
 #include "gateway/doors/http/stream_request.hpp"
 
 #include <fmt/format.h>

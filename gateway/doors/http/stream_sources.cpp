@@ -1,5 +1,6 @@
-// Stream sources: see the header.
-// In: the Gateway's pictures and reports. Out: shared frames.
+// Stream sources: what is compared leaves out the age, which belongs to the message and is no news by itself.
+// In: pictures and reports. Out: shared frames with a version. Drives and lines are looked at slowly, axes when their picture changed.
+// Never makes a new version of what reads the same.
 #include "gateway/doors/http/stream_sources.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
-// Text: see the header. Everything here is a function of its arguments.
+// Text: small readers and writers of HTTP's languages, each by the section of its RFC.
+// In: bytes. Out: values or valid UTF-8. Every function depends on its arguments alone. Never guesses at bad input.
 #include "gateway/doors/http/text.hpp"
 
 #include <fmt/format.h>

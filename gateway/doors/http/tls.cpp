@@ -1,5 +1,5 @@
-// TLS identity: see the header. OpenSSL 3.
-// In and out: see the header.
+// TLS identity: OpenSSL 3; a certificate of our own begins an hour back, because clients' clocks differ.
+// In: PEM texts, names, the time. Out: an identity, or faults in words. Never asks for a passphrase: a locked key cannot be read.
 #include "gateway/doors/http/tls.hpp"
 
 #include <fmt/format.h>

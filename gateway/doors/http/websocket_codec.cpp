@@ -1,5 +1,5 @@
-// WebSocket codec: see the header. Section numbers are RFC 6455's.
-// In: bytes. Out: messages, frames, close codes.
+// WebSocket codec: section numbers are RFC 6455's; SHA-1 is here because the handshake asks for it, no secret depends on it.
+// In: bytes. Out: messages, frames, close codes. Never reads on behind the first fault.
 #include "gateway/doors/http/websocket_codec.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// WebSocket session: see the header.
-// In: bytes. Out: bytes.
+// WebSocket session: one write carries at most 64 KiB and the kernel holds 128 KiB, so that old states do not wait before new ones.
+// In: bytes. Out: bytes. Asks with a ping also who sends much: only a pong shows that a client reads. Never two writes at once.
 #include "gateway/doors/http/websocket_session.hpp"
 
 #include <boost/asio/write.hpp>

@@ -1,5 +1,5 @@
-// Access: see the header.
-// In and out: there. Never throws on a bad text.
+// Access: addresses are compared as IPv6 (IPv4 as ::ffff:a.b.c.d); a pure stop is told by function, register and bits of the control word.
+// In: texts of the configuration, addresses, requests. Out: yes or no. Never throws on a bad text.
 #include "gateway/doors/modbus/access.hpp"
 
 #include <arpa/inet.h>

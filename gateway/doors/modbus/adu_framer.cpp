@@ -1,4 +1,5 @@
-// ADU framer: see the header. The buffer is linear; what is left of it moves to the front only when the free end has become short.
+// ADU framer: the buffer is linear; what is left of it moves to the front only when the free end has become short.
+// In: bytes. Out: whole ADUs, or that this is not Modbus. Never copies an ADU to hand it out.
 #include "gateway/doors/modbus/adu_framer.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// Connection: see the header. In the steady state a request costs one recv and one send.
+// Connection: in the steady state a request costs one recv and one send, and no change of what epoll waits for.
+// In: readiness. Out: answers. Never reads from a client whose answers wait: TCP holds it back.
 #include "gateway/doors/modbus/connection.hpp"
 
 #include <sys/socket.h>

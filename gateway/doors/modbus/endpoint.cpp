@@ -1,4 +1,5 @@
-// Endpoint: see the header.
+// Endpoint: `localhost` is 127.0.0.1, an IPv6 address stands in brackets, the port is needed.
+// In: a text. Out: the endpoint, or a sentence with an example. Never asks a name server.
 #include "gateway/doors/modbus/endpoint.hpp"
 
 #include <boost/asio/ip/address.hpp>

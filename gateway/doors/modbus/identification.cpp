@@ -1,4 +1,5 @@
-// Identification: see the header.
+// Identification: objects by category (basic, regular, extended), streamed or one by one (Modbus application protocol V1.1b3, 6.21).
+// In: objects, a checked request. Out: the answer's bytes. Never cuts an object in two.
 #include "gateway/doors/modbus/identification.hpp"
 
 #include <algorithm>

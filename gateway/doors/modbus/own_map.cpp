@@ -1,4 +1,5 @@
-// Own map: see the header. In: the image, mappings. Out: registers, planned commands.
+// Own map: entries lie in order of their addresses and do not overlap, so a request is one search and a walk.
+// In: the image, mappings. Out: registers, planned commands; registers 32..44 of an axis in one request act together, control word last.
 // Never allocates in a read of points that are not texts.
 #include "gateway/doors/modbus/own_map.hpp"
 

@@ -1,4 +1,5 @@
-// Parameter channel: see the header. Checks against the catalogue happen here, before anything goes to the line.
+// Parameter channel: checks against the catalogue before anything goes to the line; a single stands for its shortest decimal number.
+// In: register writes, results. Out: commands, registers. Never shows a read value that does not fit the value register: it is refused.
 #include "gateway/doors/modbus/parameter_channel.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,6 @@
-// PDU: see the header.
+// PDU: a read is answered at once; a write leaves a LateAnswer and as many tickets as it has commands.
+// In: a request PDU. Out: an answer, an exception, or nothing yet. Faults of address and state go before "busy": one fault is told one way.
+// Never carries out a part of a write that it must refuse.
 #include "gateway/doors/modbus/pdu.hpp"
 
 #include <fmt/format.h>

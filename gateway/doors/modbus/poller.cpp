@@ -1,4 +1,5 @@
-// Poller: see the header. An epoll descriptor inside the io_context's own: it is readable while one of its sockets is ready.
+// Poller: an epoll descriptor inside the io_context's own: it is readable while one of its sockets is ready.
+// In: sockets. Out: those that are ready, asked for again in the same turn while there are more. Never runs beyond its bound per turn.
 #include "gateway/doors/modbus/poller.hpp"
 
 #include <unistd.h>

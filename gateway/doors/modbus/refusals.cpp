@@ -1,4 +1,4 @@
-// Refusals: rows, rates and words; see the header.
+// Refusals: rows of identical refusals, and two buckets: the client's own first, so that who is over it uses up nothing of the others'.
 // In: refusals. Out: events. Never looks at a clock: a bucket fills by the instants that it is given.
 #include "gateway/doors/modbus/refusals.hpp"
 

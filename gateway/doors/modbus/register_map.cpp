@@ -1,4 +1,5 @@
-// Register map: the table of the standard map, rendering and reading. See the header.
+// Register map: which half of a 32-bit value an offset is, and whether it can be written, is worked out from the one table at compile time.
+// In: a picture, register data. Out: big-endian registers, a ProcessData. Positions keep their low 32 bits. Never lets a velocity wrap.
 #include "gateway/doors/modbus/register_map.hpp"
 
 #include <algorithm>

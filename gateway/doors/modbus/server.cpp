@@ -1,4 +1,5 @@
-// Server: see the header. Places are found by number; the instants of all places lie together, so that a sweep is a walk over one array.
+// Server: places are found by number; the instants of all places lie together, so that a sweep is a walk over one array.
+// In: sockets, results, time. Out: connections; the word that a host's last connection has ended. Never ends one inside its own call.
 #include "gateway/doors/modbus/server.hpp"
 
 #include <netinet/in.h>

@@ -1,5 +1,5 @@
-// Session: see the header. Answers leave in the order of the requests; writes may be on their way together, so that a stop that follows a
-// slow write is not held up by it.
+// Session: answers leave in the order of the requests; writes may be on their way together, so that a stop that follows a
+// slow write is not held up by it. In: bytes, results. Out: answers. Never begins a read while a write before it has no answer.
 #include "gateway/doors/modbus/session.hpp"
 
 #include <algorithm>

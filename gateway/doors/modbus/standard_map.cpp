@@ -1,4 +1,5 @@
-// Standard map: see the header. A block is valid while its axis' cell has the revision it was rendered from.
+// Standard map: a block is valid while its axis' cell has the revision it was rendered from; age and heartbeat are put in at each read.
+// In: requests by address. Out: registers, commands. Never takes a result of a parameter exchange for an axis that has been replaced.
 #include "gateway/doors/modbus/standard_map.hpp"
 
 #include <fmt/format.h>

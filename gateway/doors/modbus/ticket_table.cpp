@@ -1,4 +1,5 @@
-// Ticket table: see the header. Used places form a list by age, free ones a stack; a ticket is place and generation.
+// Ticket table: used places form a list by age, free ones a stack; a ticket is place and generation.
+// In: waiting requests. Out: tickets, and who waited. Never searches to open or close one; only forgetting a client walks the list.
 #include "gateway/doors/modbus/ticket_table.hpp"
 
 #include <algorithm>

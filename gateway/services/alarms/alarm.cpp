@@ -1,5 +1,5 @@
-// Alarms: see the header.
-// In: events and what people do about them. Out: the list.
+// Alarms: a fault that an axis tells in several ways is one alarm; after another one begins to serve its drive it must show again in time.
+// In: events, acknowledgements, shelves, time. Out: the list and what changed. Never takes the end of one drive's fault for another's.
 #include "gateway/services/alarms/alarm.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// Recipe run: see the header.
-// In and out: see the header.
+// Recipe run: goes on until a step waits for an answer or a time; blocks and repeats are a stack of levels.
+// In: answers, time, values of axes. Out: requests, the report. Never asks for anything but stops once it has failed or was cancelled.
 #include "gateway/services/recipes/recipe_run.hpp"
 
 #include <fmt/format.h>

@@ -221,21 +221,20 @@ void Engine::check_hold(Axis& a, Instant now) {
 }
 
 /// A velocity move has no target that could be checked beforehand: it is halted so that it comes to rest at the site's limit, as far as its
-/// ramp is known: early by that, by the age of what is known, by the wait for the next position, and by the halt's way down the line, which takes
-/// about as long.
+/// ramp is known: early by that, by the wait for the next position, and by the halt's way down the line, which takes about as long.
 void Engine::check_run(Axis& a, Instant now) {
     const AxisFeedback& f = a.profile.feedback();
     if (f.position != a.run.position) {
         a.run.position = f.position;
-        a.run.round_s = std::clamp(std::chrono::duration<double>(f.at - std::exchange(a.run.since, f.at)).count(), 0.0, 1.0);
+        const double round_s = std::clamp(std::chrono::duration<double>(now - std::exchange(a.run.since, now)).count(), 0.0, 1.0);
+        a.run.round_s = std::max(round_s, 0.8 * a.run.round_s);  // rounds differ: one that was long may come again
     }
     if (a.run.velocity == 0 || !f.moving || f.velocity == 0) return;
     const bool up = f.velocity > 0;
     const auto& limit = up ? a.limits.position_max : a.limits.position_min;
     if (!limit) return;
     const double speed = std::fabs(static_cast<double>(f.velocity)), rate = static_cast<double>(a.run.deceleration);
-    const double age_s = std::clamp(std::chrono::duration<double>(now - f.at).count(), 0.0, 1.0);
-    const double needed = speed * (2 * a.run.round_s + age_s) + (rate > 0 ? speed * speed / (2 * rate) : 0);
+    const double needed = 2 * speed * a.run.round_s + (rate > 0 ? speed * speed / (2 * rate) : 0);
     const double left = static_cast<double>(up ? *limit - f.position : f.position - *limit);
     if (left > needed) return;
     Event e;

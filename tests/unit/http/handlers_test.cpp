@@ -52,14 +52,14 @@ TEST_F(HttpTest, Catalogue) {
     EXPECT_EQ(
         json_text(p[0]),
         R"({"id":"AC","name":"acceleration","group":"motion","type":"u32","unit":"pulse/s^2","min":1,"max":65000000,"default":20000,"access":"RW",)"
-        R"("storage":"eeprom","addressing":false,"live":false,"description":"Acceleration of motions.","allowed":null,"first":null,"count":null,"selector":0})");
+        R"("storage":"eeprom","addressing":false,"live":false,"description":"Acceleration of motions.","allowed":null,"fields":null,"meanings":null,"alternate":null,"choice":[],"first":null,"count":null,"selector":0})");
     EXPECT_EQ(json_text(p[1]),
               R"({"id":"ML","name":"model","group":"identity","type":"text","unit":null,"min":null,"max":null,"default":null,"access":"R",)"
-              R"("storage":null,"addressing":false,"live":false,"description":"Model name.","allowed":null,"first":null,"count":null,"selector":null})");
+              R"("storage":null,"addressing":false,"live":false,"description":"Model name.","allowed":null,"fields":null,"meanings":null,"alternate":null,"choice":[],"first":null,"count":null,"selector":null})");
     EXPECT_EQ(json_text(p[3].at("allowed")), R"([{"value":1,"meaning":"full"},{"value":16,"meaning":"sixteenth"}])");
     EXPECT_EQ(json_text(p[4].at("first")) + json_text(p[4].at("count")), "18");
     EXPECT_EQ(json_text(p[4].at("selector")), std::to_string(65536 + 4)) << "of its first element";
-    EXPECT_EQ(call("GET", "/api/v1/families/demo/commands").text, R"([{"id":"BG","name":"begin","description":"Starts."}])");
+    EXPECT_EQ(call("GET", "/api/v1/families/demo/commands").text, R"([{"id":"BG","name":"begin","description":"Starts.","completes":"acknowledged"}])");
     EXPECT_EQ(call("GET", "/api/v1/families/demo/errors").text,
               R"([{"code":49,"through":null,"kind":"error","name":"overcurrent","text":"too much current","cause":"short","remedy":"look"}])");
     for (const auto* path :

@@ -82,7 +82,7 @@ TEST_F(HttpParameters, ATableGivesTheFormItsOwnValuesNeed) {
     gateway.catalogue = *Catalogue::parse(forms, faults);
     know("IC[4]", std::int64_t{1});
     know("AC", std::int64_t{500});
-    const auto put = [&](const std::string& rows) { return call("PUT", base + ".csv?dry_run=1", "parameter,value\n" + rows); };
+    const auto put = [&](const std::string& rows) { return call("PUT", base + ".csv?dry_run=1", "parameter,value\n" + rows, {{"Content-Type", "text/csv"}}); };
     EXPECT_EQ(put("AC,100000\n").status, 422u) << "the drive has times";
     const auto both = put("AC,100000\nIC[4],0\n");
     EXPECT_EQ(both.status, 200u) << both.text << "the table makes them rates";

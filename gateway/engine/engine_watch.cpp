@@ -229,11 +229,13 @@ void Engine::check_run(Axis& a, Instant now) {
         const double round_s = std::clamp(std::chrono::duration<double>(now - std::exchange(a.run.since, now)).count(), 0.0, 1.0);
         a.run.round_s = std::max(round_s, 0.8 * a.run.round_s);  // rounds differ: one that was long may come again
     }
-    if (a.run.velocity == 0 || !f.moving || f.velocity == 0) return;
-    const bool up = f.velocity > 0;
+    if (a.run.velocity == 0 || !f.moving) return;
+    // A drive may tell its place before its speed: then it is taken to go as it was told.
+    const std::int64_t velocity = f.velocity != 0 ? f.velocity : a.run.velocity;
+    const bool up = velocity > 0;
     const auto& limit = up ? a.limits.position_max : a.limits.position_min;
     if (!limit) return;
-    const double speed = std::fabs(static_cast<double>(f.velocity)), rate = static_cast<double>(a.run.deceleration);
+    const double speed = std::fabs(static_cast<double>(velocity)), rate = static_cast<double>(a.run.deceleration);
     const double needed = 2 * speed * a.run.round_s + (rate > 0 ? speed * speed / (2 * rate) : 0);
     const double left = static_cast<double>(up ? *limit - f.position : f.position - *limit);
     if (left > needed) return;

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "adapters/pacontrol/elements.hpp"
-#include "gateway/core/adapter.hpp"
 #include "gateway/axis/demand.hpp"
+#include "gateway/core/adapter.hpp"
 
 namespace axisgate::pacontrol {
 
@@ -66,8 +66,8 @@ struct Wait {
 
 /// Where the axis should be (demand.cpp): by the control's own word where it has one (1915), else by the orders that it acknowledged.
 struct Aim {
-    enum Parameter : std::uint8_t { traverse_speed, start_stop_speed, acceleration, gear };
-    static constexpr std::array<std::uint8_t, 4> numbers{0x01, 0x05, 0x06, 0x07};  ///< of the axis parameters [L2214-L2220]
+    enum Parameter : std::uint8_t { traverse_speed, start_stop_speed, acceleration, gear, enable_mode };
+    static constexpr std::array<std::uint8_t, 5> numbers{0x01, 0x05, 0x06, 0x07, 0x32};  ///< of the axis parameters [L2214-L2220, L2268]
     struct Known {
         bool read = false;            ///< asked and answered, be it by a refusal
         std::optional<double> value;  ///< AE, AE/s, AE/s2; gear: AE per motor revolution

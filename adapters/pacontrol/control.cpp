@@ -87,12 +87,17 @@ void Control::set_axes(const DriveSetup& setup, Turn& t) {
         const auto it = std::ranges::find(setup.axes, a.channel, &AxisSetup::channel);
         const AxisId id = it == setup.axes.end() ? no_axis : it->id;
         if (id == a.id) continue;
+        const bool moves = a.running || a.motion.active();
         fail_axis(a, Reason::line_down, "the axis was removed or changed", t);
         const int channel = a.channel;
         a = Axis{};
         a.channel = channel;
         a.id = id;
         first_cycle_ = true;
+        if (!moves || phase_ != Phase::ready || stops_.size() >= stop_limit) continue;
+        Stop s;  // nobody could stop it any more
+        s.axis = place(a);
+        stops_.push_back(s);
     }
     polls_.clear();
 }

@@ -195,7 +195,8 @@ void Control::run_mode(Axis& a, const Reply* reply, Turn& t) {
     wait(a, j.limit == never ? t.now + change_limit : j.limit);
 }
 
-/// The last axis is off: a control that this gateway brought into ONLINE goes back to home position, where parameters can be read.
+/// The last axis is off: a control that this gateway brought into ONLINE goes back to home position, where parameters can be read, unless
+/// an axis would have power there.
 void Control::consider_give_back(Turn& t) {
     // A parameter that waits for home position is a reason to go there, not one to stay; what stands behind it in the queue waits with it.
     const auto waits_for_home = [](const Axis& a) {
@@ -205,7 +206,11 @@ void Control::consider_give_back(Turn& t) {
         exchange_.active())
         return;
     if (mode_ != status::online && mode_ != status::online_stopped) return;
+    // Out of ONLINE an axis with enable mode 1 has power again [L722], and who disabled it has not ordered that.
+    const bool asked_for = std::ranges::any_of(axes_, waits_for_home);
     for (const Axis& a : axes_) {
+        const Aim::Known& m = a.aim.parameters[Aim::enable_mode];
+        if (!asked_for && a.id != no_axis && !a.missing && (!m.read || m.value == 1)) return;
         if (a.on || a.running || a.motion.active()) return;
         if (!waits_for_home(a) && (a.job.active() || !a.queue.empty())) return;
     }

@@ -4,6 +4,7 @@
 #include "tests/world/story.hpp"
 
 #include <random>
+#include <set>
 
 #include "tests/world/witness.hpp"
 
@@ -23,7 +24,8 @@ public:
             const auto here = std::ranges::find(all, subject.text(), &Subject::text) - all.begin();
             subjects_.push_back(all[(static_cast<std::size_t>(here) + 1 + seed / 7) % all.size()]);
         }
-        for (std::size_t l = 0; l < subjects_.size(); ++l) add_line(l);
+        for (std::size_t l = 0; l < subjects_.size(); ++l)
+            add_line(l);
         world_ = std::make_unique<World>(seed);
         put_in_force();
         for (Machine& m : machines_) {
@@ -71,8 +73,8 @@ private:
         Instant at{};
         bool stop = false, off = false, motion = false, moves_nothing = false;
         std::uint64_t motions = 0, powers = 0;
-        Machine::Lease lease;    ///< as it was known when it was given
-        Instant other_asked{};   ///< and when the other client wanted something last
+        Machine::Lease lease;   ///< as it was known when it was given
+        Instant other_asked{};  ///< and when the other client wanted something last
     };
 
     static std::string line_name(std::size_t l) { return l == 0 ? "bad" : "good"; }
@@ -171,18 +173,21 @@ private:
     }
     void power(DriveId key, bool on) {
         (void)world_->buses.at("bad")->set_hand(key, "power", Value{on}, world_->now);
+        if (on ? without_power_.erase(key) == 0 : !without_power_.insert(key).second) return;  // as it was: no order has ended by that
         for (const Machine& m : machines_) {
             if (m.line != 0 || m.key != key) continue;
             witness_.power_cycled(m.shaft);
             // What was ordered before is over, but for what is on its way still.
-            const bool waits = std::ranges::any_of(given_, [&](const Given& g) { return g.machine == static_cast<std::size_t>(&m - machines_.data()); });
+            const bool waits =
+                std::ranges::any_of(given_, [&](const Given& g) { return g.machine == static_cast<std::size_t>(&m - machines_.data()); });
             if (!waits) witness_.stopped(m.shaft, witness_.motions(m.shaft), world_->now + stop_limit);
         }
     }
     void change_site() {
         switch (pick(3)) {
             case 0:
-                for (auto& a : document_.axes) a.unit = a.unit == "u" ? "mm" : "u";
+                for (auto& a : document_.axes)
+                    a.unit = a.unit == "u" ? "mm" : "u";
                 break;
             case 1:  // its drives are not where they were on the way: the line is built anew
                 document_.lines[0].manners.retries = document_.lines[0].manners.retries == 2 ? -1 : 2;
@@ -249,9 +254,12 @@ private:
         switch (pick(10)) {
             case 0:
             case 1:
-            case 2: return Enable{};
+            case 2:
+                return Enable{};
             case 3:
-            case 4: g.motion = true; return m;
+            case 4:
+                g.motion = true;
+                return m;
             case 5:
                 g.motion = true;
                 m.kind = Move::Kind::velocity;
@@ -265,7 +273,8 @@ private:
                 if (pick(2)) return ResetFault{};
                 g.stop = g.off = true;
                 return Disable{};
-            case 8: return write_something(s);
+            case 8:
+                return write_something(s);
             default: {
                 const auto i = static_cast<std::uint16_t>(pick(s.catalogue->parameters().size()));
                 const auto& p = s.catalogue->parameters()[i];
@@ -279,7 +288,8 @@ private:
         for (std::size_t tries = 0; tries < 20; ++tries) {
             const auto i = static_cast<std::uint16_t>(pick(all.size()));
             const Parameter& p = all[i];
-            if (p.access == Access::read_write && !p.live && !p.addressing && !p.count && known(p.factory_default)) return WriteParameter{{i, 0}, p.factory_default};
+            if (p.access == Access::read_write && !p.live && !p.addressing && !p.count && known(p.factory_default))
+                return WriteParameter{{i, 0}, p.factory_default};
         }
         return ResetFault{};
     }
@@ -316,6 +326,7 @@ private:
         if (g.stop) {
             EXPECT_NE(r.reason, Reason::authority) << "a stop is open to everybody: " << r.text;
             if (good(r)) witness_.stopped(m.shaft, g.motions, world_->now + stop_limit);
+            if (good(r) && g.off) witness_.switched_off(m.shaft, g.powers, world_->now, world_->now + stop_limit);
             return;
         }
         if (!plan_.two_clients) return;
@@ -337,7 +348,10 @@ private:
             power(m.key, true);
         }
         const Instant healed = world_->now;
-        EXPECT_TRUE(world_->run_until_true([&] { return all_back(); }, 15s)) << "an axis is not back after " << seconds(world_->now - healed) << " s";
+        // Heard since then: who restarted in the last moment is shown online until its silence is noticed.
+        const auto heard = [&](const Machine& m) { return !m.present || world_->picture(m.axis).at > healed; };
+        EXPECT_TRUE(world_->run_until_true([&] { return all_back() && std::ranges::all_of(machines_, heard); }, 15s))
+            << "an axis is not back after " << seconds(world_->now - healed) << " s";
         for (std::size_t n = 0; n < machines_.size(); ++n) {
             if (!machines_[n].present) continue;
             Given g;
@@ -349,7 +363,8 @@ private:
             given_.push_back(g);
         }
         const Instant asked = world_->now;
-        while (!given_.empty() && world_->now < asked + 60s) pass(50ms);
+        while (!given_.empty() && world_->now < asked + 60s)
+            pass(50ms);
         EXPECT_TRUE(given_.empty()) << given_.size() << " commands have no answer";
         for (const Machine& m : machines_) {
             if (!m.present) continue;
@@ -360,7 +375,8 @@ private:
         for (const Machine& m : machines_) {
             if (m.present && !plan_.garbling) EXPECT_EQ(witness_.speed(m.shaft, world_->now), 0) << m.name;
         }
-        for (const auto& [t, list] : world_->results) EXPECT_EQ(list.size(), 1u) << "ticket " << (t & 0xFFFFFF);
+        for (const auto& [t, list] : world_->results)
+            EXPECT_EQ(list.size(), 1u) << "ticket " << (t & 0xFFFFFF);
     }
 
     /// What happened, as one number.
@@ -368,7 +384,8 @@ private:
         const auto mix = [&h](std::uint64_t v) { h = (h ^ v) * 1099511628211ull; };
         for (const auto& [t, list] : w.results) {
             mix(t);
-            for (const auto& r : list) mix(static_cast<std::uint64_t>(r.outcome) << 8 | static_cast<std::uint64_t>(r.reason));
+            for (const auto& r : list)
+                mix(static_cast<std::uint64_t>(r.outcome) << 8 | static_cast<std::uint64_t>(r.reason));
         }
         for (std::size_t i = 0; i < w.image.size(); ++i) {
             const auto p = w.image.picture(AxisId{static_cast<std::uint16_t>(i)});
@@ -388,6 +405,7 @@ private:
     Site document_;
     std::optional<AxisSpec> removed_;
     std::vector<Machine> machines_;
+    std::set<DriveId> without_power_;  ///< of those on the bad line
     std::unique_ptr<World> world_;
     Witness witness_;
     std::vector<Given> given_;

@@ -47,8 +47,12 @@ public:
         s.rest_from = by;
         s.place.reset();
     }
-    void switched_off(std::size_t n, std::uint64_t powers, Instant by) {
-        if (shafts_[n].powers == powers) shafts_[n].off_from = std::min(shafts_[n].off_from, by);
+    /// Who starts with power has it by its own rule wherever no order switches it (PA-CONTROL in home position, enable mode 1 [L722]), and
+    /// says so: what is asked of it is that power which an order has taken away stays away.
+    void switched_off(std::size_t n, std::uint64_t powers, Instant now, Instant by) {
+        Shaft& s = shafts_[n];
+        if (s.starts_with_power && mechanics(s, now).powered) return;
+        if (s.powers == powers) s.off_from = std::min(s.off_from, by);
     }
     /// Its power fails or comes back, and its counter may begin anew.
     void power_cycled(std::size_t n) {
@@ -79,7 +83,7 @@ private:
         DriveId key = no_drive;
         int channel = 1;
         std::uint64_t motions = 0, powers = 0;
-        Instant rest_from{};          // from here on it rests; never: an order stands
+        Instant rest_from{};  // from here on it rests; never: an order stands
         Instant off_from{};
         std::optional<double> place;  // where it rests
         std::optional<double> limit;
@@ -92,7 +96,8 @@ private:
     }
     static void tell(Shaft& s, const char* what, const TwinMechanics& m) {
         s.told = true;
-        ADD_FAILURE() << "the shaft of " << s.name << " " << what << ": at " << m.position << ", speed " << m.velocity << (m.powered ? ", with" : ", without") << " power";
+        ADD_FAILURE() << "the shaft of " << s.name << " " << what << ": at " << m.position << ", speed " << m.velocity
+                      << (m.powered ? ", with" : ", without") << " power";
     }
 
     std::vector<Shaft> shafts_;

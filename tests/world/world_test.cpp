@@ -1,5 +1,5 @@
-// World tests: seeded stories with faults, then healing: safety all the time, liveness at the end; and presence, from the device to its twin
-// and back. In: all_families() on each of their wires, seeds. Out: laws. Never depends on real time: a failing seed fails again;
+// World tests: seeded stories with faults, then healing: safety all the time, liveness at the end; and presence, from the device to its
+// twin and back. In: all_families() on each of their wires, seeds. Out: laws. Never depends on real time: a failing seed fails again;
 // AXISGATE_SEED=17 plays that one alone.
 #include "tests/world/world.hpp"
 
@@ -17,9 +17,6 @@ using namespace std::chrono_literals;
 constexpr std::uint64_t stories = 200, stories_per_test = 10;
 constexpr int turns = 40;
 
-/// Stories whose laws a family is known not to keep: told by name, played by AXISGATE_SEED, and to be taken out of this list with their cause.
-const std::set<std::pair<std::string, std::uint64_t>> not_yet_kept{{"mcode", 21}, {"mcode", 53}, {"pacontrol", 147}};
-
 class Stories : public testing::TestWithParam<std::tuple<FamilyEntry, std::uint64_t>> {};
 
 TEST_P(Stories, LawsHoldAndEverythingHeals) {
@@ -29,7 +26,6 @@ TEST_P(Stories, LawsHoldAndEverythingHeals) {
     const std::uint64_t only = one ? std::strtoull(one, nullptr, 10) : 0;
     for (std::uint64_t seed = block * stories_per_test + 1; seed <= (block + 1) * stories_per_test; ++seed) {
         if (only != 0 && seed != only) continue;
-        if (only == 0 && not_yet_kept.contains({std::string(e.family->name), seed})) continue;
         const Subject& subject = wires[seed / 4 % wires.size()];  // each wire meets each kind of story
         SCOPED_TRACE("AXISGATE_SEED=" + std::to_string(seed) + " on " + subject.text());
         const auto first = run_story(subject, seed, turns);
@@ -37,8 +33,9 @@ TEST_P(Stories, LawsHoldAndEverythingHeals) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Worlds, Stories, testing::Combine(testing::ValuesIn(families().entries), testing::Range<std::uint64_t>(0, stories / stories_per_test)),
-                         [](const auto& i) { return std::string(std::get<0>(i.param).family->name) + "_" + std::to_string(std::get<1>(i.param)); });
+INSTANTIATE_TEST_SUITE_P(
+    Worlds, Stories, testing::Combine(testing::ValuesIn(families().entries), testing::Range<std::uint64_t>(0, stories / stories_per_test)),
+    [](const auto& i) { return std::string(std::get<0>(i.param).family->name) + "_" + std::to_string(std::get<1>(i.param)); });
 
 TEST(StoryPlan, TheSeedsHaveEveryKindOfDay) {
     // What a plan can have, each with each other, so that no law is asked of nothing.
@@ -46,16 +43,19 @@ TEST(StoryPlan, TheSeedsHaveEveryKindOfDay) {
     for (std::uint64_t seed = 1; seed <= stories; ++seed) {
         const StoryPlan p(seed);
         EXPECT_EQ(p.garbling + p.faulty + p.limits, 1) << "limits are asked of a wire without faults";
-        const std::pair<const char*, bool> all[] = {{"garbling", p.garbling}, {"faulty", p.faulty}, {"limits", p.limits}, {"two_lines", p.two_lines},
-                                                    {"two_clients", p.two_clients}, {"restart", p.restart}, {"site_changes", p.site_changes}, {"bad_store", p.bad_store}};
+        const std::pair<const char*, bool> all[] = {
+            {"garbling", p.garbling},         {"faulty", p.faulty},           {"limits", p.limits},
+            {"two_lines", p.two_lines},       {"two_clients", p.two_clients}, {"restart", p.restart},
+            {"site_changes", p.site_changes}, {"bad_store", p.bad_store}};
         for (const auto& [a, has_a] : all) {
             for (const auto& [b, has_b] : all) {
                 if (has_a && has_b) met.insert(std::string(a) + " " + b);
             }
         }
     }
-    for (const char* kind : {"faulty two_lines", "faulty two_clients", "faulty restart", "faulty site_changes", "faulty bad_store", "limits two_clients", "limits restart",
-                             "garbling two_lines", "garbling restart", "two_lines restart", "site_changes two_clients"}) {
+    for (const char* kind :
+         {"faulty two_lines", "faulty two_clients", "faulty restart", "faulty site_changes", "faulty bad_store", "limits two_clients",
+          "limits restart", "garbling two_lines", "garbling restart", "two_lines restart", "site_changes two_clients"}) {
         EXPECT_TRUE(met.contains(kind)) << kind;
     }
 }
@@ -171,7 +171,8 @@ TEST_P(PresenceStory, TheTwinDoesNotTakeOverACommandedAxis) {
     ASSERT_TRUE(r);
     EXPECT_EQ(r->outcome, Outcome::accepted) << "taken, and never done: nobody heard it";
     EXPECT_EQ(r->reason, Reason::none);
-    for (const auto* part : {"nobody answers", "taken as disabled", "its twin takes over", "not known"}) EXPECT_NE(r->text.find(part), std::string::npos) << r->text;
+    for (const auto* part : {"nobody answers", "taken as disabled", "its twin takes over", "not known"})
+        EXPECT_NE(r->text.find(part), std::string::npos) << r->text;
     EXPECT_TRUE(w.run_until_true([&] { return serves(Presence::twin); }, 5s)) << "now nobody commands it any more";
     w.cables.at("line")->heal(w.now);
     EXPECT_TRUE(w.run_until_true([&] { return serves(Presence::device); }, 12s));
@@ -185,7 +186,8 @@ TEST_P(PresenceStory, AControlWord0ThatLetsGoIsAccepted) {
     ASSERT_TRUE(r && good(*r)) << (r ? r->text : "none");
     w.cables.at("line")->cut(w.now);
     w.run_for(5s);
-    EXPECT_NE(w.engine.drive_status(d).text.find("disable the axis to let the twin take over"), std::string::npos) << w.engine.drive_status(d).text;
+    EXPECT_NE(w.engine.drive_status(d).text.find("disable the axis to let the twin take over"), std::string::npos)
+        << w.engine.drive_status(d).text;
     ProcessData word;
     word.controlword = 0;
     r = w.wait(w.command(a, word), 5s);
@@ -235,7 +237,8 @@ TEST_P(WorldSite, ChangesTouchOnlyWhatChanged) {
     auto site = w.apply(doc);
     ASSERT_EQ(site->axis_ids.size(), two_drives ? 2u : static_cast<std::size_t>(channels));
     const AxisId a1 = site->axis_ids[0];
-    ASSERT_TRUE(w.run_until_true([&] { return (w.picture(a1).flags & flag_online) && (w.picture(site->axis_ids.back()).flags & flag_online); }, 20s));
+    ASSERT_TRUE(w.run_until_true(
+        [&] { return (w.picture(a1).flags & flag_online) && (w.picture(site->axis_ids.back()).flags & flag_online); }, 20s));
     w.run_for(1s);
     const Result* r = w.wait(w.command(a1, Enable{}, true), 5s);
     ASSERT_TRUE(r && good(*r));

@@ -133,6 +133,17 @@ TEST(PacontrolPresence, AxesComeAndGoWithoutDisturbingTheOthers) {
     EXPECT_EQ(b.ask(Enable{}, false, 9).outcome, Outcome::accepted);
 }
 
+TEST(PacontrolPresence, AnAxisThatIsTakenOutWhileItRunsIsStopped) {
+    Enabled b(2);
+    (void)b.command(absolute(20000), false, 1);
+    b.run(300ms);
+    b.mark();
+    b.setup.drives[0].axes.pop_back();
+    b.configure();
+    b.run(300ms);
+    EXPECT_EQ(b.said(), (Lines{"0A9A;2;1;0"})) << "nobody could stop it any more";
+}
+
 // --- ONLINE ----------------------------------------------------------------------------------------------------------------------
 
 TEST(PacontrolOnline, EnableStartsItOnceAndDisableGivesItBack) {
@@ -155,6 +166,24 @@ TEST(PacontrolOnline, EnableStartsItOnceAndDisableGivesItBack) {
     EXPECT_EQ(b.said(), (Lines{"0A9A;1;1;0", "0A98;1;0;0", "0A9A;2;1;0", "0A98;2;0;0", "0A81;0;0;0"}));
     EXPECT_EQ(b.control.mode, 1);
     EXPECT_EQ(b.notices_of("mode"), 0u) << "what the gateway did itself is no surprise";
+}
+
+TEST(PacontrolOnline, NothingIsGivenBackThatWouldHavePowerThere) {
+    for (const double enable_mode : {1.0, 0.0}) {
+        Bench b(2);
+        b.control.axis_parameters[2 << 8 | 0x32] = enable_mode;  // 1: operational again out of ONLINE [L722]
+        b.start();
+        b.run(1s);
+        EXPECT_EQ(b.enable(1).outcome, Outcome::accepted);
+        b.mark();
+        EXPECT_EQ(b.ask(Disable{}, true, 1).outcome, Outcome::done);
+        b.run(2s);
+        EXPECT_EQ(b.control.mode, enable_mode == 1 ? 31 : 1);
+        if (enable_mode != 1) continue;
+        EXPECT_EQ(b.said(), (Lines{"0A9A;2;1;0", "0A98;2;0;0"}));
+        EXPECT_TRUE(good(b.action("online.give_back"))) << "who says so gets it";
+        EXPECT_EQ(b.control.mode, 1);
+    }
 }
 
 TEST(PacontrolOnline, TwoAxesEnabledAtOnceShareOneStart) {

@@ -154,7 +154,7 @@ TEST(McodeAdapter, HomingMethods) {
     b.run(2s);
     ASSERT_EQ(b.wait(Enable{}).outcome, Outcome::done);
     EXPECT_EQ(b.wait(Home{1}).reason, Reason::not_supported);
-    for (const std::int16_t limit : {17, 18}) {
+    for (const std::int16_t limit : {std::int16_t{17}, std::int16_t{18}}) {
         const Result r = b.wait(Home{limit});
         EXPECT_EQ(r.reason, Reason::not_supported);
         EXPECT_NE(r.text.find("limit switch"), std::string::npos) << r.text;
@@ -332,7 +332,7 @@ TEST(McodeAdapter, ProgramsAreCheckedSentVerifiedAndRun) {
     EXPECT_EQ(r.outcome, Outcome::done) << r.text;
     EXPECT_EQ(b.drives[0].program, (std::vector<std::string>{"LB AA", "MA 100", "H", "E"})) << "no poll got into it";
     EXPECT_NE(b.wait(Action{"program.upload", ""}).text.find("MA 100"), std::string::npos);
-    EXPECT_EQ(b.wait(Action{"program.start", "AA"}).outcome, Outcome::done);
+    EXPECT_EQ(b.wait(Action{"program.start", "AA"}).outcome, Outcome::accepted);
     EXPECT_TRUE(has(b.drives[0].heard, "EX AA"));
     EXPECT_EQ(b.wait(Action{"program.save", ""}).outcome, Outcome::done);
     EXPECT_TRUE(has(b.drives[0].heard, "S"));
@@ -422,7 +422,7 @@ TEST(McodeAdapter, ResetRestartsOneDriveAndFindsItAgain) {
         b.up();
         b.run(2s);
         ASSERT_EQ(b.wait(Enable{}).outcome, Outcome::done);
-        EXPECT_EQ(b.wait(Action{"reset", ""}).outcome, Outcome::done);
+        EXPECT_EQ(b.wait(Action{"reset", ""}).outcome, Outcome::accepted);
         EXPECT_EQ(b.drives[0].resets, 1);
         b.run(8s);
         EXPECT_TRUE(b.online());
@@ -434,7 +434,7 @@ TEST(McodeAdapter, ResetRestartsOneDriveAndFindsItAgain) {
     b.up();
     b.run(3s);
     EXPECT_EQ(b.drives[0].values["CE"], "2");
-    EXPECT_EQ(b.wait(Action{"reset", ""}).outcome, Outcome::done);
+    EXPECT_EQ(b.wait(Action{"reset", ""}).outcome, Outcome::accepted);
     EXPECT_EQ(b.drives[0].resets, 1);
     EXPECT_EQ(b.drives[1].resets, 0);
     b.run(8s);

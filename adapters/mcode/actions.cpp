@@ -193,11 +193,11 @@ void Node::query_answered(const std::string& data, Turn& t) {
     if (number && w == "VM") vm_ = *number;
     if (number && w == "A") a_ = *number;
     if (number && w == "D") d_ = *number;
-    if (number && w == "EE") encoder_mode_ = *number == 1;
+    if (number && w == "EE") encoder_flag_ = *number == 1;
     if (number && w == "CE") ce_ = static_cast<int>(*number);
     if (write && (w == "MS" || w == "EE" || w == "AS")) {
         vi_ = user_vi_ = vm_ = a_ = d_ = 0;  // the drive has scaled them [L4293]
-        aim_.knows({0, 0, 0, 0, encoder_mode_});
+        aim_.knows({0, 0, 0, 0, encoder_flag_});
         relearn_ = true;
     }
     if (w == "ER" && number && *number == 0 && last_error_ != 0) {
@@ -403,6 +403,7 @@ void Node::plan_action(const Action& a, Turn& t) {
     } else if (a.name == "program.download") {
         return plan_download(a, t);
     } else if (a.name == "program.start") {
+        job_.awaits_end = job_.command.until_done;
         line(fmt::format("EX {}", a.argument.empty() ? "1" : a.argument), false);
     } else if (a.name == "program.pause") {
         line("PS");

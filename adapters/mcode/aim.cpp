@@ -160,7 +160,7 @@ void Aim::read(const Reading& r, AxisFeedback& fb) noexcept {
     stalled_ = r.stalled;
     fb.demand_source = DemandSource::none;
     fb.position_demand = r.position;
-    // EE = 1 is for AS = 0 only [E-25].
+    // EE = 1 acts with AS = 0 only [E-25].
     const bool reckons = r.energised && values_.encoder && r.hmt == 0;
     if (!reckons) forget();
     if (reckons) judge(r);

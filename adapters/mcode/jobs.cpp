@@ -134,7 +134,7 @@ void Node::plan_move(const Move& m, Turn& t) {
     if (m.prepare_only) return refuse(Reason::not_supported, std::string(no_prepared_start));
     if (!de_) return refuse(Reason::wrong_state, fmt::format("{} is off (DE=0): enable it first", name()));
     const bool velocity = m.kind == Move::Kind::velocity;
-    const std::int64_t least_rate = encoder_mode_ ? 6 : 66, most_rate = encoder_mode_ ? 44'000'000 : 1'100'000'000;
+    const std::int64_t least_rate = encoder_mode() ? 6 : 66, most_rate = encoder_mode() ? 44'000'000 : 1'100'000'000;
     const auto rate = [&](const std::optional<std::int64_t>& v, std::int64_t& known, char letter) -> std::string {
         if (!v) return {};
         if (*v < least_rate || *v > most_rate) return fmt::format("{}: {} is outside {}..{}", letter, *v, least_rate, most_rate);
@@ -274,7 +274,13 @@ void Node::step_ended(Verdict v, const ReplyReader& r, Turn& t) {
     }
     if (job_.kind == JobKind::restart && job_.steps[job_.at].text == reset_key) {
         aim_lost();
-        job_over(Outcome::done, Reason::none, fmt::format("{} restarts: it is looked for and set up again", name()), t);
+        if (job_.command.until_done) {
+            restart_ = std::move(job_.command);
+            restart_until_ = t.now + restart_limit;
+            job_ = {};
+        } else {
+            job_over(Outcome::accepted, Reason::none, fmt::format("{} restarts: it is looked for and set up again", name()), t);
+        }
         fail_all(Reason::interrupted, fmt::format("{} was restarted by reset", name()), t);
         enabled_ = false;
         fb_.referenced = fb_.homing_attained = fb_.target_reached = false;
@@ -347,6 +353,14 @@ void Node::step_done(Turn& t) {
         }
         return;
     }
+    if (job_.awaits_end) {
+        program_lost(Reason::interrupted, "another program was started", t);
+        program_.emplace();
+        program_->command = std::move(job_.command);
+        job_ = {};
+        next_poll_ = t.now;
+        return;
+    }
     switch (job_.kind) {
         case JobKind::enable:
             enabled_ = de_;
@@ -394,7 +408,10 @@ void Node::step_done(Turn& t) {
         default:
             break;
     }
-    job_over(Outcome::done, Reason::none, job_.text, t);
+    // A started program has begun; its end is another matter, and nobody waits for it.
+    const auto* action = std::get_if<Action>(&job_.command.body);
+    const bool begun = action && action->name == "program.start";
+    job_over(begun ? Outcome::accepted : Outcome::done, Reason::none, job_.text, t);
 }
 
 void Node::job_over(Outcome o, Reason r, std::string text, Turn& t, std::int32_t code, Value value) {

@@ -31,30 +31,6 @@ std::vector<std::string_view> split(std::string_view s) {
 }
 }  // namespace
 
-bool is_fault_code(int code) noexcept {
-    switch (code) {
-        case 13:
-        case 14:
-        case 70:
-        case 72:
-        case 75:
-        case 78:
-        case 79:
-        case 82:
-        case 86:
-        case 92:
-        case 96:
-        case 98:
-        case 99:
-        case 104:
-        case 105:
-        case 111:
-            return true;
-        default:
-            return false;
-    }
-}
-
 Node::Node(const Catalogue& catalogue, const Manners& manners, AdapterCounters& counters, const DriveSetup& setup)
     : catalogue_(catalogue), manners_(manners), counters_(counters), setup_(setup) {
     for (const auto& a : setup.axes) {
@@ -67,6 +43,7 @@ Node::Node(const Catalogue& catalogue, const Manners& manners, AdapterCounters& 
 void Node::line_up(Turn& t) { begin_probing(t); }
 
 void Node::line_down(Turn& t, std::string_view why) {
+    restart_over(Outcome::failed, Reason::line_down, why, t);
     fail_all(Reason::line_down, std::string(why), t);
     half_was_away_ = half_was_away_ || clear_half_;
     mode_flight_ = false;                               // a PG that nobody can answer any more: the mode stays unknown
@@ -78,7 +55,10 @@ void Node::line_down(Turn& t, std::string_view why) {
     aim_lost();
 }
 
-void Node::remove(Turn& t, std::string_view why) { fail_all(Reason::line_down, std::string(why), t); }
+void Node::remove(Turn& t, std::string_view why) {
+    restart_over(Outcome::failed, Reason::line_down, why, t);
+    fail_all(Reason::line_down, std::string(why), t);
+}
 
 void Node::begin_probing(Turn& t) {
     phase_ = Phase::probing;
@@ -125,6 +105,7 @@ void Node::link_state(bool is_online, std::string text, Turn& t) {
 
 void Node::came(Turn& t) {
     phase_ = Phase::ready;
+    program_lost(Reason::interrupted, "the drive was found anew: it may have restarted", t);
     known_sums_ = sums_;
     link_rounds_ = 0;  // it may come again in another state: a power cycle brings back EM, CK, ES and CE of its memory
     enabled_ = false;
@@ -134,12 +115,13 @@ void Node::came(Turn& t) {
     fb_.target_reached = fb_.homing_error = false;
     seen_ = false;
     aim_lost();
-    aim_.knows({vi_, vm_, a_, d_, encoder_mode_});
+    aim_.knows({vi_, vm_, a_, d_, encoder_flag_});
     link_state(true, identity_.empty() ? fmt::format("answers to {}", setup_.address) : identity_, t);
     next_poll_ = t.now;
     at_factory_rate_ = false;
     const std::string trouble = job_.kind == JobKind::named ? std::string() : rate_trouble();  // line.setup sets BD too
     if (!trouble.empty()) note(Severity::warning, "bit_rate", 0, trouble, t);
+    restart_over(Outcome::done, Reason::none, "has restarted and is set up again", t);
     if (job_.kind == JobKind::named && job_.steps.empty()) job_over(Outcome::done, Reason::none, job_.text, t);
     if (job_.kind == JobKind::factory) {
         job_over(Outcome::done, Reason::none, fmt::format("{} has its factory values{}{}", name(), trouble.empty() ? "" : "; ", trouble),
@@ -189,6 +171,8 @@ void Node::ended(Verdict v, const ReplyReader& reader, Turn& t) {
             trouble(Trouble::Kind::lost, t);
     }
     // An echo is silence; anything else is somebody who is not understood.
+    if (restart_ && phase_ != Phase::ready && t.now >= restart_until_)
+        restart_over(Outcome::failed, Reason::no_answer, "was restarted and is not set up again: see its link", t);
     babble_ = !heard && reader.raw().find("PR \"#") == std::string::npos && reader.raw().find_first_not_of("\r\n") != std::string::npos;
     const bool mode_line = mode_flight_;
     mode_line_ended(v);
@@ -385,8 +369,8 @@ void Node::learn_values(std::string_view data) {
     vm_ = whole(f[1]).value_or(0);
     a_ = whole(f[2]).value_or(0);
     d_ = whole(f[3]).value_or(0);
-    encoder_mode_ = encoder_ && whole(f[4]).value_or(0) == 1;
-    aim_.knows({vi_, vm_, a_, d_, encoder_mode_});
+    encoder_flag_ = encoder_ && whole(f[4]).value_or(0) == 1;
+    aim_.knows({vi_, vm_, a_, d_, encoder_flag_});
 }
 
 bool Node::learn_poll(const std::string& data, Turn& t) {
@@ -407,6 +391,7 @@ bool Node::learn_poll(const std::string& data, Turn& t) {
         return false;
     }
     const auto flag = [&](std::size_t i) { return f[2][i] == '1'; };
+    read_at_ = std::min(heard_at_, t.now);
     fb_.position = *p;
     fb_.velocity = *v;
     mv_ = flag(0);
@@ -437,6 +422,7 @@ bool Node::learn_poll(const std::string& data, Turn& t) {
     next_poll_ = t.now + manners_.poll_period;
     derive(t);
     emit(t);
+    watch_program(t);
     if (job_.kind != JobKind::none && !job_.confirming && job_.at < job_.steps.size() &&
         job_.steps[job_.at].what == Step::What::standstill) {
         if (!mv_) {
@@ -452,6 +438,7 @@ void Node::learn_error(int code, bool ours, Turn& t) {
     const ErrorCode* e = catalogue_.error(code);
     const std::string text = e ? e->text : std::string("a code that the catalogue does not have");
     last_error_ = code;
+    if (program_ && !ours && code != 0) program_->code = code;
     if (is_fault_code(code)) fault_ = code;
     // SM says whether a stall (86) ends the motion, and the flags tell that.
     if (!ours && code != 86 && (is_fault_code(code) || code == 83 || code == 84 || code == 91)) aim_.ended(t.now);
@@ -492,6 +479,7 @@ void Node::error_read(Verdict v, const std::string& data, Turn& t) {
     if (!ours) last_error_ = 0;
     confirmed(t);
     if (last_error_ == 0) last_error_ = keep;
+    if (!ours && program_ && program_->code == 0) program_->code = keep;  // of its first line, before its start was confirmed
 }
 
 }  // namespace axisgate::mcode

@@ -3,7 +3,7 @@
 // Never sends by itself: the line asks it, and gives it one exchange at a time.
 // Written in: node.cpp (exchanges, presence, polls), node_next.cpp (what is sent), state.cpp (its axis), stops.cpp (stops, results,
 // notices), leaving.cpp (out of program mode), rate.cpp (its bit rate), jobs.cpp (commands as steps), actions.cpp (parameters, native,
-// programs); aim.cpp is where its axis should be.
+// programs), program_end.cpp (a program that is waited for); aim.cpp is where its axis should be.
 #pragma once
 
 #include <array>
@@ -66,6 +66,7 @@ class Node {
 public:
     static constexpr std::size_t queue_limit = 64;   ///< waiting commands; one more is refused as busy
     static constexpr std::size_t urgent_limit = 16;  ///< waiting stops; one more is refused as busy
+    static constexpr Duration restart_limit = std::chrono::seconds(20);  ///< a restarted drive that is not back by then has failed
     static constexpr int link_round_limit = 8;       ///< lines that set its link in a row; what it has then is used as it is
 
     Node(const Catalogue& catalogue, const Manners& manners, AdapterCounters& counters, const DriveSetup& setup);
@@ -169,6 +170,7 @@ private:
         int tries = 0;
         bool confirming = false;
         Verdict said = Verdict::waiting;
+        bool awaits_end = false;      ///< program.start: answered when the program has ended
         bool memory_touched = false;  ///< download: the program memory has been cleared
         std::vector<ProgramLine> program;
         std::string text;
@@ -188,6 +190,13 @@ private:
         Verdict said = Verdict::waiting;
         bool to_all = false;                ///< the line went to every drive at once: nobody acknowledges it
         std::optional<std::int64_t> speed;  ///< to_all: read once since
+    };
+
+    /// A program that was started by a command that is answered when it has ended.
+    struct Program {
+        Command command;
+        std::string ended_by;  ///< a line that ends programs, taken since
+        int code = 0;          ///< the last error since its start
     };
 
     static constexpr std::string_view escape_key = "ESC";         ///< Stop::lines: the character, not a line
@@ -224,6 +233,12 @@ private:
     void learn_error(int code, bool ours, Turn& t);
     void emit(Turn& t);
     void derive(Turn& t);
+    /// Units are encoder counts: with hMT they are step pulses, whatever EE says [L696].
+    [[nodiscard]] bool encoder_mode() const noexcept { return encoder_flag_ && hmt_mode_ == 0; }
+    void watch_program(Turn& t);
+    void restart_over(Outcome o, Reason r, std::string_view what, Turn& t);
+    void program_told(std::string_view line);
+    void program_lost(Reason reason, const std::string& why, Turn& t);
     void aim(std::optional<std::int64_t> lag);
     void aim_lost() noexcept;
     void step_said(const Step& step, Verdict v);
@@ -297,6 +312,9 @@ private:
     std::deque<Command> queue_;
     std::deque<Stop> stops_;
     Job job_;
+    std::optional<Program> program_;
+    std::optional<Command> restart_;  ///< reset: answered when the drive is set up again, also when it was away meanwhile
+    Instant restart_until_{};
     bool need_error_ = false;
     int error_tries_ = 0;  ///< answers to ER that were none
     bool error_is_ours_ = false;
@@ -326,6 +344,7 @@ private:
 
     // what is known
     AxisFeedback fb_;
+    Instant read_at_{};  ///< of the last poll: the drive had the whole question
     bool seen_ = false;
     bool enabled_ = false;  ///< by this gateway, since the drive was found
     bool torque_ = false;   ///< AS = 3: the drive presses on by itself, and SL does not end that
@@ -334,7 +353,7 @@ private:
     int fault_ = 0;  ///< code that must be reset
     int last_error_ = 0;
     std::int64_t vi_ = 0, user_vi_ = 0, vm_ = 0, a_ = 0, d_ = 0;
-    bool encoder_mode_ = false;
+    bool encoder_flag_ = false;  ///< EE
     struct Motion {
         enum class Kind : std::uint8_t { none, position, velocity, home, foreign };
         Kind kind = Kind::none;

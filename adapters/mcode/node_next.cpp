@@ -61,7 +61,7 @@ std::string Node::poll_text(Instant now) {
     if (hmt_) s += ",LR,AS";
     if (tells_input_) s += ",IF";
     // Only where it means something: LL is 0 or not measured in the other modes [L3872].
-    asks_lag_ = (hmt_mode_ == 1 || hmt_mode_ == 2) && !encoder_mode_ && (lag_misses_ < 2 || now >= lag_again_);
+    asks_lag_ = (hmt_mode_ == 1 || hmt_mode_ == 2) && (lag_misses_ < 2 || now >= lag_again_);
     if (asks_lag_) s += R"(,",",LL)";
     return s;
 }

@@ -9,11 +9,35 @@
 
 namespace axisgate::mcode {
 
+bool is_fault_code(int code) noexcept {
+    switch (code) {
+        case 13:
+        case 14:
+        case 70:
+        case 72:
+        case 75:
+        case 78:
+        case 79:
+        case 82:
+        case 86:
+        case 92:
+        case 96:
+        case 98:
+        case 99:
+        case 104:
+        case 105:
+        case 111:
+            return true;
+        default:
+            return false;
+    }
+}
+
 void Node::derive(Turn& t) {
     if (!de_) enabled_ = false;
     fb_.power = de_ && enabled_ ? AxisFeedback::Power::on : AxisFeedback::Power::off;
     // In torque mode V reads 0 whatever the shaft does [L5995].
-    fb_.moving = mv_ && (fb_.velocity != 0 || vc_ || encoder_mode_ || torque_ || motion_.kind == Motion::Kind::home);
+    fb_.moving = mv_ && (fb_.velocity != 0 || vc_ || encoder_mode() || torque_ || motion_.kind == Motion::Kind::home);
     fb_.fault = fault_ != 0 || stalled_ || locked_;
     fb_.error_code = static_cast<std::uint16_t>(fault_ != 0 ? fault_ : stalled_ ? 86 : locked_ ? 104 : last_error_);
     fb_.internal_limit = last_error_ == 83 || last_error_ == 84;
@@ -24,9 +48,9 @@ void Node::derive(Turn& t) {
         if (fb_.moving) fb_.target_reached = false;  // a program, or somebody else, moves it
         return;
     }
-    if (motion_.kind == Motion::Kind::position && !fb_.moving && (!encoder_mode_ || !mv_)) {
+    if (motion_.kind == Motion::Kind::position && !fb_.moving && (!encoder_mode() || !mv_)) {
         if (fb_.position == motion_.target ||
-            (encoder_mode_ && !fb_.fault && std::llabs(fb_.position - motion_.target) <= 65000 && !mv_ && !ef_)) {
+            (encoder_mode() && !fb_.fault && std::llabs(fb_.position - motion_.target) <= 65000 && !mv_ && !ef_)) {
             fb_.target_reached = true;
             motion_.ended = true;
         } else if (!mv_) {
@@ -77,6 +101,7 @@ void Node::aim_lost() noexcept {
 /// A step's line: the drive took it, or nobody knows, or it was refused. Somebody's text may be known too, but its moves are not ours.
 void Node::step_said(const Step& step, Verdict v) {
     if (v == Verdict::refused) return aim_.refused();
+    program_told(step.text);
     if (v == Verdict::waiting || v == Verdict::garbled) return aim_.doubt(step.text);
     const bool ours =
         job_.kind == JobKind::move || job_.kind == JobKind::home || job_.kind == JobKind::set_position || job_.kind == JobKind::write;
@@ -97,7 +122,7 @@ void Node::lag_missed(Instant now) noexcept {
 
 void Node::emit(Turn& t) {
     if (axis_ == no_axis || !seen_) return;
-    fb_.at = t.now;
+    fb_.at = read_at_;  // what an acknowledgement or an error code adds is newer
     fb_.homing = motion_.kind == Motion::Kind::home && (!motion_.ended || zero_after_home_);
     t.out.feedback.push_back({axis_, fb_});
     if (fb_.power != AxisFeedback::Power::on) {

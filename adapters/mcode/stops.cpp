@@ -23,6 +23,7 @@ void Node::stop_ended(Verdict v, const ReplyReader&, Turn& t) {
     }
     const std::string& line = s.lines[s.at];
     if (v == Verdict::refused) aim_.refused();
+    if (v != Verdict::refused) program_told(line);
     if (v == Verdict::waiting || v == Verdict::garbled) aim_.doubt(line);
     if (v == Verdict::acknowledged || v == Verdict::answered) aim_.said(line, heard_at_, true);
     s.said = v == Verdict::answered ? Verdict::acknowledged : v;
@@ -182,6 +183,7 @@ void Node::result(const Command& c, Outcome o, Reason r, std::string text, Turn&
 }
 
 void Node::fail_all(Reason reason, const std::string& text, Turn& t) {
+    program_lost(reason, text, t);
     while (!stops_.empty()) {
         const Command c = std::move(stops_.front().command);
         stops_.pop_front();

@@ -120,20 +120,31 @@ void Motor::write_counter(Word w, double value, Instant now) {
 }
 
 int Motor::set_encoder_mode(bool on, Instant now) {
-    if (on == encoder_mode()) return 0;
-    // The unit of everything changes: only at rest, and beside hMT it has no meaning [E-25].
-    if (phase_ != Phase::rest || (on && hmt_mode() != 0)) return bad_value;
+    if (on == (setting(Word::EE) != 0)) return 0;
+    // The unit of everything changes: only at rest.
+    if (phase_ != Phase::rest) return bad_value;
     const double least = counts_per_turn() * 2 / (360.0 / setting(Word::SA));  // MS >= EL*8/full steps [L2624-2632]
     if (on && (setup_.product & lmm) != 0 && setting(Word::MS) < least) return bad_ratio;
+    if (hmt_mode() != 0) {
+        // Beside hMT it waits: motion stays in step pulses until AS is 0 [L696, L7520]. Only MS is locked at 256 already [L7194].
+        const int code = on ? set_microsteps(256, now) : 0;
+        if (code == 0) set(Word::EE, on ? 1 : 0);
+        return code;
+    }
     const Kept k = keep(now);
     set(Word::EE, on ? 1 : 0);
+    change_units(k, now);
+    return 0;
+}
+
+/// Steps have become counts or the other way round: the shaft stands where it is, P is the counter of the new unit.
+void Motor::change_units(const Kept& k, Instant now) {
     set(Word::MS, 256);
     encoder_defaults();
     slip_ = 0;
-    command_ = Profile::rest(std::round(on ? k.c2 : k.c1));
+    command_ = Profile::rest(std::round(encoder_mode() ? k.c2 : k.c1));
     held_at_ = command_.end_position();
     put_back(k, now);
-    return 0;
 }
 
 void Motor::encoder_defaults() noexcept {
@@ -148,7 +159,7 @@ int Motor::set_microsteps(std::int64_t ms, Instant now) {
     if (std::ranges::find(microsteps, ms) == microsteps.end()) return bad_value;
     const double old = setting(Word::MS);
     if (static_cast<double>(ms) == old) return 0;
-    if (encoder_mode()) return wrong_type;  // locked at 256 [L7194]
+    if (setting(Word::EE) != 0) return wrong_type;  // locked at 256 [L7194]
     if (phase_ != Phase::rest || (hmt_mode() != 0 && ms < 10)) return bad_value;
     const Kept k = keep(now);
     set(Word::MS, static_cast<double>(ms));

@@ -19,16 +19,21 @@ constexpr double horizon_s = 1e6;
 int Motor::set_hmt_mode(std::int64_t mode, Instant now) {
     if (mode == hmt_mode() && mode != 3) return 0;
     if (phase_ != Phase::rest) return in_motion;
-    if (mode != 0 && (encoder_mode() || setting(Word::MS) < 10)) return bad_value;  // [E-25, L1480]
+    if (mode != 0 && setting(Word::MS) < 10) return bad_value;  // [L1480]
     if (mode == 3 && !supply_.plus_v_good()) return no_supply;
     const Kept k = keep(now);
     // P goes on from its number; the rotor is taken as it stands.
     const double p = std::round(position(now).position);
+    const bool counted = encoder_mode();
     set(Word::AS, static_cast<double>(mode));
-    command_ = Profile::rest(p);
-    slip_ = 0;
-    held_at_ = p;
-    put_back(k, now);
+    if (encoder_mode() != counted) {
+        change_units(k, now);
+    } else {
+        command_ = Profile::rest(p);
+        slip_ = 0;
+        held_at_ = p;
+        put_back(k, now);
+    }
     hmt_.at_bounds = hmt_.lag_limit = hmt_.lead_limit = false;
     hmt_.torque_runs = mode == 3;
     if (mode == 3) run_torque(now);

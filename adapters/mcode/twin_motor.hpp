@@ -81,7 +81,8 @@ private:
     [[nodiscard]] double setting(Word w) const noexcept { return settings_[static_cast<std::size_t>(w)]; }
     [[nodiscard]] std::int64_t whole(Word w) const noexcept { return static_cast<std::int64_t>(setting(w)); }
     void set(Word w, double v) noexcept { settings_[static_cast<std::size_t>(w)] = v; }
-    [[nodiscard]] bool encoder_mode() const noexcept { return setting(Word::EE) != 0; }
+    /// Everything in encoder counts: EE = 1, and no hMT, with which motion is in step pulses whatever EE says [L696].
+    [[nodiscard]] bool encoder_mode() const noexcept { return setting(Word::EE) != 0 && hmt_mode() == 0; }
     [[nodiscard]] int hmt_mode() const noexcept { return static_cast<int>(whole(Word::AS)); }
     [[nodiscard]] double counts_per_turn() const noexcept;
     [[nodiscard]] double steps_per_turn() const noexcept;
@@ -111,6 +112,7 @@ private:
     void shift_frame(double by) noexcept;
     void write_counter(Word w, double value, Instant now);
     int set_encoder_mode(bool on, Instant now);
+    void change_units(const Kept& k, Instant now);
     int set_microsteps(std::int64_t ms, Instant now);
     void stalled(Instant now);
     void correct(Instant now);

@@ -339,6 +339,7 @@ void Motor::load(const NonVolatile& m, Instant now) {
     if (phase_ != Phase::rest) freeze(now);
     const Kept k = keep(now);
     const double p = std::round(position(now).position);
+    const bool counted = encoder_mode();
     for (const Default& d : saved) {
         const auto it = m.find(std::string(text_of(d.word)));
         if (it == m.end() || available(d.word) != 0) continue;
@@ -364,9 +365,9 @@ void Motor::load(const NonVolatile& m, Instant now) {
         soft_on_[i] = integer("LS." + std::to_string(i) + ".on", soft_on_[i] ? 1 : 0) == 1;
     }
     hmt_.torque_runs = false;
-    command_ = Profile::rest(p);
+    command_ = Profile::rest(encoder_mode() == counted ? p : std::round(encoder_mode() ? k.c2 : k.c1));
     slip_ = 0;
-    held_at_ = p;
+    held_at_ = command_.end_position();
     put_back(k, now);
     for (Cam& c : cams_)
         c.was = false;

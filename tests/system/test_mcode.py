@@ -55,6 +55,33 @@ def test_a_party_line_as_the_reference_describes_it(folder):
             until(lambda: port.ask(b"bPR P,MV\n", lambda had: had.endswith(b"\r\n")) == b"512000\r\n", 10, "the move's end")
 
 
+def test_the_rate_of_a_twin_is_its_own_after_a_restart(folder):
+    with Process("twin", "mcode", "--line", f"pty:{folder / 'fast'}?baud=19200", "--address", "!"):
+        with Port(folder / "fast") as port:
+            end = lambda had: had.endswith(b">")
+            assert port.ask(b"PR BD\r", end) == b"PR BD\r\n19\r\n>"
+            assert port.ask(b"BD=96\r", end) == b"BD=96\r\n>"
+            assert port.ask(b"S\r", end) == b"S\r\n>"
+            assert port.ask(b"PR BD\r", end) == b"PR BD\r\n96\r\n>", "the old rate holds until the restart"
+            port.ask(b"\x03")
+            assert b"96" not in port.ask(b"PR BD\r"), "it speaks 9600 now, and the line 19200"
+
+
+def test_a_program_that_prints_faster_than_the_line(folder):
+    text = "x" * 50
+    with Process("twin", "mcode", "--line", f"pty:{folder / 'chatty'}?baud=4800", "--address", "!"):
+        with Port(folder / "chatty") as port:
+            end = lambda had: had.endswith(b">")
+            assert port.ask(b"PR BD\r", end) == b"PR BD\r\n48\r\n>"
+            for line in ("PG 1", "LB AA", f'PR "{text}"', "BR AA", "E", "PG"):
+                port.ask(line.encode() + b"\r", lambda had: b"\n" in had)
+            first = port.ask(b"EX AA\r", lambda had: len(had) > 400)
+            assert first.count(text.encode()) >= 3, first
+            port.ask(b"\x1b", seconds=3)
+            port.ask(b"\r", end, 3)
+            assert b"66" in port.ask(b"PR ER\r", end), "transmit buffer full"
+
+
 @contextlib.contextmanager
 def witness(folder, name):
     """socat between the terminal `name` and a new one, `desk`. What crossed stands in the given lists when the witness has left."""

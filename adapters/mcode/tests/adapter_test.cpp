@@ -332,7 +332,7 @@ TEST(McodeAdapter, ProgramsAreCheckedSentVerifiedAndRun) {
     EXPECT_EQ(r.outcome, Outcome::done) << r.text;
     EXPECT_EQ(b.drives[0].program, (std::vector<std::string>{"LB AA", "MA 100", "H", "E"})) << "no poll got into it";
     EXPECT_NE(b.wait(Action{"program.upload", ""}).text.find("MA 100"), std::string::npos);
-    EXPECT_EQ(b.wait(Action{"program.start", "AA"}).outcome, Outcome::done);
+    EXPECT_EQ(b.wait(Action{"program.start", "AA"}).outcome, Outcome::accepted);
     EXPECT_TRUE(has(b.drives[0].heard, "EX AA"));
     EXPECT_EQ(b.wait(Action{"program.save", ""}).outcome, Outcome::done);
     EXPECT_TRUE(has(b.drives[0].heard, "S"));
@@ -422,7 +422,7 @@ TEST(McodeAdapter, ResetRestartsOneDriveAndFindsItAgain) {
         b.up();
         b.run(2s);
         ASSERT_EQ(b.wait(Enable{}).outcome, Outcome::done);
-        EXPECT_EQ(b.wait(Action{"reset", ""}).outcome, Outcome::done);
+        EXPECT_EQ(b.wait(Action{"reset", ""}).outcome, Outcome::accepted);
         EXPECT_EQ(b.drives[0].resets, 1);
         b.run(8s);
         EXPECT_TRUE(b.online());
@@ -434,7 +434,7 @@ TEST(McodeAdapter, ResetRestartsOneDriveAndFindsItAgain) {
     b.up();
     b.run(3s);
     EXPECT_EQ(b.drives[0].values["CE"], "2");
-    EXPECT_EQ(b.wait(Action{"reset", ""}).outcome, Outcome::done);
+    EXPECT_EQ(b.wait(Action{"reset", ""}).outcome, Outcome::accepted);
     EXPECT_EQ(b.drives[0].resets, 1);
     EXPECT_EQ(b.drives[1].resets, 0);
     b.run(8s);

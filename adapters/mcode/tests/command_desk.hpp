@@ -16,9 +16,10 @@ struct CommandDesk {
     std::vector<DriveLink> links;
     Ticket next = 1;
 
-    Ticket command(CommandBody body, std::size_t axis = 0) {
+    Ticket command(CommandBody body, std::size_t axis = 0, bool until_done = false) {
         Command c;
         c.ticket = next++;
+        c.until_done = until_done;
         c.axis = AxisId{static_cast<std::uint16_t>(axis)};
         c.body = std::move(body);
         bench().adapter.on_command(c, bench().now, bench().out);

@@ -33,11 +33,11 @@ TEST(McodeOutput, EveryLineOfAProgramIsAnEvent) {
                 b.run(1s);
                 b.notices.clear();
                 for (int i = 0; i < 4; ++i) {
-                    ASSERT_EQ(b.wait(Action{"program.start", "A1"}).outcome, Outcome::done) << what;
+                    ASSERT_EQ(b.wait(Action{"program.start", "A1"}).outcome, Outcome::accepted) << what;
                     b.run(std::chrono::milliseconds(300 + 7 * i));
                 }
                 EXPECT_EQ(count(b.notices, "output", "hello"), 4U) << what;
-                ASSERT_EQ(b.wait(Action{"program.start", "B1"}).outcome, Outcome::done) << what;
+                ASSERT_EQ(b.wait(Action{"program.start", "B1"}).outcome, Outcome::accepted) << what;
                 b.run(4s);
                 // On one pair of wires two who speak at once spoil both; what arrives whole is told, and nothing else.
                 std::size_t whole = 0;

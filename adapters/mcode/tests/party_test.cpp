@@ -13,7 +13,7 @@ TEST(McodeParty, AProgramThatWaitsForInputTakesNoPollForIt) {
         b.run(6s);
         ASSERT_TRUE(b.online());
         ASSERT_EQ(b.wait(Action{"program.download", "LB AA\nR1=7\nIV R1\nLB X2\nBR X2,IF=1\nR2=R1\nE\n"}).outcome, Outcome::done);
-        ASSERT_EQ(b.wait(Action{"program.start", "AA"}).outcome, Outcome::done);
+        ASSERT_EQ(b.wait(Action{"program.start", "AA"}).outcome, Outcome::accepted);
         const auto polls = b.adapter.counters().exchanges;
         b.run(3s);
         EXPECT_GT(b.adapter.counters().exchanges, polls + 20) << "it is polled all the time";

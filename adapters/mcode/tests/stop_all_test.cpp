@@ -156,7 +156,7 @@ TEST(McodeStopAll, AHomingAProgramAndADriveThatAnswersGlobalLinesAreStoppedToo) 
     native("IS=1,1,0", 0);
     EXPECT_EQ(b.wait(Home{21}, 0).outcome, Outcome::accepted);
     ASSERT_EQ(b.wait(Action{"program.download", "LB AA\nMR 50000\nH\nMR -50000\nH\nBR AA\nE\n"}, 1).outcome, Outcome::done);
-    ASSERT_EQ(b.wait(Action{"program.start", "AA"}, 1).outcome, Outcome::done);
+    ASSERT_EQ(b.wait(Action{"program.start", "AA"}, 1).outcome, Outcome::accepted);
     native("DG=0", 2);
     native("DG=0", 3);
     b.slew(2);

@@ -151,12 +151,14 @@ TEST(McodeClosedLoop, HmtModesAndTheirRefusals) {
     EXPECT_EQ(b.set("MS", 8), 0);
     EXPECT_EQ(b.set("AS", 1), 21);  // MS >= 10
     b.set("MS", 256);
-    b.set("EE", 1);
-    EXPECT_EQ(b.set("AS", 1), 21);  // E-25
-    b.set("EE", 0);
+    EXPECT_EQ(b.set("EE", 1), 0);
+    EXPECT_EQ(b.get("VM"), 60000);
     EXPECT_EQ(b.set("AS", 1), 0);
+    EXPECT_EQ(b.get("EE"), 1);
+    EXPECT_EQ(b.get("VM"), 768000);  // step pulses again [L696]
+    EXPECT_EQ(b.set("MS", 128), 8);  // locked [L7194]
+    EXPECT_EQ(b.set("EE", 0), 0);
     EXPECT_EQ(b.get("AF"), 128 + 16 + 64);
-    EXPECT_EQ(b.set("EE", 1), 21);
     EXPECT_EQ(b.set("MS", 5), 21);
     b.start("SL", 100000);
     EXPECT_EQ(b.set("AS", 0), 87);

@@ -62,6 +62,13 @@ struct Request {
     Duration patience{};  ///< beyond the reply time-out
 };
 
+/// A program that was started by a command that is answered when it has ended.
+struct StartedProgram {
+    Command command;
+    std::string ended_by;  ///< a line that ends programs, taken since
+    int code = 0;          ///< the last error since its start
+};
+
 class Node {
 public:
     static constexpr std::size_t queue_limit = 64;   ///< waiting commands; one more is refused as busy
@@ -192,13 +199,6 @@ private:
         std::optional<std::int64_t> speed;  ///< to_all: read once since
     };
 
-    /// A program that was started by a command that is answered when it has ended.
-    struct Program {
-        Command command;
-        std::string ended_by;  ///< a line that ends programs, taken since
-        int code = 0;          ///< the last error since its start
-    };
-
     static constexpr std::string_view escape_key = "ESC";         ///< Stop::lines: the character, not a line
     static constexpr std::string_view reset_key = "CTRL+C";       ///< Step::text: the character, not a line
     static constexpr std::string_view already_typed = "error 6";  ///< Job::text of a write that the drive answered so
@@ -312,7 +312,7 @@ private:
     std::deque<Command> queue_;
     std::deque<Stop> stops_;
     Job job_;
-    std::optional<Program> program_;
+    std::optional<StartedProgram> program_;
     std::optional<Command> restart_;  ///< reset: answered when the drive is set up again, also when it was away meanwhile
     Instant restart_until_{};
     bool need_error_ = false;

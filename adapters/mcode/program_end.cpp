@@ -33,7 +33,7 @@ void Node::program_lost(Reason reason, const std::string& why, Turn& t) {
 /// Behind a poll. The poll that confirms EX may be older than BY: the first one after it is the first look.
 void Node::watch_program(Turn& t) {
     if (!program_ || running_ || ef_) return;  // the code of an error is asked for first; the next poll has EF = 0
-    const Program p = std::move(*program_);
+    const StartedProgram p = std::move(*program_);
     program_.reset();
     const ErrorCode* e = p.code != 0 ? catalogue_.error(p.code) : nullptr;
     const std::string error = p.code == 0 ? std::string() : fmt::format("error {}{}", p.code, e ? ", " + e->text : std::string());

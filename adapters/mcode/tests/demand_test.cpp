@@ -129,18 +129,24 @@ TEST(McodeDemand, ADriveThatDoesNotTellItsLagIsPolledAsBefore) {
     }
 }
 
-/// Motor steps of LL and counts of P do not go together, and the encoder's functions are for AS = 0.
+/// With hMT motion is in step pulses whatever EE says [L696], so LL counts; without it P is in counts, and LL is not asked for.
 TEST(McodeDemand, LagAndEncoderCountsAreNotMixed) {
-    Bench b;
-    b.drives[0].values["EE"] = b.drives[0].values["AS"] = "1";
-    b.drives[0].values["LL"] = "500";
-    b.up();
-    b.run(3s);
-    EXPECT_EQ(b.wait(Enable{}).outcome, Outcome::done);
-    b.run(100ms);
-    EXPECT_TRUE(b.online());
-    EXPECT_EQ(b.feedback[AxisId{0}].demand_source, DemandSource::none);
-    EXPECT_TRUE(std::ranges::none_of(b.sent, [](const std::string& s) { return s.find(",LL") != std::string::npos; }));
+    for (const char* as : {"0", "1"}) {
+        Bench b;
+        b.drives[0].values["EE"] = "1";
+        b.drives[0].values["AS"] = as;
+        b.drives[0].values["LL"] = "500";
+        b.up();
+        b.run(3s);
+        EXPECT_EQ(b.wait(Enable{}).outcome, Outcome::done);
+        b.run(100ms);
+        EXPECT_TRUE(b.online());
+        const bool steps = as[0] == '1';
+        const AxisFeedback& f = b.feedback[AxisId{0}];
+        EXPECT_EQ(f.demand_source == DemandSource::drive, steps) << as;
+        EXPECT_EQ(f.position_demand - f.position, steps ? 500 : 0) << as;
+        EXPECT_EQ(std::ranges::any_of(b.sent, [](const std::string& s) { return s.find(",LL") != std::string::npos; }), steps) << as;
+    }
 }
 
 }  // namespace

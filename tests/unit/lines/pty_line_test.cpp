@@ -318,28 +318,30 @@ TEST_F(PtyLineTest, whoWritesMoreThanThePaceCarriesIsHeldUpAndLosesNothing) {
 }
 
 /// The drive's side says what it has to say, however long a slow line takes for it.
-TEST_F(PtyLineTest, withoutAnAgeLimitWhatWaitsIsSentWhole) {
-    for (const bool limit : {true, false}) {
-        LineBase b = base();
-        if (!limit) b.stale_after = Duration::zero();
-        line = std::make_unique<PtyLine>(b, path, 9600, paced);
-        ASSERT_TRUE(comes_up(*line));
-        const Fd f = program();
-        for (int i = 0; i < 12; ++i)
-            ASSERT_TRUE(send(text("0123456789")));
-        settle();
-        clock.ahead += stale_send_limit + milliseconds(500);
-        std::string all;
-        (void)until([&] {
-            clock.ahead += milliseconds(20);
-            all += f.read();
-            return status().queued == 0 && all.size() >= (limit ? 0U : 120U);
-        });
-        EXPECT_EQ(all.size() == 120U, !limit) << all.size();
-        EXPECT_EQ(status().dropped == 0U, !limit);
-        line.reset();
-    }
+class PtyLineAge : public PtyLineTest, public testing::WithParamInterface<bool> {};
+
+TEST_P(PtyLineAge, withoutALimitWhatWaitsIsSentWhole) {
+    const bool limit = GetParam();
+    LineBase b = base();
+    if (!limit) b.stale_after = Duration::zero();
+    line = std::make_unique<PtyLine>(b, path, 9600, paced);
+    ASSERT_TRUE(comes_up(*line));
+    const Fd f = program();
+    for (int i = 0; i < 12; ++i)
+        ASSERT_TRUE(send(text("0123456789")));
+    settle();
+    clock.ahead += stale_send_limit + milliseconds(500);
+    std::string all;
+    (void)until([&] {
+        clock.ahead += milliseconds(20);
+        all += f.read();
+        return status().queued == 0 && all.size() >= (limit ? 0U : 120U);
+    });
+    EXPECT_EQ(all.size() == 120U, !limit) << all.size();
+    EXPECT_EQ(status().dropped == 0U, !limit);
 }
+
+INSTANTIATE_TEST_SUITE_P(Limits, PtyLineAge, testing::Bool(), [](const auto& i) { return std::string(i.param ? "with" : "without"); });
 
 TEST_F(PtyLineTest, aProgramThatLeavesTakesAlongWhatWasStillOnItsWay) {
     make(9600, paced);

@@ -2042,8 +2042,7 @@ export interface components {
                 through: number;
                 meaning: string;
             }[] | null;
-            /** @description unit and range while another parameter has a certain value; with `parameter` null, of what is written, where reading gives more. Of an axis, `unit`, `min` and `max` beside it are those that hold now, as far as that other parameter has been read */
-            alternate: components["schemas"]["AlternateForm"] | null;
+            alternate: components["schemas"]["AlternateForm"];
             /** @description members of this entry that the maker's manual does not print and that were decided here */
             choice: string[];
             /** @description of an array, the number of its first element */
@@ -2053,13 +2052,14 @@ export interface components {
             /** @description what the Modbus parameter channel knows the parameter by (written to registers 48 and 49 of an axis as u32); of an array, that of its first element: each further one is 65536 more; null: texts and bytes are not carried there */
             selector: number | null;
         };
+        /** @description unit and range while another parameter has a certain value; with `parameter` null, of what is written, where reading gives more. Of an axis, `unit`, `min` and `max` beside it are those that hold now, as far as that other parameter has been read */
         AlternateForm: {
             parameter: string | null;
             equals: number | null;
             unit: string | null;
             min: number;
             max: number;
-        };
+        } | null;
         CatalogueCommand: {
             id: string;
             name: string;

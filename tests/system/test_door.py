@@ -319,8 +319,13 @@ def test_the_code_is_used_up_by_a_start_that_came_to_ready(folder):
     code, out, errors = run("serve", "--data", str(folder / "data"), "--set", "http.bind=127.0.0.1:0", "--set", f"modbus.bind=127.0.0.1:{taken.getsockname()[1]}")
     assert code == 1 and "first sign-in" not in out, (code, out, errors)
     taken.close()
-    # Killed between the code and `ready`: somebody who takes connections and never says a word holds `ready` back.
-    mute = socket.create_server(("127.0.0.1", 0))
+    # Killed between the code and `ready`: a far end whose listen queue is full answers no connection, and holds `ready` back.
+    mute = socket.create_server(("127.0.0.1", 0), backlog=0)
+    queue = [socket.socket() for _ in range(4)]
+    for s in queue:
+        s.setblocking(False)
+        s.connect_ex(mute.getsockname())
+    time.sleep(0.1)
     site = {"lines": [{"name": "far", "uri": f"tcp:127.0.0.1:{mute.getsockname()[1]}", "family": "mcode"}], "drives": [{"name": "d", "line": "far", "address": "a", "presence": "device"}],
             "axes": [{"name": "x", "drive": "d", "channel": 1, "number": 1, "unit": "mm", "increments_per_unit": 1}], "mappings": []}
     (folder / "site.json").write_text(json.dumps(site))
@@ -348,7 +353,8 @@ def test_the_code_is_used_up_by_a_start_that_came_to_ready(folder):
         p.kill()
         p.wait()
         p.stdout.close()
-        mute.close()
+        for s in [*queue, mute]:
+            s.close()
     with Gateway(folder, DEMO) as g:
         assert g.code and g.code != lost, "shown again: the start before never came to ready"
         code = g.code

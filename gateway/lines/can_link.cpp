@@ -8,6 +8,7 @@
 #include <linux/rtnetlink.h>
 #include <net/if.h>
 
+#include <cerrno>
 #include <cstring>
 
 namespace axisgate {
@@ -175,7 +176,7 @@ std::vector<LinkNews> read_link_news(std::span<const std::uint8_t> datagram) {
                 LinkNews n;
                 n.kind = LinkNews::Kind::answer;
                 n.sequence = head->nlmsg_seq;
-                n.error = -*error;
+                n.error = *error > -4096 && *error <= 0 ? -*error : EPROTO;  // the kernel gives errno below zero; more is no error number
                 all.push_back(n);
             }
         }

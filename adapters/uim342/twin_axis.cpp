@@ -10,7 +10,7 @@ namespace axisgate::uim342::twin {
 namespace {
 
 constexpr double turn_of_counter = 4294967296.0;  // 2^32
-constexpr double most_turns_per_s = 75;           // 4500 rpm: half above the 3000 rpm that motors of the series reach [L91]: a choice (E-63)
+constexpr double most_turns_per_s = 100;          // 6000 rpm: twice the 3000 rpm that motors of the series reach [L91]: a choice (E-63)
 constexpr double friction = 50;                   // of the free shaft, turns/s^2: a choice (E-62)
 
 int sign_of(double v) noexcept { return v < 0 ? -1 : (v > 0 ? 1 : 0); }

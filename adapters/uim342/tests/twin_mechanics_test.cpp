@@ -58,26 +58,26 @@ TEST(TwinMechanics, LimitAlarmsStopWithSd) {
 
 TEST(TwinMechanics, OverspeedIsToldOncePerStartAtItsInstant) {
     Bench b;
-    b.setup({"9C " + le32(65000000), "99 " + le32(1'000'000), "95 01", "9D " + le32(240'000), "96"});
-    EXPECT_TRUE(b.pass_ms(5000).empty()) << "4500 rpm of 3200 pulses are allowed";
-    b.setup({"9D " + le32(300'000), "96"});
+    b.setup({"9C " + le32(65000000), "99 " + le32(1'000'000), "95 01", "9D " + le32(320'000), "96"});
+    EXPECT_TRUE(b.pass_ms(5000).empty()) << "6000 rpm of 3200 pulses are allowed";
+    b.setup({"9D " + le32(400'000), "96"});
     const Instant began = b.now();
     EXPECT_EQ(b.pass_ms(5000), Lines{overspeed});
     EXPECT_NEAR(seconds(b.last_instant() - began), 0, 1e-6) << "just above the limit at once";
-    EXPECT_EQ(b.speed(), 300'000);
+    EXPECT_EQ(b.speed(), 400'000);
     b.setup({"97"});
     b.pass_ms(1000);
     b.setup({"96"});
     const Instant again = b.now();
     EXPECT_EQ(b.pass_ms(5000), Lines{overspeed}) << "a new start";
-    EXPECT_NEAR(seconds(b.last_instant() - again), 0.240, 1e-6);
+    EXPECT_NEAR(seconds(b.last_instant() - again), 0.320, 1e-6);
     Bench half = with({"90 00 08 00"});  // 8 microsteps: 1600 pulses per turn
-    half.setup({"9C " + le32(65000000), "99 " + le32(1'000'000), "9D " + le32(120'001), "96"});
+    half.setup({"9C " + le32(65000000), "99 " + le32(1'000'000), "9D " + le32(160'001), "96"});
     EXPECT_EQ(half.pass_ms(1000), Lines{overspeed});
     Bench held;
     held.setup({"86 06 00 00", "99 " + le32(1'000'000), "95 01"});
     held.hand("stall", true);
-    held.setup({"9D " + le32(300'000), "96"});
+    held.setup({"9D " + le32(400'000), "96"});
     EXPECT_TRUE(held.pass_ms(1000).empty()) << "a shaft that is held is not fast";
 }
 

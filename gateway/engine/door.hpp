@@ -1,44 +1,69 @@
-// Door: what a protocol server on the hot thread sees of the gateway.
-// In: commands with an origin. Out: the image, and one result per ticket through the door's own sink.
-// Never used from another thread: those have the services' gateway.hpp.
+// Door: what a protocol server on the hot thread sees of the gateway, and what the gateway tells every one of them.
+// In: commands with an origin. Out: the image; one result per ticket, sites, samples, to each door of the hot loop's list.
+// Never used from another thread: those have the services' ports.
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "gateway/axis/authority.hpp"
+#include "gateway/axis/image.hpp"
 #include "gateway/core/catalogue.hpp"
 #include "gateway/core/command.hpp"
+#include "gateway/core/sample.hpp"
 #include "gateway/site/fail_safe.hpp"
-#include "gateway/axis/image.hpp"
 
 namespace axisgate {
 
 struct Event;
+struct SiteState;
 
-/// Tickets carry their door in the upper bits, so that a result finds its way back without a table.
-[[nodiscard]] constexpr Ticket make_ticket(Door door, std::uint64_t sequence) noexcept {
+/// Place of a door in its thread's list. Tickets carry it in their upper bits, so that a result finds its way back without a table.
+using DoorNumber = std::uint8_t;
+inline constexpr DoorNumber first_service_door = 0x80;  ///< from here on: doors of the service thread; below: of the hot thread, from 1
+inline constexpr DoorNumber engine_itself = 0xFF;       ///< the engine's own orders: their results come to no door
+
+[[nodiscard]] constexpr Ticket make_ticket(DoorNumber door, std::uint64_t sequence) noexcept {
     return (static_cast<Ticket>(door) << 56) | (sequence & 0x00FF'FFFF'FFFF'FFFFull);
 }
-[[nodiscard]] constexpr Door door_of(Ticket ticket) noexcept { return static_cast<Door>(ticket >> 56); }
+[[nodiscard]] constexpr DoorNumber door_of(Ticket ticket) noexcept { return static_cast<DoorNumber>(ticket >> 56); }
 
-struct ResultSink {
+/// A protocol server on the hot thread, or something else there that gives commands. All calls come from that thread, between two turns'
+/// handlers, unless it says otherwise.
+class HotDoor {
+public:
+    virtual ~HotDoor() = default;
+    /// As the log and `ready` call it: "modbus".
+    [[nodiscard]] virtual std::string_view name() const = 0;
+    /// What it listens on; empty: on nothing that has an address.
+    [[nodiscard]] virtual std::vector<std::string> addresses() const { return {}; }
+    /// Of one of its tickets; never from inside DoorPort::submit.
     virtual void on_result(const Result& result) = 0;
-    /// When a client of this door was last heard, by its stable name; nothing: none of that name is connected, or the door does not watch.
-    [[nodiscard]] virtual std::optional<Instant> heard(std::string_view /*client*/) const { return std::nullopt; }
-    virtual ~ResultSink() = default;
+    /// A site is in force: ids must be looked up anew.
+    virtual void on_site(const SiteState& /*site*/) {}
+    /// A drive has told a parameter's value, asked for or not.
+    virtual void on_sample(const Sample& /*sample*/) {}
+    /// When a client of this door was last heard; nothing: it has no connection here, or the door does not watch.
+    [[nodiscard]] virtual std::optional<Instant> heard(const AuthorityClient& /*client*/) const { return std::nullopt; }
+    /// Serves what is there at this moment, for a loop that polls instead of sleeping; false: there was nothing.
+    virtual bool serve_now() { return false; }
+    /// Its counters as Prometheus text. Any thread.
+    [[nodiscard]] virtual std::string metrics() const { return {}; }
 };
 
 struct DoorPort {
     [[nodiscard]] virtual Instant now() const = 0;
     [[nodiscard]] virtual const Image& image() const = 0;
-    /// Catalogue of an axis' family; nullptr if the axis is not configured.
+    /// Catalogue of an axis' drive; nullptr if the axis is not configured.
     [[nodiscard]] virtual const Catalogue* catalogue(AxisId axis) const = 0;
-    /// Takes a command whose ticket the door made with make_ticket. The result comes to the door's sink: never from inside this
-    /// call (so that a door need not be re-entrant), at the end of the same turn at the earliest.
+    /// Takes a command whose ticket was made with the door's number. The result comes to the door: never from inside this call (so that a
+    /// door need not be re-entrant), at the end of the same turn at the earliest.
     virtual void submit(Command command) = 0;
-    /// Results for tickets of `door` go to `sink`, which outlives the port's use or is withdrawn with nullptr.
-    virtual void attach(Door door, ResultSink* sink) = 0;
+    /// Puts a door into the list; it gets all that HotDoor has until it is detached, which it must be before it ends.
+    [[nodiscard]] virtual DoorNumber attach(HotDoor& door) = 0;
+    virtual void detach(HotDoor& door) = 0;
     /// The last connection of a client has ended: what it commanded is treated as the axes' site entries say.
     virtual void client_lost(const AuthorityClient& /*who*/, LossCause /*cause*/) {}
     /// Something that a door wants to be kept and streamed; id, time and, where there is an axis, its name are filled in.

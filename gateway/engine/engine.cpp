@@ -250,7 +250,7 @@ void Engine::on_command(Command c, Instant now) {
             if (stops && data && (data->target_position || data->target_velocity || data->profile_velocity || data->profile_acceleration ||
                                   data->profile_deceleration || data->mode || data->homing_method)) {
                 Command only = c;
-                only.ticket = make_ticket(Door::internal, next_++);
+                only.ticket = make_ticket(engine_itself, next_++);
                 ProcessData stop;
                 stop.controlword = data->controlword;
                 only.body = stop;
@@ -381,7 +381,7 @@ void Engine::give_order(Axis& a, Client* client, CommandBody body, Origin origin
         const auto* move = client ? std::get_if<Move>(&client->body) : nullptr;
         if (move && move->hold_ms) begin_hold(a, *move, client->origin);
     }
-    const Ticket ticket = make_ticket(Door::internal, next_++);
+    const Ticket ticket = make_ticket(engine_itself, next_++);
     OrderRecord record;
     record.client = client ? client->number : 0;
     record.axis = a.id;

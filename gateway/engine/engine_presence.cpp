@@ -225,7 +225,7 @@ void Engine::begin_handback(Drive& d, Instant now) {
     }
     d.handback->waiting = wanted.size();
     for (const auto& w : wanted) {
-        const Ticket ticket = make_ticket(Door::internal, next_++);
+        const Ticket ticket = make_ticket(engine_itself, next_++);
         OrderRecord record;
         record.axis = w.axis;
         record.body = ReadParameter{w.point};

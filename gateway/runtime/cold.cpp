@@ -10,12 +10,16 @@ namespace axisgate {
 namespace {
 // At 64 commands per axis and 64 axes this is more than can be on the way; beyond it the write fails with a reason.
 constexpr std::size_t hot_ring = 8192;
+constexpr std::size_t service_ring = 1024;  // events alone
 // A batch of this many rows is not gathered any longer.
 constexpr std::size_t gathered_at_most = 1024;
 }  // namespace
 
 Cold::Cold(Store& store, Answers answers)
-    : store_(store), answers_(std::move(answers)), from_hot_(hot_ring, io_.get_executor(), [this](ColdJob&& job) { take(std::move(job)); }) {
+    : store_(store),
+      answers_(std::move(answers)),
+      from_hot_(hot_ring, io_.get_executor(), [this](ColdJob&& job) { take(std::move(job)); }),
+      from_service_(service_ring, io_.get_executor(), [this](ColdJob&& job) { take(std::move(job)); }) {
     if (const auto last = store_.last_event_id()) next_event_id_ = *last + 1;
 }
 
@@ -45,6 +49,7 @@ void Cold::run(std::function<void(Store&)> job) {
 void Cold::flush(std::function<void()> then) {
     boost::asio::post(io_, [this, then = std::move(then)] {
         from_hot_.empty();
+        from_service_.empty();
         if (write_at_ != never) write_batch();
         then();
     });

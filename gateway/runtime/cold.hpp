@@ -51,6 +51,7 @@ public:
 
     /// One mailbox per sending thread.
     [[nodiscard]] Mailbox<ColdJob>& from_hot() noexcept { return from_hot_; }
+    [[nodiscard]] Mailbox<ColdJob>& from_service() noexcept { return from_service_; }
     [[nodiscard]] boost::asio::io_context& context() noexcept { return io_; }
     /// Runs a function on the cold thread (from the warm thread: sites, backups).
     void run(std::function<void(Store&)> job);
@@ -73,7 +74,7 @@ private:
     Answers answers_;
     boost::asio::io_context io_{1};
     boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work_{io_.get_executor()};
-    Mailbox<ColdJob> from_hot_;
+    Mailbox<ColdJob> from_hot_, from_service_;
     std::vector<StoreOrder> orders_;
     std::vector<EventAt> events_;
     std::vector<ParameterSeen> seen_;

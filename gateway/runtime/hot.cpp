@@ -72,7 +72,7 @@ void Hot::run() {
             for (unsigned i = 0; ran == 0; ++i) {
                 const Instant t = now();
                 if (t >= until || t >= armed_) break;
-                ran = look_ && look_() ? 1 : (i % 4 == 3 || !look_) ? io_.poll_one() : 0;
+                ran = serve_doors() ? 1 : (i % 4 == 3 || doors_.empty()) ? io_.poll_one() : 0;
             }
         }
         if (ran == 0) io_.run_one();
@@ -111,10 +111,10 @@ void Hot::end_turn() {
         turn_results_.clear();
         turn_results_.swap(results_);
         for (auto& r : turn_results_) {
-            const Door door = door_of(r.ticket);
-            if (ResultSink* sink = static_cast<std::size_t>(door) < sinks_.size() ? sinks_[static_cast<std::size_t>(door)] : nullptr) {
-                sink->on_result(r);
-            } else if (door != Door::internal && out_.results) {
+            const DoorNumber number = door_of(r.ticket);
+            if (number > 0 && number <= doors_.size()) {
+                if (HotDoor* door = doors_[number - 1u]) door->on_result(r);
+            } else if (number >= first_service_door && number != engine_itself && out_.results) {
                 (void)out_.results->push(std::move(r));  // never full: no more tickets are given out than it has places
             }
         }
@@ -155,21 +155,38 @@ void Hot::note(Event&& event, AxisId axis) {
     on_event(std::move(event), now());
 }
 
-void Hot::on_event(Event event, Instant at) {
-    if (!out_.cold) return;
-    const auto lost = lost_events_.load(std::memory_order_relaxed);
-    if (lost > lost_told_) {
-        Event gap;
-        gap.severity = Severity::warning;
-        gap.kind = "gap";
-        gap.text = fmt::format("{} events could not be taken: more came than can be written", lost - lost_told_);
-        if (out_.cold->push(EventAt{std::move(gap), at})) lost_told_ = lost;
+void Hot::on_event(Event event, Instant at) { events_.tell(std::move(event), at); }
+
+DoorNumber Hot::attach(HotDoor& door) {
+    doors_.push_back(&door);  // a number is never given twice: late results of a detached door find nobody
+    return static_cast<DoorNumber>(doors_.size());
+}
+
+bool Hot::serve_doors() {
+    bool served = false;
+    for (HotDoor* door : doors_) served = (door && door->serve_now()) || served;
+    return served;
+}
+
+void Hot::tell_site(const SiteState& site) {
+    for (HotDoor* door : doors_) {
+        if (door) door->on_site(site);
     }
-    if (!out_.cold->push(EventAt{std::move(event), at})) lost_events_.fetch_add(1, std::memory_order_relaxed);
+}
+
+std::optional<Instant> Hot::heard(const AuthorityClient& who) const {
+    std::optional<Instant> newest;
+    for (const HotDoor* door : doors_) {
+        const auto at = door ? door->heard(who) : std::nullopt;
+        if (at && (!newest || *at > *newest)) newest = at;
+    }
+    return newest;
 }
 
 void Hot::on_sample(const Sample& sample) {
-    if (tap_) tap_(sample);
+    for (HotDoor* door : doors_) {
+        if (door) door->on_sample(sample);
+    }
     if (out_.samples) (void)out_.samples->push(Sample(sample));  // a state: the next reading replaces one that was not taken
 }
 

@@ -1,4 +1,4 @@
-// Hot: the thread that a PLC feels: lines, twins, engine and the Modbus door on one io_context, with no hand-over between them.
+// Hot: the thread that a PLC feels: lines, twins, engine and the cyclic doors on one io_context, with no hand-over between them.
 // In: commands of the warm thread, what lines and sockets bring, time. Out: results, events, snapshots of reports.
 // Never waits for a disk, a lock or another thread.
 #pragma once
@@ -7,6 +7,7 @@
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/steady_timer.hpp>
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <thread>
@@ -14,10 +15,10 @@
 
 #include "gateway/engine/door.hpp"
 #include "gateway/engine/engine.hpp"
-#include "gateway/site/mapping.hpp"
 #include "gateway/lines/pty_line.hpp"
 #include "gateway/runtime/clock.hpp"
 #include "gateway/runtime/cold.hpp"
+#include "gateway/runtime/event_outlet.hpp"
 #include "gateway/runtime/mailbox.hpp"
 
 namespace axisgate {
@@ -52,7 +53,10 @@ public:
     Hot(Families families, HotSettings settings);
     ~Hot() override;
 
-    void connect(Outlets outlets) { out_ = outlets; }
+    void connect(Outlets outlets) {
+        out_ = outlets;
+        events_.connect(outlets.cold);
+    }
     [[nodiscard]] boost::asio::io_context& context() noexcept { return io_; }
     [[nodiscard]] Mailbox<Command>& commands() noexcept { return commands_; }
     [[nodiscard]] Mailbox<Job>& jobs() noexcept { return jobs_; }
@@ -62,17 +66,10 @@ public:
     [[nodiscard]] std::shared_ptr<const Reports> reports() const { return reports_.load(std::memory_order_acquire); }
     [[nodiscard]] Engine& engine() noexcept { return engine_; }  ///< before start(), or on the hot thread
 
-    /// Asked again and again while the loop polls instead of sleeping (spin_us): true if it found something to do. Before start().
-    void look_here_while_spinning(std::function<bool()> look) { look_ = std::move(look); }
-
-    /// Called on the hot thread for every parameter value that a drive reported. Before start().
-    void tap_samples(std::function<void(const Sample&)> tap) { tap_ = std::move(tap); }
-    /// Called on the hot thread when a site is in force, with its checked mappings. Before start().
-    void on_mappings(std::function<void(const SiteState&, std::vector<Mapping>)> take) { take_mappings_ = std::move(take); }
-    /// Hot thread, or before start().
-    void mappings_changed(const SiteState& site, std::vector<Mapping> mappings) {
-        if (take_mappings_) take_mappings_(site, std::move(mappings));
-    }
+    /// A site is in force: all doors look it up anew. Hot thread, or before start().
+    void tell_site(const SiteState& site);
+    /// The doors of this thread; before start(), or on the hot thread.
+    [[nodiscard]] const std::vector<HotDoor*>& doors() const noexcept { return doors_; }
 
     void start();
     /// Stops moving axes, gives them a moment, closes the lines, ends the thread.
@@ -80,9 +77,7 @@ public:
     /// Instant of the last turn: the watchdog looks at it.
     [[nodiscard]] Instant last_turn() const noexcept { return at_ns(last_turn_ns_.load(std::memory_order_relaxed)); }
     [[nodiscard]] std::uint64_t turns() const noexcept { return turns_.load(std::memory_order_relaxed); }
-    /// Any thread: an event found the way to this thread full. The next one that can be taken tells how many are missing.
-    void lose_event() noexcept { lost_events_.fetch_add(1, std::memory_order_relaxed); }
-    [[nodiscard]] std::uint64_t lost_events() const noexcept { return lost_events_.load(std::memory_order_relaxed); }
+    [[nodiscard]] std::uint64_t lost_events() const noexcept { return events_.lost(); }
 
     // DoorPort (hot thread)
     [[nodiscard]] Instant now() const override;
@@ -91,15 +86,13 @@ public:
     void submit(Command command) override;
     void client_lost(const AuthorityClient& who, LossCause cause) override { engine_.on_client_lost(who, cause, now()); }
     void note(Event&& event, AxisId axis) override;
-    void attach(Door door, ResultSink* sink) override { sinks_[static_cast<std::size_t>(door)] = sink; }
+    [[nodiscard]] DoorNumber attach(HotDoor& door) override;
+    void detach(HotDoor& door) override { std::ranges::replace(doors_, &door, nullptr); }
 
     // EngineHost (hot thread)
     std::unique_ptr<Line> make_line(const LineSpec& spec, const LineSetup& setup) override;
     void on_result(const Result& result) override { results_.push_back(result); }
-    [[nodiscard]] std::optional<Instant> heard(const AuthorityClient& who) const override {
-        const ResultSink* sink = sinks_[static_cast<std::size_t>(who.door)];
-        return sink ? sink->heard(who.name) : std::nullopt;
-    }
+    [[nodiscard]] std::optional<Instant> heard(const AuthorityClient& who) const override;
     void on_event(Event event, Instant at) override;
     void on_sample(const Sample& sample) override;
     void on_store(StoreOrder order) override;
@@ -108,6 +101,7 @@ public:
 private:
     void run();
     void end_turn();
+    bool serve_doors();
     void announce();
     void arm(Instant deadline);
     void publish_reports(Instant now);
@@ -127,17 +121,14 @@ private:
     std::vector<Result> results_;
     std::vector<Command> turn_commands_;  // the two above while they are worked on; kept for their room
     std::vector<Result> turn_results_;
-    std::array<ResultSink*, 6> sinks_{};
+    std::vector<HotDoor*> doors_;  // by number - 1; nullptr: detached
+    EventOutlet events_;
     std::atomic<std::shared_ptr<const Reports>> reports_{std::make_shared<const Reports>()};
     Instant next_reports_{};
     std::atomic<std::int64_t> last_turn_ns_{0};
-    std::atomic<std::uint64_t> turns_{0}, lost_events_{0};
-    std::uint64_t lost_told_ = 0;
+    std::atomic<std::uint64_t> turns_{0};
     std::atomic<bool> stopping_{false};
     bool finished_ = false;
-    std::function<bool()> look_;
-    std::function<void(const Sample&)> tap_;
-    std::function<void(const SiteState&, std::vector<Mapping>)> take_mappings_;
     bool settled_ = false;
     int turns_unannounced_ = 0;
     std::thread thread_;

@@ -73,43 +73,6 @@ struct LogListener final : GatewayListener {
     void on_site(const std::shared_ptr<const SiteState>&) override {}
 };
 
-std::string modbus_metrics(const modbus::Counters& c) {
-    std::string s;
-    const auto put = [&](std::string_view name, std::string_view type, std::string_view help, std::uint64_t value) {
-        s += fmt::format("# HELP axisgate_modbus_{0} {1}\n# TYPE axisgate_modbus_{0} {2}\naxisgate_modbus_{0} {3}\n", name, help, type, value);
-    };
-    put("requests_total", "counter", "Requests taken for an answer.", c.requests.value());
-    put("connections", "gauge", "Connections open now.", c.connections_open.value());
-    put("connections_accepted_total", "counter", "Connections accepted.", c.connections_accepted.value());
-    put("connections_refused_total", "counter", "Connections refused at the limit.", c.connections_refused.value());
-    put("connections_not_allowed_total", "counter", "Connections closed at once: not on the allow list.", c.connections_not_allowed.value());
-    put("connections_evicted_total", "counter", "Idle connections closed to make room.", c.connections_evicted.value());
-    put("closed_not_modbus_total", "counter", "Connections closed for bytes that were not Modbus.", c.closed_not_modbus.value());
-    put("received_bytes_total", "counter", "Bytes received.", c.bytes_received.value());
-    put("sent_bytes_total", "counter", "Bytes sent.", c.bytes_sent.value());
-    s += "# HELP axisgate_modbus_exceptions_total Exception answers by code.\n# TYPE axisgate_modbus_exceptions_total counter\n";
-    for (const int code : {1, 2, 3, 4, 6, 10, 11}) {
-        s += fmt::format("axisgate_modbus_exceptions_total{{code=\"{}\"}} {}\n", code, c.exceptions[static_cast<std::size_t>(code)].value());
-    }
-    return s;
-}
-
-/// Everything that lives while the service runs; destroyed from the last to the first.
-/// Mappings with the ids of their axes in the running engine.
-std::vector<modbus::PlacedMapping> placed(const SiteState& site, std::vector<Mapping> mappings) {
-    std::map<std::string_view, std::size_t> index;
-    for (std::size_t i = 0; i < site.site.axes.size(); ++i) index.emplace(site.site.axes[i].name, i);
-    std::vector<modbus::PlacedMapping> out;
-    out.reserve(mappings.size());
-    for (auto& m : mappings) {
-        const auto it = index.find(m.axis);
-        if (it == index.end() || it->second >= site.axis_ids.size()) continue;
-        const AxisId id = site.axis_ids[it->second];
-        out.push_back({std::move(m), id, site.site.axes[it->second].increments_per_unit});
-    }
-    return out;
-}
-
 Gateway::ModbusReport modbus_report(modbus::Server& server, Hot& hot, const Config& config) {
     Gateway::ModbusReport r;
     const auto addresses = server.addresses();
@@ -135,6 +98,7 @@ Gateway::ModbusReport modbus_report(modbus::Server& server, Hot& hot, const Conf
     return r;
 }
 
+/// Everything that lives while the service runs; destroyed from the last to the first.
 struct Service {
     const ServeOptions& options;
     Families families;
@@ -143,6 +107,7 @@ struct Service {
     std::unique_ptr<Hot> hot;
     std::unique_ptr<Cold> cold;
     std::unique_ptr<WarmGateway> gateway;
+    std::unique_ptr<registers::RegisterImage> image;
     std::unique_ptr<modbus::Server> modbus;
     std::shared_ptr<AccessService> access;
     std::unique_ptr<http::Server> http;
@@ -269,9 +234,7 @@ int Service::open_access() {
     as.idle_ns = options.config.users_session_idle_min * minute_ns;
     as.max_ns = options.config.users_session_max_h * 60 * minute_ns;
     access = std::make_shared<AccessService>(warm, *cold, as, [this](Event e) {
-        Hot::Job job([this, e](Engine&, Instant now) { hot->on_event(e, now); });
-        if (!hot->jobs().push(std::move(job))) return log_event(e);  // not in the journal, but not lost either
-        hot->jobs().announce();
+        gateway->note(std::move(e));
     });
     if (const std::string fault = access->load(*store, options.config.users_new_code, first_code); !fault.empty()) {
         complain(fault);
@@ -292,11 +255,14 @@ void Service::show_code() {
 }
 
 int Service::open_doors() {
-    std::vector<Gateway::DoorInfo> doors;
+    registers::RegisterImage::Settings rs;
+    rs.word_order = options.config.modbus_low_word_first ? MapWordOrder::low_first : MapWordOrder::high_first;
+    rs.gaps = options.config.modbus_gaps;
+    image = std::make_unique<registers::RegisterImage>(*hot, rs);
+    gateway->use_registers(*image);
     if (!options.config.modbus_bind.empty()) {
         modbus::ServerSettings ms;
         ms.responder.version = AXISGATE_VERSION;
-        ms.responder.word_order = options.config.modbus_low_word_first ? modbus::WordOrder::low_first : modbus::WordOrder::high_first;
         for (const auto& text : options.config.modbus_allow) {
             if (const auto network = modbus::parse_network(text)) ms.responder.access.allow.push_back(*network);
         }
@@ -305,19 +271,13 @@ int Service::open_doors() {
         // What was switched while it ran is newer than the file.
         if (const auto kept = store->document("setting", "modbus.read_only"); kept && *kept) ms.responder.access.read_only = (*kept)->text == "true";
         ms.max_connections = static_cast<std::size_t>(options.config.modbus_max_connections);
-        ms.gaps = options.config.modbus_gaps;
         ms.idle_timeout = std::chrono::seconds(options.config.modbus_idle_timeout_s);
-        modbus = std::make_unique<modbus::Server>(hot->context(), *hot, ms);
+        modbus = std::make_unique<modbus::Server>(hot->context(), *hot, *image, ms);
         const std::string binds[] = {options.config.modbus_bind};
         if (const std::string fault = modbus->open(binds); !fault.empty()) {
             complain(fault);
             return exit_failed;
         }
-        hot->tap_samples([this](const Sample& sample) { modbus->on_sample(sample); });
-        hot->on_mappings([this](const SiteState& site, std::vector<Mapping> mappings) { modbus->set_mappings(placed(site, std::move(mappings)), site.site.gaps); });
-        hot->look_here_while_spinning([this] { return modbus->serve_now(); });
-        gateway->modbus_answer = [this](std::uint8_t unit, std::span<const std::uint8_t> pdu) { return modbus->answer_read(unit, pdu); };
-        for (const auto& a : modbus->addresses()) doors.push_back({"modbus", a});
         gateway->modbus_read_only_on_hot = [this](bool on) { modbus->responder().set_read_only(on); };
         gateway->modbus_on_hot = [this] { return modbus_report(*modbus, *hot, options.config); };
     }
@@ -339,10 +299,18 @@ int Service::open_doors() {
             complain(fault);
             return exit_failed;
         }
-        doors.push_back({identity ? "https" : "http", http->address()});
     }
-    gateway->set_doors(doors);
-    gateway->more_metrics = [this] { return modbus ? modbus_metrics(modbus->counters()) : std::string(); };
+    std::vector<Gateway::DoorInfo> doors;
+    for (const HotDoor* door : hot->doors()) {
+        for (auto& address : door->addresses()) doors.push_back({std::string(door->name()), std::move(address)});
+    }
+    if (http) doors.push_back({http->secure() ? "https" : "http", http->address()});
+    gateway->set_doors(std::move(doors));
+    gateway->more_metrics = [this] {
+        std::string text;
+        for (const HotDoor* door : hot->doors()) text += door->metrics();
+        return text;
+    };
     return exit_good;
 }
 
@@ -416,8 +384,7 @@ int command_serve(const ServeOptions& options) {
     }
     if (const int code = s.open_doors(); code != exit_good) return code;
     s.show_code();
-    std::vector<SiteFault> none;  // the site has been checked
-    s.hot->mappings_changed(*state, parse_mappings(state->site.mappings, state->site, s.families, none).value_or(std::vector<Mapping>()));
+    s.hot->tell_site(*state);
 
     s.signals.add(SIGINT);
     s.signals.add(SIGTERM);

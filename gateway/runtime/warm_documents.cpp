@@ -1,4 +1,4 @@
-// Warm gateway, scans, documents and events of doors: questions to the hot thread, small named texts through the cold thread, events by the hot one's road.
+// Warm gateway, scans, documents and events of doors: questions to the hot thread, small named texts and events to the cold one.
 // In: calls on the warm thread. Out: what is stored; callbacks on the warm executor when it is on disk.
 // Never blocks but for a local read of the database.
 #include <fmt/format.h>
@@ -21,9 +21,8 @@ Gateway::Document shown(StoreDocument&& d) { return {std::move(d.name), std::mov
 }  // namespace
 
 void WarmGateway::note(Event event) {
-    // Numbered and kept with all others: the hot thread hands events to the cold one.
-    if (!hot_.jobs().push([this, event = std::move(event)](Engine&, Instant now) mutable { hot_.on_event(std::move(event), now); })) return hot_.lose_event();
-    hot_.jobs().announce();
+    events_.tell(std::move(event), monotonic_now());
+    cold_.from_service().announce();
 }
 
 void WarmGateway::start_scan(LineId line, ScanWish wish, Origin origin, std::function<void(std::string)> then) {

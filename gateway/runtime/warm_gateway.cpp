@@ -35,7 +35,9 @@ WarmGateway::WarmGateway(boost::asio::io_context& warm, Hot& hot, Cold& cold, Fa
       results_(2 * max_waiting, warm.get_executor(), [this](Result&& r) { answer(std::move(r)); }),
       samples_(sample_ring, warm.get_executor(),
                [this](Sample&& s) { take(std::move(s)); }),
-      started_(monotonic_now()) {}
+      started_(monotonic_now()) {
+    events_.connect(&cold_.from_service());
+}
 
 double WarmGateway::uptime_s() const { return seconds(monotonic_now() - started_); }
 std::int64_t WarmGateway::now_unix_ns() const { return unix_now_ns(); }
@@ -85,7 +87,7 @@ std::uint64_t WarmGateway::picture_revision(AxisId axis) const {
 }
 
 Ticket WarmGateway::submit(Command command, std::function<void(const Result&)> then) {
-    const Ticket ticket = make_ticket(Door::http, next_ticket_++);
+    const Ticket ticket = make_ticket(first_service_door, next_ticket_++);
     command.ticket = ticket;
     const AxisId axis = command.axis;
     if (waiting_.size() >= max_waiting || !hot_.commands().push(std::move(command))) {
@@ -285,13 +287,11 @@ void WarmGateway::apply_site(Site site, std::uint64_t expected_revision, Origin 
             return;
         }
         auto memory = read_site_memory(store, site);
-        std::vector<SiteFault> none;  // the site has been checked
-        auto mappings = parse_mappings(site.mappings, site, families_, none).value_or(std::vector<Mapping>());
-        boost::asio::post(io_, [this, site = std::move(site), memory = std::move(memory), mappings = std::move(mappings), revision = *saved, e = std::move(e), then = std::move(then)]() mutable {
-            auto job = [this, site = std::move(site), memory = std::move(memory), mappings = std::move(mappings), revision, e = std::move(e), then](Engine& engine, Instant now) mutable {
+        boost::asio::post(io_, [this, site = std::move(site), memory = std::move(memory), revision = *saved, e = std::move(e), then = std::move(then)]() mutable {
+            auto job = [this, site = std::move(site), memory = std::move(memory), revision, e = std::move(e), then](Engine& engine, Instant now) mutable {
                 hot_.on_event(std::move(e), now);
                 auto state = engine.apply_site(std::move(site), std::move(memory), revision, now);
-                hot_.mappings_changed(*state, std::move(mappings));
+                hot_.tell_site(*state);
                 boost::asio::post(io_, [this, state = std::move(state), then = std::move(then)]() mutable { finish_site(true, {}, std::move(state), then); });
             };
             if (!hot_.jobs().push(Hot::Job(std::move(job)))) {
@@ -331,7 +331,7 @@ std::string WarmGateway::metrics() const {
     head("axisgate_store_faults_total", "counter", "Transactions that could not be written.");
     s += fmt::format("axisgate_store_faults_total {}\n", cold_.faults());
     head("axisgate_lost_events_total", "counter", "Events that found their queue full.");
-    s += fmt::format("axisgate_lost_events_total {}\n", hot_.lost_events());
+    s += fmt::format("axisgate_lost_events_total {}\n", hot_.lost_events() + events_.lost());
 
     const auto reports = hot_.reports();
     head("axisgate_fail_safe_total", "counter", "Axes that were stopped because the client that commanded them was lost, by cause.");

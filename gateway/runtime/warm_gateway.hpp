@@ -10,6 +10,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "gateway/registers/register_image.hpp"
+#include "gateway/runtime/event_outlet.hpp"
 #include "gateway/services/gateway.hpp"
 #include "gateway/runtime/cold.hpp"
 #include "gateway/runtime/hot.hpp"
@@ -26,6 +28,7 @@ public:
     [[nodiscard]] Mailbox<Sample>& samples() noexcept { return samples_; }
     /// Events that the cold thread has numbered; called on the cold thread.
     void events_written(std::vector<Event> events);
+    [[nodiscard]] std::uint64_t lost_events() const noexcept { return events_.lost(); }
     void set_doors(std::vector<DoorInfo> doors) { doors_ = std::move(doors); }
     void set_site(std::shared_ptr<const SiteState> site);
     /// More sentences for not_ready and more lines for metrics, from the service.
@@ -70,9 +73,9 @@ public:
     void save_document(const std::string& kind, Document document, std::function<void(std::string)> then) override;
     void delete_document(const std::string& kind, const std::string& name, std::function<void(std::string)> then) override;
 
-    // --- warm_keep.cpp: what is kept, staged, and asked of the Modbus door ---
-    /// Answers a Modbus request on the hot thread; set before start where there is such a door.
-    std::function<std::vector<std::uint8_t>(std::uint8_t unit, std::span<const std::uint8_t> pdu)> modbus_answer;
+    // --- warm_keep.cpp: what is kept, staged, and read from the registers ---
+    /// The hot thread's register image; before start.
+    void use_registers(registers::RegisterImage& image) { registers_ = &image; }
     [[nodiscard]] std::vector<SnapshotInfo> snapshots(const std::string& axis) const override;
     [[nodiscard]] std::optional<AxisSnapshot> snapshot(const std::string& axis, std::uint32_t n) const override;
     void save_snapshot(AxisSnapshot snapshot, std::string axis, std::function<void(std::uint32_t n, std::string fault)> then) override;
@@ -85,7 +88,8 @@ public:
     void apply_stage(std::uint32_t confirm_within_s, Origin origin, std::function<void(SiteAnswer)> then) override;
     void confirm_stage(Origin origin, std::function<void(std::string fault)> then) override;
     void roll_back_stage(Origin origin, std::function<void(SiteAnswer)> then) override;
-    void ask_modbus(std::uint8_t unit, std::vector<std::uint8_t> pdu, std::function<void(std::optional<std::vector<std::uint8_t>>)> then) override;
+    void read_registers(std::uint8_t unit, registers::Table table, std::uint16_t address, std::uint16_t count,
+                        std::function<void(std::optional<registers::RegisterRead>)> then) override;
     void backup(std::function<void(std::optional<std::string> bytes, std::string fault)> then) override;
     void restore(std::string bytes, Origin origin, std::function<void(RestoreFault)> then) override;
     void waiting_backup(std::function<void(std::optional<WaitingBackup>)> then) override;
@@ -114,6 +118,8 @@ private:
     Mailbox<Sample> samples_;
     std::shared_ptr<const SiteState> site_ = std::make_shared<const SiteState>();
     std::vector<DoorInfo> doors_;
+    registers::RegisterImage* registers_ = nullptr;  // of the hot thread, for its jobs
+    EventOutlet events_;
     std::vector<GatewayListener*> listeners_;
     std::unordered_map<Ticket, std::function<void(const Result&)>> waiting_;
     std::unordered_map<std::uint64_t, Said> live_;  // by axis << 32 | parameter << 16 | element

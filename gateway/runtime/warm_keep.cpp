@@ -61,8 +61,7 @@ void WarmGateway::tell_site(std::string text, const Origin& origin, Severity sev
     e.text = std::move(text);
     e.who = origin.who ? *origin.who : "";
     e.door = std::string(name_of(origin.door));
-    if (!hot_.jobs().push([this, e = std::move(e)](Engine&, Instant now) { hot_.on_event(e, now); })) return hot_.lose_event();
-    hot_.jobs().announce();
+    note(std::move(e));
 }
 
 std::string WarmGateway::stage_site(Site site, std::uint64_t base_revision, const Origin& origin) {
@@ -173,13 +172,13 @@ void WarmGateway::take_back(Origin origin, std::string why, std::function<void(S
 
 // --- registers ------------------------------------------------------------------------------------------------------
 
-void WarmGateway::ask_modbus(std::uint8_t unit, std::vector<std::uint8_t> pdu,
-                             std::function<void(std::optional<std::vector<std::uint8_t>>)> then) {
-    auto job = [this, unit, pdu = std::move(pdu), then](Engine&, Instant) {
-        auto bytes = modbus_answer(unit, pdu);
-        boost::asio::post(io_, [then, bytes = std::move(bytes)]() mutable { then(std::move(bytes)); });
+void WarmGateway::read_registers(std::uint8_t unit, registers::Table table, std::uint16_t address, std::uint16_t count,
+                                 std::function<void(std::optional<registers::RegisterRead>)> then) {
+    auto job = [this, unit, table, address, count, then](Engine&, Instant) {
+        auto read = registers_->read(unit, table, address, count);
+        boost::asio::post(io_, [then, read = std::move(read)]() mutable { then(std::move(read)); });
     };
-    if (!modbus_answer || !hot_.jobs().push(std::move(job))) {
+    if (!registers_ || !hot_.jobs().push(std::move(job))) {
         boost::asio::post(io_, [then] { then(std::nullopt); });
         return;
     }

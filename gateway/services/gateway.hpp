@@ -19,6 +19,7 @@
 #include "gateway/site/site_state.hpp"
 #include "gateway/axis/image.hpp"
 #include "gateway/core/line.hpp"
+#include "gateway/registers/unit_map.hpp"
 #include "gateway/core/sample.hpp"
 #include "gateway/core/scan.hpp"
 #include "gateway/site/site.hpp"
@@ -167,9 +168,10 @@ public:
     virtual void confirm_stage(Origin origin, std::function<void(std::string fault)> then) = 0;
     virtual void roll_back_stage(Origin origin, std::function<void(SiteAnswer)> then) = 0;
 
-    // --- registers, as the Modbus door shows them ----------------------------------------------------------------------
-    /// A read request (functions 1 to 4) answered by the Modbus door itself; nothing if there is no such door or too much is asked at once.
-    virtual void ask_modbus(std::uint8_t unit, std::vector<std::uint8_t> pdu, std::function<void(std::optional<std::vector<std::uint8_t>>)> then) = 0;
+    // --- registers ---------------------------------------------------------------------------------------------------------
+    /// What a client of a register door would read now; nothing: too much is asked at once.
+    virtual void read_registers(std::uint8_t unit, registers::Table table, std::uint16_t address, std::uint16_t count,
+                                std::function<void(std::optional<registers::RegisterRead>)> then) = 0;
 
     // --- the database as one file --------------------------------------------------------------------------------------
     /// A whole, checked copy of the database, or nothing and why.

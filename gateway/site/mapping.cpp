@@ -232,6 +232,11 @@ void check_conflicts(const std::vector<Mapping>& all, const std::vector<std::siz
 
 }  // namespace
 
+const std::vector<Mapping>& Site::map() const noexcept {
+    static const std::vector<Mapping> none;
+    return parsed_mappings ? *parsed_mappings : none;
+}
+
 std::string_view name_of(MapTable t) noexcept { return name_in(table_names, t); }
 std::string_view name_of(MapType t) noexcept { return name_in(type_names, t); }
 std::string_view name_of(MapAccess a) noexcept { return name_in(access_names, a); }

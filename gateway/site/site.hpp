@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -71,11 +72,16 @@ enum class MapGaps : std::uint8_t {
 [[nodiscard]] std::string_view name_of(MapGaps gaps) noexcept;
 [[nodiscard]] std::optional<MapGaps> map_gaps_named(std::string_view name) noexcept;
 
+struct Mapping;
+
 struct Site {
     std::vector<LineSpec> lines;
     std::vector<DriveSpec> drives;
     std::vector<AxisSpec> axes;
-    boost::json::array mappings;  ///< kept as they are; doors read what concerns them
+    boost::json::array mappings;  ///< in their full form
+    /// The same, checked; made by parse_site, absent in a site that was put together by hand.
+    std::shared_ptr<const std::vector<Mapping>> parsed_mappings;
+    [[nodiscard]] const std::vector<Mapping>& map() const noexcept;
     std::map<std::uint8_t, MapGaps> gaps;  ///< "modbus_units": by unit 2..254, where it is not as `[modbus] gaps` has it
 
     [[nodiscard]] const LineSpec* line(std::string_view name) const noexcept;

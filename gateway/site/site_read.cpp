@@ -380,9 +380,10 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
     read_units(o.if_contains("modbus_units"), site, faults);
     check_relations(site, families, faults);
     // In their full form from here on: ids that were given, defaults that were chosen.
-    if (const auto mappings = parse_mappings(site.mappings, site, families, faults)) {
+    if (auto mappings = parse_mappings(site.mappings, site, families, faults)) {
         site.mappings.clear();
         for (const auto& mapping : *mappings) site.mappings.push_back(to_json(mapping));
+        site.parsed_mappings = std::make_shared<const std::vector<Mapping>>(std::move(*mappings));
     }
     if (faults.size() != before) return std::nullopt;
     return site;

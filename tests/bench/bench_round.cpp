@@ -94,7 +94,7 @@ struct Plant {
     }
     void command(AxisId axis, CommandBody body) {
         Command c;
-        c.ticket = make_ticket(Door::http, ++sequence);
+        c.ticket = make_ticket(first_service_door, ++sequence);
         c.axis = axis;
         c.body = std::move(body);
         c.origin.door = Door::http;

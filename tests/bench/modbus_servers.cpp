@@ -72,7 +72,8 @@ struct MovingPort final : DoorPort {
     const Image& image() const override { return image_; }
     const Catalogue* catalogue(AxisId) const override { return nullptr; }
     void submit(Command) override {}
-    void attach(Door, ResultSink*) override {}
+    DoorNumber attach(HotDoor&) override { return 1; }
+    void detach(HotDoor&) override {}
     Image image_;
 };
 }  // namespace
@@ -80,7 +81,8 @@ struct MovingPort final : DoorPort {
 struct DoorServer::State {
     boost::asio::io_context io{1};
     MovingPort port;
-    modbus::Server server{io, port, {}};
+    registers::RegisterImage image{port, {}};
+    modbus::Server server{io, port, image, {}};
     boost::asio::steady_timer timer{io};
     std::atomic<bool> stop{false};
 

@@ -30,7 +30,7 @@ protected:
     }
     Ticket modbus(const ProcessData& d) {
         Command c;
-        c.ticket = make_ticket(Door::modbus, next_ticket++);
+        c.ticket = make_ticket(1, next_ticket++);
         c.axis = a1;
         c.body = d;
         c.origin.door = Door::modbus;

@@ -36,7 +36,7 @@ struct Script {
 };
 
 struct World : SessionWaker {
-    explicit World(WordOrder order) : responder(port, test::Desk::settings(order)) {
+    explicit World(WordOrder order) : door(port, order) {
         for (std::uint16_t n = 1; n <= 3; ++n)
             axes.push_back(port.add_axis(n, &test::catalogue()));
     }
@@ -78,7 +78,8 @@ struct World : SessionWaker {
     }
 
     test::FakePort port;
-    Responder responder;
+    test::ResponderDoor door;
+    Responder& responder = door.responder;
     Session session{responder, *this, nullptr};
     std::unique_ptr<AnswerBuffer> out = std::make_unique<AnswerBuffer>();
     std::vector<AxisId> axes;
@@ -103,7 +104,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 break;
             case 2:
                 world.port.time += std::chrono::seconds(script.byte());
-                world.responder.expire(world.port.time);
+                world.responder.writer().sweep(world.port.time);
                 break;
             case 3:
                 if (op & 0x80) {

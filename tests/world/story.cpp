@@ -236,7 +236,7 @@ private:
         g.powers = witness_.powers(m.shaft);
         static const auto anna = std::make_shared<const std::string>("anna"), plc = std::make_shared<const std::string>("192.0.2.7");
         Command c;
-        c.ticket = g.ticket = make_ticket(g.client ? Door::modbus : Door::http, world_->next_ticket++);
+        c.ticket = g.ticket = make_ticket(g.client ? DoorNumber{1} : first_service_door, world_->next_ticket++);
         c.axis = m.axis;
         c.until_done = pick(2) == 0 && !std::holds_alternative<Move>(body);
         c.origin = {g.client ? Door::modbus : Door::http, g.client ? plc : anna, g.client ? plc : anna};

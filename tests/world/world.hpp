@@ -205,7 +205,7 @@ public:
     }
     Ticket command(AxisId axis, CommandBody body, bool until_done = false) {
         Command c;
-        c.ticket = make_ticket(Door::http, next_ticket++);
+        c.ticket = make_ticket(first_service_door, next_ticket++);
         c.axis = axis;
         c.body = std::move(body);
         c.until_done = until_done;

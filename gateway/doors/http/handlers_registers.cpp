@@ -1,13 +1,15 @@
-// Handlers of registers as a Modbus client sees them, and of what helps to lay a register map out: printable lists, free places, templates.
-// In: calls. Out: words and bits from the Modbus door itself, decoded by the site's mappings; lists with the revision of registers 18-19.
-// Never renders a register: what is shown is what the door answered, exceptions too.
+// Handlers of registers as a client of a register door sees them, and of what helps to lay a register map out: printable lists, free
+// places, templates. In: calls. Out: words and bits of the register image, decoded by the site's mappings; lists with the revision of
+// registers 18-19. Never renders a register: what is shown is what the image answers, refusals under Modbus' exception codes.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <span>
 #include <tuple>
 
+#include "gateway/registers/register_map.hpp"
 #include "gateway/site/mapping.hpp"
 #include "gateway/doors/http/documents.hpp"
 #include "gateway/doors/http/register_lists.hpp"
@@ -46,10 +48,6 @@ std::string_view exception_text(unsigned code) {
     }
 }
 
-std::vector<Mapping> mappings_of(const SiteState& site, const Families& families) {
-    std::vector<SiteFault> none;  // the site has been checked
-    return parse_mappings(site.site.mappings, site.site, families, none).value_or(std::vector<Mapping>());
-}
 std::string revision_text(const SiteState& site) { return fmt::format("{:08x}", mapping_revision(site.site)); }
 
 /// What the point of a mapping is measured in, before scale and offset; empty: nothing.
@@ -61,40 +59,12 @@ std::string unit_of_value(const Mapping& m, const SiteState& site, const Gateway
     return p ? p->unit : std::string();
 }
 
-/// The registers of the standard map that are values of their own, by offset.
-struct Standard {
-    std::uint16_t offset;
-    MapType type;
-    std::string_view point;
-    bool writable;
-};
-constexpr std::array standard{Standard{0, MapType::u16, "statusword", false},
-                              Standard{1, MapType::i16, "mode_display", false},
-                              Standard{2, MapType::i32, "position", false},
-                              Standard{4, MapType::i32, "velocity", false},
-                              Standard{6, MapType::i32, "position_demand", false},
-                              Standard{8, MapType::u16, "error_code", false},
-                              Standard{9, MapType::u16, "flags", false},
-                              Standard{10, MapType::u32, "native_status", false},
-                              Standard{12, MapType::u32, "age_ms", false},
-                              Standard{14, MapType::u16, "heartbeat", false},
-                              Standard{15, MapType::u16, "family", false},
-                              Standard{16, MapType::u16, "setpoints_accepted", false},
-                              Standard{17, MapType::u16, "authority", false},
-                              Standard{18, MapType::u32, "mapping_revision", false},
-                              Standard{20, MapType::u16, "refusal_reason", false},
-                              Standard{21, MapType::u16, "refusals", false},
-                              Standard{22, MapType::u16, "fail_safe_cause", false},
-                              Standard{32, MapType::u16, "controlword", true},
-                              Standard{33, MapType::i16, "mode", true},
-                              Standard{34, MapType::i32, "target_position", true},
-                              Standard{36, MapType::u32, "profile_velocity", true},
-                              Standard{38, MapType::u32, "profile_acceleration", true},
-                              Standard{40, MapType::u32, "profile_deceleration", true},
-                              Standard{42, MapType::i32, "target_velocity", true},
-                              Standard{44, MapType::i16, "homing_method", true}};
-constexpr std::uint32_t registers_per_axis = 64;
-bool is_standard_unit(std::int64_t unit) { return unit == 0 || unit == 1 || unit == 255; }
+/// Of the standard map, what is a value of its own: all but the parameter channel, which comes last.
+std::span<const registers::RegisterRow> standard_points() {
+    const auto rows = registers::standard_registers();
+    return rows.first(static_cast<std::size_t>(std::ranges::find(rows, std::string_view(), &registers::RegisterRow::point) - rows.begin()));
+}
+using registers::is_standard_unit, registers::registers_per_axis;
 
 /// Of 32-bit values of the standard map.
 MapWordOrder standard_order(const Call& c) { return c.context.settings.low_word_first ? MapWordOrder::low_first : MapWordOrder::high_first; }
@@ -104,7 +74,7 @@ std::string reason_text(const Value& v) {
     return n >= 0 && n <= static_cast<int>(Reason::internal) ? std::string(axisgate::name_of(static_cast<Reason>(n))) : to_text(v);
 }
 
-json::array decoded(const SiteState& site, const Families& families, std::int64_t unit, MapTable table, std::uint32_t address,
+json::array decoded(const SiteState& site, std::int64_t unit, MapTable table, std::uint32_t address,
                     std::uint32_t count, const std::vector<std::uint8_t>& data, MapWordOrder standard_order) {
     json::array out;
     const auto put = [&](std::uint32_t at, const char* what, std::string_view name, const Mapping& m, std::string_view unit_text) {
@@ -125,7 +95,7 @@ json::array decoded(const SiteState& site, const Families& families, std::int64_
     if (is_standard_unit(unit)) {
         if (is_bits(table)) return out;
         for (const auto& axis : site.site.axes) {
-            for (const auto& s : standard) {
+            for (const auto& s : standard_points()) {
                 Mapping m;
                 m.type = s.type;
                 m.word_order = standard_order;
@@ -136,7 +106,7 @@ json::array decoded(const SiteState& site, const Families& families, std::int64_
         }
         return out;
     }
-    for (const auto& m : mappings_of(site, families)) {
+    for (const auto& m : site.site.map()) {
         if (m.unit != unit || m.table != table || m.address < address || m.end() > address + count) continue;
         const auto* axis = site.site.axis(m.axis);
         put(m.address, "mapping", m.id, m, m.point.ends_with("_units") && axis ? std::string_view(axis->unit) : std::string_view());
@@ -155,18 +125,12 @@ Handled get_registers(Call& c) {
     const auto table = table_named(c.target.query.get("table").value_or("holding_registers"));
     if (!table) return bad_query("table", "holding_registers, input_registers, coils or discrete_inputs");
     if (address + count > 65536) return bad_query("count", "such that address + count is at most 65536");
-    constexpr std::array<std::uint8_t, 4> functions{1, 2, 3, 4};  // in the order of MapTable
-    const auto function = functions[static_cast<std::size_t>(*table)];
-    std::vector<std::uint8_t> pdu{function, static_cast<std::uint8_t>(address >> 8), static_cast<std::uint8_t>(address & 255), 0,
-                                  static_cast<std::uint8_t>(count)};
     Gateway& gateway = c.gateway();
-    const auto a = static_cast<std::uint32_t>(address), n = static_cast<std::uint32_t>(count);
-    gateway.ask_modbus(
-        static_cast<std::uint8_t>(unit), std::move(pdu),
-        [&gateway, unit, table = *table, a, n, function, order = standard_order(c), respond = c.respond](const std::optional<std::vector<std::uint8_t>>& answer) {
-            if (!answer || answer->size() < 2)
-                return respond(problem(503, "busy",
-                                       "the Modbus door is closed or has too much to do: look at its settings, or come again in a moment"));
+    const auto a = static_cast<std::uint16_t>(address), n = static_cast<std::uint16_t>(count);
+    gateway.read_registers(
+        static_cast<std::uint8_t>(unit), *table, a, n,
+        [&gateway, unit, table = *table, a, n, order = standard_order(c), respond = c.respond](const std::optional<registers::RegisterRead>& answer) {
+            if (!answer) return respond(problem(503, "busy", "the gateway has too much to do: come again in a moment"));
             json::object o{{"unit", unit},
                            {"table", name_of(table)},
                            {"address", a},
@@ -174,13 +138,12 @@ Handled get_registers(Call& c) {
                            {is_bits(table) ? "bits" : "words", json::array()},
                            {"exception", json::value()},
                            {"decoded", json::array()}};
-            if (((*answer)[0] & 0x80) != 0) {
-                o["exception"] = json::object{{"code", (*answer)[1]}, {"text", exception_text((*answer)[1])}};
+            if (answer->verdict != registers::Verdict::good) {
+                const auto code = static_cast<unsigned>(answer->verdict);
+                o["exception"] = json::object{{"code", code}, {"text", exception_text(code)}};
                 return respond(json_response(o));
             }
-            const std::vector<std::uint8_t> data(answer->begin() + 2, answer->end());
-            if ((*answer)[0] != function || data.size() != (is_bits(table) ? (n + 7) / 8 : 2 * n))
-                return respond(problem(500, "internal", "the Modbus door gave an answer of another length"));
+            const auto& data = answer->bytes;
             json::array list;
             for (std::uint32_t i = 0; i < n; ++i) {
                 if (is_bits(table))
@@ -189,15 +152,15 @@ Handled get_registers(Call& c) {
                     list.emplace_back(data[2 * i] << 8 | data[2 * i + 1]);
             }
             o[is_bits(table) ? "bits" : "words"] = std::move(list);
-            o["decoded"] = decoded(*gateway.site(), gateway.families(), unit, table, a, n, data, order);
+            o["decoded"] = decoded(*gateway.site(), unit, table, a, n, data, order);
             respond(json_response(o));
         });
-    return {gateway_limit, problem(504, "time_out", "the Modbus door did not answer in time")};
+    return {gateway_limit, problem(504, "time_out", "the gateway did not answer in time")};
 }
 
 Handled get_mapping_list(Call& c) {
     const auto site = c.gateway().site();
-    auto list = mappings_of(*site, c.gateway().families());
+    auto list = site->site.map();
     std::ranges::sort(list, [](const Mapping& a, const Mapping& b) {
         return std::tuple(a.unit, a.table, a.address) < std::tuple(b.unit, b.table, b.address);
     });
@@ -234,7 +197,7 @@ Handled get_mapping_list(Call& c) {
 namespace {
 /// The first place with so many free registers, or bits, in a row, at a multiple of `align`.
 std::optional<std::uint32_t> next_free(const Gateway& gateway, std::int64_t unit, MapTable table, std::uint32_t words, std::uint32_t align) {
-    auto list = mappings_of(*gateway.site(), gateway.families());
+    auto list = gateway.site()->site.map();
     std::ranges::sort(list, {}, &Mapping::address);
     std::uint32_t at = 0;
     for (const auto& m : list) {
@@ -293,7 +256,7 @@ Handled add_mapping_template(Call& c) {
         address = *at;
     }
     json::array entries;
-    for (const auto& s : standard) {
+    for (const auto& s : standard_points()) {
         const auto point = axis_point_named(s.point);
         if (!point) continue;
         entries.push_back(json::object{{"unit", unit},

@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
+#include "gateway/registers/register_map.hpp"
 #include "gateway/site/mapping.hpp"
 #include "gateway/axis/process_data.hpp"
 #include "gateway/doors/http/command_reader.hpp"
@@ -74,18 +74,6 @@ json::object command_body(const RecipeStep& s) {
 
 // --- registers ----------------------------------------------------------------------------------------------------------------
 
-struct StandardRegister {
-    int offset;
-    AxisPoint point;
-    std::string_view type;
-};
-constexpr std::array standard_registers{
-    StandardRegister{32, AxisPoint::controlword, "u16"},          StandardRegister{33, AxisPoint::mode, "i16"},
-    StandardRegister{34, AxisPoint::target_position, "i32"},      StandardRegister{36, AxisPoint::profile_velocity, "u32"},
-    StandardRegister{38, AxisPoint::profile_acceleration, "u32"}, StandardRegister{40, AxisPoint::profile_deceleration, "u32"},
-    StandardRegister{42, AxisPoint::target_velocity, "i32"},      StandardRegister{44, AxisPoint::homing_method, "i16"}};
-constexpr int registers_per_axis = 64;
-
 std::optional<CommandBody> process_data(const RecipeStep& s, AxisPoint point, const Value& value, std::vector<SiteFault>& faults) {
     ProcessData d;
     const auto n = as_integer(value);
@@ -113,25 +101,26 @@ std::optional<Command> register_of(RecipeStep& s, const Gateway& g, std::vector<
     };
     const auto site = g.site();
     Command c;
-    if (unit == 0 || unit == 1 || unit == 255) {
-        const auto axis = std::ranges::find(site->site.axes, address / registers_per_axis + 1, &AxisSpec::number);
-        const auto reg = std::ranges::find(standard_registers, address % registers_per_axis, &StandardRegister::offset);
-        if (axis == site->site.axes.end() || reg == standard_registers.end()) {
+    if (registers::is_standard_unit(unit)) {
+        const auto axis = std::ranges::find(site->site.axes, address / registers::registers_per_axis + 1, &AxisSpec::number);
+        const auto rows = registers::standard_registers();
+        const auto reg = std::ranges::find(rows, address % registers::registers_per_axis, &registers::RegisterRow::offset);
+        const auto point = reg == rows.end() || !reg->writable ? std::nullopt : axis_point_named(reg->point);
+        if (axis == site->site.axes.end() || !point) {
             faults.push_back({pointer_in(s, "address"),
                               fmt::format("nothing that can be written begins at {} of the standard map", address),
                               "axis n has its set-points at (n-1)*64 + 32, 33, 34, 36, 38, 40, 42, 44", false});
             return std::nullopt;
         }
-        if (wrong_type(reg->type)) return std::nullopt;
-        auto body = process_data(s, reg->point, *value, faults);
+        if (wrong_type(name_of(reg->type))) return std::nullopt;
+        auto body = process_data(s, *point, *value, faults);
         if (!body) return std::nullopt;
         s.axis = axis->name;
         c.axis = axis_at(g, site, static_cast<std::size_t>(axis - site->site.axes.begin())).id();
         c.body = std::move(*body);
         return c;
     }
-    std::vector<SiteFault> none;  // the site has been checked
-    const auto mappings = parse_mappings(site->site.mappings, site->site, g.families(), none).value_or(std::vector<Mapping>());
+    const auto& mappings = site->site.map();
     const auto m = std::ranges::find_if(mappings, [&](const Mapping& x) {
         return x.unit == unit && x.address == address && (x.table == MapTable::holding_registers || x.table == MapTable::coils) &&
                x.access != MapAccess::read;

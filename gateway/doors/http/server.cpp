@@ -271,6 +271,8 @@ Server::~Server() {
 
 void Server::use_tls(std::shared_ptr<TlsIdentity> identity) { parts_->tls = std::move(identity); }
 
+bool Server::secure() const noexcept { return parts_->tls != nullptr; }
+
 std::string Server::start() {
     std::string fault;
     const auto endpoint = parse_bind(parts_->own_settings.bind, fault);

@@ -30,6 +30,7 @@ public:
 
     /// Before start(): every connection is TLS with this identity.
     void use_tls(std::shared_ptr<TlsIdentity> identity);
+    [[nodiscard]] bool secure() const noexcept;
     /// Opens the door. Empty: it is open; else what is wrong and what to do.
     [[nodiscard]] std::string start();
     /// "127.0.0.1:8080", with the port that was really taken; empty while it is closed.

@@ -4,30 +4,17 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <cstdint>
+#include <string>
 
+#include "gateway/core/counter.hpp"
 #include "gateway/doors/modbus/wire.hpp"
 
 namespace axisgate::modbus {
 
-/// One writer, any number of readers; costs the writer no more than a plain number.
-class Counter {
-public:
-    void add(std::uint64_t n = 1) noexcept { value_.store(value_.load(std::memory_order_relaxed) + n, std::memory_order_relaxed); }
-    void remove(std::uint64_t n = 1) noexcept { value_.store(value_.load(std::memory_order_relaxed) - n, std::memory_order_relaxed); }
-    [[nodiscard]] std::uint64_t value() const noexcept { return value_.load(std::memory_order_relaxed); }
-
-private:
-    std::atomic<std::uint64_t> value_{0};
-};
-
 struct Counters {
     Counter requests;                    ///< whole ADUs taken for an answer
     std::array<Counter, 16> exceptions;  ///< answers, by exception code (index 1..0x0B)
-    Counter commands;                    ///< given to the engine
-    Counter results_unclaimed;           ///< results that nobody waited for any more: the client has gone, or it came after the time-out
-    Counter results_timed_out;           ///< answered with exception 0x0B by the door itself
 
     Counter connections_open;  ///< gauge
     Counter connections_accepted;
@@ -43,5 +30,8 @@ struct Counters {
 
     void count(Exception e) noexcept { exceptions[static_cast<std::size_t>(e) & 15u].add(); }
 };
+
+/// For /metrics.
+[[nodiscard]] std::string metrics_text(const Counters& counters);
 
 }  // namespace axisgate::modbus

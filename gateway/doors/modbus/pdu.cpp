@@ -44,29 +44,13 @@ struct Responder::Request {
     [[nodiscard]] std::uint16_t word(std::size_t at) const noexcept { return get16(pdu.data() + at); }
 };
 
-Responder::Responder(DoorPort& port, Settings settings)
+Responder::Responder(DoorPort& port, registers::RegisterImage& image, Settings settings)
     : port_(port),
+      image_(image),
       settings_(std::move(settings)),
-      standard_(port, settings_.word_order),
-      identity_(Identity::gateway(settings_.version, settings_.word_order)),
-      tickets_(settings_.max_commands),
-      refusals_([&port](Event event, AxisId axis) { port.note(std::move(event), axis); }) {
-    maps_[0] = maps_[1] = maps_[255] = &standard_;
-    plan_.commands.reserve(WritePlan::max_commands);
-    port_.attach(Door::modbus, this);
-}
-
-Responder::~Responder() { port_.attach(Door::modbus, nullptr); }
-
-void Responder::set_map(std::uint8_t unit, UnitMap* map) {
-    if (unit <= 1 || unit == 255) return;
-    UnitMap* const before = std::exchange(maps_[unit], map);
-    if (!before) return;
-    for (const UnitMap* other : maps_) {
-        if (other == before) return;
-    }
-    tickets_.forget(before);
-}
+      identity_(Identity::gateway(settings_.version, image.word_order())),
+      writer_(port, image, {Door::modbus, settings_.result_timeout, settings_.max_commands,
+                            [](Verdict v) { return fmt::format("exception {}", static_cast<int>(v)); }}) {}
 
 bool Responder::may_overtake_waiting(std::span<const std::uint8_t> pdu) noexcept {
     switch (pdu[0]) {
@@ -98,7 +82,7 @@ std::size_t Responder::answer(const Client& client, std::uint8_t slot, std::uint
         }
         return exception_answer(pdu[0], Exception::illegal_function, out);
     }
-    UnitMap* const map = maps_[unit];
+    UnitMap* const map = image_.unit(unit);
     if (!map) {
         if (client.who) {
             refused(*client.who, {no_axis, Reason::line_down, fmt::format("unit {} has no map: unit 1 is the standard map, others get theirs from the site's mappings", unit), {}, {}},
@@ -125,20 +109,19 @@ std::size_t Responder::answer(const Client& client, std::uint8_t slot, std::uint
 }
 
 void Responder::refused(const std::string& who, Refused refused, const RequestNote& request, Exception e, Instant now) {
-    if (refused.axis != no_axis && is_write(request.function)) standard_.note_refusal(refused.axis, refused.reason);
-    refusals_.add(who, std::move(refused), request, e, now);
+    writer_.refused(who, std::move(refused), request, e == Exception::none ? std::string() : fmt::format("exception {}", static_cast<int>(e)), now);
 }
 
 AxisId Responder::axis_of(std::uint8_t unit, const RequestNote& request) const {
-    return maps_[unit] == &standard_ && request.count > 0 ? port_.image().by_number(request.address / registers_per_axis + 1u) : no_axis;
+    return image_.is_standard(unit) && request.count > 0 ? port_.image().by_number(request.address / registers::registers_per_axis + 1u) : no_axis;
 }
 
 Refused Responder::refused_by_access(std::uint8_t unit, const RequestNote& request) const {
     Refused r;
     r.axis = axis_of(unit, request);
-    if (settings_.access.functions.any() && !settings_.access.functions.test(request.function)) {
+    if (settings_.access.functions.any() && !settings_.access.functions.test(request.code)) {
         r.reason = Reason::not_supported;
-        r.text = fmt::format("function {} is switched off by [modbus] functions", request.function);
+        r.text = fmt::format("function {} is switched off by [modbus] functions", request.code);
     } else {
         r.reason = Reason::not_writable;
         r.text = "the Modbus door is read-only: it takes a quick stop or switching off by the control word alone";
@@ -152,9 +135,9 @@ std::size_t Responder::finish(const LateAnswer& late, Instant now, std::uint8_t*
         std::memcpy(out, late.echo.data(), late.echo_size);
         return late.echo_size;
     }
-    UnitMap* const map = maps_[late.unit];
+    UnitMap* const map = image_.unit(late.unit);
     const Exception e =
-        map ? map->read_registers(Table::holding_registers, late.read_address, late.read_count, now, out + 2) : Exception::no_path;
+        map ? exception_of(map->read_registers(Table::holding_registers, late.read_address, late.read_count, now, out + 2)) : Exception::no_path;
     if (e != Exception::none) {
         if (map) (void)map->take_refused();  // of a read that was good when its write was taken: the axis has gone meanwhile
         return exception_answer(late.function, e, out);
@@ -201,7 +184,7 @@ Responder::Answer Responder::read_registers(Request& r) {
     if (outside(count, limit::read_registers)) return {Exception::illegal_value, 0};
     if (overflows(address, count)) return {Exception::illegal_address, 0};
     const Table table = r.pdu[0] == function::read_holding_registers ? Table::holding_registers : Table::input_registers;
-    if (const auto e = r.map.read_registers(table, address, count, r.now, r.out + 2); e != Exception::none) return {e, 0};
+    if (const auto e = r.map.read_registers(table, address, count, r.now, r.out + 2); e != Verdict::good) return {exception_of(e), 0};
     r.out[0] = r.pdu[0];
     r.out[1] = static_cast<std::uint8_t>(2 * count);
     return {Exception::none, 2 + 2 * std::size_t{count}};
@@ -214,7 +197,7 @@ Responder::Answer Responder::read_bits(Request& r) {
     if (outside(count, limit::read_bits)) return {Exception::illegal_value, 0};
     if (overflows(address, count)) return {Exception::illegal_address, 0};
     const Table table = r.pdu[0] == function::read_coils ? Table::coils : Table::discrete_inputs;
-    if (const auto e = r.map.read_bits(table, address, count, r.out + 2); e != Exception::none) return {e, 0};
+    if (const auto e = r.map.read_bits(table, address, count, r.out + 2); e != Verdict::good) return {exception_of(e), 0};
     const std::size_t bytes = (count + 7u) / 8u;
     r.out[0] = r.pdu[0];
     r.out[1] = static_cast<std::uint8_t>(bytes);
@@ -249,10 +232,10 @@ Responder::Answer Responder::mask_write(Request& r) {
     const std::uint16_t address = r.word(1);
     const std::uint16_t and_mask = r.word(3);
     const std::uint16_t or_mask = r.word(5);
-    if (const auto e = r.map.check_write(Table::holding_registers, address, 1); e != Exception::none) return {e, 0};
+    if (const auto e = r.map.check_write(Table::holding_registers, address, 1); e != Verdict::good) return {exception_of(e), 0};
     if (!r.map.is_exact(address, r.now)) return {Exception::device_failure, 0};  // the rest of the value is not in the register
     std::uint8_t value[2];
-    if (const auto e = r.map.read_registers(Table::holding_registers, address, 1, r.now, value); e != Exception::none) return {e, 0};
+    if (const auto e = r.map.read_registers(Table::holding_registers, address, 1, r.now, value); e != Verdict::good) return {exception_of(e), 0};
     put16(value, static_cast<std::uint16_t>((get16(value) & and_mask) | (or_mask & ~std::uint32_t{and_mask})));
     return carry_out(r, Table::holding_registers, address, 1, value, 7);
 }
@@ -268,8 +251,8 @@ Responder::Answer Responder::read_write(Request& r) {
     if (r.pdu[9] != bytes || r.pdu.size() != 10 + bytes) return {Exception::illegal_value, 0};
     if (overflows(read_address, read_count) || overflows(write_address, write_count)) return {Exception::illegal_address, 0};
     // Both halves are checked before anything is written: a request that cannot be answered shall not have moved something.
-    if (const auto e = r.map.check_write(Table::holding_registers, write_address, write_count); e != Exception::none) return {e, 0};
-    if (const auto e = r.map.check_read(Table::holding_registers, read_address, read_count); e != Exception::none) return {e, 0};
+    if (const auto e = r.map.check_write(Table::holding_registers, write_address, write_count); e != Verdict::good) return {exception_of(e), 0};
+    if (const auto e = r.map.check_read(Table::holding_registers, read_address, read_count); e != Verdict::good) return {exception_of(e), 0};
     r.late.reads = true;
     r.late.read_address = read_address;
     r.late.read_count = read_count;
@@ -294,109 +277,14 @@ Responder::Answer Responder::encapsulated(Request& r) {
 
 Responder::Answer Responder::carry_out(Request& r, Table table, std::uint16_t address, std::uint16_t count, const std::uint8_t* data,
                                        std::size_t echo_size) {
-    // Address and state faults of the map come before "busy", so that a fault is always told the same way.
-    if (const auto e = r.map.check_write(table, address, count); e != Exception::none) return {e, 0};
-    if (tickets_.free() == 0) return {Exception::busy, 0};
-    plan_.commands.clear();
-    if (const auto e = r.map.write(table, address, count, data, plan_); e != Exception::none) return {e, 0};
-    if (plan_.commands.size() > tickets_.free()) {
-        Result refused;
-        refused.outcome = Outcome::refused;
-        refused.reason = Reason::busy;
-        for (const auto& c : plan_.commands) {
-            if (c.own) r.map.on_own_result(c.note, refused);
-        }
-        return {Exception::busy, 0};
-    }
-
+    const auto begun = writer_.write(r.client, r.slot, r.map, table, address, count, data, note_of(r.late.unit, r.pdu), r.now);
+    if (begun.verdict != Verdict::good) return {exception_of(begun.verdict), 0};
     LateAnswer& late = r.late;
+    late.outstanding = begun.outstanding;
     late.echo_size = static_cast<std::uint8_t>(echo_size);
     if (echo_size > 0) std::memcpy(late.echo.data(), r.pdu.data(), echo_size);
-    const Instant deadline = r.now + settings_.result_timeout;
-    const RequestNote request = note_of(late.unit, r.pdu);
-    for (auto& c : plan_.commands) {
-        TicketTable::Waiting waiting;
-        waiting.axis = c.axis;
-        if (c.own) {
-            waiting.map = &r.map;
-            waiting.note = c.note;
-        } else {
-            waiting.owner = r.client.owner;
-            waiting.slot = r.slot;
-            ++late.outstanding;
-        }
-        waiting.who = r.client.who;
-        waiting.request = request;
-        Command command;
-        command.ticket = tickets_.open(waiting, deadline);
-        command.axis = c.axis;
-        command.body = std::move(c.body);
-        command.origin = {Door::modbus, r.client.who};
-        counters_.commands.add();
-        port_.submit(std::move(command));
-    }
     if (late.outstanding > 0) return {Exception::none, 0};
     return {Exception::none, finish(late, r.now, r.out)};
-}
-
-bool Responder::ask_for(UnitMap& map, PlannedCommand planned) {
-    // Clients' writes need the places: what only refreshes a value leaves half of them free.
-    if (tickets_.free() <= settings_.max_commands / 2) return false;
-    TicketTable::Waiting waiting;
-    waiting.axis = planned.axis;
-    waiting.map = &map;
-    waiting.note = planned.note;
-    Command command;
-    command.ticket = tickets_.open(waiting, port_.now() + settings_.result_timeout);
-    command.axis = planned.axis;
-    command.body = std::move(planned.body);
-    command.origin.door = Door::modbus;
-    port_.submit(std::move(command));
-    return true;
-}
-
-void Responder::on_result(const Result& result) {
-    auto waiting = tickets_.close(result.ticket);
-    if (waiting && waiting->who && !waiting->map && !good(result)) {  // also where the client has gone meanwhile
-        std::string text = result.text.empty() ? in_words(exception_of(result)).text : result.text;
-        refused(*waiting->who, {waiting->axis, result.reason == Reason::none ? Reason::internal : result.reason, std::move(text), {}, {}}, waiting->request,
-                exception_of(result), port_.now());
-    }
-    if (!waiting || (!waiting->owner && !waiting->map)) {
-        counters_.results_unclaimed.add();
-        return;
-    }
-    if (waiting->owner) {
-        waiting->owner->on_written(waiting->slot, waiting->axis, exception_of(result));
-    } else {
-        own_result(*waiting, result);
-    }
-}
-
-void Responder::own_result(const TicketTable::Waiting& waiting, const Result& result) {
-    waiting.map->on_own_result(waiting.note, result);
-    Refused why = waiting.map->take_refused();
-    if (waiting.who && why.reason != Reason::none) refused(*waiting.who, std::move(why), waiting.request, Exception::none, port_.now());
-}
-
-void Responder::expire(Instant now) {
-    while (const auto waiting = tickets_.expired(now)) {
-        counters_.results_timed_out.add();
-        Result result;
-        result.axis = waiting->axis;
-        result.outcome = Outcome::failed;
-        result.reason = Reason::no_answer;
-        if (waiting->who && !waiting->map) {
-            Refused why = in_words(Exception::no_answer);
-            why.axis = waiting->axis;
-            refused(*waiting->who, std::move(why), waiting->request, Exception::no_answer, now);
-        }
-        if (waiting->owner) {
-            waiting->owner->on_written(waiting->slot, waiting->axis, Exception::no_answer);
-        } else if (waiting->map) {
-            own_result(*waiting, result);
-        }
-    }
 }
 
 }  // namespace axisgate::modbus

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -14,11 +13,10 @@
 #include "gateway/doors/modbus/access.hpp"
 #include "gateway/doors/modbus/counters.hpp"
 #include "gateway/doors/modbus/identification.hpp"
-#include "gateway/doors/modbus/refusals.hpp"
-#include "gateway/doors/modbus/standard_map.hpp"
-#include "gateway/doors/modbus/ticket_table.hpp"
-#include "gateway/doors/modbus/unit_map.hpp"
+#include "gateway/doors/modbus/request_note.hpp"
 #include "gateway/doors/modbus/wire.hpp"
+#include "gateway/registers/register_image.hpp"
+#include "gateway/registers/writer.hpp"
 
 namespace axisgate::modbus {
 
@@ -40,25 +38,19 @@ struct LateAnswer {
     }
 };
 
-class Responder final : public ResultSink {
+class Responder {
 public:
     struct Settings {
         Access access;  ///< allow list, functions, read-only
-        WordOrder word_order = WordOrder::high_first;
         std::string version = "0";
         Duration result_timeout = std::chrono::seconds(30);  ///< a result that has not come by then is taken for "no answer"
         std::size_t max_commands = 4096;                     ///< on their way at once, of all clients; a write beyond is answered busy (6)
     };
-    Responder(DoorPort& port, Settings settings);
-    ~Responder() override;
+    Responder(DoorPort& port, registers::RegisterImage& image, Settings settings);
     Responder(const Responder&) = delete;
     Responder& operator=(const Responder&) = delete;
 
-    /// Who sends a request; lives until forget().
-    struct Client {
-        WriteOwner* owner = nullptr;
-        std::shared_ptr<const std::string> who;  ///< for the audit: "192.0.2.7:51123"
-    };
+    using Client = registers::RegisterWriter::Client;
     /// Answers a request PDU of 1..253 bytes. Returns the size of the answer in `out` (max_pdu bytes); 0: it comes later: `late` is filled
     /// and client.owner is told with `slot` once per outstanding command, never from inside this call; then finish() makes the answer.
     [[nodiscard]] std::size_t answer(const Client& client, std::uint8_t slot, std::uint8_t unit, std::span<const std::uint8_t> pdu,
@@ -69,34 +61,14 @@ public:
     /// reads must see what was written before it.
     [[nodiscard]] static bool may_overtake_waiting(std::span<const std::uint8_t> pdu) noexcept;
 
-    /// The client has gone: results of its commands go to nobody.
-    void forget(const WriteOwner& owner) noexcept { tickets_.forget(&owner); }
-    /// Puts a map behind a unit id (2..254), or takes it away (nullptr). The map outlives its being there.
-    void set_map(std::uint8_t unit, UnitMap* map);
-
-    /// A command that a map gives by itself, not for a client; its result comes to map.on_own_result(note). False: no place is free.
-    [[nodiscard]] bool ask_for(UnitMap& map, PlannedCommand command);
-
-    /// Ends what has waited longer than the result time-out. To be called now and then.
-    void expire(Instant now);
-
-    /// Commands whose results have not come.
-    [[nodiscard]] std::size_t waiting() const noexcept { return tickets_.used(); }
-    /// Tells what has gathered; the counts of refusals that were repeated. To be called now and then.
-    void tell_refusals(Instant now) { refusals_.flush(now); }
-    [[nodiscard]] bool has_refusals_to_tell() const noexcept { return refusals_.pending(); }
-
-    void on_result(const Result& result) override;
-    [[nodiscard]] std::optional<Instant> heard(std::string_view client) const override { return heard_ ? heard_(client) : std::nullopt; }
-    /// Who knows the connections: the server says when a host was last heard.
-    void ask_heard(std::function<std::optional<Instant>(std::string_view)> ask) { heard_ = std::move(ask); }
+    /// Results of the door's tickets go to it, and time.
+    [[nodiscard]] registers::RegisterWriter& writer() noexcept { return writer_; }
 
     [[nodiscard]] const Access& access() const noexcept { return settings_.access; }
     void set_read_only(bool on) noexcept { settings_.access.read_only = on; }
     [[nodiscard]] Counters& counters() noexcept { return counters_; }
     [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
     [[nodiscard]] const DoorPort& port() const noexcept { return port_; }
-    [[nodiscard]] StandardMap& standard_map() noexcept { return standard_; }
 
 private:
     struct Request;
@@ -116,24 +88,19 @@ private:
     /// Carries a write out. Size 0 without an exception: it waits.
     [[nodiscard]] Answer carry_out(Request& r, Table table, std::uint16_t address, std::uint16_t count, const std::uint8_t* data,
                                    std::size_t echo_size);
-    /// Leaves an event and the axis' registers 20 and 21. `refused`: empty: in words for the exception alone.
+    /// Leaves an event and the axis' registers 20 and 21.
     void refused(const std::string& who, Refused refused, const RequestNote& request, Exception e, Instant now);
-    void own_result(const TicketTable::Waiting& waiting, const Result& result);
     /// Of the standard map; else no_axis.
     [[nodiscard]] AxisId axis_of(std::uint8_t unit, const RequestNote& request) const;
     [[nodiscard]] Refused refused_by_access(std::uint8_t unit, const RequestNote& request) const;
     std::size_t exception_answer(std::uint8_t function, Exception e, std::uint8_t* out) noexcept;
 
     DoorPort& port_;
+    registers::RegisterImage& image_;
     Settings settings_;
-    StandardMap standard_;
-    std::array<UnitMap*, 256> maps_{};
     Identity identity_;
-    TicketTable tickets_;
-    WritePlan plan_;
-    RefusalLog refusals_;
+    registers::RegisterWriter writer_;
     Counters counters_;
-    std::function<std::optional<Instant>(std::string_view)> heard_;
 };
 
 }  // namespace axisgate::modbus

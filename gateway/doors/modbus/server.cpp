@@ -56,13 +56,13 @@ void prepare(int fd) {
 }
 }  // namespace
 
-class Server::Impl final : public ConnectionHost, public std::enable_shared_from_this<Server::Impl> {
+class Server::Impl final : public ConnectionHost, public HotDoor, public std::enable_shared_from_this<Server::Impl> {
 public:
-    Impl(asio::io_context& io, DoorPort& port, ServerSettings settings)
+    Impl(asio::io_context& io, DoorPort& port, registers::RegisterImage& image, ServerSettings settings)
         : io_(io),
           port_(port),
           settings_(std::move(settings)),
-          responder_(port, settings_.responder),
+          responder_(port, image, settings_.responder),
           poller_(io, [this](std::span<const epoll_event> events) { on_ready(events); }),
           timer_(io) {
         partial_timeout = settings_.partial_timeout;
@@ -71,8 +71,18 @@ public:
         times_.resize(places_.size());
         for (std::size_t i = places_.size(); i-- > 0;)
             free_.push_back(i);
-        responder_.ask_heard([this](std::string_view host) { return heard(host); });
+        responder_.writer().use_number(port_.attach(*this));
     }
+    ~Impl() override { port_.detach(*this); }
+
+    // --- HotDoor
+    [[nodiscard]] std::string_view name() const override { return "modbus"; }
+    void on_result(const Result& result) override { responder_.writer().on_result(result); }
+    [[nodiscard]] std::optional<Instant> heard(const AuthorityClient& client) const override {
+        return client.door == Door::modbus ? heard(client.name) : std::nullopt;
+    }
+    bool serve_now() override { return poller_.serve_now(); }
+    [[nodiscard]] std::string metrics() const override { return metrics_text(std::as_const(responder_).counters()); }
 
     std::string open(std::span<const std::string> binds) {
         if (!poller_.good()) return "[modbus] no file descriptor is left: raise the limit (LimitNOFILE= of the unit, ulimit -n)";
@@ -87,7 +97,7 @@ public:
         return {};
     }
 
-    [[nodiscard]] std::vector<std::string> addresses() const {
+    [[nodiscard]] std::vector<std::string> addresses() const override {
         std::vector<std::string> texts;
         for (const auto& l : listeners_) {
             boost::system::error_code ignored;
@@ -112,8 +122,7 @@ public:
 
     void sweep() {
         const Instant at = port_.now();
-        responder_.expire(at);
-        responder_.tell_refusals(at);
+        responder_.writer().sweep(at);
         for (std::size_t i = 0; i < places_.size(); ++i) {
             Connection* const c = places_[i].connection.get();
             if (!c) continue;
@@ -136,28 +145,6 @@ public:
             if (const Connection* c = place.connection.get()) list.push_back({c->peer(), c->requests(), c->writes(), c->exceptions(), place.since});
         }
         return list;
-    }
-    bool serve_now() { return poller_.serve_now(); }
-    void set_mappings(std::vector<PlacedMapping> mappings, const std::map<std::uint8_t, MapGaps>& gaps) {
-        std::map<std::uint8_t, std::vector<PlacedMapping>> by_unit;
-        for (auto& m : mappings)
-            by_unit[m.mapping.unit].push_back(std::move(m));
-        for (const auto& [unit, map] : own_maps_) {
-            if (!by_unit.contains(unit)) responder_.set_map(unit, nullptr);
-        }
-        std::map<std::uint8_t, std::unique_ptr<OwnMap>> made;
-        for (auto& [unit, list] : by_unit) {
-            const auto g = gaps.find(unit);
-            auto map = std::make_unique<OwnMap>(port_, std::move(list), g == gaps.end() ? settings_.gaps : g->second, [this](UnitMap& asking, PlannedCommand c) { return responder_.ask_for(asking, std::move(c)); });
-            responder_.set_map(unit, map.get());
-            map->begin(port_.now());
-            made.emplace(unit, std::move(map));
-        }
-        own_maps_ = std::move(made);  // those of before stand behind no unit any more
-    }
-    void on_sample(const Sample& sample) {
-        for (const auto& [unit, map] : own_maps_)
-            map->on_sample(sample);
     }
     [[nodiscard]] Counters& counters() noexcept { return responder_.counters(); }
     [[nodiscard]] Responder& responder() noexcept { return responder_; }
@@ -372,7 +359,7 @@ private:
             if (!ec) self->sweep();
             // After close() the wait ends early, and clients of a new open() may be there already.
             const bool paused = std::any_of(self->listeners_.begin(), self->listeners_.end(), [](const auto& l) { return l->paused; });
-            if (paused || self->free_.size() < self->places_.size() || self->responder_.waiting() > 0 || self->responder_.has_refusals_to_tell()) self->watch_time();
+            if (paused || self->free_.size() < self->places_.size() || self->responder_.writer().waits()) self->watch_time();
         });
     }
 
@@ -381,7 +368,6 @@ private:
     ServerSettings settings_;
     Responder responder_;
     Poller poller_;
-    std::map<std::uint8_t, std::unique_ptr<OwnMap>> own_maps_;
     asio::steady_timer timer_;
     bool timing_ = false;
     bool closing_ = false;  // the gateway's own end, or a change of its addresses: no client has gone
@@ -394,25 +380,16 @@ private:
     std::vector<PlaceHolder> commanders_;  // the newest last
 };
 
-Server::Server(asio::io_context& io, DoorPort& port, ServerSettings settings)
-    : impl_(std::make_shared<Impl>(io, port, std::move(settings))) {}
+Server::Server(asio::io_context& io, DoorPort& port, registers::RegisterImage& image, ServerSettings settings)
+    : impl_(std::make_shared<Impl>(io, port, image, std::move(settings))) {}
 Server::~Server() { impl_->close(); }
 std::string Server::open(std::span<const std::string> binds) { return impl_->open(binds); }
 std::vector<std::string> Server::addresses() const { return impl_->addresses(); }
 void Server::close() { impl_->close(); }
-void Server::set_mappings(std::vector<PlacedMapping> mappings, const std::map<std::uint8_t, MapGaps>& gaps) { impl_->set_mappings(std::move(mappings), gaps); }
-void Server::on_sample(const Sample& sample) { impl_->on_sample(sample); }
-bool Server::serve_now() { return impl_->serve_now(); }
 std::vector<Server::ConnectionReport> Server::connections() const { return impl_->connections(); }
 Responder& Server::responder() noexcept { return impl_->responder(); }
-std::vector<std::uint8_t> Server::answer_read(std::uint8_t unit, std::span<const std::uint8_t> pdu) {
-    if (pdu.empty() || pdu.size() > 253 || pdu[0] < 1 || pdu[0] > 4) return {};
-    std::vector<std::uint8_t> out(max_pdu);
-    LateAnswer never_late;  // reads are answered at once
-    out.resize(impl_->responder().answer({}, 0, unit, pdu, impl_->now(), out.data(), never_late));
-    return out;
-}
 void Server::sweep() { impl_->sweep(); }
 const Counters& Server::counters() const noexcept { return impl_->counters(); }
+const registers::RegisterWriter::Counters& Server::write_counters() const noexcept { return impl_->responder().writer().counters(); }
 
 }  // namespace axisgate::modbus

@@ -23,14 +23,12 @@
 #include <vector>
 
 #include "gateway/engine/door.hpp"
-#include "gateway/doors/modbus/own_map.hpp"
 #include "gateway/doors/modbus/pdu.hpp"
 
 namespace axisgate::modbus {
 
 struct ServerSettings {
     Responder::Settings responder;
-    MapGaps gaps = MapGaps::zero;  ///< of units that the site does not name
     std::size_t max_connections = 1024;
     Duration idle_timeout = std::chrono::seconds(60);
     Duration idle_before_eviction = std::chrono::milliseconds(100);
@@ -40,9 +38,8 @@ struct ServerSettings {
 
 class Server {
 public:
-    /// Its Responder attaches itself to the port as the sink of Door::modbus. `io` and `port` outlive it. Everything on the thread that
-    /// runs `io`.
-    Server(boost::asio::io_context& io, DoorPort& port, ServerSettings settings);
+    /// Puts itself into the port's list of doors. `io`, `port` and `image` outlive it. Everything on the thread that runs `io`.
+    Server(boost::asio::io_context& io, DoorPort& port, registers::RegisterImage& image, ServerSettings settings);
     ~Server();
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;
@@ -54,16 +51,6 @@ public:
     /// Closes listeners and connections. Commands on their way go on.
     void close();
 
-    /// Puts the site's own maps behind their units, and takes away those of before. What is on its way for them is answered to nobody.
-    /// `gaps`: of units that do not follow the settings.
-    void set_mappings(std::vector<PlacedMapping> mappings, const std::map<std::uint8_t, MapGaps>& gaps = {});
-    /// A parameter value that a drive reported: own maps show it.
-    void on_sample(const Sample& sample);
-
-    /// A read request (functions 1 to 4) answered as any client would be: what the register view shows. On the thread of `io`; counts as a
-    /// request, and asks for mapped parameters as one would. Empty for other functions.
-    [[nodiscard]] std::vector<std::uint8_t> answer_read(std::uint8_t unit, std::span<const std::uint8_t> pdu);
-
     /// What one client has done since it connected.
     struct ConnectionReport {
         std::string peer;
@@ -71,16 +58,14 @@ public:
         Instant since{};
     };
     [[nodiscard]] std::vector<ConnectionReport> connections() const;
-    /// For another transport of the same registers: there is one Responder per port.
+    /// The locks, which can be changed while it serves.
     [[nodiscard]] Responder& responder() noexcept;
     /// Applies the time-outs as of the port's now(). The server's own timer calls it four times a second while anyone is connected.
     void sweep();
 
-    /// Serves the requests that are there at this moment; false: there was none. For a loop that polls instead of sleeping.
-    bool serve_now();
-
     /// May be read on any thread while the server lives.
     [[nodiscard]] const Counters& counters() const noexcept;
+    [[nodiscard]] const registers::RegisterWriter::Counters& write_counters() const noexcept;
 
 private:
     class Impl;

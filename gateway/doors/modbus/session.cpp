@@ -9,7 +9,7 @@ namespace axisgate::modbus {
 Session::~Session() { abandon(); }
 
 void Session::abandon() noexcept {
-    if (count_ > 0) responder_.forget(*this);
+    if (count_ > 0) responder_.writer().forget(*this);
     count_ = 0;
 }
 
@@ -83,9 +83,9 @@ void Session::begin(const Adu& adu, Instant now, AnswerBuffer& out) {
     ++count_;
 }
 
-void Session::on_written(std::uint8_t slot, AxisId axis, Exception exception) {
-    slots_[slot].late.on_written(exception);
-    if (exception == Exception::none) {
+void Session::on_written(std::uint8_t slot, AxisId axis, Verdict verdict) {
+    slots_[slot].late.on_written(exception_of(verdict));
+    if (verdict == Verdict::good) {
         const std::uint16_t number = responder_.port().image().picture(axis).number;
         if (number < commanded_.size()) commanded_.set(number);
     }

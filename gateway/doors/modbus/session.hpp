@@ -30,7 +30,7 @@ struct SessionWaker {
     virtual ~SessionWaker() = default;
 };
 
-class Session final : public WriteOwner {
+class Session final : public registers::WriteOwner {
 public:
     static constexpr std::size_t max_in_flight = 32;
 
@@ -69,7 +69,7 @@ public:
     /// The client has gone: its writes go on, but nobody waits for them, and the Responder is not used again.
     void abandon() noexcept;
 
-    void on_written(std::uint8_t slot, AxisId axis, Exception exception) override;
+    void on_written(std::uint8_t slot, AxisId axis, Verdict verdict) override;
 
 private:
     struct Slot {

@@ -1,16 +1,24 @@
-// Modbus wire: the numbers of the protocol and the two byte orders, shared by the door's files.
-// In: nothing. Out: constants (Modbus Application Protocol 1.1b3, Modbus Messaging on TCP/IP 1.0b), big-endian get and put.
+// Modbus wire: the numbers of the protocol, shared by the door's files, and the words of the register room that it speaks.
+// In: nothing. Out: constants (Modbus Application Protocol 1.1b3, Modbus Messaging on TCP/IP 1.0b), verdicts as exceptions.
 // Never holds state.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
-#include <string_view>
 
-#include "gateway/core/command.hpp"
+#include "gateway/registers/unit_map.hpp"
+#include "gateway/registers/words.hpp"
 
 namespace axisgate::modbus {
+
+using registers::Table;
+using registers::UnitMap;
+using registers::Verdict;
+using registers::WordOrder;
+using registers::get16;
+using registers::get32;
+using registers::put16;
+using registers::put32;
 
 inline constexpr std::size_t mbap_size = 7;                       ///< transaction, protocol, length, unit
 inline constexpr std::size_t max_pdu = 253;                       ///< function code and data
@@ -31,7 +39,7 @@ inline constexpr std::uint16_t read_bits = 2000, read_registers = 125, write_bit
                                read_write_write = 121;
 }
 
-/// The exception codes that this door gives. `none`: a good answer.
+/// The exception codes that this door gives; all but the first are verdicts of the register room under the protocol's numbers.
 enum class Exception : std::uint8_t {
     none = 0,
     illegal_function = 1,
@@ -42,68 +50,6 @@ enum class Exception : std::uint8_t {
     no_path = 0x0A,   ///< no such unit, the axis is not configured, or its line is down
     no_answer = 0x0B  ///< the drive did not answer in time
 };
-
-/// The exception that tells a client why its write did not succeed.
-[[nodiscard]] constexpr Exception exception_of(Reason reason) noexcept {
-    switch (reason) {
-        case Reason::out_of_range:
-            return Exception::illegal_value;
-        case Reason::unknown_point:
-        case Reason::not_writable:
-            return Exception::illegal_address;
-        case Reason::busy:
-        case Reason::authority:
-            return Exception::busy;
-        case Reason::line_down:
-            return Exception::no_path;
-        case Reason::no_answer:
-            return Exception::no_answer;
-        case Reason::none:
-        case Reason::wrong_state:
-        case Reason::not_supported:
-        case Reason::drive_refused:
-        case Reason::interrupted:
-        case Reason::not_stored:
-        case Reason::internal:
-            break;
-    }
-    return Exception::device_failure;
-}
-/// `none` for a good result; a bad result is never `none`, whatever its reason says.
-[[nodiscard]] inline Exception exception_of(const Result& result) noexcept {
-    return good(result) ? Exception::none : exception_of(result.reason);
-}
-
-/// Which of the two registers of a 32-bit value comes first. Bytes within a register are always big-endian.
-enum class WordOrder : std::uint8_t { high_first, low_first };
-
-/// "high_first" or "low_first", the values of `[modbus] word_order`.
-[[nodiscard]] constexpr std::optional<WordOrder> word_order_named(std::string_view name) noexcept {
-    if (name == "high_first") return WordOrder::high_first;
-    if (name == "low_first") return WordOrder::low_first;
-    return std::nullopt;
-}
-[[nodiscard]] constexpr std::string_view name_of(WordOrder order) noexcept {
-    return order == WordOrder::high_first ? "high_first" : "low_first";
-}
-
-[[nodiscard]] constexpr std::uint16_t get16(const std::uint8_t* p) noexcept {
-    return static_cast<std::uint16_t>((std::uint32_t{p[0]} << 8) | p[1]);
-}
-constexpr void put16(std::uint8_t* p, std::uint16_t v) noexcept {
-    p[0] = static_cast<std::uint8_t>(v >> 8);
-    p[1] = static_cast<std::uint8_t>(v);
-}
-[[nodiscard]] constexpr std::uint32_t get32(const std::uint8_t* p, WordOrder order) noexcept {
-    const std::uint32_t a = get16(p);
-    const std::uint32_t b = get16(p + 2);
-    return order == WordOrder::high_first ? (a << 16) | b : (b << 16) | a;
-}
-constexpr void put32(std::uint8_t* p, std::uint32_t v, WordOrder order) noexcept {
-    const auto high = static_cast<std::uint16_t>(v >> 16);
-    const auto low = static_cast<std::uint16_t>(v);
-    put16(p, order == WordOrder::high_first ? high : low);
-    put16(p + 2, order == WordOrder::high_first ? low : high);
-}
+[[nodiscard]] constexpr Exception exception_of(registers::Verdict verdict) noexcept { return static_cast<Exception>(verdict); }
 
 }  // namespace axisgate::modbus

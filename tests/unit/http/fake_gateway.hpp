@@ -300,8 +300,8 @@ public:
     std::string keep_fault;
     std::map<std::uint64_t, SiteRevision> kept_sites;
     SiteStage stage;
-    std::optional<std::vector<std::uint8_t>> modbus_answer;
-    std::vector<std::uint8_t> modbus_asked;
+    std::optional<registers::RegisterRead> registers_answer;
+    std::tuple<std::uint8_t, registers::Table, std::uint16_t, std::uint16_t> registers_asked;
     std::string restored;
     std::vector<SnapshotInfo> snapshots(const std::string& name) const override {
         const auto it = kept_snapshots.find(name);
@@ -361,11 +361,10 @@ public:
         stage.rolled_back(true, 0);
         then({true, "", site_});
     }
-    void ask_modbus(std::uint8_t unit, std::vector<std::uint8_t> pdu,
-                    std::function<void(std::optional<std::vector<std::uint8_t>>)> then) override {
-        modbus_asked = std::move(pdu);
-        modbus_asked.insert(modbus_asked.begin(), unit);
-        then(modbus_answer);
+    void read_registers(std::uint8_t unit, registers::Table table, std::uint16_t address, std::uint16_t count,
+                        std::function<void(std::optional<registers::RegisterRead>)> then) override {
+        registers_asked = {unit, table, address, count};
+        then(registers_answer);
     }
     std::optional<ModbusReport> modbus_door;
     void modbus_report(std::function<void(std::optional<ModbusReport>)> then) override { then(modbus_door); }

@@ -307,15 +307,15 @@ TEST_F(Keep, AnotherClientsStageIsNotReplacedOrAppliedInSilence) {
 }
 
 TEST_F(Keep, RegistersAreTheDoorsOwnAnswer) {
-    gateway.modbus_answer = {3, 4, 0, 0, 0x0C, 0x80};
+    gateway.registers_answer = registers::RegisterRead{registers::Verdict::good, {0, 0, 0x0C, 0x80}};
     const auto a = do_call("GET", "/api/v1/registers?unit=2&address=0&count=2");
     ASSERT_EQ(a.status, 200u) << a.text;
-    EXPECT_EQ(gateway.modbus_asked, (std::vector<std::uint8_t>{2, 3, 0, 0, 0, 2}));
+    EXPECT_EQ(gateway.registers_asked, std::tuple(std::uint8_t{2}, registers::Table::holding_registers, std::uint16_t{0}, std::uint16_t{2}));
     EXPECT_EQ(a.at("words"), "[0,3200]");
     EXPECT_EQ(a.object().at("decoded").at(0).at("value"), 3200);
-    gateway.modbus_answer = {0x83, 2};
+    gateway.registers_answer = registers::RegisterRead{registers::Verdict::no_address, {}};
     EXPECT_EQ(do_call("GET", "/api/v1/registers?unit=3").object().at("exception").at("code"), 2);
-    gateway.modbus_answer.reset();
+    gateway.registers_answer.reset();
     EXPECT_EQ(do_call("GET", "/api/v1/registers").status, 503u);
     EXPECT_EQ(call("GET", "/api/v1/registers?count=126").status, 400u);
 }

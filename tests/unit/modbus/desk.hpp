@@ -4,11 +4,13 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 
 #include "gateway/doors/modbus/pdu.hpp"
 #include "tests/unit/modbus/fake_port.hpp"
 
 namespace axisgate::modbus::test {
+using namespace registers;
 
 /// A family with one parameter of each kind that the parameter channel must tell apart.
 inline const Catalogue& catalogue() {
@@ -35,11 +37,27 @@ inline const Catalogue& catalogue() {
     return c;
 }
 
-struct Desk : WriteOwner {
-    explicit Desk(WordOrder order = WordOrder::high_first) : responder(port, settings(order)) {}
-    static Responder::Settings settings(WordOrder order) {
+/// A Responder that stands in the port's list of doors, without sockets.
+struct ResponderDoor : HotDoor {
+    explicit ResponderDoor(DoorPort& p, WordOrder order = WordOrder::high_first, Responder::Settings settings = {})
+        : list(p), image(p, {order, MapGaps::zero}), responder(p, image, std::move(settings)) {
+        responder.writer().use_number(p.attach(*this));
+    }
+    ~ResponderDoor() override { list.detach(*this); }
+    ResponderDoor(const ResponderDoor&) = delete;
+    ResponderDoor& operator=(const ResponderDoor&) = delete;
+    std::string_view name() const override { return "modbus"; }
+    void on_result(const Result& r) override { responder.writer().on_result(r); }
+
+    DoorPort& list;
+    registers::RegisterImage image;
+    Responder responder;
+};
+
+struct Desk : registers::WriteOwner {
+    explicit Desk(WordOrder order = WordOrder::high_first) : door(port, order, settings()) {}
+    static Responder::Settings settings() {
         Responder::Settings s;
-        s.word_order = order;
         s.version = "1.2.3";
         return s;
     }
@@ -59,13 +77,15 @@ struct Desk : WriteOwner {
         return hex(std::span(out).first(size));
     }
     Responder::Client client() { return {this, who}; }
-    void on_written(std::uint8_t slot, AxisId, Exception exception) override {
+    void on_written(std::uint8_t slot, AxisId, Verdict verdict) override {
         slots.push_back(slot);
-        late.on_written(exception);
+        late.on_written(exception_of(verdict));
     }
 
     FakePort port;
-    Responder responder;
+    ResponderDoor door;
+    Responder& responder = door.responder;
+    registers::RegisterImage& image = door.image;
     LateAnswer late;
     bool waited = false;  ///< the last request waited for a result
     std::vector<std::uint8_t> slots;

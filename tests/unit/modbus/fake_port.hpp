@@ -56,7 +56,8 @@ public:
         result.code = code;
         result.value = std::move(value);
         result.text = std::move(text);
-        if (sink) sink->on_result(result);
+        const DoorNumber number = door_of(result.ticket);
+        if (number > 0 && number <= doors.size() && doors[number - 1u]) doors[number - 1u]->on_result(result);
         return true;
     }
     bool refuse(Reason reason, std::int32_t code = 0) { return answer(Outcome::refused, reason, code); }
@@ -73,9 +74,11 @@ public:
         commands.push_back(std::move(command));
     }
     void note(Event&& event, AxisId axis) override { notes.emplace_back(std::move(event), axis); }
-    void attach(Door door, ResultSink* s) override {
-        if (door == Door::modbus) sink = s;
+    DoorNumber attach(HotDoor& door) override {
+        doors.push_back(&door);
+        return static_cast<DoorNumber>(doors.size());
     }
+    void detach(HotDoor& door) override { std::ranges::replace(doors, &door, nullptr); }
 
     void client_lost(const AuthorityClient& who, LossCause cause) override { lost.emplace_back(who.text(), cause); }
 
@@ -84,7 +87,7 @@ public:
     std::deque<Command> commands;             // without a result
     std::size_t submitted = 0;
     std::vector<std::pair<Event, AxisId>> notes;  // in order
-    ResultSink* sink = nullptr;
+    std::vector<HotDoor*> doors;                  // by number - 1
 
 private:
     /// What an engine does with accepted set-points: they can be read back.

@@ -20,7 +20,7 @@
 namespace axisgate::modbus::test {
 
 struct Net {
-    explicit Net(ServerSettings settings = {}) : server(std::make_unique<Server>(io, port, settings)) {
+    explicit Net(ServerSettings settings = {}) : server(std::make_unique<Server>(io, port, image, settings)) {
         for (std::uint16_t n = 1; n <= 4; ++n)
             axes[n] = port.add_axis(n, &catalogue());
         port.edit(axes[1], [](AxisPicture& p) { p.statusword = 0x0250; });
@@ -46,6 +46,7 @@ struct Net {
 
     boost::asio::io_context io;
     FakePort port;
+    registers::RegisterImage image{port, {}};
     std::unique_ptr<Server> server;
     std::uint16_t tcp_port = 0;
     AxisId axes[5] = {};

@@ -13,6 +13,7 @@
 
 namespace axisgate::modbus {
 namespace {
+using namespace registers;
 using testing::HasSubstr;
 
 /// The functions of libmodbus that are used here, by their own types.

@@ -6,6 +6,7 @@
 
 namespace axisgate::modbus {
 namespace {
+using namespace registers;
 using test::Desk;
 
 struct Plant : Desk {
@@ -227,7 +228,7 @@ TEST(Pdu, AWriteBecomesOneCommandWithItsOrigin) {
     plant.result = [&] {
         ASSERT_EQ(plant.port.commands.size(), 1u);
         const Command& c = plant.port.commands.front();
-        EXPECT_EQ(door_of(c.ticket), Door::modbus);
+        EXPECT_EQ(plant.port.doors.at(door_of(c.ticket) - 1u), &plant.door);
         EXPECT_EQ(c.axis, plant.axes[2]);
         EXPECT_FALSE(c.until_done);
         EXPECT_EQ(c.origin.text(), "modbus 192.0.2.7:51123");
@@ -242,7 +243,7 @@ TEST(Pdu, AWriteBecomesOneCommandWithItsOrigin) {
     EXPECT_TRUE(plant.waited);
     EXPECT_EQ(plant.slots, std::vector<std::uint8_t>{7});
     EXPECT_EQ(plant.ask("03 00 60 00 04"), "03 08 00 1F 00 01 FF FF FF FE");
-    EXPECT_EQ(plant.responder.counters().commands.value(), 1u);
+    EXPECT_EQ(plant.responder.writer().counters().commands.value(), 1u);
 }
 
 TEST(Pdu, MaskWriteCombinesWithWhatWasLastAccepted) {
@@ -313,15 +314,15 @@ TEST(Pdu, AResultThatNeverComesIsNoAnswer) {
     Plant plant;
     plant.result = [&] {
         plant.port.time += std::chrono::seconds(29);
-        plant.responder.expire(plant.port.time);
+        plant.responder.writer().sweep(plant.port.time);
         EXPECT_EQ(plant.late.outstanding, 1);
         plant.port.time += std::chrono::seconds(1);
-        plant.responder.expire(plant.port.time);
+        plant.responder.writer().sweep(plant.port.time);
     };
     EXPECT_EQ(plant.ask("06 00 20 00 1F"), "86 0B");
-    EXPECT_EQ(plant.responder.counters().results_timed_out.value(), 1u);
+    EXPECT_EQ(plant.responder.writer().counters().results_timed_out.value(), 1u);
     EXPECT_TRUE(plant.port.answer());  // too late: nobody is told
-    EXPECT_EQ(plant.responder.counters().results_unclaimed.value(), 1u);
+    EXPECT_EQ(plant.responder.writer().counters().results_unclaimed.value(), 1u);
     EXPECT_EQ(plant.slots.size(), 1u);
 }
 
@@ -333,14 +334,14 @@ TEST(Pdu, AResultCountsOnce) {
         plant.port.refuse(Reason::busy);
     };
     EXPECT_EQ(plant.ask("06 00 20 00 1F"), "86 06");
-    plant.responder.on_result(copy);
+    plant.responder.writer().on_result(copy);
     Result foreign;
-    foreign.ticket = make_ticket(Door::http, 1);
-    plant.responder.on_result(foreign);
+    foreign.ticket = make_ticket(first_service_door, 1);
+    plant.responder.writer().on_result(foreign);
     foreign.ticket = no_ticket;
-    plant.responder.on_result(foreign);
+    plant.responder.writer().on_result(foreign);
     EXPECT_EQ(plant.slots.size(), 1u);
-    EXPECT_EQ(plant.responder.counters().results_unclaimed.value(), 3u);
+    EXPECT_EQ(plant.responder.writer().counters().results_unclaimed.value(), 3u);
 }
 
 TEST(Pdu, CommandsOnTheirWayAreBounded) {
@@ -348,9 +349,10 @@ TEST(Pdu, CommandsOnTheirWayAreBounded) {
     port.add_axis(1, &test::catalogue());
     Responder::Settings settings;
     settings.max_commands = 2;
-    Responder responder(port, settings);
+    test::ResponderDoor door(port, WordOrder::high_first, settings);
+    Responder& responder = door.responder;
     struct Nobody : WriteOwner {
-        void on_written(std::uint8_t, AxisId, Exception) override {}
+        void on_written(std::uint8_t, AxisId, Verdict) override {}
     } nobody;
     std::array<std::uint8_t, max_pdu> out{};
     const auto ask = [&](std::string_view pdu) {
@@ -371,11 +373,12 @@ TEST(Pdu, CommandsOnTheirWayAreBounded) {
 
 TEST(Pdu, ATicketIsNeverGivenTwice) {
     TicketTable table(3);
+    table.use_number(7);
     std::vector<Ticket> seen;
     for (int i = 0; i < 1000; ++i) {
         const Ticket t = table.open({}, at_ns(i));
         EXPECT_NE(t, no_ticket);
-        EXPECT_EQ(door_of(t), Door::modbus);
+        EXPECT_EQ(door_of(t), 7);
         for (const Ticket other : seen)
             ASSERT_NE(t, other);
         seen.push_back(t);
@@ -409,7 +412,7 @@ TEST(Pdu, TicketsExpireOldestFirst) {
 
 TEST(StandardMap, AnUnchangedAxisIsNotRenderedAgain) {
     Plant plant;
-    auto& map = plant.responder.standard_map();
+    auto& map = plant.image.standard();
     const auto before = map.renders();
     for (int i = 0; i < 100; ++i)
         EXPECT_EQ(plant.ask("03 00 00 00 01"), "03 02 81 27");
@@ -467,28 +470,28 @@ TEST(StandardMap, TheLastAxisEndsAtTheLastRegister) {
     EXPECT_EQ(plant.ask("06 FF E0 00 0F"), "06 FF E0 00 0F");
 }
 
-// --- the seam for own maps ------------------------------------------------------------------------------------------------------------
+// --- the seam for user maps ------------------------------------------------------------------------------------------------------------
 
 /// A map that writes two axes with one request and shows what it was asked.
 struct TwoAxes final : UnitMap {
-    Exception check_read(Table, std::uint16_t, std::uint16_t) override { return Exception::none; }
-    Exception read_registers(Table table, std::uint16_t address, std::uint16_t count, Instant, std::uint8_t* out) override {
+    Verdict check_read(Table, std::uint16_t, std::uint16_t) override { return Verdict::good; }
+    Verdict read_registers(Table table, std::uint16_t address, std::uint16_t count, Instant, std::uint8_t* out) override {
         for (std::uint16_t i = 0; i < count; ++i)
             put16(out + 2 * i, static_cast<std::uint16_t>(address + i + 0x1000 * int(table)));
-        return Exception::none;
+        return Verdict::good;
     }
-    Exception read_bits(Table, std::uint16_t, std::uint16_t, std::uint8_t* out) override {
+    Verdict read_bits(Table, std::uint16_t, std::uint16_t, std::uint8_t* out) override {
         out[0] = 1;
-        return Exception::none;
+        return Verdict::good;
     }
-    Exception check_write(Table, std::uint16_t, std::uint16_t) override { return Exception::none; }
-    Exception write(Table table, std::uint16_t, std::uint16_t, const std::uint8_t* data, WritePlan& plan) override {
+    Verdict check_write(Table, std::uint16_t, std::uint16_t) override { return Verdict::good; }
+    Verdict write(Table table, std::uint16_t, std::uint16_t, const std::uint8_t* data, WritePlan& plan) override {
         ProcessData d;
         d.controlword = table == Table::coils ? data[0] : get16(data);
         plan.commands.push_back({first, d, false, 0});
         plan.commands.push_back({second, d, false, 0});
         plan.commands.push_back({first, d, true, 42});
-        return Exception::none;
+        return Verdict::good;
     }
     void on_own_result(std::uint32_t note, const Result& result) override { own.emplace_back(note, result.reason); }
     AxisId first{}, second{};
@@ -500,7 +503,7 @@ TEST(UnitMap, AMapBehindAnotherUnit) {
     TwoAxes map;
     map.first = plant.axes[1];
     map.second = plant.axes[2];
-    plant.responder.set_map(2, &map);
+    plant.image.set_map(2, &map);
     EXPECT_EQ(plant.ask("03 00 05 00 02", 2), "03 04 20 05 20 06");
     EXPECT_EQ(plant.ask("04 00 05 00 01", 2), "04 02 30 05");
     EXPECT_EQ(plant.ask("01 00 05 00 01", 2), "01 01 01");
@@ -511,7 +514,7 @@ TEST(UnitMap, AMapBehindAnotherUnit) {
     EXPECT_EQ(plant.port.commands.size(), 1u);
     plant.port.refuse(Reason::no_answer);
     EXPECT_THAT(map.own, testing::ElementsAre(testing::Pair(42, Reason::none), testing::Pair(42, Reason::no_answer)));
-    plant.responder.set_map(2, nullptr);
+    plant.image.set_map(2, nullptr);
     EXPECT_EQ(plant.ask("03 00 05 00 02", 2), "83 0A");
 }
 
@@ -521,7 +524,7 @@ TEST(UnitMap, TheFirstFailureDecides) {
         TwoAxes map;
         map.first = plant.axes[1];
         map.second = plant.axes[2];
-        plant.responder.set_map(200, &map);
+        plant.image.set_map(200, &map);
         int n = 0;
         plant.result = [&] {
             ++n;
@@ -542,19 +545,19 @@ TEST(UnitMap, AMapThatWasTakenAwayIsNotTold) {
         TwoAxes map;
         map.first = plant.axes[1];
         map.second = plant.axes[2];
-        plant.responder.set_map(2, &map);
+        plant.image.set_map(2, &map);
         EXPECT_EQ(plant.ask("06 00 00 00 0F", 2), "06 00 00 00 0F");
-        plant.responder.set_map(2, nullptr);
+        plant.image.set_map(2, nullptr);
         EXPECT_TRUE(plant.port.answer());
         EXPECT_TRUE(map.own.empty());
     }
-    EXPECT_EQ(plant.responder.counters().results_unclaimed.value(), 1u);
+    EXPECT_EQ(plant.responder.writer().counters().results_unclaimed.value(), 1u);
 }
 
 TEST(UnitMap, TheStandardUnitsCannotBeReplaced) {
     Plant plant;
     for (const std::uint8_t unit : std::initializer_list<std::uint8_t>{0, 1, 255}) {
-        plant.responder.set_map(unit, nullptr);
+        plant.image.set_map(unit, nullptr);
         EXPECT_EQ(plant.ask("03 00 08 00 01", unit), "03 02 AB CD");
     }
 }

@@ -5,10 +5,11 @@
 #include <fstream>
 #include <string>
 
-#include "gateway/doors/modbus/register_map.hpp"
+#include "gateway/registers/register_map.hpp"
 
 namespace axisgate::modbus {
 namespace {
+using namespace registers;
 
 TEST(ModbusReadme, PrintsTheRegisterMapAsItIs) {
     std::ifstream file(AXISGATE_SOURCE_DIR "/gateway/doors/modbus/README.md");
@@ -22,9 +23,8 @@ TEST(ModbusReadme, PrintsTheRegisterMapAsItIs) {
     }
     std::vector<std::string> expected;
     for (const auto& row : standard_registers()) {
-        constexpr std::array types{"u16", "i16", "u32", "i32"};
         expected.push_back("| " + std::to_string(row.offset) + " | " + std::to_string(40001 + row.offset) + " | " +
-                           types[static_cast<std::size_t>(row.type)] + " | " + (row.writable ? "RW" : "R") + " | " + std::string(row.name) +
+                           std::string(name_of(row.type)) + " | " + (row.writable ? "RW" : "R") + " | " + std::string(row.name) +
                            " |");
     }
     EXPECT_EQ(printed, expected);

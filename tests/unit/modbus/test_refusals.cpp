@@ -5,6 +5,7 @@
 
 namespace axisgate::modbus {
 namespace {
+using namespace registers;
 using test::Desk;
 using namespace std::chrono_literals;
 
@@ -84,7 +85,7 @@ TEST_F(Refusals, ReadsThatLeadNowhereAreToldAndCountForNoAxis) {
 TEST_F(Refusals, ADriveThatDoesNotAnswer) {
     result = [this] {
         port.time += 31s;
-        responder.expire(port.time);
+        responder.writer().sweep(port.time);
     };
     EXPECT_EQ(ask("06 00 20 00 0F"), "86 0B");
     ASSERT_EQ(port.notes.size(), 1u);
@@ -96,7 +97,7 @@ TEST_F(Refusals, AClientThatHasGoneIsStillTold) {
     std::array<std::uint8_t, max_pdu> out{};
     const auto request = test::bytes("06 00 20 00 0F");
     EXPECT_EQ(responder.answer(client(), 7, 1, request, port.now(), out.data(), late), 0u);
-    responder.forget(*this);
+    responder.writer().forget(*this);
     port.answer(Outcome::refused, Reason::authority, 0, {}, "axis feeder: anna holds it");
     ASSERT_EQ(port.notes.size(), 1u);
     EXPECT_EQ(port.notes[0].first.text, "axis feeder: anna holds it (unit 1 register 32 = 15: exception 6)");
@@ -110,11 +111,11 @@ TEST_F(Refusals, IdenticalOnesInARowAreOneEventWithACount) {
         port.time += 10ms;
     }
     ASSERT_EQ(port.notes.size(), 1u);
-    EXPECT_TRUE(responder.has_refusals_to_tell());
-    responder.tell_refusals(port.time);
+    EXPECT_TRUE(responder.writer().waits());
+    responder.writer().sweep(port.time);
     ASSERT_EQ(port.notes.size(), 2u);
     EXPECT_EQ(port.notes[1].first.text, "axis feeder: it is not enabled (unit 1 register 32 = 31: exception 4): 999 times more");
-    EXPECT_FALSE(responder.has_refusals_to_tell());
+    EXPECT_FALSE(responder.writer().waits());
     (void)ask("06 00 20 00 1F");
     (void)ask("06 00 20 00 0F");
     ASSERT_EQ(port.notes.size(), 4u) << "another one ends the row";

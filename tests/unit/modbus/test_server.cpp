@@ -9,6 +9,7 @@
 
 namespace axisgate::modbus {
 namespace {
+using namespace registers;
 using namespace std::chrono_literals;
 using test::adu;
 using test::Net;
@@ -365,10 +366,10 @@ TEST(Server, AHostIsLostWithItsLastConnectionAndHeardUntilThen) {
     tool.connect();
     EXPECT_TRUE(serves(panel));
     const Instant asked = net.port.now();
-    ASSERT_EQ(net.port.sink->heard("127.0.0.1"), asked);
-    EXPECT_EQ(net.port.sink->heard("127.0.0.2"), std::nullopt);
+    ASSERT_EQ(net.port.doors.back()->heard({Door::modbus, "127.0.0.1"}), asked);
+    EXPECT_EQ(net.port.doors.back()->heard({Door::modbus, "127.0.0.2"}), std::nullopt);
     net.pass(2s);
-    EXPECT_EQ(net.port.sink->heard("127.0.0.1"), asked) << "an open connection that asks nothing is silent";
+    EXPECT_EQ(net.port.doors.back()->heard({Door::modbus, "127.0.0.1"}), asked) << "an open connection that asks nothing is silent";
     panel.close();
     net.turn();
     EXPECT_TRUE(net.port.lost.empty()) << "another connection of the same host is there";
@@ -376,7 +377,7 @@ TEST(Server, AHostIsLostWithItsLastConnectionAndHeardUntilThen) {
     net.turn();
     ASSERT_EQ(net.port.lost.size(), 1u);
     EXPECT_EQ(net.port.lost[0], (std::pair{std::string("modbus 127.0.0.1"), LossCause::modbus_closed}));
-    EXPECT_EQ(net.port.sink->heard("127.0.0.1"), std::nullopt);
+    EXPECT_EQ(net.port.doors.back()->heard({Door::modbus, "127.0.0.1"}), std::nullopt);
     TcpClient again(net);
     EXPECT_TRUE(serves(again.connect()));
     net.server->close();
@@ -453,7 +454,8 @@ TEST(Server, ListensOnSeveralAddresses) {
     boost::asio::io_context io;
     Net net;
     test::FakePort port;
-    Server server(net.io, port, {});
+    RegisterImage image(port, {});
+    Server server(net.io, port, image, {});
     const std::vector<std::string> binds{"127.0.0.1:0", "127.0.0.1:0", "[::1]:0"};
     ASSERT_EQ(server.open(binds), "");
     const auto addresses = server.addresses();
@@ -469,7 +471,8 @@ TEST(Server, ListensOnSeveralAddresses) {
 TEST(Server, OpenTellsWhatIsWrongAndThenNothingIsOpen) {
     Net net;
     test::FakePort port;
-    Server server(net.io, port, {});
+    RegisterImage image(port, {});
+    Server server(net.io, port, image, {});
     const std::vector<std::string> taken{"127.0.0.1:0", "127.0.0.1:" + std::to_string(net.tcp_port)};
     EXPECT_THAT(server.open(taken), testing::AllOf(testing::HasSubstr(taken[1]), testing::HasSubstr("choose another")));
     EXPECT_THAT(server.addresses(), testing::IsEmpty());
@@ -492,7 +495,7 @@ TEST(Server, ClosesWithEverythingOnItsWay) {
     EXPECT_EQ(net.server->counters().connections_open.value(), 0u);
     net.server.reset();  // before what its handlers left in the io_context has run
     net.turn();
-    EXPECT_EQ(net.port.sink, nullptr);
+    EXPECT_EQ(net.port.doors.back(), nullptr);
 }
 
 TEST(Server, CanGoBetweenAResultAndItsAnswer) {
@@ -517,7 +520,7 @@ TEST(Server, CanBeOpenedAgain) {
 
 TEST(Server, ServesAtOnceWhenItIsAsked) {
     Net net;
-    EXPECT_FALSE(net.server->serve_now()) << "nobody has asked anything";
+    EXPECT_FALSE(net.port.doors.back()->serve_now()) << "nobody has asked anything";
     TcpClient c(net);
     EXPECT_TRUE(serves(c.connect()));
     const auto answers = [&] { return net.server->counters().requests.value(); };
@@ -526,10 +529,10 @@ TEST(Server, ServesAtOnceWhenItIsAsked) {
     ASSERT_EQ(::send(c.fd(), request.data(), request.size(), MSG_NOSIGNAL), static_cast<ssize_t>(request.size())) << "past c.send(), which runs the io_context";
     const auto limit = std::chrono::steady_clock::now() + 5s;
     bool served = false;
-    while (!served && std::chrono::steady_clock::now() < limit) served = net.server->serve_now();
+    while (!served && std::chrono::steady_clock::now() < limit) served = net.port.doors.back()->serve_now();
     EXPECT_TRUE(served) << "and says so";
     EXPECT_EQ(answers(), before + 1) << "the io_context has not run";
-    EXPECT_FALSE(net.server->serve_now());
+    EXPECT_FALSE(net.port.doors.back()->serve_now());
 }
 
 TEST(Server, LooksAtTheTimeByItself) {

@@ -6,6 +6,7 @@
 
 namespace axisgate::modbus {
 namespace {
+using namespace registers;
 using test::adu;
 using test::bytes;
 using test::hex;
@@ -41,7 +42,8 @@ struct SessionTest : testing::Test {
         port.edit(axes[1], [](AxisPicture& p) { p.statusword = 0x0250; });
     }
     test::FakePort port;
-    Responder responder{port, {}};
+    test::ResponderDoor door{port};
+    Responder& responder = door.responder;
     Client client{responder, port};
     AxisId axes[4] = {};
 };
@@ -216,8 +218,8 @@ TEST_F(SessionTest, AClientThatHasGoneIsNotTold) {
     client.send(adu(1, control));
     client.session.reset();
     EXPECT_TRUE(port.answer());
-    EXPECT_EQ(responder.counters().results_unclaimed.value(), 1u);
-    EXPECT_EQ(responder.waiting(), 0u);
+    EXPECT_EQ(responder.writer().counters().results_unclaimed.value(), 1u);
+    EXPECT_EQ(responder.writer().waiting(), 0u);
 }
 
 TEST_F(SessionTest, OneClientsWritesDoNotHoldUpAnother) {

@@ -17,7 +17,7 @@
 namespace axisgate::test {
 namespace {
 using namespace std::chrono_literals;
-constexpr std::size_t command_places = 1024, job_places = 256;
+constexpr std::size_t command_places = 1024, job_places = 256, service_places = 1024;
 
 std::atomic<std::int64_t> test_time{0};
 Instant test_clock() noexcept { return at_ns(test_time.load()); }
@@ -144,26 +144,27 @@ TEST(FullRings, AGapThatCannotBeToldYetIsToldLaterWithAllThatIsMissing) {
     EXPECT_NE(taken[2].text.find("1 events"), std::string::npos) << taken[2].text;
 }
 
-TEST(FullRings, NotesOfTheServiceThatFindNoPlaceAreCountedToo) {
+TEST(FullRings, NotesOfTheServiceGoStraightToTheDiskAndAreCountedWhenTheyFindNoPlace) {
     Bench b;
-    b.fill_jobs();
-    b.gateway->note(numbered(1));
-    b.gateway->note(numbered(2));
-    EXPECT_EQ(b.hot->lost_events(), 2u);
-    b.empty_jobs();
-    b.gateway->note(numbered(3));
-    b.empty_jobs();
+    b.fill_jobs();  // the hot thread takes nothing more: it is not on their way
+    for (std::int32_t i = 1; i <= static_cast<std::int32_t>(service_places) + 2; ++i)
+        b.gateway->note(numbered(i));
+    EXPECT_EQ(b.gateway->lost_events(), 2u);
+    EXPECT_EQ(b.hot->lost_events(), 0u);
+    b.cold->from_service().empty();
+    b.gateway->note(numbered(-1));
     b.cold->start();
-    b.cold->from_hot().announce();
-    ASSERT_TRUE(until([&] { return b.locked([&] { return b.events.size() == 2; }); }));
-    EXPECT_EQ(b.events[0].kind, "gap");
-    EXPECT_EQ(b.events[1].code, 3);
+    ASSERT_TRUE(until([&] { return b.locked([&] { return b.events.size() == service_places + 2u; }); }));
+    EXPECT_EQ(b.events[service_places].kind, "gap");
+    EXPECT_NE(b.events[service_places].text.find("2 events"), std::string::npos);
+    EXPECT_EQ(b.events[service_places + 1u].code, -1);
 }
 
 TEST(FullRings, WhoeverAsksIsAnsweredOnceAlthoughNothingCanBeTaken) {
     Bench b;
     b.gateway->modbus_on_hot = [] { return Gateway::ModbusReport{}; };
-    b.gateway->modbus_answer = [](std::uint8_t, std::span<const std::uint8_t>) { return std::vector<std::uint8_t>{1}; };
+    registers::RegisterImage image(*b.hot, {});
+    b.gateway->use_registers(image);
     b.fill_jobs();
     std::map<std::string, int> answered;
     std::map<std::string, std::string> said;
@@ -179,7 +180,7 @@ TEST(FullRings, WhoeverAsksIsAnsweredOnceAlthoughNothingCanBeTaken) {
     b.gateway->scan_report(LineId{0},
                            [&](const ScanReport& r) { told("scan_report", r.state == ScanReport::State::failed ? r.text : "not failed"); });
     b.gateway->modbus_report([&](auto report) { told("modbus_report", report ? "report" : "none"); });
-    b.gateway->ask_modbus(1, {3, 0, 0, 0, 1}, [&](auto pdu) { told("ask_modbus", pdu ? "answer" : "none"); });
+    b.gateway->read_registers(1, registers::Table::holding_registers, 0, 1, [&](auto read) { told("read_registers", read ? "answer" : "none"); });
     b.gateway->events_settled([&] { told("events_settled", ""); });
     b.run_warm();
     b.empty_jobs();
@@ -187,7 +188,7 @@ TEST(FullRings, WhoeverAsksIsAnsweredOnceAlthoughNothingCanBeTaken) {
     const std::string later = "too much is asked at once; come again in a moment";
     const std::map<std::string, std::string> expected{{"hand", "none"},       {"set_hand", later},    {"start_scan", later},
                                                       {"cancel_scan", later}, {"scan_report", later}, {"modbus_report", "none"},
-                                                      {"ask_modbus", "none"}, {"events_settled", ""}};
+                                                      {"read_registers", "none"}, {"events_settled", ""}};
     EXPECT_EQ(said, expected);
     for (const auto& [who, times] : answered)
         EXPECT_EQ(times, 1) << who;

@@ -3,10 +3,11 @@
 
 #include <limits>
 
-#include "gateway/doors/modbus/register_map.hpp"
+#include "gateway/registers/register_map.hpp"
 #include "tests/unit/modbus/fake_port.hpp"
 
-namespace axisgate::modbus {
+namespace axisgate::registers {
+namespace test = modbus::test;
 namespace {
 
 AxisPicture sample() {
@@ -35,7 +36,7 @@ AxisPicture sample() {
     return p;
 }
 
-std::string registers(const AxisPicture& p, WordOrder order, std::uint16_t from, std::uint16_t count) {
+std::string shown(const AxisPicture& p, WordOrder order, std::uint16_t from, std::uint16_t count) {
     std::array<std::uint8_t, block_size> block;
     block.fill(0xEE);
     render(p, 0xCAFE0123, order, block.data());
@@ -43,31 +44,31 @@ std::string registers(const AxisPicture& p, WordOrder order, std::uint16_t from,
 }
 
 TEST(RegisterMap, RendersHighWordFirst) {
-    EXPECT_EQ(registers(sample(), WordOrder::high_first, 0, 32),
+    EXPECT_EQ(shown(sample(), WordOrder::high_first, 0, 32),
               "C1 27 FF FD 01 02 03 04 FF FF FF FE 11 22 33 44 AB CD 00 B3 A1 B2 C3 D4 00 00 00 00 00 00 00 05 "
               "77 88 00 03 CA FE 01 23 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00");
-    EXPECT_EQ(registers(sample(), WordOrder::high_first, 32, 16),
+    EXPECT_EQ(shown(sample(), WordOrder::high_first, 32, 16),
               "00 1F 00 06 FF FF FF FE FE DC BA 98 01 02 03 04 05 06 07 08 FE FD FC FC FF EF 00 00 00 00 00 00");
 }
 
 TEST(RegisterMap, RendersLowWordFirst) {
-    EXPECT_EQ(registers(sample(), WordOrder::low_first, 0, 20),
+    EXPECT_EQ(shown(sample(), WordOrder::low_first, 0, 20),
               "C1 27 FF FD 03 04 01 02 FF FE FF FF 33 44 11 22 AB CD 00 B3 C3 D4 A1 B2 00 00 00 00 00 00 00 05 "
               "77 88 00 03 01 23 CA FE");
-    EXPECT_EQ(registers(sample(), WordOrder::low_first, 32, 16),
+    EXPECT_EQ(shown(sample(), WordOrder::low_first, 32, 16),
               "00 1F 00 06 FF FE FF FF BA 98 FE DC 03 04 01 02 07 08 05 06 FC FC FE FD FF EF 00 00 00 00 00 00");
 }
 
-TEST(RegisterMap, LeavesTheParameterChannelAlone) { EXPECT_EQ(registers(sample(), WordOrder::high_first, 48, 2), "EE EE EE EE"); }
+TEST(RegisterMap, LeavesTheParameterChannelAlone) { EXPECT_EQ(shown(sample(), WordOrder::high_first, 48, 2), "EE EE EE EE"); }
 
 TEST(RegisterMap, PositionWrapsAndVelocityStops) {
     AxisPicture p;
     p.position = (std::int64_t{1} << 31) + 5;
     p.position_demand = -(std::int64_t{1} << 31) - 1;
     p.velocity = std::int64_t{1} << 40;
-    EXPECT_EQ(registers(p, WordOrder::high_first, 2, 6), "80 00 00 05 7F FF FF FF 7F FF FF FF");
+    EXPECT_EQ(shown(p, WordOrder::high_first, 2, 6), "80 00 00 05 7F FF FF FF 7F FF FF FF");
     p.velocity = -(std::int64_t{1} << 40);
-    EXPECT_EQ(registers(p, WordOrder::high_first, 4, 2), "80 00 00 00");
+    EXPECT_EQ(shown(p, WordOrder::high_first, 4, 2), "80 00 00 00");
 }
 
 TEST(RegisterMap, AgeIsMillisecondsAndStopsAtTheTop) {
@@ -104,36 +105,36 @@ TEST(RegisterMap, RowsAreInOrderAndDoNotOverlap) {
 TEST(RegisterMap, WriteOffsets) {
     const auto single = [](std::uint16_t offset) { return check_write_offsets(offset, 1); };
     for (std::uint16_t o = 0; o < registers_per_axis; ++o) {
-        Exception expected = Exception::illegal_address;
-        if (o == 32 || o == 33 || o == 44 || o == 50) expected = Exception::none;
-        if ((o >= 34 && o <= 43) || o == 48 || o == 49 || o == 52 || o == 53) expected = Exception::illegal_value;
+        Verdict expected = Verdict::no_address;
+        if (o == 32 || o == 33 || o == 44 || o == 50) expected = Verdict::good;
+        if ((o >= 34 && o <= 43) || o == 48 || o == 49 || o == 52 || o == 53) expected = Verdict::bad_value;
         EXPECT_EQ(single(o), expected) << "offset " << o;
     }
     struct Range {
         std::uint16_t offset, count;
-        Exception expected;
+        Verdict expected;
     };
-    for (const auto& r : {Range{32, 13, Exception::none},             // all set-points
-                          Range{32, 2, Exception::none},              // control word and mode
-                          Range{32, 3, Exception::illegal_value},     // ends in the middle of the target position
-                          Range{32, 4, Exception::none},              //
-                          Range{35, 2, Exception::illegal_value},     // second half of one, first half of the next
-                          Range{35, 3, Exception::illegal_value},     // begins in the middle
-                          Range{34, 10, Exception::none},             // all 32-bit set-points
-                          Range{43, 2, Exception::illegal_value},     //
-                          Range{42, 3, Exception::none},              //
-                          Range{44, 2, Exception::illegal_address},   // 45 is not mapped
-                          Range{31, 2, Exception::illegal_address},   // 31 is not mapped
-                          Range{35, 12, Exception::illegal_address},  // address comes before value
-                          Range{48, 3, Exception::none},              // selector and request
-                          Range{48, 2, Exception::none},              //
-                          Range{49, 2, Exception::illegal_value},     //
-                          Range{48, 4, Exception::illegal_address},   // 51, the state, is read only
-                          Range{52, 2, Exception::none},              //
-                          Range{52, 3, Exception::illegal_address},   // 54, the error, is read only
-                          Range{63, 2, Exception::illegal_address},   // goes into the next axis
-                          Range{0, 64, Exception::illegal_address},
-                          Range{32, 0, Exception::illegal_address}}) {
+    for (const auto& r : {Range{32, 13, Verdict::good},             // all set-points
+                          Range{32, 2, Verdict::good},              // control word and mode
+                          Range{32, 3, Verdict::bad_value},     // ends in the middle of the target position
+                          Range{32, 4, Verdict::good},              //
+                          Range{35, 2, Verdict::bad_value},     // second half of one, first half of the next
+                          Range{35, 3, Verdict::bad_value},     // begins in the middle
+                          Range{34, 10, Verdict::good},             // all 32-bit set-points
+                          Range{43, 2, Verdict::bad_value},     //
+                          Range{42, 3, Verdict::good},              //
+                          Range{44, 2, Verdict::no_address},   // 45 is not mapped
+                          Range{31, 2, Verdict::no_address},   // 31 is not mapped
+                          Range{35, 12, Verdict::no_address},  // address comes before value
+                          Range{48, 3, Verdict::good},              // selector and request
+                          Range{48, 2, Verdict::good},              //
+                          Range{49, 2, Verdict::bad_value},     //
+                          Range{48, 4, Verdict::no_address},   // 51, the state, is read only
+                          Range{52, 2, Verdict::good},              //
+                          Range{52, 3, Verdict::no_address},   // 54, the error, is read only
+                          Range{63, 2, Verdict::no_address},   // goes into the next axis
+                          Range{0, 64, Verdict::no_address},
+                          Range{32, 0, Verdict::no_address}}) {
         EXPECT_EQ(check_write_offsets(r.offset, r.count), r.expected) << r.offset << " x " << r.count;
     }
 }
@@ -168,39 +169,32 @@ TEST(RegisterMap, ProcessDataHoldsOnlyWhatWasWritten) {
     EXPECT_FALSE(q.controlword || q.mode || q.target_position || q.profile_velocity || q.target_velocity || q.homing_method);
 }
 
-TEST(Wire, EveryReasonHasItsException) {
-    const std::pair<Reason, Exception> table[] = {{Reason::none, Exception::device_failure},
-                                                  {Reason::out_of_range, Exception::illegal_value},
-                                                  {Reason::unknown_point, Exception::illegal_address},
-                                                  {Reason::not_writable, Exception::illegal_address},
-                                                  {Reason::wrong_state, Exception::device_failure},
-                                                  {Reason::not_supported, Exception::device_failure},
-                                                  {Reason::drive_refused, Exception::device_failure},
-                                                  {Reason::busy, Exception::busy},
-                                                  {Reason::line_down, Exception::no_path},
-                                                  {Reason::no_answer, Exception::no_answer},
-                                                  {Reason::interrupted, Exception::device_failure},
-                                                  {Reason::authority, Exception::busy},
-                                                  {Reason::not_stored, Exception::device_failure},
-                                                  {Reason::internal, Exception::device_failure}};
+TEST(Verdicts, EveryReasonHasOne) {
+    const std::pair<Reason, Verdict> table[] = {{Reason::none, Verdict::failed},
+                                                  {Reason::out_of_range, Verdict::bad_value},
+                                                  {Reason::unknown_point, Verdict::no_address},
+                                                  {Reason::not_writable, Verdict::no_address},
+                                                  {Reason::wrong_state, Verdict::failed},
+                                                  {Reason::not_supported, Verdict::failed},
+                                                  {Reason::drive_refused, Verdict::failed},
+                                                  {Reason::busy, Verdict::busy},
+                                                  {Reason::line_down, Verdict::no_path},
+                                                  {Reason::no_answer, Verdict::no_answer},
+                                                  {Reason::interrupted, Verdict::failed},
+                                                  {Reason::authority, Verdict::busy},
+                                                  {Reason::not_stored, Verdict::failed},
+                                                  {Reason::internal, Verdict::failed}};
     for (const auto& [reason, exception] : table) {
         Result r;
         r.outcome = Outcome::refused;
         r.reason = reason;
-        EXPECT_EQ(exception_of(r), exception) << name_of(reason);
+        EXPECT_EQ(verdict_of(r), exception) << name_of(reason);
         r.outcome = Outcome::failed;
-        EXPECT_EQ(exception_of(r), exception) << name_of(reason);
+        EXPECT_EQ(verdict_of(r), exception) << name_of(reason);
         r.outcome = Outcome::accepted;
-        EXPECT_EQ(exception_of(r), Exception::none) << name_of(reason);
+        EXPECT_EQ(verdict_of(r), Verdict::good) << name_of(reason);
     }
 }
 
-TEST(Wire, WordOrderNames) {
-    EXPECT_EQ(word_order_named("high_first"), WordOrder::high_first);
-    EXPECT_EQ(word_order_named("low_first"), WordOrder::low_first);
-    EXPECT_FALSE(word_order_named("big"));
-    EXPECT_EQ(name_of(WordOrder::low_first), "low_first");
-}
-
 }  // namespace
-}  // namespace axisgate::modbus
+}  // namespace axisgate::registers

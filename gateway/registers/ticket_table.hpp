@@ -10,13 +10,14 @@
 #include <vector>
 
 #include "gateway/engine/door.hpp"
-#include "gateway/doors/modbus/unit_map.hpp"
+#include "gateway/registers/refusals.hpp"
+#include "gateway/registers/unit_map.hpp"
 
-namespace axisgate::modbus {
+namespace axisgate::registers {
 
 /// Who asked, told when one of its commands has ended.
 struct WriteOwner {
-    virtual void on_written(std::uint8_t slot, AxisId axis, Exception exception) = 0;
+    virtual void on_written(std::uint8_t slot, AxisId axis, Verdict verdict) = 0;
     virtual ~WriteOwner() = default;
 };
 
@@ -33,6 +34,8 @@ public:
     };
 
     explicit TicketTable(std::size_t capacity);
+    /// Number of the door whose tickets these are; before the first open().
+    void use_number(DoorNumber number) noexcept { number_ = number; }
 
     [[nodiscard]] std::size_t free() const noexcept { return entries_.size() - used_; }
     [[nodiscard]] std::size_t used() const noexcept { return used_; }
@@ -57,10 +60,11 @@ private:
     };
     Waiting take(std::uint16_t index);
 
+    DoorNumber number_ = 0;
     std::vector<Entry> entries_;
     std::size_t used_ = 0;
     std::uint16_t free_ = none;
     std::uint16_t oldest_ = none, youngest_ = none;
 };
 
-}  // namespace axisgate::modbus
+}  // namespace axisgate::registers

@@ -2,11 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "gateway/doors/modbus/own_map.hpp"
+#include "gateway/registers/user_map.hpp"
 #include "tests/unit/modbus/desk.hpp"
 
 namespace axisgate::modbus {
 namespace {
+using namespace registers;
 using test::Desk;
 using namespace std::chrono_literals;
 
@@ -24,9 +25,9 @@ Mapping mapping(std::uint16_t address, std::variant<AxisPoint, Point> what, MapT
     return m;
 }
 
-struct OwnMapTest : testing::Test, Desk {
+struct UserMapTest : testing::Test, Desk {
     AxisId x = port.add_axis(1, &test::catalogue());
-    std::unique_ptr<OwnMap> map;
+    std::unique_ptr<UserMap> map;
     MapGaps gaps = MapGaps::zero;
 
     static Point parameter(std::string_view id) { return *test::catalogue().find(id); }
@@ -34,9 +35,9 @@ struct OwnMapTest : testing::Test, Desk {
         std::vector<PlacedMapping> placed;
         for (auto& m : list)
             placed.push_back({std::move(m), x, 100});
-        map = std::make_unique<OwnMap>(port, std::move(placed), gaps,
-                                       [this](UnitMap& asking, PlannedCommand c) { return responder.ask_for(asking, std::move(c)); });
-        responder.set_map(2, map.get());
+        map = std::make_unique<UserMap>(port, std::move(placed), gaps,
+                                       [this](UnitMap& asking, PlannedCommand c) { return image.ask_for(asking, std::move(c)); });
+        image.set_map(2, map.get());
     }
     void SetUp() override {
         port.edit(x, [](AxisPicture& p) {
@@ -51,7 +52,7 @@ struct OwnMapTest : testing::Test, Desk {
     std::string read(std::string_view pdu) { return ask(pdu, 2); }
 };
 
-TEST_F(OwnMapTest, ReadsPointsOfTheAxis) {
+TEST_F(UserMapTest, ReadsPointsOfTheAxis) {
     auto scaled = mapping(4, AxisPoint::velocity, MapType::i16);
     scaled.scale = 0.1;
     auto low = mapping(5, AxisPoint::position, MapType::i32);
@@ -73,7 +74,7 @@ TEST_F(OwnMapTest, ReadsPointsOfTheAxis) {
     EXPECT_EQ(ask("03 00 00 00 02", 3), "83 0A") << "another unit";
 }
 
-TEST_F(OwnMapTest, AValueThatDoesNotFitSpoilsItselfAlone) {
+TEST_F(UserMapTest, AValueThatDoesNotFitSpoilsItselfAlone) {
     auto clamped = mapping(6, AxisPoint::position, MapType::u16);
     clamped.on_overflow = MapOverflow::clamp;
     auto below = mapping(7, AxisPoint::velocity, MapType::u16);
@@ -83,7 +84,7 @@ TEST_F(OwnMapTest, AValueThatDoesNotFitSpoilsItselfAlone) {
     EXPECT_EQ(read("03 00 00 00 08"), "03 10 80 00 01 02 03 04 FF FF FF FF FF FF FF FF 00 00");
 }
 
-TEST_F(OwnMapTest, APartOfAValueThatDoesNotFitIsNotChanged) {
+TEST_F(UserMapTest, APartOfAValueThatDoesNotFitIsNotChanged) {
     port.edit(x, [](AxisPicture& p) { p.target_position = 70'000; });
     put({mapping(0, AxisPoint::target_position, MapType::u16, MapAccess::read_write)});
     EXPECT_EQ(read("16 00 00 FF FE 00 01"), "96 04");
@@ -92,7 +93,7 @@ TEST_F(OwnMapTest, APartOfAValueThatDoesNotFitIsNotChanged) {
     EXPECT_EQ(read("16 00 00 FF FE 00 01"), "16 00 00 FF FE 00 01");
 }
 
-TEST_F(OwnMapTest, GapsReadZeroWhereSomethingIsTouched) {
+TEST_F(UserMapTest, GapsReadZeroWhereSomethingIsTouched) {
     put({mapping(2, AxisPoint::velocity, MapType::i16), mapping(5, AxisPoint::target_position, MapType::i32, MapAccess::write),
          mapping(8, AxisPoint::position, MapType::i32), mapping(3, AxisPoint::moving, MapType::boolean, MapAccess::read, MapTable::coils)});
     EXPECT_EQ(read("03 00 00 00 0C"), "03 18 00 00 00 00 FF 06 00 00 00 00 00 00 00 00 00 00 01 02 03 04 00 00 00 00") << "before, between, behind";
@@ -111,7 +112,7 @@ TEST_F(OwnMapTest, GapsReadZeroWhereSomethingIsTouched) {
                      "nothing is mapped at address 0 of the holding registers (unit 2 register 0 = 1: exception 2)\n");
 }
 
-TEST_F(OwnMapTest, GapsAreRefusedWhereTheSiteSaysSo) {
+TEST_F(UserMapTest, GapsAreRefusedWhereTheSiteSaysSo) {
     gaps = MapGaps::refuse;
     put({mapping(2, AxisPoint::velocity, MapType::i16), mapping(3, AxisPoint::target_position, MapType::i32, MapAccess::write), mapping(8, AxisPoint::velocity, MapType::i16)});
     EXPECT_EQ(read("03 00 02 00 01"), "03 02 FF 06");
@@ -125,7 +126,7 @@ TEST_F(OwnMapTest, GapsAreRefusedWhereTheSiteSaysSo) {
     EXPECT_EQ(port.notes[0].first.severity, Severity::info);
 }
 
-TEST_F(OwnMapTest, ARefusedWriteSaysWhatTheOtherDoorsSay) {
+TEST_F(UserMapTest, ARefusedWriteSaysWhatTheOtherDoorsSay) {
     auto half = mapping(0, parameter("A"), MapType::f32, MapAccess::read_write);
     put({half, mapping(2, AxisPoint::target_position, MapType::f64, MapAccess::read_write)});
     EXPECT_EQ(ask("10 00 00 00 02 04 44 FA 20 00", 2), "90 03") << "2001";
@@ -138,7 +139,7 @@ TEST_F(OwnMapTest, ARefusedWriteSaysWhatTheOtherDoorsSay) {
     EXPECT_EQ(ask("03 00 14 00 02"), "03 04 00 01 00 02") << "reason and count in the axis' own block";
 }
 
-TEST_F(OwnMapTest, ParametersAreReadWhenTheyAreWanted) {
+TEST_F(UserMapTest, ParametersAreReadWhenTheyAreWanted) {
     put({mapping(0, parameter("A"), MapType::i32, MapAccess::read_write), mapping(2, parameter("E"), MapType::string)});
     map->begin(port.now());
     EXPECT_EQ(port.commands.size(), 2u);
@@ -161,7 +162,7 @@ TEST_F(OwnMapTest, ParametersAreReadWhenTheyAreWanted) {
     EXPECT_EQ(read("03 00 00 00 02"), "83 0B") << "nothing is shown of a drive that does not answer";
 }
 
-TEST_F(OwnMapTest, ReadingsAreBounded) {
+TEST_F(UserMapTest, ReadingsAreBounded) {
     std::vector<Mapping> list;
     for (const auto* id : {"A", "B", "C", "E", "F", "N[3]", "N[4]", "N[5]", "N[6]", "G", "I", "H", "M"})
         list.push_back(mapping(static_cast<std::uint16_t>(64 * list.size()), parameter(id), MapType::string));
@@ -169,10 +170,10 @@ TEST_F(OwnMapTest, ReadingsAreBounded) {
     for (int i = 0; i < 10; ++i)
         map->begin(port.now());
     EXPECT_EQ(port.commands.size(), list.size()) << "each once";
-    EXPECT_LE(port.commands.size(), OwnMap::most_readings);
+    EXPECT_LE(port.commands.size(), UserMap::most_readings);
 }
 
-TEST_F(OwnMapTest, WritesGoToTheDriveAndAreAnsweredByIt) {
+TEST_F(UserMapTest, WritesGoToTheDriveAndAreAnsweredByIt) {
     auto scaled = mapping(0, parameter("A"), MapType::i16, MapAccess::read_write);
     scaled.scale = 10;
     put({scaled, mapping(1, parameter("B"), MapType::u32, MapAccess::write),
@@ -205,23 +206,23 @@ TEST_F(OwnMapTest, WritesGoToTheDriveAndAreAnsweredByIt) {
     EXPECT_EQ(seen.size(), 4u);
 }
 
-TEST_F(OwnMapTest, AllOrNothing) {
+TEST_F(UserMapTest, AllOrNothing) {
     put({mapping(0, parameter("A"), MapType::i16, MapAccess::read_write), mapping(1, parameter("M"), MapType::u16, MapAccess::read_write)});
     EXPECT_EQ(ask("10 00 00 00 02 04 00 01 00 05", 2), "90 03") << "5 is none of the allowed values of M";
     EXPECT_TRUE(port.commands.empty()) << "A was not written either";
 }
 
-TEST_F(OwnMapTest, AMapThatGoesTakesItsReadingsWithIt) {
+TEST_F(UserMapTest, AMapThatGoesTakesItsReadingsWithIt) {
     put({mapping(0, parameter("A"), MapType::i32)});
     map->begin(port.now());
-    responder.set_map(2, nullptr);
+    image.set_map(2, nullptr);
     map.reset();
     EXPECT_TRUE(port.answer(Outcome::done, Reason::none, 0, Value{std::int64_t{1}}));
     EXPECT_EQ(read("03 00 00 00 02"), "83 0A");
-    EXPECT_EQ(responder.waiting(), 0u);
+    EXPECT_EQ(responder.writer().waiting(), 0u);
 }
 
-TEST_F(OwnMapTest, AnAxisThatIsGone) {
+TEST_F(UserMapTest, AnAxisThatIsGone) {
     put({mapping(0, AxisPoint::position, MapType::i32, MapAccess::read)});
     port.edit(x, [](AxisPicture& p) { p.number = 0; });
     EXPECT_EQ(read("03 00 00 00 02"), "83 0A");

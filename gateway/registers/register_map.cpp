@@ -1,45 +1,45 @@
 // Register map: which half of a 32-bit value an offset is, and whether it can be written, is worked out from the one table at compile time.
 // In: a picture, register data. Out: big-endian registers, a ProcessData. Positions keep their low 32 bits. Never lets a velocity wrap.
-#include "gateway/doors/modbus/register_map.hpp"
+#include "gateway/registers/register_map.hpp"
 
 #include <algorithm>
 #include <cstring>
 #include <limits>
 
-namespace axisgate::modbus {
+namespace axisgate::registers {
 namespace {
-using enum RegisterType;
+using enum MapType;
 constexpr std::array rows{
-    RegisterRow{reg::statusword, u16, false, "statusword"},
-    RegisterRow{reg::mode_display, i16, false, "modes of operation display"},
-    RegisterRow{reg::position, i32, false, "position actual value"},
-    RegisterRow{reg::velocity, i32, false, "velocity actual value"},
-    RegisterRow{reg::position_demand, i32, false, "position demand value"},
-    RegisterRow{reg::error_code, u16, false, "error code"},
-    RegisterRow{reg::flags, u16, false, "flags"},
-    RegisterRow{reg::native_status, u32, false, "drive's own status"},
-    RegisterRow{reg::age, u32, false, "age of the data, ms"},
-    RegisterRow{reg::heartbeat, u16, false, "heartbeat"},
-    RegisterRow{reg::family, u16, false, "family number"},
-    RegisterRow{reg::setpoints_accepted, u16, false, "set-points accepted"},
-    RegisterRow{reg::authority, u16, false, "command authority"},
-    RegisterRow{reg::mapping_revision, u32, false, "revision of the mapping"},
-    RegisterRow{reg::refusal_reason, u16, false, "reason of the last refusal"},
-    RegisterRow{reg::refusals, u16, false, "refusals"},
-    RegisterRow{reg::fail_safe_cause, u16, false, "cause of the last fail-safe action"},
-    RegisterRow{reg::controlword, u16, true, "controlword"},
-    RegisterRow{reg::mode, i16, true, "modes of operation"},
-    RegisterRow{reg::target_position, i32, true, "target position"},
-    RegisterRow{reg::profile_velocity, u32, true, "profile velocity"},
-    RegisterRow{reg::profile_acceleration, u32, true, "profile acceleration"},
-    RegisterRow{reg::profile_deceleration, u32, true, "profile deceleration"},
-    RegisterRow{reg::target_velocity, i32, true, "target velocity"},
-    RegisterRow{reg::homing_method, i16, true, "homing method"},
-    RegisterRow{reg::channel_selector, u32, true, "parameter channel: selector"},
-    RegisterRow{reg::channel_request, u16, true, "parameter channel: request"},
-    RegisterRow{reg::channel_state, u16, false, "parameter channel: state"},
-    RegisterRow{reg::channel_value, i32, true, "parameter channel: value"},
-    RegisterRow{reg::channel_error, u16, false, "parameter channel: error"},
+    RegisterRow{reg::statusword, u16, false, "statusword", "statusword"},
+    RegisterRow{reg::mode_display, i16, false, "mode_display", "modes of operation display"},
+    RegisterRow{reg::position, i32, false, "position", "position actual value"},
+    RegisterRow{reg::velocity, i32, false, "velocity", "velocity actual value"},
+    RegisterRow{reg::position_demand, i32, false, "position_demand", "position demand value"},
+    RegisterRow{reg::error_code, u16, false, "error_code", "error code"},
+    RegisterRow{reg::flags, u16, false, "flags", "flags"},
+    RegisterRow{reg::native_status, u32, false, "native_status", "drive's own status"},
+    RegisterRow{reg::age, u32, false, "age_ms", "age of the data, ms"},
+    RegisterRow{reg::heartbeat, u16, false, "heartbeat", "heartbeat"},
+    RegisterRow{reg::family, u16, false, "family", "family number"},
+    RegisterRow{reg::setpoints_accepted, u16, false, "setpoints_accepted", "set-points accepted"},
+    RegisterRow{reg::authority, u16, false, "authority", "command authority"},
+    RegisterRow{reg::mapping_revision, u32, false, "mapping_revision", "revision of the mapping"},
+    RegisterRow{reg::refusal_reason, u16, false, "refusal_reason", "reason of the last refusal"},
+    RegisterRow{reg::refusals, u16, false, "refusals", "refusals"},
+    RegisterRow{reg::fail_safe_cause, u16, false, "fail_safe_cause", "cause of the last fail-safe action"},
+    RegisterRow{reg::controlword, u16, true, "controlword", "controlword"},
+    RegisterRow{reg::mode, i16, true, "mode", "modes of operation"},
+    RegisterRow{reg::target_position, i32, true, "target_position", "target position"},
+    RegisterRow{reg::profile_velocity, u32, true, "profile_velocity", "profile velocity"},
+    RegisterRow{reg::profile_acceleration, u32, true, "profile_acceleration", "profile acceleration"},
+    RegisterRow{reg::profile_deceleration, u32, true, "profile_deceleration", "profile deceleration"},
+    RegisterRow{reg::target_velocity, i32, true, "target_velocity", "target velocity"},
+    RegisterRow{reg::homing_method, i16, true, "homing_method", "homing method"},
+    RegisterRow{reg::channel_selector, u32, true, "", "parameter channel: selector"},
+    RegisterRow{reg::channel_request, u16, true, "", "parameter channel: request"},
+    RegisterRow{reg::channel_state, u16, false, "", "parameter channel: state"},
+    RegisterRow{reg::channel_value, i32, true, "", "parameter channel: value"},
+    RegisterRow{reg::channel_error, u16, false, "", "parameter channel: error"},
 };
 
 enum class Part : std::uint8_t { fixed, whole, first, second };  // `fixed`: cannot be written
@@ -106,13 +106,13 @@ std::string_view name_at(std::uint16_t offset) noexcept {
     return {};
 }
 
-Exception check_write_offsets(std::uint16_t offset, std::uint16_t count) noexcept {
-    if (count == 0 || offset + count > registers_per_axis) return Exception::illegal_address;
+Verdict check_write_offsets(std::uint16_t offset, std::uint16_t count) noexcept {
+    if (count == 0 || offset + count > registers_per_axis) return Verdict::no_address;
     for (std::uint16_t i = 0; i < count; ++i) {
-        if (parts[offset + i] == Part::fixed) return Exception::illegal_address;
+        if (parts[offset + i] == Part::fixed) return Verdict::no_address;
     }
-    if (parts[offset] == Part::second || parts[offset + count - 1] == Part::first) return Exception::illegal_value;
-    return Exception::none;
+    if (parts[offset] == Part::second || parts[offset + count - 1] == Part::first) return Verdict::bad_value;
+    return Verdict::good;
 }
 
 ProcessData process_data(std::uint16_t offset, std::uint16_t count, const std::uint8_t* data, WordOrder order) noexcept {
@@ -135,4 +135,4 @@ std::uint64_t bits_of(const AxisPicture& picture) noexcept {
     return std::uint64_t{picture.flags} | (std::uint64_t{picture.statusword} << 16);
 }
 
-}  // namespace axisgate::modbus
+}  // namespace axisgate::registers

@@ -9,6 +9,7 @@
 
 namespace axisgate::modbus {
 namespace {
+using namespace registers;
 using test::Desk;
 
 // Positions in test::catalogue()
@@ -337,7 +338,7 @@ TEST(ParameterChannel, AResultThatNeverComesEndsAsNoAnswer) {
     Channel c;
     EXPECT_EQ(c.start(par_i32, 1), accepted);
     c.port.time += std::chrono::seconds(30);
-    c.responder.expire(c.port.time);
+    c.responder.writer().sweep(c.port.time);
     EXPECT_EQ(c.look(), (Seen{refused, 0, static_cast<int>(Reason::no_answer)}));
     EXPECT_EQ(c.start(par_u32, 1), accepted);
     c.port.answer(Outcome::done, Reason::none, 0, Value{std::int64_t{111}});  // of the first

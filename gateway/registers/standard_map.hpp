@@ -8,21 +8,21 @@
 #include <vector>
 
 #include "gateway/engine/door.hpp"
-#include "gateway/doors/modbus/parameter_channel.hpp"
-#include "gateway/doors/modbus/register_map.hpp"
-#include "gateway/doors/modbus/unit_map.hpp"
+#include "gateway/registers/parameter_channel.hpp"
+#include "gateway/registers/register_map.hpp"
+#include "gateway/registers/unit_map.hpp"
 
-namespace axisgate::modbus {
+namespace axisgate::registers {
 
 class StandardMap final : public UnitMap {
 public:
     StandardMap(const DoorPort& port, WordOrder order) : port_(port), order_(order) {}
 
-    Exception check_read(Table table, std::uint16_t address, std::uint16_t count) override;
-    Exception read_registers(Table table, std::uint16_t address, std::uint16_t count, Instant now, std::uint8_t* out) override;
-    Exception read_bits(Table table, std::uint16_t address, std::uint16_t count, std::uint8_t* out) override;
-    Exception check_write(Table table, std::uint16_t address, std::uint16_t count) override;
-    Exception write(Table table, std::uint16_t address, std::uint16_t count, const std::uint8_t* data, WritePlan& plan) override;
+    Verdict check_read(Table table, std::uint16_t address, std::uint16_t count) override;
+    Verdict read_registers(Table table, std::uint16_t address, std::uint16_t count, Instant now, std::uint8_t* out) override;
+    Verdict read_bits(Table table, std::uint16_t address, std::uint16_t count, std::uint8_t* out) override;
+    Verdict check_write(Table table, std::uint16_t address, std::uint16_t count) override;
+    Verdict write(Table table, std::uint16_t address, std::uint16_t count, const std::uint8_t* data, WritePlan& plan) override;
     /// `note`: the axis number whose parameter channel asked, and which of its exchanges it was.
     void on_own_result(std::uint32_t note, const Result& result) override;
 
@@ -54,8 +54,8 @@ private:
     [[nodiscard]] std::uint8_t* block(std::uint32_t index);
     [[nodiscard]] AxisId axis_at(std::uint32_t index) const noexcept { return port_.image().by_number(index + 1); }
     static void put_refusals(const Row& row, std::uint8_t* block) noexcept;
-    [[nodiscard]] Exception no_such_axis(std::uint32_t index);
-    [[nodiscard]] Exception write_channel(std::uint32_t index, std::uint16_t offset, std::uint16_t count, const std::uint8_t* data,
+    [[nodiscard]] Verdict no_such_axis(std::uint32_t index);
+    [[nodiscard]] Verdict write_channel(std::uint32_t index, std::uint16_t offset, std::uint16_t count, const std::uint8_t* data,
                                           WritePlan& plan);
 
     const DoorPort& port_;
@@ -66,4 +66,4 @@ private:
     std::vector<std::uint8_t> blocks_;  // block_size bytes per row, so that a read across axes is one copy
 };
 
-}  // namespace axisgate::modbus
+}  // namespace axisgate::registers

@@ -1,6 +1,6 @@
 // Parameter channel: checks against the catalogue before anything goes to the line; a single stands for its shortest decimal number.
 // In: register writes, results. Out: commands, registers. Never shows a read value that does not fit the value register: it is refused.
-#include "gateway/doors/modbus/parameter_channel.hpp"
+#include "gateway/registers/parameter_channel.hpp"
 
 #include <fmt/format.h>
 
@@ -10,9 +10,9 @@
 #include <limits>
 #include <utility>
 
-#include "gateway/doors/modbus/register_map.hpp"
+#include "gateway/registers/register_map.hpp"
 
-namespace axisgate::modbus {
+namespace axisgate::registers {
 namespace {
 constexpr std::uint16_t request_none = 0, request_read = 1, request_write = 2;
 
@@ -36,11 +36,11 @@ double shortest(float single) noexcept {
 ParameterChannel::Outcome ParameterChannel::write(const Write& write, const Catalogue* catalogue) {
     if (state_ == State::busy) {
         why_ = "the parameter channel is busy: write again when register 51 of the axis is no longer 1";
-        return {Exception::busy, {}};
+        return {Verdict::busy, {}};
     }
     if (write.request && *write.request > request_write) {
         why_ = fmt::format("the parameter channel has no request {}: 1 reads, 2 writes, 0 goes back to idle", *write.request);
-        return {Exception::illegal_value, {}};
+        return {Verdict::bad_value, {}};
     }
     if (write.selector) selector_ = *write.selector;
     if (write.value) value_ = *write.value;
@@ -67,7 +67,7 @@ ParameterChannel::Outcome ParameterChannel::write(const Write& write, const Cata
     } else if (request_ == request_read) {
         if (parameter->readable()) {
             state_ = State::busy;
-            return {Exception::none, ReadParameter{point}};
+            return {Verdict::good, ReadParameter{point}};
         }
         refuse(Reason::not_supported, fmt::format("{} can only be written", parameter_));
     } else {
@@ -80,7 +80,7 @@ ParameterChannel::Outcome ParameterChannel::write(const Write& write, const Cata
         auto checked = catalogue->check_write(point, value);
         if (checked.fault.empty()) {
             state_ = State::busy;
-            return {Exception::none, WriteParameter{point, std::move(checked.value)}};
+            return {Verdict::good, WriteParameter{point, std::move(checked.value)}};
         }
         refuse(Reason::out_of_range, std::move(checked.fault));
     }
@@ -148,4 +148,4 @@ void ParameterChannel::render(WordOrder order, std::uint8_t* block) const noexce
     put16(block + 2 * reg::channel_error, error_);
 }
 
-}  // namespace axisgate::modbus
+}  // namespace axisgate::registers

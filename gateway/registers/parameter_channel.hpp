@@ -9,9 +9,10 @@
 
 #include "gateway/core/catalogue.hpp"
 #include "gateway/core/command.hpp"
-#include "gateway/doors/modbus/wire.hpp"
+#include "gateway/registers/unit_map.hpp"
+#include "gateway/registers/words.hpp"
 
-namespace axisgate::modbus {
+namespace axisgate::registers {
 
 /// State of one axis' channel.
 ///
@@ -25,7 +26,7 @@ namespace axisgate::modbus {
 ///             (out_of_range). Texts and bytes are refused (not_supported). After a write it shows what the drive took.
 ///   error     0, or after a refusal the drive's own code if it gave one, else the number of the Reason
 ///
-/// While it is busy nobody writes to it (busy, exception 6): a value that was put there would be overwritten by the answer.
+/// While it is busy nobody writes to it (busy): a value that was put there would be overwritten by the answer.
 class ParameterChannel {
 public:
     enum class State : std::uint16_t { idle = 0, busy = 1, done = 2, refused = 3 };
@@ -38,7 +39,7 @@ public:
     };
     /// What became of a write.
     struct Outcome {
-        Exception exception = Exception::none;  ///< then nothing has changed
+        Verdict verdict = Verdict::good;       ///< unless good, nothing has changed
         std::optional<CommandBody> command;     ///< to be given to the engine; the channel is busy until finish()
     };
     /// `catalogue`: of the axis' family, nullptr if it is not known (then exchanges are refused with line_down).
@@ -51,7 +52,7 @@ public:
     void render(WordOrder order, std::uint8_t* block) const noexcept;
 
     [[nodiscard]] State state() const noexcept { return state_; }
-    /// Of the last refusal, or of the last write() that was an exception: why, in the words of the other doors.
+    /// Of the last refusal, or of the last write() that was not good: why, in the words of the other doors.
     [[nodiscard]] const std::string& why() const noexcept { return why_; }
     [[nodiscard]] Reason reason() const noexcept { return reason_; }
     /// Id of the parameter that was asked for, and the value that was to be written; empty: none, or it is not known.
@@ -72,4 +73,4 @@ private:
     std::string why_, parameter_, wanted_;
 };
 
-}  // namespace axisgate::modbus
+}  // namespace axisgate::registers

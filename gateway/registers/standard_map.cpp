@@ -1,13 +1,13 @@
 // Standard map: a block is valid while its axis' cell has the revision it was rendered from; age and heartbeat are put in at each read.
 // In: requests by address. Out: registers, commands. Never takes a result of a parameter exchange for an axis that has been replaced.
-#include "gateway/doors/modbus/standard_map.hpp"
+#include "gateway/registers/standard_map.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstring>
 
-namespace axisgate::modbus {
+namespace axisgate::registers {
 namespace {
 constexpr std::uint32_t index_at(std::uint32_t address) noexcept { return address / registers_per_axis; }
 constexpr std::uint16_t offset_at(std::uint32_t address) noexcept { return static_cast<std::uint16_t>(address % registers_per_axis); }
@@ -62,20 +62,20 @@ void StandardMap::note_refusal(AxisId axis, Reason reason) {
     put_refusals(row, bytes);
 }
 
-Exception StandardMap::no_such_axis(std::uint32_t index) {
-    return refuse(Exception::no_path, no_axis, Reason::line_down,
+Verdict StandardMap::no_such_axis(std::uint32_t index) {
+    return refuse(Verdict::no_path, no_axis, Reason::line_down,
                   fmt::format("no axis has the number {}, to which addresses {}..{} belong", index + 1, index * registers_per_axis, (index + 1) * registers_per_axis - 1));
 }
 
-Exception StandardMap::check_read(Table, std::uint16_t address, std::uint16_t count) {
+Verdict StandardMap::check_read(Table, std::uint16_t address, std::uint16_t count) {
     const std::uint32_t last = index_at(std::uint32_t{address} + count - 1);
     for (std::uint32_t i = index_at(address); i <= last; ++i) {
         if (axis_at(i) == no_axis) return no_such_axis(i);
     }
-    return Exception::none;
+    return Verdict::good;
 }
 
-Exception StandardMap::read_registers(Table, std::uint16_t address, std::uint16_t count, Instant now, std::uint8_t* out) {
+Verdict StandardMap::read_registers(Table, std::uint16_t address, std::uint16_t count, Instant now, std::uint8_t* out) {
     const std::uint32_t begin = address;
     const std::uint32_t end = begin + count;
     const std::uint32_t first = index_at(begin);
@@ -95,10 +95,10 @@ Exception StandardMap::read_registers(Table, std::uint16_t address, std::uint16_
         const std::uint32_t to = std::min(end, base + reg::heartbeat + 1u);
         std::memcpy(out + 2 * std::size_t(from - begin), words + 2 * std::size_t(from - base - reg::age), 2 * std::size_t(to - from));
     }
-    return Exception::none;
+    return Verdict::good;
 }
 
-Exception StandardMap::read_bits(Table, std::uint16_t address, std::uint16_t count, std::uint8_t* out) {
+Verdict StandardMap::read_bits(Table, std::uint16_t address, std::uint16_t count, std::uint8_t* out) {
     std::memset(out, 0, (count + 7u) / 8u);
     const std::uint32_t begin = address;
     const std::uint32_t end = begin + count;
@@ -117,19 +117,19 @@ Exception StandardMap::read_bits(Table, std::uint16_t address, std::uint16_t cou
         }
         at += n;
     }
-    return Exception::none;
+    return Verdict::good;
 }
 
-Exception StandardMap::check_write(Table table, std::uint16_t address, std::uint16_t count) {
+Verdict StandardMap::check_write(Table table, std::uint16_t address, std::uint16_t count) {
     // Coils show what is; what shall be is written as a control word. No range that is writable goes across two axes.
     const AxisId axis = axis_at(index_at(address));
     if (is_bits(table) || table == Table::input_registers)
-        return refuse(Exception::illegal_address, axis, Reason::not_writable, "coils and inputs only show what is: write the control word, register 32 of the axis");
+        return refuse(Verdict::no_address, axis, Reason::not_writable, "coils and inputs only show what is: write the control word, register 32 of the axis");
     const std::uint16_t offset = offset_at(address);
     switch (const auto e = check_write_offsets(offset, count)) {
-        case Exception::none:
+        case Verdict::good:
             break;
-        case Exception::illegal_value:
+        case Verdict::bad_value:
             return refuse(e, axis, Reason::out_of_range, "half of a 32-bit value: write both of its registers in one request");
         default: {
             std::uint32_t wrong = offset;
@@ -140,22 +140,22 @@ Exception StandardMap::check_write(Table table, std::uint16_t address, std::uint
                                        : fmt::format("register {} of the axis' 64 ({}) can only be read", wrong, name));
         }
     }
-    return axis == no_axis ? no_such_axis(index_at(address)) : Exception::none;
+    return axis == no_axis ? no_such_axis(index_at(address)) : Verdict::good;
 }
 
-Exception StandardMap::write(Table table, std::uint16_t address, std::uint16_t count, const std::uint8_t* data, WritePlan& plan) {
-    if (const auto e = check_write(table, address, count); e != Exception::none) return e;
+Verdict StandardMap::write(Table table, std::uint16_t address, std::uint16_t count, const std::uint8_t* data, WritePlan& plan) {
+    if (const auto e = check_write(table, address, count); e != Verdict::good) return e;
     const std::uint32_t index = index_at(address);
     const std::uint16_t offset = offset_at(address);
     if (offset >= reg::channel_selector) return write_channel(index, offset, count, data, plan);
     plan.commands.push_back({axis_at(index), process_data(offset, count, data, order_), false, 0});
-    return Exception::none;
+    return Verdict::good;
 }
 
-Exception StandardMap::write_channel(std::uint32_t index, std::uint16_t offset, std::uint16_t count, const std::uint8_t* data,
+Verdict StandardMap::write_channel(std::uint32_t index, std::uint16_t offset, std::uint16_t count, const std::uint8_t* data,
                                      WritePlan& plan) {
     std::uint8_t* const bytes = block(index);
-    if (!bytes) return Exception::no_path;
+    if (!bytes) return Verdict::no_path;
     Row& row = rows_[index];
     if (!row.channel) row.channel = std::make_unique<ParameterChannel>();
 
@@ -168,15 +168,15 @@ Exception StandardMap::write_channel(std::uint32_t index, std::uint16_t offset, 
 
     auto outcome = row.channel->write(write, port_.catalogue(row.id));
     const ParameterChannel& channel = *row.channel;
-    if (outcome.exception != Exception::none)
-        return refuse(outcome.exception, row.id, outcome.exception == Exception::busy ? Reason::busy : Reason::out_of_range, channel.why());
+    if (outcome.verdict != Verdict::good)
+        return refuse(outcome.verdict, row.id, outcome.verdict == Verdict::busy ? Reason::busy : Reason::out_of_range, channel.why());
     if (write.request && channel.state() == ParameterChannel::State::refused) refused_ = {row.id, channel.reason(), channel.why(), channel.parameter(), channel.wanted()};
     if (outcome.command) {
         ++row.exchange;
         plan.commands.push_back({row.id, std::move(*outcome.command), true, (std::uint32_t{row.exchange} << 16) | index});
     }
     row.channel->render(order_, bytes);
-    return Exception::none;
+    return Verdict::good;
 }
 
 void StandardMap::on_own_result(std::uint32_t note, const Result& result) {
@@ -190,4 +190,4 @@ void StandardMap::on_own_result(std::uint32_t note, const Result& result) {
     row.channel->render(order_, blocks_.data() + index * block_size);
 }
 
-}  // namespace axisgate::modbus
+}  // namespace axisgate::registers

@@ -1,5 +1,5 @@
-// Refusals: what the Modbus door refused, told as events: the sentence that the other doors would say, who asked, register and value.
-// In: refusals with their instant. Out: events through `tell`. Exception codes alone leave a technician guessing; a PLC repeats its request
+// Refusals: what a door of registers refused, told as events: the sentence that the other doors would say, who asked, register and value.
+// In: refusals with their instant. Out: events through `tell`. Verdict codes alone leave a technician guessing; a PLC repeats its request
 // a hundred times a second. Never tells more than this:
 //   identical refusals of one client in a row   one event at once; then their count, every `row_period` and when the row ends
 //   one client (its address)                    5 events at once, then 1 per second; what is beyond is counted and told with the next one
@@ -16,29 +16,21 @@
 #include <vector>
 
 #include "gateway/core/event.hpp"
-#include "gateway/doors/modbus/wire.hpp"
+#include "gateway/registers/unit_map.hpp"
 
-namespace axisgate::modbus {
+namespace axisgate::registers {
 
-/// Why a request was refused, in the words of the other doors.
-struct Refused {
-    AxisId axis = no_axis;
-    Reason reason = Reason::none;
-    std::string text;
-    std::string parameter, value;  ///< of a parameter: its id, and what was to be written
-};
-
-/// The data of a write, or the range of a read, for people; kept while a drive is asked.
+/// A request for people; kept while a drive is asked.
 struct RequestNote {
     static constexpr std::size_t most_shown = 8;  ///< registers
     std::uint8_t unit = 0;
-    std::uint8_t function = 0;  ///< 0: nothing to tell
+    std::uint8_t code = 0;  ///< the request's number in the door's protocol, told where nothing else is known of it
+    bool write = false;
+    Table table = Table::holding_registers;
     std::uint16_t address = 0;
-    std::uint16_t count = 0;
+    std::uint16_t count = 0;                 ///< 0: the request was too short to say
     std::uint16_t values[most_shown] = {};  ///< the first registers of a write; of coils the first bit
 };
-/// The write of a request, or its range; `count` 0 where the request is too short to say.
-[[nodiscard]] RequestNote note_of(std::uint8_t unit, std::span<const std::uint8_t> pdu) noexcept;
 /// "unit 1 register 34 = 80", "unit 2 registers 32..35 = 15 1 0 80", "unit 2 holding registers 10..19".
 [[nodiscard]] std::string text_of(const RequestNote& note);
 
@@ -49,10 +41,11 @@ public:
     static constexpr Duration row_period = std::chrono::seconds(10);
 
     using Tell = std::function<void(Event event, AxisId axis)>;
-    explicit RefusalLog(Tell tell) : tell_(std::move(tell)) {}
+    RefusalLog(Door door, Tell tell) : door_(door), tell_(std::move(tell)) {}
 
-    /// `who`: "192.0.2.7:51123"; clients are told apart by their address. `exception` none: the parameter channel refused.
-    void add(std::string_view who, Refused refused, const RequestNote& note, Exception exception, Instant now);
+    /// `who`: "192.0.2.7:51123"; clients are told apart by their address. `answer`: what the client was told, in the door's words
+    /// ("exception 3"); empty: nothing, the parameter channel shows it.
+    void add(std::string_view who, Refused refused, const RequestNote& note, std::string_view answer, Instant now);
     /// Tells the counts of rows that have lasted for row_period.
     void flush(Instant now);
     /// Something waits for flush().
@@ -78,9 +71,10 @@ private:
     void tell(Client& c, std::string words, Instant now);
     void end_row(Client& c, Instant now);
 
+    Door door_;
     Tell tell_;
     Bucket all_;
     std::vector<Client> clients_;
 };
 
-}  // namespace axisgate::modbus
+}  // namespace axisgate::registers

@@ -1,55 +1,26 @@
 // Refusals: rows of identical refusals, and two buckets: the client's own first, so that who is over it uses up nothing of the others'.
 // In: refusals. Out: events. Never looks at a clock: a bucket fills by the instants that it is given.
-#include "gateway/doors/modbus/refusals.hpp"
+#include "gateway/registers/refusals.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "gateway/doors/modbus/access.hpp"
-
-namespace axisgate::modbus {
+namespace axisgate::registers {
 namespace {
 std::string_view host_of(std::string_view who) noexcept { return who.substr(0, who.rfind(':')); }
 bool same_row(const Event& a, const Event& b) noexcept { return a.text == b.text && a.parameter == b.parameter && a.new_value == b.new_value; }
 std::string times(std::uint64_t n) { return n == 1 ? std::string("once") : fmt::format("{} times", n); }
 }  // namespace
 
-RequestNote note_of(std::uint8_t unit, std::span<const std::uint8_t> pdu) noexcept {
-    RequestNote n;
-    n.unit = unit;
-    n.function = pdu[0];
-    const auto word = [&](std::size_t at) { return at + 2 <= pdu.size() ? get16(pdu.data() + at) : std::uint16_t{0}; };
-    const bool both = n.function == function::read_write_multiple_registers;
-    if (pdu.size() < (both ? 9u : 5u)) return n;
-    const bool one = n.function == function::write_single_coil || n.function == function::write_single_register || n.function == function::mask_write_register;
-    n.address = word(both ? 5 : 1);
-    n.count = one ? std::uint16_t{1} : word(both ? 7 : 3);
-    if (!is_write(n.function)) return n;
-    const std::size_t data = both ? 10 : one ? 3 : 6;
-    if (n.function == function::write_single_coil || n.function == function::write_multiple_coils) {
-        const std::uint8_t bits = data < pdu.size() ? pdu[data] : std::uint8_t{0};
-        n.values[0] = (n.function == function::write_single_coil ? bits != 0 : (bits & 1) != 0) ? std::uint16_t{1} : std::uint16_t{0};
-        return n;
-    }
-    for (std::size_t i = 0; i < std::min<std::size_t>(n.count, RequestNote::most_shown); ++i) n.values[i] = word(data + 2 * i);
-    return n;
-}
-
 std::string text_of(const RequestNote& n) {
-    std::string_view what = "register";
-    bool coils = false;
-    switch (n.function) {
-        case function::read_coils: case function::write_single_coil: case function::write_multiple_coils: what = "coil"; coils = true; break;
-        case function::read_discrete_inputs: what = "discrete input"; coils = true; break;
-        case function::read_holding_registers: what = "holding register"; break;
-        case function::read_input_registers: what = "input register"; break;
-        default: break;
-    }
-    if (n.count == 0) return fmt::format("unit {} function {}", n.unit, n.function);
+    constexpr std::string_view tables[] = {"coil", "discrete input", "holding register", "input register"};
+    if (n.count == 0) return fmt::format("unit {} function {}", n.unit, n.code);
+    const bool coils = n.table == Table::coils;
+    const std::string_view what = n.write && !coils ? "register" : tables[static_cast<std::size_t>(n.table)];
     std::string s = n.count == 1 ? fmt::format("unit {} {} {}", n.unit, what, n.address)
                                  : fmt::format("unit {} {}s {}..{}", n.unit, what, n.address, std::uint32_t{n.address} + n.count - 1);
-    if (!is_write(n.function)) return s;
+    if (!n.write) return s;
     s += " =";
     const std::size_t shown = coils ? 1 : std::min<std::size_t>(n.count, RequestNote::most_shown);
     for (std::size_t i = 0; i < shown; ++i) s += fmt::format(" {}", n.values[i]);
@@ -104,17 +75,16 @@ void RefusalLog::end_row(Client& c, Instant now) {
     c.row_told = now;
 }
 
-void RefusalLog::add(std::string_view who, Refused r, const RequestNote& note, Exception exception, Instant now) {
+void RefusalLog::add(std::string_view who, Refused r, const RequestNote& note, std::string_view answer, Instant now) {
     Client& c = client_of(host_of(who), now);
     Event e;
     e.kind = "refused";
-    e.severity = is_write(note.function) ? Severity::warning : Severity::info;
+    e.severity = note.write ? Severity::warning : Severity::info;
     e.who = who;
-    e.door = std::string(name_of(Door::modbus));
+    e.door = std::string(name_of(door_));
     e.parameter = std::move(r.parameter);
     e.new_value = std::move(r.value);
-    e.text = exception == Exception::none ? fmt::format("{} ({}: the parameter channel shows it)", r.text, text_of(note))
-                                          : fmt::format("{} ({}: exception {})", r.text, text_of(note), static_cast<int>(exception));
+    e.text = fmt::format("{} ({}: {})", r.text, text_of(note), answer.empty() ? "the parameter channel shows it" : answer);
     if (c.axis == r.axis && same_row(c.event, e)) {
         ++c.again;
         if (now - c.row_told >= row_period) end_row(c, now);
@@ -137,4 +107,4 @@ bool RefusalLog::pending() const noexcept {
     return std::ranges::any_of(clients_, [](const Client& c) { return c.again > 0; });
 }
 
-}  // namespace axisgate::modbus
+}  // namespace axisgate::registers

@@ -1,11 +1,11 @@
 // Ticket table: used places form a list by age, free ones a stack; a ticket is place and generation.
 // In: waiting requests. Out: tickets, and who waited. Never searches to open or close one; only forgetting a client walks the list.
-#include "gateway/doors/modbus/ticket_table.hpp"
+#include "gateway/registers/ticket_table.hpp"
 
 #include <algorithm>
 #include <utility>
 
-namespace axisgate::modbus {
+namespace axisgate::registers {
 
 TicketTable::TicketTable(std::size_t capacity) : entries_(std::min<std::size_t>(capacity, none)) {
     for (std::size_t i = entries_.size(); i-- > 0;) {
@@ -26,14 +26,14 @@ Ticket TicketTable::open(const Waiting& waiting, Instant deadline) {
     (youngest_ == none ? oldest_ : entries_[youngest_].younger) = index;
     youngest_ = index;
     ++used_;
-    return make_ticket(Door::modbus, (e.generation << 16) | index);
+    return make_ticket(number_, (e.generation << 16) | index);
 }
 
 std::optional<TicketTable::Waiting> TicketTable::close(Ticket ticket) {
     const auto index = static_cast<std::uint16_t>(ticket);
     if (index >= entries_.size()) return std::nullopt;
     const Entry& e = entries_[index];
-    if ((e.generation & 1u) == 0 || make_ticket(Door::modbus, (e.generation << 16) | index) != ticket) return std::nullopt;
+    if ((e.generation & 1u) == 0 || make_ticket(number_, (e.generation << 16) | index) != ticket) return std::nullopt;
     return take(index);
 }
 
@@ -66,4 +66,4 @@ void TicketTable::forget(const UnitMap* map) noexcept {
     }
 }
 
-}  // namespace axisgate::modbus
+}  // namespace axisgate::registers

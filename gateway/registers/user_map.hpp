@@ -1,5 +1,5 @@
-// Own map: the registers and bits of one unit id 2..254 as the site's mappings have them.
-// In: checked mappings with their axes; requests; results of its own readings. Out: register bytes, bits, the commands of a write.
+// User map: the registers and bits of one unit id 2..254 as the site's mappings have them.
+// In: checked mappings with their axes; requests; results of its readings. Out: register bytes, bits, the commands of a write.
 // Parameters are read from the drive when a client asks for them: what is answered is the last value known, at most one reading old, and a
 // new reading is asked for. Never holds up a request for a drive, and never shows a parameter of an axis that does not answer.
 #pragma once
@@ -13,9 +13,9 @@
 
 #include "gateway/engine/door.hpp"
 #include "gateway/site/mapping.hpp"
-#include "gateway/doors/modbus/unit_map.hpp"
+#include "gateway/registers/unit_map.hpp"
 
-namespace axisgate::modbus {
+namespace axisgate::registers {
 
 /// A mapping whose axis has been found in the running site.
 struct PlacedMapping {
@@ -24,7 +24,7 @@ struct PlacedMapping {
     double increments_per_unit = 1;
 };
 
-class OwnMap final : public UnitMap {
+class UserMap final : public UnitMap {
 public:
     /// Gives a command of the map's own to the gateway; false: too many wait. Its result comes to on_own_result.
     using Ask = std::function<bool(UnitMap&, PlannedCommand)>;
@@ -33,14 +33,14 @@ public:
     /// Readings on their way at once, per unit.
     static constexpr std::size_t most_readings = 16;
 
-    OwnMap(const DoorPort& port, std::vector<PlacedMapping> mappings, MapGaps gaps, Ask ask);
+    UserMap(const DoorPort& port, std::vector<PlacedMapping> mappings, MapGaps gaps, Ask ask);
 
-    Exception check_read(Table table, std::uint16_t address, std::uint16_t count) override;
-    Exception read_registers(Table table, std::uint16_t address, std::uint16_t count, Instant now, std::uint8_t* out) override;
-    Exception read_bits(Table table, std::uint16_t address, std::uint16_t count, std::uint8_t* out) override;
+    Verdict check_read(Table table, std::uint16_t address, std::uint16_t count) override;
+    Verdict read_registers(Table table, std::uint16_t address, std::uint16_t count, Instant now, std::uint8_t* out) override;
+    Verdict read_bits(Table table, std::uint16_t address, std::uint16_t count, std::uint8_t* out) override;
     bool is_exact(std::uint16_t address, Instant now) override;
-    Exception check_write(Table table, std::uint16_t address, std::uint16_t count) override;
-    Exception write(Table table, std::uint16_t address, std::uint16_t count, const std::uint8_t* data, WritePlan& plan) override;
+    Verdict check_write(Table table, std::uint16_t address, std::uint16_t count) override;
+    Verdict write(Table table, std::uint16_t address, std::uint16_t count, const std::uint8_t* data, WritePlan& plan) override;
     void on_own_result(std::uint32_t note, const Result& result) override;
     /// A value that a drive reported, whoever had asked: a write of another door is seen here at once.
     void on_sample(const Sample& sample);
@@ -66,16 +66,16 @@ private:
     [[nodiscard]] Places::const_iterator first_at(const Places& list, std::uint32_t address) const noexcept;
     /// Calls `f` for each entry of the range in order; illegal_address if an address of it belongs to none.
     template <class F>
-    [[nodiscard]] Exception each_written(Table table, std::uint16_t address, std::uint16_t count, F&& f);
+    [[nodiscard]] Verdict each_written(Table table, std::uint16_t address, std::uint16_t count, F&& f);
     /// The same for a read. What can only be written is as if it were not there. With MapGaps::zero addresses without an entry are passed
     /// over, as long as the range touches one that has: a client that reads in blocks asks for at least one value in each of them, and one
     /// that asks for none has the wrong table or counts its addresses from 1.
     template <class F>
-    [[nodiscard]] Exception each_read(Table table, std::uint16_t address, std::uint16_t count, F&& f);
-    [[nodiscard]] Exception refuse_gap(Table table, std::uint32_t address, bool nothing_at_all);
-    [[nodiscard]] Exception refuse_axis(const Place& place);
-    [[nodiscard]] Exception value_of(const Place& place, Instant now, Value& value);
-    [[nodiscard]] Exception plan_value(const Place& place, const Value& value, WritePlan& plan);
+    [[nodiscard]] Verdict each_read(Table table, std::uint16_t address, std::uint16_t count, F&& f);
+    [[nodiscard]] Verdict refuse_gap(Table table, std::uint32_t address, bool nothing_at_all);
+    [[nodiscard]] Verdict refuse_axis(const Place& place);
+    [[nodiscard]] Verdict value_of(const Place& place, Instant now, Value& value);
+    [[nodiscard]] Verdict plan_value(const Place& place, const Value& value, WritePlan& plan);
     void want(std::uint32_t index, Instant now);
 
     const DoorPort& port_;
@@ -87,4 +87,4 @@ private:
     std::size_t readings_ = 0;
 };
 
-}  // namespace axisgate::modbus
+}  // namespace axisgate::registers

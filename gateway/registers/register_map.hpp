@@ -12,9 +12,10 @@
 #include "gateway/core/command.hpp"
 #include "gateway/axis/image.hpp"
 #include "gateway/core/instant.hpp"
-#include "gateway/doors/modbus/wire.hpp"
+#include "gateway/registers/unit_map.hpp"
+#include "gateway/registers/words.hpp"
 
-namespace axisgate::modbus {
+namespace axisgate::registers {
 
 inline constexpr std::uint16_t registers_per_axis = 64;
 inline constexpr std::size_t block_size = 2 * registers_per_axis;  ///< bytes
@@ -28,15 +29,17 @@ inline constexpr std::uint16_t statusword = 0, mode_display = 1, position = 2, v
                                channel_selector = 48, channel_request = 50, channel_state = 51, channel_value = 52, channel_error = 54;
 }  // namespace reg
 
-enum class RegisterType : std::uint8_t { u16, i16, u32, i32 };
 struct RegisterRow {
     std::uint16_t offset;
-    RegisterType type;
+    MapType type;
     bool writable;
-    std::string_view name;
-    [[nodiscard]] constexpr std::uint16_t width() const noexcept { return type == RegisterType::u32 || type == RegisterType::i32 ? 2 : 1; }
+    std::string_view point;  ///< the name under which it is mapped and shown; empty: the parameter channel's
+    std::string_view name;   ///< for people
+    [[nodiscard]] constexpr std::uint16_t width() const noexcept { return type == MapType::u32 || type == MapType::i32 ? 2 : 1; }
 };
-/// Every mapped register in ascending order. Offsets that are not here read 0 and cannot be written.
+/// 0, 1 and 255 are the standard map.
+[[nodiscard]] constexpr bool is_standard_unit(std::int64_t unit) noexcept { return unit == 0 || unit == 1 || unit == 255; }
+/// Every register of an axis that means something, in ascending order. Offsets that are not here read 0 and cannot be written.
 [[nodiscard]] std::span<const RegisterRow> standard_registers() noexcept;
 
 /// Makes registers 0..47 of `block` (block_size bytes) but for age and heartbeat, which depend on the moment of the request, and for what
@@ -55,7 +58,7 @@ void render(const AxisPicture& picture, std::uint32_t mapping_revision, WordOrde
 [[nodiscard]] std::string_view name_at(std::uint16_t offset) noexcept;
 /// Whether `count` registers from `offset` (both within one axis) may be written: illegal_address if one of them is not writable,
 /// illegal_value if the write begins or ends in the middle of a 32-bit value.
-[[nodiscard]] Exception check_write_offsets(std::uint16_t offset, std::uint16_t count) noexcept;
+[[nodiscard]] Verdict check_write_offsets(std::uint16_t offset, std::uint16_t count) noexcept;
 
 /// Set-points (offsets 32..44) of a write that check_write_offsets has passed. `data`: 2 * count bytes.
 [[nodiscard]] ProcessData process_data(std::uint16_t offset, std::uint16_t count, const std::uint8_t* data, WordOrder order) noexcept;
@@ -63,4 +66,4 @@ void render(const AxisPicture& picture, std::uint32_t mapping_revision, WordOrde
 /// The 64 bits of coils and discrete inputs: flags in bits 0..15, the status word in 16..31, the rest 0.
 [[nodiscard]] std::uint64_t bits_of(const AxisPicture& picture) noexcept;
 
-}  // namespace axisgate::modbus
+}  // namespace axisgate::registers

@@ -1,0 +1,22 @@
+// Event outlet: the gap goes before the event that follows it.
+// In: events. Out: jobs for the storage thread. Never tells the same gap twice.
+#include "gateway/runtime/event_outlet.hpp"
+
+#include <fmt/format.h>
+
+namespace axisgate {
+
+void EventOutlet::tell(Event event, Instant at) {
+    if (!ring_) return;
+    const auto lost = lost_.load(std::memory_order_relaxed);
+    if (lost > told_) {
+        Event gap;
+        gap.severity = Severity::warning;
+        gap.kind = "gap";
+        gap.text = fmt::format("{} events could not be taken: more came than can be written", lost - told_);
+        if (ring_->push(EventAt{std::move(gap), at})) told_ = lost;
+    }
+    if (!ring_->push(EventAt{std::move(event), at})) lost_.fetch_add(1, std::memory_order_relaxed);
+}
+
+}  // namespace axisgate

@@ -8,7 +8,7 @@
 
 #include <boost/asio/post.hpp>
 
-#include "gateway/doors/http/secrets.hpp"
+#include "gateway/services/access/secrets.hpp"
 #include "gateway/runtime/clock.hpp"
 #include "gateway/runtime/threads.hpp"
 
@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t most_waiting = 8;
 }  // namespace
 
-AccessService::AccessService(asio::io_context& warm, Cold& cold, http::AccessSettings settings, Tell tell)
+AccessService::AccessService(asio::io_context& warm, Cold& cold, AccessSettings settings, Tell tell)
     : warm_(warm), cold_(cold), desk_(settings), tell_(std::move(tell)) {}
 
 AccessService::~AccessService() { stop(); }
@@ -33,31 +33,31 @@ void AccessService::stop() {
 std::string AccessService::load(Store& store, bool new_code, std::string& code) {
     const auto users = store.documents("user");
     const auto tokens = store.documents("token");
-    const auto first = store.document("first_sign_in", http::code_record_name);
+    const auto first = store.document("first_sign_in", code_record_name);
     const auto uses = store.documents("last_use");
     for (const auto* r : {&users, &tokens, &uses}) {
         if (!*r) return "the users cannot be read: " + r->error().text;
     }
     if (!first) return "the users cannot be read: " + first.error().text;
     for (const auto& d : *users) {
-        auto u = http::user_of(d.text);
+        auto u = user_of(d.text);
         // A user who cannot be read must not make room for a first sign-in.
         if (!u) return fmt::format("the record of the user {} cannot be read: restore a backup", d.name);
         desk_.load(std::move(*u));
     }
     for (const auto& d : *tokens) {
-        if (auto t = http::token_of(d.text)) desk_.load(std::move(*t));
+        if (auto t = token_of(d.text)) desk_.load(std::move(*t));
     }
     for (const auto& d : *uses)
         desk_.load_use(d.name, d.text);
     if (desk_.has_users()) return {};
     if (*first && !new_code) {
-        desk_.load_code(http::code_of((*first)->text));
+        desk_.load_code(code_of((*first)->text));
         return {};
     }
-    code = http::random_code();
-    new_code_ = http::record_of_code(http::digest_of(http::plain_code(code)));
-    desk_.load_code(http::code_of(*new_code_->text));
+    code = random_code();
+    new_code_ = record_of_code(digest_of(plain_code(code)));
+    desk_.load_code(code_of(*new_code_->text));
     return {};
 }
 
@@ -106,14 +106,14 @@ bool AccessService::work(Make make, Then then) {
 }
 
 bool AccessService::derive(std::string password, std::function<void(std::string)> then) {
-    return work([password = std::move(password)] { return http::derive_password(password); }, std::move(then));
+    return work([password = std::move(password)] { return derive_password(password); }, std::move(then));
 }
 
 bool AccessService::compare(std::string password, std::string hash, std::function<void(bool)> then) {
-    return work([password = std::move(password), hash = std::move(hash)] { return http::password_fits(password, hash); }, std::move(then));
+    return work([password = std::move(password), hash = std::move(hash)] { return password_fits(password, hash); }, std::move(then));
 }
 
-void AccessService::keep(std::vector<http::AccessRecord> records, std::string who, std::function<void(std::string)> then) {
+void AccessService::keep(std::vector<AccessRecord> records, std::string who, std::function<void(std::string)> then) {
     cold_.run([this, records = std::move(records), who = std::move(who), then = std::move(then)](Store& store) mutable {
         std::string fault;
         for (const auto& r : records) {

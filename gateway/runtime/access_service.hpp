@@ -11,16 +11,16 @@
 #include <optional>
 #include <string>
 
-#include "gateway/doors/http/access_port.hpp"
+#include "gateway/services/access/access_port.hpp"
 #include "gateway/runtime/cold.hpp"
 #include "gateway/store/store.hpp"
 
 namespace axisgate {
 
-class AccessService final : public http::AccessPort {
+class AccessService final : public AccessPort {
 public:
     using Tell = std::function<void(Event)>;
-    AccessService(boost::asio::io_context& warm, Cold& cold, http::AccessSettings settings, Tell tell);
+    AccessService(boost::asio::io_context& warm, Cold& cold, AccessSettings settings, Tell tell);
     ~AccessService() override;
 
     /// Reads what the store has; called before the threads run. Without users: makes the code of the first sign-in, if there is none yet
@@ -31,10 +31,10 @@ public:
     /// come so far leaves the next one to make and show another.
     [[nodiscard]] bool code_is_kept();
 
-    [[nodiscard]] http::AccessDesk& desk() override { return desk_; }
+    [[nodiscard]] AccessRegister& desk() override { return desk_; }
     [[nodiscard]] bool derive(std::string password, std::function<void(std::string)> then) override;
     [[nodiscard]] bool compare(std::string password, std::string hash, std::function<void(bool)> then) override;
-    void keep(std::vector<http::AccessRecord> records, std::string who, std::function<void(std::string)> then) override;
+    void keep(std::vector<AccessRecord> records, std::string who, std::function<void(std::string)> then) override;
     void tell(Event event) override { tell_(std::move(event)); }
     /// Waits for the hash that is being computed; the others are not begun.
     void stop();
@@ -45,11 +45,11 @@ private:
 
     boost::asio::io_context& warm_;
     Cold& cold_;
-    http::AccessDesk desk_;
+    AccessRegister desk_;
     Tell tell_;
     std::unique_ptr<boost::asio::thread_pool> pool_;
     std::size_t waiting_ = 0;
-    std::optional<http::AccessRecord> new_code_;  ///< made by this start, and not on the disk yet
+    std::optional<AccessRecord> new_code_;  ///< made by this start, and not on the disk yet
     bool keeping_code_ = false;
 };
 

@@ -10,7 +10,7 @@
 
 #include "gateway/core/assets.hpp"
 #include "gateway/site/options.hpp"
-#include "gateway/doors/http/documents.hpp"
+#include "gateway/services/documents.hpp"
 #include "gateway/runtime/catalogues.hpp"
 #include "gateway/runtime/clock.hpp"
 #include "gateway/runtime/config_host.hpp"
@@ -140,7 +140,7 @@ int command_catalogue(const std::string& family, const std::string& what, const 
         if (what == "parameters") {  // as /families/{f}/parameters has them
             const auto parameters = entry->catalogue->parameters();
             for (std::size_t i = 0; i < parameters.size(); ++i)
-                out.push_back(http::parameter_document(*entry->catalogue, {static_cast<std::uint16_t>(i), parameters[i].first}, parameters[i].id));
+                out.push_back(parameter_document(*entry->catalogue, {static_cast<std::uint16_t>(i), parameters[i].first}, parameters[i].id));
         } else {
             out = list->get_array();
         }

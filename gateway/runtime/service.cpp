@@ -110,7 +110,9 @@ struct Service {
     std::unique_ptr<registers::RegisterImage> image;
     std::unique_ptr<modbus::Server> modbus;
     std::shared_ptr<AccessService> access;
-    std::unique_ptr<http::Server> http;
+    std::unique_ptr<Services> services;
+    std::vector<std::unique_ptr<ServiceDoor>> doors;  // of this thread
+    boost::asio::steady_timer services_timer{warm};
     LogListener log;
     boost::asio::signal_set signals{warm};
     boost::asio::steady_timer tick{warm};
@@ -125,6 +127,8 @@ struct Service {
     int load_site(Site& site, std::uint64_t& revision);
     int open_access();
     void show_code();
+    void begin_services();
+    void arm_services();
     int open_doors();
     void watch();
     void say_ready();
@@ -229,8 +233,8 @@ int Service::load_site(Site& site, std::uint64_t& revision) {
 /// Users, tokens and the first sign-in. The code goes to standard output and nowhere else.
 int Service::open_access() {
     constexpr std::int64_t minute_ns = std::int64_t{60} * 1'000'000'000;
-    http::AccessSettings as;
-    as.local_role = http::role_named(options.config.users_local_role).value_or(http::Role::none);
+    AccessSettings as;
+    as.local_role = role_named(options.config.users_local_role).value_or(Role::none);
     as.idle_ns = options.config.users_session_idle_min * minute_ns;
     as.max_ns = options.config.users_session_max_h * 60 * minute_ns;
     access = std::make_shared<AccessService>(warm, *cold, as, [this](Event e) {
@@ -252,6 +256,27 @@ void Service::show_code() {
         fmt::print("first sign-in: with the code that was shown at the first start; --set users.new_code=true makes another one\n");
     }
     std::fflush(stdout);
+}
+
+/// Alarms are raised and kept, and recipes can be run, whatever doors there are.
+void Service::begin_services() {
+    services = std::make_unique<Services>(*gateway, monotonic_now, access);
+    services->rearm = [this] { arm_services(); };
+    arm_services();
+}
+
+void Service::arm_services() {
+    const Instant due = services->deadline();
+    if (due == never) {
+        services_timer.cancel();
+        return;
+    }
+    services_timer.expires_at(std::chrono::steady_clock::time_point(std::chrono::duration_cast<std::chrono::steady_clock::duration>(due.time_since_epoch())));
+    services_timer.async_wait([this](const boost::system::error_code& moved) {
+        if (moved) return;
+        services->on_deadline(monotonic_now());
+        arm_services();
+    });
 }
 
 int Service::open_doors() {
@@ -289,23 +314,26 @@ int Service::open_doors() {
         hs.low_word_first = options.config.modbus_low_word_first;
         hs.allowed_hosts = options.config.http_allowed_hosts;
         hs.max_connections = static_cast<std::size_t>(options.config.max_http_connections);
-        http = std::make_unique<http::Server>(warm, *gateway, hs, [](std::string_view path) { return asset(path); }, access);
+        auto http = std::make_unique<http::Server>(warm, *gateway, *services, hs, [](std::string_view path) { return asset(path); });
         std::vector<ConfigFault> faults;
         const auto identity = open_tls(options.config, unix_now_ns() / 1'000'000'000, faults);
         for (const auto& f : faults) complain(fmt::format("{}: {}; {}", f.place, f.text, f.remedy));
         if (!faults.empty()) return exit_usage;  // never plain text where somebody asked for TLS
         http->use_tls(identity);
-        if (const std::string fault = http->start(); !fault.empty()) {
+        doors.push_back(std::move(http));
+    }
+    for (const auto& door : doors) {
+        if (const std::string fault = door->start(); !fault.empty()) {
             complain(fault);
             return exit_failed;
         }
     }
-    std::vector<Gateway::DoorInfo> doors;
+    std::vector<Gateway::DoorInfo> open;
     for (const HotDoor* door : hot->doors()) {
-        for (auto& address : door->addresses()) doors.push_back({std::string(door->name()), std::move(address)});
+        for (auto& address : door->addresses()) open.push_back({std::string(door->name()), std::move(address)});
     }
-    if (http) doors.push_back({http->secure() ? "https" : "http", http->address()});
-    gateway->set_doors(std::move(doors));
+    for (const auto& door : doors) open.push_back({std::string(door->name()), door->address()});
+    gateway->set_doors(std::move(open));
     gateway->more_metrics = [this] {
         std::string text;
         for (const HotDoor* door : hot->doors()) text += door->metrics();
@@ -345,10 +373,10 @@ void Service::watch() {
 void Service::take_down() {
     notify_manager("STOPPING=1");
     hot->stop();  // brings moving axes to rest first
-    bool closed = !http;
-    if (http) http->stop([&closed] { closed = true; });
+    std::size_t open = doors.size();
+    for (const auto& door : doors) door->stop([&open] { --open; });
     const Instant limit = monotonic_now() + std::chrono::seconds(3);
-    while (!closed && monotonic_now() < limit) (void)warm.run_one_for(std::chrono::milliseconds(50));
+    while (open > 0 && monotonic_now() < limit) (void)warm.run_one_for(std::chrono::milliseconds(50));
     if (access) access->stop();
     cold->stop();
 }
@@ -382,6 +410,7 @@ int command_serve(const ServeOptions& options) {
     if (!options.config.http_bind.empty()) {
         if (const int code = s.open_access(); code != exit_good) return code;
     }
+    s.begin_services();
     if (const int code = s.open_doors(); code != exit_good) return code;
     s.show_code();
     s.hot->tell_site(*state);

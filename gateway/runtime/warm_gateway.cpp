@@ -55,6 +55,8 @@ void WarmGateway::take(Sample&& s) {
     if (picture(s.axis).source != s.source) return;
     Said& known = live_[live_key(s.axis, s.point)];
     if (known.source == s.source && known.at > s.at) return;
+    const auto listeners = listeners_;
+    for (auto* l : listeners) l->on_sample(s);
     known = {{std::move(s.value), unix_ns_of(s.at), s.quality}, s.source, s.at};
 }
 
@@ -105,6 +107,11 @@ Ticket WarmGateway::submit(Command command, std::function<void(const Result&)> t
     waiting_.emplace(ticket, std::move(then));
     hot_.commands().announce();
     return ticket;
+}
+
+void WarmGateway::client_lost(const AuthorityClient& who, LossCause cause) {
+    // A full ring: the axes' watchdogs see the silence.
+    if (hot_.jobs().push([who, cause](Engine& engine, Instant now) { engine.on_client_lost(who, cause, now); })) hot_.jobs().announce();
 }
 
 void WarmGateway::answer(Result&& result) {

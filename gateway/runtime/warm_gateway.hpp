@@ -52,6 +52,7 @@ public:
     [[nodiscard]] AxisPicture picture(AxisId axis) const override;
     [[nodiscard]] std::uint64_t picture_revision(AxisId axis) const override;
     Ticket submit(Command command, std::function<void(const Result&)> then) override;
+    void client_lost(const AuthorityClient& who, LossCause cause) override;
     [[nodiscard]] LiveParameter live(AxisId axis, Point point) const override;
     [[nodiscard]] std::vector<StoredParameter> stored(const std::string& axis) const override;
     [[nodiscard]] std::vector<StoredParameter> history(const std::string& axis, const std::string& parameter, std::size_t limit) const override;

@@ -17,11 +17,13 @@
 #include "gateway/core/records.hpp"
 #include "gateway/engine/report.hpp"
 #include "gateway/site/site_state.hpp"
+#include "gateway/axis/authority.hpp"
 #include "gateway/axis/image.hpp"
 #include "gateway/core/line.hpp"
 #include "gateway/registers/unit_map.hpp"
 #include "gateway/core/sample.hpp"
 #include "gateway/core/scan.hpp"
+#include "gateway/site/fail_safe.hpp"
 #include "gateway/site/site.hpp"
 #include "gateway/site/site_stage.hpp"
 #include "gateway/core/twin.hpp"
@@ -33,6 +35,8 @@ struct GatewayListener {
     virtual void on_event(const Event& event) = 0;
     /// The site has changed: names and ids must be looked up anew.
     virtual void on_site(const std::shared_ptr<const SiteState>& site) = 0;
+    /// A drive has told a parameter's value, asked for or not.
+    virtual void on_sample(const Sample& /*sample*/) {}
     virtual ~GatewayListener() = default;
 };
 
@@ -79,6 +83,9 @@ public:
     [[nodiscard]] virtual std::uint64_t picture_revision(AxisId axis) const = 0;
     /// One command, one result; the ticket is given by the gateway and told at once. Result::reason busy if too many wait.
     virtual Ticket submit(Command command, std::function<void(const Result&)> then) = 0;
+
+    /// The last connection of a client has ended: what it commanded is treated as the axes' site entries say.
+    virtual void client_lost(const AuthorityClient& /*who*/, LossCause /*cause*/) {}
 
     // --- parameters ----------------------------------------------------------------------------------------------------
     /// Last value that the drive said, asked for or not.

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "gateway/doors/http/alarm_desk.hpp"
-#include "gateway/doors/http/recipe_desk.hpp"
+#include "gateway/services/alarms/alarm_service.hpp"
+#include "gateway/services/recipes/recipe_service.hpp"
 #include "gateway/doors/http/router.hpp"
 #include "gateway/doors/http/stream_hub.hpp"
 #include "gateway/doors/http/websocket_codec.hpp"
@@ -52,8 +52,8 @@ void feed_request(std::string_view text) {
     };
     gateway.hands[gateway.drive("feeder")] = {{"stall", false, true, "held"}};
     Settings settings;
-    const auto recipes = std::make_shared<RecipeDesk>(gateway, [] { return time_zero; });
-    const auto alarms = std::make_shared<AlarmDesk>(gateway, [] { return time_zero; });
+    const auto recipes = std::make_shared<RecipeService>(gateway, [] { return time_zero; });
+    const auto alarms = std::make_shared<AlarmService>(gateway, [] { return time_zero; });
     const Router router{Context{gateway, settings, [](std::string_view) { return std::string_view(); }, {}, std::make_shared<ChangeQueue>(), recipes,
                                 std::make_shared<AxisJobs>(), nullptr, alarms}};
     Request request;

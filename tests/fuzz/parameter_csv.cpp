@@ -3,8 +3,8 @@
 // nothing; what is written is in the catalogue's range.
 #include <boost/json/parse.hpp>
 
-#include "gateway/doors/http/alarm_desk.hpp"
-#include "gateway/doors/http/recipe_desk.hpp"
+#include "gateway/services/alarms/alarm_service.hpp"
+#include "gateway/services/recipes/recipe_service.hpp"
 #include "gateway/doors/http/router.hpp"
 #include "tests/fuzz/fuzz.hpp"
 #include "tests/unit/http/fake_gateway.hpp"
@@ -30,8 +30,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         return r;
     };
     Settings settings;
-    const auto recipes = std::make_shared<RecipeDesk>(gateway, [] { return time_zero; });
-    const auto alarms = std::make_shared<AlarmDesk>(gateway, [] { return time_zero; });
+    const auto recipes = std::make_shared<RecipeService>(gateway, [] { return time_zero; });
+    const auto alarms = std::make_shared<AlarmService>(gateway, [] { return time_zero; });
     const Router router{Context{gateway, settings, [](std::string_view) { return std::string_view(); }, {}, std::make_shared<ChangeQueue>(), recipes,
                                 std::make_shared<AxisJobs>(), nullptr, alarms}};
     Request request;

@@ -1,8 +1,8 @@
 // Fuzz: who a request comes from: sign-ins, cookies, tokens, the first code, users that change meanwhile; and the records of the store.
 // In: the fuzzer's bytes. Out: nothing; laws: a role comes from a right password, a token that is there, or this machine, and from nothing
 // else; bounds hold; a record that was written is read back as it was.
-#include "gateway/doors/http/access_desk.hpp"
-#include "gateway/doors/http/secrets.hpp"
+#include "gateway/services/access/access_register.hpp"
+#include "gateway/services/access/secrets.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 using namespace axisgate;
@@ -147,7 +147,7 @@ private:
     }
 
     FuzzedDataProvider& in_;
-    AccessDesk desk_{AccessSettings{}};
+    AccessRegister desk_{AccessSettings{}};
     std::int64_t now_ = 1'700'000'000'000'000'000;
     std::vector<std::string> sessions_;
     bool there_is_a_code_ = false;

@@ -9,7 +9,7 @@
 
 #include "gateway/doors/http/hosts.hpp"
 #include "gateway/doors/http/problem.hpp"
-#include "gateway/doors/http/secrets.hpp"
+#include "gateway/services/access/secrets.hpp"
 #include "gateway/doors/http/text.hpp"
 
 namespace axisgate::http {

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "gateway/doors/http/access_port.hpp"
+#include "gateway/services/access/access_port.hpp"
 #include "gateway/doors/http/message.hpp"
 
 namespace axisgate::http {

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "gateway/doors/http/preconditions.hpp"
-#include "gateway/doors/http/secrets.hpp"
+#include "gateway/services/access/secrets.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
@@ -93,7 +93,7 @@ json::object session_document(AccessPort* port, const Identity& i) {
 
 std::string tag_of(const User& u) {
     // The digest stands for the stored password: a change of it is a change, but the tag leads nobody to it.
-    return tag_over({u.name, axisgate::http::name_of(u.role), u.enabled ? "enabled" : "", digest_of(u.hash), std::to_string(u.created_ns)});
+    return tag_over({u.name, axisgate::name_of(u.role), u.enabled ? "enabled" : "", digest_of(u.hash), std::to_string(u.created_ns)});
 }
 
 json::object document_of(const User& u) {

@@ -10,7 +10,7 @@
 #include <boost/json.hpp>
 
 #include "gateway/core/json_read.hpp"
-#include "gateway/doors/http/documents.hpp"
+#include "gateway/services/documents.hpp"
 #include "gateway/doors/http/server.hpp"
 
 namespace axisgate::http {

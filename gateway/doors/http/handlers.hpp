@@ -14,16 +14,18 @@
 #include <vector>
 
 #include "gateway/services/alarms/alarm.hpp"
+#include "gateway/services/axis_place.hpp"
 #include "gateway/services/gateway.hpp"
-#include "gateway/doors/http/axis_jobs.hpp"
-#include "gateway/doors/http/axis_texts.hpp"
+#include "gateway/services/services.hpp"
+#include "gateway/services/parameters/axis_jobs.hpp"
+#include "gateway/services/axis_texts.hpp"
 #include "gateway/doors/http/access_gate.hpp"
-#include "gateway/doors/http/change_queue.hpp"
+#include "gateway/services/change_queue.hpp"
 #include "gateway/doors/http/clients_seen.hpp"
 #include "gateway/doors/http/message.hpp"
 #include "gateway/doors/http/problem.hpp"
 #include "gateway/doors/http/settings.hpp"
-#include "gateway/doors/http/stage_desk.hpp"
+#include "gateway/services/site/stage_owner.hpp"
 #include "gateway/doors/http/text.hpp"
 
 namespace axisgate::http {
@@ -33,12 +35,6 @@ namespace axisgate::http {
     return [respond = std::move(respond)](const std::string& what) { respond(problem(500, "internal", "a fault of the gateway itself: " + what)); };
 }
 
-class RecipeDesk;
-class AlarmDesk;
-
-/// Parameters that are being written through this door, (axis, parameter): how often.
-using WritesUnderWay = std::map<std::pair<std::string, std::string>, int>;
-
 /// What all handlers share; outlives every call.
 struct Context {
     Gateway& gateway;
@@ -46,12 +42,12 @@ struct Context {
     AssetLookup asset;
     std::function<std::string()> own_metrics;                                ///< the door's own counters as Prometheus text
     std::shared_ptr<ChangeQueue> changes = std::make_shared<ChangeQueue>();  ///< of the site
-    std::shared_ptr<RecipeDesk> recipes{};                                   ///< runs recipes; whoever makes a context for service gives one
+    std::shared_ptr<RecipeService> recipes{};                                   ///< runs recipes; whoever makes a context for service gives one
     std::shared_ptr<AxisJobs> jobs = std::make_shared<AxisJobs>();           ///< many parameters of one axis, one after the other
     std::shared_ptr<AccessPort> access = nullptr;                            ///< users; without it this machine alone is let in
-    std::shared_ptr<AlarmDesk> alarms{};                                     ///< the list of alarms; as with recipes
+    std::shared_ptr<AlarmService> alarms{};                                     ///< the list of alarms; as with recipes
     std::shared_ptr<AxisTexts> axis_texts = std::make_shared<AxisTexts>();   ///< what GET /axes/{name} answers
-    std::shared_ptr<StageDesk> stages = std::make_shared<StageDesk>();       ///< whose the staged site is
+    std::shared_ptr<StageOwner> stages = std::make_shared<StageOwner>();       ///< whose the staged site is
     std::shared_ptr<ClientsSeen> clients = std::make_shared<ClientsSeen>();  ///< to whom an axis can be handed over
     std::shared_ptr<WritesUnderWay> writes = std::make_shared<WritesUnderWay>();  ///< of parameters, each until the drive has answered
 };
@@ -67,7 +63,7 @@ struct Call {
     Identity identity{};
 
     /// Who and from where, for events and the history: as API says it; the peer alone where there are no users.
-    [[nodiscard]] std::string who() const { return context.access ? http::who(identity, request.peer) : request.peer; }
+    [[nodiscard]] std::string who() const { return context.access ? axisgate::who(identity, request.peer) : request.peer; }
     [[nodiscard]] Gateway& gateway() const noexcept { return context.gateway; }
     [[nodiscard]] Origin origin() const;  ///< in handlers_authority.cpp
 };
@@ -217,25 +213,6 @@ Handled remove_token(Call&);
 
 // --- shared -----------------------------------------------------------------------------------------------------------
 
-/// An axis of the site in force, with what it hangs on.
-struct AxisPlace {
-    std::shared_ptr<const SiteState> site;
-    std::size_t index = 0;
-    std::string line, family;
-    const Catalogue* catalogue = nullptr;
-    [[nodiscard]] const AxisSpec& spec() const { return site->site.axes[index]; }
-    [[nodiscard]] AxisId id() const { return index < site->axis_ids.size() ? site->axis_ids[index] : no_axis; }
-};
-[[nodiscard]] std::optional<AxisPlace> find_axis(const Gateway& gateway, std::string_view name);
-[[nodiscard]] AxisPlace axis_at(const Gateway& gateway, std::shared_ptr<const SiteState> site, std::size_t index);
-/// Index by name in one of the site's lists.
-template <class Spec>
-[[nodiscard]] std::optional<std::size_t> index_of_name(const std::vector<Spec>& list, std::string_view name) {
-    for (std::size_t i = 0; i < list.size(); ++i) {
-        if (list[i].name == name) return i;
-    }
-    return std::nullopt;
-}
 /// 404 that names what there is none of: "there is no axis slide".
 [[nodiscard]] Response nothing_named(std::string_view what, std::string_view name);
 /// 400 for a query parameter that is wrong.
@@ -264,8 +241,6 @@ struct WriteBack {
 };
 /// Why a parameter of the catalogue's `addressing` or `live` is left out when many are written back; empty: it is not.
 [[nodiscard]] std::string why_left_out(const Parameter& parameter, WriteBack wanted);
-/// A cell that a spreadsheet takes as text and not as a formula or as several cells.
-[[nodiscard]] std::string csv_cell(std::string_view text);
 /// `?state=` of alarms; nothing if it is not given (handlers_alarms.cpp).
 [[nodiscard]] std::optional<AlarmFilter> query_alarm_state(const Call& call, std::optional<Response>& fault);
 /// `?wait=`: 0 if it is not given.

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <boost/json/array.hpp>
 
-#include "gateway/doors/http/alarm_desk.hpp"
+#include "gateway/services/alarms/alarm_service.hpp"
 #include "gateway/doors/http/handlers.hpp"
 
 namespace axisgate::http {
@@ -44,7 +44,7 @@ void only(const json::object& o, std::initializer_list<std::string_view> known, 
 Handled later() { return {gateway_limit, problem(504, "no_answer", "the store has not answered")}; }
 
 /// Answers with the alarm as it is then; one that is off the list is told as it was, in the state `normal`.
-AlarmDesk::Then answer_with(Call& c, std::uint64_t id) {
+AlarmService::Then answer_with(Call& c, std::uint64_t id) {
     const auto* a = c.context.alarms->list().find(id);
     auto before = a ? alarm_document(*a) : json::object();
     return [respond = c.respond, desk = std::weak_ptr(c.context.alarms), id, before](const std::string& fault) mutable {

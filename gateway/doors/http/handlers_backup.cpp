@@ -2,7 +2,7 @@
 // In: calls. Out: the file; what waits; 202 where something will happen later. Never replaces the database while it is served.
 #include <fmt/format.h>
 
-#include "gateway/doors/http/documents.hpp"
+#include "gateway/services/documents.hpp"
 #include "gateway/doors/http/handlers.hpp"
 
 namespace axisgate::http {

@@ -1,6 +1,6 @@
 // Handlers of the catalogue: families, their parameters, commands and error codes.
 // In: calls. Out: answers at once; constant while the program runs.
-#include "gateway/doors/http/documents.hpp"
+#include "gateway/services/documents.hpp"
 #include "gateway/doors/http/handlers.hpp"
 
 namespace axisgate::http {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "gateway/doors/http/command_reader.hpp"
-#include "gateway/doors/http/documents.hpp"
+#include "gateway/services/command_reader.hpp"
+#include "gateway/services/documents.hpp"
 #include "gateway/doors/http/handlers.hpp"
 
 namespace axisgate::http {

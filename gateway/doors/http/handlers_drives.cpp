@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "gateway/doors/http/documents.hpp"
+#include "gateway/services/documents.hpp"
 #include "gateway/doors/http/handlers.hpp"
 
 namespace axisgate::http {

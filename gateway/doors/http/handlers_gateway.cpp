@@ -101,27 +101,6 @@ Handled open_stream(Call& c) {
 
 // --- shared -----------------------------------------------------------------------------------------------------------
 
-AxisPlace axis_at(const Gateway& gateway, std::shared_ptr<const SiteState> site, std::size_t index) {
-    AxisPlace place;
-    place.site = std::move(site);
-    place.index = index;
-    if (const DriveSpec* drive = place.site->site.drive(place.spec().drive)) {
-        place.line = drive->line;
-        if (const LineSpec* line = place.site->site.line(drive->line)) {
-            place.family = line->family;
-            place.catalogue = gateway.families().find(line->family).catalogue;
-        }
-    }
-    return place;
-}
-
-std::optional<AxisPlace> find_axis(const Gateway& gateway, std::string_view name) {
-    auto site = gateway.site();
-    const auto index = index_of_name(site->site.axes, name);
-    if (!index) return std::nullopt;
-    return axis_at(gateway, std::move(site), *index);
-}
-
 Response nothing_named(std::string_view what, std::string_view name) {
     return problem(404, "not_found", fmt::format("there is no {} {}", what, name));
 }

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <set>
 
-#include "gateway/doors/http/axis_jobs.hpp"
+#include "gateway/services/parameters/axis_jobs.hpp"
 #include "gateway/core/parameter_form.hpp"
-#include "gateway/doors/http/documents.hpp"
+#include "gateway/services/documents.hpp"
 #include "gateway/doors/http/handlers.hpp"
 
 namespace axisgate::http {
@@ -57,19 +57,6 @@ std::vector<std::pair<std::size_t, std::vector<std::string>>> rows_of(std::strin
 }  // namespace
 
 /// A cell that a spreadsheet takes as text and not as a formula or as several cells.
-std::string csv_cell(std::string_view text) {
-    std::string s(text);
-    const bool formula = !s.empty() && (s[0] == '=' || s[0] == '@' || ((s[0] == '+' || s[0] == '-') && !parse_number(s)));
-    if (formula) s.insert(s.begin(), '\'');
-    if (s.find_first_of(",;\"\r\n") == std::string::npos) return s;
-    std::string out = "\"";
-    for (const char c : s) {
-        if (c == '"') out += '"';
-        out += c;
-    }
-    return out + "\"";
-}
-
 Handled get_parameter_history(Call& c) {
     const auto axis = find_axis(c.gateway(), c.names[0]);
     if (!axis) return nothing_named("axis", c.names[0]);

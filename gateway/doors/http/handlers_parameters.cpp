@@ -6,7 +6,7 @@
 #include <unordered_map>
 
 #include "gateway/core/parameter_form.hpp"
-#include "gateway/doors/http/documents.hpp"
+#include "gateway/services/documents.hpp"
 #include "gateway/doors/http/handlers.hpp"
 #include "gateway/doors/http/preconditions.hpp"
 

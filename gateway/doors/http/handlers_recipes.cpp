@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <boost/json/parse.hpp>
 
-#include "gateway/doors/http/change_queue.hpp"
+#include "gateway/services/change_queue.hpp"
 #include "gateway/doors/http/handlers.hpp"
 #include "gateway/doors/http/preconditions.hpp"
-#include "gateway/doors/http/recipe_desk.hpp"
-#include "gateway/doors/http/recipe_steps.hpp"
+#include "gateway/services/recipes/recipe_service.hpp"
+#include "gateway/services/recipes/recipe_steps.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
@@ -146,8 +146,8 @@ Handled put_recipe(Call& c) {
         const auto now = gateway.document(kind, name);
         created = !now;
         if (auto refusal = wanted.refuse(name, now)) return refusal;
-        if (created && gateway.documents(kind).size() >= RecipeDesk::most_recipes)
-            return problem(409, "too_many", fmt::format("there are {} recipes: delete those that are no longer needed", RecipeDesk::most_recipes));
+        if (created && gateway.documents(kind).size() >= RecipeService::most_recipes)
+            return problem(409, "too_many", fmt::format("there are {} recipes: delete those that are no longer needed", RecipeService::most_recipes));
         return std::nullopt;
     };
     if (dry_run) {
@@ -245,7 +245,7 @@ Handled run_recipe(Call& c) {
         return json_response(json::object{{"dry_run", true}, {"arguments", whole}, {"axes", std::move(axes)}, {"steps", recipe->count}});
     }
     auto started = c.context.recipes->start(c.names[0], std::move(*recipe), whole, c.origin());
-    if (auto* p = std::get_if<Problem>(&started)) return to_response(*p);
+    if (const auto* p = std::get_if<RunRefusal>(&started)) return problem_of(*p);
     const auto& report = std::get<json::object>(started);
     Response r = json_response(report, 202);
     r.headers.set("Location",
@@ -271,7 +271,7 @@ Handled cancel_recipe_run(Call& c) {
     const auto n = number_of(c);
     if (!n) return no_run(c);
     auto answer = c.context.recipes->cancel(c.names[0], *n, c.origin());
-    if (auto* p = std::get_if<Problem>(&answer)) return to_response(*p);
+    if (const auto* p = std::get_if<RunRefusal>(&answer)) return problem_of(*p);
     return json_response(std::get<json::object>(answer), 202);
 }
 

@@ -6,8 +6,8 @@
 #include <array>
 
 #include "gateway/wire/frame_export.hpp"
-#include "gateway/doors/http/alarm_desk.hpp"
-#include "gateway/doors/http/documents.hpp"
+#include "gateway/services/alarms/alarm_service.hpp"
+#include "gateway/services/documents.hpp"
 #include "gateway/doors/http/frame_decoder.hpp"
 #include "gateway/doors/http/handlers.hpp"
 

@@ -11,8 +11,8 @@
 
 #include "gateway/registers/register_map.hpp"
 #include "gateway/site/mapping.hpp"
-#include "gateway/doors/http/documents.hpp"
-#include "gateway/doors/http/register_lists.hpp"
+#include "gateway/services/documents.hpp"
+#include "gateway/registers/register_lists.hpp"
 #include "gateway/doors/http/site_change.hpp"
 
 namespace axisgate::http {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "gateway/doors/http/accounts.hpp"
-#include "gateway/doors/http/secrets.hpp"
+#include "gateway/services/access/secrets.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
@@ -14,7 +14,7 @@ Response paused(std::int64_t pause_s) {
     return r;
 }
 
-Response signed_in(AccessPort& port, const AccessDesk::NewSession& session, bool secure) {
+Response signed_in(AccessPort& port, const AccessRegister::NewSession& session, bool secure) {
     Response r = json_response(session_document(&port, session.identity));
     r.headers.set("Set-Cookie", set_cookie(session.id, secure, false));
     return r;

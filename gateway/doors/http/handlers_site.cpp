@@ -2,7 +2,7 @@
 // In: calls. Out: documents with their live state; changes go through parse_site as a whole and through Gateway::apply_site.
 #include <fmt/format.h>
 
-#include "gateway/doors/http/documents.hpp"
+#include "gateway/services/documents.hpp"
 #include "gateway/doors/http/handlers.hpp"
 #include "gateway/doors/http/site_change.hpp"
 #include "gateway/doors/http/site_edit.hpp"
@@ -146,7 +146,7 @@ Response site_change(const SiteState& now, bool dry_run, const std::vector<std::
     for (const auto& x : differences)
         d.emplace_back(x);
     for (const auto& x : faults)
-        f.push_back(to_json(x));
+        f.push_back(fault_document(x));
     Response r = json_response(json::object{{"dry_run", dry_run},
                                             {"valid", faults.empty()},
                                             {"revision", now.revision},

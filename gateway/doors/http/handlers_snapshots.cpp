@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <set>
 
-#include "gateway/doors/http/axis_jobs.hpp"
+#include "gateway/services/parameters/axis_jobs.hpp"
 #include "gateway/core/parameter_form.hpp"
-#include "gateway/doors/http/documents.hpp"
+#include "gateway/services/documents.hpp"
 #include "gateway/doors/http/handlers.hpp"
 
 namespace axisgate::http {

@@ -3,7 +3,7 @@
 // Never changes a site at once: what is staged is applied as one, and taken back unless it is confirmed.
 #include <fmt/format.h>
 
-#include "gateway/doors/http/documents.hpp"
+#include "gateway/services/documents.hpp"
 #include "gateway/doors/http/handlers.hpp"
 #include "gateway/doors/http/site_change.hpp"
 
@@ -12,7 +12,7 @@ namespace json = boost::json;
 namespace {
 std::string tag_of(std::uint64_t revision) { return fmt::format("\"{}\"", revision); }
 
-Response stage_answer(Gateway& gateway, const StageDesk& desk, unsigned status = 200) {
+Response stage_answer(Gateway& gateway, const StageOwner& desk, unsigned status = 200) {
     const auto now = gateway.site();
     const auto& stage = gateway.site_stage();
     json::object o{{"state", name_of(stage.state())},
@@ -49,7 +49,7 @@ Response stage_answer(Gateway& gateway, const StageDesk& desk, unsigned status =
 Response conflict(std::string text) { return problem(409, "conflict", std::move(text)); }
 
 /// "local 127.0.0.1 (client 127.0.0.1 tab-1) at 2026-11-21T16:30:00Z"
-std::string stager_text(const StageDesk& desk, const SiteStage& stage) {
+std::string stager_text(const StageOwner& desk, const SiteStage& stage) {
     const auto& client = desk.stager(stage);
     const auto at = desk.at_unix_ns(stage);
     return fmt::format("{}{}{}", stage.by(), client.empty() ? "" : fmt::format(" (client {})", client), at == 0 ? "" : " at " + format_time(at));
@@ -81,7 +81,7 @@ Handled stage_document(Call& c, const json::value& document) {
     return stage_answer(c.gateway(), *c.context.stages);
 }
 
-auto show_after(Gateway& gateway, std::shared_ptr<StageDesk> desk, Respond respond) {
+auto show_after(Gateway& gateway, std::shared_ptr<StageOwner> desk, Respond respond) {
     return [&gateway, desk = std::move(desk), respond = std::move(respond)](const Gateway::SiteAnswer& answer) {
         if (!answer.good) return respond(answer.not_stored ? problem(507, "not_stored", answer.fault) : conflict(answer.fault));
         respond(stage_answer(gateway, *desk));

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "gateway/doors/http/accounts.hpp"
-#include "gateway/doors/http/secrets.hpp"
+#include "gateway/services/access/secrets.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
@@ -51,7 +51,7 @@ Handled add_token(Call& c) {
     t.created_ns = now_ns;
     t.expires_ns = expires_in_s ? now_ns + *expires_in_s * second : 0;
     const bool queued = port->changes->run([port, t, secret, by = c.who(), respond = c.respond](std::function<void()> done) {
-        const AccessDesk& desk = port->desk();
+        const AccessRegister& desk = port->desk();
         if (!desk.user(t.owner) || desk.tokens().size() >= desk.settings().max_tokens) {
             respond(problem(409, "conflict", fmt::format("there are {} tokens already: remove one first", desk.tokens().size())));
             return done();

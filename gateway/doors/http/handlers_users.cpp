@@ -4,7 +4,7 @@
 
 #include "gateway/doors/http/accounts.hpp"
 #include "gateway/doors/http/preconditions.hpp"
-#include "gateway/doors/http/secrets.hpp"
+#include "gateway/services/access/secrets.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
@@ -21,12 +21,12 @@ std::optional<Response> refuse_other(std::string_view if_match, const User& now)
 
 using Respond = std::function<void(Response)>;
 /// What a change makes of the user as he is then; or an answer that ends it.
-using Change = std::function<std::optional<Response>(AccessDesk&, std::optional<User>& user, std::string& text)>;
+using Change = std::function<std::optional<Response>(AccessRegister&, std::optional<User>& user, std::string& text)>;
 
 /// Runs a change in its turn: looked at, stored, put in force, told, answered.
 void change(const std::shared_ptr<AccessPort>& port, std::string name, std::string by, Change make, unsigned status, bool body, const Respond& respond) {
     const bool queued = port->changes->run([=](std::function<void()> done) {
-        AccessDesk& desk = port->desk();
+        AccessRegister& desk = port->desk();
         std::optional<User> user;
         if (const User* u = desk.user(name)) user = *u;
         std::string text;
@@ -100,7 +100,7 @@ Handled add_user(Call& c) {
         if (const auto fault = password_fault(*password, name); !fault.empty()) body.fault("password", fault, "choose a longer sentence");
     }
     if (!body.good()) return body.refusal();
-    const auto refuse = [name](const AccessDesk& desk) -> std::optional<Response> {
+    const auto refuse = [name](const AccessRegister& desk) -> std::optional<Response> {
         if (desk.user(name)) return problem(409, "conflict", fmt::format("there is a user {} already", name));
         if (desk.users().size() >= desk.settings().max_users) return problem(409, "conflict", fmt::format("there are {} users already: remove one first", desk.users().size()));
         return std::nullopt;
@@ -109,7 +109,7 @@ Handled add_user(Call& c) {
     const bool taken = port->derive(*password, [=, by = c.who(), respond = c.respond, now_ns = c.gateway().now_unix_ns()](const std::string& hash) {
         if (hash.empty()) return respond(too_many_passwords());
         change(port, name, by,
-               [=](AccessDesk& desk, std::optional<User>& user, std::string& text) -> std::optional<Response> {
+               [=](AccessRegister& desk, std::optional<User>& user, std::string& text) -> std::optional<Response> {
                    if (auto refusal = refuse(desk)) return refusal;
                    user = User{name, *role, enabled, hash, now_ns, 0};
                    text = fmt::format("user {} added as {}", name, name_of(*role));
@@ -145,7 +145,7 @@ Handled change_user(Call& c) {
     };
     const auto apply = [port, name, role, enabled, if_match, by = c.who(), answer](const std::string& hash) {
         change(port, name, by,
-               [=](AccessDesk& desk, std::optional<User>& user, std::string& text) -> std::optional<Response> {
+               [=](AccessRegister& desk, std::optional<User>& user, std::string& text) -> std::optional<Response> {
                    if (!user) return nothing_named("user", name);
                    if (auto refusal = refuse_other(if_match, *user)) return refusal;
                    const Role new_role = role.value_or(user->role);
@@ -178,7 +178,7 @@ Handled remove_user(Call& c) {
     if (!port) return no_accounts();
     const std::string name = c.names[0];
     change(port, name, c.who(),
-           [name, if_match = std::string(c.request.headers.get("If-Match"))](AccessDesk& desk, std::optional<User>& user, std::string& text) -> std::optional<Response> {
+           [name, if_match = std::string(c.request.headers.get("If-Match"))](AccessRegister& desk, std::optional<User>& user, std::string& text) -> std::optional<Response> {
                if (!user) return nothing_named("user", name);
                if (auto refusal = refuse_other(if_match, *user)) return refusal;
                if (desk.is_last_administrator(name)) return last_administrator(name);
@@ -224,7 +224,7 @@ Handled change_password(Call& c) {
         const bool queued = port->derive(fresh, [port, name, by, hash, respond](const std::string& made) {
             if (made.empty()) return respond(too_many_passwords());
             change(port, name, by,
-                   [=](AccessDesk&, std::optional<User>& user, std::string& text) -> std::optional<Response> {
+                   [=](AccessRegister&, std::optional<User>& user, std::string& text) -> std::optional<Response> {
                        if (!user || user->hash != hash) return problem(409, "conflict", "the user was changed meanwhile: sign in again");
                        user->hash = made;
                        text = fmt::format("user {} changed his password", name);

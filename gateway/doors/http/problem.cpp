@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "gateway/doors/http/text.hpp"
 
 namespace axisgate::http {
@@ -22,7 +24,7 @@ std::string told(const std::string& text) {
 }
 }  // namespace
 
-json::object to_json(const Fault& f) {
+json::object fault_document(const Fault& f) {
     return {{"document", f.in_body ? "body" : "site"}, {"pointer", told(f.pointer)}, {"text", told(f.text)}, {"remedy", told(f.remedy)}};
 }
 
@@ -39,7 +41,7 @@ Response to_response(const Problem& p) {
         json::array list;
         for (const auto& f : p.faults) {
             if (list.size() == most_faults) break;
-            list.push_back(to_json(f));
+            list.push_back(fault_document(f));
         }
         const std::size_t more = p.faults.size() - list.size() + p.more_faults;
         o["faults"] = std::move(list);
@@ -53,6 +55,23 @@ Response to_response(const Problem& p) {
     if (p.status == 503) r.headers.set("Retry-After", "1");
     r.body = json_text(o);
     return r;
+}
+
+Response problem_of(const RunRefusal& r) {
+    const auto [status, reason] = [&]() -> std::pair<unsigned, const char*> {
+        switch (r.why) {
+            case RunRefusal::Why::running:
+                return {409, "running"};
+            case RunRefusal::Why::busy:
+                return {503, "busy"};
+            case RunRefusal::Why::no_such_run:
+                return {404, "not_found"};
+            case RunRefusal::Why::ended:
+                break;
+        }
+        return {409, "wrong_state"};
+    }();
+    return to_response(Problem{.status = status, .reason = reason, .detail = r.text, .axis = r.axis});
 }
 
 Response problem(unsigned status, std::string_view reason, std::string detail) {

@@ -13,17 +13,12 @@
 #include "gateway/core/command.hpp"
 #include "gateway/site/site.hpp"
 #include "gateway/doors/http/message.hpp"
+#include "gateway/services/fault.hpp"
+#include "gateway/services/recipes/recipe_service.hpp"
 
 namespace axisgate::http {
 
-/// One wrong place of a document.
-struct Fault {
-    std::string pointer;  ///< JSON pointer
-    std::string text;     ///< what is wrong
-    std::string remedy;   ///< what to do
-    bool in_body = true;  ///< the pointer points into the request's body; false: into the site that would result
-};
-[[nodiscard]] boost::json::object to_json(const Fault& fault);
+[[nodiscard]] boost::json::object fault_document(const Fault& fault);
 
 /// So many faults are told at once, with the number of the others: a list as long as a body would make an answer that is longer than it.
 inline constexpr std::size_t most_faults = 20;
@@ -47,6 +42,8 @@ struct Problem {
 
 /// The status for a reason, as command.hpp gives it.
 [[nodiscard]] unsigned status_of(Reason reason) noexcept;
+/// A run of a recipe that could not begin, or be cancelled.
+[[nodiscard]] Response problem_of(const RunRefusal& refusal);
 /// A refused or failed command; carries ticket, result and reason too, so that a client can read either form.
 [[nodiscard]] Response problem_of(const Result& result, std::string_view axis, std::string_view command);
 /// The number of a ticket for clients: below 2^53, counts up.

@@ -1,4 +1,4 @@
-// Server: puts desks, hub, router and listeners together, and makes room when all connections are taken.
+// Server: puts hub, router and listeners together, and makes room when all connections are taken.
 // In: connections, timers. Out: sessions. A client that is turned away gets one small 503 that nobody waits for. Never blocks.
 #include "gateway/doors/http/server.hpp"
 
@@ -6,10 +6,7 @@
 
 #include <unordered_map>
 
-#include "gateway/doors/http/alarm_desk.hpp"
-#include "gateway/doors/http/axis_jobs.hpp"
 #include "gateway/doors/http/connection.hpp"
-#include "gateway/doors/http/recipe_desk.hpp"
 #include "gateway/doors/http/session.hpp"
 
 namespace axisgate::http {
@@ -33,39 +30,30 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
     Settings own_settings;
     Counters own_counters;
     asio::io_context& context;
-    std::shared_ptr<RecipeDesk> recipes;
-    std::shared_ptr<AlarmDesk> alarms;
+    Services& services;
     Router own_router;
     tcp::acceptor acceptor;
-    asio::steady_timer hub_timer, pause_timer, stop_timer, recipe_timer, alarm_timer;
+    asio::steady_timer hub_timer, pause_timer, stop_timer;
     StreamHub own_hub;  // after the timers: it may ask for them at once
     std::unordered_map<const Session*, std::shared_ptr<Session>> sessions;
     std::function<void()> done;
 
-    Parts(asio::io_context& c, Gateway& gateway, Settings s, AssetLookup asset, std::shared_ptr<AccessPort> access)
+    Parts(asio::io_context& c, Gateway& gateway, Services& all, Settings s, AssetLookup asset)
         : SessionHost(own_settings, own_router, own_counters, own_hub),
           own_settings(std::move(s)),
           context(c),
-          recipes(std::make_shared<RecipeDesk>(gateway, [] { return steady_instant(); })),
-          alarms(std::make_shared<AlarmDesk>(gateway, [] { return steady_instant(); })),
-          own_router(Context{gateway, own_settings, std::move(asset), [this] { return own_counters.text(); }, std::make_shared<ChangeQueue>(), recipes, std::make_shared<AxisJobs>(),
-                              std::move(access), alarms}),
+          services(all),
+          own_router(Context{gateway, own_settings, std::move(asset), [this] { return own_counters.text(); }, all.site_changes, all.recipes, all.jobs, all.access,
+                             all.alarms, std::make_shared<AxisTexts>(), all.stages, std::make_shared<ClientsSeen>(), all.writes}),
           acceptor(c),
           hub_timer(c),
           pause_timer(c),
           stop_timer(c),
-          recipe_timer(c),
-          alarm_timer(c),
           own_hub(gateway, own_settings, own_counters, [this] { rearm(); }) {
         budget.most = own_settings.max_held_bytes;
-        recipes->rearm = [this] { rearm_recipes(); };
-        recipes->tell = [this](const std::string& recipe, const boost::json::object& report) { own_hub.on_recipe(recipe, report); };
-        own_hub.recipes_now = [this] { return recipes->in_progress(); };
-        alarms->rearm = [this] { rearm_alarms(); };
-        alarms->tell = [this](const boost::json::object& list) { own_hub.on_alarms(list); };
-        own_hub.alarms_now = [this] { return alarms->document(); };
-        alarms->begin();
-        recipes->begin();
+        own_hub.recipes_now = [list = all.recipes] { return list->in_progress(); };
+        own_hub.alarms_now = [list = all.alarms] { return list->document(); };
+        services.listen(own_hub);
     }
 
     // --- sessions ------------------------------------------------------------------------------------------------------
@@ -162,41 +150,6 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
         });
     }
 
-    // --- the recipes' time ---------------------------------------------------------------------------------------------
-    void rearm_recipes() {
-        const Instant due = recipes->deadline();
-        if (due == never || stopping) {
-            recipe_timer.cancel();
-            return;
-        }
-        recipe_timer.expires_at(
-            std::chrono::steady_clock::time_point(std::chrono::duration_cast<std::chrono::steady_clock::duration>(due.time_since_epoch())));
-        recipe_timer.async_wait([self = weak_from_this()](ErrorCode ec) {
-            const auto me = self.lock();
-            if (ec || !me || !me->own_hub.attached()) return;
-            me->recipes->on_deadline(steady_instant());
-            me->rearm_recipes();
-        });
-    }
-
-    // --- the alarms' time ----------------------------------------------------------------------------------------------
-    void rearm_alarms() {
-        const Instant due = alarms->deadline();
-        if (due == never || stopping) {
-            alarm_timer.cancel();
-            return;
-        }
-        alarm_timer.expires_at(
-            std::chrono::steady_clock::time_point(std::chrono::duration_cast<std::chrono::steady_clock::duration>(due.time_since_epoch())));
-        // As `this` is not yet shared while it is being made, the desk is what must still be there.
-        alarm_timer.async_wait([this, desk = std::weak_ptr(alarms)](ErrorCode ec) {
-            const auto still = desk.lock();
-            if (ec || !still || !own_hub.attached()) return;
-            still->on_deadline(steady_instant());
-            rearm_alarms();
-        });
-    }
-
     // --- the end -------------------------------------------------------------------------------------------------------
     void stop(std::function<void()> then) {
         if (stopping) return;
@@ -250,8 +203,8 @@ std::optional<tcp::endpoint> parse_bind(std::string_view bind, std::string& faul
     return tcp::endpoint(address, static_cast<std::uint16_t>(*port));
 }
 
-Server::Server(asio::io_context& context, Gateway& gateway, Settings settings, AssetLookup asset, std::shared_ptr<AccessPort> access)
-    : parts_(std::make_shared<Parts>(context, gateway, std::move(settings), std::move(asset), std::move(access))) {}
+Server::Server(asio::io_context& context, Gateway& gateway, Services& services, Settings settings, AssetLookup asset)
+    : parts_(std::make_shared<Parts>(context, gateway, services, std::move(settings), std::move(asset))) {}
 
 Server::~Server() {
     ErrorCode ignored;
@@ -261,10 +214,7 @@ Server::~Server() {
     parts_->pause_timer.cancel();
     parts_->stop_timer.cancel();
     parts_->hub_timer.cancel();
-    parts_->recipe_timer.cancel();
-    parts_->recipes->rearm = nullptr;
-    parts_->alarm_timer.cancel();
-    parts_->alarms->detach();
+    parts_->services.unlisten(parts_->own_hub);
     parts_->abort_all();
     parts_->own_hub.detach();  // handlers that still wait in the io_context may keep the parts longer than the Gateway lives
 }

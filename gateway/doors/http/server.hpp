@@ -11,7 +11,8 @@
 #include <string>
 
 #include "gateway/services/gateway.hpp"
-#include "gateway/doors/http/access_port.hpp"
+#include "gateway/services/door.hpp"
+#include "gateway/services/services.hpp"
 #include "gateway/doors/http/counters.hpp"
 #include "gateway/doors/http/settings.hpp"
 
@@ -19,12 +20,12 @@ namespace axisgate::http {
 
 struct TlsIdentity;
 
-class Server {
+class Server final : public ServiceDoor {
 public:
-    /// The Gateway outlives the server. Without `access` there are no users: this machine alone is let in.
-    Server(boost::asio::io_context& context, Gateway& gateway, Settings settings, AssetLookup asset,
-           std::shared_ptr<AccessPort> access = nullptr);
-    ~Server();
+    /// Gateway and services outlive the server. Without users among the services this machine alone is let in.
+    Server(boost::asio::io_context& context, Gateway& gateway, Services& services, Settings settings, AssetLookup asset);
+    ~Server() override;
+    [[nodiscard]] std::string_view name() const override { return secure() ? "https" : "http"; }
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;
 
@@ -32,12 +33,12 @@ public:
     void use_tls(std::shared_ptr<TlsIdentity> identity);
     [[nodiscard]] bool secure() const noexcept;
     /// Opens the door. Empty: it is open; else what is wrong and what to do.
-    [[nodiscard]] std::string start();
+    [[nodiscard]] std::string start() override;
     /// "127.0.0.1:8080", with the port that was really taken; empty while it is closed.
-    [[nodiscard]] std::string address() const;
+    [[nodiscard]] std::string address() const override;
     /// Takes no more connections, ends idle ones, lets requests in progress end (for at most Settings::stop_limit), closes live-feed
     /// clients with 1001; then calls `done`, from the io_context.
-    void stop(std::function<void()> done);
+    void stop(std::function<void()> done) override;
 
     [[nodiscard]] const Counters& counters() const noexcept;
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "gateway/doors/http/documents.hpp"
+#include "gateway/services/documents.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;

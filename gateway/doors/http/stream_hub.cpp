@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "gateway/doors/http/documents.hpp"
+#include "gateway/services/documents.hpp"
 #include "gateway/doors/http/handlers.hpp"
 #include "gateway/doors/http/text.hpp"
 #include "gateway/doors/http/websocket_codec.hpp"

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "gateway/services/gateway.hpp"
+#include "gateway/services/services.hpp"
 #include "gateway/doors/http/counters.hpp"
 #include "gateway/doors/http/frame_decoder.hpp"
 #include "gateway/doors/http/settings.hpp"
@@ -65,7 +66,7 @@ private:
     bool has_work_ = false;  ///< something was put into the queue since the last wake-up
 };
 
-class StreamHub final : public GatewayListener {
+class StreamHub final : public GatewayListener, public ServiceListener {
 public:
     /// `rearm` is called when deadline() has changed by another cause than on_deadline.
     StreamHub(Gateway& gateway, const Settings& settings, Counters& counters, std::function<void()> rearm);
@@ -88,12 +89,12 @@ public:
     void on_deadline(Instant now);
 
     /// The report of a run has changed.
-    void on_recipe(const std::string& recipe, const boost::json::object& report);
+    void on_recipe(const std::string& recipe, const boost::json::object& report) override;
     /// Reports of the runs in progress, for those who have just subscribed to `recipes`.
     std::function<std::vector<boost::json::object>()> recipes_now;
 
     /// The list of alarms has changed.
-    void on_alarms(const boost::json::object& list);
+    void on_alarms(const boost::json::object& list) override;
     /// The list as it is, for those who have just subscribed to `alarms`.
     std::function<boost::json::object()> alarms_now;
 

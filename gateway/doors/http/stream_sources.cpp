@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "gateway/doors/http/axis_texts.hpp"
-#include "gateway/doors/http/documents.hpp"
+#include "gateway/services/axis_texts.hpp"
+#include "gateway/services/documents.hpp"
 #include "gateway/doors/http/handlers.hpp"
 #include "gateway/doors/http/websocket_codec.hpp"
 

@@ -2,8 +2,8 @@
 // In: tables. Out: judgements.
 #include <gtest/gtest.h>
 
-#include "gateway/doors/http/access_desk.hpp"
-#include "gateway/doors/http/secrets.hpp"
+#include "gateway/services/access/access_register.hpp"
+#include "gateway/services/access/secrets.hpp"
 
 namespace axisgate::http::test {
 namespace {
@@ -22,17 +22,17 @@ AccessSettings small() {
 User person(std::string name, Role role) { return {std::move(name), role, true, "h", t0, 0}; }
 
 struct DeskTest : ::testing::Test {
-    AccessDesk desk{small()};
+    AccessRegister desk{small()};
     DeskTest() {
         desk.load(person("anna", Role::administrator));
         desk.load(person("ben", Role::viewer));
     }
-    AccessDesk::NewSession in(std::string_view name, std::int64_t at) {
+    AccessRegister::NewSession in(std::string_view name, std::int64_t at) {
         const auto attempt = desk.begin_sign_in(name, peer, at);
         EXPECT_EQ(attempt.pause_s, 0);
         auto session = desk.end_sign_in(name, attempt.hash, true, peer, at);
         EXPECT_TRUE(session.has_value());
-        return session.value_or(AccessDesk::NewSession{});
+        return session.value_or(AccessRegister::NewSession{});
     }
     Identity by_cookie(std::string_view id, std::int64_t at) {
         Credentials c;
@@ -203,7 +203,7 @@ TEST_F(DeskTest, WhoWasLetInFromAnAddressIsNotHeldUpByItsOtherPeople) {
     EXPECT_EQ(desk.begin_sign_in("anna", peer, t0).pause_s, 0);
     EXPECT_EQ(desk.begin_sign_in("anna", peer, t0).pause_s, 1) << "but her own wrong ones count there too";
     // Where she was let in is known after a restart.
-    AccessDesk again{small()};
+    AccessRegister again{small()};
     again.load(person("anna", Role::administrator));
     for (const auto& use : desk.take_uses())
         again.load_use(use.name, *use.text);
@@ -299,7 +299,7 @@ TEST(Records, ComeBackAsTheyWere) {
     const auto token = token_of(*record_of(t).text);
     ASSERT_TRUE(token);
     EXPECT_EQ(record_of(*token).text, record_of(t).text);
-    AccessDesk desk{AccessSettings{}};
+    AccessRegister desk{AccessSettings{}};
     for (const auto* bad : {"", "[]", "{", R"({"at_ns":"x","good_from":7})", R"({"good_from":[1,null]})"}) {
         desk.load_use("user anna", bad);
         desk.load_use("token i", bad);

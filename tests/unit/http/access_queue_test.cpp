@@ -1,6 +1,6 @@
 // What is stored of users and tokens, and in which order: a use on its way never brings back what was revoked; and the queue itself.
 // In: requests at a door whose disk is slow. Out: what the store would hold after a crash at any moment.
-#include "gateway/doors/http/secrets.hpp"
+#include "gateway/services/access/secrets.hpp"
 #include "tests/unit/http/fake_access.hpp"
 #include "tests/unit/http/harness.hpp"
 
@@ -31,7 +31,7 @@ protected:
         return handled.now ? answer_from(std::move(*handled.now)) : Answer{};
     }
     /// What a start after a crash would find: users and tokens as the records that were written make them.
-    AccessDesk after_a_crash() const {
+    AccessRegister after_a_crash() const {
         std::map<std::pair<std::string, std::string>, std::string> store;
         for (const auto* role : {"viewer", "administrator"})
             store[{"user", role}] = *record_of(User{role, *role_named(role), true, std::string("hash of secret ") + role, 1, 0}).text;
@@ -43,7 +43,7 @@ protected:
                 store.erase({r.kind, r.name});
             }
         }
-        AccessDesk desk{AccessSettings{}};
+        AccessRegister desk{AccessSettings{}};
         for (const auto& [key, text] : store) {
             if (key.first == "user") desk.load(*user_of(text));
             if (key.first == "token") desk.load(*token_of(text));

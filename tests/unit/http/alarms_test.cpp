@@ -147,7 +147,7 @@ TEST_F(Alarms, AreFoundAgainAfterARestartWithWhatCameMeanwhile) {
     Event e = event("line can0 is down", "", Severity::warning, "line");
     e.line = "can0";
     gateway.tell(e);  // in the store, but nobody was there to hear it
-    auto fresh = std::make_shared<AlarmDesk>(gateway, [this] { return clock; });
+    auto fresh = std::make_shared<AlarmService>(gateway, [this] { return clock; });
     fresh->begin();
     ASSERT_EQ(fresh->list().all().size(), 3u);
     EXPECT_EQ(fresh->list().find(id)->state(), AlarmState::acknowledged_active);
@@ -160,7 +160,7 @@ TEST_F(Alarms, OldEventsOfADirectoryWithoutAlarmsAreNoNews) {
     alarms->detach();
     gateway.stored_documents.clear();
     fault();
-    auto fresh = std::make_shared<AlarmDesk>(gateway, [this] { return clock; });
+    auto fresh = std::make_shared<AlarmService>(gateway, [this] { return clock; });
     fresh->begin();
     EXPECT_TRUE(fresh->list().all().empty());
 }

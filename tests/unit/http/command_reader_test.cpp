@@ -1,5 +1,5 @@
 // Command bodies: units into whole increments, and every way to be refused.
-#include "gateway/doors/http/command_reader.hpp"
+#include "gateway/services/command_reader.hpp"
 
 #include <gtest/gtest.h>
 #include <boost/json/parse.hpp>

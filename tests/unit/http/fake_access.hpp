@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "gateway/doors/http/access_port.hpp"
+#include "gateway/services/access/access_port.hpp"
 
 namespace axisgate::http::test {
 
 class FakeAccess final : public AccessPort {
 public:
     explicit FakeAccess(AccessSettings settings = {}) : own_desk(settings) {}
-    AccessDesk& desk() override { return own_desk; }
+    AccessRegister& desk() override { return own_desk; }
     bool derive(std::string password, std::function<void(std::string)> then) override {
         if (full) return false;
         then("hash of " + password);
@@ -41,7 +41,7 @@ public:
     }
     void tell(Event event) override { told.push_back(std::move(event)); }
 
-    AccessDesk own_desk;
+    AccessRegister own_desk;
     bool full = false;
     bool slow_disk = false;
     std::deque<std::function<void()>> writing;

@@ -1,5 +1,5 @@
 // Handlers with a made-up Gateway: the program itself, catalogue, axes' documents, commands, the live feed's handshake.
-#include "gateway/doors/http/documents.hpp"
+#include "gateway/services/documents.hpp"
 #include "tests/unit/http/harness.hpp"
 
 namespace axisgate::http::test {

@@ -23,8 +23,8 @@ Harness::Harness()
             {"web/dist/empty.txt", ""},
             {"web/secret.txt", "not for the page"},
             {"schema/openapi.yaml", "openapi: 3.0.3\n"}},
-      recipes(std::make_shared<RecipeDesk>(gateway, [this] { return clock; })),
-      alarms(std::make_shared<AlarmDesk>(gateway, [this] { return clock; })),
+      recipes(std::make_shared<RecipeService>(gateway, [this] { return clock; })),
+      alarms(std::make_shared<AlarmService>(gateway, [this] { return clock; })),
       router(Context{
           gateway, settings,
           [this](std::string_view path) {

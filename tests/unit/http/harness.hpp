@@ -7,8 +7,8 @@
 
 #include <string>
 
-#include "gateway/doors/http/alarm_desk.hpp"
-#include "gateway/doors/http/recipe_desk.hpp"
+#include "gateway/services/alarms/alarm_service.hpp"
+#include "gateway/services/recipes/recipe_service.hpp"
 #include "gateway/doors/http/router.hpp"
 #include "tests/unit/http/fake_gateway.hpp"
 
@@ -43,8 +43,8 @@ struct Harness {
     Settings settings;
     std::map<std::string, std::string, std::less<>> files;  ///< some of a page, packed and not, and what is none of it
     Instant clock = time_zero;                              ///< of the recipes
-    std::shared_ptr<RecipeDesk> recipes;
-    std::shared_ptr<AlarmDesk> alarms;
+    std::shared_ptr<RecipeService> recipes;
+    std::shared_ptr<AlarmService> alarms;
     Router router;
     std::vector<Response> later;       ///< answers that came through Respond
     std::chrono::nanoseconds limit{};  ///< of the last promise

@@ -5,7 +5,7 @@
 #include <set>
 #include <sstream>
 
-#include "gateway/doors/http/documents.hpp"
+#include "gateway/services/documents.hpp"
 #include "tests/unit/http/harness.hpp"
 
 namespace axisgate::http::test {

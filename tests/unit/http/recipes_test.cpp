@@ -284,7 +284,7 @@ TEST_F(Recipes, ARunUnderWayIsShownAsInterruptedAfterARestart) {
     answer_oldest();
     pass(std::chrono::milliseconds(1100));
     const auto noted = gateway.noted.size();
-    auto fresh = std::make_shared<RecipeDesk>(gateway, [this] { return clock; });  // as after a kill -9: nothing was told of the end
+    auto fresh = std::make_shared<RecipeService>(gateway, [this] { return clock; });  // as after a kill -9: nothing was told of the end
     fresh->begin();
     const auto r = fresh->report("go", 1);
     ASSERT_TRUE(r);
@@ -324,10 +324,10 @@ TEST_F(Recipes, NoMoreThanTwentyAreShownWhileTheDiskIsBehind) {
     gateway.disk_is_behind = true;
     for (int i = 0; i < 25; ++i)
         EXPECT_EQ(run("quick").status, 202u);
-    EXPECT_EQ(call("GET", "/api/v1/recipes/quick/runs").array().size(), RecipeDesk::kept_reports);
+    EXPECT_EQ(call("GET", "/api/v1/recipes/quick/runs").array().size(), RecipeService::kept_reports);
     EXPECT_EQ(call("GET", "/api/v1/recipes/quick/runs/5").status, 404u);
     gateway.catch_up();
-    EXPECT_EQ(call("GET", "/api/v1/recipes/quick/runs").array().size(), RecipeDesk::kept_reports);
+    EXPECT_EQ(call("GET", "/api/v1/recipes/quick/runs").array().size(), RecipeService::kept_reports);
 }
 
 TEST_F(Recipes, ALongReportIsCutAndNotLost) {
@@ -350,11 +350,11 @@ TEST_F(Recipes, TwentyReportsAreKeptAndNumbersGoOn) {
     for (int i = 0; i < 25; ++i)
         EXPECT_EQ(run("quick").status, 202u);
     const auto list = call("GET", "/api/v1/recipes/quick/runs").array();
-    ASSERT_EQ(list.size(), RecipeDesk::kept_reports);
+    ASSERT_EQ(list.size(), RecipeService::kept_reports);
     EXPECT_EQ(list.front().at("n"), json::value(25));
     EXPECT_EQ(call("GET", "/api/v1/recipes/quick/runs/5").status, 404u);
     EXPECT_EQ(call("GET", "/api/v1/recipes/quick/runs/6").status, 200u);
-    auto fresh = std::make_shared<RecipeDesk>(gateway, [this] { return clock; });  // as after a restart
+    auto fresh = std::make_shared<RecipeService>(gateway, [this] { return clock; });  // as after a restart
     std::vector<SiteFault> faults;
     auto recipe = read_recipe(json::parse(R"({"steps":[{"wait_s":0}]})").get_object(), nullptr, faults);
     const auto started = fresh->start("quick", std::move(*recipe), {}, {});

@@ -5,7 +5,7 @@
 #include <regex>
 #include <sstream>
 
-#include "gateway/doors/http/register_lists.hpp"
+#include "gateway/registers/register_lists.hpp"
 #include "tests/unit/http/harness.hpp"
 
 namespace axisgate::http::test {

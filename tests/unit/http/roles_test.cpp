@@ -1,6 +1,6 @@
 // Who may do what: each role against each route of the table, so that a new route is covered the day it is added.
 // And the handlers of sessions, users and tokens, with a fake of everything behind them.
-#include "gateway/doors/http/secrets.hpp"
+#include "gateway/services/access/secrets.hpp"
 #include "tests/unit/http/fake_access.hpp"
 #include "tests/unit/http/harness.hpp"
 
@@ -332,7 +332,7 @@ TEST_F(AccessTest, SignOutEndsTheSession) {
 TEST_F(AccessTest, FirstSignInIsOnceAndNeedsTheCode) {
     const std::string body = R"({"code":"abcd-0000","user":"Eva","password":"correct-horse-9"})";
     EXPECT_EQ(from(far_peer, "POST", "/api/v1/session/first", body).status, 409u);
-    access->own_desk = AccessDesk{AccessSettings{}};
+    access->own_desk = AccessRegister{AccessSettings{}};
     EXPECT_EQ(from(far_peer, "POST", "/api/v1/session/first", body).status, 401u);
     access->own_desk.load_code(digest_of(plain_code("ABCD-0000")));
     EXPECT_EQ(from(far_peer, "POST", "/api/v1/session/first", R"({"code":"abcd-0000","user":"Eva","password":"short"})").status, 422u);

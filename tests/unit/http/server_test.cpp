@@ -526,7 +526,8 @@ TEST_F(HttpServer, APortThatIsTaken) {
     FakeGateway other;
     Settings settings;
     settings.bind = "127.0.0.1:" + std::to_string(door.port);
-    Server second(context, other, settings, {});
+    Services services(other, steady_instant);
+    Server second(context, other, services, settings, {});
     const std::string fault = second.start();
     EXPECT_NE(fault.find(settings.bind), std::string::npos) << fault;
     EXPECT_NE(fault.find("bind"), std::string::npos) << "with what to do";

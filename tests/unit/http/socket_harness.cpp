@@ -8,14 +8,19 @@ Door::Door() { settings.bind = "127.0.0.1:0"; }
 
 Door::~Door() {
     if (!thread_.joinable()) return;
-    on([this] { server_.reset(); });
+    on([this] {
+        server_.reset();
+        services_.reset();
+    });
     work_.reset();
     context_.stop();
     thread_.join();
 }
 
 void Door::open() {
-    server_ = std::make_unique<Server>(context_, gateway, settings, [this](std::string_view path) {
+    services_ = std::make_unique<Services>(gateway, steady_instant);
+    services_->rearm = [this] { arm(); };
+    server_ = std::make_unique<Server>(context_, gateway, *services_, settings, [this](std::string_view path) {
         return path == "web/dist/index.html" ? std::string_view("<html>page</html>")
                : path == "web/dist/big.txt"  ? std::string_view(big_file)
                                              : std::string_view();
@@ -24,6 +29,17 @@ void Door::open() {
     const std::string address = server_->address();
     port = static_cast<std::uint16_t>(std::stoi(address.substr(address.rfind(':') + 1)));
     thread_ = std::thread([this] { context_.run(); });
+}
+
+void Door::arm() {
+    const Instant due = services_->deadline();
+    if (due == never) return;
+    timer_.expires_after(std::max(due - steady_instant(), Duration{}));
+    timer_.async_wait([this](ErrorCode ec) {
+        if (ec || !services_) return;
+        services_->on_deadline(steady_instant());
+        arm();
+    });
 }
 
 template <class Start>

@@ -13,6 +13,7 @@
 #include <type_traits>
 
 #include "gateway/doors/http/server.hpp"
+#include "gateway/doors/http/session.hpp"
 #include "tests/unit/http/harness.hpp"
 
 namespace axisgate::http::test {
@@ -56,8 +57,11 @@ public:
     std::uint16_t port = 0;
 
 private:
+    void arm();
     asio::io_context context_;
     asio::executor_work_guard<asio::io_context::executor_type> work_ = asio::make_work_guard(context_);
+    asio::steady_timer timer_{context_};
+    std::unique_ptr<Services> services_;
     std::unique_ptr<Server> server_;
     std::thread thread_;
 };

@@ -1,0 +1,35 @@
+// Axis place: an axis of the site in force, with what it hangs on.
+// In: a Gateway, a name or an index. Out: names, id, catalogue. Keeps the site alive that it was found in. Never asks a drive.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gateway/services/gateway.hpp"
+
+namespace axisgate {
+
+struct AxisPlace {
+    std::shared_ptr<const SiteState> site;
+    std::size_t index = 0;
+    std::string line, family;
+    const Catalogue* catalogue = nullptr;
+    [[nodiscard]] const AxisSpec& spec() const { return site->site.axes[index]; }
+    [[nodiscard]] AxisId id() const { return index < site->axis_ids.size() ? site->axis_ids[index] : no_axis; }
+};
+[[nodiscard]] std::optional<AxisPlace> find_axis(const Gateway& gateway, std::string_view name);
+[[nodiscard]] AxisPlace axis_at(const Gateway& gateway, std::shared_ptr<const SiteState> site, std::size_t index);
+/// Index by name in one of the site's lists.
+template <class Spec>
+[[nodiscard]] std::optional<std::size_t> index_of_name(const std::vector<Spec>& list, std::string_view name) {
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        if (list[i].name == name) return i;
+    }
+    return std::nullopt;
+}
+
+}  // namespace axisgate

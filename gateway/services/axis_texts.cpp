@@ -1,0 +1,59 @@
+// Axis texts: a text is made anew when its picture has another revision, or when the machine's clock has been set since.
+// In: pictures. Out: text. Never reads the picture before its revision: a newer picture is then at worst rendered twice.
+#include "gateway/services/axis_texts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <iterator>
+
+#include "gateway/services/documents.hpp"
+#include "gateway/services/axis_place.hpp"
+#include "gateway/core/text.hpp"
+
+namespace axisgate {
+namespace {
+/// A text says when its picture was taken. If the machine's clock has been set by more than this since, the text is made anew.
+constexpr std::int64_t clock_step_ns = 1'000'000;
+}  // namespace
+
+void put_age(bool ever_seen, std::int64_t at_unix_ns, std::int64_t now_unix_ns, std::string& text) {
+    if (ever_seen) {
+        fmt::format_to(std::back_inserter(text), ",\"age_ms\":{}}}", std::max<std::int64_t>(0, (now_unix_ns - at_unix_ns) / 1'000'000));
+    } else {
+        text += ",\"age_ms\":null}";
+    }
+}
+
+std::string AxisTexts::text(const Gateway& gateway, const std::shared_ptr<const SiteState>& site, std::size_t index) {
+    if (site != site_) {
+        site_ = site;
+        kept_.assign(site->site.axes.size(), {});
+    }
+    Kept& k = kept_[index];
+    const AxisId id = index < site->axis_ids.size() ? site->axis_ids[index] : no_axis;
+    const bool current = !k.text.empty() && id != no_axis && gateway.picture_revision(id) == k.revision &&
+                         std::llabs(gateway.to_unix_ns(k.at) - k.at_unix_ns) < clock_step_ns;
+    if (!current) make(k, gateway, site, index, id);
+    std::string out;
+    out.reserve(k.text.size() + 32);
+    out = k.text;
+    put_age(k.ever_seen, k.at_unix_ns, gateway.now_unix_ns(), out);
+    return out;
+}
+
+void AxisTexts::make(Kept& k, const Gateway& gateway, const std::shared_ptr<const SiteState>& site, std::size_t index, AxisId id) {
+    // The revision first: a picture that comes in between is then taken for a new one next time, and not the other way round.
+    k.revision = id == no_axis ? 0 : gateway.picture_revision(id);
+    const AxisPicture picture = id == no_axis ? AxisPicture{} : gateway.picture(id);
+    k.at = picture.at;
+    k.ever_seen = picture.ever_seen;
+    k.at_unix_ns = gateway.to_unix_ns(picture.at);
+    const AxisPlace place = axis_at(gateway, site, index);
+    k.text = json_text(axis_document({place.spec(), place.line, place.family, place.catalogue, picture, k.at_unix_ns}));
+    k.text.pop_back();
+    ++made_;
+}
+
+}  // namespace axisgate

@@ -1,0 +1,28 @@
+// Command reader: the body of POST /axes/{name}/commands into a CommandBody: units into whole increments, every fault at once.
+// In: a JSON object and the axis' scale. Out: a command, or faults with pointers and remedies.
+// Never clips, never guesses: what is missing, unknown, not finite or too large is refused.
+#pragma once
+
+#include <boost/json/object.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gateway/core/command.hpp"
+#include "gateway/services/fault.hpp"
+
+namespace axisgate {
+
+struct ReadCommand {
+    std::optional<CommandBody> body;  ///< only if there are no faults
+    std::string name;                 ///< the command's word, as far as it was given
+    std::vector<Fault> faults;
+    bool range_only = false;  ///< every fault is a value outside its range
+};
+
+/// `increments_per_unit` > 0. Positions are in the axis' unit, velocities in unit/s, accelerations in unit/s^2; each becomes the nearest
+/// whole number of increments. Velocities and accelerations that would become 0 increments are refused.
+[[nodiscard]] ReadCommand read_command(const boost::json::object& body, double increments_per_unit, std::string_view unit);
+
+}  // namespace axisgate

@@ -1,0 +1,338 @@
+// Documents: schema/openapi.yaml names every member; a test compares both ways.
+// In: values of the core. Out: JSON. What was never told by a drive is null here, not 0. Never asks the gateway.
+#include "gateway/services/documents.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "gateway/core/axis_members.hpp"
+#include "gateway/axis/cia402.hpp"
+#include "gateway/core/parameter_form.hpp"
+#include "gateway/core/text.hpp"
+
+namespace axisgate {
+namespace json = boost::json;
+namespace {
+
+/// Beside those that tell the state in one value.
+constexpr std::array<std::string_view, 6> other_axis_live_members{"at", "authority_holder", "authority_until", "error", "family", "line"};
+constexpr std::array<std::string_view, 3> drive_live_members{"family", "axes", "status"};
+constexpr std::array<std::string_view, 2> line_live_members{"drives", "status"};
+
+json::object status_document(const LineStatus& s) {
+    return {{"state", name_of(s.state)}, {"text", s.text},           {"frames_in", s.frames_in}, {"frames_out", s.frames_out},
+            {"bytes_in", s.bytes_in},    {"bytes_out", s.bytes_out}, {"dropped", s.dropped},     {"errors", s.errors},
+            {"reopened", s.reopened},    {"queued", s.queued},       {"load", number(s.load)},   {"tx_errors", s.tx_errors},
+            {"rx_errors", s.rx_errors}};
+}
+
+json::value bound(const std::optional<double>& v) { return v ? number(*v) : json::value(nullptr); }
+}  // namespace
+
+std::string_view mode_name(std::int16_t mode) noexcept {
+    switch (mode) {
+        case cia402::mode_none:
+            return "none";
+        case cia402::mode_profile_position:
+            return "profile_position";
+        case cia402::mode_profile_velocity:
+            return "profile_velocity";
+        case cia402::mode_homing:
+            return "homing";
+        default:
+            return "other";
+    }
+}
+
+std::string_view name_of(Presence presence) noexcept {
+    switch (presence) {
+        case Presence::offline:
+            return "offline";
+        case Presence::device:
+            return "device";
+        case Presence::twin:
+            return "twin";
+    }
+    return "offline";
+}
+
+std::string_view name_of(Quality quality) noexcept {
+    switch (quality) {
+        case Quality::unknown:
+            return "unknown";
+        case Quality::good:
+            return "good";
+        case Quality::stale:
+            return "stale";
+    }
+    return "unknown";
+}
+
+std::string_view name_of(Access access) noexcept {
+    switch (access) {
+        case Access::read:
+            return "R";
+        case Access::write:
+            return "W";
+        case Access::read_write:
+            return "RW";
+    }
+    return "R";
+}
+
+json::value to_json(const Value& value) {
+    if (const auto* b = std::get_if<bool>(&value)) return *b;
+    if (const auto* i = std::get_if<std::int64_t>(&value)) return *i;
+    if (const auto* d = std::get_if<double>(&value)) return number(*d);
+    if (const auto* s = std::get_if<std::string>(&value)) return json::value(*s);
+    return nullptr;
+}
+
+json::object axis_document(const AxisView& v) {
+    const AxisPicture& p = v.picture;
+    const double scale = v.spec.increments_per_unit;
+    const auto flag = [&p](std::uint16_t bit) { return (p.flags & bit) != 0; };
+    const auto increments = [&p](std::int64_t n) { return p.ever_seen ? json::value(n) : json::value(nullptr); };
+    const auto in_unit = [&p, scale](std::int64_t n) {
+        return p.ever_seen ? number(static_cast<double>(n) / scale) : json::value(nullptr);
+    };
+
+    json::object o = to_json(v.spec);
+    o["line"] = v.line;
+    o["family"] = v.family;
+    o["online"] = flag(flag_online);
+    o["simulated"] = flag(flag_simulated);
+    o["stale"] = flag(flag_stale);
+    o["presence"] = name_of(p.presence);
+    o["state"] = name_of(power_state_of(p.statusword));
+    o["statusword"] = p.statusword;
+    o["controlword"] = p.controlword;
+    o["mode"] = mode_name(p.mode_display);
+    o["mode_number"] = p.mode_display;
+    o["moving"] = flag(flag_moving);
+    o["target_reached"] = flag(flag_target_reached);
+    o["referenced"] = flag(flag_referenced);
+    o["fault"] = flag(flag_fault);
+    o["warning"] = flag(flag_warning);
+    o["internal_limit"] = (p.statusword & cia402::sw_internal_limit) != 0;
+    o["fail_safe_cause"] = p.fail_safe_cause == 0 ? json::value(nullptr) : json::value(name_of(static_cast<LossCause>(p.fail_safe_cause)));
+    o["position"] = in_unit(p.position);
+    const bool demanded = p.demand_source != DemandSource::none;
+    o["demand_known"] = demanded;
+    o["demand_source"] = demanded ? json::value(name_of(p.demand_source)) : json::value(nullptr);
+    o["position_demand"] = demanded ? in_unit(p.position_demand) : json::value(nullptr);
+    o["following_error"] = p.following_error_known() ? in_unit(p.following_error()) : json::value(nullptr);
+    o["velocity"] = in_unit(p.velocity);
+    o["target_position"] = in_unit(p.target_position);
+    o["target_velocity"] = in_unit(p.target_velocity);
+    o["position_increments"] = increments(p.position);
+    o["position_demand_increments"] = demanded ? increments(p.position_demand) : json::value(nullptr);
+    o["following_error_increments"] = p.following_error_known() ? increments(p.following_error()) : json::value(nullptr);
+    o["velocity_increments"] = increments(p.velocity);
+    o["target_position_increments"] = increments(p.target_position);
+
+    std::string error_text;
+    if (p.error_code != 0) {
+        const ErrorCode* e = v.catalogue ? v.catalogue->error(p.error_code) : nullptr;
+        error_text = !e ? "not in the catalogue" : !e->text.empty() ? e->text : e->name;
+    }
+    o["error"] = json::object{{"code", p.error_code}, {"text", error_text}};
+    o["native"] = p.native_status;
+    o["authority"] = name_of(p.authority);
+    o["authority_holder"] = p.authority_holder.data();
+    o["authority_until"] = p.authority_holder[0] != 0 ? json::value(format_time(v.at_unix_ns + ns_of(p.authority_until) - ns_of(p.at))) : json::value(nullptr);
+    o["setpoints_accepted"] = p.setpoints_accepted;
+    o["at"] = p.ever_seen ? json::value(format_time(v.at_unix_ns)) : json::value(nullptr);
+    if (v.now_unix_ns) {
+        o["age_ms"] =
+            p.ever_seen ? json::value(std::max<std::int64_t>(0, (*v.now_unix_ns - v.at_unix_ns) / 1'000'000)) : json::value(nullptr);
+    }
+    return o;
+}
+
+json::object drive_document(const SiteState& site, std::size_t index, const DriveStatus& status) {
+    const DriveSpec& d = site.site.drives[index];
+    json::object o = to_json(d);
+    const LineSpec* line = site.site.line(d.line);
+    o["family"] = line ? line->family : std::string();
+    json::array axes;
+    for (const auto& a : site.site.axes) {
+        if (a.drive == d.name) axes.emplace_back(a.name);
+    }
+    o["axes"] = std::move(axes);
+    o["status"] = json::object{{"presence", name_of(status.presence)},
+                               {"online", status.presence != Presence::offline},
+                               {"simulated", status.simulated},
+                               {"device_online", status.device_online},
+                               {"text", status.text},
+                               {"silent_exchanges", status.silent_exchanges},
+                               {"retry_pause_ms", status.retry_pause_ms}};
+    return o;
+}
+
+json::object line_document(const SiteState& site, std::size_t index, const LineReport& report) {
+    const LineSpec& l = site.site.lines[index];
+    json::object o = to_json(l);
+    json::array drives;
+    for (const auto& d : site.site.drives) {
+        if (d.line == l.name) drives.emplace_back(d.name);
+    }
+    o["drives"] = std::move(drives);
+    json::object s = status_document(report.status);
+    const AdapterCounters& c = report.counters;
+    s["counters"] = json::object{{"exchanges", c.exchanges}, {"timeouts", c.timeouts}, {"retries", c.retries},
+                                 {"refused", c.refused},     {"garbled", c.garbled},   {"unexpected", c.unexpected}};
+    s["has_twin_bus"] = report.has_twin_bus;
+    s["twin"] = report.has_twin_bus ? json::value(status_document(report.twin_status)) : json::value(nullptr);
+    o["status"] = std::move(s);
+    return o;
+}
+
+json::object event_document(const Event& e) {
+    return {{"id", e.id},
+            {"at", format_time(e.at_unix_ns)},
+            {"severity", name_of(e.severity)},
+            {"kind", e.kind},
+            {"axis", text_or_null(e.axis)},
+            {"drive", text_or_null(e.drive)},
+            {"line", text_or_null(e.line)},
+            {"code", e.code == 0 ? json::value(nullptr) : json::value(e.code)},
+            {"text", e.text},
+            {"who", text_or_null(e.who)},
+            {"door", text_or_null(e.door)},
+            {"parameter", text_or_null(e.parameter)},
+            {"old", text_or_null(e.old_value)},
+            {"new", text_or_null(e.new_value)}};
+}
+
+json::object frame_document(const TraceEntry& e, const std::vector<std::string>& decoded) {
+    const Frame& f = e.frame;
+    const bool bytes = f.kind == Frame::Kind::bytes;
+    return {{"sequence", e.sequence},
+            {"at", format_time(e.at_unix_ns)},
+            {"to_drive", e.to_drive},
+            {"simulated", e.simulated},
+            {"kind", bytes                        ? "bytes"
+                     : f.kind == Frame::Kind::can ? "can"
+                                                  : "can_error"},
+            {"id", bytes ? json::value(nullptr) : json::value(f.id)},
+            {"extended", f.extended},
+            {"remote", f.remote},
+            {"data", to_hex(f.data())},
+            {"text", to_text(f)},
+            {"decoded", json::array(decoded.begin(), decoded.end())}};
+}
+
+namespace {
+json::value allowed_document(const std::vector<std::pair<std::int64_t, std::string>>& allowed) {
+    if (allowed.empty()) return nullptr;
+    json::array list;
+    for (const auto& [value, meaning] : allowed)
+        list.push_back(json::object{{"value", value}, {"meaning", meaning}});
+    return list;
+}
+
+/// What the number means: its bit fields, ranges of values, and the form that it has while another parameter has a certain value.
+void put_forms(json::object& o, const Catalogue& catalogue, Point point) {
+    json::array fields, meanings;
+    for (const auto& f : fields_of(catalogue, point))
+        fields.push_back(json::object{{"name", f.name}, {"low_bit", f.low_bit}, {"bits", f.bits}, {"allowed", allowed_document(f.allowed)}});
+    for (const auto& m : meanings_of(catalogue, point))
+        meanings.push_back(json::object{{"from", m.from}, {"through", m.through}, {"meaning", m.text}});
+    o["fields"] = fields.empty() ? json::value(nullptr) : json::value(std::move(fields));
+    o["meanings"] = meanings.empty() ? json::value(nullptr) : json::value(std::move(meanings));
+    o["alternate"] = nullptr;
+    if (const auto a = alternate_of(catalogue, point)) {
+        o["alternate"] = json::object{{"parameter", a->of ? json::value(catalogue.id_of(*a->of)) : json::value(nullptr)},
+                                      {"equals", a->of ? json::value(a->equals) : json::value(nullptr)},
+                                      {"unit", text_or_null(a->unit)},
+                                      {"min", bound(a->min)},
+                                      {"max", bound(a->max)}};
+    }
+}
+}  // namespace
+
+json::object parameter_document(const Catalogue& catalogue, Point point, std::string_view id) {
+    const Parameter& p = *catalogue.parameter(point);
+    const auto selector = catalogue.selector(point);
+    json::object o{{"id", id},
+                   {"name", p.name},
+                   {"group", p.group},
+                   {"type", name_of(p.type)},
+                   {"unit", text_or_null(p.unit)},
+                   {"min", bound(p.min)},
+                   {"max", bound(p.max)},
+                   {"default", to_json(p.factory_default)},
+                   {"access", name_of(p.access)},
+                   {"storage", text_or_null(p.storage)},
+                   {"addressing", p.addressing},
+                   {"live", p.live},
+                   {"description", p.description}};
+    o["allowed"] = allowed_document(p.allowed);
+    put_forms(o, catalogue, point);
+    const auto* choice = entry_of(catalogue, point)->if_contains("choice");
+    o["choice"] = choice && choice->is_array() ? *choice : json::value(json::array());
+    o["first"] = p.count == 0 ? json::value(nullptr) : json::value(p.first);
+    o["count"] = p.count == 0 ? json::value(nullptr) : json::value(p.count);
+    o["selector"] = selector ? json::value(*selector) : json::value(nullptr);
+    return o;
+}
+
+json::object command_document(const CatalogueCommand& c) {
+    return {{"id", c.id}, {"name", c.name}, {"description", text_or_null(c.description)}, {"completes", name_of(c.completes)}};
+}
+
+json::object error_document(const ErrorCode& e) {
+    return {{"code", e.code},
+            {"through", e.through == 0 ? json::value(nullptr) : json::value(e.through)},
+            {"kind", text_or_null(e.kind)},
+            {"name", text_or_null(e.name)},
+            {"text", text_or_null(e.text)},
+            {"cause", text_or_null(e.cause)},
+            {"remedy", text_or_null(e.remedy)}};
+}
+
+json::object family_document(const FamilyEntry& entry) {
+    const Family& f = *entry.family;
+    json::object o{{"name", f.name}, {"number", entry.catalogue->number()}};
+    for (const auto& [k, v] : entry.catalogue->document()) {
+        if (k != "family" && k != "parameters" && k != "commands" && k != "errors" && !o.contains(k)) o[k] = v;
+    }
+    o["uses_can"] = f.uses_can;
+    o["uses_bytes"] = f.uses_bytes;
+    o["factory_address"] = f.factory_address;
+    o["default_bit_rate"] = f.default_bit_rate == 0 ? json::value(nullptr) : json::value(f.default_bit_rate);
+    o["default_format"] = text_or_null(f.default_format);
+    o["parameters"] = entry.catalogue->parameters().size();
+    o["commands"] = entry.catalogue->commands().size();
+    o["errors"] = entry.catalogue->errors().size();
+    return o;
+}
+
+bool is_read_only_axis_member(std::string_view name) noexcept {
+    return is_axis_state_member(name) || std::ranges::find(other_axis_live_members, name) != other_axis_live_members.end();
+}
+bool is_read_only_drive_member(std::string_view name) noexcept {
+    return std::ranges::find(drive_live_members, name) != drive_live_members.end();
+}
+bool is_read_only_line_member(std::string_view name) noexcept {
+    return std::ranges::find(line_live_members, name) != line_live_members.end();
+}
+
+json::object axis_parameter_document(const Catalogue& catalogue, Point point, std::string_view id, const LiveParameter& live,
+                                     const StoredParameter* stored, std::string_view text) {
+    json::object o = parameter_document(catalogue, point, id);
+    o["value"] = to_json(live.value);
+    o["quality"] = name_of(known(live.value) ? live.quality : Quality::unknown);
+    o["at"] = known(live.value) ? json::value(format_time(live.at_unix_ns)) : json::value(nullptr);
+    o["stored"] = stored ? to_json(stored->value) : json::value(nullptr);
+    o["previous"] = stored ? to_json(stored->previous) : json::value(nullptr);
+    o["written_at"] = stored ? json::value(format_time(stored->at_unix_ns)) : json::value(nullptr);
+    o["written_by"] = stored ? text_or_null(stored->who) : json::value(nullptr);
+    o["written_through"] = stored ? text_or_null(stored->door) : json::value(nullptr);
+    o["text"] = text;
+    o["meaning"] = text_or_null(value_in_words(catalogue, point, live.value));
+    return o;
+}
+
+}  // namespace axisgate

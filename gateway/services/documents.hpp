@@ -1,0 +1,60 @@
+// Documents: the JSON that this door shows of axes, drives, lines, frames, events and catalogues.
+// In: values of the core. Out: JSON objects with exactly the members that schema/openapi.yaml describes.
+// Never asks the gateway: what is to be shown is handed in.
+#pragma once
+
+#include <boost/json/object.hpp>
+#include <boost/json/value.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "gateway/core/catalogue.hpp"
+#include "gateway/services/gateway.hpp"
+#include "gateway/axis/image.hpp"
+#include "gateway/site/site.hpp"
+
+namespace axisgate {
+
+/// "none", "profile_position", "profile_velocity", "homing", "other".
+[[nodiscard]] std::string_view mode_name(std::int16_t mode) noexcept;
+[[nodiscard]] std::string_view name_of(Presence presence) noexcept;
+[[nodiscard]] std::string_view name_of(Quality quality) noexcept;
+[[nodiscard]] std::string_view name_of(Access access) noexcept;  ///< "R", "W", "RW"
+
+/// A value as JSON; null if it is not known.
+[[nodiscard]] boost::json::value to_json(const Value& value);
+
+struct AxisView {
+    const AxisSpec& spec;
+    std::string_view line, family;
+    const Catalogue* catalogue = nullptr;  ///< for the text of an error; may be missing
+    const AxisPicture& picture;
+    std::int64_t at_unix_ns = 0;                ///< of picture.at
+    std::optional<std::int64_t> now_unix_ns{};  ///< for age_ms; without it that member is left out (the live feed)
+};
+[[nodiscard]] boost::json::object axis_document(const AxisView& view);
+
+[[nodiscard]] boost::json::object drive_document(const SiteState& site, std::size_t index, const DriveStatus& status);
+[[nodiscard]] boost::json::object line_document(const SiteState& site, std::size_t index, const LineReport& report);
+[[nodiscard]] boost::json::object event_document(const Event& event);
+[[nodiscard]] boost::json::object frame_document(const TraceEntry& entry, const std::vector<std::string>& decoded = {});
+
+/// A parameter of the catalogue; of an array `point` is the element that is meant, or the first, and `id` says which: `N[17]`, or `N`.
+[[nodiscard]] boost::json::object parameter_document(const Catalogue& catalogue, Point point, std::string_view id);
+[[nodiscard]] boost::json::object command_document(const CatalogueCommand& command);
+[[nodiscard]] boost::json::object error_document(const ErrorCode& error);
+/// A family, with whatever its catalogue says beside the three lists.
+[[nodiscard]] boost::json::object family_document(const FamilyEntry& entry);
+
+/// Members of the documents above that only tell the state: requests may carry them, and they are ignored there.
+[[nodiscard]] bool is_read_only_axis_member(std::string_view name) noexcept;
+[[nodiscard]] bool is_read_only_drive_member(std::string_view name) noexcept;
+[[nodiscard]] bool is_read_only_line_member(std::string_view name) noexcept;
+
+/// Parameter of an axis: the catalogue's, the live value, and the last write through the gateway.
+[[nodiscard]] boost::json::object axis_parameter_document(const Catalogue& catalogue, Point point, std::string_view id,
+                                                          const LiveParameter& live, const StoredParameter* stored, std::string_view text);
+
+}  // namespace axisgate

@@ -1,0 +1,52 @@
+// Recipe reports: what is kept of the runs of recipes: numbers that count up, the reports of the last 20 runs, and those that a restart ended.
+// In: reports of runs that begin, go on and end. Out: documents of the gateway; reports as they were kept.
+// Bounds: 20 reports of each recipe; 64 ended ones on their way to the disk; one document of less than 1 MiB each.
+// Never waits for the disk: what is not there yet is answered from memory.
+#pragma once
+
+#include <boost/json/object.hpp>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gateway/services/gateway.hpp"
+
+namespace axisgate {
+
+class RecipeReports : public std::enable_shared_from_this<RecipeReports> {
+public:
+    static constexpr std::size_t kept = 20;  ///< of each recipe, with the run in progress
+    static constexpr std::size_t most_unsaved = 64;
+
+    explicit RecipeReports(Gateway& gateway) : gateway_(gateway) {}
+
+    /// Once, at the start: runs that were under way when the gateway ended are reported as interrupted.
+    void begin();
+    /// The number of the next run; the oldest reports make room for it.
+    [[nodiscard]] std::uint64_t next(const std::string& name);
+    /// A run goes on: what is known of it by now outlives the program.
+    void keep(const std::string& name, const std::string& who, const boost::json::object& report);
+    /// A run has ended.
+    void end(const std::string& name, std::uint64_t n, const std::string& who, boost::json::object report);
+    /// Of ended runs, by number.
+    [[nodiscard]] std::optional<boost::json::object> find(const std::string& name, std::uint64_t n) const;
+    [[nodiscard]] std::map<std::uint64_t, boost::json::object> all(const std::string& name) const;
+    /// The recipe is gone: so are its reports.
+    void forget(const std::string& name);
+    /// No: too many wait for the disk.
+    [[nodiscard]] bool room() const noexcept { return unsaved_.size() < most_unsaved; }
+
+private:
+    [[nodiscard]] bool too_old(const std::string& name, std::uint64_t n) const;
+    void remove(const std::string& name, std::uint64_t n);
+    void told(const std::string& name, std::uint64_t n, const std::string& fault);
+
+    Gateway& gateway_;
+    std::map<std::string, std::uint64_t> last_;                                     ///< numbers given in this process
+    std::map<std::pair<std::string, std::uint64_t>, boost::json::object> unsaved_;  ///< ended, not on disk yet
+};
+
+}  // namespace axisgate

@@ -1,0 +1,284 @@
+// Recipe service: turns a run when its deadline has come or an answer is there, and hands each request on as a command.
+// In: runs, answers, time. Out: commands, reports, events. Never keeps a pointer into the site: it may change during a run.
+#include "gateway/services/recipes/recipe_service.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/json/serialize.hpp>
+
+#include "gateway/services/documents.hpp"
+#include "gateway/core/text.hpp"
+#include "gateway/services/axis_place.hpp"
+#include "gateway/services/recipes/recipe_steps.hpp"
+
+namespace axisgate {
+namespace json = boost::json;
+namespace {
+json::object without_steps(json::object report) {
+    report.erase("steps");
+    return report;
+}
+}  // namespace
+
+struct RecipeService::World final : RecipeWorld {
+    World(const Gateway& g, const Active& a) : gateway(g), active(a) {}
+    const Gateway& gateway;
+    const Active& active;
+    [[nodiscard]] Claim claim(std::string_view axis) const override {
+        const auto place = find_axis(gateway, axis);
+        if (!place) return {};
+        return active.claims.claim(std::string(axis), gateway.picture(place->id()), active.origin, gateway);
+    }
+    [[nodiscard]] json::value point(std::string_view axis, std::string_view point) const override {
+        const auto place = find_axis(gateway, axis);
+        if (!place) return nullptr;
+        const AxisPicture picture = gateway.picture(place->id());
+        const auto document = axis_document(
+            {place->spec(), place->line, place->family, place->catalogue, picture, gateway.to_unix_ns(picture.at), gateway.now_unix_ns()});
+        const bool about_itself = point == "online" || point == "stale" || point == "presence" || point == "simulated" || point == "number";
+        if (!about_itself && (!picture.ever_seen || (picture.flags & flag_stale) != 0 || (picture.flags & flag_online) == 0))
+            return nullptr;
+        if (point == "error_code") return document.at("error").get_object().at("code");
+        const auto* v = document.if_contains(point);
+        return v ? *v : json::value(nullptr);
+    }
+};
+
+std::variant<json::object, RunRefusal> RecipeService::start(const std::string& name, Recipe recipe, json::object arguments, const Origin& origin) {
+    using Why = RunRefusal::Why;
+    if (const auto n = running(name); n != 0)
+        return RunRefusal{Why::running, fmt::format("recipe {} is running already (run {}): wait for its end, or cancel it", name, n)};
+    if (active_.size() >= most_runs || !reports_->room())
+        return RunRefusal{Why::busy, fmt::format("{} recipes are running already: wait for one to end", active_.size())};
+    auto axes = commanded_axes(recipe);
+    for (const auto& other : active_) {
+        for (const auto& axis : axes) {
+            if (std::ranges::find(other->axes, axis) != other->axes.end())
+                return RunRefusal{Why::running, fmt::format("axis {} is in use by recipe {} (run {})", axis, other->name, other->n), axis};
+        }
+    }
+    auto a = std::make_shared<Active>();
+    a->name = name;
+    a->n = reports_->next(name);
+    a->axes = std::move(axes);
+    a->arguments = std::move(arguments);
+    a->who = origin.who ? *origin.who : "";
+    a->origin = {origin.door, std::make_shared<const std::string>(fmt::format("recipe {} by {}", name, a->who)), origin.client};
+    a->run = std::make_unique<RecipeRun>(std::move(recipe), clock_());
+    active_.push_back(a);
+    std::string with;
+    for (const auto& [k, v] : a->arguments)
+        with += fmt::format("{} {} = {}", with.empty() ? " with" : ",", std::string_view(k), json_text(v));
+    note(*a, Severity::info, fmt::format("recipe {} run {} started{}", name, a->n, with));
+    keep(*a, clock_());
+    due_now_ = true;
+    if (rearm) rearm();
+    return document(*a);
+}
+
+std::variant<json::object, RunRefusal> RecipeService::cancel(const std::string& name, std::uint64_t n, const Origin& origin) {
+    for (const auto& a : active_) {
+        if (a->name != name || a->n != n) continue;
+        (void)a->run->cancel(fmt::format("cancelled by {}", origin.who ? *origin.who : "nobody known"));
+        due_now_ = true;
+        if (rearm) rearm();
+        return document(*a);
+    }
+    if (!report(name, n)) return RunRefusal{RunRefusal::Why::no_such_run, fmt::format("recipe {} has no run {}", name, n)};
+    return RunRefusal{RunRefusal::Why::ended, fmt::format("run {} of recipe {} has ended already", n, name)};
+}
+
+std::uint64_t RecipeService::running(const std::string& name) const {
+    const auto it = std::ranges::find_if(active_, [&](const auto& a) { return a->name == name; });
+    return it == active_.end() ? 0 : (*it)->n;
+}
+
+std::vector<json::object> RecipeService::in_progress() const {
+    std::vector<json::object> out;
+    for (const auto& a : active_)
+        out.push_back(document(*a));
+    return out;
+}
+
+std::optional<json::object> RecipeService::report(const std::string& name, std::uint64_t n) const {
+    for (const auto& a : active_) {
+        if (a->name == name && a->n == n) return document(*a);
+    }
+    return reports_->find(name, n);
+}
+
+std::vector<json::object> RecipeService::reports(const std::string& name) const {
+    auto sorted = reports_->all(name);
+    for (const auto& a : active_) {
+        if (a->name == name) sorted[a->n] = document(*a);
+    }
+    std::vector<json::object> out;
+    for (auto it = sorted.rbegin(); it != sorted.rend() && out.size() < kept_reports; ++it)
+        out.push_back(without_steps(std::move(it->second)));
+    return out;
+}
+
+void RecipeService::forget(const std::string& name) { reports_->forget(name); }
+
+Instant RecipeService::deadline() const {
+    if (due_now_) return time_zero;
+    Instant next = never;
+    for (const auto& a : active_) {
+        next = std::min(next, a->run->deadline());
+        if (a->run->revision() != a->told_revision) next = std::min(next, a->told + tell_period);
+        if (a->run->revision() != a->kept_revision) next = std::min(next, a->kept + keep_period);
+    }
+    return next;
+}
+
+void RecipeService::on_deadline(Instant now) {
+    due_now_ = false;
+    const auto list = active_;
+    for (const auto& a : list) {
+        if (a->run->deadline() <= now) pump(a, now);
+        const bool over = a->run->ended();
+        if (a->run->revision() != a->told_revision && (over || a->told_revision == 0 || now - a->told >= tell_period)) {
+            a->told = now;
+            a->told_revision = a->run->revision();
+            if (tell) tell(a->name, document(*a));
+        }
+        if (over) {
+            ended(a);
+        } else if (a->run->revision() != a->kept_revision && now - a->kept >= keep_period) {
+            keep(*a, now);
+        }
+    }
+}
+
+void RecipeService::keep(Active& a, Instant now) {
+    a.kept = now;
+    a.kept_revision = a.run->revision();
+    reports_->keep(a.name, a.who, document(a));
+}
+
+void RecipeService::pump(const std::shared_ptr<Active>& a, Instant now) {
+    std::vector<RecipeRequest> requests;
+    a->run->turn(now, World(gateway_, *a), requests);
+    for (const auto& r : requests)
+        carry_out(a, r);
+}
+
+void RecipeService::carry_out(const std::shared_ptr<Active>& a, const RecipeRequest& r) {
+    Command command;
+    if (r.what == RecipeRequest::What::stop) {
+        const auto place = find_axis(gateway_, r.axis);
+        if (!place) return answer(a, r.number, {false, fmt::format("there is no axis {} any more", r.axis), nullptr});
+        command.axis = place->id();
+        if (a->run->recipe().quick_stop) {
+            command.body = QuickStop{};
+        } else {
+            command.body = Halt{};
+        }
+        return submit(a, r.number, nullptr, std::move(command));
+    }
+    if (r.step->kind == RecipeStep::Kind::message) {
+        note(*a, Severity::info, r.step->text);
+        return answer(a, r.number, {true, {}, nullptr});
+    }
+    std::vector<SiteFault> faults;
+    RecipeStep copy = *r.step;
+    auto made = r.what == RecipeRequest::What::read_parameter ? read_of(copy, gateway_, faults) : command_of(copy, gateway_, faults);
+    if (!made)  // the site has changed since the run began
+        return answer(a, r.number, {false, faults.empty() ? std::string("the step cannot be carried out") : faults.front().text, nullptr});
+    const bool mover = r.what == RecipeRequest::What::step && is_motion(*r.step) && !r.step->axis.empty();
+    submit(a, r.number, mover ? r.step : nullptr, std::move(*made));
+}
+
+/// `mover`: the step whose command may set its axis in motion; it lives as long as the run.
+void RecipeService::submit(const std::shared_ptr<Active>& a, std::uint32_t number, const RecipeStep* mover, Command command) {
+    command.origin = a->origin;
+    const AxisId id = command.axis;
+    const CommandBody body = command.body;
+    if (mover) a->claims.ask(mover->axis, gateway_.picture(id));
+    const Ticket ticket = gateway_.submit(std::move(command), [self = weak_from_this(), active = std::weak_ptr(a), number, mover, id, body](const Result& r) {
+        const auto me = self.lock();
+        const auto run = active.lock();
+        if (!me || !run) return;
+        RecipeAnswer answer{good(r), r.text, to_json(r.value)};
+        if (mover) answer.motion = run->claims.answered(*mover, body, r, me->gateway_.picture(id));
+        if (!answer.good)
+            answer.text = fmt::format("{} ({}{})", r.text.empty() ? std::string("it was refused") : r.text, name_of(r.reason),
+                                      r.code == 0 ? std::string() : fmt::format(", the drive's code {}", r.code));
+        me->answer(active, number, std::move(answer));
+    });
+    if (mover) a->claims.sent(mover->axis, ticket);
+}
+
+void RecipeService::answer(const std::weak_ptr<Active>& active, std::uint32_t number, RecipeAnswer answer) {
+    const auto a = active.lock();
+    if (!a) return;
+    a->run->answer(number, std::move(answer));
+    due_now_ = true;
+    if (rearm) rearm();
+}
+
+void RecipeService::ended(const std::shared_ptr<Active>& a) {
+    std::erase(active_, a);
+    const bool failed = a->run->state() == RecipeRun::State::failed;
+    std::string text = fmt::format("recipe {} run {} {}", a->name, a->n, name_of(a->run->state()));
+    if (!a->run->text().empty()) text += fmt::format(" at {}: {}", a->run->where() ? a->run->where()->pointer : "", a->run->text());
+    note(*a, failed ? Severity::warning : Severity::info, text);
+    reports_->end(a->name, a->n, a->who, document(*a));
+}
+
+void RecipeService::note(const Active& a, Severity severity, std::string text, std::string axis) {
+    Event e;
+    e.severity = severity;
+    e.kind = "recipe";
+    e.axis = std::move(axis);
+    e.text = std::move(text);
+    e.who = a.who;
+    e.door = std::string(name_of(a.origin.door));
+    gateway_.note(std::move(e));
+}
+
+json::object RecipeService::document(const Active& a) const {
+    const RecipeRun& run = *a.run;
+    const auto time = [&](Instant i) { return i == Instant{} ? json::value(nullptr) : json::value(format_time(gateway_.to_unix_ns(i))); };
+    json::array steps, stops;
+    std::size_t done = 0;
+    for (const auto& row : run.rows()) {
+        if (row.state != RecipeRow::State::not_run) ++done;
+        json::object o{{"pointer", row.step->pointer},
+                       {"label", label_of(*row.step, row.pass)},
+                       {"step", name_of(row.step->kind)},
+                       {"axis", text_or_null(row.step->axis)},
+                       {"state", name_of(row.state)},
+                       {"times", row.times},
+                       {"started_at", time(row.started)},
+                       {"ended_at", time(row.ended)},
+                       {"text", row.text},
+                       {"value", row.value}};
+        if (!row.step->comment.empty()) o["comment"] = row.step->comment;
+        steps.push_back(std::move(o));
+    }
+    for (const auto& s : run.stops())
+        stops.push_back({{"axis", s.axis}, {"stopped", s.good}, {"left_alone", s.left_alone}, {"text", s.text}});
+    const RecipeStep* at = run.ended() ? run.where() : run.current();
+    json::array axes;
+    for (const auto& x : a.axes)
+        axes.emplace_back(x);
+    return {{"recipe", a.name},
+            {"n", a.n},
+            {"state", name_of(run.state())},
+            {"started_at", time(run.started())},
+            {"ended_at", time(run.ended_at())},
+            {"started_by", a.who},
+            {"arguments", a.arguments},
+            {"axes", std::move(axes)},
+            {"at_step", text_or_null(at ? at->pointer : "")},
+            {"at_label", text_or_null(at ? label_of(*at, run.rows()[at->row].pass) : "")},
+            {"begun", done},
+            {"of", run.rows().size()},
+            {"text", run.text()},
+            {"stops", std::move(stops)},
+            {"steps", std::move(steps)}};
+}
+
+}  // namespace axisgate

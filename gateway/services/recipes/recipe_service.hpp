@@ -1,0 +1,100 @@
+// Recipe service: runs recipes: hands their requests to the Gateway, gives them time and answers, keeps their reports.
+// In: recipes to start and to cancel, results, the clock it is given. Out: reports, events, progress for the live feed.
+// Bounds: 4 runs at once, one per recipe, no axis in two; a run is written down at its start, its end, and once a second in between.
+// Never used off the warm thread; never sends and never sleeps: whoever owns it calls on_deadline.
+#pragma once
+
+#include <boost/json/object.hpp>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "gateway/services/gateway.hpp"
+#include "gateway/services/recipes/recipe_run.hpp"
+#include "gateway/services/change_queue.hpp"
+#include "gateway/services/recipes/recipe_claims.hpp"
+#include "gateway/services/recipes/recipe_reports.hpp"
+
+namespace axisgate {
+
+/// Why a run does not begin, or is not cancelled.
+struct RunRefusal {
+    enum class Why : std::uint8_t { running, busy, no_such_run, ended } why = Why::busy;
+    std::string text;
+    std::string axis{};
+};
+
+class RecipeService : public std::enable_shared_from_this<RecipeService> {
+public:
+    static constexpr std::size_t most_runs = 4;
+    static constexpr std::size_t kept_reports = RecipeReports::kept;
+    static constexpr std::size_t most_recipes = 200;
+    static constexpr Duration tell_period = std::chrono::milliseconds(100);  ///< of the progress of one run
+
+    static constexpr Duration keep_period = std::chrono::seconds(1);         ///< between two writes of a run that goes on
+
+    RecipeService(Gateway& gateway, std::function<Instant()> clock)
+        : gateway_(gateway), clock_(std::move(clock)), reports_(std::make_shared<RecipeReports>(gateway)) {}
+
+    /// Once, at the start: tells of runs that the end of the gateway has ended.
+    void begin() { reports_->begin(); }
+
+    /// Changes of the documents, one after the other: what If-Match asked for still holds when it is written.
+    const std::shared_ptr<ChangeQueue> changes = std::make_shared<ChangeQueue>();
+
+    /// Called when deadline() may have changed by another cause than on_deadline.
+    std::function<void()> rearm;
+    /// The report of a run whenever it has changed, at most every tell_period, and at its end.
+    std::function<void(const std::string& recipe, const boost::json::object& report)> tell;
+
+    /// A checked recipe begins; its report as it is then, or why it cannot begin.
+    [[nodiscard]] std::variant<boost::json::object, RunRefusal> start(const std::string& name, Recipe recipe, boost::json::object arguments,
+                                                                   const Origin& origin);
+    [[nodiscard]] std::variant<boost::json::object, RunRefusal> cancel(const std::string& name, std::uint64_t n, const Origin& origin);
+    [[nodiscard]] std::optional<boost::json::object> report(const std::string& name, std::uint64_t n) const;
+    /// Newest first, without their steps.
+    [[nodiscard]] std::vector<boost::json::object> reports(const std::string& name) const;
+    /// Number of the run in progress; 0: none.
+    [[nodiscard]] std::uint64_t running(const std::string& name) const;
+    /// Whole reports of the runs in progress.
+    [[nodiscard]] std::vector<boost::json::object> in_progress() const;
+    /// The recipe is gone: so are its reports.
+    void forget(const std::string& name);
+
+    [[nodiscard]] Instant deadline() const;
+    void on_deadline(Instant now);
+
+private:
+    struct Active {
+        std::string name;
+        std::uint64_t n = 0;
+        std::unique_ptr<RecipeRun> run;
+        std::vector<std::string> axes;
+        boost::json::object arguments;
+        Origin origin;    ///< of its commands
+        std::string who;  ///< who has started it
+        Instant told{}, kept{};
+        std::uint64_t told_revision = 0, kept_revision = 0;
+        RecipeClaims claims;
+    };
+    struct World;
+    void pump(const std::shared_ptr<Active>& active, Instant now);
+    void carry_out(const std::shared_ptr<Active>& active, const RecipeRequest& request);
+    void answer(const std::weak_ptr<Active>& active, std::uint32_t number, RecipeAnswer answer);
+    void submit(const std::shared_ptr<Active>& active, std::uint32_t number, const RecipeStep* mover, Command command);
+    void keep(Active& active, Instant now);
+    void ended(const std::shared_ptr<Active>& active);
+    void note(const Active& active, Severity severity, std::string text, std::string axis = {});
+    [[nodiscard]] boost::json::object document(const Active& active) const;
+
+    Gateway& gateway_;
+    std::function<Instant()> clock_;
+    std::vector<std::shared_ptr<Active>> active_;
+    std::shared_ptr<RecipeReports> reports_;
+    bool due_now_ = false;
+};
+
+}  // namespace axisgate

@@ -1,0 +1,40 @@
+// Services: put together, and given one deadline.
+// In: time. Out: each service's own turn. Never tells anybody after it has begun to end.
+#include "gateway/services/services.hpp"
+
+#include <algorithm>
+
+namespace axisgate {
+
+Services::Services(Gateway& gateway, std::function<Instant()> clock, std::shared_ptr<AccessPort> access_port)
+    : access(std::move(access_port)), recipes(std::make_shared<RecipeService>(gateway, clock)), alarms(std::make_shared<AlarmService>(gateway, clock)) {
+    recipes->rearm = [this] {
+        if (rearm) rearm();
+    };
+    recipes->tell = [this](const std::string& recipe, const boost::json::object& report) {
+        const auto listeners = listeners_;
+        for (auto* l : listeners) l->on_recipe(recipe, report);
+    };
+    alarms->rearm = recipes->rearm;
+    alarms->tell = [this](const boost::json::object& list) {
+        const auto listeners = listeners_;
+        for (auto* l : listeners) l->on_alarms(list);
+    };
+    alarms->begin();
+    recipes->begin();
+}
+
+Services::~Services() {
+    recipes->rearm = nullptr;
+    recipes->tell = nullptr;
+    alarms->detach();
+}
+
+Instant Services::deadline() const { return std::min(recipes->deadline(), alarms->deadline()); }
+
+void Services::on_deadline(Instant now) {
+    if (recipes->deadline() <= now) recipes->on_deadline(now);
+    if (alarms->deadline() <= now) alarms->on_deadline(now);
+}
+
+}  // namespace axisgate

@@ -1,0 +1,63 @@
+// Services: what outlives a request and belongs to no door: alarms, recipes, jobs on parameters, whose the staged site is, who may come in.
+// In: a Gateway, the clock it is given, time. Out: the services, and what they tell to whoever listens.
+// Never used off the service thread, and never sleeps: whoever owns it calls on_deadline. They are there with any doors, or with none.
+#pragma once
+
+#include <boost/json/object.hpp>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gateway/services/access/access_port.hpp"
+#include "gateway/services/alarms/alarm_service.hpp"
+#include "gateway/services/change_queue.hpp"
+#include "gateway/services/parameters/axis_jobs.hpp"
+#include "gateway/services/recipes/recipe_service.hpp"
+#include "gateway/services/site/stage_owner.hpp"
+
+namespace axisgate {
+
+/// What the services tell, on the service thread.
+struct ServiceListener {
+    /// The list of alarms has changed.
+    virtual void on_alarms(const boost::json::object& /*list*/) {}
+    /// A run of a recipe has changed, or has ended.
+    virtual void on_recipe(const std::string& /*recipe*/, const boost::json::object& /*report*/) {}
+    virtual ~ServiceListener() = default;
+};
+
+/// Parameters that are being written, (axis, parameter): how often.
+using WritesUnderWay = std::map<std::pair<std::string, std::string>, int>;
+
+class Services {
+public:
+    /// `access`: users; without it only local access is known.
+    Services(Gateway& gateway, std::function<Instant()> clock, std::shared_ptr<AccessPort> access = nullptr);
+    ~Services();
+    Services(const Services&) = delete;
+    Services& operator=(const Services&) = delete;
+
+    const std::shared_ptr<AccessPort> access;
+    const std::shared_ptr<RecipeService> recipes;
+    const std::shared_ptr<AlarmService> alarms;
+    const std::shared_ptr<AxisJobs> jobs = std::make_shared<AxisJobs>();               ///< many parameters of one axis, one after the other
+    const std::shared_ptr<ChangeQueue> site_changes = std::make_shared<ChangeQueue>();
+    const std::shared_ptr<StageOwner> stages = std::make_shared<StageOwner>();         ///< whose the staged site is
+    const std::shared_ptr<WritesUnderWay> writes = std::make_shared<WritesUnderWay>(); ///< of parameters, each until the drive has answered
+
+    void listen(ServiceListener& listener) { listeners_.push_back(&listener); }
+    void unlisten(ServiceListener& listener) { std::erase(listeners_, &listener); }
+
+    [[nodiscard]] Instant deadline() const;
+    void on_deadline(Instant now);
+    /// Called when deadline() may have changed by another cause than on_deadline.
+    std::function<void()> rearm;
+
+private:
+    std::vector<ServiceListener*> listeners_;
+};
+
+}  // namespace axisgate

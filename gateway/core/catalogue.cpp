@@ -107,8 +107,7 @@ std::optional<Catalogue> Catalogue::parse(std::string_view text, std::vector<std
     }
     Catalogue c;
     c.document_ = parsed.get_object();
-    Reader read{faults};
-    c.family_ = read.text(c.document_, "family", "catalogue");
+    c.family_ = Reader{faults}.text(c.document_, "family", "catalogue");
     if (const auto* n = c.document_.if_contains("number"); n && n->is_int64()) c.number_ = static_cast<std::uint16_t>(n->get_int64());
     if (c.number_ == 0) faults.push_back("catalogue.number: a family number from 1 on is missing");
 
@@ -121,21 +120,8 @@ std::optional<Catalogue> Catalogue::parse(std::string_view text, std::vector<std
         return &v->get_array();
     };
     if (const auto* list = array("parameters")) {
-        for (std::size_t i = 0; i < list->size(); ++i) {
-            const std::string where = fmt::format("parameters[{}]", i);
-            if (!(*list)[i].is_object()) {
-                faults.push_back(where + ": not an object");
-                continue;
-            }
-            Parameter p = read.parameter((*list)[i].get_object(), where);
-            const auto index = static_cast<std::uint16_t>(c.parameters_.size());
-            for (const std::string& key : {p.id, p.name}) {
-                if (const auto [it, fresh] = c.by_id_.emplace(key, index); !fresh && it->second != index) {
-                    faults.push_back(fmt::format("{}: {} is there twice", where, key));
-                }
-            }
-            c.parameters_.push_back(std::move(p));
-        }
+        for (const auto& entry : *list)
+            c.add_parameter(entry, faults);
     }
     if (const auto* list = array("commands")) {
         for (const auto& v : *list) {
@@ -172,6 +158,33 @@ std::optional<Catalogue> Catalogue::parse(std::string_view text, std::vector<std
         }
     }
     check_forms(c, faults);
+    if (faults.size() != before) return std::nullopt;
+    return c;
+}
+
+void Catalogue::add_parameter(const json::value& entry, std::vector<std::string>& faults) {
+    const std::string where = fmt::format("parameters[{}]", parameters_.size());
+    if (!entry.is_object()) return faults.push_back(where + ": not an object");
+    if (parameters_.size() >= std::size_t{65535}) return faults.push_back(where + ": a catalogue has at most 65535 parameters");
+    Parameter p = Reader{faults}.parameter(entry.get_object(), where);
+    const auto index = static_cast<std::uint16_t>(parameters_.size());
+    for (const std::string& key : {p.id, p.name}) {
+        if (const auto [it, fresh] = by_id_.emplace(key, index); !fresh && it->second != index) {
+            faults.push_back(fmt::format("{}: {} is there twice", where, key));
+        }
+    }
+    parameters_.push_back(std::move(p));
+}
+
+std::optional<Catalogue> Catalogue::with(const json::array& parameters, std::vector<std::string>& faults) const {
+    const std::size_t before = faults.size();
+    Catalogue c = *this;
+    auto& list = c.document_.at("parameters").as_array();
+    for (const auto& entry : parameters) {
+        c.add_parameter(entry, faults);
+        list.push_back(entry);
+    }
+    if (faults.size() == before) check_forms(c, faults);
     if (faults.size() != before) return std::nullopt;
     return c;
 }

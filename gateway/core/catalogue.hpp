@@ -3,6 +3,7 @@
 // Never knows a value: that is the image's and the store's.
 #pragma once
 
+#include <boost/json/array.hpp>
 #include <boost/json/value.hpp>
 #include <cstdint>
 #include <optional>
@@ -81,6 +82,9 @@ public:
     /// Reads the JSON text. On failure: every fault found, each with its place ("parameters[3].type: ...").
     [[nodiscard]] static std::optional<Catalogue> parse(std::string_view json, std::vector<std::string>& faults);
 
+    /// This one with further parameters behind its own, so that the points of its own stay what they are. On failure as parse().
+    [[nodiscard]] std::optional<Catalogue> with(const boost::json::array& parameters, std::vector<std::string>& faults) const;
+
     [[nodiscard]] const std::string& family() const noexcept { return family_; }
     [[nodiscard]] std::uint16_t number() const noexcept { return number_; }
     [[nodiscard]] std::span<const Parameter> parameters() const noexcept { return parameters_; }
@@ -114,6 +118,8 @@ public:
     [[nodiscard]] Checked check_write(Point point, const Value& value) const;
 
 private:
+    void add_parameter(const boost::json::value& entry, std::vector<std::string>& faults);
+
     std::string family_;
     std::uint16_t number_ = 0;
     std::vector<Parameter> parameters_;

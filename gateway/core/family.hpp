@@ -3,6 +3,7 @@
 // Never holds data about parameters: that is the catalogue's (schema/families/<name>.json).
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -16,6 +17,16 @@
 namespace axisgate {
 
 class Catalogue;
+
+/// What a drive's own catalogue is made from: its family's page and what the site says of it.
+struct CatalogueWish {
+    const Catalogue& page;
+    const std::map<std::string, std::string>& options;  ///< the drive's "options" of the site
+};
+struct OwnCatalogue {
+    std::shared_ptr<const Catalogue> catalogue{};  ///< null: the family's page is the drive's
+    std::string fault{};                           ///< what is wrong with the options and what would be right: the site is refused; empty: nothing
+};
 
 /// Turns recorded frames into one readable line each. Has state, because some languages need the request to read the answer.
 struct Decoder {
@@ -31,7 +42,7 @@ struct Family {
     std::string_view name;  ///< folder and catalogue name: "uim342"
 
     /// nullptr-free makers. The catalogue outlives what they make.
-    std::unique_ptr<Adapter> (*make_adapter)(const Catalogue&, LineKind);
+    std::unique_ptr<Adapter> (*make_adapter)(const Catalogue&, LineKind);  // of the page; a drive's own is in its DriveSetup
     std::unique_ptr<Twin> (*make_twin)(const Catalogue&, const TwinSetup&);
     std::unique_ptr<Decoder> (*make_decoder)(const Catalogue&, LineKind);
 
@@ -48,6 +59,9 @@ struct Family {
     std::uint32_t default_can_bit_rate = 0;
     /// Which addresses a search for drives asks; nullptr: drives of this family cannot be searched for.
     ScanPlan (*scan)(const ScanWish&) = nullptr;
+    /// Makes the catalogue of one drive where the site's options say that it has more, or other, than the family's page; nullptr: the page
+    /// is every drive's. The same wish gives the same catalogue: mappings are checked against it before the site is in force.
+    OwnCatalogue (*own_catalogue)(const CatalogueWish&) = nullptr;
 };
 
 /// Every family that was found at configure time, in order of name. (Generated.)

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,8 @@
 #include "gateway/core/instant.hpp"
 
 namespace axisgate {
+
+class Catalogue;
 
 enum class LineKind : std::uint8_t { can, bytes };
 
@@ -28,6 +31,7 @@ struct DriveSetup {
     std::string address;                         ///< in the family's own form, checked by Family::check_address
     std::vector<AxisSetup> axes;
     std::map<std::string, std::string> options;  ///< the drive's "options" of the site, values as text; see the family's README
+    std::shared_ptr<const Catalogue> catalogue{};  ///< by which its points are numbered; null: the family's page
 };
 
 /// How one talks on the line. A Duration of zero means: the family's own default.

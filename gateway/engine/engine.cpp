@@ -33,7 +33,7 @@ Engine::Drive* Engine::drive(DriveId id) const { return index_of(id) < drives_.s
 
 const Catalogue* Engine::catalogue(AxisId id) const {
     const Axis* a = axis(id);
-    return a ? a->drive->line->family.catalogue : nullptr;
+    return a ? a->drive->catalogue.get() : nullptr;
 }
 
 Engine::Side* Engine::side_of(const Drive& d) const {
@@ -109,7 +109,7 @@ void Engine::feedback(Side& side, AxisId id, const AxisFeedback& value, Instant 
         e.drive = a->drive->spec.name;
         e.code = value.error_code;
         if (value.fault) {
-            const ErrorCode* known = a->drive->line->family.catalogue->error(value.error_code);
+            const ErrorCode* known = a->drive->catalogue->error(value.error_code);
             e.severity = Severity::alarm;
             e.kind = "fault";
             e.text = known                   ? fmt::format("fault {}: {}", value.error_code, known->text)
@@ -145,7 +145,7 @@ void Engine::publish(Axis& a, Instant) {
     AxisPicture& p = image_.picture(a.id);
     a.profile.fill(p);
     p.number = static_cast<std::uint16_t>(a.spec.number);
-    p.family_number = a.drive->line->family.catalogue->number();
+    p.family_number = a.drive->catalogue->number();
     p.source = a.source;
     p.authority = a.authority.door();
     p.authority_since = a.authority.since();
@@ -196,7 +196,7 @@ void Engine::on_command(Command c, Instant now) {
         return refuse(c, Reason::busy, fmt::format("axis {}: {} commands are on their way already; wait for their answers", name, max_clients_per_axis));
     }
     if (const auto* wish = std::get_if<HoldAxis>(&c.body)) return hold(*a, c, *wish, now);
-    const Catalogue& catalogue = *a->drive->line->family.catalogue;
+    const Catalogue& catalogue = *a->drive->catalogue;
     std::vector<CommandBody> orders;
     std::optional<Move> waits;
     bool commands_motion = false, stops = false, lets_go = false;
@@ -436,7 +436,7 @@ void Engine::order_result(const Result& given, Instant now) {
         order.ticket = given.ticket;
         order.axis = record.axis;
         order.axis_name = a->spec.name;
-        const Catalogue& cat = *a->drive->line->family.catalogue;
+        const Catalogue& cat = *a->drive->catalogue;
         order.parameter = cat.id_of(write->point);
         order.storage = cat.parameter(write->point)->storage;
         order.value = known(r.value) ? r.value : write->value;
@@ -551,7 +551,7 @@ void Engine::on_stored(Ticket order, const std::string& fault, Instant now) {
         Event e;
         e.kind = "write";
         e.axis = a->spec.name;
-        e.parameter = a->drive->line->family.catalogue->id_of(write.point);
+        e.parameter = a->drive->catalogue->id_of(write.point);
         if (known(record.before)) e.old_value = to_text(record.before);
         e.new_value = to_text(r.value);
         if (fault.empty()) {

@@ -73,6 +73,7 @@ struct Engine::Drive {
     DriveSpec spec;
     DriveId id = no_drive;
     LineUnit* line = nullptr;
+    std::shared_ptr<const Catalogue> catalogue;  ///< its own, or its family's page
     std::vector<AxisId> axes;
     Presence serving = Presence::offline;  ///< whose word counts: the device's, the twin's, nobody's
     bool device_online = false, twin_online = false;

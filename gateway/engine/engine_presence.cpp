@@ -179,7 +179,7 @@ void Engine::plug_in_twin(Drive& d, Instant now) {
     t.options = d.spec.options;
     for (const auto& [k, v] : unit.spec.options) t.options.emplace(k, v);
     unit.twins->touched();
-    unit.twins->bus->add(d.id, unit.family.family->make_twin(*unit.family.catalogue, t), d.memory, now);
+    unit.twins->bus->add(d.id, unit.family.family->make_twin(*d.catalogue, t), d.memory, now);
     d.memory_revision = unit.twins->bus->twin(d.id)->non_volatile_revision();
     d.twin_axes = t.axes;
 }
@@ -219,7 +219,7 @@ void Engine::begin_handback(Drive& d, Instant now) {
     for (const AxisId id : d.axes) {
         const Axis& a = *axes_[index_of(id)];
         for (const auto& [point, value] : a.stored) {
-            const Parameter* p = d.line->family.catalogue->parameter(point);
+            const Parameter* p = d.catalogue->parameter(point);
             if (p && p->readable()) wanted.push_back({id, point});
         }
     }
@@ -255,7 +255,7 @@ bool Engine::handback_result(const Result& r, Instant) {
     auto& h = *d->handback;
     if (h.waiting > 0) --h.waiting;
     const Point point = std::get<ReadParameter>(record.body).point;
-    const std::string id = d->line->family.catalogue->id_of(point);
+    const std::string id = d->catalogue->id_of(point);
     if (!good(r)) {
         ++h.unread;
         h.differences.push_back(fmt::format("{} of axis {} could not be read: {}", id, a->spec.name, r.text));

@@ -47,6 +47,7 @@ LineSetup Engine::setup_for(const LineUnit& unit, const Side& side) const {
         ds.name = d.spec.name;
         ds.address = d.spec.address;
         ds.options = d.spec.options;
+        ds.catalogue = d.catalogue;
         for (const AxisId a : d.axes) ds.axes.push_back({a, axes_[index_of(a)]->spec.channel});
         s.drives.push_back(std::move(ds));
     }
@@ -193,6 +194,7 @@ std::shared_ptr<const SiteState> Engine::apply_site(Site site, SiteMemory memory
                 if (unit && unit->spec.name == d.line) slot->line = unit.get();
             }
             slot->line->drives.push_back(id);
+            slot->catalogue = catalogue_of(site, d, families_);
             if (const auto m = memory.twins.find(d.name); m != memory.twins.end()) slot->memory = m->second;
             fresh_drives.push_back(slot.get());
         }
@@ -218,7 +220,7 @@ std::shared_ptr<const SiteState> Engine::apply_site(Site site, SiteMemory memory
             if (slot->drive->serving != Presence::offline) slot->profile.on_presence(slot->drive->serving);
             if (const auto m = memory.stored.find(a.name); m != memory.stored.end()) {
                 for (const auto& [parameter, value] : m->second) {
-                    if (const auto point = slot->drive->line->family.catalogue->find(parameter)) slot->stored[*point] = value;
+                    if (const auto point = slot->drive->catalogue->find(parameter)) slot->stored[*point] = value;
                 }
             }
         }

@@ -71,7 +71,7 @@ void Engine::track(Axis& a, Instant now) {
             }
         };
         const auto* action = std::get_if<Action>(&c.body);
-        const CatalogueCommand* listed = action ? a.drive->line->family.catalogue->command(action->name) : nullptr;
+        const CatalogueCommand* listed = action ? a.drive->catalogue->command(action->name) : nullptr;
         const Completion completes = listed ? listed->completes : Completion::acknowledged;
         if (completes == Completion::online_again && !online) c.was_silent = true;
         c.was_moving = c.was_moving || (fresh && f.moving);

@@ -14,7 +14,7 @@ AxisPlace axis_at(const Gateway& gateway, std::shared_ptr<const SiteState> site,
         place.line = drive->line;
         if (const LineSpec* line = place.site->site.line(drive->line)) {
             place.family = line->family;
-            place.catalogue = gateway.families().find(line->family).catalogue;
+            place.catalogue = catalogue_of(place.site->site, *drive, gateway.families()).get();  // lives as long as the site
         }
     }
     return place;

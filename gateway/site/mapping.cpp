@@ -197,11 +197,10 @@ void split_axis(std::string& axis, std::string& point, const Site& site) {
     }
 }
 
-FamilyEntry family_of(const Site& site, const Families& families, std::string_view axis) {
+std::shared_ptr<const Catalogue> catalogue_of_axis(const Site& site, const Families& families, std::string_view axis) {
     const AxisSpec* a = site.axis(axis);
     const DriveSpec* d = a ? site.drive(a->drive) : nullptr;
-    const LineSpec* l = d ? site.line(d->line) : nullptr;
-    return l ? families.find(l->family) : FamilyEntry{};
+    return d ? catalogue_of(site, *d, families) : nullptr;
 }
 
 using Called = std::function<std::string(std::size_t index)>;
@@ -358,21 +357,21 @@ std::optional<std::vector<Mapping>> parse_mappings(const json::array& entries, c
         } else if (!site.axis(m.axis)) {
             f.fault("axis", fmt::format("there is no axis {}", m.axis), "use the name of an axis of the site");
         } else if (!m.point.empty()) {
-            const FamilyEntry family = family_of(site, families, m.axis);
+            const auto catalogue = catalogue_of_axis(site, families, m.axis);
             if (const auto p = axis_point_named(m.point)) {
                 m.what = *p;
                 point_writable = writable(*p);
                 point_is_bit = *p >= P::online && *p <= P::warning;
-            } else if (const auto found = family.catalogue ? family.catalogue->find(m.point) : std::nullopt) {
+            } else if (const auto found = catalogue ? catalogue->find(m.point) : std::nullopt) {
                 m.what = *found;
-                const Parameter& parameter = *family.catalogue->parameter(*found);
+                const Parameter& parameter = *catalogue->parameter(*found);
                 point_writable = parameter.writable();
                 point_readable = parameter.readable();
                 point_is_text = parameter.type == ValueType::text || parameter.type == ValueType::bytes;
                 point_is_bit = parameter.type == ValueType::boolean;
             } else {
                 f.fault("point", fmt::format("axis {} has no point {}", m.axis, m.point),
-                        "use a name of the register map such as position, or the id of a parameter of its family");
+                        "use a name of the register map such as position, or the id of a parameter of its drive");
             }
         }
         m.type = is_bits(m.table) || point_is_bit ? MapType::boolean : point_is_text ? MapType::string : MapType::i32;

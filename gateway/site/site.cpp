@@ -85,6 +85,12 @@ FamilyEntry Families::find(std::string_view name) const noexcept {
     return {};
 }
 
+std::shared_ptr<const Catalogue> catalogue_of(const Site& site, const DriveSpec& drive, const Families& families) {
+    if (const auto own = site.own_catalogues.find(drive.name); own != site.own_catalogues.end()) return own->second;
+    const LineSpec* line = site.line(drive.line);
+    return {std::shared_ptr<const Catalogue>(), line ? families.find(line->family).catalogue : nullptr};
+}
+
 std::string Families::names() const {
     std::string s;
     for (const auto& e : entries) s += (s.empty() ? "" : ", ") + std::string(e.family->name);
@@ -243,6 +249,11 @@ std::uint32_t mapping_revision(const Site& site) noexcept {
         if (const auto* d = site.drive(a.drive)) {
             if (const auto* l = site.line(d->line)) mix(l->family);
         }
+    }
+    // The parameter channel names a parameter by its place in the catalogue.
+    for (const auto& [drive, catalogue] : site.own_catalogues) {
+        mix(drive);
+        for (const auto& p : catalogue->parameters()) mix(p.id);
     }
     mix(json::serialize(site.mappings));
     for (const auto& [unit, gaps] : site.gaps) mix(fmt::format("{} {}", unit, name_of(gaps)));

@@ -84,6 +84,9 @@ struct Site {
     [[nodiscard]] const std::vector<Mapping>& map() const noexcept;
     std::map<std::uint8_t, MapGaps> gaps;  ///< "modbus_units": by unit 2..254, where it is not as `[modbus] gaps` has it
 
+    /// By drive, where it is not its family's page: made by parse_site, a function of the document.
+    std::map<std::string, std::shared_ptr<const Catalogue>, std::less<>> own_catalogues;
+
     [[nodiscard]] const LineSpec* line(std::string_view name) const noexcept;
     [[nodiscard]] const DriveSpec* drive(std::string_view name) const noexcept;
     [[nodiscard]] const AxisSpec* axis(std::string_view name) const noexcept;
@@ -106,6 +109,9 @@ struct Families {
     [[nodiscard]] FamilyEntry find(std::string_view name) const noexcept;
     [[nodiscard]] std::string names() const;
 };
+
+/// The catalogue of a drive of the site: its own, or its family's page, which outlives every site; null: there is no such family.
+[[nodiscard]] std::shared_ptr<const Catalogue> catalogue_of(const Site& site, const DriveSpec& drive, const Families& families);
 
 /// Reads and checks a whole document. Unknown keys are faults. A site is returned only if there is no fault.
 [[nodiscard]] std::optional<Site> parse_site(const boost::json::value& document, const Families& families, std::vector<SiteFault>& faults);

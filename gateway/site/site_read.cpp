@@ -255,12 +255,10 @@ void check_relations(const Site& site, const Families& families, std::vector<Sit
             faults.push_back({at("axes", i, "channel"), fmt::format("axis {}: channel {} of {} is taken", a.name, a.channel, a.drive), "one axis per channel"});
         }
         if (drive) {
-            if (const LineSpec* line = site.line(drive->line)) {
-                if (const auto family = families.find(line->family); family.catalogue) {
-                    const int highest = family.catalogue->most_channels();
-                    if (a.channel > highest) {
-                        faults.push_back({at("axes", i, "channel"), fmt::format("axis {}: a {} has {} channel{}", a.name, line->family, highest, highest == 1 ? "" : "s"), fmt::format("use 1 to {}", highest)});
-                    }
+            if (const auto catalogue = catalogue_of(site, *drive, families)) {
+                const int highest = catalogue->most_channels();
+                if (a.channel > highest) {
+                    faults.push_back({at("axes", i, "channel"), fmt::format("axis {}: a {} has {} channel{}", a.name, catalogue->family(), highest, highest == 1 ? "" : "s"), fmt::format("use 1 to {}", highest)});
                 }
             }
         }
@@ -336,6 +334,12 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
             f.fault("presence", fmt::format("\"{}\" is not a presence", presence), "use device, twin or auto");
         }
         d.options = f.options("options");
+        const LineSpec* line = site.line(d.line);
+        if (const auto e = families.find(line ? line->family : std::string()); e.family && e.family->own_catalogue) {
+            auto own = e.family->own_catalogue({*e.catalogue, d.options});
+            if (!own.fault.empty()) f.fault("options", fmt::format("drive {}: {}", d.name, own.fault), "mend the option, or leave it out");
+            if (own.catalogue) site.own_catalogues[d.name] = std::move(own.catalogue);
+        }
         return d;
     });
     read_list(o, "axes", site.axes, faults, [&](Fields& f, const std::string& pointer) {

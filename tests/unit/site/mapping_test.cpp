@@ -321,6 +321,68 @@ TEST(MappingCsv, ADecimalCommaBetweenSemicolons) {
     }
 }
 
+/// A family whose drives have what their option `extra` names, beside its page.
+OwnCatalogue with_extra(const CatalogueWish& wish) {
+    const auto it = wish.options.find("extra");
+    if (it == wish.options.end()) return {};
+    if (it->second == "?") return {nullptr, "extra = ?: write the name of a parameter"};
+    std::vector<std::string> faults;
+    auto made = wish.page.with({json::object{{"id", it->second}, {"name", it->second}, {"group", "g"}, {"type", "u16"}, {"access", "RW"}, {"description", "d"}}}, faults);
+    EXPECT_TRUE(made) << faults.front();
+    return {made ? std::make_shared<const Catalogue>(std::move(*made)) : nullptr, {}};
+}
+
+TEST(OwnCatalogue, MappingsOfADriveAreReadByItsOwn) {
+    Plant p;
+    p.family.own_catalogue = with_extra;
+    auto document = to_json(p.site);
+    document["drives"].as_array()[0].as_object()["options"] = json::object{{"extra", "Q1"}};
+    document["mappings"] = json::parse(R"([{"unit": 2, "address": 0, "axis": "x", "point": "Q1", "type": "u16"}, {"unit": 2, "address": 1, "axis": "x.1", "point": "AC"}])");
+    const auto site = parse_site(document, p.families, p.faults);
+    ASSERT_TRUE(site) << p.faults.front().text;
+    const auto own = catalogue_of(*site, site->drives[0], p.families), page = catalogue_of(*site, site->drives[1], p.families);
+    EXPECT_EQ(page.get(), &p.catalogue);
+    const auto point = own->find("Q1");
+    ASSERT_TRUE(point);
+    EXPECT_EQ(point->parameter, p.catalogue.parameters().size()) << "behind those of the page, whose points stay";
+    EXPECT_EQ(own->find("AC"), p.catalogue.find("AC"));
+    const auto mappings = parse_mappings(site->mappings, *site, p.families, p.faults);
+    ASSERT_TRUE(mappings);
+    EXPECT_EQ((*mappings)[0].what, (std::variant<AxisPoint, Point>(*point)));
+    EXPECT_NE(mapping_revision(*site), mapping_revision(p.site));
+
+    auto renamed = document;
+    renamed["drives"].as_array()[0].as_object()["options"] = json::object{{"extra", "Q2"}};
+    p.faults.clear();
+    EXPECT_FALSE(parse_site(renamed, p.families, p.faults));
+    ASSERT_EQ(p.faults.size(), 1u);
+    EXPECT_EQ(p.faults[0].pointer, "/mappings/0/point") << p.faults[0].text;
+    renamed.erase("mappings");
+    const auto other = parse_site(renamed, p.families, p.faults);
+    auto bare = document;
+    bare.erase("mappings");
+    EXPECT_NE(mapping_revision(*other), mapping_revision(*parse_site(bare, p.families, p.faults))) << "a selector of the parameter channel names another one";
+
+    document["drives"].as_array()[1].as_object()["options"] = json::object{{"extra", "?"}};
+    p.faults.clear();
+    EXPECT_FALSE(parse_site(document, p.families, p.faults));
+    ASSERT_EQ(p.faults.size(), 1u);
+    EXPECT_EQ(p.faults[0].pointer, "/drives/1/options");
+    EXPECT_EQ(p.faults[0].text, "drive e: extra = ?: write the name of a parameter");
+}
+
+TEST(OwnCatalogue, FurtherParametersAreCheckedAsThoseOfThePage) {
+    Plant p;
+    std::vector<std::string> faults;
+    const auto made = p.catalogue.with({json::object{{"id", "Q1"}, {"name", "q1"}, {"group", "g"}, {"type", "i32"}, {"access", "RW"}, {"description", "d"}}}, faults);
+    ASSERT_TRUE(made && faults.empty());
+    EXPECT_EQ(made->document().at("parameters").as_array().size(), made->parameters().size()) << "forms are read from the document by the same place";
+    EXPECT_EQ(made->family(), "demo");
+    EXPECT_EQ(p.catalogue.find("Q1"), std::nullopt);
+    EXPECT_FALSE(made->with({json::object{{"id", "AC"}, {"name", "ac2"}, {"group", "g"}, {"type", "i32"}, {"access", "RW"}, {"description", "d"}}, json::value(3)}, faults));
+    EXPECT_EQ(faults, (std::vector<std::string>{"parameters[6]: AC is there twice", "parameters[7]: not an object"}));
+}
+
 TEST(ModbusUnits, AreReadCheckedAndTold) {
     Plant p;
     auto document = to_json(p.site);

@@ -46,8 +46,9 @@ void Turns::settle(std::size_t slot, Want want, Instant deadline, Instant wish) 
             ring_[r].push(slot);
         }
     }
-    // Who waits for a place is not due by a wish any more.
-    heap_.set(slot, want != Want::nothing ? deadline : std::min(deadline, wish));
+    // Who waits for a place, or has one, is not due by a wish.
+    const bool may_wish = want == Want::nothing && place_[slot] == Place::none;
+    heap_.set(slot, may_wish ? std::min(deadline, wish) : deadline);
 }
 
 /// Commands and polls of one drive are what it sends next, whichever of them brought it here.

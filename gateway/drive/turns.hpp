@@ -48,7 +48,8 @@ public:
     void remove(std::size_t slot) noexcept;
 
     /// After anything has happened to a drive: what it wants, when it is to be looked at for its own sake (its exchange's deadline), and
-    /// when it will want something without being asked (its next poll or probe). The last counts only while it wants nothing.
+    /// when it will want something without being asked (its next poll or probe). The last counts only while it wants nothing and no
+    /// exchange of its is on the way.
     void settle(std::size_t slot, Want want, Instant deadline, Instant wish) noexcept;
     /// Who may send now, if anybody: it is to send, or to say that it wants nothing any more, and to be settled.
     [[nodiscard]] std::optional<std::size_t> next(Instant now) noexcept;

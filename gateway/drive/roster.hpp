@@ -10,7 +10,8 @@
 #include <vector>
 
 #include "gateway/core/adapter.hpp"
-#include "gateway/drive/schedule.hpp"
+#include "gateway/drive/turn.hpp"
+#include "gateway/drive/turns.hpp"
 
 namespace axisgate::drive {
 
@@ -55,6 +56,20 @@ public:
         return fresh;
     }
 
+    /// For drives with several axes, before `fit`: one that is the same but for its axes goes on. `axes_changed(drive, setup)` makes the
+    /// new setup its own.
+    template <class AxesChanged>
+    void fit_axes(const LineSetup& setup, AxesChanged&& axes_changed) {
+        each([&](Drive& d) {
+            for (DriveSetup s : setup.drives) {
+                if (same_drive(s, d.setup())) return;
+                const DriveSetup wanted = s;
+                s.axes = d.setup().axes;
+                if (same_drive(s, d.setup())) return axes_changed(d, wanted);
+            }
+        });
+    }
+
     /// nullptr: nobody.
     [[nodiscard]] Drive* of(AxisId axis) const noexcept {
         const auto it = std::ranges::lower_bound(by_axis_, axis, {}, [](const auto& p) { return p.first; });
@@ -81,5 +96,34 @@ private:
     std::vector<std::unique_ptr<Drive>> drives_;  ///< by slot; empty places are nullptr
     std::vector<std::pair<AxisId, Drive*>> by_axis_;
 };
+
+// What an adapter does with the two of them. A drive has `slot()`, `wants(now)`, `deadline()` (of what it waits for), `wish()` (when it
+// will want something without being asked), `go(t)` (it has a place: it sends, or wants nothing any more) and `on_deadline(t)`.
+
+/// After anything has happened to a drive.
+template <class Drive>
+void settle(Turns& turns, const Drive& drive, Instant now) {
+    turns.settle(drive.slot(), drive.wants(now), drive.deadline(), drive.wish());
+}
+/// Gives every free place away. The end of each call from outside.
+template <class Drive>
+void serve(Turns& turns, const Roster<Drive>& drives, Turn& t) {
+    while (const auto slot = turns.next(t.now)) {
+        Drive* d = drives.at(*slot);
+        if (!d) continue;
+        d->go(t);
+        settle(turns, *d, t.now);
+    }
+}
+/// Looks at each drive whose deadline has come, once.
+template <class Drive>
+void wake(Turns& turns, const Roster<Drive>& drives, Turn& t) {
+    for (std::size_t n = 0; n < slot_limit; ++n) {
+        const auto slot = turns.due(t.now);
+        if (!slot) return;
+        drives.at(*slot)->on_deadline(t);
+        settle(turns, *drives.at(*slot), t.now);
+    }
+}
 
 }  // namespace axisgate::drive

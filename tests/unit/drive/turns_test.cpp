@@ -234,6 +234,19 @@ TEST(DriveRoster, WhoIsTheSameStaysAndAddressesAreFreeForNewOnes) {
     ASSERT_EQ(fresh.size(), 1u);
     EXPECT_EQ(fresh[0]->slot, 1u) << "the free place";
     EXPECT_EQ(roster.of(AxisId{10}), first) << "undisturbed";
+    line.drives[0].axes.pop_back();
+    line.drives[0].axes.push_back({AxisId{13}, 2});
+    int changed = 0;
+    roster.fit_axes(line, [&](FakeDrive& d, const DriveSetup& s) {
+        EXPECT_EQ(&d, first);
+        d.setup_ = s;
+        ++changed;
+    });
+    EXPECT_EQ(changed, 1) << "other axes of the same drive: it goes on";
+    EXPECT_TRUE(fit().empty());
+    EXPECT_EQ(removed.size(), 1u);
+    EXPECT_EQ(roster.of(AxisId{13}), first);
+    EXPECT_EQ(roster.of(AxisId{12}), nullptr);
     line.drives[0].options["x"] = "1";
     EXPECT_EQ(fit().size(), 1u) << "other options make another drive";
 }

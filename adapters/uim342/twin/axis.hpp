@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "adapters/uim342/twin_motion.hpp"
+#include "adapters/uim342/twin/motion.hpp"
 #include "gateway/core/instant.hpp"
 
 namespace axisgate::uim342::twin {

@@ -1,8 +1,8 @@
-// Node: one drive: its start-up, its polls, its queue of commands, its one exchange at a time, and what is known of its axis.
+// Drive: one drive: its start-up, its polls, its queue of commands, its one exchange at a time, and what is known of its axis.
 // In: commands, messages from the drive, the passing of time, a place in the line's window. Out: frames, feedback, samples, results.
 // Never asks two things at once (stops excepted), never sends before it was given a place (stops excepted).
-// Written in several files: node.cpp the exchanges, startup.cpp finding and reading the drive, status.cpp what it says of itself,
-// stop.cpp what overtakes, motion.cpp the verbs of CiA 402, homing.cpp the search for a switch, values.cpp parameters and native,
+// Written in several files: drive.cpp the exchanges, start.cpp finding and reading the drive, feedback.cpp what it says of itself,
+// stop.cpp what overtakes, motion.cpp the verbs of CiA 402, homing.cpp the search for a switch, parameters.cpp parameters and native,
 // demand.cpp where the axis should be.
 #pragma once
 
@@ -11,14 +11,14 @@
 #include <string>
 #include <vector>
 
-#include "adapters/uim342/bus.hpp"
-#include "adapters/uim342/exchange.hpp"
+#include "adapters/uim342/adapter_bus.hpp"
+#include "adapters/uim342/drive_exchange.hpp"
 #include "gateway/axis/demand.hpp"
 
 namespace axisgate::uim342 {
 
 /// The drive's options of the site, read once (README.md).
-struct NodeOptions {
+struct DriveOptions {
     bool notify = false;          ///< notify = on: RT 0x29 is switched on (in RAM, while the driver is on)
     bool absolute_known = false;  ///< referenced = absolute: with an absolute encoder the zero counts as known
     std::uint8_t home_input = 0;  ///< 1..3; 0: none
@@ -27,17 +27,17 @@ struct NodeOptions {
     Duration home_timeout = std::chrono::seconds(60);
     std::vector<std::string> faults;  ///< options that could not be read
 };
-[[nodiscard]] NodeOptions node_options(const DriveSetup& setup);
+[[nodiscard]] DriveOptions drive_options(const DriveSetup& setup);
 
-class Node {
+class Drive {
 public:
     static constexpr std::size_t queue_limit = 64;  ///< waiting commands; one more is refused as busy
     static constexpr std::size_t urgent_limit = 4;  ///< stops on their way at once; one more waits in the queue's place or is refused
     static constexpr std::size_t wait_limit = 16;   ///< commands that wait for "done"
 
-    Node(Bus& bus, const DriveSetup& setup, std::uint8_t address, std::size_t slot);
-    Node(const Node&) = delete;
-    Node& operator=(const Node&) = delete;
+    Drive(Bus& bus, const DriveSetup& setup, std::uint8_t address, std::size_t slot);
+    Drive(const Drive&) = delete;
+    Drive& operator=(const Drive&) = delete;
 
     // --- from the adapter -----------------------------------------------------------------------------------------------
     void line_up(Turn& t);
@@ -75,7 +75,6 @@ public:
     // --- plain facts ----------------------------------------------------------------------------------------------------
     [[nodiscard]] std::uint8_t address() const noexcept { return address_; }
     [[nodiscard]] std::size_t slot() const noexcept { return slot_; }
-    [[nodiscard]] DriveId drive() const noexcept { return setup_.id; }
     [[nodiscard]] AxisId axis() const noexcept { return axis_; }
     [[nodiscard]] const std::string& name() const noexcept { return setup_.name; }
     [[nodiscard]] const DriveSetup& setup() const noexcept { return setup_; }
@@ -167,7 +166,7 @@ private:
     };
     enum class Cause : std::uint8_t { none, own, foreign };  ///< of the ERR flag
 
-    // node.cpp: exchanges
+    // drive.cpp: exchanges
     void send_exchange(const Message& m, Purpose p, std::uint8_t mf, std::uint8_t retries, Priority priority, Turn& t);
     void end_exchange() noexcept;
     void exchange_answered(const Message& m, Turn& t);
@@ -181,7 +180,7 @@ private:
     void notice(Severity severity, std::string_view kind, std::int32_t code, std::string text, Turn& t);
     void poll_now(Turn& t) noexcept;
 
-    // startup.cpp: finding and reading
+    // start.cpp: finding and reading
     void begin_probing(Turn& t);
     void probe_answered(const Message& m, Turn& t);
     void go_absent(Turn& t, std::string why, Duration pause);
@@ -194,7 +193,7 @@ private:
     [[nodiscard]] bool startup_pending() const noexcept;
     [[nodiscard]] bool core_pending() const noexcept;
 
-    // status.cpp: what the drive says
+    // feedback.cpp: what the drive says
     void learn(const Message& request, const Message& answer, std::uint8_t mf, bool samples, Turn& t);
     void on_status(const Message& m, Turn& t);
     void on_speed(const Message& m, Turn& t);
@@ -274,7 +273,7 @@ private:
     void plan_restore(Turn& t);
     [[nodiscard]] bool restore_due() const noexcept;
 
-    // values.cpp
+    // parameters.cpp
     void plan_read(const ReadParameter& read, Turn& t);
     void plan_write(const WriteParameter& write, Turn& t);
     void plan_native(const Native& native, Turn& t);
@@ -295,7 +294,7 @@ private:
 
     Bus& bus_;
     DriveSetup setup_;
-    NodeOptions options_;
+    DriveOptions options_;
     AxisId axis_ = no_axis;
     std::uint8_t address_;
     std::size_t slot_;
@@ -331,10 +330,10 @@ private:
 
     // polls
     Instant next_poll_ = never;
-    bool poll_speed_ = false;    ///< next is MS[1]
+    bool poll_speed_ = false;      ///< next is MS[1]
     bool commanded_last_ = false;  ///< a command has begun since the last poll
-    bool startup_turn_ = false;  ///< next is a value of the start-up, though a poll is due
-    bool read_error_ = false;    ///< ER[0] is to be read
+    bool startup_turn_ = false;    ///< next is a value of the start-up, though a poll is due
+    bool read_error_ = false;      ///< ER[0] is to be read
 
     // what is known
     Status status_;

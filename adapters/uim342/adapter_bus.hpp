@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <string>
 
-#include "adapters/uim342/instructions.hpp"
-#include "adapters/uim342/points.hpp"
+#include "adapters/uim342/parameters_points.hpp"
+#include "adapters/uim342/wire_instructions.hpp"
 #include "gateway/core/adapter.hpp"
 #include "gateway/drive/overtaken.hpp"
 
@@ -30,7 +30,7 @@ struct Manners {
     Duration pause_max = std::chrono::seconds(5);
 };
 
-class Node;
+class Drive;
 
 /// How one node's part of a joint order (StartTogether, global stop) ended.
 struct Part {
@@ -48,11 +48,11 @@ struct Bus {
     /// Sends now. Not for urgent frames alone: a place in the window must have been given for the others.
     virtual void transmit(const Message& m, Priority priority, Turn& t) = 0;
     /// A node that joined has come to the joint order in its queue.
-    virtual void part_ready(Node& node, Turn& t) = 0;
+    virtual void part_ready(Drive& node, Turn& t) = 0;
     /// One node's part of the joint order in progress has come to its end (or to "begun").
-    virtual void part_done(Node& node, Part part, Turn& t) = 0;
+    virtual void part_done(Drive& node, Part part, Turn& t) = 0;
     /// Name of the drive of this line that has `id` as its node ID or, as far as known, its group ID; empty: nobody.
-    [[nodiscard]] virtual std::string user_of(std::uint8_t id, const Node& but) const = 0;
+    [[nodiscard]] virtual std::string user_of(std::uint8_t id, const Drive& but) const = 0;
 
     const Catalogue& catalogue;
     const Points points;

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "adapters/uim342/twin_axis.hpp"
-#include "adapters/uim342/twin_inputs.hpp"
-#include "adapters/uim342/twin_memory.hpp"
-#include "adapters/uim342/twin_wire.hpp"
+#include "adapters/uim342/twin/axis.hpp"
+#include "adapters/uim342/twin/inputs.hpp"
+#include "adapters/uim342/twin/memory.hpp"
+#include "adapters/uim342/twin/wire.hpp"
 #include "gateway/core/twin.hpp"
 
 namespace axisgate::uim342::twin {
@@ -82,7 +82,7 @@ private:
     };
     static constexpr std::size_t history_length = 9;  // ER[10]..ER[18]
 
-    // --- life (twin_device.cpp) ---
+    // --- life (device.cpp) ---
     void power_off(Instant now);
     void boot(Instant now, std::int32_t encoder_position);
     void boot_done(Instant at, Out& out);
@@ -105,7 +105,7 @@ private:
     [[nodiscard]] bool has_absolute_encoder() const noexcept { return memory_.ram().ic[5] == 1; }
     void keep_position(Instant now) noexcept;
 
-    // --- instructions (twin_instructions.cpp, twin_sets.cpp) ---
+    // --- instructions (instructions.cpp, sets.cpp) ---
     [[nodiscard]] bool is_for_me(std::uint8_t id) const noexcept { return id == node_ || id == global_id || id == group_; }
     void instruct(const Telegram& t, Instant now, Out& out);
     [[nodiscard]] Fault get(const Telegram& t, Instant now, Telegram& reply);
@@ -124,7 +124,7 @@ private:
     [[nodiscard]] std::int32_t motor_current() const noexcept;
     [[nodiscard]] std::size_t take_group() noexcept;
 
-    // --- the hand (twin_hand.cpp) ---
+    // --- the hand (hand.cpp) ---
     [[nodiscard]] std::string set_condition(const std::string& name, const Value& value, Instant now, Out& out);
     [[nodiscard]] std::string inject(std::int64_t code, Instant now, Out& out);
 

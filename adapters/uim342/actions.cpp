@@ -19,9 +19,9 @@ std::string names_of(const std::vector<std::string>& names) {
 }  // namespace
 
 void LineAdapter::start_together(const Command& command, const StartTogether& what, Turn& t) {
-    std::vector<Node*> members;
+    std::vector<Drive*> members;
     for (const AxisId axis : what.axes) {
-        Node* n = node_of(axis);
+        Drive* n = node_of(axis);
         if (!n) {
             return answer(command, Outcome::refused, Reason::line_down,
                           fmt::format("axis {} of the list is not on this line", index_of(axis)), t);
@@ -45,7 +45,7 @@ void LineAdapter::start_group(const Command& command, const std::string& argumen
         return answer(command, Outcome::refused, Reason::out_of_range,
                       fmt::format("start_group takes a group ID {}..{}", first_node, last_node), t);
     }
-    std::vector<Node*> members;
+    std::vector<Drive*> members;
     for (const auto& n : nodes_) {
         if (!n) continue;
         if (n->address() == group) {
@@ -62,11 +62,11 @@ void LineAdapter::start_group(const Command& command, const std::string& argumen
     joint_.group = static_cast<std::uint8_t>(group);
 }
 
-void LineAdapter::gather(const Command& command, Joint::Kind how, std::vector<Node*> members, Turn& t) {
+void LineAdapter::gather(const Command& command, Joint::Kind how, std::vector<Drive*> members, Turn& t) {
     if (joint_.kind != Joint::Kind::none) {
         return answer(command, Outcome::refused, Reason::busy, "another joint start of this line is in progress", t);
     }
-    for (const Node* n : members) {
+    for (const Drive* n : members) {
         if (!n->online()) return answer(command, Outcome::refused, Reason::no_answer, fmt::format("{} does not answer", n->name()), t);
     }
     joint_ = Joint{};
@@ -74,28 +74,28 @@ void LineAdapter::gather(const Command& command, Joint::Kind how, std::vector<No
     joint_.command = command;
     joint_.open = members;
     joint_.members = std::move(members);
-    for (Node* n : joint_.members) {
+    for (Drive* n : joint_.members) {
         if (!n->join(t))
-            return end_joint(Outcome::refused, Reason::busy, fmt::format("{}: {} commands wait already", n->name(), Node::queue_limit), 0,
+            return end_joint(Outcome::refused, Reason::busy, fmt::format("{}: {} commands wait already", n->name(), Drive::queue_limit), 0,
                              t);
     }
     const auto all = joint_.members;
-    for (Node* n : all)
+    for (Drive* n : all)
         settle(*n, t);
 }
 
 /// Every member has come to its place in its queue.
-void LineAdapter::part_ready(Node& node, Turn& t) {
+void LineAdapter::part_ready(Drive& node, Turn& t) {
     std::erase(joint_.open, &node);
     if (joint_.kind != Joint::Kind::none && joint_.stage == Joint::Stage::gathering && joint_.open.empty()) begin_joint(t);
 }
 
 /// The ID whose receivers are exactly the members; else who is too many, in words.
 std::string LineAdapter::whom_to_start(std::uint8_t& id) const {
-    const auto member = [&](const Node* n) { return std::ranges::find(joint_.members, n) != joint_.members.end(); };
+    const auto member = [&](const Drive* n) { return std::ranges::find(joint_.members, n) != joint_.members.end(); };
     std::string why;
     const auto group = joint_.members.front()->group();
-    if (group && std::ranges::all_of(joint_.members, [&](const Node* n) { return n->group() == group; })) {
+    if (group && std::ranges::all_of(joint_.members, [&](const Drive* n) { return n->group() == group; })) {
         std::vector<std::string> others;
         for (const auto& n : nodes_) {
             if (!n) continue;
@@ -123,7 +123,7 @@ std::string LineAdapter::whom_to_start(std::uint8_t& id) const {
 
 void LineAdapter::begin_joint(Turn& t) {
     std::uint8_t id = joint_.group;
-    for (const Node* n : joint_.members) {
+    for (const Drive* n : joint_.members) {
         std::string why = n->not_startable();
         if (why.empty() && joint_.kind == Joint::Kind::start && !n->prepared()) why = fmt::format("{} has no prepared motion", n->name());
         if (!why.empty()) return end_joint(Outcome::refused, Reason::wrong_state, std::move(why), 0, t);
@@ -135,7 +135,7 @@ void LineAdapter::begin_joint(Turn& t) {
     joint_.open = joint_.members;
     transmit(message(id, cw::BG), Priority::command, t);  // without acknowledgement: who would answer is not written (erratum E-44)
     const auto members = joint_.members;
-    for (Node* n : members) {
+    for (Drive* n : members) {
         n->begun_by_group(joint_.command.until_done, t);
         settle(*n, t);
     }
@@ -148,7 +148,7 @@ void LineAdapter::global_stop(const Command& command, Turn& t) {
                       "sent again, but not watched: another global_stop waits for its acknowledgements", t);
     }
     if (joint_.kind != Joint::Kind::none) end_joint(Outcome::failed, Reason::interrupted, "interrupted by global_stop", 0, t);
-    std::vector<Node*> members;
+    std::vector<Drive*> members;
     for (const auto& n : nodes_) {
         if (n && n->online()) members.push_back(n.get());
     }
@@ -158,13 +158,13 @@ void LineAdapter::global_stop(const Command& command, Turn& t) {
     joint_.stage = Joint::Stage::running;
     joint_.command = command;
     joint_.open = joint_.members = members;
-    for (Node* n : members) {
+    for (Drive* n : members) {
         n->stopped_by_all(t);
         settle(*n, t);
     }
 }
 
-void LineAdapter::part_done(Node& node, Part part, Turn& t) {
+void LineAdapter::part_done(Drive& node, Part part, Turn& t) {
     if (joint_.kind == Joint::Kind::none || std::ranges::find(joint_.members, &node) == joint_.members.end()) return;
     const bool was_open = std::erase(joint_.open, &node) > 0;
     if (!part.good && !joint_.bad) {
@@ -186,7 +186,7 @@ void LineAdapter::end_joint(Outcome outcome, Reason reason, std::string text, st
     const Joint was = std::move(joint_);
     joint_ = Joint{};
     if (was.kind != Joint::Kind::stop) {
-        for (Node* n : was.members) {
+        for (Drive* n : was.members) {
             n->leave(t);
             settle(*n, t);
         }

@@ -1,15 +1,15 @@
-// Node, part values: parameters of the catalogue, the drive's own language, and the actions of this family.
+// Drive, part values: parameters of the catalogue, the drive's own language, and the actions of this family.
 // In: ReadParameter, WriteParameter, Native, Action. Out: exchanges; results with what the drive said.
 // Never writes FLASH for nothing: PP is read first and left alone if it holds the value already (10,000 writes [L1064]).
 // Never lets anything between MF and its value: group values go as a pair inside one job.
 #include <fmt/format.h>
 
+#include "adapters/uim342/drive.hpp"
 #include "adapters/uim342/native.hpp"
-#include "adapters/uim342/node.hpp"
 
 namespace axisgate::uim342 {
 
-void Node::plan_read(const ReadParameter& read, Turn& t) {
+void Drive::plan_read(const ReadParameter& read, Turn& t) {
     const Binding* b = bus_.points.binding(read.point);
     const Parameter* p = bus_.catalogue.parameter(read.point);
     if (!b || !p) return refuse_job(Reason::unknown_point, fmt::format("the UIM342 has no {}", bus_.catalogue.id_of(read.point)), t);
@@ -21,7 +21,7 @@ void Node::plan_read(const ReadParameter& read, Turn& t) {
     job_.add(make_get(address_, *b->instruction, b->index), b->mf);
 }
 
-void Node::done_read(const Message& m, Turn& t) {
+void Drive::done_read(const Message& m, Turn& t) {
     auto value = Points::value(*job_.binding, m);
     if (!value) {
         return job_over(Outcome::failed, Reason::internal, fmt::format("the answer is too short: {}", describe_answer(m)), t);
@@ -29,8 +29,8 @@ void Node::done_read(const Message& m, Turn& t) {
     job_over(Outcome::done, Reason::none, "", t, 0, std::move(*value));
 }
 
-/// Node IDs and group IDs of one network must all differ [L1064]; empty: no conflict known.
-std::string Node::id_conflict(std::uint8_t index, std::int64_t value) const {
+/// Drive IDs and group IDs of one network must all differ [L1064]; empty: no conflict known.
+std::string Drive::id_conflict(std::uint8_t index, std::int64_t value) const {
     if (index != 7 && index != 8) return {};
     const auto id = static_cast<std::uint8_t>(value);
     if (index == 8) {
@@ -43,7 +43,7 @@ std::string Node::id_conflict(std::uint8_t index, std::int64_t value) const {
     return user.empty() ? std::string() : fmt::format("{} is {}", id, user);
 }
 
-void Node::plan_write(const WriteParameter& write, Turn& t) {
+void Drive::plan_write(const WriteParameter& write, Turn& t) {
     const Binding* b = bus_.points.binding(write.point);
     const Parameter* p = bus_.catalogue.parameter(write.point);
     const std::string id = bus_.catalogue.id_of(write.point);
@@ -79,7 +79,7 @@ void Node::plan_write(const WriteParameter& write, Turn& t) {
 }
 
 /// An answer to a step of a write.
-void Node::done_write(const Message& m, Turn& t) {
+void Drive::done_write(const Message& m, Turn& t) {
     const Binding& b = *job_.binding;
     const Instruction& i = *b.instruction;
     const Message& request = job_.steps[job_.at - 1u].message;
@@ -115,7 +115,7 @@ void Node::done_write(const Message& m, Turn& t) {
     job_over(Outcome::done, Reason::none, std::move(text), t, 0, b.type == ValueType::boolean ? Value{value != 0} : Value{value});
 }
 
-std::string Node::storage_note(const Instruction& i, std::uint8_t index) const {
+std::string Drive::storage_note(const Instruction& i, std::uint8_t index) const {
     std::string s;
     if (i.storage == Storage::eeprom_off && status_.on) s = "kept in RAM only, because the driver is on: lost at power-off";
     const bool late = i.cw == cw::PP || (i.cw == cw::MT && index == 0) || (i.cw == cw::QE && index == 4) ||
@@ -126,7 +126,7 @@ std::string Node::storage_note(const Instruction& i, std::uint8_t index) const {
 
 // --- native ----------------------------------------------------------------------------------------------------------------------
 
-void Node::plan_native(const Native& native, Turn& t) {
+void Drive::plan_native(const Native& native, Turn& t) {
     const NativeScript script =
         native.is_text ? parse_native(address_, std::string_view(reinterpret_cast<const char*>(native.send.data()), native.send.size()))
                        : parse_native(address_, std::span<const std::uint8_t>(native.send));
@@ -134,7 +134,7 @@ void Node::plan_native(const Native& native, Turn& t) {
     plan_messages(script.messages, t);
 }
 
-void Node::plan_messages(const std::vector<Message>& messages, Turn& t) {
+void Drive::plan_messages(const std::vector<Message>& messages, Turn& t) {
     std::uint8_t mf = 0;
     bool blind = false;
     for (std::size_t n = 0; n < messages.size(); ++n) {
@@ -169,7 +169,7 @@ void Node::plan_messages(const std::vector<Message>& messages, Turn& t) {
     }
 }
 
-void Node::native_answered(const Step& step, const Message* answer, Turn& t) {
+void Drive::native_answered(const Step& step, const Message* answer, Turn& t) {
     if (step.check) return;
     std::string& s = job_.text;
     if (!s.empty()) s += "; ";
@@ -191,7 +191,7 @@ void Node::native_answered(const Step& step, const Message* answer, Turn& t) {
     poll_now(t);
 }
 
-void Node::done_native(Turn& t) {
+void Drive::done_native(Turn& t) {
     const Command c = job_.command;
     const bool action = std::holds_alternative<Action>(c.body);
     const bool system = job_.kind == JobKind::system;
@@ -218,7 +218,7 @@ void Node::done_native(Turn& t) {
 
 // --- actions ---------------------------------------------------------------------------------------------------------------------
 
-void Node::plan_action(const Action& action, Turn& t) {
+void Drive::plan_action(const Action& action, Turn& t) {
     struct Row {
         std::string_view name;
         std::string_view script;

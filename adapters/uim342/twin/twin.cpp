@@ -1,11 +1,11 @@
 // Maker of the UIM342 twin: reads its setup; see twin.hpp.
 // In: address, line kind, bit rate, options. Out: a drive without power.
 // Never fails: what it cannot read becomes the factory's value.
-#include "adapters/uim342/twin.hpp"
+#include "adapters/uim342/twin/twin.hpp"
 
 #include <charconv>
 
-#include "adapters/uim342/twin_device.hpp"
+#include "adapters/uim342/twin/device.hpp"
 
 namespace axisgate::uim342 {
 namespace {

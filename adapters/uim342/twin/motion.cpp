@@ -1,7 +1,7 @@
-// Planning and evaluation of trapezoids and triangles with a cut-in speed; see twin_motion.hpp.
+// Planning and evaluation of trapezoids and triangles with a cut-in speed.
 // In: state, target, ramps. Out: profiles.
 // Never allocates.
-#include "adapters/uim342/twin_motion.hpp"
+#include "adapters/uim342/twin/motion.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-// Node, part status: what the drive says of itself, turned into the axis' feedback, samples and notices; and the waits for "done".
+// Drive, part status: what the drive says of itself, turned into the axis' feedback, samples and notices; and the waits for "done".
 // In: answers, notifications (RT), error reports. Out: feedback, samples, notices, results of commands that waited for the end.
 // Never invents: PAIF alone says that a target was reached, STOP that the axis stands, SON that it is on.
 #include <fmt/format.h>
@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "adapters/uim342/drive.hpp"
 #include "adapters/uim342/native.hpp"
-#include "adapters/uim342/node.hpp"
 
 namespace axisgate::uim342 {
 namespace {
@@ -21,9 +21,9 @@ bool alarm_is_fault(std::uint8_t code) { return code != 0 && code != 0x1F; }
 void set_bit(std::uint32_t& raw, std::uint32_t bit, bool on) { raw = on ? raw | bit : raw & ~bit; }
 }  // namespace
 
-bool Node::moving_now() const noexcept { return fb_.moving || search_.running || job_.active; }
+bool Drive::moving_now() const noexcept { return fb_.moving || search_.running || job_.active; }
 
-void Node::emit(Turn& t) {
+void Drive::emit(Turn& t) {
     if (axis_ == no_axis || !status_known_ || !position_known_) return;
     // Status and position are two answers: the picture is as old as the older of them.
     fb_.at = std::min(status_at_, position_at_);
@@ -32,7 +32,7 @@ void Node::emit(Turn& t) {
 }
 
 /// Everything that an answer tells, whoever asked for it.
-void Node::learn(const Message& request, const Message& answer, std::uint8_t mf, bool samples, Turn& t) {
+void Drive::learn(const Message& request, const Message& answer, std::uint8_t mf, bool samples, Turn& t) {
     if (samples) {
         bus_.points.each(answer, mf, [&](const Binding& b, Value v) {
             t.out.samples.push_back({axis_, b.point, std::move(v), Quality::good, t.now});
@@ -125,7 +125,7 @@ void Node::learn(const Message& request, const Message& answer, std::uint8_t mf,
     }
 }
 
-void Node::on_status(const Message& m, Turn& t) {
+void Drive::on_status(const Message& m, Turn& t) {
     const Status before = status_;
     const bool had = status_known_;
     status_ = status_of(m);
@@ -167,7 +167,7 @@ void Node::on_status(const Message& m, Turn& t) {
     check_waits(t);
 }
 
-void Node::on_speed(const Message& m, Turn& t) {
+void Drive::on_speed(const Message& m, Turn& t) {
     const std::int64_t position = get_i32(&m.d[4]);
     // A restart begins at 0; nothing else takes a standing axis there but an origin that somebody else has set.
     const bool lost = position_known_ && status_known_ && position == 0 && std::llabs(fb_.position) > 1 && status_.stop && !fb_.moving &&
@@ -187,7 +187,7 @@ void Node::on_speed(const Message& m, Turn& t) {
 }
 
 /// Status, alarms and what we know of the last motion, as the axis profile sees them.
-void Node::derive(Turn& t) {
+void Drive::derive(Turn& t) {
     const bool starting = motion_.kind != Motion::Kind::none && !motion_.seen_moving && t.now - motion_.begun < start_grace;
     fb_.power = status_.on ? AxisFeedback::Power::on : AxisFeedback::Power::off;
     fb_.moving = !status_.stop || starting || rest_unread_;
@@ -200,7 +200,7 @@ void Node::derive(Turn& t) {
     fb_.native_status = status_.raw;
 }
 
-void Node::on_latest_error(const Message& m, Turn& t) {
+void Drive::on_latest_error(const Message& m, Turn& t) {
     const auto report = error_report_of(m);
     if (!report || (report->slot != 0 && report->slot != 10)) return;
     latest_error_ = report->code;
@@ -209,7 +209,7 @@ void Node::on_latest_error(const Message& m, Turn& t) {
     if (!told) emit(t);
 }
 
-void Node::on_error_report(const Message& m, Turn& t) {
+void Drive::on_error_report(const Message& m, Turn& t) {
     ++bus_.counters.unexpected;
     const auto report = error_report_of(m);
     if (!report) {
@@ -253,7 +253,7 @@ void Node::on_error_report(const Message& m, Turn& t) {
     poll_now(t);
 }
 
-void Node::on_notification(const Message& m, Turn& t) {
+void Drive::on_notification(const Message& m, Turn& t) {
     const Notification n = notification_of(m);
     if (phase_ == Phase::absent || phase_ == Phase::probing) next_probe_ = std::min(next_probe_, t.now);
     switch (n.kind) {
@@ -318,7 +318,7 @@ void Node::on_notification(const Message& m, Turn& t) {
 }
 
 /// What was known of its RAM may be wrong now: reads it again while the axis stays in use.
-void Node::suspect_restart(Turn& t, bool zero_lost, std::string why) {
+void Drive::suspect_restart(Turn& t, bool zero_lost, std::string why) {
     if (zero_lost) fb_.referenced = fb_.homing_attained = false;
     forget_demand();
     notice(Severity::warning, "presence", 0, why + "; its values are read again", t);
@@ -328,7 +328,7 @@ void Node::suspect_restart(Turn& t, bool zero_lost, std::string why) {
 // --- motions and "done" ----------------------------------------------------------------------------------------------------------
 
 /// The drive has acknowledged the start of a motion.
-void Node::begin_motion(const Motion& motion, Turn& t) {
+void Drive::begin_motion(const Motion& motion, Turn& t) {
     end_waits(true, Reason::interrupted, "another motion of the same axis began", t);
     demand_begins(motion, t.now);
     motion_ = motion;
@@ -346,7 +346,7 @@ void Node::begin_motion(const Motion& motion, Turn& t) {
     poll_now(t);
 }
 
-void Node::accepted(Ticket ticket, bool until_done, WaitFor what, std::int64_t value, std::string text, Turn& t) {
+void Drive::accepted(Ticket ticket, bool until_done, WaitFor what, std::int64_t value, std::string text, Turn& t) {
     if (ticket == no_ticket) return;
     if (!until_done) return result(ticket, Outcome::accepted, Reason::none, std::move(text), t);
     if (waits_.size() >= wait_limit) {
@@ -356,12 +356,12 @@ void Node::accepted(Ticket ticket, bool until_done, WaitFor what, std::int64_t v
     add_wait(what, ticket, value, t);
 }
 
-void Node::add_wait(WaitFor what, Ticket ticket, std::int64_t value, Turn& t) {
+void Drive::add_wait(WaitFor what, Ticket ticket, std::int64_t value, Turn& t) {
     waits_.push_back({what, ticket, value, t.now});
     poll_now(t);
 }
 
-void Node::check_waits(Turn& t) {
+void Drive::check_waits(Turn& t) {
     for (std::size_t i = 0; i < waits_.size();) {
         const Wait w = waits_[i];
         const bool fresh = status_at_ >= w.since;  // seen after the drive took the command
@@ -425,7 +425,7 @@ void Node::check_waits(Turn& t) {
     }
 }
 
-void Node::end_waits(bool motions_only, Reason reason, const std::string& text, Turn& t) {
+void Drive::end_waits(bool motions_only, Reason reason, const std::string& text, Turn& t) {
     for (std::size_t i = 0; i < waits_.size();) {
         const Wait w = waits_[i];
         if (motions_only && w.what != WaitFor::target && w.what != WaitFor::speed && w.what != WaitFor::part) {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "adapters/uim342/twin_wire.hpp"
+#include "adapters/uim342/twin/wire.hpp"
 
 namespace axisgate::uim342::twin {
 

@@ -7,7 +7,7 @@
 #include <array>
 #include <cstdint>
 
-#include "adapters/uim342/instructions.hpp"
+#include "adapters/uim342/wire_instructions.hpp"
 #include "gateway/core/instant.hpp"
 
 namespace axisgate::uim342 {

@@ -1,10 +1,10 @@
-// The SETs of all instructions, and the ones that do something (BG, ST, OG, SY); see twin_device.hpp.
+// The SETs of all instructions, and the ones that do something (BG, ST, OG, SY).
 // In: telegrams of a length that fits. Out: the acknowledgement, or the fault that kept the instruction from being executed.
-// Never sends: twin_instructions.cpp does.
+// Never sends: instructions.cpp does.
 #include <cmath>
 
-#include "adapters/uim342/twin_device.hpp"
-#include "adapters/uim342/twin_telegrams.hpp"
+#include "adapters/uim342/twin/device.hpp"
+#include "adapters/uim342/twin/telegrams.hpp"
 
 namespace axisgate::uim342::twin {
 

@@ -1,7 +1,7 @@
-// Storage classes, value sets and the named image of the non-volatile memory; see twin_memory.hpp.
+// Storage classes, value sets and the named image of the non-volatile memory.
 // In: values. Out: values.
 // Never acts on a value.
-#include "adapters/uim342/twin_memory.hpp"
+#include "adapters/uim342/twin/memory.hpp"
 
 #include <algorithm>
 #include <string>

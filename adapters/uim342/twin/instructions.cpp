@@ -1,11 +1,11 @@
-// The 28 instructions: validation, GETs, acknowledgements, error reports and their history; see twin_device.hpp.
+// The 28 instructions: validation, GETs, acknowledgements, error reports and their history.
 // In: telegrams for this drive. Out: at most one answer each.
-// Never executes a wrong instruction in part. SETs are in twin_sets.cpp.
+// Never executes a wrong instruction in part. SETs are in sets.cpp.
 #include <algorithm>
 #include <cmath>
 
-#include "adapters/uim342/twin_device.hpp"
-#include "adapters/uim342/twin_telegrams.hpp"
+#include "adapters/uim342/twin/device.hpp"
+#include "adapters/uim342/twin/telegrams.hpp"
 
 namespace axisgate::uim342::twin {
 namespace {

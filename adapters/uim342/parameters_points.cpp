@@ -1,7 +1,7 @@
 // Points: reading the `wire` keys, and cutting values out of answers.
 // In and out: see the header.
 // Never invents a binding: a parameter without a known control word stays unbound and is refused by name.
-#include "adapters/uim342/points.hpp"
+#include "adapters/uim342/parameters_points.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
-// Node: its exchanges: sending, matching, time-outs, repeats, late answers, and the choice of what is sent next.
+// Drive: its exchanges: sending, matching, time-outs, repeats, late answers, and the choice of what is sent next.
 // In: messages of this drive and the passing of time. Out: the answer to whoever asked, or the news that there is none.
-// Never takes a late answer for a new one: an instruction with the same mark waits behind another exchange (exchange.hpp).
-#include "adapters/uim342/node.hpp"
+// Never takes a late answer for a new one: an instruction with the same mark waits behind another exchange (drive_exchange.hpp).
+#include "adapters/uim342/drive.hpp"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,8 @@
 
 namespace axisgate::uim342 {
 
-NodeOptions node_options(const DriveSetup& setup) {
-    NodeOptions o;
+DriveOptions drive_options(const DriveSetup& setup) {
+    DriveOptions o;
     const auto whole = [&](const char* name, std::int64_t low, std::int64_t high) -> std::optional<std::int64_t> {
         const std::string text = option(setup.options, name, "");
         if (text.empty()) return std::nullopt;
@@ -36,8 +36,8 @@ NodeOptions node_options(const DriveSetup& setup) {
     return o;
 }
 
-Node::Node(Bus& bus, const DriveSetup& setup, std::uint8_t address, std::size_t slot)
-    : bus_(bus), setup_(setup), options_(node_options(setup)), address_(address), slot_(slot) {
+Drive::Drive(Bus& bus, const DriveSetup& setup, std::uint8_t address, std::size_t slot)
+    : bus_(bus), setup_(setup), options_(drive_options(setup)), address_(address), slot_(slot) {
     for (const auto& a : setup.axes) {
         if (a.channel == 1) axis_ = a.id;
     }
@@ -46,13 +46,13 @@ Node::Node(Bus& bus, const DriveSetup& setup, std::uint8_t address, std::size_t 
 
 // --- the line ----------------------------------------------------------------------------------------------------------------
 
-void Node::line_up(Turn& t) {
+void Drive::line_up(Turn& t) {
     for (const auto& fault : options_.faults)
         notice(Severity::warning, "setup", 0, fault, t);
     begin_probing(t);
 }
 
-void Node::line_down(Turn& t, std::string_view why) {
+void Drive::line_down(Turn& t, std::string_view why) {
     fail_all(Reason::line_down, std::string(why), t);
     const bool was_online = online();
     phase_ = Phase::down;
@@ -61,12 +61,12 @@ void Node::line_down(Turn& t, std::string_view why) {
     if (was_online) link(false, std::string(why), t);
 }
 
-void Node::remove(Turn& t, std::string_view why) {
+void Drive::remove(Turn& t, std::string_view why) {
     fail_all(Reason::line_down, std::string(why), t);
     phase_ = Phase::down;
 }
 
-void Node::fail_all(Reason reason, const std::string& text, Turn& t) {
+void Drive::fail_all(Reason reason, const std::string& text, Turn& t) {
     if (exchange_.active) end_exchange();
     for (Stop& s : stops_) {
         if (s.active) stop_finished(s, Outcome::failed, reason, text, 0, t);
@@ -88,7 +88,7 @@ void Node::fail_all(Reason reason, const std::string& text, Turn& t) {
 
 // --- commands ------------------------------------------------------------------------------------------------------------------
 
-void Node::submit(const Command& command, Turn& t) {
+void Drive::submit(const Command& command, Turn& t) {
     if (phase_ == Phase::down) return result(command.ticket, Outcome::refused, Reason::line_down, "the line is down", t);
     if (is_urgent(command.body)) return submit_stop(command, t);
     if (phase_ == Phase::absent) {
@@ -105,7 +105,7 @@ void Node::submit(const Command& command, Turn& t) {
 
 // --- what is sent next -----------------------------------------------------------------------------------------------------------
 
-Node::Want Node::wants(Instant now) const noexcept {
+Drive::Want Drive::wants(Instant now) const noexcept {
     if (exchange_.active) return Want::nothing;
     switch (phase_) {
         case Phase::down:
@@ -128,13 +128,13 @@ Node::Want Node::wants(Instant now) const noexcept {
     return Want::nothing;
 }
 
-Instant Node::due() const noexcept {
+Instant Drive::due() const noexcept {
     const Instant due = due_but_wish();
     if (exchange_.active) return due;
     return std::min(due, phase_ == Phase::ready ? next_poll_ : next_probe_);
 }
 
-Instant Node::due_but_wish() const noexcept {
+Instant Drive::due_but_wish() const noexcept {
     Instant due = std::min(supervise_at_, search_.give_up);
     if (exchange_.active) due = std::min(due, exchange_.deadline);
     for (const Stop& s : stops_) {
@@ -143,7 +143,7 @@ Instant Node::due_but_wish() const noexcept {
     return due;
 }
 
-void Node::go(Turn& t) {
+void Drive::go(Turn& t) {
     if (exchange_.active) return;
     switch (phase_) {
         case Phase::down:
@@ -209,13 +209,13 @@ void Node::go(Turn& t) {
     send_exchange(m, Purpose::poll, 0, 0, Priority::poll, t);
 }
 
-void Node::poll_now(Turn& t) noexcept {
+void Drive::poll_now(Turn& t) noexcept {
     next_poll_ = t.now;
     poll_speed_ = false;
 }
 
 /// A read that has nothing to do with the late answers: when it is answered, they can only have come before it.
-void Node::go_barrier(Turn& t) {
+void Drive::go_barrier(Turn& t) {
     const std::array candidates{msg_get(cw::MS, 1), msg_get(cw::MO), msg_get(cw::DV, 0), msg_get(cw::DI), msg_get(cw::MS, 0)};
     const Message* m = &candidates.front();
     for (const Message& c : candidates) {
@@ -229,7 +229,7 @@ void Node::go_barrier(Turn& t) {
 
 // --- exchanges -------------------------------------------------------------------------------------------------------------------
 
-void Node::send_exchange(const Message& m, Purpose p, std::uint8_t mf, std::uint8_t retries, Priority priority, Turn& t) {
+void Drive::send_exchange(const Message& m, Purpose p, std::uint8_t mf, std::uint8_t retries, Priority priority, Turn& t) {
     exchange_.active = true;
     exchange_.purpose = p;
     exchange_.message = m;
@@ -245,14 +245,14 @@ void Node::send_exchange(const Message& m, Purpose p, std::uint8_t mf, std::uint
     bus_.transmit(m, priority, t);
 }
 
-void Node::end_exchange() noexcept {
+void Drive::end_exchange() noexcept {
     exchange_.active = false;
     --bus_.in_flight;
     bus_.overtaken.ended(static_cast<std::uint8_t>(slot_));
     if (exchange_.probe_place) --bus_.probes_in_flight;
 }
 
-void Node::on_message(const Message& m, Turn& t) {
+void Drive::on_message(const Message& m, Turn& t) {
     if (phase_ == Phase::down) return;
     if (m.cw & ack_bit) {
         ++bus_.counters.garbled;  // nothing that a device sends has bit 7 set
@@ -317,7 +317,7 @@ void Node::on_message(const Message& m, Turn& t) {
     }
 }
 
-void Node::exchange_answered(const Message& m, Turn& t) {
+void Drive::exchange_answered(const Message& m, Turn& t) {
     const Exchange e = exchange_;
     end_exchange();
     if (e.purpose == Purpose::probe) return probe_answered(m, t);
@@ -360,7 +360,7 @@ void Node::exchange_answered(const Message& m, Turn& t) {
     waiting_stops(t);
 }
 
-void Node::exchange_refused(const Message& m, Turn& t) {
+void Drive::exchange_refused(const Message& m, Turn& t) {
     const Exchange e = exchange_;
     end_exchange();
     if (e.mf != 0 || e.message.function() == cw::MF) mf_unknown_ = true;
@@ -390,7 +390,7 @@ void Node::exchange_refused(const Message& m, Turn& t) {
 }
 
 /// The present exchange got no answer, however often it was sent.
-void Node::exchange_silent(Turn& t) {
+void Drive::exchange_silent(Turn& t) {
     const Exchange e = exchange_;
     end_exchange();
     late_.add(mark_of(e.message));
@@ -422,7 +422,7 @@ void Node::exchange_silent(Turn& t) {
     if (phase_ != Phase::absent) waiting_stops(t);
 }
 
-void Node::count_silence(Turn& t) {
+void Drive::count_silence(Turn& t) {
     ++silent_;
     const bool absent_now = silent_ >= static_cast<std::uint32_t>(bus_.manners.silent_limit);
     if (phase_ == Phase::probing && !absent_now) {
@@ -437,7 +437,7 @@ void Node::count_silence(Turn& t) {
     }
 }
 
-void Node::on_deadline(Turn& t) {
+void Drive::on_deadline(Turn& t) {
     if (exchange_.active && t.now >= exchange_.deadline) {
         ++bus_.counters.timeouts;
         // A value for an input's group must not be repeated alone: its MF is used up, and it would hit group 0.
@@ -461,14 +461,14 @@ void Node::on_deadline(Turn& t) {
 
 // --- results and notices ---------------------------------------------------------------------------------------------------------
 
-void Node::result(Ticket ticket, Outcome outcome, Reason reason, std::string text, Turn& t, std::int32_t code, Value value,
-                  std::vector<std::uint8_t> bytes) {
+void Drive::result(Ticket ticket, Outcome outcome, Reason reason, std::string text, Turn& t, std::int32_t code, Value value,
+                   std::vector<std::uint8_t> bytes) {
     if (ticket == no_ticket) return;
     t.out.results.push_back({ticket, axis_, outcome, reason, code, std::move(text), std::move(value), std::move(bytes)});
 }
 
 /// At most 20 at once and 10 in a second, alarms excepted: a chattering input must not fill the journal.
-void Node::notice(Severity severity, std::string_view kind, std::int32_t code, std::string text, Turn& t) {
+void Drive::notice(Severity severity, std::string_view kind, std::int32_t code, std::string text, Turn& t) {
     if (severity != Severity::alarm) {
         const auto earned = (t.now - notice_refilled_) / std::chrono::milliseconds(100);
         if (earned > 0) {

@@ -1,7 +1,7 @@
-// Motion states, counter, encoder, lost pulses and stall; see twin_axis.hpp.
+// Motion states, counter, encoder, lost pulses and stall.
 // In: starts, stops, the hand, time. Out: events.
 // Never allocates and never ticks.
-#include "adapters/uim342/twin_axis.hpp"
+#include "adapters/uim342/twin/axis.hpp"
 
 #include <algorithm>
 #include <cmath>

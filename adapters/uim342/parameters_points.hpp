@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "adapters/uim342/instructions.hpp"
+#include "adapters/uim342/wire_instructions.hpp"
 #include "gateway/core/catalogue.hpp"
 
 namespace axisgate::uim342 {

@@ -1,10 +1,10 @@
-// Node, part start-up: is it there, what is it, what does it hold; and what follows when it falls silent or restarts.
+// Drive, part start-up: is it there, what is it, what does it hold; and what follows when it falls silent or restarts.
 // In: answers to ML and to the reads of the list below. Out: DriveLink, samples of everything read, the node made ready.
 // Never writes to the drive but MF=0, which changes no value: a group left selected by somebody else would falsify the reads.
 #include <fmt/format.h>
 
+#include "adapters/uim342/drive.hpp"
 #include "adapters/uim342/native.hpp"
-#include "adapters/uim342/node.hpp"
 
 namespace axisgate::uim342 {
 namespace {
@@ -27,17 +27,17 @@ constexpr Duration boot_time = std::chrono::milliseconds(300);  // not in the ma
 constexpr Read read_at(std::size_t n) { return n < core.size() ? core[n] : rest[n - core.size()]; }
 }  // namespace
 
-bool Node::startup_pending() const noexcept { return startup_at_ < all; }
-bool Node::core_pending() const noexcept { return startup_at_ < core.size(); }
+bool Drive::startup_pending() const noexcept { return startup_at_ < all; }
+bool Drive::core_pending() const noexcept { return startup_at_ < core.size(); }
 
-void Node::link(bool is_online, std::string text, Turn& t) {
+void Drive::link(bool is_online, std::string text, Turn& t) {
     const Duration pause = is_online ? Duration{} : retry_pause_;
     if (told_.drive == setup_.id && told_.online == is_online && told_.retry_pause == pause && told_.text == text) return;
     told_ = {setup_.id, is_online, silent_, pause, std::move(text)};
     t.out.links.push_back(told_);
 }
 
-void Node::begin_probing(Turn& t) {
+void Drive::begin_probing(Turn& t) {
     phase_ = Phase::probing;
     silent_ = 0;
     retry_pause_ = {};
@@ -48,7 +48,7 @@ void Node::begin_probing(Turn& t) {
     notice_refilled_ = t.now;
 }
 
-void Node::go_absent(Turn& t, std::string why, Duration pause) {
+void Drive::go_absent(Turn& t, std::string why, Duration pause) {
     before_ = {status_known_ && position_known_, status_.on, fb_.referenced, fb_.position, cause_ == Cause::own};
     phase_ = Phase::absent;
     retry_pause_ = pause;
@@ -60,7 +60,7 @@ void Node::go_absent(Turn& t, std::string why, Duration pause) {
     link(false, std::move(why), t);
 }
 
-void Node::probe_answered(const Message& m, Turn& t) {
+void Drive::probe_answered(const Message& m, Turn& t) {
     const Model model = model_of(m);
     if (model.gateway) {
         silent_ = static_cast<std::uint32_t>(bus_.manners.silent_limit);
@@ -95,7 +95,7 @@ void Node::probe_answered(const Message& m, Turn& t) {
 }
 
 /// `from_nothing`: nothing of before is trusted. Else the drive goes on being used, but its RAM may have changed.
-void Node::begin_reading(Turn& t, bool from_nothing) {
+void Drive::begin_reading(Turn& t, bool from_nothing) {
     (void)t;
     startup_at_ = 0;
     startup_tries_ = 0;
@@ -118,7 +118,7 @@ void Node::begin_reading(Turn& t, bool from_nothing) {
     ptp_speed_.reset();
 }
 
-void Node::startup_next(Turn& t) {
+void Drive::startup_next(Turn& t) {
     const Read r = read_at(startup_at_);
     const Message m = msg_get(r.cw, r.index);
     const auto retries = static_cast<std::uint8_t>(bus_.manners.retries);
@@ -135,14 +135,14 @@ void Node::startup_next(Turn& t) {
     send_exchange(m, Purpose::startup, 0, retries, Priority::poll, t);
 }
 
-void Node::startup_step_done(Turn& t) {
+void Drive::startup_step_done(Turn& t) {
     startup_tries_ = 0;
     if (startup_at_ < all) ++startup_at_;
     if (startup_at_ == core.size()) core_known(t);
 }
 
 /// Everything is known that commands rest on.
-void Node::core_known(Turn& t) {
+void Drive::core_known(Turn& t) {
     const bool first = phase_ == Phase::starting;
     phase_ = Phase::ready;
     if (first) {
@@ -167,7 +167,7 @@ void Node::core_known(Turn& t) {
 }
 
 /// SY[1] has been sent; nothing acknowledges it [L1216].
-void Node::reboot_begun(Turn& t) {
+void Drive::reboot_begun(Turn& t) {
     before_ = {};
     fb_.referenced = false;
     fb_.homing_attained = false;

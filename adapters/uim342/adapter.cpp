@@ -59,7 +59,8 @@ void LineAdapter::take_manners(const LineSetup& setup) {
     const std::string wanted = option(setup.options, "in_flight", "");
     std::size_t n = 0;
     std::from_chars(wanted.data(), wanted.data() + wanted.size(), n);
-    window_ = n == 0 ? static_cast<std::size_t>(fitting(manners.reply_timeout / 2, 1, can ? 16 : 4)) : std::min<std::size_t>(n, slot_limit);
+    window_ = n == 0 ? static_cast<std::size_t>(fitting(manners.reply_timeout / 2, 1, can ? 16 : 4))
+                     : std::min<std::size_t>(n, drive::slot_limit);
     if (pause_ > Duration::zero() && !can) window_ = 1;  // silence between an answer and the next request: one at a time
     probe_window_ = std::max<std::size_t>(1, window_ / 4);
     // Grace: a drive's own time to answer, and two exchanges.
@@ -82,9 +83,9 @@ void LineAdapter::configure(const LineSetup& setup, Instant now, Out& out) {
     }
     if (const auto n = setup.options.find("in_flight");
         n != setup.options.end() && std::to_string(window_) != n->second && pause_ <= Duration::zero()) {
-        out.notices.push_back({Severity::warning, no_drive, no_axis, "setup", 0,
-                               fmt::format("option in_flight = {}: write a whole number 1..{}; {} is used", n->second, slot_limit, window_),
-                               now});
+        out.notices.push_back(
+            {Severity::warning, no_drive, no_axis, "setup", 0,
+             fmt::format("option in_flight = {}: write a whole number 1..{}; {} is used", n->second, drive::slot_limit, window_), now});
     }
     // Removed and changed ones first, so that their addresses are free.
     for (auto& n : nodes_) {
@@ -99,7 +100,7 @@ void LineAdapter::configure(const LineSetup& setup, Instant now, Out& out) {
         heap_.set(n->slot(), never);
         n.reset();
     }
-    std::vector<Node*> fresh;
+    std::vector<Drive*> fresh;
     for (const DriveSetup& d : setup.drives) {
         if (std::ranges::any_of(nodes_, [&](const auto& n) { return n && same(d, n->setup()); })) continue;
         const auto address = address_of(d.address);
@@ -113,7 +114,7 @@ void LineAdapter::configure(const LineSetup& setup, Instant now, Out& out) {
         while (slot < nodes_.size() && nodes_[slot])
             ++slot;
         if (slot == nodes_.size()) nodes_.emplace_back();
-        nodes_[slot] = std::make_unique<Node>(static_cast<Bus&>(*this), d, *address, slot);
+        nodes_[slot] = std::make_unique<Drive>(static_cast<Bus&>(*this), d, *address, slot);
         by_id_[*address] = nodes_[slot].get();
         fresh.push_back(nodes_[slot].get());
     }
@@ -125,7 +126,7 @@ void LineAdapter::configure(const LineSetup& setup, Instant now, Out& out) {
     }
     std::ranges::sort(by_axis_, {}, [](const auto& p) { return p.first; });
     if (up_) {
-        for (Node* n : fresh)
+        for (Drive* n : fresh)
             n->line_up(t);
     }
     touched_ = true;
@@ -163,14 +164,14 @@ void LineAdapter::answer(const Command& c, Outcome outcome, Reason reason, std::
     if (c.ticket != no_ticket) t.out.results.push_back({c.ticket, c.axis, outcome, reason, 0, std::move(text), {}, {}});
 }
 
-Node* LineAdapter::node_of(AxisId axis) const noexcept {
+Drive* LineAdapter::node_of(AxisId axis) const noexcept {
     const auto it = std::ranges::lower_bound(by_axis_, axis, {}, [](const auto& p) { return p.first; });
     return it != by_axis_.end() && it->first == axis ? it->second : nullptr;
 }
 
 void LineAdapter::on_command(const Command& command, Instant now, Out& out) {
     Turn t{now, out};
-    Node* n = node_of(command.axis);
+    Drive* n = node_of(command.axis);
     if (!n) {
         answer(command, Outcome::refused, Reason::line_down,
                "this axis is not on the line, or its drive's address or channel is wrong (a UIM342 has one axis)", t);
@@ -235,7 +236,7 @@ void LineAdapter::tell_other_crc(Turn& t) {
 }
 
 void LineAdapter::deliver(const Message& m, Turn& t) {
-    Node* n = m.id < by_id_.size() ? by_id_[m.id] : nullptr;
+    Drive* n = m.id < by_id_.size() ? by_id_[m.id] : nullptr;
     if (!n) {
         ++Bus::counters.unexpected;  // another master, the gateway itself, or a drive that the setup does not name
         return;
@@ -262,23 +263,23 @@ void LineAdapter::transmit(const Message& m, Priority priority, Turn& t) {
 }
 
 /// Puts a node where it belongs after anything has happened to it.
-void LineAdapter::settle(Node& n, Turn& t) {
+void LineAdapter::settle(Drive& n, Turn& t) {
     switch (n.wants(t.now)) {
-        case Node::Want::nothing:
+        case Drive::Want::nothing:
             break;
-        case Node::Want::command:
+        case Drive::Want::command:
             if (!(n.in_ring & in_commands)) {
                 n.in_ring |= in_commands;
                 commands_.push(n.slot());
             }
             break;
-        case Node::Want::poll:
+        case Drive::Want::poll:
             if (!(n.in_ring & in_polls)) {
                 n.in_ring |= in_polls;
                 polls_.push(n.slot());
             }
             break;
-        case Node::Want::probe:
+        case Drive::Want::probe:
             if (!(n.in_ring & in_probes)) {
                 n.in_ring |= in_probes;
                 probes_.push(n.slot());
@@ -290,11 +291,11 @@ void LineAdapter::settle(Node& n, Turn& t) {
 }
 
 void LineAdapter::pump(Turn& t) {
-    const auto serve = [&](Ring& ring, std::uint8_t mark) {
-        Node* n = nodes_[ring.pop()].get();
+    const auto serve = [&](drive::Ring& ring, std::uint8_t mark) {
+        Drive* n = nodes_[ring.pop()].get();
         n->in_ring &= static_cast<std::uint8_t>(~mark);
         const auto want = n->wants(t.now);
-        const bool right = mark == in_probes ? want == Node::Want::probe : want == Node::Want::command || want == Node::Want::poll;
+        const bool right = mark == in_probes ? want == Drive::Want::probe : want == Drive::Want::command || want == Drive::Want::poll;
         if (right) n->go(t);
         settle(*n, t);
     };
@@ -341,8 +342,8 @@ void LineAdapter::finish_turn(Turn& t) {
 void LineAdapter::on_deadline(Instant now, Out& out) {
     Turn t{now, out};
     // Each due node is looked at once: settle gives it a later instant or a place in a ring.
-    for (std::size_t n = 0; n < slot_limit && heap_.earliest() <= now; ++n) {
-        Node& node = *nodes_[heap_.first()];
+    for (std::size_t n = 0; n < drive::slot_limit && heap_.earliest() <= now; ++n) {
+        Drive& node = *nodes_[heap_.first()];
         node.on_deadline(t);
         settle(node, t);
     }
@@ -362,7 +363,7 @@ Instant LineAdapter::deadline() const {
 
 // --- questions of nodes ----------------------------------------------------------------------------------------------------------
 
-std::string LineAdapter::user_of(std::uint8_t id, const Node& but) const {
+std::string LineAdapter::user_of(std::uint8_t id, const Drive& but) const {
     for (const auto& n : nodes_) {
         if (n && n.get() != &but && n->address() == id) return fmt::format("{}'s node ID", n->name());
     }

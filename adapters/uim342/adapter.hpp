@@ -11,10 +11,10 @@
 #include <unordered_map>
 #include <vector>
 
-#include "adapters/uim342/node.hpp"
-#include "adapters/uim342/schedule.hpp"
-#include "adapters/uim342/uimessage.hpp"
+#include "adapters/uim342/drive.hpp"
+#include "adapters/uim342/wire_uimessage.hpp"
 #include "gateway/core/adapter.hpp"
+#include "gateway/drive/schedule.hpp"
 
 namespace axisgate::uim342 {
 
@@ -36,21 +36,21 @@ public:
 private:
     // Bus
     void transmit(const Message& m, Priority priority, Turn& t) override;
-    void part_ready(Node& node, Turn& t) override;
-    void part_done(Node& node, Part part, Turn& t) override;
-    [[nodiscard]] std::string user_of(std::uint8_t id, const Node& but) const override;
+    void part_ready(Drive& node, Turn& t) override;
+    void part_done(Drive& node, Part part, Turn& t) override;
+    [[nodiscard]] std::string user_of(std::uint8_t id, const Drive& but) const override;
 
     void take_manners(const LineSetup& setup);
     void deliver(const Message& m, Turn& t);
     void tell_other_crc(Turn& t);
-    void settle(Node& node, Turn& t);
+    void settle(Drive& node, Turn& t);
     void clear_rings() noexcept;
     void pump(Turn& t);
     void finish_turn(Turn& t);
-    [[nodiscard]] Node* node_of(AxisId axis) const noexcept;
+    [[nodiscard]] Drive* node_of(AxisId axis) const noexcept;
     static void answer(const Command& command, Outcome outcome, Reason reason, std::string text, Turn& t);
 
-    // joint orders: joint.cpp
+    // joint orders: actions.cpp
     struct Joint {
         enum class Kind : std::uint8_t { none, start, start_group, stop };
         enum class Stage : std::uint8_t { gathering, running };
@@ -58,15 +58,15 @@ private:
         Stage stage = Stage::gathering;
         Command command;
         std::uint8_t group = 0;
-        std::vector<Node*> open;  ///< still to be heard of in this stage
-        std::vector<Node*> members;
+        std::vector<Drive*> open;  ///< still to be heard of in this stage
+        std::vector<Drive*> members;
         Part worst;  ///< first part that did not end well
         bool bad = false;
     };
     void start_together(const Command& command, const StartTogether& what, Turn& t);
     void start_group(const Command& command, const std::string& argument, Turn& t);
     void global_stop(const Command& command, Turn& t);
-    void gather(const Command& command, Joint::Kind how, std::vector<Node*> members, Turn& t);
+    void gather(const Command& command, Joint::Kind how, std::vector<Drive*> members, Turn& t);
     void begin_joint(Turn& t);
     void end_joint(Outcome outcome, Reason reason, std::string text, std::int32_t code, Turn& t);
     [[nodiscard]] std::string whom_to_start(std::uint8_t& id) const;
@@ -75,17 +75,17 @@ private:
     bool up_ = false;
     CrcMode crc_ = CrcMode::twelve;
     UiFramer framer_;
-    bool try_thirteen_ = false;  ///< auto: the next unproved frame goes out with the other range
+    bool try_thirteen_ = false;    ///< auto: the next unproved frame goes out with the other range
     bool other_crc_told_ = false;  ///< since the line came up
     std::size_t window_ = 16;
     std::size_t probe_window_ = 4;
     Duration pause_{};
-    Instant quiet_until_{};                     ///< LineManners::pause
-    std::vector<std::unique_ptr<Node>> nodes_;  ///< by slot; empty places are nullptr
-    std::array<Node*, 128> by_id_{};
-    std::vector<std::pair<AxisId, Node*>> by_axis_;  ///< sorted
-    DeadlineHeap heap_;
-    Ring commands_, polls_, probes_;
+    Instant quiet_until_{};                      ///< LineManners::pause
+    std::vector<std::unique_ptr<Drive>> nodes_;  ///< by slot; empty places are nullptr
+    std::array<Drive*, 128> by_id_{};
+    std::vector<std::pair<AxisId, Drive*>> by_axis_;  ///< sorted
+    drive::DeadlineHeap heap_;
+    drive::Ring commands_, polls_, probes_;
     bool probed_last_ = false;
     std::uint8_t commands_in_a_row_ = 0;
     bool touched_ = false;

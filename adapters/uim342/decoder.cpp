@@ -7,8 +7,8 @@
 
 #include <iterator>
 
-#include "adapters/uim342/instructions.hpp"
 #include "adapters/uim342/native.hpp"
+#include "adapters/uim342/wire_instructions.hpp"
 
 namespace axisgate::uim342 {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "adapters/uim342/uimessage.hpp"
+#include "adapters/uim342/wire_uimessage.hpp"
 #include "gateway/core/family.hpp"
 
 namespace axisgate::uim342 {

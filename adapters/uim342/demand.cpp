@@ -1,14 +1,14 @@
-// Node, part demand: where the axis should be, worked out from the orders that the drive acknowledged (brief ramps: cut-in speed, AC, DC, SD).
-// In: the beginnings and ends of motions, statuses, positions. Out: demand and its source in the feedback.
-// Never told by the drive: MS[1] has the position alone and DV[4] the end of the motion. In open loop the position is itself a count of steps.
+// Drive, part demand: where the axis should be, worked out from the orders that the drive acknowledged (brief ramps: cut-in speed, AC, DC,
+// SD). In: the beginnings and ends of motions, statuses, positions. Out: demand and its source in the feedback. Never told by the drive:
+// MS[1] has the position alone and DV[4] the end of the motion. In open loop the position is itself a count of steps.
 #include <cmath>
 
-#include "adapters/uim342/node.hpp"
+#include "adapters/uim342/drive.hpp"
 
 namespace axisgate::uim342 {
 
 /// As the drive will run with the values in force; nothing: one of them is not known.
-std::optional<DemandRamps> Node::demand_ramps(std::int64_t speed) const noexcept {
+std::optional<DemandRamps> Drive::demand_ramps(std::int64_t speed) const noexcept {
     if (!ac_ || !dc_ || !ss_ || !time_ramps_) return std::nullopt;
     DemandRamps r;
     r.start_speed = static_cast<double>(*ss_);
@@ -22,24 +22,25 @@ std::optional<DemandRamps> Node::demand_ramps(std::int64_t speed) const noexcept
     return r;
 }
 
-void Node::forget_demand() noexcept {
+void Drive::forget_demand() noexcept {
     demand_.forget();
     fb_.demand_source = DemandSource::none;
 }
 
-void Node::demand_rests(std::int64_t position) noexcept {
+void Drive::demand_rests(std::int64_t position) noexcept {
     if (!status_.on) return forget_demand();
     demand_.rest(static_cast<double>(position));
 }
 
 /// BG has been acknowledged. Ack and later positions come with the same delay from the drive, so their difference is free of it.
-void Node::demand_begins(const Motion& motion, Instant now) noexcept {
+void Drive::demand_begins(const Motion& motion, Instant now) noexcept {
     using Kind = Motion::Kind;
     const std::int64_t speed = motion.kind == Kind::velocity ? std::llabs(motion.target) : motion.speed;
     const auto ramps = demand_ramps(speed);
     if (motion.kind == Kind::none || motion.kind == Kind::unknown || !ramps || !status_.on || !position_known_) return forget_demand();
-    if (!fb_.moving) demand_.rest(static_cast<double>(fb_.position));  // the drive plans from where it is [L799], not from where it was sent
-    if (!demand_.known()) return;                                      // and in motion from a speed that nobody knows
+    if (!fb_.moving)
+        demand_.rest(static_cast<double>(fb_.position));  // the drive plans from where it is [L799], not from where it was sent
+    if (!demand_.known()) return;                         // and in motion from a speed that nobody knows
     if (motion.kind == Kind::velocity) return demand_.run(now, static_cast<double>(motion.target), *ramps);
     if (speed <= 0) return forget_demand();
     double target = static_cast<double>(motion.target);
@@ -48,7 +49,7 @@ void Node::demand_begins(const Motion& motion, Instant now) noexcept {
 }
 
 /// A halt by JV = 0 runs down with DC, ST with SD; SD = 0 is no ramp.
-void Node::demand_stops(bool soft, Instant now) noexcept {
+void Drive::demand_stops(bool soft, Instant now) noexcept {
     if (!demand_.known()) return;
     auto ramps = demand_ramps(std::llabs(fb_.velocity));
     if (!ramps || (!soft && !sd_)) return forget_demand();
@@ -57,7 +58,7 @@ void Node::demand_stops(bool soft, Instant now) noexcept {
 }
 
 /// `started_by_itself`: it stood, nothing was ordered, and now it moves.
-void Node::demand_at_status(bool started_by_itself, Instant now) noexcept {
+void Drive::demand_at_status(bool started_by_itself, Instant now) noexcept {
     if (!status_.on || started_by_itself) return forget_demand();
     if (fb_.moving || !position_known_) return;
     // It stands before it should: a switch, a stall or somebody else has ended the motion. The answer to BG was this much late at most.
@@ -65,7 +66,7 @@ void Node::demand_at_status(bool started_by_itself, Instant now) noexcept {
 }
 
 /// Called with each position: it and the demand belong to one instant.
-void Node::demand_at_position(Instant now) noexcept {
+void Drive::demand_at_position(Instant now) noexcept {
     if (!status_.on || !closed_loop_ || !status_known_) return forget_demand();
     if (!*closed_loop_) {
         fb_.demand_source = DemandSource::open_loop;

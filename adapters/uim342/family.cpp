@@ -5,7 +5,7 @@
 
 #include "adapters/uim342/adapter.hpp"
 #include "adapters/uim342/decoder.hpp"
-#include "adapters/uim342/twin.hpp"
+#include "adapters/uim342/twin/twin.hpp"
 
 namespace axisgate {
 

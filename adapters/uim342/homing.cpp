@@ -1,12 +1,12 @@
-// Node, part homing: the search for a switch (CiA 402 methods 17 to 22), built from the drive's own input actions.
+// Drive, part homing: the search for a switch (CiA 402 methods 17 to 22), built from the drive's own input actions.
 // In: the method, the options home_input, home_active, home_velocity, the level of the input, the standing still of the axis.
 // Out: TG[i]=60001 (one time) and IL[i] with "stop" or "origin, then stop", JV and BG; in the end the settings of before.
 // The drive itself sets the origin within 1 ms of the edge; nothing here is on the way between the switch and the zero.
 // Never writes to EEPROM: every SET is done with the driver on [L1632, L1667], and what was changed is put back.
 #include <fmt/format.h>
 
+#include "adapters/uim342/drive.hpp"
 #include "adapters/uim342/native.hpp"
-#include "adapters/uim342/node.hpp"
 
 namespace axisgate::uim342 {
 namespace {
@@ -37,15 +37,15 @@ constexpr Method method_of(int m) {
 }
 }  // namespace
 
-bool Node::switch_active() const noexcept {
+bool Drive::switch_active() const noexcept {
     const bool level = options_.home_input == 1 ? status_.in1 : options_.home_input == 2 ? status_.in2 : status_.in3;
     return level == options_.home_high;
 }
 
 /// MF of an edge of the home input: IN1 rising 2, falling 3, IN2 4, 5, IN3 6, 7 [L1306-1315].
-std::uint8_t Node::edge_group(bool rising) const noexcept { return static_cast<std::uint8_t>(options_.home_input * 2 + (rising ? 0 : 1)); }
+std::uint8_t Drive::edge_group(bool rising) const noexcept { return static_cast<std::uint8_t>(options_.home_input * 2 + (rising ? 0 : 1)); }
 
-void Node::plan_search(std::int16_t method, Turn& t) {
+void Drive::plan_search(std::int16_t method, Turn& t) {
     if (options_.home_input == 0 || options_.home_velocity == 0) {
         return refuse_job(Reason::not_supported,
                           fmt::format("homing method {} needs the drive's options home_input (1..3) and home_velocity (pulse/s); "
@@ -81,7 +81,7 @@ void Node::plan_search(std::int16_t method, Turn& t) {
 }
 
 /// The present list of steps is through.
-void Node::search_next(Turn& t) {
+void Drive::search_next(Turn& t) {
     using Stage = Search::Stage;
     if (search_.stage == Stage::idle) return;
     // Where the final move must begin: outside the switch to enter it, inside to leave it.
@@ -127,7 +127,7 @@ void Node::search_next(Turn& t) {
 }
 
 /// One move: the input is told what to do at the edge, then the axis is sent off.
-void Node::search_arm(Turn& t) {
+void Drive::search_arm(Turn& t) {
     using Stage = Search::Stage;
     const bool final = search_.stage == Stage::final;
     const bool to_active = final ? search_.entering : !search_.entering;
@@ -146,7 +146,7 @@ void Node::search_arm(Turn& t) {
 }
 
 /// Called with every status: has the move come to its end?
-void Node::search_status(Turn& t) {
+void Drive::search_status(Turn& t) {
     if (!search_.running) return;
     if (fb_.fault || !status_.on) {
         return search_over(
@@ -158,7 +158,7 @@ void Node::search_status(Turn& t) {
     search_.check_due = true;
 }
 
-void Node::search_check(Turn& t) {
+void Drive::search_check(Turn& t) {
     search_.check_due = false;
     search_.checking = true;
     begin_job(JobKind::search, Command{no_ticket, axis_, search_.command.body, false, {}});
@@ -168,12 +168,12 @@ void Node::search_check(Turn& t) {
 }
 
 /// Whether the next command of the queue may begin: during a search only values are read.
-bool Node::queue_ready() const noexcept {
+bool Drive::queue_ready() const noexcept {
     if (queue_.empty() || job_.active) return false;
     return !searching() || (search_.running && std::holds_alternative<ReadParameter>(queue_.front().command.body));
 }
 
-void Node::search_deadline(Turn& t) {
+void Drive::search_deadline(Turn& t) {
     search_.give_up = never;
     const bool moving = search_.running;
     search_over(false, Reason::interrupted,
@@ -184,7 +184,7 @@ void Node::search_deadline(Turn& t) {
     add_stop(s, t);
 }
 
-void Node::search_over(bool good, Reason reason, std::string text, Turn& t) {
+void Drive::search_over(bool good, Reason reason, std::string text, Turn& t) {
     if (job_.active && job_.kind == JobKind::search) {
         if (exchange_.active && exchange_.purpose == Purpose::job) {
             exchange_.purpose = Purpose::orphan;
@@ -207,11 +207,11 @@ void Node::search_over(bool good, Reason reason, std::string text, Turn& t) {
 // --- putting back ----------------------------------------------------------------------------------------------------------------
 
 /// Only with the driver on, so that it stays in RAM; until then the armed input is harmless, because nothing moves.
-bool Node::restore_due() const noexcept {
+bool Drive::restore_due() const noexcept {
     return restore_.pending && phase_ == Phase::ready && status_.on && !job_.active && !fb_.moving && !searching();
 }
 
-void Node::plan_restore(Turn& t) {
+void Drive::plan_restore(Turn& t) {
     begin_job(JobKind::restore, Command{no_ticket, axis_, ReadParameter{}, false, {}});
     const auto i = restore_.input;
     job_.add(msg_set(cw::TG, restore_.tg, i));

@@ -1,4 +1,4 @@
-// Node, part motion: the verbs of CiA 402 taken apart into instructions, and the run of such a job to its one result.
+// Drive, part motion: the verbs of CiA 402 taken apart into instructions, and the run of such a job to its one result.
 // In: commands from the queue, answers to their steps. Out: exchanges one after the other, the result.
 // Never starts what it could not set: any refused or altered value ends the job before BG. Never repeats BG.
 #include <fmt/format.h>
@@ -8,8 +8,8 @@
 #include <iterator>
 #include <limits>
 
+#include "adapters/uim342/drive.hpp"
 #include "adapters/uim342/native.hpp"
-#include "adapters/uim342/node.hpp"
 
 namespace axisgate::uim342 {
 namespace {
@@ -39,11 +39,11 @@ std::string_view advice(std::uint8_t code, std::uint8_t function) {
 }
 }  // namespace
 
-bool Node::is_motion(const CommandBody& body) const noexcept {
+bool Drive::is_motion(const CommandBody& body) const noexcept {
     return std::holds_alternative<Move>(body) || std::holds_alternative<Home>(body) || std::holds_alternative<StartTogether>(body);
 }
 
-std::string Node::not_startable() const {
+std::string Drive::not_startable() const {
     if (phase_ != Phase::ready) return fmt::format("{} does not answer", name());
     if (!status_.on) return fmt::format("{} is off", name());
     if (status_.lock) return fmt::format("{} is locked", name());
@@ -53,7 +53,7 @@ std::string Node::not_startable() const {
 
 // --- jobs ------------------------------------------------------------------------------------------------------------------------
 
-void Node::take_next(Turn& t) {
+void Drive::take_next(Turn& t) {
     const Queued next = std::move(queue_.front());
     queue_.pop_front();
     if (!next.marker) return start_job(next.command, t);
@@ -62,14 +62,14 @@ void Node::take_next(Turn& t) {
     bus_.part_ready(*this, t);
 }
 
-void Node::begin_job(JobKind kind, const Command& command) {
+void Drive::begin_job(JobKind kind, const Command& command) {
     job_ = Job{};
     job_.active = true;
     job_.kind = kind;
     job_.command = command;
 }
 
-void Node::start_job(const Command& command, Turn& t) {
+void Drive::start_job(const Command& command, Turn& t) {
     const CommandBody& body = command.body;
     if (std::holds_alternative<Enable>(body)) {
         begin_job(JobKind::enable, command);
@@ -114,7 +114,7 @@ void Node::start_job(const Command& command, Turn& t) {
 }
 
 /// Sends the present step, or what has to go before it.
-void Node::run_job(Turn& t) {
+void Drive::run_job(Turn& t) {
     if (exchange_.active) return;
     while (job_.active && !job_.waiting && job_.at < job_.count) {
         if (job_.again) {
@@ -144,7 +144,7 @@ void Node::run_job(Turn& t) {
     if (job_.active && !job_.waiting && job_.at >= job_.count) job_done(t);
 }
 
-void Node::job_answered(const Message& m, Turn& t) {
+void Drive::job_answered(const Message& m, Turn& t) {
     if (!job_.active || job_.at >= job_.count) return;
     const Step step = job_.steps[job_.at];
     job_.last = m;
@@ -187,7 +187,7 @@ void Node::job_answered(const Message& m, Turn& t) {
     if (job_.active && job_.at >= job_.count) job_done(t);
 }
 
-void Node::job_refused(const Message& m, Turn& t) {
+void Drive::job_refused(const Message& m, Turn& t) {
     if (!job_.active) return;
     const Step step = job_.steps[std::min<std::size_t>(job_.at, job_.steps.size() - 1)];
     const auto report = error_report_of(m);
@@ -205,7 +205,7 @@ void Node::job_refused(const Message& m, Turn& t) {
 }
 
 /// A step got no answer.
-void Node::job_silent(Turn& t) {
+void Drive::job_silent(Turn& t) {
     if (!job_.active) return;
     const Step step = job_.steps[std::min<std::size_t>(job_.at, job_.steps.size() - 1)];
     if (step.mf != 0 && job_.rounds < bus_.manners.retries) {
@@ -230,7 +230,7 @@ void Node::job_silent(Turn& t) {
 }
 
 /// Every step has been answered.
-void Node::job_done(Turn& t) {
+void Drive::job_done(Turn& t) {
     switch (job_.kind) {
         case JobKind::enable: {
             const Command c = job_.command;
@@ -269,7 +269,7 @@ void Node::job_done(Turn& t) {
     }
 }
 
-void Node::job_over(Outcome outcome, Reason reason, std::string text, Turn& t, std::int32_t code, Value value) {
+void Drive::job_over(Outcome outcome, Reason reason, std::string text, Turn& t, std::int32_t code, Value value) {
     if (!job_.active) return;
     job_.active = false;
     blind_.reset();
@@ -287,7 +287,7 @@ void Node::job_over(Outcome outcome, Reason reason, std::string text, Turn& t, s
 
 /// A residual action may move the motor when the driver turns on [L1264]: ST before and after MO=1, and only then, with the
 /// driver on as the manual wants it, a jog speed of 0 in place of whatever was set before.
-void Node::plan_enable(Turn& t) {
+void Drive::plan_enable(Turn& t) {
     if (status_.lock) return refuse_job(Reason::wrong_state, "the drive is locked after an emergency stop: reset the fault first", t);
     job_.add(msg_act(cw::ST));
     job_.add(msg_set(cw::MO, 1));
@@ -297,14 +297,14 @@ void Node::plan_enable(Turn& t) {
 }
 
 /// MS[0]=0 clears PAIF, TLIF and ERR [L920]; a lock is left by MO=0 (erratum E-39); ER[0]=0 takes the shown error away.
-void Node::plan_reset(Turn& t) {
+void Drive::plan_reset(Turn& t) {
     (void)t;
     if (status_.lock) job_.add(msg_set(cw::MO, 0));
     job_.add(msg_set(cw::MS, 0, 0));
     if (latest_error_ != 0) job_.add(msg_set(cw::ER, 0, 0));
 }
 
-void Node::done_reset(Turn& t) {
+void Drive::done_reset(Turn& t) {
     poll_now(t);
     fb_.homing_error = false;
     if (status_.err || status_.tlif || status_.lock) {
@@ -322,7 +322,7 @@ void Node::done_reset(Turn& t) {
     job_over(job_.command.until_done ? Outcome::done : Outcome::accepted, Reason::none, "", t);
 }
 
-void Node::plan_home(const Home& home, Turn& t) {
+void Drive::plan_home(const Home& home, Turn& t) {
     const int m = home.method;
     if (m == 0 || m == 35 || m == 37) {
         job_.add(msg_act(cw::OG));
@@ -345,7 +345,7 @@ void Node::plan_home(const Home& home, Turn& t) {
     refuse_job(Reason::not_supported, why + "; 35 and 37 call the present position 0", t);
 }
 
-void Node::done_origin(Turn& t) {
+void Drive::done_origin(Turn& t) {
     fb_.referenced = true;
     fb_.homing_error = false;
     if (std::holds_alternative<Home>(job_.command.body)) fb_.homing_attained = true;
@@ -360,8 +360,8 @@ void Node::done_origin(Turn& t) {
 
 /// AC or DC for an acceleration in pulse/s^2. With IC[4] = 1 they are the time between cut-in speed and speed, in ms. Nothing and
 /// no fault: no ramp is needed.
-std::optional<std::uint32_t> Node::ramp(std::int64_t rate, std::int64_t speed, std::string_view what, std::string& text,
-                                        std::string& fault) const {
+std::optional<std::uint32_t> Drive::ramp(std::int64_t rate, std::int64_t speed, std::string_view what, std::string& text,
+                                         std::string& fault) const {
     if (!time_ramps_) {
         fault = fmt::format("IC[4] could not be read, so the unit of {} is not known", what);
         return std::nullopt;
@@ -392,7 +392,7 @@ std::optional<std::uint32_t> Node::ramp(std::int64_t rate, std::int64_t speed, s
     return static_cast<std::uint32_t>(rounded);
 }
 
-void Node::plan_move(const Move& move, Turn& t) {
+void Drive::plan_move(const Move& move, Turn& t) {
     // With the driver off PA would be kept, and act as a residual motion when it turns on.
     if (!status_.on) return refuse_job(Reason::wrong_state, "the driver is off: enable the axis first", t);
     if (status_.lock) return refuse_job(Reason::wrong_state, "the drive is locked after an emergency stop: reset the fault first", t);
@@ -441,7 +441,7 @@ void Node::plan_move(const Move& move, Turn& t) {
     if (!move.prepare_only) job_.add(msg_act(cw::BG));
 }
 
-void Node::done_move(Turn& t) {
+void Drive::done_move(Turn& t) {
     const Command c = job_.command;
     const Move& move = std::get<Move>(c.body);
     Motion m;
@@ -464,14 +464,14 @@ void Node::done_move(Turn& t) {
 
 // --- joint start -----------------------------------------------------------------------------------------------------------------
 
-bool Node::join(Turn& t) {
+bool Drive::join(Turn& t) {
     (void)t;
     if (queue_.size() >= queue_limit) return false;
     queue_.push_back({Command{no_ticket, axis_, StartTogether{}, false, {}}, true});
     return true;
 }
 
-void Node::begun_by_group(bool until_done, Turn& t) {
+void Drive::begun_by_group(bool until_done, Turn& t) {
     if (job_.active && job_.kind == JobKind::together) job_.active = false;
     broadcast_until_ = t.now + 4 * bus_.manners.reply_timeout;  // it may wait in the line's queue behind other frames
     if (prepared_) {
@@ -483,7 +483,7 @@ void Node::begun_by_group(bool until_done, Turn& t) {
     part_until_done_ = until_done;
 }
 
-void Node::leave(Turn& t) {
+void Drive::leave(Turn& t) {
     if (job_.active && job_.kind == JobKind::together) job_.active = false;
     std::erase_if(queue_, [](const Queued& q) { return q.marker; });
     part_pending_ = false;

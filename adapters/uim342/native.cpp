@@ -10,7 +10,7 @@
 #include <iterator>
 #include <optional>
 
-#include "adapters/uim342/instructions.hpp"
+#include "adapters/uim342/wire_instructions.hpp"
 
 namespace axisgate::uim342 {
 namespace {

@@ -1,4 +1,4 @@
-// Node, part stop: quick stop, halt and disable: sent at once, before everything that waits and beside the exchange in progress.
+// Drive, part stop: quick stop, halt and disable: sent at once, before everything that waits and beside the exchange in progress.
 // In: the three urgent commands, a joint stop, supervision. Out: ST, MO=0, or JV=0 and BG, urgent; their results.
 // Never lets a motion outlive a stop: what waits is ended as interrupted, and if a BG may still be on its way behind the stop
 // (the line lets urgent frames overtake), the stop is repeated behind it.
@@ -6,8 +6,8 @@
 
 #include <cstdlib>
 
+#include "adapters/uim342/drive.hpp"
 #include "adapters/uim342/native.hpp"
-#include "adapters/uim342/node.hpp"
 
 namespace axisgate::uim342 {
 namespace {
@@ -17,14 +17,14 @@ bool sets_motion(const Message& m) {
 }
 }  // namespace
 
-bool Node::stopping() const noexcept {
+bool Drive::stopping() const noexcept {
     for (const Stop& s : stops_) {
         if (s.active) return true;
     }
     return false;
 }
 
-void Node::submit_stop(const Command& command, Turn& t) {
+void Drive::submit_stop(const Command& command, Turn& t) {
     Stop s;
     s.kind = std::holds_alternative<Disable>(command.body) ? StopKind::off
              : std::holds_alternative<Halt>(command.body)  ? StopKind::halt
@@ -36,7 +36,7 @@ void Node::submit_stop(const Command& command, Turn& t) {
 }
 
 /// Ends every motion of this axis that waits or runs.
-void Node::interrupt_motions(std::string_view by, bool power_off, Turn& t) {
+void Drive::interrupt_motions(std::string_view by, bool power_off, Turn& t) {
     const std::string text = fmt::format("interrupted by {}", by);
     if (searching()) search_over(false, Reason::interrupted, text, t);
     if (job_.active && (is_motion(job_.command.body) || job_.kind == JobKind::together ||
@@ -64,7 +64,7 @@ void Node::interrupt_motions(std::string_view by, bool power_off, Turn& t) {
     prepared_ = false;
 }
 
-void Node::add_stop(Stop wanted, Turn& t) {
+void Drive::add_stop(Stop wanted, Turn& t) {
     for (Stop& s : stops_) {
         if (s.active) continue;
         s = wanted;
@@ -81,7 +81,7 @@ void Node::add_stop(Stop wanted, Turn& t) {
     if (wanted.part) bus_.part_done(*this, {false, Reason::busy, 0, text}, t);
 }
 
-void Node::begin_stop(Stop& s, Turn& t) {
+void Drive::begin_stop(Stop& s, Turn& t) {
     const auto retries = static_cast<std::uint8_t>(bus_.manners.retries);
     const bool motion_on_its_way = exchange_.active && sets_motion(exchange_.message);
     const bool start_on_its_way = (exchange_.active && exchange_.message.function() == cw::BG) || t.now < broadcast_until_;
@@ -118,7 +118,7 @@ void Node::begin_stop(Stop& s, Turn& t) {
     send_stop(s, msg_act(cw::ST), retries, t);
 }
 
-void Node::waiting_stops(Turn& t) {
+void Drive::waiting_stops(Turn& t) {
     for (Stop& s : stops_) {
         if (!s.active || !s.waiting || (exchange_.active && sets_motion(exchange_.message))) continue;
         s.waiting = false;
@@ -126,7 +126,7 @@ void Node::waiting_stops(Turn& t) {
     }
 }
 
-void Node::send_stop(Stop& s, const Message& m, std::uint8_t retries, Turn& t) {
+void Drive::send_stop(Stop& s, const Message& m, std::uint8_t retries, Turn& t) {
     s.message = m;
     s.tries = 1;
     s.left = retries;
@@ -135,7 +135,7 @@ void Node::send_stop(Stop& s, const Message& m, std::uint8_t retries, Turn& t) {
     bus_.transmit(m, Priority::urgent, t);
 }
 
-void Node::stop_answered(Stop& s, const Message& m, Turn& t) {
+void Drive::stop_answered(Stop& s, const Message& m, Turn& t) {
     learn(s.message, m, 0, true, t);
     if (s.kind == StopKind::off) {
         if (m.dl > 0 && m.d[0] != 0) {
@@ -166,7 +166,7 @@ void Node::stop_answered(Stop& s, const Message& m, Turn& t) {
     stop_finished(s, Outcome::accepted, Reason::none, "", 0, t);
 }
 
-void Node::stop_refused(Stop& s, const Message& m, Turn& t) {
+void Drive::stop_refused(Stop& s, const Message& m, Turn& t) {
     const auto report = error_report_of(m);
     const std::uint8_t code = report ? report->code : std::uint8_t{0};
     if (s.soft) return harden(s, fmt::format("{} was refused ({})", describe_request(s.message), describe_error(code)), false, t);
@@ -174,7 +174,7 @@ void Node::stop_refused(Stop& s, const Message& m, Turn& t) {
                   fmt::format("{}: the drive says {}", describe_request(s.message), describe_error(code)), code, t);
 }
 
-void Node::stop_silent(Stop& s, Turn& t) {
+void Drive::stop_silent(Stop& s, Turn& t) {
     ++bus_.counters.timeouts;
     if (s.left > 0) {
         --s.left;
@@ -195,14 +195,14 @@ void Node::stop_silent(Stop& s, Turn& t) {
 }
 
 /// The way by DC did not work: ST. `late_begin`: its BG was not answered and may still come.
-void Node::harden(Stop& s, std::string_view why, bool late_begin, Turn& t) {
+void Drive::harden(Stop& s, std::string_view why, bool late_begin, Turn& t) {
     notice(Severity::warning, "stop", 0, fmt::format("halt: {}; ST is sent instead", why), t);
     s.soft = false;
     if (late_begin) confirm_ = StopKind::quick;
     send_stop(s, msg_act(cw::ST), static_cast<std::uint8_t>(bus_.manners.retries), t);
 }
 
-void Node::stop_finished(Stop& s, Outcome outcome, Reason reason, std::string text, std::int32_t code, Turn& t) {
+void Drive::stop_finished(Stop& s, Outcome outcome, Reason reason, std::string text, std::int32_t code, Turn& t) {
     const Stop was = s;
     s.active = false;
     if (was.part) bus_.part_done(*this, {outcome == Outcome::accepted, reason, code, text}, t);
@@ -213,7 +213,7 @@ void Node::stop_finished(Stop& s, Outcome outcome, Reason reason, std::string te
 }
 
 /// The axis must stand within half as long again as its ramp takes, and 300 ms.
-void Node::supervise(bool soft, Turn& t) {
+void Drive::supervise(bool soft, Turn& t) {
     const auto& rate = soft ? dc_ : sd_;
     double ramp_s = 2.0;
     if (rate && *rate > 0) ramp_s = static_cast<double>(std::llabs(fb_.velocity)) / static_cast<double>(*rate);
@@ -223,7 +223,7 @@ void Node::supervise(bool soft, Turn& t) {
     supervise_soft_ = soft;
 }
 
-void Node::supervision_due(Turn& t) {
+void Drive::supervision_due(Turn& t) {
     supervise_at_ = never;
     if (!fb_.moving || !online()) return;
     notice(Severity::warning, "stop", 0,
@@ -233,7 +233,7 @@ void Node::supervision_due(Turn& t) {
     add_stop(s, t);
 }
 
-void Node::stopped_by_all(Turn& t) {
+void Drive::stopped_by_all(Turn& t) {
     interrupt_motions("global_stop", true, t);
     Stop s;
     s.part = true;

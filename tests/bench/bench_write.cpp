@@ -28,7 +28,7 @@
 #include <string>
 #include <vector>
 
-#include "adapters/uim342/uimessage.hpp"
+#include "adapters/uim342/wire_uimessage.hpp"
 #include "gateway/core/assets.hpp"
 #include "gateway/core/catalogue.hpp"
 #include "gateway/core/family.hpp"

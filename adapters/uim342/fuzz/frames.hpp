@@ -2,7 +2,7 @@
 // In: the fuzzer's bytes. Out: CAN frames and UIMessages with good CRC, from drives or to them.
 #pragma once
 
-#include "adapters/uim342/uimessage.hpp"
+#include "adapters/uim342/wire_uimessage.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 namespace axisgate::uim342::fuzz_frames {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "adapters/uim342/fuzz/frames.hpp"
-#include "adapters/uim342/twin_wire.hpp"
+#include "adapters/uim342/twin/wire.hpp"
 
 using namespace axisgate;
 using fuzz::require;

@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-#include "adapters/uim342/twin.hpp"
+#include "adapters/uim342/twin/twin.hpp"
 #include "gateway/core/catalogue.hpp"
 #include "gateway/core/twin.hpp"
 

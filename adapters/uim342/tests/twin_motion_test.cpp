@@ -1,7 +1,7 @@
 // Motion in closed form: the derived figures, the shape of each plan, and agreement with a small numerical integrator.
 // In: plans made directly and by the wire. Out: positions and speeds at many instants.
 // The integrator is this file's own and shares nothing with the plans.
-#include "adapters/uim342/twin_motion.hpp"
+#include "adapters/uim342/twin/motion.hpp"
 
 #include <random>
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "adapters/uim342/tests/twin_bench.hpp"
-#include "adapters/uim342/twin_wire.hpp"
+#include "adapters/uim342/twin/wire.hpp"
 
 namespace axisgate::uim342::test {
 namespace {

@@ -1,7 +1,7 @@
 // The twin's reading of identifiers, UIMessages and the CRC against the manual's and independently computed figures.
 // In: golden bytes. Out: telegrams, answers.
 // Never runs the adapter.
-#include "adapters/uim342/twin_wire.hpp"
+#include "adapters/uim342/twin/wire.hpp"
 
 #include <random>
 

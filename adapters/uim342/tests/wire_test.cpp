@@ -7,8 +7,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "adapters/uim342/instructions.hpp"
-#include "adapters/uim342/uimessage.hpp"
+#include "adapters/uim342/wire_instructions.hpp"
+#include "adapters/uim342/wire_uimessage.hpp"
 
 namespace axisgate::uim342 {
 namespace {

@@ -1,0 +1,199 @@
+// Adapter, part joint orders: StartTogether, the action start_group, and the action global_stop.
+// In: the command, each node's news of its own part. Out: one BG or ST to a group or to all, and one result for the whole.
+// Never starts an axis that was not named: the receivers of a group or of the global ID are counted first, and named if they are too many.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "adapters/uim342/adapter.hpp"
+
+namespace axisgate::uim342 {
+namespace {
+std::string names_of(const std::vector<std::string>& names) {
+    std::string s;
+    for (const auto& n : names)
+        s += (s.empty() ? "" : ", ") + n;
+    return s;
+}
+}  // namespace
+
+void LineAdapter::start_together(const Command& command, const StartTogether& what, Turn& t) {
+    std::vector<Drive*> members;
+    for (const AxisId axis : what.axes) {
+        Drive* n = node_of(axis);
+        if (!n) {
+            return answer(command, Outcome::refused, Reason::line_down,
+                          fmt::format("axis {} of the list is not on this line", index_of(axis)), t);
+        }
+        if (std::ranges::find(members, n) == members.end()) members.push_back(n);
+    }
+    if (members.empty()) return answer(command, Outcome::refused, Reason::out_of_range, "the list of axes is empty", t);
+    if (members.size() == 1) {
+        Command own = command;  // one drive: its own BG, acknowledged
+        own.axis = members.front()->axis();
+        members.front()->submit(own, t);
+        return settle(*members.front(), t);
+    }
+    gather(command, Joint::Kind::start, std::move(members), t);
+}
+
+void LineAdapter::start_group(const Command& command, const std::string& argument, Turn& t) {
+    unsigned group = 0;
+    const auto [p, ec] = std::from_chars(argument.data(), argument.data() + argument.size(), group);
+    if (ec != std::errc{} || p != argument.data() + argument.size() || group < first_node || group > last_node) {
+        return answer(command, Outcome::refused, Reason::out_of_range,
+                      fmt::format("start_group takes a group ID {}..{}", first_node, last_node), t);
+    }
+    std::vector<Drive*> members;
+    for (const auto& n : nodes_) {
+        if (!n) continue;
+        if (n->address() == group) {
+            return answer(command, Outcome::refused, Reason::wrong_state, fmt::format("{} is {}'s node ID, not a group", group, n->name()),
+                          t);
+        }
+        if (n->ever_seen() && n->group() == group) members.push_back(n.get());
+    }
+    if (members.empty()) {
+        return answer(command, Outcome::refused, Reason::wrong_state,
+                      fmt::format("no drive of this line is known to be in group {}", group), t);
+    }
+    gather(command, Joint::Kind::start_group, std::move(members), t);
+    joint_.group = static_cast<std::uint8_t>(group);
+}
+
+void LineAdapter::gather(const Command& command, Joint::Kind how, std::vector<Drive*> members, Turn& t) {
+    if (joint_.kind != Joint::Kind::none) {
+        return answer(command, Outcome::refused, Reason::busy, "another joint start of this line is in progress", t);
+    }
+    for (const Drive* n : members) {
+        if (!n->online()) return answer(command, Outcome::refused, Reason::no_answer, fmt::format("{} does not answer", n->name()), t);
+    }
+    joint_ = Joint{};
+    joint_.kind = how;
+    joint_.command = command;
+    joint_.open = members;
+    joint_.members = std::move(members);
+    for (Drive* n : joint_.members) {
+        if (!n->join(t))
+            return end_joint(Outcome::refused, Reason::busy, fmt::format("{}: {} commands wait already", n->name(), Drive::queue_limit), 0,
+                             t);
+    }
+    const auto all = joint_.members;
+    for (Drive* n : all)
+        settle(*n, t);
+}
+
+/// Every member has come to its place in its queue.
+void LineAdapter::part_ready(Drive& node, Turn& t) {
+    std::erase(joint_.open, &node);
+    if (joint_.kind != Joint::Kind::none && joint_.stage == Joint::Stage::gathering && joint_.open.empty()) begin_joint(t);
+}
+
+/// The ID whose receivers are exactly the members; else who is too many, in words.
+std::string LineAdapter::whom_to_start(std::uint8_t& id) const {
+    const auto member = [&](const Drive* n) { return std::ranges::find(joint_.members, n) != joint_.members.end(); };
+    std::string why;
+    const auto group = joint_.members.front()->group();
+    if (group && std::ranges::all_of(joint_.members, [&](const Drive* n) { return n->group() == group; })) {
+        std::vector<std::string> others;
+        for (const auto& n : nodes_) {
+            if (!n) continue;
+            if (n->address() == *group) others.push_back(n->name() + " (its node ID)");
+            if (!member(n.get()) && n->ever_seen() && n->group() == group) others.push_back(n->name());
+        }
+        if (others.empty()) {
+            id = *group;
+            return {};
+        }
+        why = fmt::format("a BG to group {} would also start {}", *group, names_of(others));
+    } else {
+        why = "they do not share a group ID (PP[8])";
+    }
+    std::vector<std::string> others;
+    for (const auto& n : nodes_) {
+        if (n && !member(n.get()) && n->ever_seen()) others.push_back(n->name());
+    }
+    if (others.empty()) {
+        id = global_id;
+        return {};
+    }
+    return fmt::format("one BG cannot start just these axes: {}; a BG to all would also start {}", why, names_of(others));
+}
+
+void LineAdapter::begin_joint(Turn& t) {
+    std::uint8_t id = joint_.group;
+    for (const Drive* n : joint_.members) {
+        std::string why = n->not_startable();
+        if (why.empty() && joint_.kind == Joint::Kind::start && !n->prepared()) why = fmt::format("{} has no prepared motion", n->name());
+        if (!why.empty()) return end_joint(Outcome::refused, Reason::wrong_state, std::move(why), 0, t);
+    }
+    if (joint_.kind == Joint::Kind::start) {
+        if (auto why = whom_to_start(id); !why.empty()) return end_joint(Outcome::refused, Reason::not_supported, std::move(why), 0, t);
+    }
+    joint_.stage = Joint::Stage::running;
+    joint_.open = joint_.members;
+    transmit(message(id, cw::BG), Priority::command, t);  // without acknowledgement: who would answer is not written (erratum E-44)
+    const auto members = joint_.members;
+    for (Drive* n : members) {
+        n->begun_by_group(joint_.command.until_done, t);
+        settle(*n, t);
+    }
+}
+
+void LineAdapter::global_stop(const Command& command, Turn& t) {
+    transmit(message(global_id, cw::ST), Priority::urgent, t);
+    if (joint_.kind == Joint::Kind::stop) {
+        return answer(command, Outcome::failed, Reason::busy,
+                      "sent again, but not watched: another global_stop waits for its acknowledgements", t);
+    }
+    if (joint_.kind != Joint::Kind::none) end_joint(Outcome::failed, Reason::interrupted, "interrupted by global_stop", 0, t);
+    std::vector<Drive*> members;
+    for (const auto& n : nodes_) {
+        if (n && n->online()) members.push_back(n.get());
+    }
+    if (members.empty()) return answer(command, Outcome::failed, Reason::no_answer, "sent; no drive of the line answers", t);
+    joint_ = Joint{};
+    joint_.kind = Joint::Kind::stop;
+    joint_.stage = Joint::Stage::running;
+    joint_.command = command;
+    joint_.open = joint_.members = members;
+    for (Drive* n : members) {
+        n->stopped_by_all(t);
+        settle(*n, t);
+    }
+}
+
+void LineAdapter::part_done(Drive& node, Part part, Turn& t) {
+    if (joint_.kind == Joint::Kind::none || std::ranges::find(joint_.members, &node) == joint_.members.end()) return;
+    const bool was_open = std::erase(joint_.open, &node) > 0;
+    if (!part.good && !joint_.bad) {
+        joint_.bad = true;
+        joint_.worst = std::move(part);
+        joint_.worst.text = fmt::format("{}: {}", node.name(), joint_.worst.text);
+    }
+    // A joint start that one member has left is over; a joint stop is heard of to the last.
+    if (joint_.bad && joint_.kind != Joint::Kind::stop) {
+        return end_joint(Outcome::failed, joint_.worst.reason, joint_.worst.text, joint_.worst.code, t);
+    }
+    if (joint_.stage == Joint::Stage::gathering || !was_open || !joint_.open.empty()) return;
+    if (joint_.bad) return end_joint(Outcome::failed, joint_.worst.reason, joint_.worst.text, joint_.worst.code, t);
+    const bool finished = joint_.command.until_done && joint_.kind != Joint::Kind::stop;
+    end_joint(finished ? Outcome::done : Outcome::accepted, Reason::none, "", 0, t);
+}
+
+void LineAdapter::end_joint(Outcome outcome, Reason reason, std::string text, std::int32_t code, Turn& t) {
+    const Joint was = std::move(joint_);
+    joint_ = Joint{};
+    if (was.kind != Joint::Kind::stop) {
+        for (Drive* n : was.members) {
+            n->leave(t);
+            settle(*n, t);
+        }
+    }
+    if (was.command.ticket != no_ticket) {
+        t.out.results.push_back({was.command.ticket, was.command.axis, outcome, reason, code, std::move(text), {}, {}});
+    }
+}
+
+}  // namespace axisgate::uim342

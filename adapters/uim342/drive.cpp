@@ -1,0 +1,491 @@
+// Drive: its exchanges: sending, matching, time-outs, repeats, late answers, and the choice of what is sent next.
+// In: messages of this drive and the passing of time. Out: the answer to whoever asked, or the news that there is none.
+// Never takes a late answer for a new one: an instruction with the same mark waits behind another exchange (drive_exchange.hpp).
+#include "adapters/uim342/drive.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "adapters/uim342/native.hpp"
+
+namespace axisgate::uim342 {
+
+DriveOptions drive_options(const DriveSetup& setup) {
+    DriveOptions o;
+    const auto whole = [&](const char* name, std::int64_t low, std::int64_t high) -> std::optional<std::int64_t> {
+        const std::string text = option(setup.options, name, "");
+        if (text.empty()) return std::nullopt;
+        std::int64_t v = 0;
+        const auto [p, ec] = std::from_chars(text.data(), text.data() + text.size(), v);
+        if (ec == std::errc{} && p == text.data() + text.size() && v >= low && v <= high) return v;
+        o.faults.push_back(fmt::format("option {} = {}: write a whole number {}..{}", name, text, low, high));
+        return std::nullopt;
+    };
+    const auto word = [&](const char* name, std::string_view no, std::string_view yes) {
+        const std::string text = option(setup.options, name, no);
+        if (text != no && text != yes) o.faults.push_back(fmt::format("option {} = {}: write {} or {}", name, text, no, yes));
+        return text == yes;
+    };
+    o.notify = word("notify", "off", "on");
+    o.absolute_known = word("referenced", "session", "absolute");
+    o.home_high = !word("home_active", "high", "low");
+    o.home_input = static_cast<std::uint8_t>(whole("home_input", 1, 3).value_or(0));
+    o.home_velocity = static_cast<std::uint32_t>(whole("home_velocity", 1, 8'388'607).value_or(0));
+    o.home_timeout = std::chrono::seconds(whole("home_timeout_s", 1, 3600).value_or(60));
+    return o;
+}
+
+Drive::Drive(Bus& bus, const DriveSetup& setup, std::uint8_t address, std::size_t slot)
+    : bus_(bus), setup_(setup), options_(drive_options(setup)), address_(address), slot_(slot) {
+    for (const auto& a : setup.axes) {
+        if (a.channel == 1) axis_ = a.id;
+    }
+    waits_.reserve(wait_limit);
+}
+
+// --- the line ----------------------------------------------------------------------------------------------------------------
+
+void Drive::line_up(Turn& t) {
+    for (const auto& fault : options_.faults)
+        notice(Severity::warning, "setup", 0, fault, t);
+    begin_probing(t);
+}
+
+void Drive::line_down(Turn& t, std::string_view why) {
+    fail_all(Reason::line_down, std::string(why), t);
+    const bool was_online = online();
+    phase_ = Phase::down;
+    late_.clear();  // nothing of before comes through a line that was down
+    next_probe_ = next_poll_ = never;
+    if (was_online) link(false, std::string(why), t);
+}
+
+void Drive::remove(Turn& t, std::string_view why) {
+    fail_all(Reason::line_down, std::string(why), t);
+    phase_ = Phase::down;
+}
+
+void Drive::fail_all(Reason reason, const std::string& text, Turn& t) {
+    if (exchange_.active) end_exchange();
+    for (Stop& s : stops_) {
+        if (s.active) stop_finished(s, Outcome::failed, reason, text, 0, t);
+    }
+    if (searching()) search_over(false, reason, text, t);
+    if (job_.active) job_over(Outcome::failed, reason, text, t);
+    end_waits(false, reason, text, t);
+    while (!queue_.empty()) {
+        const Ticket ticket = queue_.front().command.ticket;
+        const bool marker = queue_.front().marker;
+        queue_.pop_front();
+        result(ticket, Outcome::failed, reason, text, t);
+        if (marker) bus_.part_done(*this, {false, reason, 0, text}, t);
+    }
+    confirm_.reset();
+    prepared_ = false;
+    supervise_at_ = never;
+}
+
+// --- commands ------------------------------------------------------------------------------------------------------------------
+
+void Drive::submit(const Command& command, Turn& t) {
+    if (phase_ == Phase::down) return result(command.ticket, Outcome::refused, Reason::line_down, "the line is down", t);
+    if (is_urgent(command.body)) return submit_stop(command, t);
+    if (phase_ == Phase::absent) {
+        return result(
+            command.ticket, Outcome::refused, Reason::no_answer,
+            fmt::format("drive {} (ID {}) does not answer; it is asked again every {} ms", name(), address_, milliseconds_of(retry_pause_)),
+            t);
+    }
+    if (queue_.size() >= queue_limit) {
+        return result(command.ticket, Outcome::refused, Reason::busy, fmt::format("{} commands wait already", queue_limit), t);
+    }
+    queue_.push_back({command, false});
+}
+
+// --- what is sent next -----------------------------------------------------------------------------------------------------------
+
+Drive::Want Drive::wants(Instant now) const noexcept {
+    if (exchange_.active) return Want::nothing;
+    switch (phase_) {
+        case Phase::down:
+            return Want::nothing;
+        case Phase::probing:
+        case Phase::absent:
+        case Phase::rebooting:
+            return now >= next_probe_ ? Want::probe : Want::nothing;
+        case Phase::starting:
+            return Want::poll;
+        case Phase::ready:
+            break;
+    }
+    if (confirm_) return Want::command;
+    if (core_pending() && !(job_.active && !job_.waiting)) return Want::poll;
+    // Commands wait while a stop is on its way: nothing may get between JV=0 and its BG, or start what is being stopped.
+    if (!stopping() && ((job_.active && !job_.waiting) || queue_ready() || restore_due() || (search_.check_due && !job_.active)))
+        return Want::command;
+    if (poll_speed_ || now >= next_poll_ || read_error_ || startup_pending()) return Want::poll;
+    return Want::nothing;
+}
+
+Instant Drive::due() const noexcept {
+    const Instant due = due_but_wish();
+    if (exchange_.active) return due;
+    return std::min(due, phase_ == Phase::ready ? next_poll_ : next_probe_);
+}
+
+Instant Drive::due_but_wish() const noexcept {
+    Instant due = std::min(supervise_at_, search_.give_up);
+    if (exchange_.active) due = std::min(due, exchange_.deadline);
+    for (const Stop& s : stops_) {
+        if (s.active && !s.waiting) due = std::min(due, s.deadline);
+    }
+    return due;
+}
+
+void Drive::go(Turn& t) {
+    if (exchange_.active) return;
+    switch (phase_) {
+        case Phase::down:
+            return;
+        case Phase::rebooting:
+            phase_ = Phase::probing;
+            silent_ = 0;
+            [[fallthrough]];
+        case Phase::probing:
+        case Phase::absent:
+            next_probe_ = never;
+            return send_exchange(msg_get(cw::ML), Purpose::probe, 0, 0, Priority::poll, t);
+        case Phase::starting:
+            return startup_next(t);
+        case Phase::ready:
+            break;
+    }
+    if (confirm_) {
+        const Message m = *confirm_ == StopKind::off ? msg_set(cw::MO, 0) : msg_act(cw::ST);
+        confirm_.reset();
+        return send_exchange(m, Purpose::confirm, 0, static_cast<std::uint8_t>(bus_.manners.retries), Priority::command, t);
+    }
+    const bool may_command = !stopping();
+    if (may_command && job_.active && !job_.waiting) return run_job(t);
+    if (core_pending()) return startup_next(t);
+    // Commands go before polls, but a poll that is a whole period late goes between two commands: the picture stays alive. One poll; on a
+    // line that cannot carry all of them every poll is late, and commands would never have their turn.
+    const bool overdue = commanded_last_ && next_poll_ != never && t.now >= next_poll_ + bus_.manners.poll_period;
+    if (may_command && !job_.active && !overdue) {
+        if (restore_due()) return plan_restore(t);
+        if (search_.check_due) return search_check(t);
+        while (!exchange_.active && queue_ready()) {
+            commanded_last_ = true;
+            take_next(t);
+        }
+        if (exchange_.active || job_.active) return;
+    }
+    if (read_error_) {
+        const Message m = msg_get(cw::ER, 0);
+        if (late_.has(mark_of(m))) return go_barrier(t);
+        read_error_ = false;
+        return send_exchange(m, Purpose::error, 0, 1, Priority::poll, t);
+    }
+    // The rest of the reading goes between polls; on a line that is too slow for all of them, in turn with them.
+    const bool poll_due = poll_speed_ || t.now >= next_poll_;
+    if (startup_pending() && (!poll_due || startup_turn_)) {
+        startup_turn_ = false;
+        return startup_next(t);
+    }
+    startup_turn_ = true;
+    if (!poll_due) return;
+    commanded_last_ = false;
+    const Message m = msg_get(cw::MS, poll_speed_ ? 1 : 0);
+    if (poll_speed_) {
+        poll_speed_ = false;
+    } else {
+        poll_speed_ = true;
+        const Duration period = moving_now() ? bus_.manners.poll_period : 4 * bus_.manners.poll_period;
+        next_poll_ = next_poll_ + period > t.now ? next_poll_ + period : t.now + period;
+        if (next_poll_ > t.now + period) next_poll_ = t.now + period;
+    }
+    if (late_.has(mark_of(m))) return go_barrier(t);
+    send_exchange(m, Purpose::poll, 0, 0, Priority::poll, t);
+}
+
+void Drive::poll_now(Turn& t) noexcept {
+    next_poll_ = t.now;
+    poll_speed_ = false;
+}
+
+/// A read that has nothing to do with the late answers: when it is answered, they can only have come before it.
+void Drive::go_barrier(Turn& t) {
+    const std::array candidates{msg_get(cw::MS, 1), msg_get(cw::MO), msg_get(cw::DV, 0), msg_get(cw::DI), msg_get(cw::MS, 0)};
+    const Message* m = &candidates.front();
+    for (const Message& c : candidates) {
+        if (!late_.has(mark_of(c))) {
+            m = &c;
+            break;
+        }
+    }
+    send_exchange(*m, Purpose::barrier, 0, 0, Priority::poll, t);
+}
+
+// --- exchanges -------------------------------------------------------------------------------------------------------------------
+
+void Drive::send_exchange(const Message& m, Purpose p, std::uint8_t mf, std::uint8_t retries, Priority priority, Turn& t) {
+    exchange_.active = true;
+    exchange_.purpose = p;
+    exchange_.message = m;
+    exchange_.mf = mf;
+    exchange_.tries = 1;
+    exchange_.left = retries;
+    exchange_.sent = t.now;
+    exchange_.deadline = t.now + bus_.manners.reply_timeout;
+    exchange_.probe_place = p == Purpose::probe;
+    ++bus_.in_flight;
+    bus_.overtaken.began(static_cast<std::uint8_t>(slot_));
+    if (exchange_.probe_place) ++bus_.probes_in_flight;
+    bus_.transmit(m, priority, t);
+}
+
+void Drive::end_exchange() noexcept {
+    exchange_.active = false;
+    --bus_.in_flight;
+    bus_.overtaken.ended(static_cast<std::uint8_t>(slot_));
+    if (exchange_.probe_place) --bus_.probes_in_flight;
+}
+
+void Drive::on_message(const Message& m, Turn& t) {
+    if (phase_ == Phase::down) return;
+    if (m.cw & ack_bit) {
+        ++bus_.counters.garbled;  // nothing that a device sends has bit 7 set
+        return;
+    }
+    if (phase_ == Phase::rebooting) {
+        ++bus_.counters.unexpected;  // said before it fell silent
+        return;
+    }
+    if (m.cw == cw::RT) return on_notification(m, t);
+
+    // Whose answer is it? Of several that it fits, the one whose value it repeats, then the one that was sent first.
+    int who = -2;  // -2 nobody, -1 the exchange, 0.. a stop
+    Match how = Match::no;
+    bool fits = false, torn = false;
+    Instant sent = never;
+    const auto consider = [&](int candidate, const Message& request, Instant at) {
+        const Match v = match(request, m);
+        if (v == Match::torn) torn = true;
+        if (v != Match::answer && v != Match::error) return;
+        const bool same = v == Match::error || echoes(request, m);
+        if (!same && late_.has(mark_of(request))) return;  // the answer of one that was given up
+        if (who == -2 || (same && !fits) || (same == fits && at < sent)) {
+            who = candidate;
+            how = v;
+            fits = same;
+            sent = at;
+        }
+    };
+    if (exchange_.active) consider(-1, exchange_.message, exchange_.sent);
+    for (std::size_t i = 0; i < stops_.size(); ++i) {
+        if (stops_[i].active && !stops_[i].waiting) consider(static_cast<int>(i), stops_[i].message, stops_[i].sent);
+    }
+    if (who == -2) {
+        if (torn) {
+            ++bus_.counters.garbled;
+        } else if (m.cw == cw::ER) {
+            on_error_report(m, t);
+        } else {
+            ++bus_.counters.unexpected;
+        }
+        // An absent drive that says anything is asked at once.
+        if (phase_ == Phase::absent || phase_ == Phase::probing) next_probe_ = std::min(next_probe_, t.now);
+        return;
+    }
+    silent_ = 0;
+    ++bus_.counters.exchanges;
+    const std::uint8_t tries = who == -1 ? exchange_.tries : stops_[static_cast<std::size_t>(who)].tries;
+    const std::uint16_t mark = mark_of(who == -1 ? exchange_.message : stops_[static_cast<std::size_t>(who)].message);
+    late_.clear();
+    if (tries > 1) late_.add(mark);  // the other copies' answers may still come
+    if (how == Match::error) {
+        ++bus_.counters.refused;
+        if (cause_ == Cause::none) cause_ = Cause::own;
+        if (const auto report = error_report_of(m)) latest_error_ = report->code;
+    }
+    if (who == -1) {
+        how == Match::error ? exchange_refused(m, t) : exchange_answered(m, t);
+    } else {
+        Stop& s = stops_[static_cast<std::size_t>(who)];
+        how == Match::error ? stop_refused(s, m, t) : stop_answered(s, m, t);
+    }
+}
+
+void Drive::exchange_answered(const Message& m, Turn& t) {
+    const Exchange e = exchange_;
+    end_exchange();
+    if (e.purpose == Purpose::probe) return probe_answered(m, t);
+    if (e.purpose == Purpose::error) {
+        on_latest_error(m, t);
+    } else {
+        learn(e.message, m, e.mf, e.purpose != Purpose::poll, t);
+    }
+    if (part_pending_ && m.cw == cw::MS && m.d[0] == 0 && e.sent >= motion_.begun) {
+        // Asked behind the joint BG: had the drive refused that, its report would have come before this.
+        part_pending_ = false;
+        broadcast_until_ = t.now;
+        if (part_until_done_) {
+            add_wait(WaitFor::part, no_ticket, motion_.target, t);
+        } else {
+            bus_.part_done(*this, {true, Reason::none, 0, {}}, t);
+        }
+    }
+    switch (e.purpose) {
+        case Purpose::startup:
+            startup_step_done(t);
+            break;
+        case Purpose::clear_mf:
+            mf_unknown_ = false;
+            break;
+        case Purpose::job:
+            job_answered(m, t);
+            break;
+        case Purpose::orphan:
+            // The motion of a job that a stop has ended: it may have begun, and the stop is repeated behind it.
+            if (e.message.function() == cw::BG) begin_unknown_motion(t);
+            break;
+        case Purpose::probe:
+        case Purpose::poll:
+        case Purpose::error:
+        case Purpose::barrier:
+        case Purpose::confirm:
+            break;
+    }
+    waiting_stops(t);
+}
+
+void Drive::exchange_refused(const Message& m, Turn& t) {
+    const Exchange e = exchange_;
+    end_exchange();
+    if (e.mf != 0 || e.message.function() == cw::MF) mf_unknown_ = true;
+    switch (e.purpose) {
+        case Purpose::probe:
+            // Whoever refuses ML is no UIM342 as the manual has it, or not ready: what waits is answered now, and it is asked again.
+            silent_ = static_cast<std::uint32_t>(bus_.manners.silent_limit);
+            go_absent(t, fmt::format("ID {} refuses to tell its model", address_), bus_.manners.pause_max);
+            break;
+        case Purpose::startup:
+            startup_step_done(t);
+            break;  // this firmware does not have it: the value stays unknown
+        case Purpose::job:
+            job_refused(m, t);
+            break;
+        case Purpose::clear_mf:
+            mf_unknown_ = false;
+            break;
+        case Purpose::error:
+        case Purpose::poll:
+        case Purpose::barrier:
+        case Purpose::confirm:
+        case Purpose::orphan:
+            break;
+    }
+    waiting_stops(t);
+}
+
+/// The present exchange got no answer, however often it was sent.
+void Drive::exchange_silent(Turn& t) {
+    const Exchange e = exchange_;
+    end_exchange();
+    late_.add(mark_of(e.message));
+    if (e.mf != 0 || e.message.function() == cw::MF) mf_unknown_ = true;
+    switch (e.purpose) {
+        case Purpose::startup:
+            ++startup_tries_;
+            break;
+        case Purpose::job:
+            job_silent(t);
+            break;
+        case Purpose::error:
+            read_error_ = true;
+            break;
+        case Purpose::confirm:
+            notice(Severity::warning, "stop", 0, "a repeated stop was not acknowledged", t);
+            poll_now(t);
+            break;
+        case Purpose::orphan:
+            poll_now(t);
+            break;
+        case Purpose::clear_mf:
+        case Purpose::probe:
+        case Purpose::poll:
+        case Purpose::barrier:
+            break;
+    }
+    count_silence(t);
+    if (phase_ != Phase::absent) waiting_stops(t);
+}
+
+void Drive::count_silence(Turn& t) {
+    ++silent_;
+    const bool absent_now = silent_ >= static_cast<std::uint32_t>(bus_.manners.silent_limit);
+    if (phase_ == Phase::probing && !absent_now) {
+        next_probe_ = t.now;
+    } else if (phase_ == Phase::absent) {
+        const Duration before = retry_pause_;
+        retry_pause_ = std::min(2 * retry_pause_, bus_.manners.pause_max);
+        next_probe_ = t.now + retry_pause_;
+        if (retry_pause_ != before) link(false, fmt::format("ID {} does not answer", address_), t);
+    } else if (absent_now && phase_ != Phase::down && phase_ != Phase::rebooting) {
+        go_absent(t, fmt::format("ID {} has not answered {} times in a row", address_, silent_), bus_.manners.pause_min);
+    }
+}
+
+void Drive::on_deadline(Turn& t) {
+    if (exchange_.active && t.now >= exchange_.deadline) {
+        ++bus_.counters.timeouts;
+        // A value for an input's group must not be repeated alone: its MF is used up, and it would hit group 0.
+        const bool pair = exchange_.purpose == Purpose::job && exchange_.mf != 0;
+        if (exchange_.left > 0 && !pair) {
+            --exchange_.left;
+            ++exchange_.tries;
+            ++bus_.counters.retries;
+            exchange_.deadline = t.now + bus_.manners.reply_timeout;
+            bus_.transmit(exchange_.message, Priority::command, t);
+        } else {
+            exchange_silent(t);
+        }
+    }
+    for (Stop& s : stops_) {
+        if (s.active && !s.waiting && t.now >= s.deadline) stop_silent(s, t);
+    }
+    if (t.now >= supervise_at_) supervision_due(t);
+    if (t.now >= search_.give_up) search_deadline(t);
+}
+
+// --- results and notices ---------------------------------------------------------------------------------------------------------
+
+void Drive::result(Ticket ticket, Outcome outcome, Reason reason, std::string text, Turn& t, std::int32_t code, Value value,
+                   std::vector<std::uint8_t> bytes) {
+    if (ticket == no_ticket) return;
+    t.out.results.push_back({ticket, axis_, outcome, reason, code, std::move(text), std::move(value), std::move(bytes)});
+}
+
+/// At most 20 at once and 10 in a second, alarms excepted: a chattering input must not fill the journal.
+void Drive::notice(Severity severity, std::string_view kind, std::int32_t code, std::string text, Turn& t) {
+    if (severity != Severity::alarm) {
+        const auto earned = (t.now - notice_refilled_) / std::chrono::milliseconds(100);
+        if (earned > 0) {
+            notice_tokens_ = static_cast<int>(std::min<std::int64_t>(20, notice_tokens_ + earned));
+            notice_refilled_ = t.now;
+        }
+        if (notice_tokens_ == 0) {
+            ++notices_dropped_;
+            return;
+        }
+        --notice_tokens_;
+        if (notices_dropped_ != 0) {
+            text += fmt::format(" ({} more were not told: too many in a second)", notices_dropped_);
+            notices_dropped_ = 0;
+        }
+    }
+    t.out.notices.push_back({severity, setup_.id, axis_, std::string(kind), code, std::move(text), t.now});
+}
+
+}  // namespace axisgate::uim342

@@ -1,0 +1,318 @@
+// Life of the drive: power, boot, events at their instants, input actions, notifications.
+// In: time, edges, ends of motions. Out: notifications.
+// Never handles an instruction: instructions.cpp does.
+#include "adapters/uim342/twin/device.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace axisgate::uim342::twin {
+namespace {
+
+constexpr std::uint8_t cw_notification = 0x5A;
+constexpr std::uint8_t code_arrived = 0x29;
+constexpr const char* encoder_position_name = "encoder.position";
+
+}  // namespace
+
+Device::Device(const DeviceSetup& setup)
+    : kind_(setup.kind),
+      identity_(setup.identity),
+      boot_time_(setup.boot_time),
+      bus_rate_(setup.bus_rate),
+      memory_(setup.factory, setup.identity.serial),
+      reader_(setup.crc),
+      form_(setup.form) {}
+
+// --- power and boot -----------------------------------------------------------------------------------------------------
+
+void Device::power_on(const NonVolatile& memory, Instant now, Out& out) {
+    last_ = std::max(last_, now);
+    memory_.load(memory);
+    powered_ = true;
+    std::int32_t position = 0;
+    if (const auto it = memory.find(encoder_position_name); it != memory.end()) {
+        if (const auto n = as_integer(it->second)) position = wrap_i32(static_cast<double>(*n));
+    }
+    boot(last_, position);
+    settle(last_, out);
+}
+
+NonVolatile Device::non_volatile() const {
+    NonVolatile all;
+    memory_.save(all);
+    if (has_absolute_encoder()) all[encoder_position_name] = Value{std::int64_t{saved_position_}};
+    return all;
+}
+
+void Device::power_off(Instant now) {
+    axis_.set_driver(false, now);
+    powered_ = online_ = false;
+    boot_end_ = actions_at_ = never;
+}
+
+/// Section 3.4: RAM from FLASH and EEPROM, flags and history clear, everything volatile at its beginning.
+void Device::boot(Instant now, std::int32_t encoder_position) {
+    memory_.reboot();
+    node_ = memory_.flash().node;
+    group_ = memory_.flash().group;
+    bit_rate_ = memory_.flash().bit_rate;
+    microsteps_ = memory_.ram().mt[0];
+    pulses_per_turn_ = memory_.ram().qe[4];
+    absolute_ = has_absolute_encoder();
+    axis_.power_up(absolute_ ? encoder_position : 0, now);
+    keep_position(now);
+    configure_axis(now);
+    paif_ = tlif_ = err_ = lock_ = output_ = false;
+    pending_group_ = 0;
+    ptp_mode_ = target_is_relative_ = false;
+    desired_speed_ = desired_relative_ = desired_absolute_ = 0;
+    history_.fill({});
+    power_on_error_ = {};
+    reader_.reset();
+    online_ = false;
+    actions_at_ = never;
+    boot_end_ = now + boot_time_;
+}
+
+void Device::boot_done(Instant at, Out& out) {
+    boot_end_ = never;
+    online_ = true;
+    inputs_.restart(memory_.ram().tg);
+    if (encoder_error_) power_on_error_ = {static_cast<std::uint8_t>(Alarm::encoder_error), 0, 0};
+    if (battery_low_ && !encoder_error_) power_on_error_ = {static_cast<std::uint8_t>(Alarm::battery_low), 0, 0};
+    if (encoder_error_) raise(Alarm::encoder_error, at, out);
+    if (battery_low_) raise(Alarm::battery_low, at, out);
+    enable_at_boot_ = memory_.ram().ic[0] == 1;
+    actions_at_ = enable_at_boot_ ? at + std::chrono::milliseconds(memory_.ram().mt[3]) : at;
+}
+
+/// Automatic enable, then every edge byte with FG = 0 whatever the level: IN1..IN3, falling before rising [L1000-1002].
+void Device::power_on_actions(Instant at, Out& out) {
+    actions_at_ = never;
+    if (enable_at_boot_) axis_.set_driver(true, at);
+    for (std::size_t i = 0; i < input_count; ++i) {
+        const std::uint16_t il = memory_.ram().il[i];
+        const auto falling = static_cast<std::uint8_t>(il & 0xFFu);
+        const auto rising = static_cast<std::uint8_t>(il >> 8);
+        if ((falling & 0x80) == 0) run_action(falling, 3 + 2 * i, at, out);
+        if ((rising & 0x80) == 0) run_action(rising, 2 + 2 * i, at, out);
+    }
+}
+
+/// The fitted encoder is the one that the factory settings describe; QE says what the drive takes it for.
+void Device::configure_axis(Instant now) {
+    const Settings& s = memory_.ram();
+    const Settings fitted;
+    const double counts = absolute_ ? 1u << fitted.qe[2] : 4u * fitted.qe[0];  // per turn [L839]
+    const double taken_for = absolute_ ? 1u << s.qe[2] : 4u * s.qe[0];
+    axis_.configure({s.ic[6] == 1, s.qe[1], 200.0 * microsteps_, pulses_per_turn_ * counts / taken_for, s.ic[1] == 1 ? 1 : -1}, now);
+}
+
+// --- time ---------------------------------------------------------------------------------------------------------------
+
+void Device::on_frame(const Frame& frame, Instant now, Out& out) {
+    now = std::max(now, last_);
+    if (next_ <= now) settle(now, out);
+    last_ = now;
+    if (kind_ == LineKind::can) {
+        if (!online_ || !on_the_bus() || frame.kind != Frame::Kind::can || !is_for_me(consumer_of(frame.id))) return;
+        if (const auto t = read_can(frame)) {
+            // Another node's error report is no instruction: answering it would make two nodes report to each other for ever, once a
+            // spoilt identifier has named a node as the producer.
+            if (t->cw == 0x0F && t->dl >= 4 && t->producer != host_id) return;
+            instruct(*t, now, out);
+            settle(now, out);
+        }
+        return;
+    }
+    if (!online_ || frame.kind != Frame::Kind::bytes) return;
+    reader_.feed(frame.data(), [&](const Telegram& t, Form form) {
+        form_ = form;  // the host's way of speaking; notifications follow it
+        if (!online_ || !is_for_me(t.consumer)) return;
+        instruct(t, now, out);
+        settle(now, out);
+    });
+}
+
+void Device::on_deadline(Instant now, Out& out) { settle(std::max(now, last_), out); }
+
+Instant Device::earliest() const noexcept {
+    Instant t = std::min({boot_end_, actions_at_, axis_.deadline()});
+    if (online_) t = std::min(t, inputs_.deadline());
+    return t;
+}
+
+/// Everything that is due up to `now`, each at its own instant.
+void Device::settle(Instant now, Out& out) {
+    for (next_ = earliest(); next_ <= now; next_ = earliest())
+        step(next_, out);
+    last_ = now;
+    keep_position(now);
+}
+
+/// The absolute encoder's own memory: where the shaft came to rest.
+void Device::keep_position(Instant now) noexcept {
+    if (!has_absolute_encoder() || axis_.moving()) return;
+    const std::int32_t there = axis_.position(now);
+    if (there == saved_position_) return;
+    saved_position_ = there;
+    memory_.touch();
+}
+
+/// One event. At the same instant the end of a motion comes before an input, so that an arrival is never lost to a stop.
+void Device::step(Instant at, Out& out) {
+    if (boot_end_ <= at) {
+        boot_done(at, out);
+    } else if (actions_at_ <= at) {
+        power_on_actions(at, out);
+    } else if (axis_.deadline() <= at) {
+        on_axis(axis_.step(at), at, out);
+    } else if (const auto edge = inputs_.step(at)) {
+        on_edge(*edge, at, out);
+    }
+}
+
+// --- what happens by itself -------------------------------------------------------------------------------------------
+
+void Device::send(const Telegram& telegram, Instant at, Out& out) const {
+    if (silent_ || !on_the_bus()) return;
+    if (kind_ == LineKind::can) {
+        Frame f = write_can(telegram);
+        f.at = at;
+        out.send(f);
+        return;
+    }
+    Frame f = Frame::run(write_message(telegram, form_));
+    f.at = at;
+    out.send(f);
+}
+
+void Device::notify(std::initializer_list<std::uint8_t> data, Instant at, Out& out) const {
+    Telegram t;
+    t.producer = node_;
+    t.consumer = host_id;
+    t.cw = cw_notification;
+    t.dl = static_cast<std::uint8_t>(data.size());
+    std::copy(data.begin(), data.end(), t.d.begin());
+    send(t, at, out);
+}
+
+/// Alarms have no enable bit: they are always sent.
+void Device::raise(Alarm alarm, Instant at, Out& out) {
+    err_ = true;
+    notify({0, static_cast<std::uint8_t>(alarm), 0, 0, 0}, at, out);
+}
+
+void Device::on_axis(Axis::Event event, Instant at, Out& out) {
+    if (event == Axis::Event::arrived) {
+        paif_ = true;
+        if (memory_.ram().ie[3] == 0) return;
+        const auto p = static_cast<std::uint32_t>(axis_.position(at));
+        const auto byte = [p](int n) { return static_cast<std::uint8_t>(p >> (8 * n)); };
+        notify({code_arrived, 0, 0, 0, byte(0), byte(1), byte(2), byte(3)}, at, out);
+    } else if (event == Axis::Event::too_fast) {
+        raise(Alarm::overspeed, at, out);  // what the drive does about it is not printed: nothing (E-51)
+    } else if (event == Axis::Event::stalled) {
+        tlif_ = true;
+        raise(Alarm::stall, at, out);
+        if (memory_.ram().il[3] == 1) {
+            axis_.set_driver(false, at);
+        } else {
+            axis_.stop_fast(at, memory_.ram().sd);
+        }
+    }
+}
+
+/// Order on one edge: the level is latched (by Inputs), the notification goes out if enabled, the action runs whatever IE says.
+void Device::on_edge(Edge edge, Instant at, Out& out) {
+    if (memory_.ram().ie[edge.input] == 1) {
+        notify({static_cast<std::uint8_t>(2 * edge.input + (edge.rising ? 2 : 1))}, at, out);
+    }
+    const std::uint16_t il = memory_.ram().il[edge.input];
+    if (memory_.ram().tg[edge.input] == trigger_one_time) {
+        // Spent until IL[i] is set again; the EEPROM keeps it, so a power cycle arms it again.
+        memory_.set(false, [&](Settings& s) { s.il[edge.input] = 0; });
+    }
+    const auto byte = static_cast<std::uint8_t>(edge.rising ? il >> 8 : il & 0xFFu);
+    run_action(byte, (edge.rising ? 2 : 3) + 2 * edge.input, at, out);
+}
+
+Axis::Values Device::values_of(std::size_t group) const noexcept {
+    const Settings& s = memory_.ram();
+    return {s.group[group].ac, s.group[group].dc, s.ic[4] == 1, s.ss, s.bl};
+}
+
+bool Device::may_start() const noexcept { return axis_.driver_on() && !lock_ && axis_.state() != Axis::State::emergency_stop; }
+
+void Device::emergency_stop_by_input(Instant at, Out& out) {
+    axis_.stop_fast(at, memory_.ram().sd);
+    if (memory_.ram().ic[3] == 0 || lock_) return;
+    lock_ = true;
+    raise(Alarm::emergency_lock, at, out);
+}
+
+/// Action codes [L1006-1022]. The values are those of the edge's MF group; starts need the driver on and no emergency stop under way.
+void Device::run_action(std::uint8_t action, std::size_t group, Instant at, Out& out) {
+    const Settings& s = memory_.ram();
+    const Group& g = s.group[group];
+    const auto distance = std::abs(std::int64_t{g.pr});
+    const double speed = std::abs(static_cast<double>(g.sp));
+    const int reverse = axis_.reverse_direction(at);
+    const auto stop_slowly = [&] {
+        if (axis_.state() != Axis::State::emergency_stop) axis_.stop_slowly(at, g.dc, s.ic[4] == 1);
+    };
+    action &= 0x7F;  // FG is for power-on alone
+    if (action == 0x04 || action >= 0x07) {
+        if (!may_start()) return;
+        paif_ = false;
+    }
+    switch (action) {
+        case 0x01:
+            axis_.set_driver(false, at);
+            break;
+        case 0x02:
+            emergency_stop_by_input(at, out);
+            break;
+        case 0x03:
+            stop_slowly();
+            break;
+        case 0x04:
+            axis_.set_origin(at);
+            axis_.move_by(at, reverse * distance, speed, values_of(group));
+            break;
+        case 0x05:
+            axis_.set_origin(at);
+            emergency_stop_by_input(at, out);
+            break;
+        case 0x06:
+            axis_.set_origin(at);
+            stop_slowly();
+            break;
+        case 0x07:
+            axis_.jog(at, reverse * speed, values_of(group));
+            break;
+        case 0x08:
+            axis_.jog(at, g.sp, values_of(group));
+            break;
+        case 0x09:
+            axis_.move_by(at, reverse * distance, speed, values_of(group));
+            break;
+        case 0x0A:
+            axis_.move_by(at, g.pr, speed, values_of(group));
+            break;
+        case 0x0B:
+            axis_.move_to(at, g.pa, speed, values_of(group));
+            break;
+        default:
+            break;
+    }
+}
+
+TwinMechanics Device::mechanics(int channel, Instant now) const {
+    if (channel != 1) return {};
+    const MotionState s = axis_.shaft(std::max(now, last_));
+    return {s.position, s.velocity, axis_.driver_on()};
+}
+
+}  // namespace axisgate::uim342::twin

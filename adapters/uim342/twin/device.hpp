@@ -1,0 +1,179 @@
+// The drive as a whole: wire, registers, axis, inputs, flags and error history put together behind the Twin interface.
+// In: frames, time, the hand. Out: acknowledgements, error reports, notifications.
+// Never reads a clock; every event happens at its own instant, however late it is asked for.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "adapters/uim342/twin/axis.hpp"
+#include "adapters/uim342/twin/inputs.hpp"
+#include "adapters/uim342/twin/memory.hpp"
+#include "adapters/uim342/twin/wire.hpp"
+#include "gateway/core/twin.hpp"
+
+namespace axisgate::uim342::twin {
+
+/// Codes of error reports [L557-567].
+enum class Fault : std::uint8_t {
+    none = 0,
+    syntax = 0x32,     ///< unknown control word, wrong length, SP before PR or PA
+    data = 0x33,       ///< value not allowed
+    sub_index = 0x34,  ///< index not allowed
+    sd_below_dc = 0x3C,
+    running = 0x3D,        ///< not while the motor runs
+    driver_off = 0x3E,     ///< BG with MO = 0
+    stopping = 0x3F,       ///< BG on the SD ramp or while locked
+    origin_running = 0x41  ///< OG while the motor runs
+};
+
+/// Alarms: d1 of a notification with d0 = 0 [L593-600].
+enum class Alarm : std::uint8_t {
+    none = 0,
+    emergency_lock = 0x0A,
+    overspeed = 0x19,
+    lower_limit = 0x1A,
+    upper_limit = 0x1B,
+    stall = 0x1D,
+    encoder_error = 0x1E,
+    battery_low = 0x1F
+};
+
+struct Identity {
+    std::array<std::uint8_t, 3> model{0x20, 0x0A, 0x11};  ///< d0..d2 of ML
+    std::uint32_t serial = 0;
+    std::uint16_t manufacturer = 0x0605;
+    std::uint16_t vendor = 0x0807;
+};
+
+struct DeviceSetup {
+    LineKind kind = LineKind::can;
+    CrcRange crc = CrcRange::twelve;
+    Form form = Form::crc12;  ///< of notifications, before the host has spoken
+    Protocol factory;
+    Identity identity;
+    Duration boot_time{};
+    /// Of the bus, as PP[5] has it; nothing: not known, or a byte line, and then the drive hears whatever its own rate is.
+    std::optional<std::uint8_t> bus_rate;
+};
+
+class Device final : public Twin {
+public:
+    explicit Device(const DeviceSetup& setup);
+
+    void on_frame(const Frame& frame, Instant now, Out& out) override;
+    void on_deadline(Instant now, Out& out) override;
+    [[nodiscard]] Instant deadline() const override { return next_; }
+    void power_on(const NonVolatile& memory, Instant now, Out& out) override;
+    [[nodiscard]] NonVolatile non_volatile() const override;
+    [[nodiscard]] std::uint64_t non_volatile_revision() const override { return memory_.revision(); }
+    [[nodiscard]] std::vector<HandItem> hand() const override;
+    [[nodiscard]] std::string set_hand(const std::string& name, const Value& value, Instant now, Out& out) override;
+    [[nodiscard]] TwinMechanics mechanics(int channel, Instant now) const override;
+
+private:
+    struct ErrorEntry {
+        std::uint8_t code = 0;
+        std::uint8_t cw = 0;
+        std::uint8_t sub = 0;
+    };
+    static constexpr std::size_t history_length = 9;  // ER[10]..ER[18]
+
+    // --- life (device.cpp) ---
+    void power_off(Instant now);
+    void boot(Instant now, std::int32_t encoder_position);
+    void boot_done(Instant at, Out& out);
+    void power_on_actions(Instant at, Out& out);
+    void settle(Instant now, Out& out);
+    void step(Instant at, Out& out);
+    [[nodiscard]] Instant earliest() const noexcept;
+    void send(const Telegram& telegram, Instant at, Out& out) const;
+    void notify(std::initializer_list<std::uint8_t> data, Instant at, Out& out) const;
+    void raise(Alarm alarm, Instant at, Out& out);
+    void on_edge(Edge edge, Instant at, Out& out);
+    void run_action(std::uint8_t action, std::size_t group, Instant at, Out& out);
+    void emergency_stop_by_input(Instant at, Out& out);
+    void on_axis(Axis::Event event, Instant at, Out& out);
+    void configure_axis(Instant now);
+    [[nodiscard]] bool on_the_bus() const noexcept { return !bus_rate_ || *bus_rate_ == bit_rate_; }
+    [[nodiscard]] Axis::Values values_of(std::size_t group) const noexcept;
+    [[nodiscard]] bool may_start() const noexcept;
+    /// As configured; a change of IC[5] is always kept and acts at the next boot, when the counter begins at the encoder's place or at 0.
+    [[nodiscard]] bool has_absolute_encoder() const noexcept { return memory_.ram().ic[5] == 1; }
+    void keep_position(Instant now) noexcept;
+
+    // --- instructions (instructions.cpp, sets.cpp) ---
+    [[nodiscard]] bool is_for_me(std::uint8_t id) const noexcept { return id == node_ || id == global_id || id == group_; }
+    void instruct(const Telegram& t, Instant now, Out& out);
+    [[nodiscard]] Fault get(const Telegram& t, Instant now, Telegram& reply);
+    [[nodiscard]] Fault get_indexed(const Telegram& t, Instant now, Telegram& reply) const;
+    [[nodiscard]] Fault set(const Telegram& t, Instant now, Telegram& reply, Out& out);
+    [[nodiscard]] Fault set_indexed(const Telegram& t, Instant now, Telegram& reply, Out& out);
+    [[nodiscard]] Fault set_motion_value(const Telegram& t, Telegram& reply);
+    [[nodiscard]] Fault begin_motion(Instant now);
+    [[nodiscard]] Fault set_driver(std::uint8_t value, Instant now);
+    [[nodiscard]] Fault clear_error(const Telegram& t, Telegram& reply);
+    [[nodiscard]] const ErrorEntry* error_slot(std::uint8_t index) const noexcept;
+    void report(Fault fault, const Telegram& t, std::uint8_t sub, Instant now, Out& out);
+    void fill_status(Telegram& reply, Instant now) const noexcept;
+    void fill_speed_and_position(Telegram& reply, Instant now) const noexcept;
+    void fill_ports(Telegram& reply) const noexcept;
+    [[nodiscard]] std::int32_t motor_current() const noexcept;
+    [[nodiscard]] std::size_t take_group() noexcept;
+
+    // --- the hand (hand.cpp) ---
+    [[nodiscard]] std::string set_condition(const std::string& name, const Value& value, Instant now, Out& out);
+    [[nodiscard]] std::string inject(std::int64_t code, Instant now, Out& out);
+
+    LineKind kind_;
+    Identity identity_;
+    Duration boot_time_;
+    std::optional<std::uint8_t> bus_rate_;
+    Memory memory_;
+    Axis axis_;
+    Inputs inputs_;
+    MessageReader reader_;
+    Form form_;
+
+    // Outside conditions.
+    bool powered_ = false;
+    bool silent_ = false;
+    bool encoder_error_ = false;
+    bool battery_low_ = false;
+    double temperature_ = 25;  ///< deg C, of the motor
+    Alarm injected_ = Alarm::none;
+
+    // Since boot.
+    bool online_ = false;
+    std::uint8_t node_ = 5;
+    std::uint8_t group_ = 10;
+    std::uint8_t bit_rate_ = 2;  // PP[5], MT[0], QE[4] and IC[5] as they were at boot: later writes act after the next one
+    std::uint16_t microsteps_ = 16;
+    std::uint16_t pulses_per_turn_ = 3200;
+    bool absolute_ = false;
+    bool enable_at_boot_ = false;
+    bool paif_ = false;
+    bool tlif_ = false;
+    bool err_ = false;
+    bool lock_ = false;
+    bool output_ = false;
+    std::uint8_t pending_group_ = 0;   // MF
+    bool ptp_mode_ = false;            // DV[0]
+    bool target_is_relative_ = false;  // PR or PA was set last
+    std::int32_t desired_speed_ = 0;   // DV[2], shared by JV and SP
+    std::int32_t desired_relative_ = 0;
+    std::int32_t desired_absolute_ = 0;
+    std::array<ErrorEntry, history_length> history_{};
+    ErrorEntry power_on_error_{};
+    std::int32_t saved_position_ = 0;  // of the absolute encoder
+
+    Instant boot_end_ = never;
+    Instant actions_at_ = never;
+    Instant last_ = Instant::min();
+    Instant next_ = never;
+};
+
+}  // namespace axisgate::uim342::twin

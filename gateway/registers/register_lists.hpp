@@ -1,4 +1,4 @@
-// Register lists: the site's own maps on paper: CSV, a page to print, and structures for a PLC.
+// Register lists: the site's user maps on paper: CSV, a page to print, and structures for a PLC.
 // In: mappings in order of unit, table and address, with what they are measured in; the revision of the map. Out: texts.
 // Never reads a value, and never leaves a gap inside a structure: what stands at an address stands at that offset.
 #pragma once

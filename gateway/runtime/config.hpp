@@ -30,7 +30,7 @@ struct Config {
     std::vector<std::string> modbus_allow;       ///< [modbus] allow: addresses and networks that may connect; empty: all
     std::vector<std::string> modbus_functions;   ///< [modbus] functions: function codes that are served; empty: all
     bool modbus_read_only = false;               ///< [modbus] read_only: writes but a pure stop get exception 1
-    MapGaps modbus_gaps = MapGaps::zero;         ///< [modbus] gaps = "zero" | "refuse": reads of own maps where nothing is mapped
+    MapGaps modbus_gaps = MapGaps::zero;         ///< [modbus] gaps = "zero" | "refuse": reads of user maps where nothing is mapped
     std::int64_t authority_lease_s = 30;         ///< [authority] lease_s, 1..3600: how long a command holds an axis of mode "lease"
     std::string lines_pty_dir = "/tmp";          ///< [lines] pty_dir: folder below which a site's pty: lines may put their links
     std::string modbus_rtu_port;                 ///< [modbus_rtu] port; empty: none

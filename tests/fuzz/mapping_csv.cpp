@@ -1,4 +1,4 @@
-// Fuzz: own maps as CSV, and as JSON entries against a site with one axis of every family.
+// Fuzz: user maps as CSV, and as JSON entries against a site with one axis of every family.
 // In: the fuzzer's bytes as the file. Out: nothing; laws: rows or faults with their lines; what is taken can be written and read back and is
 // the same; values survive the registers of their mapping.
 #include <boost/json.hpp>

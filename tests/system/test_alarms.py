@@ -2,11 +2,13 @@
 
 In: the real program with simulated drives. Out: judgements on /alarms, /events, and what is found after a kill.
 """
+import datetime
 import json
 import os
 import signal
+import time
 
-from harness import DEMO, Gateway, until
+from harness import DEMO, Gateway, Process, until
 from test_openapi import Client, check, operation
 
 
@@ -90,3 +92,18 @@ def test_events_as_files(gateway):
     ids = [e["id"] for e in gateway.get("/events?limit=1000")]
     assert [e["id"] for e in gateway.get(f"/events?before={ids[-1]}&limit=2")] == ids[-3:-1]
     assert {e["kind"] for e in gateway.get("/events?kind=presence")} == {"presence"}
+
+
+def test_alarms_are_raised_and_kept_without_any_http(folder):
+    site = {"lines": [{"name": "l", "uri": "tcp:127.0.0.1:9", "family": "uim342"}],
+            "drives": [{"name": "d", "line": "l", "address": 5, "presence": "device"}],
+            "axes": [{"name": "x", "drive": "d", "number": 1}], "mappings": []}
+    (folder / "site.json").write_text(json.dumps(site))
+    with Process("serve", "--data", str(folder / "data"), "--set", "http.bind=", "--set", "modbus.bind=127.0.0.1:0", "--site", str(folder / "site.json")) as p:
+        assert "http=" not in p.ready and "modbus=" in p.ready, p.ready
+        time.sleep(1.5)  # the line cannot be opened; what that raises is on the disk
+        assert p.stop() == 0
+    begun = time.time()
+    with Gateway(folder, None) as g:
+        kept = [a for a in g.get("/alarms")["alarms"] if datetime.datetime.fromisoformat(a["since"].replace("Z", "+00:00")).timestamp() < begun]
+        assert kept and kept[0]["line"] == "l", g.get("/alarms")

@@ -81,7 +81,7 @@ bool Access::admits(std::string_view endpoint) const {
 }
 
 bool stops_only(std::uint8_t unit, std::span<const std::uint8_t> pdu) noexcept {
-    if (unit > 1 && unit != 255) return false;  // own maps may scale, or put anything anywhere
+    if (unit > 1 && unit != 255) return false;  // user maps may scale, or put anything anywhere
     std::size_t value = 0;
     if (pdu.size() == 5 && pdu[0] == function::write_single_register) {
         value = 3;

@@ -134,7 +134,7 @@ TEST(ModbusAccess, AReadOnlyDoorTakesAStopByItselfAndNoOtherWrite) {
                                   {"mask write", "16 00 20 00 00 00 02", "96 01"},
                                   {"read and write", "17 00 00 00 01 00 20 00 01 02 00 02", "97 01"},
                                   {"a coil", "05 00 00 FF 00", "85 01"},
-                                  {"an own map's unit", "06 00 20 00 02", "86 01", 2},
+                                  {"a user map's unit", "06 00 20 00 02", "86 01", 2},
                                   {"an axis that is not there", "06 FF E0 00 02", "86 0A"}}) {
         EXPECT_EQ(desk.ask(pdu, unit), answer) << what;
     }

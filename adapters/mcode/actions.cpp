@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <sstream>
 
 #include "adapters/mcode/node.hpp"
 #include "adapters/mcode/program.hpp"
+#include "adapters/mcode/variables.hpp"
 
 namespace axisgate::mcode {
 using namespace std::chrono_literals;
@@ -19,34 +19,6 @@ namespace {
 std::string_view form_of(const Parameter& p) {
     const auto* f = p.wire.if_contains("form");
     return f && f->is_string() ? std::string_view(f->get_string()) : std::string_view("value");
-}
-/// `Q1=25`, or a row of the drive's own listing, `Q1 = G 25`: as a line that sets the variable; what is wrong with it in `fault`. Rows of
-/// local variables (L) give nothing: a program makes them anew at each run [L554].
-std::string variable_line(std::string_view row, const Language& language, std::string& fault) {
-    std::string name, value;
-    const auto equals = row.find('=');
-    for (const char c : row.substr(0, equals))
-        if (c != ' ') name += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-    if (equals != std::string_view::npos)
-        for (const char c : row.substr(equals + 1))
-            if (c != ' ') value += c;
-    const bool local = value.starts_with('L');
-    if (local || value.starts_with('G')) value.erase(0, 1);
-    const auto letter = [](char c) { return c >= 'A' && c <= 'Z'; };
-    const bool named =
-        !name.empty() && name.size() <= 2 && letter(name[0]) && (name.size() == 1 || letter(name[1]) || std::isdigit(name[1]));
-    if (!named || (language.find(name) && name != "PW")) {
-        fault = fmt::format("{} is no user variable: write NAME=VALUE, a name of one or two letters and digits",
-                            name.empty() ? "nothing" : name);
-        return {};
-    }
-    std::int64_t v = 0;
-    const auto [end, ec] = std::from_chars(value.data(), value.data() + value.size(), v);
-    if (ec != std::errc{} || end != value.data() + value.size() || v < INT32_MIN || v > INT32_MAX) {
-        fault = fmt::format("{}: {} is no whole number from -2147483648 to 2147483647", name, value.empty() ? "nothing" : value);
-        return {};
-    }
-    return local ? std::string() : fmt::format("{}={}", name, v);
 }
 bool is_link_word(std::string_view w) { return w == "PY" || w == "DN" || w == "CK" || w == "EM" || w == "ES"; }
 }  // namespace
@@ -71,7 +43,7 @@ std::optional<Value> Node::value_of(const Parameter& p, std::string_view text) c
 }
 
 void Node::plan_read(const ReadParameter& read, Turn& t) {
-    const Parameter* p = catalogue_.parameter(read.point);
+    const Parameter* p = drive_catalogue().parameter(read.point);
     if (!p) return job_over(Outcome::refused, Reason::unknown_point, "there is no such parameter", t);
     if (!p->readable())
         return job_over(Outcome::refused, Reason::not_supported,
@@ -84,7 +56,7 @@ void Node::plan_read(const ReadParameter& read, Turn& t) {
 }
 
 void Node::plan_write(const WriteParameter& write, Turn& t) {
-    const Parameter* p = catalogue_.parameter(write.point);
+    const Parameter* p = drive_catalogue().parameter(write.point);
     if (!p) return job_over(Outcome::refused, Reason::unknown_point, "there is no such parameter", t);
     const std::string w = word(*p);
     if (is_link_word(w)) {
@@ -161,7 +133,7 @@ void Node::query_answered(const std::string& data, Turn& t) {
     const CommandBody& b = job_.command.body;
     const auto* read = std::get_if<ReadParameter>(&b);
     const auto* write = std::get_if<WriteParameter>(&b);
-    const Parameter* p = catalogue_.parameter(read ? read->point : write ? write->point : Point{0xFFFF, 0});
+    const Parameter* p = drive_catalogue().parameter(read ? read->point : write ? write->point : Point{0xFFFF, 0});
     if (!p) return step_done(t);
     if (write && job_.text == already_typed) {
         const auto row = [](std::string_view s) {
@@ -187,7 +159,7 @@ void Node::query_answered(const std::string& data, Turn& t) {
     const Point point = read ? read->point : write->point;
     t.out.samples.push_back({axis_, point, *v, Quality::good, t.now});
     const std::string w = word(*p);
-    const auto number = as_integer(*v);
+    const auto number = p->wire.contains("variable") ? std::nullopt : as_integer(*v);
     if (number) aim_.value(w, *number);
     if (number && w == "VI") vi_ = user_vi_ = *number;
     if (number && w == "VM") vm_ = *number;
@@ -261,6 +233,8 @@ void Node::block_ended(Turn& t) {
     }
     if (job_.kind == JobKind::tidy) return tidy_up(text, t);
     if (job_.kind == JobKind::clear) return clear_if_half(text, t);
+    if (job_.kind == JobKind::survey) return variables_listed(text, t);
+    if (job_.kind == JobKind::edit) return edit_listed(text, t);
     if (job_.kind == JobKind::upload) {
         std::string program;
         for (const auto& l : listed_lines(text))
@@ -270,8 +244,7 @@ void Node::block_ended(Turn& t) {
     if (job_.kind == JobKind::download) {
         std::size_t count = 0;
         if (const auto why = listing_fault(job_.program, text, count); !why.empty()) {
-            return job_over(Outcome::failed, Reason::drive_refused,
-                            fmt::format("{}: {}: the program memory holds an incomplete program, download again", name(), why), t);
+            return job_over(Outcome::failed, Reason::drive_refused, fmt::format("{}: {}; {}", name(), why, memory_is_half()), t);
         }
         const auto& lines = job_.program;
         const bool saved = !lines.empty() && lines.back().kind == ProgramLine::Kind::setting && word_of(lines.back().text) == "S";
@@ -288,14 +261,15 @@ void Node::download_failed(std::string why, Turn& t) {
     if (touched) keep_half();
     relearn_ = relearn_ || touched;
     job_over(Outcome::failed, Reason::interrupted,
-             fmt::format("{}: {}{}", name(), why, touched ? "; the program memory is cleared or incomplete: download again" : ""), t);
+             fmt::format("{}: {}{}", name(), why, touched ? "; " + memory_is_half() : ""), t);
 }
 
 /// Program mode is left first (leaving.cpp); CP then removes the half, behind every stop that waits, also when the drive was away.
 void Node::keep_half() {
     clear_half_ = true;
     half_was_away_ = false;
-    half_.clear();
+    half_from_ = job_.from;
+    half_ = job_.stays;
     for (std::size_t i = 0; i <= job_.at && i < job_.steps.size(); ++i) {
         const Step& s = job_.steps[i];
         if (s.what == Step::What::bare && word_of(s.text) != "PG" && word_of(s.text) != "VA") half_.push_back(normal_form(s.text));
@@ -316,7 +290,7 @@ void Node::setting_refused(const std::string& why, Turn& t) {
              fmt::format(
                  "{}: line {}: {} {}{}; {}", name(), step.line, step.what == Step::What::query ? job_.steps[job_.at - 1].text : step.text,
                  why, code != 0 && e ? ", " + e->text : std::string(),
-                 begun && !more ? "the program before it is stored" : "the program memory is cleared or incomplete: download again"),
+                 begun && !more ? "the program before it is stored" : memory_is_half()),
              t, code);
 }
 
@@ -402,6 +376,8 @@ void Node::plan_action(const Action& a, Turn& t) {
         job_.add(Step::What::block, "L");
     } else if (a.name == "program.download") {
         return plan_download(a, t);
+    } else if (a.name == "program.edit") {
+        return plan_edit(a, t);
     } else if (a.name == "program.start") {
         job_.awaits_end = job_.command.until_done;
         line(fmt::format("EX {}", a.argument.empty() ? "1" : a.argument), false);

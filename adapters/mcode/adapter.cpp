@@ -1,5 +1,5 @@
-// Adapter of MCode: see the header.
-// In and out: see the header. Every call ends with pump(): a free line is given away at once.
+// Adapter of MCode: the line's discipline. Every call ends with pump(): a free line is given away at once.
+// In: what the engine calls. Out: the next exchange; what has come beside an answer goes to the drive that it can be of.
 // Never takes a late ACK for a new one: after a time-out, lines whose answer has no mark wait until late answers are over.
 #include "adapters/mcode/adapter.hpp"
 

@@ -1,5 +1,5 @@
-// Aim, the rules: see aim.hpp. [Lnnn] is a line of the maker's reference.
-// In and out: see the header.
+// Aim, the rules: which words move, renumber or rescale, and when a reading proves that somebody else does. [Lnnn]: the maker's reference.
+// In: lines, readings. Out: a demand, or none with its reason in the code beside it.
 // Never takes a mismatch for a following error where another order than this gateway's may be the reason: then nobody knows.
 #include "adapters/mcode/aim.hpp"
 

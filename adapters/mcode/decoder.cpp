@@ -1,5 +1,5 @@
-// Decoder of MCode: see the header.
-// In and out: see the header.
+// Decoder of MCode: lines are put together from runs, each direction by itself; an answer is read by the question before it.
+// In: runs of bytes. Out: one sentence per line, with what its words mean.
 // Never guesses a direction: unknown ones are marked with `--`.
 #include "adapters/mcode/decoder.hpp"
 

@@ -1,11 +1,12 @@
 // Family mcode: the table of its makers.
-// In and out: see the header.
+// In: nothing. Out: one table, by which the rest of the program reaches this folder.
 // Never decides anything: that is for the files beside it.
 #include "adapters/mcode/family.hpp"
 
 #include "adapters/mcode/adapter.hpp"
 #include "adapters/mcode/decoder.hpp"
 #include "adapters/mcode/twin.hpp"
+#include "adapters/mcode/variables.hpp"
 
 namespace axisgate {
 
@@ -23,6 +24,7 @@ const Family& family_mcode() {
         true,
         0,
         mcode::scan,
+        mcode::own_catalogue,
     };
     return family;
 }

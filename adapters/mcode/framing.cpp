@@ -1,5 +1,5 @@
-// Framing: see the header.
-// In and out: see the header.
+// Framing: the search for a mark, for ACK and NAK, for a prompt, in what has come so far; looked at anew with each run of bytes.
+// In: runs of bytes. Out: a verdict, and the data between mark and end.
 // Never looks further than the present question.
 #include "adapters/mcode/framing.hpp"
 

@@ -4,6 +4,9 @@
 // means at standstill, so that a repeat cannot move twice.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 #include "adapters/mcode/node.hpp"
 
 namespace axisgate::mcode {
@@ -16,8 +19,22 @@ constexpr std::string_view no_prepared_start =
     "each drive that waits for the same input, or EX to each drive in turn, is what the language offers";
 }  // namespace
 
-bool Node::is_motion(const CommandBody& b) noexcept {
-    return std::holds_alternative<Move>(b) || std::holds_alternative<Home>(b) || std::holds_alternative<StartTogether>(b);
+/// What moves the axis, whoever words it: by a stop it is over, also while it waits. With the power off so is what would bring that back.
+bool Node::ended_by_stop(const CommandBody& b, bool power_off) const {
+    if (std::holds_alternative<Move>(b) || std::holds_alternative<Home>(b) || std::holds_alternative<StartTogether>(b)) return true;
+    if (power_off && std::holds_alternative<Enable>(b)) return true;
+    const auto says = [&](std::string_view line) {
+        constexpr std::array<std::string_view, 10> moving{"MA", "MR", "SL", "HM", "HI", "HF", "SC", "EX", "RS", "JE"};
+        const std::string w = word_of(line);
+        return std::ranges::find(moving, w) != moving.end() || (power_off && w == "DE");
+    };
+    if (const auto* native = std::get_if<Native>(&b)) return says(std::string(native->send.begin(), native->send.end()));
+    if (const auto* write = std::get_if<WriteParameter>(&b)) {
+        const Parameter* p = drive_catalogue().parameter(write->point);
+        return p && says(word(*p));
+    }
+    const auto* action = std::get_if<Action>(&b);
+    return action && (action->name == "program.start" || action->name == "program.resume" || action->name == "calibrate" || says(action->name));
 }
 
 void Node::submit(const Command& c, Turn& t) {
@@ -38,7 +55,7 @@ void Node::submit(const Command& c, Turn& t) {
     }
     // A drive that is being looked for or set up again may be moving: its stop waits for that, which ends in `ready` or `absent`.
     if (stops_.size() >= urgent_limit) return result(c, Outcome::refused, Reason::busy, "too many stops wait", t);
-    cancel_motions(name_of(c.body), t);
+    cancel_motions(name_of(c.body), std::holds_alternative<Disable>(c.body), t);
     Stop s;
     s.command = c;
     // Within PG every line would become part of the program: leaving() goes before this stop.
@@ -58,9 +75,11 @@ void Node::submit(const Command& c, Turn& t) {
     stops_.push_back(std::move(s));
 }
 
-void Node::cancel_motions(std::string_view by, Turn& t) {
+void Node::cancel_motions(std::string_view by, bool power_off, Turn& t) {
     zero_after_home_ = false;
-    if (job_.kind == JobKind::move || job_.kind == JobKind::home) {
+    const bool waits_for_rest = job_.at < job_.steps.size() && job_.steps[job_.at].what == Step::What::standstill;
+    const bool over = job_.kind == JobKind::move || job_.kind == JobKind::home || job_.kind == JobKind::enable || waits_for_rest;
+    if (over && ended_by_stop(job_.command.body, power_off)) {
         const Command c = job_.command;
         if (job_.kind == JobKind::move) relearn_ = true;  // what it had planned to set may not have been
         job_ = {};
@@ -68,7 +87,7 @@ void Node::cancel_motions(std::string_view by, Turn& t) {
     }
     std::deque<Command> kept;
     for (auto& c : queue_) {
-        if (is_motion(c.body)) {
+        if (ended_by_stop(c.body, power_off)) {
             result(c, Outcome::failed, Reason::interrupted, fmt::format("{}: ended by {}", name(), by), t);
         } else if (c.ticket != no_ticket) {
             kept.push_back(std::move(c));
@@ -319,7 +338,7 @@ void Node::step_ended(Verdict v, const ReplyReader& r, Turn& t) {
                 need_error_ = true;
                 error_is_ours_ = true;
                 return job_over(Outcome::refused, Reason::not_supported,
-                                fmt::format("{} does not have {}, or cannot show it now", name(), step.text), t);
+                                variable_hint().empty() ? fmt::format("{} does not have {}, or cannot show it now", name(), step.text) : variable_hint(), t);
             }
             return job_over(Outcome::failed, Reason::no_answer, fmt::format("{} did not answer PR {}", name(), step.text), t);
         case Step::What::block:
@@ -390,6 +409,7 @@ void Node::step_done(Turn& t) {
             half_.clear();
             half_was_away_ = false;
             note(Severity::info, "program", 0, fmt::format("{}: the half that a broken download has left was removed (CP)", name()), t);
+            half_from_.clear();
             return job_over(Outcome::done, Reason::none, {}, t);
         case JobKind::tidy:
             note(Severity::info, "program_mode", 0, job_.text, t);

@@ -163,8 +163,8 @@ void Node::led_out(Turn& t) {
 
 /// The drive was away: it may have restarted with the program that it had saved, which is none of this gateway's business.
 void Node::clear_if_half(std::string_view listing, Turn& t) {
-    std::size_t i = 0;
-    for (const auto& l : listed_lines(listing)) {
+    std::size_t i = half_was_away_ ? 0 : half_.size();
+    for (const auto& l : half_was_away_ ? listed_lines(listing) : std::vector<std::string>()) {
         const auto w = word_of(l);
         const std::string have = normal_form(l);
         if (w == "PG" || w == "VA" || have.starts_with("PR\"#")) continue;
@@ -178,7 +178,12 @@ void Node::clear_if_half(std::string_view listing, Turn& t) {
         half_.clear();
         return job_over(Outcome::done, Reason::none, {}, t);
     }
-    job_.add(Step::What::send, "CP");
+    half_was_away_ = false;
+    job_.from = half_from_;
+    if (half_from_.empty())
+        job_.add(Step::What::send, "CP");
+    else if (!clear_from(addressed_lines(listing), t) && job_.kind == JobKind::none)
+        return;
     step_done(t);
 }
 

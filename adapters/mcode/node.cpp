@@ -118,6 +118,7 @@ void Node::came(Turn& t) {
     aim_.knows({vi_, vm_, a_, d_, encoder_flag_});
     link_state(true, identity_.empty() ? fmt::format("answers to {}", setup_.address) : identity_, t);
     next_poll_ = t.now;
+    survey_ = true;
     at_factory_rate_ = false;
     const std::string trouble = job_.kind == JobKind::named ? std::string() : rate_trouble();  // line.setup sets BD too
     if (!trouble.empty()) note(Severity::warning, "bit_rate", 0, trouble, t);

@@ -146,12 +146,14 @@ private:
         list,
         upload,
         download,
+        edit,     ///< program.edit, until what is replaced is gone; then it is a download
         setup,    ///< line.setup: the fresh drive gets its name
         named,    ///< line.setup: it is looked for by its name, then saves if asked
         factory,  ///< FD, then it is looked for and set up again
         clear,    ///< removes the half that a broken download has left
         relearn,  ///< reads VI, VM, A, D and EE again: the drive may have scaled them
         shape,    ///< reads what makes a motion another than a trapezoid
+        survey,   ///< its user variables: which of them the site names, and which it does not
         tidy,     ///< removes the questions that were stored while it was in program mode
         restart
     };
@@ -180,6 +182,11 @@ private:
         bool awaits_end = false;      ///< program.start: answered when the program has ended
         bool memory_touched = false;  ///< download: the program memory has been cleared
         std::vector<ProgramLine> program;
+        std::string from;                  ///< edit: address from which on the program is replaced
+        std::vector<ProgramLine> fresh;    ///< edit: what comes there
+        std::vector<std::string> stays;    ///< edit: normal forms of what stands before it
+        std::vector<std::string> globals;  ///< edit: user variables that the drive has
+        std::size_t left = 0;              ///< edit, clear: lines that the last CP has found
         std::string text;
         std::string listing;              ///< block: what came, as it came
         std::vector<std::uint8_t> bytes;  ///< native: what came back
@@ -251,8 +258,8 @@ private:
     [[nodiscard]] std::string_view stop_at_once() const noexcept;
     [[nodiscard]] std::vector<std::string> stop_of_torque() const;
     // jobs.cpp
-    void cancel_motions(std::string_view by, Turn& t);
-    [[nodiscard]] static bool is_motion(const CommandBody& b) noexcept;
+    void cancel_motions(std::string_view by, bool power_off, Turn& t);
+    [[nodiscard]] bool ended_by_stop(const CommandBody& b, bool power_off) const;
     void take_next(Turn& t);
     void plan(const Command& c, Turn& t);
     void plan_move(const Move& m, Turn& t);
@@ -274,11 +281,24 @@ private:
     void download_failed(std::string why, Turn& t);
     void setting_refused(const std::string& why, Turn& t);
     void plan_download(const Action& a, Turn& t);
+    // edit.cpp
+    void plan_edit(const Action& a, Turn& t);
+    void edit_listed(const std::string& text, Turn& t);
+    [[nodiscard]] bool begin_edit(const std::vector<ListedLine>& rows, Turn& t);
+    [[nodiscard]] bool clear_from(const std::vector<ListedLine>& rows, Turn& t);
+    [[nodiscard]] std::string memory_is_half() const;
+    /// A listing is due: at rest, when nothing else is wanted; what a program prints would stand within it.
+    [[nodiscard]] bool surveys() const noexcept { return survey_ && seen_ && !running_ && !mv_ && job_.kind == JobKind::none && queue_.empty(); }
+    void variables_listed(std::string_view listing, Turn& t);
+    [[nodiscard]] std::string variable_hint() const;
     [[nodiscard]] bool wait_for_rest(Turn& t);
     void keep_half();
     void learn_values(std::string_view data);
     [[nodiscard]] std::string word(const Parameter& p) const;
     [[nodiscard]] std::optional<Value> value_of(const Parameter& p, std::string_view text) const;
+
+    /// Points are numbered by it. What the language is stands in the family's page: names of users are none of its words.
+    [[nodiscard]] const Catalogue& drive_catalogue() const noexcept { return setup_.catalogue ? *setup_.catalogue : catalogue_; }
 
     const Catalogue& catalogue_;
     const Manners& manners_;
@@ -335,7 +355,9 @@ private:
     bool own_trouble_ = false;            ///< looking for it may have raised an error in it: that one is no news
     bool clear_half_ = false;             ///< a download broke off: CP removes what it left, behind every stop
     bool half_was_away_ = false;          ///< the drive was out of reach since: it may have restarted with another program
+    std::string half_from_;               ///< ... from this address on; empty: all of it
     std::vector<std::string> half_;       ///< what that download had sent, as a listing is compared
+    bool survey_ = false;                 ///< its user variables have not been listed since it came
     bool relearn_ = false;                ///< VI, VM, A, D or EE may be others than is known
     bool stopping_ = false;               ///< a stop was accepted, and rest has not been seen since
     std::uint32_t lost_ = 0;              ///< questions without an answer since it was heard last

@@ -31,13 +31,13 @@ Node::Want Node::wants(Instant now) const noexcept {
     if (job_.kind != JobKind::none) {
         return job_.at < job_.steps.size() && job_.steps[job_.at].what == Step::What::standstill ? Want::nothing : Want::other;
     }
-    return queue_.empty() ? Want::nothing : Want::other;
+    return queue_.empty() && !surveys() ? Want::nothing : Want::other;
 }
 
 bool Node::wants_unmarked() const noexcept {
     if (phase_ == Phase::linking) return true;
     if (phase_ != Phase::ready || !stops_.empty() || leaving() || need_error_ || !seen_) return false;
-    if (job_.kind == JobKind::none) return !queue_.empty() || ((clear_half_ || tidy_) && !running_ && !mv_);
+    if (job_.kind == JobKind::none) return !queue_.empty() || surveys() || ((clear_half_ || tidy_) && !running_ && !mv_);
     if (job_.confirming || job_.at >= job_.steps.size()) return false;
     const auto what = job_.steps[job_.at].what;
     return what == Step::What::send || what == Step::What::bare || what == Step::What::block;
@@ -146,8 +146,8 @@ Request Node::next(Turn& t) {
     if (clear_half_ && !running_ && !mv_ && job_.kind == JobKind::none) {
         clear_half_ = false;
         job_.kind = JobKind::clear;
-        if (half_was_away_) job_.add(Step::What::block, "L");
-        if (!half_was_away_) job_.add(Step::What::send, "CP");
+        const bool looks = half_was_away_ || !half_from_.empty();
+        job_.add(looks ? Step::What::block : Step::What::send, looks ? "L" : "CP");
     }
     if (tidy_ && !running_ && !mv_ && job_.kind == JobKind::none) {
         tidy_ = false;
@@ -163,6 +163,11 @@ Request Node::next(Turn& t) {
         job_.add(Step::What::query, R"(BE,",",AT,",",DT)");
     }
     if (job_.kind == JobKind::none && !queue_.empty()) take_next(t);
+    if (job_.kind == JobKind::none && surveys()) {
+        survey_ = false;
+        job_.kind = JobKind::survey;
+        job_.add(Step::What::block, "PR UV");
+    }
     if (job_.kind != JobKind::none && job_.at < job_.steps.size()) {
         const Step& step = job_.steps[job_.at];
         if (job_.confirming) return ask(What::confirm, poll_text(t.now));
@@ -171,8 +176,8 @@ Request Node::next(Turn& t) {
             case Step::What::bare:
                 r = say(What::step, step.text);
                 if (word_of(step.text) == "EX") prints_until_ = t.now + 3s;
-                if (job_.kind == JobKind::download) {
-                    job_.memory_touched = true;  // CP 1 is its first line
+                if (job_.kind == JobKind::download || job_.kind == JobKind::edit) {
+                    job_.memory_touched = true;  // CP is its first line
                     clear_half_ = false;
                     note_mode_line(step.text);
                 }

@@ -1,5 +1,5 @@
-// Program: see the header.
-// In and out: see the header.
+// Program: rows are cut, declared and judged in three passes, so that a name may be used before the line that declares it.
+// In: a text, or a listing. Out: lines with their numbers, or the first fault; listings in a form that can be compared.
 // Never changes a statement: what is sent is what was written, without its comment when the line would be too long with nothing lost.
 #include "adapters/mcode/program.hpp"
 
@@ -215,6 +215,18 @@ std::string normal_form(std::string_view line) {
         s += quoted || c < 'a' || c > 'z' ? c : static_cast<char>(c - 'a' + 'A');
     }
     return s;
+}
+
+std::vector<ListedLine> addressed_lines(std::string_view listing) {
+    std::vector<ListedLine> lines;
+    std::istringstream in{std::string(listing)};
+    for (std::string raw; std::getline(in, raw);) {
+        const std::string_view line = trim(raw), text = without_address(line);
+        if (text.size() == line.size() || text.empty() || word_of(text) == "PG") continue;
+        lines.push_back({std::atol(std::string(line).c_str()), std::string(text)});
+    }
+    std::ranges::stable_sort(lines, {}, &ListedLine::address);
+    return lines;
 }
 
 StoredQuestions stored_questions(std::string_view listing) {

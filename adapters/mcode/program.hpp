@@ -42,6 +42,13 @@ inline constexpr std::size_t program_line_limit = 2000;
 /// Text of a listing without its addresses, lines of the program alone.
 [[nodiscard]] std::vector<std::string> listed_lines(std::string_view listing);
 
+/// Lines of a listing with the address that the drive shows of each, PG left apart, in order of address.
+struct ListedLine {
+    long address = 0;
+    std::string text;
+};
+[[nodiscard]] std::vector<ListedLine> addressed_lines(std::string_view listing);
+
 /// Questions of this gateway (`PR "#x",...`) in a listing: a drive that was in program mode has stored them.
 struct StoredQuestions {
     std::size_t count = 0;

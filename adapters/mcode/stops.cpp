@@ -157,6 +157,9 @@ void Node::confirmed(Turn& t) {
         if (last_error_ != 0 && !again) return setting_refused(fmt::format("was refused with error {}", last_error_), t);
         if (again) last_error_ = 0, job_.said = Verdict::acknowledged;
     }
+    if (const auto hint = variable_hint(); last_error_ == 20 && !hint.empty()) {
+        return job_over(Outcome::refused, Reason::drive_refused, hint, t, last_error_);
+    }
     if (last_error_ != 0) {
         const ErrorCode* e = catalogue_.error(last_error_);
         const bool changed = job_.at > 0 && job_.kind == JobKind::move;
@@ -191,7 +194,7 @@ void Node::fail_all(Reason reason, const std::string& text, Turn& t) {
     }
     if (job_.kind != JobKind::none) {
         std::string said = text;
-        if (job_.memory_touched) said += "; the program memory is cleared or incomplete: download again";
+        if (job_.memory_touched) said += "; " + memory_is_half();
         if (job_.kind == JobKind::named) said += "; no fresh drive took the name, or more than one did: power up one alone";
         if (job_.memory_touched) keep_half();
         if (job_.kind == JobKind::clear) clear_half_ = true;

@@ -1,5 +1,5 @@
-// Trouble: see the header.
-// In and out: see the header.
+// Trouble: the times of the last few answers of a kind; a sentence when enough of them stand close together.
+// In: kinds and instants. Out: counts in words, or nothing.
 // Never keeps more than the last few times.
 #include "adapters/mcode/trouble.hpp"
 

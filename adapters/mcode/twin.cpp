@@ -1,4 +1,4 @@
-// Maker of the MCode twin: reads its setup; see twin.hpp.
+// Maker of the MCode twin: reads its setup: product, frame size, network or serial link.
 // In: address, bit rate, options. Out: a drive without power.
 // Never fails: what it cannot read becomes the factory's value.
 #include "adapters/mcode/twin.hpp"

@@ -1,4 +1,4 @@
-// Comm: see the header.
+// Comm: bytes to lines by the terminator of the mode, with echo and checksum as they go.
 // In: bytes. Out: events.
 // Never keeps more than one line: the 65th character ends it.
 #include "adapters/mcode/twin_comm.hpp"

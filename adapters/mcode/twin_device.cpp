@@ -1,4 +1,4 @@
-// Device: the passing of time and the link; see the header.
+// Device: the passing of time and the link.
 // Words are in twin_exec.cpp, printing in twin_print.cpp, programs in twin_program_device.cpp, memory in twin_memory.cpp.
 // In: bytes, instants. Out: bytes at the instant at which the drive gives them.
 // Never goes back in time.

@@ -1,4 +1,4 @@
-// Device: typed lines, words and the instructions that are one step; see twin_device.hpp.
+// Device: typed lines, words and the instructions that are one step.
 // In: statements with worked-out fields. Out: values, MCode error codes.
 // Never moves anything itself: that is the motor's.
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Device: the tester's hand: outside conditions by the names that all families share; see twin_device.hpp.
+// Device: the tester's hand: outside conditions by the names that all families share.
 // In: names and values. Out: what they cause, or why they make no sense.
 // Never writes a word of the drive.
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Points: see the header.
+// Points: filters as instants, edges by the level before, captures and clocks of the typed points.
 // In: levels, settings, time. Out: edges, counts, error codes.
 // Never samples a digital input: a filter is one instant at which the change counts.
 #include "adapters/mcode/twin_io.hpp"

@@ -1,4 +1,4 @@
-// Device: RAM against non-volatile memory; see twin_device.hpp.
+// Device: RAM against non-volatile memory.
 // In: S, IP, FD, power, CTRL+C. Out: the drive's memory under its own names.
 // Never saves by itself: what is not saved by S is gone with the power [L5259].
 #include <algorithm>

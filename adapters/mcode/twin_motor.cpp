@@ -1,4 +1,4 @@
-// Motor: the passing of time, events and trips; see the header.
+// Motor: the passing of time, events and trips.
 // Motion is in twin_motor_motion.cpp, words in twin_motor_words.cpp, points and supply in twin_motor_io.cpp, the hand in
 // twin_motor_hand.cpp, the frame and the encoder in twin_encoder.cpp, and twin_homing.cpp, twin_limits.cpp, twin_hmt.cpp say what they are.
 // In: instants. Out: events.

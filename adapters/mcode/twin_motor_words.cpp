@@ -1,4 +1,4 @@
-// Motor: reading, writing, printing, saving and restoring its words; see twin_motor.hpp.
+// Motor: reading, writing, printing, saving and restoring its words.
 // In: words and fields. Out: values, texts, MCode error codes.
 // Never starts motion, except AS = 3 and what jog and torque words change while they run.
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Device: PR and the printed form of words; see twin_device.hpp.
+// Device: PR and the printed form of words.
 // In: items of a PR. Out: text.
 // Never writes a word; only reading ER clears it.
 #include <algorithm>

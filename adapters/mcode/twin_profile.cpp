@@ -1,4 +1,4 @@
-// Profile: planning and evaluation; see the header.
+// Profile: planning (which pieces, how long) and evaluation (which piece, where in it).
 // In: kinematics. Out: pieces.
 // Never iterates over time: only crossings are searched, by halving one monotone piece.
 #include "adapters/mcode/twin_profile.hpp"

@@ -1,4 +1,4 @@
-// Program: see the header.
+// Program: a new line takes the place of what lies under its bytes; labels and local variables come and go with their lines.
 // In: lines. Out: the same, in order.
 // Never leaves a label that points at a line which is gone.
 #include "adapters/mcode/twin_program.hpp"

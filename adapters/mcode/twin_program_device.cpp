@@ -1,4 +1,4 @@
-// Device: what concerns stored programs: running, tracing, trips, the editor, listing and clearing; see twin_device.hpp.
+// Device: what concerns stored programs: running, tracing, trips, the editor, listing and clearing.
 // In: statements with worked-out fields. Out: MCode error codes.
 // Never executes a line: that is the interpreter's.
 #include <algorithm>

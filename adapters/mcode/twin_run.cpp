@@ -1,4 +1,4 @@
-// Run: see the header.
+// Run: one statement after the other, each by what its word does to registers, the stack, the trips and the hold.
 // In: statements. Out: their effects.
 // Never recurses: a subroutine is a place on the stack of the program.
 #include "adapters/mcode/twin_run.hpp"

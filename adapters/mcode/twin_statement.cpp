@@ -1,4 +1,4 @@
-// Statement: the compiler of one line; see the header.
+// Statement: the compiler of one line: which of the forms it has, its operands, and the code of what is wrong.
 // In: tokens. Out: a statement.
 // Never throws a line away silently: what it cannot read becomes the code that the drive answers with.
 #include "adapters/mcode/twin_statement.hpp"

@@ -1,4 +1,4 @@
-// Symbols; see the header.
+// Symbols: a table by name; what is only mentioned is kept too, until it is defined.
 // In: names. Out: numbers.
 // Never moves a symbol: a number stays good until clear().
 #include "adapters/mcode/twin_symbols.hpp"

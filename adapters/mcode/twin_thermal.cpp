@@ -1,4 +1,4 @@
-// Supply and temperature: printed forms; see the header.
+// Supply and temperature: which figure passes which limit, and how the drive prints them.
 // In: figures. Out: text.
 // Never rounds up a fault: the limits compare the unrounded figures.
 #include "adapters/mcode/twin_thermal.hpp"

@@ -1,4 +1,4 @@
-// Tokens; see the header.
+// Tokens: one pass over a line, character by character.
 // In: a line. Out: its tokens.
 // Never reads past the line or the limit: what is longer is cut, and the line's length is checked before.
 #include "adapters/mcode/twin_token.hpp"

@@ -1,4 +1,4 @@
-// Values of MCode; see the header.
+// Values of MCode: integers stay integers where both operands are; everything else is worked out in doubles.
 // In: operands. Out: results.
 // Never undefined: overflow of 64 bits goes over to a double, and a shift or division that has no result gives none.
 #include "adapters/mcode/twin_value.hpp"

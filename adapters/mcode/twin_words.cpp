@@ -1,4 +1,4 @@
-// Words: lookup of a mnemonic; see the header.
+// Words: lookup of a mnemonic by its letters, upper and lower case alike.
 // In: letters. Out: the word, or nothing.
 // Never allocates.
 #include "adapters/mcode/twin_words.hpp"

@@ -1,5 +1,5 @@
-// Wire: see the header.
-// In and out: see the header.
+// Wire: checksum as the two's complement of the sum with bit 7 set [L6867]; the name in front, CR or LF behind by the kind of line.
+// In: text of one line. Out: its bytes; why a text is no line.
 // Never accepts a byte that could end a line early.
 #include "adapters/mcode/wire.hpp"
 

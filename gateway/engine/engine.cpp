@@ -94,8 +94,10 @@ void Engine::drain(Side& side, Out& out, Instant now) {
 void Engine::feedback(Side& side, AxisId id, const AxisFeedback& value, Instant now) {
     Axis* a = axis(id);
     if (!a || a->drive->serving != (side.twin ? Presence::twin : Presence::device)) return;
+    const bool first = !image_.picture(id).current;
     auto next = a->profile.on_feedback(value, now);
     a->stale = false;
+    if (first) a->run.found = value.moving && a->run.velocity == 0, a->last_deceleration = 0;  // its power may have been off
     if (bool& lost = a->drive->device_lost_while_commanded; lost && !side.twin) {
         // It is back and has said that nothing is under way any more: its next silence is judged by what it does then.
         lost = std::ranges::any_of(a->drive->axes, [&](AxisId x) {
@@ -376,7 +378,7 @@ void Engine::give_order(Axis& a, Client* client, CommandBody body, Origin origin
         a.held = {};  // another motion, or a stop: nobody's finger holds this one
         a.run = {};
         a.at_limit = false;
-        if (const auto* m = std::get_if<Move>(&body); m && m->kind == Move::Kind::velocity) a.run = {m->target, m->deceleration.value_or(0), a.profile.feedback().position, now};
+        if (const auto* m = std::get_if<Move>(&body); m && m->kind == Move::Kind::velocity) a.run = {m->target, m->acceleration.value_or(0), m->deceleration.value_or(a.last_deceleration), a.profile.feedback().position, now};
         a.homing_why.clear();
         const auto* move = client ? std::get_if<Move>(&client->body) : nullptr;
         if (move && move->hold_ms) begin_hold(a, *move, client->origin);
@@ -430,6 +432,7 @@ void Engine::order_result(const Result& given, Instant now) {
     OrderRecord& record = it->second;
     Axis* a = axis(record.axis);
     const bool is_good = good(r);
+    if (a && is_good) remember_ramp(*a, record.body);
     if (const auto* write = std::get_if<WriteParameter>(&record.body); write && is_good && a) {
         // Acknowledged by the drive; the client hears of it when it is on disk.
         StoreOrder order;
@@ -523,6 +526,13 @@ void Engine::order_result(const Result& given, Instant now) {
     client.accepted = true;
     client.accepted_at = now;
     track(*a, now);
+}
+
+/// What a drive was told to brake with it keeps; whatever else is said to it may have changed that.
+void Engine::remember_ramp(Axis& a, const CommandBody& body) {
+    const auto* m = std::get_if<Move>(&body);
+    if (m && m->deceleration) a.last_deceleration = *m->deceleration;
+    if (std::holds_alternative<WriteParameter>(body) || std::holds_alternative<Native>(body) || std::holds_alternative<Action>(body)) a.last_deceleration = 0;
 }
 
 /// A move that was prepared counts until the axis is moved or stopped.

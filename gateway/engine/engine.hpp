@@ -118,6 +118,7 @@ private:
     void drain(Side& side, Out& out, Instant now);
     void give_order(Axis& axis, Client* client, CommandBody body, Origin origin, Instant now);
     [[nodiscard]] std::optional<Refusal> beyond_limits(const Axis& axis, const CommandBody& body) const;
+    void remember_ramp(Axis& axis, const CommandBody& body);
     void remember_prepared(Axis& axis, const CommandBody& body);
     void order_result(const Result& result, Instant now);
     void finish(std::uint64_t client, Result result, Instant now);

@@ -110,11 +110,14 @@ struct Engine::Axis {
     /// The velocity move under way, watched at the site's limits of position.
     struct Run {
         std::int64_t velocity = 0;      ///< increments/s; 0: none
+        std::int64_t acceleration = 0;  ///< increments/s^2; 0: the drive's own, not known here
         std::int64_t deceleration = 0;  ///< increments/s^2; 0: the drive's own, not known here
         std::int64_t position = 0;      ///< as last told, and when it became that
         Instant since{};
+        bool found = false;             ///< it moved when it was first heard, and who ordered it is gone: watched until it rests
         double round_s = 0;             ///< between the last two positions: how late the next may be, and a halt on the same line
     } run;
+    std::int64_t last_deceleration = 0;  ///< of the last move that named one and was taken: a drive keeps it; 0: none since it came
     std::optional<Move> prepared;  ///< taken by the drive, starts with StartTogether
     Ticket setpoint_ticket = no_ticket;  ///< the set-point that came last by a control word: it may wait and begin later, without its client
     bool at_limit = false;  ///< a velocity move was ended at a limit, and no motion has begun since

@@ -229,13 +229,18 @@ void Engine::check_run(Axis& a, Instant now) {
         const double round_s = std::clamp(std::chrono::duration<double>(now - std::exchange(a.run.since, now)).count(), 0.0, 1.0);
         a.run.round_s = std::max(round_s, 0.8 * a.run.round_s);  // rounds differ: one that was long may come again
     }
+    if (a.run.found && (!f.moving || f.homing)) a.run.found = false, a.run.velocity = 0;
+    if (a.run.found) a.run.velocity = f.velocity;
     if (a.run.velocity == 0 || !f.moving) return;
     // A drive may tell its place before its speed: then it is taken to go as it was told.
     const std::int64_t velocity = f.velocity != 0 ? f.velocity : a.run.velocity;
     const bool up = velocity > 0;
     const auto& limit = up ? a.limits.position_max : a.limits.position_min;
     if (!limit) return;
-    const double speed = std::fabs(static_cast<double>(velocity)), rate = static_cast<double>(a.run.deceleration);
+    const double rate = static_cast<double>(a.run.deceleration), told = std::fabs(static_cast<double>(velocity));
+    // While it gains speed it is faster by the time the halt arrives, but never than it was told to go.
+    const double gained = told + 2 * a.run.round_s * static_cast<double>(a.run.acceleration);
+    const double speed = (a.run.velocity > 0) == up ? std::max(told, std::min(gained, std::fabs(static_cast<double>(a.run.velocity)))) : told;
     const double needed = 2 * speed * a.run.round_s + (rate > 0 ? speed * speed / (2 * rate) : 0);
     const double left = static_cast<double>(up ? *limit - f.position : f.position - *limit);
     if (left > needed) return;
@@ -243,7 +248,8 @@ void Engine::check_run(Axis& a, Instant now) {
     e.severity = Severity::warning;
     e.kind = "limit";
     e.axis = a.spec.name;
-    e.text = fmt::format("the velocity move is halted at the axis' {} {}", up ? "position_max" : "position_min", in_unit(*limit, a.limits));
+    e.text = fmt::format("{} is halted at the axis' {} {}", a.run.found ? "a motion that was under way when the axis was found" : "the velocity move",
+                         up ? "position_max" : "position_min", in_unit(*limit, a.limits));
     event(std::move(e), now);
     auto decision = a.profile.on_command(Halt{});
     for (auto& o : decision.orders)

@@ -69,6 +69,25 @@ TEST_P(LimitLaws, AVelocityMoveIsHaltedAtTheLimitAndMayOnlyGoBack) {
     }
 }
 
+TEST_P(LimitLaws, ARampThatIsTheDrivesOwnIsReckonedWith) {
+    // The move says no deceleration: the drive brakes as it was told by the move before.
+    begin();
+    Move gentle = move_to(1'000);
+    gentle.acceleration = gentle.deceleration = 4'000;
+    const Result* r = w.wait(w.command(a1, gentle, true), 30s);
+    ASSERT_TRUE(r && good(*r)) << told(r);
+    Move m = move_to(5'000, Move::Kind::velocity);
+    m.acceleration.reset();
+    m.deceleration.reset();
+    r = ask(a1, m, false);
+    ASSERT_TRUE(r);
+    if (r->reason == Reason::not_supported) return;
+    ASSERT_TRUE(good(*r)) << r->text;
+    ASSERT_TRUE(w.run_until_true([&] { return (now().flags & flag_moving) != 0; }, 5s));
+    ASSERT_TRUE(w.run_until_true([&] { return (now().flags & flag_moving) == 0; }, 30s));
+    EXPECT_LE(now().position, limit + 300);
+}
+
 TEST_P(LimitLaws, RegistersDoNotLeadOutEither) {
     begin();
     const auto write = [&](auto&& fill) {
@@ -87,6 +106,34 @@ TEST_P(LimitLaws, RegistersDoNotLeadOutEither) {
     ASSERT_TRUE(good(go)) << go.text;
     ASSERT_TRUE(w.run_until_true([&] { return (now().flags & flag_moving) != 0; }, 5s));
     rests_at(-limit);
+}
+
+TEST_P(LimitLaws, AnAxisThatIsFoundInMotionIsHaltedAtTheLimit) {
+    // The gateway that gave the velocity move is gone; the next one knows of no order, and finds it on its way out.
+    Site wanted = w.make_site(e, e.cable(), 1, "device");
+    wanted.axes[0].position_min = -100;
+    wanted.axes[0].position_max = 100;
+    site = w.apply(wanted);
+    a1 = site->axis_ids.at(0);
+    w.plug_in("line", DriveId{0}, e, addresses(e, 1)[0], e.kind());
+    ASSERT_TRUE(w.run_until_true([&] { return online(a1); }, 20s));
+    w.run_for(1s);
+    order(a1, Enable{});
+    const Result* r = jog(-1'000);
+    ASSERT_TRUE(r);
+    if (r->reason == Reason::not_supported) return;
+    ASSERT_TRUE(good(*r)) << r->text;
+    ASSERT_TRUE(w.run_until_true([&] { return now().position < -500; }, 5s));
+    World next(2, w.plant);
+    next.now = w.now + 300ms;
+    site = next.apply(wanted);
+    ASSERT_TRUE(next.run_until_true([&] { return (next.picture(a1).flags & flag_online) != 0; }, 8s));
+    EXPECT_NE(next.picture(a1).flags & flag_moving, 0);
+    ASSERT_TRUE(next.run_until_true([&] { return (next.picture(a1).flags & flag_moving) == 0; }, 15s)) << "it goes on at " << next.picture(a1).position;
+    next.run_for(500ms);
+    EXPECT_LE(std::llabs(next.picture(a1).position), limit + 300);
+    EXPECT_GE(std::llabs(next.picture(a1).position), limit - 1'500) << "found is not stopped: it goes on to the limit";
+    EXPECT_EQ(std::ranges::count_if(next.events, [](const Event& v) { return v.kind == "limit" && v.severity == Severity::warning; }), 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, LimitLaws, testing::ValuesIn(law_subjects()), name_of_subject);

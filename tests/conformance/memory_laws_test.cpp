@@ -65,7 +65,7 @@ TEST_P(MemoryLaws, WhatADriveKeepsIsItsMemoryAndNothingElse) {
         std::erase_if(list, [&](const auto& entry) { return !met.contains(entry.first) || !met_again.contains(entry.first) || met.at(entry.first) != met_again.at(entry.first); });
         return list;
     };
-    EXPECT_GT(kept_values(met).size() * 10, met.size() * 9);
+    EXPECT_EQ(met_again, met) << "a drive that comes back is set up as one that is met for the first time";
     std::size_t changed = 0, came_back = 0;
     for (std::uint16_t i = 0; i < e.catalogue->parameters().size() && came_back < 12; ++i) {
         world = fresh();

@@ -110,6 +110,31 @@ TEST_P(StopLaws, AWrongValueBesideAStopDoesNotKeepItBack) {
     }
 }
 
+TEST_P(StopLaws, AnEnableThatWaitsIsOverWithADisable) {
+    // However far it has come on its way: what was wanted last holds.
+    for (int reads = 0; reads < 4; ++reads) {
+        for (const Duration between : {0ms, 7ms, 30ms}) {
+            world = fresh();
+            start();
+            const bool powered = mechanics(a1).powered;
+            for (int i = 0; i < reads; ++i)
+                (void)world->command(a1, ReadParameter{first_point(0)});
+            const Ticket on = world->command(a1, Enable{}, true);
+            world->run_for(between);
+            const Ticket off = world->command(a1, Disable{}, true);
+            const Result* r = world->wait(off, 10s);
+            ASSERT_TRUE(r && good(*r)) << told(r);
+            r = world->wait(on, 10s);
+            ASSERT_TRUE(r) << "it has its answer";
+            for (int i = 0; i < 40; ++i) {
+                world->run_for(50ms);
+                ASSERT_NE(power_state_of(now().statusword), PowerState::operation_enabled) << reads << " reads before it, " << between.count() << " ns";
+                if (!powered) ASSERT_FALSE(mechanics(a1).powered) << reads << " reads before it, " << between.count() << " ns";
+            }
+        }
+    }
+}
+
 TEST_P(StopLaws, AStopOnALineThatIsDownSaysSo) {
     turn();
     world->apply(Site{});

@@ -3,7 +3,6 @@
 // AXISGATE_SEED=17 plays that one alone.
 #include "tests/world/world.hpp"
 
-#include <gtest/gtest-spi.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -18,13 +17,6 @@ using namespace std::chrono_literals;
 constexpr std::uint64_t stories = 200, stories_per_test = 10;
 constexpr int turns = 40;
 
-/// Stories that break a law today, and why as far as it is known. They run, and must break it: who mends one is told to strike it out here.
-const std::set<std::pair<std::string, std::uint64_t>> open_faults{
-    {"mcode", 3},    // power after a Disable, on a bad line
-    {"mcode", 114},  // power after a Disable, on a bad line
-    {"mcode", 171},  // a velocity move passes the site's limit by 349 increments at 9600 baud
-};
-
 class Stories : public testing::TestWithParam<std::tuple<FamilyEntry, std::uint64_t>> {};
 
 TEST_P(Stories, LawsHoldAndEverythingHeals) {
@@ -36,15 +28,6 @@ TEST_P(Stories, LawsHoldAndEverythingHeals) {
         if (only != 0 && seed != only) continue;
         const Subject& subject = wires[seed / 4 % wires.size()];  // each wire meets each kind of story
         SCOPED_TRACE("AXISGATE_SEED=" + std::to_string(seed) + " on " + subject.text());
-        if (open_faults.contains({std::string(subject.family->name), seed})) {
-            testing::TestPartResultArray broken;
-            {
-                const testing::ScopedFakeTestPartResultReporter catches(&broken);
-                (void)run_story(subject, seed, turns);
-            }
-            EXPECT_GT(broken.size(), 0) << "this story keeps its laws now: take it out of open_faults";
-            continue;
-        }
         const auto first = run_story(subject, seed, turns);
         if (seed % 50 == 1) EXPECT_EQ(run_story(subject, seed, turns), first) << "the same seed gives the same world";
     }

@@ -128,6 +128,8 @@ TEST(TwinLanguage, ProductsRefuseEachOthersWords) {
                          {lmdo, "CF", 37},
                          {lmm, "FL=1", 37},
                          {lmdo, "PR LL", 37},
+                         {lmm, "PR OF", 37},
+                         {lmdo, "PR OF", 0},
                          {lmm, "PW=1,2,3,4", 0},
                          {lmdc, "VA PW", 0},
                          {lmm, "VA PW", 24}}) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "gateway/core/command_arguments.hpp"
 #include "gateway/doors/http/command_reader.hpp"
 #include "gateway/doors/http/documents.hpp"
 #include "gateway/doors/http/handlers.hpp"
@@ -39,6 +40,21 @@ void unknown_members(const json::object& body, std::initializer_list<std::string
     }
 }
 }  // namespace
+
+void read_arguments(const AxisPlace& place, Action& action, const json::object* by_name, const std::string& pointer, std::vector<Fault>& faults) {
+    const CatalogueCommand* command = place.catalogue ? place.catalogue->command(action.name) : nullptr;
+    if (!command) {  // the adapter says what it knows; without an entry nothing can be given by name
+        if (by_name && !by_name->empty())
+            faults.push_back({pointer + std::string(by_name->begin()->key()), fmt::format("a {} lists no command {}", place.family, action.name),
+                              fmt::format("see /api/v1/families/{}/commands", place.family)});
+        return;
+    }
+    if (command->arguments.empty() && (!by_name || by_name->empty())) return;
+    auto checked = by_name ? check_arguments(*command, *by_name) : check_arguments(*command, action.argument);
+    for (auto& f : checked.faults)
+        faults.push_back({pointer + f.argument, std::move(f.text), std::move(f.remedy)});
+    action.values = std::move(checked.values);
+}
 
 Response answer_of(const Result& r, std::string_view axis, std::string_view command) {
     json::object o = command_answer(r.ticket, name_of(r.outcome), "", axis, command);
@@ -77,7 +93,7 @@ Handled act_on_axis(Call& c) {
     if (fault) return *fault;
     const json::object& body = c.body.get_object();
     std::vector<Fault> faults;
-    unknown_members(body, {"name", "argument"}, faults);
+    unknown_members(body, {"name", "argument", "arguments"}, faults);
     Action action;
     const auto* name = body.if_contains("name");
     if (name && name->is_string() && !name->get_string().empty() && name->get_string().size() <= 128) {
@@ -92,6 +108,14 @@ Handled act_on_axis(Call& c) {
             faults.push_back({"/argument", "argument must be a text", "write it in quotes"});
         }
     }
+    const auto* arguments = body.if_contains("arguments");
+    if (arguments && !arguments->is_null() && !arguments->is_object()) {
+        faults.push_back({"/arguments", "arguments must be an object of values by name", "write \"arguments\": {\"position\": 12.5}"});
+        arguments = nullptr;
+    }
+    const auto* by_name = arguments && arguments->is_object() ? &arguments->get_object() : nullptr;
+    if (by_name && !action.argument.empty()) faults.push_back({"/argument", "argument and arguments exclude each other", "leave one out"});
+    read_arguments(*place, action, by_name, "/arguments/", faults);
     if (!faults.empty()) return refused(std::move(faults), c.names[0], action.name, false);
     Command command;
     command.axis = place->id();

@@ -59,7 +59,8 @@ void LineAdapter::take_manners(const LineSetup& setup) {
     const std::string wanted = option(setup.options, "in_flight", "");
     std::size_t n = 0;
     std::from_chars(wanted.data(), wanted.data() + wanted.size(), n);
-    window_ = n == 0 ? static_cast<std::size_t>(fitting(manners.reply_timeout / 2, 1, can ? 16 : 4)) : std::min<std::size_t>(n, slot_limit);
+    window_ = n == 0 ? static_cast<std::size_t>(fitting(manners.reply_timeout / 2, 1, can ? 16 : 4))
+                     : std::min<std::size_t>(n, drive::slot_limit);
     if (pause_ > Duration::zero() && !can) window_ = 1;  // silence between an answer and the next request: one at a time
     probe_window_ = std::max<std::size_t>(1, window_ / 4);
     // Grace: a drive's own time to answer, and two exchanges.
@@ -82,9 +83,9 @@ void LineAdapter::configure(const LineSetup& setup, Instant now, Out& out) {
     }
     if (const auto n = setup.options.find("in_flight");
         n != setup.options.end() && std::to_string(window_) != n->second && pause_ <= Duration::zero()) {
-        out.notices.push_back({Severity::warning, no_drive, no_axis, "setup", 0,
-                               fmt::format("option in_flight = {}: write a whole number 1..{}; {} is used", n->second, slot_limit, window_),
-                               now});
+        out.notices.push_back(
+            {Severity::warning, no_drive, no_axis, "setup", 0,
+             fmt::format("option in_flight = {}: write a whole number 1..{}; {} is used", n->second, drive::slot_limit, window_), now});
     }
     // Removed and changed ones first, so that their addresses are free.
     for (auto& n : nodes_) {
@@ -290,7 +291,7 @@ void LineAdapter::settle(Node& n, Turn& t) {
 }
 
 void LineAdapter::pump(Turn& t) {
-    const auto serve = [&](Ring& ring, std::uint8_t mark) {
+    const auto serve = [&](drive::Ring& ring, std::uint8_t mark) {
         Node* n = nodes_[ring.pop()].get();
         n->in_ring &= static_cast<std::uint8_t>(~mark);
         const auto want = n->wants(t.now);
@@ -341,7 +342,7 @@ void LineAdapter::finish_turn(Turn& t) {
 void LineAdapter::on_deadline(Instant now, Out& out) {
     Turn t{now, out};
     // Each due node is looked at once: settle gives it a later instant or a place in a ring.
-    for (std::size_t n = 0; n < slot_limit && heap_.earliest() <= now; ++n) {
+    for (std::size_t n = 0; n < drive::slot_limit && heap_.earliest() <= now; ++n) {
         Node& node = *nodes_[heap_.first()];
         node.on_deadline(t);
         settle(node, t);

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "adapters/uim342/node.hpp"
-#include "adapters/uim342/schedule.hpp"
 #include "adapters/uim342/uimessage.hpp"
 #include "gateway/core/adapter.hpp"
+#include "gateway/drive/schedule.hpp"
 
 namespace axisgate::uim342 {
 
@@ -75,7 +75,7 @@ private:
     bool up_ = false;
     CrcMode crc_ = CrcMode::twelve;
     UiFramer framer_;
-    bool try_thirteen_ = false;  ///< auto: the next unproved frame goes out with the other range
+    bool try_thirteen_ = false;    ///< auto: the next unproved frame goes out with the other range
     bool other_crc_told_ = false;  ///< since the line came up
     std::size_t window_ = 16;
     std::size_t probe_window_ = 4;
@@ -84,8 +84,8 @@ private:
     std::vector<std::unique_ptr<Node>> nodes_;  ///< by slot; empty places are nullptr
     std::array<Node*, 128> by_id_{};
     std::vector<std::pair<AxisId, Node*>> by_axis_;  ///< sorted
-    DeadlineHeap heap_;
-    Ring commands_, polls_, probes_;
+    drive::DeadlineHeap heap_;
+    drive::Ring commands_, polls_, probes_;
     bool probed_last_ = false;
     std::uint8_t commands_in_a_row_ = 0;
     bool touched_ = false;

@@ -8,9 +8,9 @@
 #include <string>
 
 #include "adapters/uim342/instructions.hpp"
-#include "adapters/uim342/overtaken.hpp"
 #include "adapters/uim342/points.hpp"
 #include "gateway/core/adapter.hpp"
+#include "gateway/drive/overtaken.hpp"
 
 namespace axisgate::uim342 {
 
@@ -62,7 +62,7 @@ struct Bus {
     std::uint32_t bit_rate = 0;
     std::size_t in_flight = 0;         ///< exchanges that hold a place of the window
     std::size_t probes_in_flight = 0;  ///< of these: to drives that do not answer
-    Overtaken overtaken;               ///< and of these: who waits in vain
+    drive::Overtaken overtaken;        ///< and of these: who waits in vain
 
 protected:
     ~Bus() = default;

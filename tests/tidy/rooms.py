@@ -18,6 +18,7 @@ ROOMS = {
     "site": ("core",),
     "wire": ("core",),
     "axis": ("core", "site"),
+    "drive": ("core",),
     "engine": ("core", "site", "axis", "wire"),
     "registers": ("core", "site", "axis"),
     "services": ("core", "site", "axis", "registers", "engine"),
@@ -26,7 +27,7 @@ ROOMS = {
     "doors/modbus": ("core", "site", "axis", "registers", "engine"),
     "doors/http": ("core", "site", "axis", "registers", "services", "engine", "wire"),
 }
-PURE = ("core", "site", "wire", "axis", "engine", "registers", "services", "adapter", "twin")
+PURE = ("core", "site", "wire", "axis", "drive", "engine", "registers", "services", "adapter", "twin")
 
 
 def room(path):
@@ -60,10 +61,10 @@ def may_include(path, included):
                 return f"{r} includes itself and {', '.join(ROOMS[r]) or 'nothing else'}"
             return None
         if r == "adapter":
-            if included == "gateway/axis/demand.hpp":
+            if included == "gateway/axis/demand.hpp" or folder == "gateway/drive":
                 return None
             if folder != own:
-                return "a family includes core, the axis' demand and itself alone"
+                return "a family includes core, drive, the axis' demand and itself alone"
             base = pathlib.PurePosixPath(included).name
             if base.startswith("twin") and rel.name != "family.cpp":
                 return "only family.cpp may name the twin"

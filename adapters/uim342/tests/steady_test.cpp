@@ -1,10 +1,7 @@
-// Schedule of the UIM342 adapter: the heap against a plain search, the rings; and the cost of the steady state.
-#include "adapters/uim342/schedule.hpp"
-
+// The cost of the UIM342 adapter in the steady state, counted in allocations.
 #include <atomic>
 #include <cstdlib>
 #include <new>
-#include <random>
 
 #include "adapters/uim342/tests/fake_bench.hpp"
 
@@ -25,38 +22,8 @@ std::atomic<std::uint64_t> allocations{0};
 namespace axisgate::uim342::test {
 namespace {
 
-TEST(Uim342Schedule, HeapAgainstAPlainSearch) {
-    std::mt19937 random(7);
-    DeadlineHeap heap;
-    std::array<Instant, slot_limit> plain{};
-    plain.fill(never);
-    for (int i = 0; i < 20000; ++i) {
-        const std::size_t slot = random() % slot_limit;
-        const Instant at = random() % 5 == 0 ? never : at_ns(static_cast<std::int64_t>(random() % 1000));
-        heap.set(slot, at);
-        plain[slot] = at;
-        const Instant best = *std::ranges::min_element(plain);
-        ASSERT_EQ(heap.earliest(), best);
-        if (best != never) {
-            ASSERT_EQ(plain[heap.first()], best);
-        }
-        ASSERT_EQ(heap.empty(), best == never);
-    }
-}
-
-TEST(Uim342Schedule, RingKeepsTheOrder) {
-    Ring ring;
-    for (int round = 0; round < 3; ++round) {
-        for (std::size_t n = 0; n < slot_limit; ++n)
-            ring.push((n * 5) % slot_limit);
-        for (std::size_t n = 0; n < slot_limit; ++n)
-            ASSERT_EQ(ring.pop(), (n * 5) % slot_limit);
-        EXPECT_TRUE(ring.empty());
-    }
-}
-
 /// 120 nodes at 100 Hz: after the start nothing is allocated any more, and every axis is fresh.
-TEST(Uim342Schedule, TheSteadyStateAllocatesNothing) {
+TEST(Uim342Steady, TheSteadyStateAllocatesNothing) {
     LineAdapter adapter(catalogue(), LineKind::can);
     LineSetup setup;
     setup.kind = LineKind::can;

@@ -1,9 +1,9 @@
 // Overtaken: who waits in vain on a full bus, and for how long the others stand back.
-#include "adapters/uim342/overtaken.hpp"
+#include "gateway/drive/overtaken.hpp"
 
 #include <gtest/gtest.h>
 
-namespace axisgate::uim342::test {
+namespace axisgate::drive::test {
 namespace {
 using namespace std::chrono_literals;
 
@@ -84,4 +84,4 @@ TEST_F(Overtaking, AGraceWhoseReasonIsGoneLeavesNoDeadline) {
 }
 
 }  // namespace
-}  // namespace axisgate::uim342::test
+}  // namespace axisgate::drive::test

@@ -1,16 +1,17 @@
-// Schedule: when each node wants to be looked at again, and who waits for a place in the window.
-// In: slots 0..capacity-1 with an instant each. Out: the earliest instant, the slots that are due, in O(log n); rings in order of arrival.
-// Fixed size, allocates nothing; never holds a slot twice.
+// Schedule: when each drive of a line wants to be looked at again, and who waits for a place on the wire.
+// In: slots 0..slot_limit-1 with an instant each. Out: the earliest instant, the slots that are due, in O(log n); rings in order of
+// arrival. Fixed size, allocates nothing; never holds a slot twice.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "gateway/core/instant.hpp"
 
-namespace axisgate::uim342 {
+namespace axisgate::drive {
 
-inline constexpr std::size_t slot_limit = 128;  ///< node IDs end at 126
+inline constexpr std::size_t slot_limit = 256;  ///< drives of one line; one more is told to be too many
 
 /// A binary heap of slots by instant, with the place of each slot kept, so that an instant can be changed.
 class DeadlineHeap {
@@ -26,15 +27,15 @@ public:
 
     /// Adds a slot or changes its instant; `never` takes it out.
     void set(std::size_t slot, Instant at) noexcept {
-        const std::uint8_t place = place_[slot];
+        const std::uint16_t place = place_[slot];
         if (at == never) {
             if (place != none) take_out(place);
             return;
         }
         if (place == none) {
             when_[slot] = at;
-            heap_[size_] = static_cast<std::uint8_t>(slot);
-            place_[slot] = static_cast<std::uint8_t>(size_);
+            heap_[size_] = static_cast<std::uint16_t>(slot);
+            place_[slot] = static_cast<std::uint16_t>(size_);
             up(size_++);
             return;
         }
@@ -44,13 +45,13 @@ public:
     }
 
 private:
-    static constexpr std::uint8_t none = 0xFF;
-    void put(std::size_t place, std::uint8_t slot) noexcept {
+    static constexpr std::uint16_t none = 0xFFFF;
+    void put(std::size_t place, std::uint16_t slot) noexcept {
         heap_[place] = slot;
-        place_[slot] = static_cast<std::uint8_t>(place);
+        place_[slot] = static_cast<std::uint16_t>(place);
     }
     void up(std::size_t place) noexcept {
-        const std::uint8_t slot = heap_[place];
+        const std::uint16_t slot = heap_[place];
         while (place > 0) {
             const std::size_t parent = (place - 1) / 2;
             if (when_[heap_[parent]] <= when_[slot]) break;
@@ -60,7 +61,7 @@ private:
         put(place, slot);
     }
     void down(std::size_t place) noexcept {
-        const std::uint8_t slot = heap_[place];
+        const std::uint16_t slot = heap_[place];
         for (;;) {
             std::size_t child = 2 * place + 1;
             if (child >= size_) break;
@@ -75,15 +76,15 @@ private:
         place_[heap_[place]] = none;
         --size_;
         if (place == size_) return;
-        const std::uint8_t moved = heap_[size_];
+        const std::uint16_t moved = heap_[size_];
         put(place, moved);
         up(place);
         down(place_[moved]);
     }
 
     std::array<Instant, slot_limit> when_{};
-    std::array<std::uint8_t, slot_limit> heap_{};
-    std::array<std::uint8_t, slot_limit> place_{};
+    std::array<std::uint16_t, slot_limit> heap_{};
+    std::array<std::uint16_t, slot_limit> place_{};
     std::size_t size_ = 0;
 };
 
@@ -92,7 +93,7 @@ class Ring {
 public:
     [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
     void push(std::size_t slot) noexcept {
-        slots_[(first_ + size_) % slot_limit] = static_cast<std::uint8_t>(slot);
+        slots_[(first_ + size_) % slot_limit] = static_cast<std::uint16_t>(slot);
         ++size_;
     }
     [[nodiscard]] std::size_t pop() noexcept {
@@ -104,8 +105,8 @@ public:
     void clear() noexcept { first_ = size_ = 0; }
 
 private:
-    std::array<std::uint8_t, slot_limit> slots_{};
+    std::array<std::uint16_t, slot_limit> slots_{};
     std::size_t first_ = 0, size_ = 0;
 };
 
-}  // namespace axisgate::uim342
+}  // namespace axisgate::drive

@@ -6,10 +6,10 @@
 #include <array>
 #include <cstdint>
 
-#include "adapters/uim342/schedule.hpp"
 #include "gateway/core/instant.hpp"
+#include "gateway/drive/schedule.hpp"
 
-namespace axisgate::uim342 {
+namespace axisgate::drive {
 
 /// A CAN bus serves the lowest identifier first, and on a full one that goes on without end: the answers of high IDs would never come, and
 /// their exchanges would hold all places but one. So no poll begins while an exchange has been overtaken by `limit` others. If it is still
@@ -21,12 +21,12 @@ public:
         limit_ = limit;
         grace_ = grace;
     }
-    void began(std::uint8_t slot) noexcept {
+    void began(std::size_t slot) noexcept {
         ++started_;
         alone_since_ = never;
-        if (size_ < open_.size()) open_[size_++] = {started_, slot, false};
+        if (size_ < open_.size()) open_[size_++] = {started_, static_cast<std::uint16_t>(slot), false};
     }
-    void ended(std::uint8_t slot) noexcept {
+    void ended(std::size_t slot) noexcept {
         for (std::size_t i = 0; i < size_; ++i) {
             if (open_[i].slot != slot) continue;
             open_[i] = open_[--size_];
@@ -65,7 +65,7 @@ public:
 private:
     struct Open {
         std::uint64_t number;
-        std::uint8_t slot;
+        std::uint16_t slot;
         bool had_its_chance;
     };
     std::array<Open, slot_limit> open_{};
@@ -76,4 +76,4 @@ private:
     Instant alone_since_ = never;
 };
 
-}  // namespace axisgate::uim342
+}  // namespace axisgate::drive

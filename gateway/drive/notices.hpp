@@ -1,0 +1,31 @@
+// Notices: what a drive tells on its way to the journal, bounded in number, so that a chattering input cannot fill it.
+// In: notices. Out: those that are within 20 at once and 10 in a second; alarms always. What was left out is counted in the next that is
+// told.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "gateway/core/adapter.hpp"
+
+namespace axisgate::drive {
+
+class Notices {
+public:
+    static constexpr int at_once = 20;
+    static constexpr Duration refill = std::chrono::milliseconds(100);  ///< for each further one
+
+    explicit Notices(DriveId drive = no_drive) noexcept : drive_(drive) {}
+
+    void tell(Severity severity, AxisId axis, std::string_view kind, std::int32_t code, std::string text, Instant now, Out& out);
+    [[nodiscard]] std::uint64_t left_out() const noexcept { return left_out_; }  ///< since the last that was told
+
+private:
+    DriveId drive_;
+    int tokens_ = at_once;
+    Instant refilled_{};
+    std::uint64_t left_out_ = 0;
+};
+
+}  // namespace axisgate::drive

@@ -47,7 +47,8 @@ std::string into_counts(const CommandArgument& a, const Value& given, Value& int
     if (a.scale == 1 && nearest != counts) return fmt::format("{} takes a whole number, not {}", a.name, *number);
     const auto own = *range_of(a.type);
     // An i64's largest value is no double: the next one above it is outside.
-    const bool fits = nearest >= static_cast<double>(own.min) && (own.max == INT64_MAX ? nearest < 0x1p63 : nearest <= static_cast<double>(own.max));
+    const bool fits =
+        nearest >= static_cast<double>(own.min) && (own.max == INT64_MAX ? nearest < 0x1p63 : nearest <= static_cast<double>(own.max));
     if (!fits || (a.min && *number < *a.min) || (a.max && *number > *a.max))
         return fmt::format("{}: {} is outside {}", a.name, *number, range_text(a));
     into = static_cast<std::int64_t>(nearest);
@@ -127,9 +128,12 @@ CheckedArguments check_arguments(const CatalogueCommand& command, std::string_vi
         const auto [end, ec] = std::from_chars(text.data(), text.data() + text.size(), number);
         Value value = std::string(text);
         const auto argument = std::ranges::find(command.arguments, name, &CommandArgument::name);
-        const bool is_text = argument != command.arguments.end() && (argument->type == ValueType::text || argument->type == ValueType::bytes);
-        if (!is_text && (text == "true" || text == "false")) value = text == "true";
-        else if (!is_text && ec == std::errc{} && end == text.data() + text.size()) value = number;
+        const bool is_text =
+            argument != command.arguments.end() && (argument->type == ValueType::text || argument->type == ValueType::bytes);
+        if (!is_text && (text == "true" || text == "false"))
+            value = text == "true";
+        else if (!is_text && ec == std::errc{} && end == text.data() + text.size())
+            value = number;
         list.emplace_back(name, std::move(value));
     }
     auto checked = check(command, list);

@@ -1,6 +1,6 @@
 // Command arguments: what a client gives a catalogue command by name, checked and brought into the one form that adapters read.
-// In: a command of the catalogue, and a JSON object or text with its arguments. Out: one value per argument in the catalogue's order, in the
-// drive's own counts; or a fault per argument. Never guesses: an unknown name, a missing value or one outside its range is a fault.
+// In: a command of the catalogue, and a JSON object or text with its arguments. Out: one value per argument in the catalogue's order, in
+// the drive's own counts; or a fault per argument. Never guesses: an unknown name, a missing value or one outside its range is a fault.
 #pragma once
 
 #include <boost/json/object.hpp>
@@ -26,7 +26,8 @@ struct CheckedArguments {
 
 /// By name, in the catalogue's units: {"position": 12.5, "velocity": 0.1}. What has a default may be left out.
 [[nodiscard]] CheckedArguments check_arguments(const CatalogueCommand& command, const boost::json::object& given);
-/// The same as one text, for what carries texts alone (recipes, command lines): "position=12.5 velocity=0.1"; blanks or commas between them.
+/// The same as one text, for what carries texts alone (recipes, command lines): "position=12.5 velocity=0.1"; blanks or commas between
+/// them.
 [[nodiscard]] CheckedArguments check_arguments(const CatalogueCommand& command, std::string_view given);
 
 }  // namespace axisgate

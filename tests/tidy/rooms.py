@@ -34,7 +34,7 @@ def room(path):
     parts = path.relative_to(TOP).parts
     if parts[0] == "adapters":
         if len(parts) > 3:
-            return "test"
+            return "twin" if parts[2] == "twin" else "test"
         name = parts[-1]
         return "twin" if name.startswith("twin") else "adapter"
     if parts[0] == "gateway":
@@ -63,6 +63,8 @@ def may_include(path, included):
         if r == "adapter":
             if included == "gateway/axis/demand.hpp" or folder == "gateway/drive":
                 return None
+            if rel.name == "family.cpp" and folder == own + "/twin":
+                return None
             if folder != own:
                 return "a family includes core, drive, the axis' demand and itself alone"
             base = pathlib.PurePosixPath(included).name
@@ -70,7 +72,7 @@ def may_include(path, included):
                 return "only family.cpp may name the twin"
             return None
         if r == "twin":
-            if folder != own or not pathlib.PurePosixPath(included).name.startswith("twin"):
+            if folder != own or not (own.endswith("/twin") or pathlib.PurePosixPath(included).name.startswith("twin")):
                 return "a twin is a second reading: it includes core and twin files alone"
             return None
         return "this folder is no room"

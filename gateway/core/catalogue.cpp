@@ -94,6 +94,34 @@ struct Reader {
         if (const auto* v = o.if_contains("wire"); v && v->is_object()) p.wire = v->get_object();
         return p;
     }
+
+    void arguments(const json::object& o, const std::string& where, std::vector<CommandArgument>& into) {
+        const auto* list = o.if_contains("arguments");
+        if (!list || list->is_null()) return;
+        if (!list->is_array()) return faults.push_back(where + ".arguments: not a list");
+        for (const auto& v : list->get_array()) {
+            const std::string at = fmt::format("{}.arguments[{}]", where, into.size());
+            if (!v.is_object()) return faults.push_back(at + ": not an object");
+            const auto& a = v.get_object();
+            CommandArgument argument;
+            argument.name = text(a, "name", at);
+            argument.description = text_or_empty(a, "description");
+            argument.unit = text_or_empty(a, "unit");
+            const auto type = value_type_named(text(a, "type", at));
+            if (!type) faults.push_back(at + ".type: not a known type");
+            argument.type = type.value_or(ValueType::i32);
+            if (const auto* scale = a.if_contains("scale"); scale && !scale->is_null()) argument.scale = number(*scale).value_or(0);
+            if (!(argument.scale > 0)) faults.push_back(at + ".scale: a number above 0 is missing");
+            if (const auto* min = a.if_contains("min")) argument.min = number(*min);
+            if (const auto* max = a.if_contains("max")) argument.max = number(*max);
+            if (argument.min && argument.max && *argument.min > *argument.max) faults.push_back(at + ": min is above max");
+            if (const auto* fallback = a.if_contains("default")) argument.fallback = value_from(*fallback);
+            for (const auto& other : into) {
+                if (other.name == argument.name) faults.push_back(fmt::format("{}: {} is there twice", at, argument.name));
+            }
+            into.push_back(std::move(argument));
+        }
+    }
 };
 }  // namespace
 
@@ -127,7 +155,8 @@ std::optional<Catalogue> Catalogue::parse(std::string_view text, std::vector<std
         for (const auto& v : *list) {
             if (v.is_object()) {
                 const auto& o = v.get_object();
-                CatalogueCommand command{text_or_empty(o, "id"), text_or_empty(o, "name"), text_or_empty(o, "description"), Completion::acknowledged};
+                CatalogueCommand command{text_or_empty(o, "id"), text_or_empty(o, "name"), text_or_empty(o, "description"), Completion::acknowledged, {}};
+                read.arguments(o, "commands: " + command.id, command.arguments);
                 if (const std::string word = text_or_empty(o, "completes"); !word.empty()) {
                     const auto found = std::ranges::find(completion_names, word);
                     if (found == completion_names.end()) faults.push_back(fmt::format("commands: {}: completes: {} is not known", command.id, word));

@@ -60,11 +60,24 @@ enum class Completion : std::uint8_t {
 /// "acknowledged", "target_reached", "standstill", "powered", "online_again", "reported".
 [[nodiscard]] std::string_view name_of(Completion completion) noexcept;
 
+/// What a command takes by name; see command_arguments.hpp for the check and the form that adapters get.
+struct CommandArgument {
+    std::string name;  ///< snake_case, unique in the command
+    ValueType type = ValueType::i32;  ///< of the drive's count
+    std::string unit;                 ///< of what a client gives, and of min, max and default; empty: none
+    double scale = 1;                 ///< units per count: 0.0001 where the drive counts 0.1 um and clients give mm
+    std::optional<double> min;        ///< absent: the type's range, scaled, holds
+    std::optional<double> max;
+    Value fallback;                   ///< the default; unknown: it must be given
+    std::string description;
+};
+
 struct CatalogueCommand {
     std::string id;
     std::string name;
     std::string description;
     Completion completes = Completion::acknowledged;
+    std::vector<CommandArgument> arguments{};  ///< empty: it takes none by name (perhaps one text)
 };
 
 struct ErrorCode {

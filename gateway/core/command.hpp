@@ -78,6 +78,8 @@ struct Native {
 struct Action {
     std::string name;
     std::string argument;
+    /// Of a command with typed arguments: one per argument of the catalogue, in its order, in the drive's counts; checked before it gets here.
+    std::vector<Value> values{};
 };
 /// Sets one of the twin's outside conditions ("stall", "power", "inputs"): the tester's hand. Only for simulated drives.
 struct Hand {

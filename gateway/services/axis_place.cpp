@@ -2,7 +2,11 @@
 // In: a name. Out: the place, or nothing. Never keeps anything from call to call.
 #include "gateway/services/axis_place.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
+
+#include "gateway/core/command_arguments.hpp"
 
 namespace axisgate {
 
@@ -25,6 +29,21 @@ std::optional<AxisPlace> find_axis(const Gateway& gateway, std::string_view name
     const auto index = index_of_name(site->site.axes, name);
     if (!index) return std::nullopt;
     return axis_at(gateway, std::move(site), *index);
+}
+
+void read_arguments(const AxisPlace& place, Action& action, const boost::json::object* by_name, const std::string& pointer, std::vector<Fault>& faults) {
+    const CatalogueCommand* command = place.catalogue ? place.catalogue->command(action.name) : nullptr;
+    if (!command) {  // the adapter says what it knows; without an entry nothing can be given by name
+        if (by_name && !by_name->empty())
+            faults.push_back({pointer + std::string(by_name->begin()->key()), fmt::format("a {} lists no command {}", place.family, action.name),
+                              fmt::format("see /api/v1/families/{}/commands", place.family)});
+        return;
+    }
+    if (command->arguments.empty() && (!by_name || by_name->empty())) return;
+    auto checked = by_name ? check_arguments(*command, *by_name) : check_arguments(*command, action.argument);
+    for (auto& f : checked.faults)
+        faults.push_back({pointer + f.argument, std::move(f.text), std::move(f.remedy)});
+    action.values = std::move(checked.values);
 }
 
 }  // namespace axisgate

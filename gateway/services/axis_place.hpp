@@ -2,6 +2,7 @@
 // In: a Gateway, a name or an index. Out: names, id, catalogue. Keeps the site alive that it was found in. Never asks a drive.
 #pragma once
 
+#include <boost/json/object.hpp>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gateway/services/fault.hpp"
 #include "gateway/services/gateway.hpp"
 
 namespace axisgate {
@@ -23,6 +25,9 @@ struct AxisPlace {
 };
 [[nodiscard]] std::optional<AxisPlace> find_axis(const Gateway& gateway, std::string_view name);
 [[nodiscard]] AxisPlace axis_at(const Gateway& gateway, std::shared_ptr<const SiteState> site, std::size_t index);
+/// Brings the arguments of a family's action into Action::values: `by_name`, or else the action's text as "name=value ...". A command
+/// without typed arguments keeps its text. Faults: one per argument, with `pointer` before its name.
+void read_arguments(const AxisPlace& place, Action& action, const boost::json::object* by_name, const std::string& pointer, std::vector<Fault>& faults);
 /// Index by name in one of the site's lists.
 template <class Spec>
 [[nodiscard]] std::optional<std::size_t> index_of_name(const std::vector<Spec>& list, std::string_view name) {

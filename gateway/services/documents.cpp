@@ -279,7 +279,23 @@ json::object parameter_document(const Catalogue& catalogue, Point point, std::st
 }
 
 json::object command_document(const CatalogueCommand& c) {
-    return {{"id", c.id}, {"name", c.name}, {"description", text_or_null(c.description)}, {"completes", name_of(c.completes)}};
+    const auto or_null = [](const std::optional<double>& d) { return d ? json::value(*d) : json::value(nullptr); };
+    json::array arguments;
+    for (const auto& a : c.arguments) {
+        arguments.push_back({{"name", a.name},
+                             {"type", name_of(a.type)},
+                             {"unit", text_or_null(a.unit)},
+                             {"scale", a.scale},
+                             {"min", or_null(a.min)},
+                             {"max", or_null(a.max)},
+                             {"default", to_json(a.fallback)},
+                             {"description", text_or_null(a.description)}});
+    }
+    return {{"id", c.id},
+            {"name", c.name},
+            {"description", text_or_null(c.description)},
+            {"completes", name_of(c.completes)},
+            {"arguments", std::move(arguments)}};
 }
 
 json::object error_document(const ErrorCode& e) {

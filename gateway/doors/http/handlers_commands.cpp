@@ -77,7 +77,7 @@ Handled act_on_axis(Call& c) {
     if (fault) return *fault;
     const json::object& body = c.body.get_object();
     std::vector<Fault> faults;
-    unknown_members(body, {"name", "argument"}, faults);
+    unknown_members(body, {"name", "argument", "arguments"}, faults);
     Action action;
     const auto* name = body.if_contains("name");
     if (name && name->is_string() && !name->get_string().empty() && name->get_string().size() <= 128) {
@@ -92,6 +92,14 @@ Handled act_on_axis(Call& c) {
             faults.push_back({"/argument", "argument must be a text", "write it in quotes"});
         }
     }
+    const auto* arguments = body.if_contains("arguments");
+    if (arguments && !arguments->is_null() && !arguments->is_object()) {
+        faults.push_back({"/arguments", "arguments must be an object of values by name", "write \"arguments\": {\"position\": 12.5}"});
+        arguments = nullptr;
+    }
+    const auto* by_name = arguments && arguments->is_object() ? &arguments->get_object() : nullptr;
+    if (by_name && !action.argument.empty()) faults.push_back({"/argument", "argument and arguments exclude each other", "leave one out"});
+    read_arguments(*place, action, by_name, "/arguments/", faults);
     if (!faults.empty()) return refused(std::move(faults), c.names[0], action.name, false);
     Command command;
     command.axis = place->id();

@@ -208,8 +208,16 @@ std::optional<Command> command_of(RecipeStep& s, const Gateway& g, std::vector<S
             return c;
         }
         case Kind::action:
-            c.body = Action{text("name"), text("argument")};
+        {
+            Action action{text("name"), text("argument")};
+            std::vector<Fault> wrong;
+            read_arguments(*place, action, nullptr, "", wrong);
+            for (auto& f : wrong)
+                faults.push_back({pointer_in(s, "argument"), std::move(f.text), std::move(f.remedy), false});
+            if (!wrong.empty()) return std::nullopt;
+            c.body = std::move(action);
             return c;
+        }
         default:
             return std::nullopt;
     }

@@ -59,7 +59,10 @@ TEST_F(HttpTest, Catalogue) {
     EXPECT_EQ(json_text(p[3].at("allowed")), R"([{"value":1,"meaning":"full"},{"value":16,"meaning":"sixteenth"}])");
     EXPECT_EQ(json_text(p[4].at("first")) + json_text(p[4].at("count")), "18");
     EXPECT_EQ(json_text(p[4].at("selector")), std::to_string(65536 + 4)) << "of its first element";
-    EXPECT_EQ(call("GET", "/api/v1/families/demo/commands").text, R"([{"id":"BG","name":"begin","description":"Starts.","completes":"acknowledged"}])");
+    EXPECT_EQ(call("GET", "/api/v1/families/demo/commands").text, R"([{"id":"BG","name":"begin","description":"Starts.","completes":"acknowledged","arguments":[]},)"
+              R"({"id":"GO","name":"go","description":null,"completes":"acknowledged","arguments":[)"
+              R"({"name":"position","type":"i32","unit":"mm","scale":0.0001,"min":null,"max":null,"default":null,"description":null},)"
+              R"({"name":"speed","type":"u16","unit":null,"scale":1,"min":null,"max":null,"default":5,"description":null}]}])");
     EXPECT_EQ(call("GET", "/api/v1/families/demo/errors").text,
               R"([{"code":49,"through":null,"kind":"error","name":"overcurrent","text":"too much current","cause":"short","remedy":"look"}])");
     for (const auto* path :
@@ -320,6 +323,25 @@ TEST_F(HttpTest, Actions) {
     EXPECT_EQ(call("POST", "/api/v1/axes/feeder/actions", R"({"name":")" + std::string(129, 'x') + R"("})").status, 422u);
     EXPECT_EQ(call("POST", "/api/v1/axes/none/actions", R"({"name":"x"})").status, 404u);
     EXPECT_EQ(gateway.submitted.size(), 2u);
+}
+
+TEST_F(HttpTest, ActionsWithArgumentsByName) {
+    gateway.at_once = [](const Command&) { return good_result(Outcome::done); };
+    const auto values = [&] { return std::get<Action>(gateway.submitted.back().body).values; };
+    EXPECT_EQ(call("POST", "/api/v1/axes/feeder/actions", R"({"name":"go","arguments":{"position":12.5}})").status, 200u);
+    EXPECT_EQ(values(), (std::vector<Value>{std::int64_t{125000}, std::int64_t{5}}));
+    EXPECT_EQ(call("POST", "/api/v1/axes/feeder/actions", R"({"name":"GO","argument":"position=-1 speed=7"})").status, 200u);
+    EXPECT_EQ(values(), (std::vector<Value>{std::int64_t{-10000}, std::int64_t{7}}));
+    EXPECT_EQ(call("POST", "/api/v1/axes/feeder/actions", R"({"name":"begin","arguments":{}})").status, 200u);
+    ASSERT_EQ(gateway.submitted.size(), 3u);
+    const auto wrong = call("POST", "/api/v1/axes/feeder/actions", R"({"name":"go","arguments":{"speed":70000,"x":1}})");
+    EXPECT_EQ(wrong.status, 422u);
+    for (const auto* place : {"/arguments/x", "/arguments/position", "/arguments/speed"}) EXPECT_NE(wrong.text.find(place), std::string::npos) << place;
+    for (const auto* bad : {R"({"name":"go","arguments":[]})", R"({"name":"go","argument":"position=1","arguments":{"position":1}})", R"({"name":"go"})",
+                            R"({"name":"begin","arguments":{"a":1}})", R"({"name":"unlisted","arguments":{"a":1}})"}) {
+        EXPECT_EQ(call("POST", "/api/v1/axes/feeder/actions", bad).status, 422u) << bad;
+    }
+    EXPECT_EQ(gateway.submitted.size(), 3u) << "nothing wrong reaches a drive";
 }
 
 TEST_F(HttpTest, StartingTogether) {

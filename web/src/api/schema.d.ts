@@ -2069,6 +2069,29 @@ export interface components {
              * @enum {string}
              */
             completes: "acknowledged" | "target_reached" | "standstill" | "powered" | "online_again" | "reported";
+            /** @description what it takes by name; empty where it takes none, or one text */
+            arguments: components["schemas"]["CommandArgument"][];
+        };
+        CommandArgument: {
+            name: string;
+            /**
+             * @description of the drive's count
+             * @example i32
+             */
+            type: string;
+            /** @example mm */
+            unit: string | null;
+            /**
+             * @description units per count of the drive; what is given is rounded to a count
+             * @example 0.0001
+             */
+            scale: number;
+            /** @description null: what the type holds */
+            min: number | null;
+            max: number | null;
+            /** @description null: it must be given */
+            default: unknown;
+            description: string | null;
         };
         ErrorCode: {
             code: number;
@@ -2387,8 +2410,19 @@ export interface components {
         };
         Action: {
             name: string;
-            /** @default  */
+            /**
+             * @description one text for the drive; where the command has typed arguments: name=value, blanks or commas between them
+             * @default
+             */
             argument?: string;
+            /**
+             * @description values by name, in the units of the catalogue's arguments; those with a default may be left out. Each one that is unknown, missing or outside its range is a fault of its own. Not together with argument.
+             * @example {
+             *       "position": 12.5,
+             *       "velocity": 0.1
+             *     }
+             */
+            arguments?: Record<string, never>;
         };
         MovesStart: {
             axes: string[];

@@ -1,0 +1,35 @@
+// Decoder of LinRS: recorded bytes as one readable line per telegram, down to the named motion command.
+// In: runs of bytes in order, with their direction if it is known. Out: text; what is inferred is said to be so.
+// Never changes anything and never guesses silently.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "adapters/linmot/motions.hpp"
+#include "adapters/linmot/wire.hpp"
+#include "gateway/core/family.hpp"
+
+namespace axisgate::linmot {
+
+class LineDecoder final : public Decoder {
+public:
+    explicit LineDecoder(const Catalogue& catalogue) : catalogue_(catalogue), motions_(catalogue) {}
+    std::vector<std::string> on_frame(const Frame& frame, std::optional<bool> to_drive) override;
+    std::vector<std::string> finish() override;
+
+    /// A telegram in words. Answers have main ID 0; requests for a response have it, too, and no data.
+    [[nodiscard]] std::string describe(const Telegram& telegram, std::optional<bool> to_drive) const;
+
+private:
+    [[nodiscard]] std::string request_text(const Telegram& t) const;
+    [[nodiscard]] std::string answer_text(const Telegram& t) const;
+    [[nodiscard]] std::string parameter_name(std::uint16_t upid) const;
+    const Catalogue& catalogue_;
+    Motions motions_;
+    std::array<Framer, 3> framers_;  // from the drive, to it, not known
+};
+
+}  // namespace axisgate::linmot

@@ -1,0 +1,75 @@
+// Native exchanges: a telegram of the client's own, completed by the drive's ID, length and frame.
+// In: hex text "sub main data...", or bytes: the same, or a whole telegram for this ID. Out: the answer in hex and in bytes.
+// Never sends to another ID. A motion command whose count did not change is sent, and the answer says that it was not executed.
+#include <fmt/format.h>
+
+#include <charconv>
+#include <iterator>
+
+#include "adapters/linmot/drive.hpp"
+
+namespace axisgate::linmot {
+namespace {
+std::optional<std::vector<std::uint8_t>> hex_bytes(std::span<const std::uint8_t> text) {
+    std::vector<std::uint8_t> bytes;
+    std::string digits;
+    for (const auto c : text) {
+        if (c == ' ' || c == ',' || c == '\t' || c == '\r' || c == '\n') continue;
+        digits += static_cast<char>(c);
+    }
+    if (digits.size() % 2 != 0) return std::nullopt;
+    for (std::size_t i = 0; i < digits.size(); i += 2) {
+        unsigned b = 0;
+        const auto [end, ec] = std::from_chars(digits.data() + i, digits.data() + i + 2, b, 16);
+        if (ec != std::errc{} || end != digits.data() + i + 2) return std::nullopt;
+        bytes.push_back(static_cast<std::uint8_t>(b));
+    }
+    return bytes;
+}
+}  // namespace
+
+std::optional<Telegram> Drive::native_request(Turn& t) {
+    const auto& native = std::get<Native>(job_.command.body);
+    const auto refuse = [&](std::string text) {
+        end_job(Outcome::refused, Reason::out_of_range, std::move(text), t);
+        return std::nullopt;
+    };
+    const auto bytes = native.is_text ? hex_bytes(native.send) : std::optional(native.send);
+    if (!bytes || bytes->size() < 2)
+        return refuse("write sub ID, main ID and data as pairs of hex digits: \"01 00\" asks for the default response");
+    Telegram telegram;
+    const auto& b = *bytes;
+    const std::size_t tail = bus_.checksum.size();
+    if (b.size() >= 7 && b[0] == 1 && b[3] == 2 && b.back() == 4 && b.size() == std::size_t{b[2]} + 4 + tail) {
+        Framer framer;
+        framer.set(bus_.checksum);
+        bool found = false;
+        framer.push(b, [&](const Telegram& x, std::span<const std::uint8_t>) { telegram = x, found = true; }, {});
+        if (!found) return refuse("the telegram's checksum is wrong");
+        if (telegram.id != id_) return refuse(fmt::format("the telegram is for ID {}, and drive {} is asked", telegram.id, title()));
+    } else {
+        if (b.size() > 2 + Telegram::most_data) return refuse(fmt::format("a telegram has at most {} bytes of data", Telegram::most_data));
+        telegram = request(id_, Main::response, b[0]);
+        telegram.main = b[1];
+        for (std::size_t i = 2; i < b.size(); ++i)
+            telegram.add(b[i]);
+    }
+    job_.number = 0;
+    if (telegram.main == static_cast<std::uint8_t>(Main::motion) && telegram.size >= 2 && status_.state() == state::enabled &&
+        (telegram.u16(0) & 0x0F) == (status_.sub_state() & 0x0F))
+        job_.text = fmt::format(" (the count is {} as before: the drive has not executed it)", telegram.u16(0) & 0x0F);
+    cw_known_ = telegram.main != static_cast<std::uint8_t>(Main::control_word) && cw_known_;
+    if (telegram.main == static_cast<std::uint8_t>(Main::motion) || telegram.main == static_cast<std::uint8_t>(Main::control_word))
+        demand_.forget();
+    return telegram;
+}
+
+void Drive::native_answered(const Telegram& telegram, Turn& t) {
+    job_.bytes = pack(telegram, bus_.checksum);
+    std::string text;
+    for (const auto b : job_.bytes)
+        fmt::format_to(std::back_inserter(text), "{}{:02X}", text.empty() ? "" : " ", b);
+    end_job(Outcome::done, Reason::none, text + job_.text, t);
+}
+
+}  // namespace axisgate::linmot

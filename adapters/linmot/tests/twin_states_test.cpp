@@ -1,0 +1,176 @@
+// The twin: printed exchanges, every state, every edge of the control word.
+// In: telegrams and virtual time. Out: the drive's words, as the manual has them.
+#include <cmath>
+
+#include "adapters/linmot/tests/twin_bench.hpp"
+
+namespace axisgate::linmot::test {
+namespace {
+constexpr std::int64_t a1 = 1'000'000;  // 10 m/s2
+
+TEST(LinmotTwin, PrintedExchangesByTheirFields) {
+    std::size_t played = 0;
+    for (const auto& c : cases()) {
+        SCOPED_TRACE(c.name);
+        const bool forced = std::ranges::count(c.given, std::string("forced")) != 0;
+        Bench b(forced ? std::map<std::string, std::string>{{"force", "14"}} : std::map<std::string, std::string>{});
+        for (const auto& g : c.given) {
+            if (g == "stopped") (void)b.ask("01 11 03 02 03 06 04");
+            if (g == "enabled") b.enable();
+            if (g == "curve") {
+                auto& curve = b.drive().curves[1];
+                curve.info.resize(70);
+                for (int i = 0; i <= 20; ++i)
+                    Bench::put(curve.data, std::llround(500'000 * (1 - std::cos(M_PI * i / 20))), 4);
+            }
+        }
+        for (const auto& x : c.exchanges) {
+            auto answer = b.ask(x.request);
+            if (answer.empty()) {
+                b.run(5s);
+                answer = b.late;
+            }
+            ++played;
+            ASSERT_EQ(answer.size(), x.answer.size());
+            if (c.compare.empty()) {
+                EXPECT_EQ(answer, x.answer);
+                continue;
+            }
+            for (const auto& name : c.compare) {
+                const auto pick = [&](const std::vector<std::uint8_t>& a) -> int {
+                    if (name == "comm") return a[6];
+                    if (name == "status") return a[7] | a[8] << 8;
+                    if (name == "state") return a[10];
+                    if (name == "sub") return a[9];
+                    if (name == "count") return a[9] & 15;
+                    return static_cast<int>(a.size());
+                };
+                EXPECT_EQ(pick(answer), pick(x.answer)) << name;
+            }
+        }
+    }
+    EXPECT_EQ(played, 43u);
+}
+
+// --- state machine ----------------------------------------------------------------------------------------------------------
+/// Brings a fresh drive into the state.
+void bring(Bench& b, int state) {
+    if (state == 0) return;
+    b.control(0);
+    if (state == 1) return;
+    b.control(0x3E);
+    if (state == 2) return;
+    if (state == 3) return (void)b.hand("inject_error", Value{std::int64_t{0x50}});
+    if (state == 4) return (void)b.hand("inject_error", Value{std::int64_t{0x40}});
+    b.control(state == 6 ? 0x37 : 0x3F);
+    if (state == 5) return;
+    b.run(400ms);
+    switch (state) {
+        case 9:
+            return b.control(0x083F);
+        case 10:
+            return b.control(0x103F);
+        case 11:
+            return b.control(0x203F);
+        case 12:
+            return b.control(0x2F);
+        case 13:
+            return b.control(0x1F);
+        case 14:
+            b.motion("010xh", {1'000'000, 1'000'000, a1, a1});
+            b.run(200ms);
+            return b.control(0x3B);
+        case 15:
+            return b.control(0x7F);
+        case 16:
+            return b.control(0x13F);
+        case 17:
+            return b.control(0x23F);
+        case 19:
+            return b.control(0x803F);
+        default:
+            return;
+    }
+}
+
+TEST(LinmotTwin, EveryStateIsReached) {
+    for (const int s : {0, 1, 2, 3, 4, 5, 6, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 19}) {
+        Bench b;
+        bring(b, s);
+        EXPECT_EQ(b.state(), s);
+    }
+    Bench special({{"series", "b1100"}});
+    bring(special, 8);
+    special.control(0x43F);
+    EXPECT_EQ(special.state(), 20);
+}
+
+TEST(LinmotTwin, EveryControlWordEdgeFromEveryState) {
+    struct Row {
+        int from;
+        std::uint16_t word;
+        int to;
+    };
+    // From the text [L105-379]; 14 is left when the motor stands.
+    std::vector<Row> rows{{0, 0x3F, 0},  {0, 0x3E, 2},    {0, 0x00, 1},    {1, 0x06, 2},    {1, 0x02, 1},  {1, 0x04, 1},   {2, 0x3F, 5},
+                          {2, 0x39, 1},  {3, 0x3F, 4},    {3, 0x3E, 3},    {4, 0x3E, 4},    {4, 0xBE, 2},  {5, 0x3E, 2},   {5, 0x3D, 1},
+                          {5, 0x3B, 1},  {6, 0x3F, 8},    {6, 0x36, 2},    {6, 0x35, 1},    {6, 0x33, 1},  {8, 0x37, 6},   {8, 0x2F, 12},
+                          {8, 0x1F, 13}, {8, 0x083F, 9},  {8, 0x103F, 10}, {8, 0x203F, 11}, {8, 0x7F, 15}, {8, 0x13F, 16}, {8, 0x23F, 17},
+                          {8, 0x33F, 8}, {8, 0x803F, 19}, {8, 0x43F, 8},   {9, 0x3F, 8},    {10, 0x3F, 8}, {11, 0x3F, 8},  {12, 0x3F, 8},
+                          {13, 0x3F, 8}, {15, 0x3F, 8},   {16, 0x3F, 8},   {17, 0x3F, 8},   {19, 0x3F, 8}, {12, 0x2F, 12}, {13, 0x1F, 13}};
+    for (const int s : {8, 9, 10, 11, 12, 13, 15, 16, 17, 19}) {
+        rows.push_back({s, 0x3E, 2});  // OFF1
+        rows.push_back({s, 0x3D, 1});  // OFF2
+        rows.push_back({s, 0x37, 6});  // enable operation taken away
+    }
+    for (const auto& r : rows) {
+        Bench b;
+        bring(b, r.from);
+        ASSERT_EQ(b.state(), r.from);
+        b.control(r.word);
+        EXPECT_EQ(b.state(), r.to) << "from " << r.from << " by " << std::hex << r.word;
+    }
+    for (const int s : {8, 9, 12, 16}) {  // OFF3: quick stop, then switch on disabled
+        Bench b;
+        bring(b, s);
+        b.control(0x3B);
+        EXPECT_TRUE(b.state() == 14 || b.state() == 1) << s;
+        b.run(2s);
+        EXPECT_EQ(b.state(), 1);
+    }
+}
+
+TEST(LinmotTwin, ACompleteWordAtPowerOnRestsLocked) {
+    Bench b;
+    b.control(0x3F);
+    b.run(2s);
+    EXPECT_EQ(b.state(), 0);
+    EXPECT_NE(b.drive().status_word() & 0x40, 0) << "switch on locked";
+    b.control(0x3E);
+    b.control(0x3F);
+    EXPECT_EQ(b.drive().state_var(), 0x0500) << "the hardware tests take their time";
+    b.run(299ms);
+    EXPECT_EQ(b.state(), 5);
+    b.run(1ms);
+    EXPECT_EQ(b.state(), 8);
+}
+
+TEST(LinmotTwin, HomingEndsInStateNineUntilTheBitIsReleased) {
+    Bench b;
+    (void)b.hand("position", Value{std::int64_t{300'000}});
+    b.enable();
+    EXPECT_NE(b.drive().warn_word() & 0x80, 0);
+    b.control(0x083F);
+    EXPECT_EQ(b.drive().state_var(), 0x0900);
+    EXPECT_EQ(b.drive().status_word() >> 11 & 1, 0) << "not homed meanwhile";
+    b.run(10s);
+    EXPECT_EQ(b.drive().state_var(), 0x090F);
+    EXPECT_EQ(b.position(), 0);
+    b.control(0x3F);
+    EXPECT_EQ(b.state(), 8);
+    EXPECT_NE(b.sub() & 0x80, 0);
+    EXPECT_EQ(b.drive().warn_word() & 0x80, 0);
+}
+
+}  // namespace
+}  // namespace axisgate::linmot::test

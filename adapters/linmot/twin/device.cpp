@@ -1,0 +1,366 @@
+// The drive on its line: telegrams in and out, control words, motion commands, RAM reads; power and the tester's hand.
+// In: telegrams. Out: answers as the public pages print them; what stands on none of them is marked where it is done.
+// Never answers a telegram for another ID.
+#include "adapters/linmot/twin/device.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace axisgate::linmot::twin {
+namespace {
+std::uint16_t at16(std::span<const std::uint8_t> d, std::size_t i) {
+    const auto byte = [&](std::size_t k) { return k < d.size() ? d[k] : std::uint8_t{0}; };
+    return static_cast<std::uint16_t>(byte(i) | byte(i + 1) << 8);
+}
+void put(std::vector<std::uint8_t>& v, std::uint32_t value, int bytes) {
+    for (int i = 0; i < bytes; ++i)
+        v.push_back(static_cast<std::uint8_t>(value >> 8 * i));
+}
+constexpr std::uint8_t ok = 0;  // communication state
+}  // namespace
+
+std::uint16_t Device::sum(std::span<const std::uint8_t> bytes) const {
+    const auto part = bytes.subspan(std::min(setup_.checksum_from, bytes.size()));
+    if (setup_.checksum == "sum") {
+        unsigned s = 0;
+        for (const auto b : part)
+            s += b;
+        return static_cast<std::uint16_t>(s);
+    }
+    // Bit by bit, lowest bit first for the reflected form.
+    const bool low_first = setup_.checksum == "crc_reflected";
+    unsigned crc = setup_.checksum_start;
+    for (const auto b : part) {
+        for (int i = 0; i < 8; ++i) {
+            const unsigned in = (low_first ? b >> i : b >> (7 - i)) & 1u;
+            if (low_first)
+                crc = ((crc ^ in) & 1u) != 0 ? crc >> 1 ^ 0x8408u : crc >> 1;
+            else
+                crc = ((crc >> 15 ^ in) & 1u) != 0 ? (crc << 1 ^ 0x1021u) & 0xFFFFu : crc << 1 & 0xFFFFu;
+        }
+    }
+    return static_cast<std::uint16_t>(crc);
+}
+
+// --- power ------------------------------------------------------------------------------------------------------------------
+void Device::start(Instant now) {
+    drive_.table = table_flash_;
+    drive_.curves = curves_flash_;
+    drive_.power_on(now);
+    held_.clear();
+    reply_at_ = never;
+    list_open_ = false;
+    block_sizes_.clear();
+}
+
+void Device::power_on(const NonVolatile& memory, Instant now, Out&) {
+    powered_ = true;
+    drive_.memory.load(memory);
+    table_flash_.clear();
+    curves_flash_.clear();
+    const auto bytes_of = [](const Value& v) {
+        std::vector<std::uint8_t> bytes;
+        const auto* s = std::get_if<std::string>(&v);
+        const auto digit = [](char c) { return c <= '9' ? c - '0' : (c | 0x20) - 'a' + 10; };
+        for (std::size_t i = 0; s && i + 1 < s->size(); i += 2)
+            bytes.push_back(static_cast<std::uint8_t>((digit((*s)[i]) << 4 | (digit((*s)[i + 1]) & 15)) & 0xFF));
+        return bytes;
+    };
+    for (const auto& item : memory) {
+        const std::string& name = item.first;
+        const Value& value = item.second;
+        const auto number = [&](std::size_t from) { return static_cast<std::uint16_t>(std::strtoul(name.c_str() + from, nullptr, 10)); };
+        const auto bytes = bytes_of(value);
+        if (name.starts_with("table.") && bytes.size() == 64) std::copy_n(bytes.begin(), 64, table_flash_[number(6)].begin());
+        if (name.starts_with("curve.info.")) curves_flash_[number(11)].info = bytes;
+        if (name.starts_with("curve.data.")) curves_flash_[number(11)].data = bytes;
+    }
+    start(now);
+}
+
+NonVolatile Device::non_volatile() const {
+    NonVolatile all;
+    drive_.memory.save(all);
+    const auto hex = [](std::span<const std::uint8_t> bytes) {
+        std::string s;
+        for (const auto b : bytes) {
+            s += "0123456789ABCDEF"[b >> 4];
+            s += "0123456789ABCDEF"[b & 15];
+        }
+        return s;
+    };
+    for (const auto& [id, entry] : table_flash_)
+        all["table." + std::to_string(id)] = hex(entry);
+    for (const auto& [id, c] : curves_flash_) {
+        all["curve.info." + std::to_string(id)] = hex(c.info);
+        all["curve.data." + std::to_string(id)] = hex(c.data);
+    }
+    return all;
+}
+
+// --- telegrams --------------------------------------------------------------------------------------------------------------
+void Device::on_frame(const Frame& frame, Instant now, Out& out) {
+    if (frame.kind != Frame::Kind::bytes || !powered_ || now < deaf_until_) return;
+    if (!held_.empty() && now - last_byte_ > std::chrono::milliseconds(50)) held_.clear();  // the rest of a telegram never came
+    last_byte_ = now;
+    held_.insert(held_.end(), frame.data().begin(), frame.data().end());
+    look(now, out);
+}
+
+void Device::look(Instant now, Out& out) {
+    const std::size_t tail = setup_.checksum == "none" ? 0 : 2;
+    std::size_t at = 0;
+    while (at + 4 <= held_.size()) {  // a restart clears it
+        const Data rest(held_.data() + at, held_.size() - at);
+        const std::size_t n = rest[2];
+        if (rest[0] != 1 || n < 2 || n > 63 || rest[3] != 2) {
+            ++at;
+            continue;
+        }
+        const std::size_t whole = n + 4 + tail;
+        if (rest.size() < whole) break;
+        const bool good = rest[whole - 1] == 4 && (tail == 0 || at16(rest, n + 3) == sum(rest.first(n + 3)));
+        if (!good) {
+            ++at;
+            continue;
+        }
+        const std::vector<std::uint8_t> body(rest.begin() + 4, rest.begin() + static_cast<std::ptrdiff_t>(n + 3));
+        const std::uint8_t id = rest[1];
+        at += whole;
+        if (id == setup_.id && body.size() >= 2) heard(body, now, out);
+    }
+    held_.erase(held_.begin(), held_.begin() + static_cast<std::ptrdiff_t>(std::min(at, held_.size())));
+}
+
+void Device::answer(std::uint8_t sub, std::vector<std::uint8_t> data, Out& out) const {
+    std::vector<std::uint8_t> t{1, setup_.id, static_cast<std::uint8_t>(data.size() + 3), 2, sub, 0};
+    t.insert(t.end(), data.begin(), data.end());
+    if (setup_.checksum != "none") put(t, sum(t), 2);
+    t.push_back(4);
+    if (!silent_) out.send(Frame::run(t));
+}
+
+void Device::default_response(Out& out, std::span<const std::uint8_t> more) const {
+    std::vector<std::uint8_t> d{ok};
+    put(d, drive_.status_word(), 2);
+    put(d, drive_.state_var(), 2);
+    put(d, static_cast<std::uint32_t>(static_cast<std::int32_t>(std::lround(std::clamp(drive_.actual(), -2147483648.0, 2147483647.0)))), 4);
+    d.insert(d.end(), more.begin(), more.end());
+    answer(0, std::move(d), out);
+}
+
+void Device::config(std::uint8_t sub, std::uint8_t state, std::uint16_t index, std::uint32_t value, Out& out) const {
+    std::vector<std::uint8_t> d{state};
+    put(d, index, 2);
+    put(d, value, 4);
+    answer(sub, std::move(d), out);
+}
+
+void Device::set_error_count() {
+    const bool now_in_error = drive_.state() == error || drive_.state() == setup_error;
+    if (now_in_error && drive_.error_code() != last_error_) ++errors_seen_;
+    last_error_ = now_in_error ? drive_.error_code() : std::uint16_t{0};
+}
+
+void Device::heard(Data body, Instant now, Out& out) {
+    drive_.advance(now);
+    const std::uint8_t sub = body[0], main = body[1];
+    const Data data = body.subspan(2);
+    switch (main) {
+        case 0x00:
+            if (sub == 3) {  // warn word and two bytes of unknown meaning behind it: seen in programs alone
+                std::vector<std::uint8_t> more;
+                put(more, drive_.warn_word(), 4);
+                default_response(out, more);
+            } else if (sub >= 1 && sub <= 4) {
+                default_response(out);
+            }
+            break;
+        case 0x01:
+            if (sub != 0 || data.size() < 2) break;
+            drive_.write_control_word(at16(data, 0), now);
+            default_response(out);
+            break;
+        case 0x02:
+            if (sub != 0 || data.size() < 2) break;
+            drive_.write_motion_command(data, now);
+            default_response(out);
+            break;
+        case 0x03:
+            if (sub == 0 && data.size() >= 2) {
+                std::vector<std::uint8_t> more;
+                put(more, drive_.ram(at16(data, 0)), 4);
+                default_response(out, more);
+            }
+            break;
+        case 0x04:
+            curves(sub, data, out);
+            break;
+        case 0x05:
+            parameters(sub, data, out);
+            break;
+        case 0x06:
+            program(sub, now, out);
+            break;
+        case 0x07:
+            errors(sub, data, out);
+            break;
+        case 0x08:
+            command_table(sub, data, out);
+            break;
+        default:
+            break;
+    }
+    set_error_count();
+}
+
+// --- time -------------------------------------------------------------------------------------------------------------------
+Instant Device::deadline() const {
+    if (!powered_) return never;
+    return std::min(reply_at_, drive_.next_event());
+}
+
+void Device::on_deadline(Instant now, Out& out) {
+    if (!powered_) return;
+    drive_.advance(now);
+    if (now >= reply_at_) {
+        reply_at_ = never;
+        if (!silent_ && !reply_.empty()) out.send(Frame::run(reply_));
+    }
+}
+
+// --- the hand ---------------------------------------------------------------------------------------------------------------
+std::vector<HandItem> Device::hand() const {
+    const auto& o = drive_.outside();
+    const auto flag = [](bool b) { return Value{b}; };
+    const auto whole = [](std::int64_t n) { return Value{n}; };
+    return {
+        {"power", flag(powered_), true, "logic supply"},
+        {"silent", flag(silent_), true, "hears, does not answer"},
+        {"stall", flag(o.stall), true, "the slider is held"},
+        {"position", whole(std::llround(drive_.mechanics().position)), true, "0.1 um: the slider moved by hand while nothing controls it"},
+        {"inject_error", whole(drive_.error_code()), true, "error code; 0: none"},
+        {"inputs", whole(o.x4_inputs), true, "levels of X4, bit 0 is X4.3"},
+        {"limit_positive", flag(o.limit_out), true, "limit switch OUT"},
+        {"limit_negative", flag(o.limit_in), true, "limit switch IN"},
+        {"temperature", Value{static_cast<double>(o.temperature) / 10}, true, "controller, deg C"},
+        {"motor_hot", flag(o.motor_hot), true, "motor temperature sensor"},
+        {"ptc_1", flag(o.ptc1_hot), true, "PTC 1 hot or open"},
+        {"ptc_2", flag(o.ptc2_hot), true, "PTC 2 hot or open"},
+        {"motor_supply", Value{static_cast<double>(o.motor_supply) / 100}, true, "V"},
+        {"logic_supply", Value{static_cast<double>(o.logic_supply) / 100}, true, "V"},
+        {"safe_voltage_enable", flag(o.safe_voltage_enable), true, "input X4.12"},
+        {"trigger", flag((o.x4_inputs & 0x08) != 0), true, "input X4.6"},
+        {"capture", flag((o.x4_inputs & 0x04) != 0), true, "input X4.5: a rising edge captures the position"},
+        {"analog", whole(o.analog), true, "X4.4, as a position of 0.1 um"},
+        {"encoder", whole(o.encoder), true, "counts of the master encoder"},
+        {"force", whole(o.force), true, "measured force, 0.1 N"},
+        {"current", whole(o.current), true, "demand current, mA"},
+        {"lag_ms", Value{o.lag_ms}, true, "the position follows the demand so late"},
+        {"control_mask", whole(o.panel_mask), true, "control word bits that a PC tool has taken over"},
+        {"control_word", whole(o.panel_word), true, "what it sets them to"},
+        {"copy_mask", whole(o.copy_mask), true, "control word bits that the interface may set"}};
+}
+
+std::string Device::set_hand(const std::string& name, const Value& value, Instant now, Out& out) {
+    drive_.advance(now);
+    (void)out;
+    const auto n = as_number(value);
+    if (!n || !std::isfinite(*n)) return name + " takes a number, true or false";
+    const auto in = [&](double low, double high) { return *n >= low && *n <= high; };
+    const bool flag = *n != 0;
+    if (name == "power") {
+        if (flag == powered_) return {};
+        if (flag) {
+            powered_ = true;
+            deaf_until_ = now;
+            start(now);
+        } else {
+            drive_.power_off(now);
+            powered_ = false;
+            reply_at_ = never;
+        }
+        return {};
+    }
+    if (name == "silent") return silent_ = flag, std::string();
+    if (name == "inject_error") {
+        if (!in(0, 255)) return "inject_error takes a code 0..255";
+        drive_.inject(static_cast<std::uint16_t>(*n), now);
+        set_error_count();
+        return {};
+    }
+    if (name == "position") {
+        if (!in(-2e9, 2e9)) return "position takes 0.1 um within -2e9..2e9";
+        drive_.move_by_hand(*n, now);
+        return {};
+    }
+    Drive::Outside o = drive_.outside();
+    const auto word = [&](std::uint16_t& w) {
+        return in(0, 65535) ? (w = static_cast<std::uint16_t>(*n), std::string()) : name + " takes 0..65535";
+    };
+    const auto number = [&](std::int64_t& w, double factor) {
+        return in(-2e9, 2e9) ? (w = std::llround(*n * factor), std::string()) : name + " is out of range";
+    };
+    std::string fault;
+    if (name == "stall")
+        o.stall = flag;
+    else if (name == "limit_positive")
+        o.limit_out = flag;
+    else if (name == "limit_negative")
+        o.limit_in = flag;
+    else if (name == "motor_hot")
+        o.motor_hot = flag;
+    else if (name == "ptc_1")
+        o.ptc1_hot = flag;
+    else if (name == "ptc_2")
+        o.ptc2_hot = flag;
+    else if (name == "safe_voltage_enable")
+        o.safe_voltage_enable = flag;
+    else if (name == "temperature")
+        fault = number(o.temperature, 10);
+    else if (name == "motor_supply")
+        fault = number(o.motor_supply, 100);
+    else if (name == "logic_supply")
+        fault = number(o.logic_supply, 100);
+    else if (name == "analog")
+        fault = number(o.analog, 1);
+    else if (name == "encoder")
+        fault = number(o.encoder, 1);
+    else if (name == "force")
+        fault = number(o.force, 1);
+    else if (name == "current")
+        fault = number(o.current, 1);
+    else if (name == "lag_ms")
+        fault = in(0, 1000) ? (o.lag_ms = *n, std::string()) : "lag_ms takes 0..1000";
+    else if (name == "inputs")
+        fault = word(o.x4_inputs);
+    else if (name == "control_mask")
+        fault = word(o.panel_mask);
+    else if (name == "control_word")
+        fault = word(o.panel_word);
+    else if (name == "copy_mask")
+        fault = word(o.copy_mask);
+    else if (name == "trigger" || name == "capture") {
+        const std::uint16_t b = name == "trigger" ? 0x08 : 0x04;
+        const bool was = (o.x4_inputs & b) != 0;
+        o.x4_inputs = static_cast<std::uint16_t>(flag ? o.x4_inputs | b : o.x4_inputs & ~b);
+        drive_.set_outside(o, now);
+        if (name == "trigger")
+            drive_.trigger(flag, now);
+        else if (flag && !was)
+            drive_.capture(now);
+        return {};
+    } else
+        return "there is no condition " + name;
+    if (fault.empty()) drive_.set_outside(o, now);
+    set_error_count();
+    return fault;
+}
+
+TwinMechanics Device::mechanics(int, Instant now) const {
+    if (powered_) drive_.advance(now);
+    const Point p = drive_.mechanics();
+    return {p.position, p.velocity, powered_ && drive_.powered()};
+}
+
+}  // namespace axisgate::linmot::twin

@@ -1,0 +1,82 @@
+// The drive on its line: LinRS telegrams in, answers out, the tester's hand, behind the Twin interface.
+// In: bytes, time, the hand. Out: bytes. It speaks only when asked, and stays silent where a telegram is not for it or not understood.
+// Never decides what a motion command does: that is drive.hpp's.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "adapters/linmot/twin/drive.hpp"
+#include "gateway/core/twin.hpp"
+
+namespace axisgate::linmot::twin {
+
+struct DeviceSetup {
+    std::uint8_t id = 0x11;
+    DriveSetup drive;
+    std::string checksum = "none";  ///< none, sum, crc, crc_reflected
+    std::size_t checksum_from = 0;
+    std::uint16_t checksum_start = 0xFFFF;
+    std::map<std::uint16_t, std::string> error_texts;  ///< "Err: X4 Logic Supply Too Low"
+};
+
+class Device final : public Twin {
+public:
+    static constexpr Duration start_time = std::chrono::seconds(3);  ///< of the software, and of a restart
+
+    explicit Device(DeviceSetup setup) : setup_(std::move(setup)), drive_(setup_.drive) {}
+
+    void on_frame(const Frame& frame, Instant now, Out& out) override;
+    void on_deadline(Instant now, Out& out) override;
+    [[nodiscard]] Instant deadline() const override;
+    void power_on(const NonVolatile& memory, Instant now, Out& out) override;
+    [[nodiscard]] NonVolatile non_volatile() const override;
+    [[nodiscard]] std::uint64_t non_volatile_revision() const override { return drive_.memory.revision + revision_; }
+    [[nodiscard]] std::vector<HandItem> hand() const override;
+    [[nodiscard]] std::string set_hand(const std::string& name, const Value& value, Instant now, Out& out) override;
+    [[nodiscard]] TwinMechanics mechanics(int channel, Instant now) const override;
+
+    /// For tests.
+    [[nodiscard]] Drive& drive() noexcept { return drive_; }
+
+private:
+    using Data = std::span<const std::uint8_t>;
+    void look(Instant now, Out& out);
+    void heard(Data body, Instant now, Out& out);
+    void answer(std::uint8_t sub, std::vector<std::uint8_t> data, Out& out) const;
+    void default_response(Out& out, std::span<const std::uint8_t> more = {}) const;
+    void config(std::uint8_t sub, std::uint8_t state, std::uint16_t index, std::uint32_t value, Out& out) const;
+    void parameters(std::uint8_t sub, Data data, Out& out);
+    void curves(std::uint8_t sub, Data data, Out& out);
+    void program(std::uint8_t sub, Instant now, Out& out);
+    void errors(std::uint8_t sub, Data data, Out& out) const;
+    void command_table(std::uint8_t sub, Data data, Out& out);
+    [[nodiscard]] std::uint16_t sum(std::span<const std::uint8_t> bytes) const;
+    void start(Instant now);
+    void set_error_count();
+
+    DeviceSetup setup_;
+    mutable Drive drive_;  ///< mechanics() advances it, which is not seen from outside
+    std::vector<std::uint8_t> held_;
+    bool powered_ = false, silent_ = false;
+    Instant deaf_until_{};
+    Instant reply_at_ = never;  ///< of an answer that takes its time
+    std::vector<std::uint8_t> reply_;
+    std::map<std::uint16_t, TableEntry> table_flash_;
+    std::map<std::uint16_t, Curve> curves_flash_;
+    std::uint64_t revision_ = 0;
+    std::uint16_t list_next_ = 0;
+    bool list_open_ = false;
+    std::uint16_t errors_seen_ = 0, last_error_ = 0;
+    std::uint16_t block_id_ = 0;
+    std::uint8_t block_sub_ = 0;
+    std::size_t block_at_ = 0;
+    std::map<std::uint16_t, std::pair<std::size_t, std::size_t>> block_sizes_;  ///< info and data of curves that are being written
+    Instant last_byte_{};
+};
+
+}  // namespace axisgate::linmot::twin

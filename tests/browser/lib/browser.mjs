@@ -37,6 +37,11 @@ export async function open(browser, url, options = {}) {
   page.on('websocket', (w) => {
     if (new URL(w.url()).host !== host) faults.push(`websocket to another host: ${w.url()}`);
   });
+  // Requests that are on their way; a stream, which ends with its page, is none.
+  const asked = new Set();
+  page.on('request', (r) => asked.add(r));
+  for (const end of ['requestfinished', 'requestfailed']) page.on(end, (r) => asked.delete(r));
+  page.asks = () => [...asked].map((r) => `${r.method()} ${r.url()}`);
   page.faults = () => faults;
   page.expectLoss = (yes) => (lossExpected = yes);
   await page.goto(url);
@@ -76,6 +81,16 @@ export const becomes = (what, read, expected, limit_ms) =>
     const now = await read();
     return isDeepStrictEqual(now, expected) ? true : { now, expected };
   }, limit_ms);
+
+/** Has everything that it asked for, and has drawn it: twice in a row nothing is on its way. */
+export async function quiet(page) {
+  let still = 0;
+  await until('the page has what it asked for', async () => {
+    await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => setTimeout(drawn))));
+    still = page.asks().length === 0 ? still + 1 : 0;
+    return still >= 2 || page.asks();
+  });
+}
 
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 

@@ -6,6 +6,7 @@ import type { Alarm } from '../api/types';
 import { useGateway } from '../gateway';
 import { linePath } from '../router';
 import { capital } from '../state/commander';
+import { emptied } from '../state/kept';
 import { alarmWord, canAcknowledge, shelfTimes, subjectOf, withoutSubject } from '../words/alarm';
 import { clockTime } from '../words/time';
 import { Choice, quiet, Tell, TextField, type Told } from './form';
@@ -46,12 +47,13 @@ export function AlarmSection() {
               type="button"
               class="button primary"
               {...no}
-              onClick={() =>
+              onClick={() => {
+                const sent = comment.peek();
                 void act(
-                  () => client.acknowledgeAlarms(open.map((a) => a.id), comment.peek().trim()),
+                  () => client.acknowledgeAlarms(open.map((a) => a.id), sent.trim()),
                   open.length === 1 ? '1 alarm acknowledged.' : `${open.length} alarms acknowledged.`,
-                ).then((good) => good && (comment.value = ''))
-              }
+                ).then((good) => good && emptied(comment, sent));
+              }}
             >
               Acknowledge all shown
             </button>

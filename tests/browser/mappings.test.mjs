@@ -2,7 +2,7 @@
 // In: the program. Out: counts; pictures under build/browser.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { becomes, launch, open, pictures, shot, until } from './lib/browser.mjs';
+import { becomes, launch, open, shot, until } from './lib/browser.mjs';
 import { Program } from './lib/program.mjs';
 
 let program, browser, page;
@@ -211,8 +211,4 @@ test('paper gets the list and nothing else', async () => {
   await shot(page, 'mappings-paper', { fullPage: true });
   await page.emulateMedia({ media: 'screen' });
   assert.deepEqual(page.faults(), []);
-});
-
-test('axe-core finds nothing serious, nothing scrolls sideways, pictures', async () => {
-  await pictures(browser, program.url, '/mappings', 'mappings', (p) => p.locator('[data-mapping]').first().waitFor());
 });

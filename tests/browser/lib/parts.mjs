@@ -33,6 +33,11 @@ const recipe = {
 /** On the page of the part, with all of its documents. */
 export async function arrive(page, program, part) {
   await page.goto(program.url + part.path);
+  await arrived(page, part);
+}
+
+/** The page that was opened at the part has all of its documents. */
+export async function arrived(page, part) {
   await page.locator('main h1', { hasText: part.title }).first().waitFor();
   await page.locator(part.ready).first().waitFor();
   await quiet(page);

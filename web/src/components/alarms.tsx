@@ -8,6 +8,7 @@ import { linePath } from '../router';
 import { capital } from '../state/commander';
 import { emptied } from '../state/kept';
 import { alarmWord, canAcknowledge, shelfTimes, subjectOf, withoutSubject } from '../words/alarm';
+import { plain } from '../words/plain';
 import { clockTime } from '../words/time';
 import { Choice, quiet, Tell, TextField, type Told } from './form';
 import { useBarred, Why } from './gate';
@@ -109,7 +110,7 @@ function AlarmRow(p: RowProps) {
       <div class="alarm-line">
         <Pill word={alarmWord(a)} label="State" />
         <span class="alarm-what">
-          {a.axis ? <AxisName name={a.axis} /> : a.drive ? <b><DriveName name={a.drive} /></b> : a.line ? <a href={linePath(a.line)}>{about}</a> : <b>{about}</b>} {withoutSubject(a.text, about)}
+          {a.axis ? <AxisName name={a.axis} /> : a.drive ? <b><DriveName name={a.drive} /></b> : a.line ? <a href={linePath(a.line)}>{about}</a> : <b>{about}</b>} {plain(withoutSubject(a.text, about))}
           {a.code !== null && <span class="mono"> (code {a.code})</span>}
         </span>
         <span class="alarm-buttons">

@@ -69,7 +69,7 @@ export function MappingTemplates({ book, door }: { book: MappingBook; door: Mapp
       >
         <div class="form-grid">
           <Choice label="Axis" value={axis.value} onChoice={(v) => (axis.value = v)} choices={[{ value: '', text: 'choose' }, ...store.axisNames.value.map((n) => ({ value: n, text: named(n) }))]} />
-          <TextField label="Unit" number value={unit.value} onText={(t) => (unit.value = t)} fault={u === null ? 'A whole number from 2 to 254.' : undefined} />
+          <TextField label="Unit ID" number value={unit.value} onText={(t) => (unit.value = t)} fault={u === null ? 'A whole number from 2 to 254.' : undefined} />
           <TextField
             label="Address"
             number

@@ -56,7 +56,7 @@ export function SignInPage() {
             {first ? 'Make the first administrator' : 'Sign in'}
           </button>
           {session.mayGoOn.value && (
-            <button type="button" class="button" onClick={() => location.reload()}>
+            <button type="button" class="button" onClick={() => (session.goOn(), location.reload())}>
               Go on without signing in
             </button>
           )}

@@ -1,12 +1,9 @@
 // Reach: by keyboard alone, by screen reader (axe-core), on a phone; nothing jumps while values change.
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
 import { after, before, test } from 'node:test';
-import { becomes, launch, open, shot, tileOf, until } from './lib/browser.mjs';
+import { becomes, drawn, examine, launch, look, open, quiet, tileOf, tooWide, until } from './lib/browser.mjs';
 import { Program } from './lib/program.mjs';
 
-const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 let program, browser;
 before(async () => {
   program = await Program.start();
@@ -18,25 +15,14 @@ after(async () => {
 });
 const settled = (page) => page.locator('[data-live=true], main h1').first().waitFor();
 
-const examine = (page) =>
-  page.evaluate(async () => {
-    const r = await globalThis.axe.run(document, { runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'] });
-    const bad = r.violations.filter((v) => v.impact === 'serious' || v.impact === 'critical');
-    return bad.map((v) => ({ id: v.id, where: v.nodes.slice(0, 4).map((n) => n.target.join(' ')), why: v.nodes[0].failureSummary }));
+for (const path of ['/', '/axes/feeder', '/lines', '/lines/can0', '/events', '/gateway']) {
+  test(`axe-core finds nothing serious on ${path}, in light and in dark, where nothing is furnished`, async () => {
+    const page = await open(browser, program.url + path, { bypassCSP: true });
+    await settled(page);
+    await quiet(page);
+    assert.deepEqual(await look(page, `bare-${path.replaceAll('/', '-')}`), []);
+    await page.context().close();
   });
-
-for (const colorScheme of ['light', 'dark']) {
-  for (const path of ['/', '/axes/feeder', '/lines', '/lines/can0', '/events', '/gateway']) {
-    test(`axe-core finds nothing serious on ${path}, ${colorScheme}`, async () => {
-      // The policy of the page forbids foreign code; the examiner is let in beside it.
-      const page = await open(browser, program.url + path, { colorScheme, bypassCSP: true });
-      await settled(page);
-      if (path === '/axes/feeder') await page.locator('[data-parameter]').first().waitFor();
-      await page.addScriptTag({ content: axe });
-      assert.deepEqual(await examine(page), []);
-      await page.context().close();
-    });
-  }
 }
 
 test('axe-core finds nothing serious while the connection is lost', async () => {
@@ -46,7 +32,6 @@ test('axe-core finds nothing serious while the connection is lost', async () => 
   await program.stop('SIGKILL');
   try {
     await page.locator('[data-condition=disconnected]').first().waitFor();
-    await page.addScriptTag({ content: axe });
     assert.deepEqual(await examine(page), []);
     await page.context().close();
   } finally {
@@ -104,23 +89,29 @@ test('the first Tab offers the way past the head', async () => {
   await page.context().close();
 });
 
-for (const width of [390, 320, 768, 1024, 1440]) {
-  test(`at ${width} px no page scrolls sideways and the stops are in sight`, async () => {
-    const page = await open(browser, program.url, { viewport: { width, height: 844 }, hasTouch: width < 500, isMobile: width < 500 });
+for (const widths of [[390, 320], [768, 1024, 1440]]) {
+  test(`at ${widths.join(', ')} px no page scrolls sideways and the stops are in sight`, async () => {
+    const fingers = widths[0] < 500;
+    const page = await open(browser, program.url, { viewport: { width: widths[0], height: 844 }, hasTouch: fingers, isMobile: fingers });
     for (const path of ['/', '/axes/feeder', '/axes/slide.x/', '/lines', '/lines/can0', '/events', '/gateway', '/mappings', '/site', '/axes/feeder/parameters']) {
       await page.goto(program.url + path);
       await settled(page);
       if (path.startsWith('/axes')) await page.locator('[data-parameter]').first().waitFor();
-      const wide = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
-      assert.ok(wide <= 0, `${path} is ${wide} px too wide`);
-      assert.ok(await page.getByRole('button', { name: /^Stop all/ }).isVisible());
-      await page.evaluate(() => scrollTo(0, 1e6));
-      const box = await page.getByRole('button', { name: /^Stop all/ }).boundingBox();
-      // On a phone it lies across the foot (phone.test.mjs), elsewhere it is in the head.
-      const there = width <= 480 ? box && box.y > 600 && box.y + box.height <= 844 : box && box.y >= 0 && box.y < 100;
-      assert.ok(there && box.x + box.width <= width, `${path}: Stop all is at ${JSON.stringify(box)}`);
+      await quiet(page);
+      for (const width of widths) {
+        await page.setViewportSize({ width, height: 844 });
+        await page.evaluate(() => scrollTo(0, 0));
+        await drawn(page);
+        const wide = await tooWide(page);
+        assert.ok(wide <= 0, `${path} is ${wide} px too wide at ${width} px`);
+        assert.ok(await page.getByRole('button', { name: /^Stop all/ }).isVisible());
+        await page.evaluate(() => scrollTo(0, 1e6));
+        const box = await page.getByRole('button', { name: /^Stop all/ }).boundingBox();
+        // On a phone it lies across the foot (phone.test.mjs), elsewhere it is in the head.
+        const there = width <= 480 ? box && box.y > 600 && box.y + box.height <= 844 : box && box.y >= 0 && box.y < 100;
+        assert.ok(there && box.x + box.width <= width, `${path} at ${width} px: Stop all is at ${JSON.stringify(box)}`);
+      }
     }
-    await shot(page, `width-${width}`);
     await page.context().close();
   });
 }

@@ -114,8 +114,21 @@ test('the scope draws a move', async () => {
 });
 
 test('the present position can be given another name without a motion', async () => {
-  await page.getByRole('textbox', { name: 'What the present position shall be called' }).fill('0');
-  await page.getByRole('button', { name: 'Set position', exact: true }).click();
+  const field = page.getByRole('textbox', { name: 'What the present position shall be called' });
+  await becomes('nothing is offered that nobody typed', () => field.inputValue(), '');
+  const before = (await program.axis('feeder')).position;
+  assert.ok(Math.abs(before) > 1, `it stands at ${before}`);
+  await field.fill('0');
+  await field.press('Enter');
+  const question = page.locator('[data-field=set-position]');
+  await question.waitFor();
+  assert.match((await question.innerText()).replace(/\s/g, ' '), new RegExp(`its position is ${before.toFixed(3).replace('-', '\u2212')} mm now and will be called 0\\.000 mm`));
+  await becomes('the keyboard is at the answer that changes nothing', () => page.evaluate(() => document.activeElement.textContent), 'Leave it');
+  await page.keyboard.press('Enter');
+  await question.waitFor({ state: 'detached' });
+  assert.equal((await program.axis('feeder')).position, before);
+  await page.getByRole('button', { name: 'Set position …', exact: true }).click();
+  await question.getByRole('button', { name: 'Set position', exact: true }).click();
   await until('it took', async () => Math.abs((await program.axis('feeder')).position) < 0.01 || (await program.axis('feeder')).position);
 });
 

@@ -81,6 +81,25 @@ test('an orderly stop of the gateway is told as such', async () => {
   page.expectLoss(false);
 });
 
+test('a drive that falls silent costs its own axis alone', async () => {
+  const other = () => tileOf(page, 'slide.x').tile.getAttribute('data-condition');
+  await until('both axes are live', async () => ((await trust()) === 'live' && (await other()) === 'live') || [await trust(), await other()], 5_000);
+  // All that the other axis is called from now on, also between two looks.
+  await page.evaluate(() => {
+    const tile = document.querySelector('[data-axis="slide.x"]');
+    globalThis.called = [tile.dataset.condition];
+    new MutationObserver(() => globalThis.called.push(tile.dataset.condition)).observe(tile, { attributeFilter: ['data-condition'] });
+  });
+  const answer = await program.call('PATCH', '/drives/feeder/hand', { power: false });
+  assert.equal(answer.status, 200, JSON.stringify(answer.body));
+  await until('the axis is not live any more', async () => (await trust()) !== 'live' || 'live', 15_000);
+  await until('its drive is given up', async () => (await trust()) === 'offline' || (await trust()), 15_000);
+  await shot(page, 'drive-silent');
+  await program.call('PATCH', '/drives/feeder/hand', { power: true });
+  await until('the axis is back', async () => (await trust()) === 'live' || (await trust()), 20_000);
+  assert.deepEqual(await page.evaluate(() => [...new Set(globalThis.called)]), ['live']);
+});
+
 test('a gateway that hangs without closing anything: nothing is shown as live 1.5 s later, and is again with its next word', async () => {
   await until('it is live', async () => (await trust()) === 'live', 15_000);
   // Once a second something comes even when nothing changes; the bound counts from the last of it.
@@ -97,17 +116,4 @@ test('a gateway that hangs without closing anything: nothing is shown as live 1.
   }
   await until('it is live again', async () => (await trust()) === 'live', 5_000);
   assert.ok(took < 1_700, `${took} ms`);
-});
-
-test('a drive that falls silent costs its own axis alone', async () => {
-  const other = () => tileOf(page, 'slide.x').tile.getAttribute('data-condition');
-  // Each axis comes back from the hang with its own next reading.
-  await until('both axes are live', async () => ((await trust()) === 'live' && (await other()) === 'live') || [await trust(), await other()], 5_000);
-  const answer = await program.call('PATCH', '/drives/feeder/hand', { power: false });
-  assert.equal(answer.status, 200, JSON.stringify(answer.body));
-  await until('the axis is not live any more', async () => (await trust()) !== 'live' || 'live', 15_000);
-  assert.equal(await other(), 'live');
-  await shot(page, 'drive-silent');
-  await program.call('PATCH', '/drives/feeder/hand', { power: true });
-  await until('the axis is back', async () => (await trust()) === 'live' || (await trust()), 20_000);
 });

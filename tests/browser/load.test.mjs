@@ -1,7 +1,7 @@
 // The page loads from the program alone: no console error, no other host, no inline code; every route answers; marks are in words.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { becomes, launch, open, shot, tileOf, until } from './lib/browser.mjs';
+import { becomes, launch, open, tileOf, until } from './lib/browser.mjs';
 import { Program } from './lib/program.mjs';
 
 let program, browser;
@@ -70,19 +70,4 @@ test('the frames of a line are shown as they cross it', async () => {
   await page.locator('.frame-list li').first().waitFor();
   await until('there are several', async () => (await page.locator('.frame-list li').count()) > 1);
   await page.context().close();
-});
-
-test('light and dark, three widths: pictures for people', async () => {
-  for (const colorScheme of ['light', 'dark']) {
-    for (const width of [1440, 1024, 390]) {
-      const page = await open(browser, program.url, { colorScheme, viewport: { width, height: 900 } });
-      await page.locator('[data-axis=feeder] [data-live=true]').waitFor();
-      await shot(page, `overview-${width}-${colorScheme}`, { fullPage: true });
-      await page.goto(`${program.url}/axes/feeder`);
-      await page.locator('[data-parameter]').first().waitFor();
-      await shot(page, `axis-${width}-${colorScheme}`, { fullPage: true });
-      assert.deepEqual(page.faults(), []);
-      await page.context().close();
-    }
-  }
 });

@@ -55,7 +55,21 @@ test('enable, move to a target: the position runs, the target is reached', async
   await shot(page, 'moving');
   await until('the target is reached', async () => /In position/.test(await motion()) || (await motion()));
   await until('it is there', async () => Math.abs((await feeder.position()) - target) < 0.01 || `at ${await feeder.position()} instead of ${target}`);
-  await until('the answer is told', async () => /accepted/.test(await feeder.result()) || (await feeder.result()));
+  await until('it is told where it was given that it is done', async () => /^Move to .*: done$/.test(await feeder.result()) || (await feeder.result()));
+});
+
+test('a move that somebody else ends is told as ended where it was given; a refusal goes when its cause does', async () => {
+  await say('Move to target of feeder');
+  await until('it is refused', async () => /enable it first/.test(await feeder.result()) || (await feeder.result()));
+  await program.command('feeder', { command: 'enable' });
+  await until('the refusal has gone', async () => (await feeder.result()) === '' || (await feeder.result()));
+  await type('Target of feeder', String((await feeder.position()) + 100));
+  await type('Speed of feeder', '10');
+  await say('Move to target of feeder');
+  await until('it moves', async () => /Moving/.test(await motion()) && /accepted/.test(await feeder.result()) || (await feeder.result()));
+  await program.command('feeder', { command: 'disable' });
+  await until('it is told', async () => /^Move to .*: interrupted: the axis is disabled now, at /.test(await feeder.result()) || (await feeder.result()));
+  assert.equal(await feeder.tile.locator('.result-good').count(), 0);
 });
 
 test('a move that REST commanded is seen', async () => {

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
-import { becomes, launch, open, pictures, shot, until } from './lib/browser.mjs';
+import { becomes, launch, open, shot, until } from './lib/browser.mjs';
 import { Program } from './lib/program.mjs';
 
 let program, browser, page, list, a, b, c;
@@ -181,7 +181,4 @@ test('a snapshot of another family says so, and can be neither restored nor comp
   await program.call('DELETE', `/axes/feeder/snapshots/${mine.n}`);
 });
 
-test('axe-core finds nothing serious, nothing scrolls sideways, pictures', async () => {
-  assert.deepEqual(page.faults(), []);
-  await pictures(browser, program.url, path, 'parameters', (p) => p.locator('[data-parameter]').first().waitFor());
-});
+test('nothing on the way was a fault of the page', () => assert.deepEqual(page.faults(), []));

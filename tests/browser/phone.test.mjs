@@ -2,7 +2,7 @@
 // nobody is told of keys that are not there.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { launch, open, shot, until } from './lib/browser.mjs';
+import { launch, open, shot, tooWide, until } from './lib/browser.mjs';
 import { arrive, furnish, parts } from './lib/parts.mjs';
 import { Program } from './lib/program.mjs';
 
@@ -34,7 +34,7 @@ for (const [width, height] of [[390, 844], [320, 640]]) {
     await page.locator('.stop-all').tap();
     await until('the answer stands above the bar', async () => (await box(page, '.strip-stop')).bottom <= stop.y + 1 && /accepted/.test(await page.locator('.strip-stop').innerText()));
     await shot(page, `phone-stop-${width}`);
-    assert.equal(await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth), 0);
+    assert.equal(await tooWide(page), 0);
     await page.context().close();
   });
 }
@@ -129,7 +129,7 @@ test('320 px: no part scrolls sideways', async () => {
   const wrong = [];
   for (const part of parts) {
     await arrive(page, program, part);
-    const wide = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+    const wide = await tooWide(page);
     if (wide > 0) wrong.push(`${part.path} is ${wide} px too wide`);
     await shot(page, `phone-320-${part.name}`, { fullPage: true });
   }

@@ -1,12 +1,9 @@
 // Recipes on the page: made by forms, mended after the gateway's own words, run with live progress, cancelled, reported; a line is scanned.
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
 import { after, before, test } from 'node:test';
-import { becomes, launch, open, shot, until } from './lib/browser.mjs';
+import { becomes, launch, look, open, shot, until, visits } from './lib/browser.mjs';
 import { Program } from './lib/program.mjs';
 
-const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 const long = {
   description: 'There and back, three times',
   parameters: { distance: { type: 'number', default: 2, unit: 'mm' } },
@@ -174,24 +171,21 @@ test('light and dark, two widths: pictures for people, nothing serious for axe-c
   await program.call('PUT', '/recipes/there-and-back', long);
   await program.call('POST', '/recipes/there-and-back/run', {});
   await until('the end of the run', async () => (await program.call('GET', '/recipes/there-and-back/runs/1')).body.state === 'done' || (await program.call('GET', '/recipes/there-and-back/runs/1')).body.text);
-  for (const colorScheme of ['light', 'dark']) {
-    for (const width of [1440, 390]) {
-      const page = await open(browser, `${program.url}/recipes/there-and-back`, { colorScheme, viewport: { width, height: 900 }, bypassCSP: true });
-      await page.locator('[data-report="/steps/4"]').waitFor();
-      await shot(page, `recipe-${width}-${colorScheme}`, { fullPage: true });
-      assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= width, `${width} is enough`);
-      await page.addScriptTag({ content: axe });
-      const bad = await page.evaluate(async () => (await globalThis.axe.run(document)).violations.filter((v) => v.impact === 'serious' || v.impact === 'critical').map((v) => `${v.id}: ${v.nodes[0].target}`));
-      assert.deepEqual(bad, []);
-      await page.goto(`${program.url}/recipes`);
-      await page.locator('[data-recipe]').first().waitFor();
-      await shot(page, `recipes-${width}-${colorScheme}`, { fullPage: true });
-      await page.goto(`${program.url}/lines/can0`);
-      await page.locator('[data-field=scan]').waitFor();
-      await shot(page, `line-${width}-${colorScheme}`);
-      assert.deepEqual(page.faults(), []);
-      await page.context().close();
+  for (const { device } of visits) {
+    const page = await open(browser, `${program.url}/recipes/there-and-back`, { ...device, bypassCSP: true });
+    await page.locator('[data-report="/steps/4"]').waitFor();
+    assert.deepEqual(await look(page, 'recipe'), []);
+    await page.goto(`${program.url}/recipes`);
+    await page.locator('[data-recipe]').first().waitFor();
+    assert.deepEqual(await look(page, 'recipes'), []);
+    await page.goto(`${program.url}/lines/can0`);
+    await page.locator('[data-field=scan]').waitFor();
+    for (const colorScheme of ['dark', 'light']) {
+      await page.emulateMedia({ colorScheme });
+      await shot(page, `line-${page.viewportSize().width}-${colorScheme}`);
     }
+    assert.deepEqual(page.faults(), []);
+    await page.context().close();
   }
 });
 

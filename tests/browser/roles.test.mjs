@@ -145,6 +145,21 @@ test('an administrator may copy everything', async () => {
   await page.context().close();
 });
 
+test('a session that ended elsewhere is never local access without a word, after a reload neither', async () => {
+  const page = await pageOf('viewer');
+  await page.goto(program.url);
+  const who = page.locator('[data-field=who]');
+  await until('it is said who one is', async () => /viewer, viewer/.test(await who.innerText()) || (await who.innerText()));
+  await page.context().clearCookies(); // as another page, or another gateway of this host, would have it
+  await page.reload();
+  await page.getByRole('heading', { name: 'Sign in' }).waitFor();
+  await page.reload();
+  await page.locator('[data-field=session-ended]').waitFor();
+  await page.getByRole('button', { name: 'Go on without signing in' }).click();
+  await until('it is on purpose then', async () => /local access, engineer/.test(await who.innerText()) || (await who.innerText()));
+  await page.context().close();
+});
+
 test('a press that the gateway refuses would be seen', async () => {
   const page = await pageOf('viewer');
   await page.goto(program.url);

@@ -1,6 +1,7 @@
 #!/bin/sh
 # Browser tests: the page of the real program in Debian's Chromium.
-# In: AXISGATE_BIN (default build/release/axisgate), CHROMIUM (default /usr/bin/chromium). Out: counts, pictures under build/browser.
+# In: AXISGATE_BIN (default build/release/axisgate), CHROMIUM (default /usr/bin/chromium), AXISGATE_BROWSER_PROCESSES (default 2).
+# Out: counts, pictures under build/browser.
 # Arguments are test files; without any, all of them run.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
@@ -15,8 +16,8 @@ cd "$here"
 if [ ! -e node_modules/.package-lock.json ] || [ package-lock.json -nt node_modules/.package-lock.json ]; then
   npm ci --silent --no-fund --no-audit
 fi
-# One file at a time: two browsers without a graphics card on two processors run into their time limits. AXISGATE_BROWSER_PROCESSES=2 where there are more.
+# Two files at a time: what a test waits for, another one uses. The limits of the tests stand on two quiet processors.
 if [ $# -eq 0 ]; then set -- ./*.test.mjs; fi
-AXISGATE_BIN=$bin CHROMIUM=$chromium exec node --test --test-concurrency="${AXISGATE_BROWSER_PROCESSES:-1}" --test-timeout=180000 \
+AXISGATE_BIN=$bin CHROMIUM=$chromium exec node --test --test-concurrency="${AXISGATE_BROWSER_PROCESSES:-2}" --test-timeout=180000 \
   --test-reporter=spec --test-reporter-destination=stdout \
   --test-reporter=./lib/counts.mjs --test-reporter-destination=stdout "$@"

@@ -123,13 +123,13 @@ test('options are fields of the family, judged while they are typed, and in forc
   await f.getByText('uim342 has no such option here: it counts as not given.').waitFor();
   await f.getByLabel('Home timeout, s').fill('9999');
   await f.getByText('1 to 3600 s.', { exact: true }).waitFor();
-  await f.getByRole('button', { name: 'Take into the draft' }).click();
+  await f.getByRole('button', { name: 'Save to draft' }).click();
   await becomes('it is not taken', () => f.getByLabel('Home timeout, s').getAttribute('aria-invalid'), 'true');
   await shot(other, 'site-options', { fullPage: true });
   await f.getByLabel('Home timeout, s').fill('30');
   await f.getByLabel('Notify').selectOption('on');
   await f.getByRole('button', { name: 'Remove option old_one' }).click();
-  await f.getByRole('button', { name: 'Take into the draft' }).click();
+  await f.getByRole('button', { name: 'Save to draft' }).click();
   await other.locator('[data-diff="drives/feeder"]').waitFor();
   const at = other.locator('[data-field=stage]').first();
   await at.getByRole('button', { name: 'Check', exact: true }).click();

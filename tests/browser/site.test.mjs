@@ -36,7 +36,7 @@ test('a fault stands beside its field, in words, and what was typed stays', asyn
   const f = form('Change axis feeder');
   await f.getByLabel('Number').fill('2');
   await f.getByText('This number has slide.x.').waitFor();
-  await f.getByRole('button', { name: 'Take into the draft' }).click();
+  await f.getByRole('button', { name: 'Save to draft' }).click();
   assert.equal(await f.getByLabel('Number').inputValue(), '2');
   assert.equal(await f.getByLabel('Number').getAttribute('aria-invalid'), 'true');
   await f.getByLabel('Number').fill('1');
@@ -77,7 +77,7 @@ test('what is not kept is rolled back by itself, and by the button', async () =>
   const change = async (unit) => {
     await page.getByRole('button', { name: 'Change axis feeder' }).click();
     await form('Change axis feeder').getByLabel('Unit', { exact: true }).fill(unit);
-    await form('Change axis feeder').getByRole('button', { name: 'Take into the draft' }).click();
+    await form('Change axis feeder').getByRole('button', { name: 'Save to draft' }).click();
     await checkIt();
   };
   await change('inch');
@@ -150,7 +150,7 @@ test('a trial is counted down in the head of every part, for everybody; kept or 
 test('a trial of somebody else says whose it is and why it cannot be kept here; the own draft stays in sight', async () => {
   await page.getByRole('button', { name: 'Change axis feeder' }).click();
   await form('Change axis feeder').getByLabel('Unit', { exact: true }).fill('cm');
-  await form('Change axis feeder').getByRole('button', { name: 'Take into the draft' }).click();
+  await form('Change axis feeder').getByRole('button', { name: 'Save to draft' }).click();
   await stage().locator('[data-field=apply-why]').getByText('Check first.').waitFor();
   const bert = async (path, body) => {
     const r = await fetch(`${program.url}/api/v1${path}`, { method: 'POST', headers: { 'content-type': 'application/json', 'x-client': 'page-bert00' }, body: JSON.stringify(body) });
@@ -182,19 +182,19 @@ test('a line, a drive and an axis are added by their forms and applied as one', 
   await line.getByLabel('Name').fill('can1');
   await line.getByLabel('Family').selectOption('uim342');
   await line.getByLabel('URI').fill('twin');
-  await line.getByRole('button', { name: 'Take into the draft' }).click();
+  await line.getByRole('button', { name: 'Save to draft' }).click();
   await page.getByRole('button', { name: 'Add a drive' }).click();
   const drive = form('Add a drive');
   await drive.getByLabel('Name').fill('extra');
   await drive.getByLabel('Line').selectOption('can1');
   await drive.getByLabel('Address').fill('7');
-  await drive.getByRole('button', { name: 'Take into the draft' }).click();
+  await drive.getByRole('button', { name: 'Save to draft' }).click();
   await page.getByRole('button', { name: 'Add an axis' }).click();
   const a = form('Add an axis');
   await a.getByLabel('Name').fill('extra');
   await a.getByLabel('Drive').selectOption('extra');
   await becomes('a free number is there', () => a.getByLabel('Number').inputValue(), '3');
-  await a.getByRole('button', { name: 'Take into the draft' }).click();
+  await a.getByRole('button', { name: 'Save to draft' }).click();
   await becomes('three differences wait', () => page.locator('[data-diff]').count(), 3);
   await checkIt();
   await applyIt(60);
@@ -257,7 +257,7 @@ test('what another client has staged is neither taken away nor applied unseen; w
   assert.equal(typeof first.body.id, 'string', 'one stage is told from another');
   await page.getByRole('button', { name: 'Change axis feeder' }).click();
   await form('Change axis feeder').getByLabel('Unit', { exact: true }).fill('cm');
-  await form('Change axis feeder').getByRole('button', { name: 'Take into the draft' }).click();
+  await form('Change axis feeder').getByRole('button', { name: 'Save to draft' }).click();
   await stage().getByRole('button', { name: 'Check', exact: true }).click();
   const rival = page.locator('[data-field=rival]');
   await rival.waitFor();
@@ -329,14 +329,14 @@ test('from a new data directory to a moving axis: overview, wizard, by keyboard'
     await p.getByRole('button', { name: 'Check', exact: true }).click();
     const apply = p.getByRole('button', { name: 'Apply', exact: true });
     await until('it can be applied', async () => !(await apply.isDisabled()));
-    await p.getByLabel('Keep within, s').fill('5');
+    await p.getByLabel('Confirm within, s').fill('5');
     await apply.click();
     await p.getByRole('button', { name: 'Go on to moving first' }).click();
     await p.getByText('rolled back because nobody pressed Keep').waitFor({ timeout: 20_000 });
     await shot(p, 'site-wizard-rolled-back', { fullPage: true });
     await p.getByRole('button', { name: 'Apply again' }).click();
     await wizard(4).waitFor();
-    await p.getByLabel('Keep within, s').fill('60');
+    await p.getByLabel('Confirm within, s').fill('60');
     await p.getByRole('button', { name: 'Check', exact: true }).click();
     await until('it can be applied again', async () => !(await apply.isDisabled()));
     await apply.click();

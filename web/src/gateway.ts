@@ -5,6 +5,7 @@ import { createContext } from 'preact';
 import { useContext } from 'preact/hooks';
 import { Client } from './api/client';
 import { Stream, type StreamMessage } from './api/stream';
+import type { Axis } from './api/types';
 import { Commander } from './state/commander';
 import { Jog } from './state/jog';
 import { Session } from './state/session';
@@ -36,12 +37,14 @@ export class Gateway {
       this.client,
       () => (this.store.connected.peek() ? this.session.mayNot('operator') : 'The page is not connected to the gateway.'),
       (axis) => this.store.axis(axis)?.peek().data.online === false,
+      (axis) => this.store.axis(axis)?.peek().data,
+      () => this.store.gatewayNow_ms(),
     );
     this.session = new Session(this.client, () => {
       // Another identity: the old stream belongs to the one before.
       this.stream.stop();
       if (!this.session.needed.peek()) this.stream.start();
-    }, parts.client ? null : tabChannel('axisgate.session'));
+    }, parts.client ? null : tabChannel('axisgate.session'), parts.client ? undefined : kept('session.user', '', 'browser'));
     this.stream = new Stream({
       url: parts.url ?? streamUrl(location),
       onState: (s) => {
@@ -54,6 +57,7 @@ export class Gateway {
       },
       onMessage: (m) => {
         this.store.take(m);
+        if (m.data !== null && /^axes\/[^/]+$/.test(m.topic)) this.commander.look(m.data as Axis);
         for (const reader of this.extra.get(m.topic) ?? []) reader(m);
       },
     });

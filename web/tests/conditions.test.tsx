@@ -192,7 +192,7 @@ describe('what a gateway does not offer is said in words', () => {
     if (path === '/site/stage') {
       await p.see('[data-entry="axes/feeder"]', 'feeder');
       p.type(await soon(async () => (p.button('Change axis feeder').click(), await p.drawn(), p.field('Unit'))), 'cm');
-      await p.press('Take into the draft');
+      await p.press('Save to draft');
       await p.press('Check');
     }
     await p.see(where, words);

@@ -23,7 +23,7 @@ const typeUnit = async (unit: string) => {
   await p.press('Change axis feeder');
   await p.see('form[aria-label="Change axis feeder"]', 'Unit');
   p.type(p.field('Unit'), unit);
-  await p.press('Take into the draft');
+  await p.press('Save to draft');
   await p.see('[data-diff="axes/feeder"]', `→ ${unit}`);
 };
 const told = '[data-field=stage-told]';

@@ -125,10 +125,10 @@ describe('the site', () => {
     await p.press('Check');
     await p.see('[data-field=stage-told]', 'Checked: it can be applied.');
     for (const [within, good] of [['4', false], ['0', true], ['601', false], ['600', true], ['x', false], ['5', true]] as const) {
-      p.type(p.field('Keep within, s'), within);
+      p.type(p.field('Confirm within, s'), within);
       await soon(() => expect([within, p.button('Apply').disabled, /5 to 600; 0: no roll back\./.test(p.text('[data-field=stage]'))]).toEqual([within, !good, !good]));
     }
-    p.type(p.field('Keep within, s'), '60');
+    p.type(p.field('Confirm within, s'), '60');
     await p.press('Discard what is staged');
     await p.see('[data-field=stage-told]', 'Nothing is staged now. What you typed is still there.');
     expect(door.configuration.site.stage).toBeNull();

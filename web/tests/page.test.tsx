@@ -129,6 +129,30 @@ describe('controls', () => {
     field('Target of feeder').dispatchEvent(new KeyboardEvent('keydown', { key: 'Escape', bubbles: true, repeat: true }));
     expect(client.command).toHaveBeenCalledTimes(2); // a held key says it once
   });
+  it('Escape takes back what is being typed first, and the button says so; what was sent or only stands there is not being typed', async () => {
+    const f = field('Target of feeder');
+    const escape = () => f.dispatchEvent(new KeyboardEvent('keydown', { key: 'Escape', bubbles: true }));
+    const said = () => document.querySelector('.stop-all kbd')!.textContent;
+    const stops = () => client.command!.mock.calls.filter((c) => (c[1] as { command: string }).command === 'quick_stop').length;
+    f.focus();
+    type(f, '12');
+    await tick();
+    expect(said()).toBe('Esc Esc');
+    escape();
+    await tick();
+    expect([f.value, stops(), said()]).toEqual(['', 0, 'Esc']);
+    escape();
+    expect(stops()).toBe(1);
+    type(f, '12');
+    f.dispatchEvent(new KeyboardEvent('keydown', { key: 'Enter', bubbles: true }));
+    escape();
+    expect([f.value, stops()]).toEqual(['12', 2]);
+    type(f, '13');
+    f.blur();
+    f.focus();
+    escape();
+    expect([f.value, stops()]).toEqual(['13', 3]);
+  });
   it('jog only with a speed above zero', () => {
     type(field('Speed of feeder'), '0');
     button('Jog feeder forward while held').dispatchEvent(new PointerEvent('pointerdown', { button: 0, bubbles: true }));

@@ -2,6 +2,7 @@
 import { describe, expect, it } from 'vitest';
 import { scanWords } from '../src/components/scan';
 import { commandedWords } from '../src/words/authority';
+import { plain, plainWord } from '../src/words/plain';
 import { readValue, steppedText, unitWords } from '../src/words/parameter';
 import { doneOf, unknownAxes, unknownWords } from '../src/words/recipe';
 import { leftOut, parametersWords } from '../src/words/transfer';
@@ -64,4 +65,11 @@ it('a scan without addresses says how the drives were found', () => {
   const r = { asked: 0, of: 0, state: 'done' as const, text: '', found: [{ address: 'com1', family: 'pacontrol' }] as never[] };
   expect(scanWords(r)).toBe('The line was asked as a whole, not address by address: done, 1 found');
   expect(scanWords({ ...r, asked: 3, of: 8, found: [] })).toBe('3 of 8 addresses asked, done, 0 found');
+});
+
+it('words of the API are told as people say them, names and places are left alone', () => {
+  expect(plain('axis feeder is switch_on_disabled now; a new set-point needs operation_enabled')).toBe('axis feeder is disabled now; a new set-point needs enabled');
+  expect(plain('wait_for: 30 s are over')).toBe('wait for: 30 s are over');
+  expect(plain('see /steps/2/wait_for and "move_relative"')).toBe('see /steps/2/wait_for and "move_relative"');
+  expect([plainWord('fault_cleared'), plainWord('switch_on_disabled')]).toEqual(['fault cleared', 'disabled']);
 });

@@ -1,5 +1,6 @@
 // Session: what goes with requests, who one is, what a role may not do, and who holds an axis, in words.
 import { describe, expect, it, vi } from 'vitest';
+import { signal, type Signal } from '@preact/signals';
 import { Client } from '../src/api/client';
 import type { SessionInfo } from '../src/api/types';
 import { passwordFault, Session, signInWords, userFault, whoWords } from '../src/state/session';
@@ -207,4 +208,37 @@ it('a lease can be given to whoever is there or holds another axis, to a user by
   const held = [{ door: 'http', holder: 'anna page-abc123' }, { door: 'http', holder: 'bert page-000000' }, { door: 'none', holder: '' }];
   const there = ['http anna page-abc123', 'http olga page-77', 'http line3', 'modbus 192.0.2.7'];
   expect(handOverChoices(held, there, 'page-abc123')).toEqual(['http bert', 'http bert page-000000', 'http line3', 'http olga', 'http olga page-77', 'modbus 192.0.2.7']);
+});
+
+describe('who was signed in in this browser', () => {
+  const local = info({ user: null, via: 'local', csrf: null });
+  const open = (signedIn: Signal<string>, now: () => SessionInfo) => {
+    const { client, changed } = made((_, init) => (init.method === 'DELETE' ? answer(null, 204) : answer(now())));
+    return new Session(client, changed, null, signedIn);
+  };
+  it('is asked for a sign-in by a page that is loaded after the end of the session, until he goes on without on purpose', async () => {
+    const signedIn = signal('');
+    let now = info();
+    await open(signedIn, () => now).ask();
+    expect(signedIn.value).toBe('anna');
+    now = local; // ended elsewhere, and the cookie with it
+    const reloaded = open(signedIn, () => now);
+    await reloaded.ask();
+    expect([reloaded.needed.value, reloaded.mayGoOn.value]).toEqual([true, true]);
+    reloaded.goOn();
+    const again = open(signedIn, () => now);
+    await again.ask();
+    expect(again.needed.value).toBe(false);
+  });
+  it('is local access again without a question when he signed out himself', async () => {
+    const signedIn = signal('');
+    let now = info();
+    const session = open(signedIn, () => now);
+    await session.ask();
+    now = local;
+    await session.signOut();
+    const reloaded = open(signedIn, () => now);
+    await reloaded.ask();
+    expect([signedIn.value, reloaded.needed.value]).toEqual(['', false]);
+  });
 });

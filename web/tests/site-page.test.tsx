@@ -101,13 +101,13 @@ describe('options', () => {
     expect(p.field('Home input').placeholder).toBe('');
     await p.see('[data-field=options]', 'the search is given up and stopped after that. 1 to 3600 s. default 60 s.');
     p.type(p.field('Home timeout, s'), '9999');
-    await p.press('Take into the draft');
+    await p.press('Save to draft');
     await p.see('[data-field=options]', '1 to 3600 s.');
     expect(p.field('Home timeout, s').getAttribute('aria-invalid')).toBe('true');
     p.type(p.field('Home timeout, s'), '30');
     p.type(p.field('Notify'), 'on');
     await p.press('Remove option old_one');
-    await p.press('Take into the draft');
+    await p.press('Save to draft');
     await p.see('[data-diff="drives/feeder"]', 'options {"old_one":"a,b"} → {"home_timeout_s":"30","notify":"on"}');
   });
   it('of a line stand at the line, and an axis says what an increment is', async () => {
@@ -116,7 +116,7 @@ describe('options', () => {
     await p.press('Change line can0');
     await p.see('[data-field=options] summary', 'Options of uim342: 2, none set');
     p.type(p.field('Crc'), '13');
-    await p.press('Take into the draft');
+    await p.press('Save to draft');
     await p.see('[data-diff="lines/can0"]', 'options nothing → {"crc":"13"}');
     await p.press('Change axis gantry-x');
     await p.see('form[aria-label="Change axis gantry-x"]', 'make one mm; one increment of pacontrol is 0.001 AE');

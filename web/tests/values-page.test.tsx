@@ -110,5 +110,5 @@ describe('a snapshot', () => {
 it('events count in the unit of their axis, and follow it', async () => {
   door.world.event('info', 'command', { axis: 'feeder', who: 'bert' }, 'move_relative 16000');
   await open('/events');
-  await p.see('.events', /move_relative 5\.000 mm \(16\s000 increments\) by bert/);
+  await p.see('.events', /move by 5\.000 mm \(16\s000 increments\) by bert/);
 });

@@ -141,7 +141,7 @@ it('the part of the site says at a line that is only typed why it has no scan ye
   p.type(p.field('Name'), 'bus');
   p.type(p.field('Family'), 'mcode');
   p.type(p.field('URI'), 'serial:/dev/ttyUSB1');
-  await p.press('Take into the draft');
+  await p.press('Save to draft');
   await p.see('[data-entry="lines/bus"]', 'Scan: once it is applied');
   expect(p.root.querySelectorAll('[data-entry="lines/can0"] [data-field=scan-later]')).toHaveLength(0);
 });

@@ -37,6 +37,11 @@ export async function open(browser, url, options = {}) {
   page.on('websocket', (w) => {
     if (new URL(w.url()).host !== host) faults.push(`websocket to another host: ${w.url()}`);
   });
+  // Requests that are on their way; a stream, which ends with its page, is none.
+  const asked = new Set();
+  page.on('request', (r) => asked.add(r));
+  for (const end of ['requestfinished', 'requestfailed']) page.on(end, (r) => asked.delete(r));
+  page.asks = () => [...asked].map((r) => `${r.method()} ${r.url()}`);
   page.faults = () => faults;
   page.expectLoss = (yes) => (lossExpected = yes);
   await page.goto(url);
@@ -77,31 +82,74 @@ export const becomes = (what, read, expected, limit_ms) =>
     return isDeepStrictEqual(now, expected) ? true : { now, expected };
   }, limit_ms);
 
+/** Has been drawn once more. */
+export const drawn = (page) => page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => setTimeout(resolve))));
+
+/** Has everything that it asked for, and has drawn it: twice in a row nothing is on its way. */
+export async function quiet(page) {
+  let still = 0;
+  await until('the page has what it asked for', async () => {
+    await drawn(page);
+    still = page.asks().length === 0 ? still + 1 : 0;
+    return still >= 2 || page.asks();
+  });
+}
+
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 
-/** What axe-core finds serious or critical on a page that was opened with `bypassCSP`. */
-export async function examine(page) {
-  await page.addScriptTag({ content: axe });
-  return page.evaluate(async () => {
-    const r = await globalThis.axe.run(document, { runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'] });
+const standards = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'];
+/** The rules that look at colours; to all others light and dark are the same page. */
+const aboutColours = { type: 'rule', values: ['color-contrast', 'link-in-text-block'] };
+
+/** What axe-core finds serious or critical on a page that was opened with `bypassCSP`: the policy of the page forbids foreign code. */
+export async function examine(page, runOnly = standards) {
+  if (!(await page.evaluate(() => 'axe' in globalThis))) await page.addScriptTag({ content: axe });
+  return page.evaluate(async (only) => {
+    const r = await globalThis.axe.run(document, { runOnly: only, resultTypes: ['violations'] });
     const bad = r.violations.filter((v) => v.impact === 'serious' || v.impact === 'critical');
     return bad.map((v) => ({ id: v.id, where: v.nodes.slice(0, 4).map((n) => n.target.join(' ')), why: v.nodes[0].failureSummary }));
-  });
+  }, runOnly);
+}
+
+export const tooWide = (page) => page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+
+const desk = (width) => ({ viewport: { width, height: 900 } });
+const phone = (width, height = 844) => ({ viewport: { width, height }, hasTouch: true, isMobile: true });
+
+/** A page for pictures; with one more visit for a phone, whose fingers the styles know of. */
+export const visits = [
+  { widths: [1440, 1024], device: desk(1440) },
+  { widths: [390], device: phone(390) },
+];
+
+/** The page as it stands, in light and in dark: pictures for people, what scrolls sideways, what axe-core finds. All that is wrong, in words. */
+export async function look(page, name, options = { fullPage: true }) {
+  const wrong = [];
+  const width = page.viewportSize().width;
+  for (const colorScheme of ['light', 'dark']) {
+    await page.emulateMedia({ colorScheme });
+    await drawn(page);
+    await shot(page, `${name}-${width}-${colorScheme}`, options);
+    const wide = await tooWide(page);
+    if (wide > 0) wrong.push(`${wide} px too wide at ${width} px, ${colorScheme}`);
+    for (const f of await examine(page, colorScheme === 'light' ? standards : aboutColours)) wrong.push(`${width} px, ${colorScheme}: ${JSON.stringify(f)}`);
+  }
+  await page.emulateMedia({ colorScheme: 'light' });
+  return wrong;
 }
 
 /** A page at three widths in light and dark: it must not scroll sideways, axe-core must find nothing serious, and people get pictures. */
 export async function pictures(browser, url, path, name, ready) {
-  for (const colorScheme of ['light', 'dark']) {
-    for (const width of [1440, 1024, 390]) {
-      const page = await open(browser, url + path, { colorScheme, viewport: { width, height: 900 }, bypassCSP: true, hasTouch: width < 500, isMobile: width < 500 });
-      await ready(page);
-      await shot(page, `${name}-${width}-${colorScheme}`, { fullPage: true });
-      const wide = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
-      if (wide > 0) throw new Error(`${path} is ${wide} px too wide at ${width} px`);
-      const found = await examine(page);
-      if (found.length > 0) throw new Error(`${path} at ${width} px, ${colorScheme}: ${JSON.stringify(found)}`);
-      if (page.faults().length > 0) throw new Error(`${path}: ${page.faults().join('; ')}`);
-      await page.context().close();
+  for (const { widths, device } of visits) {
+    const page = await open(browser, url + path, { ...device, bypassCSP: true });
+    await ready(page);
+    const wrong = [];
+    for (const width of widths) {
+      await page.setViewportSize({ ...device.viewport, width });
+      wrong.push(...(await look(page, name)));
     }
+    wrong.push(...page.faults());
+    if (wrong.length > 0) throw new Error(`${path}: ${wrong.join('; ')}`);
+    await page.context().close();
   }
 }

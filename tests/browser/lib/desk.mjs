@@ -12,7 +12,7 @@ export function deskOf(at) {
     await until('it is checked', async () => /^Checked|fault/.test(await told('stage-told')) || (await told('stage-told')));
   };
   const applyIt = async (seconds) => {
-    await stage().getByLabel('Keep within, s').fill(String(seconds));
+    await stage().getByLabel('Confirm within, s').fill(String(seconds));
     await stage().getByRole('button', { name: 'Apply', exact: true }).click();
     await until('it is applied', async () => /^Applied/.test(await told('stage-told')) || (await told('stage-told')));
   };

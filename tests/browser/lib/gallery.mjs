@@ -1,12 +1,12 @@
-// Gallery: every part at three widths in one colour scheme: pictures for people, axe-core's verdict, and whether anything is cut off or lies upon
-// another. In: the colour scheme. Out: tests; pictures under build/browser, part-NAME-WIDTH-SCHEME.png.
+// Gallery: every part of the page as one kind of device shows it, in light and dark: pictures for people, axe-core's verdict, and whether anything
+// is cut off or lies upon another. In: the device and its widths. Out: tests; pictures under build/browser, part-NAME-WIDTH-SCHEME.png.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { examine, launch, open, shot } from './browser.mjs';
-import { arrive, furnish, parts } from './parts.mjs';
+import { launch, look, open } from './browser.mjs';
+import { arrived, furnish, parts } from './parts.mjs';
 import { Program } from './program.mjs';
 
-export function gallery(colorScheme) {
+export function gallery({ widths, device }) {
   let program, browser;
   before(async () => {
     program = await Program.start();
@@ -17,25 +17,27 @@ export function gallery(colorScheme) {
     await browser?.close();
     await program?.end();
   });
-  for (const width of [1440, 1024, 390]) {
-    test(`every part at ${width} px, ${colorScheme}: axe-core finds nothing serious, nothing is cut off; pictures`, async () => {
-      const phone = width < 500;
-      const page = await open(browser, program.url, { colorScheme, viewport: { width, height: phone ? 844 : 900 }, bypassCSP: true, hasTouch: phone, isMobile: phone });
-      const wrong = [];
-      for (const part of parts) {
-        await arrive(page, program, part);
-        await shot(page, `part-${part.name}-${width}-${colorScheme}`, { fullPage: true });
-        const wide = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
-        if (wide > 0) wrong.push(`${part.path} is ${wide} px too wide`);
-        wrong.push(...(await cutOff(page)).map((w) => `${part.path}: ${w}`));
-        for (const f of await examine(page)) wrong.push(`${part.path}: ${f.id} ${f.where} ${f.why}`);
+  for (const part of parts) {
+    test(`${part.name} at ${widths.join(', ')} px, in light and dark: axe-core finds nothing serious, nothing is cut off; pictures`, async () => {
+      const page = await open(browser, program.url + part.path, { ...device, bypassCSP: true });
+      await arrived(page, part);
+      const wrong = await apiWords(page);
+      for (const width of widths) {
+        await page.setViewportSize({ ...device.viewport, width });
+        wrong.push(...(await look(page, `part-${part.name}`)), ...(await cutOff(page)).map((w) => `${width} px: ${w}`));
       }
-      wrong.push(...page.faults());
-      assert.deepEqual(wrong, []);
+      assert.deepEqual([...wrong, ...page.faults()], []);
       await page.context().close();
     });
   }
 }
+
+/** What the API calls states, commands and steps is nothing that people read; names of parameters and points, which they type, are. */
+const apiWords = (page) =>
+  page.evaluate(() => {
+    const said = document.body.innerText.match(/\b(?:not_ready_to_switch_on|switch_on_disabled|ready_to_switch_on|switched_on|operation_enabled|quick_stop(?:_active)?|fault_reaction_active|move_(?:absolute|relative|velocity)|reset_fault|wait_(?:for|s|register)|(?:set|read)_parameter|(?:read|write)_register|confirm_within_s)\b/g);
+    return said ? [...new Set(said)].map((w) => `${w} is said`) : [];
+  });
 
 /** Words of buttons and links that do not fit into them, and controls that lie upon each other. */
 const cutOff = (page) =>

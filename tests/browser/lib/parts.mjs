@@ -1,5 +1,6 @@
 // Parts: every part of the page, once, for the tests that walk through all of them; and a gateway in which none of them is empty.
 // In: a program. Out: addresses, and what tells that a part is drawn.
+import { quiet } from './browser.mjs';
 
 /** `ready`: a selector that is there when the part has got its documents. */
 export const parts = [
@@ -29,11 +30,17 @@ const recipe = {
   ],
 };
 
-/** On the page of the part, with its documents. */
+/** On the page of the part, with all of its documents. */
 export async function arrive(page, program, part) {
   await page.goto(program.url + part.path);
+  await arrived(page, part);
+}
+
+/** The page that was opened at the part has all of its documents. */
+export async function arrived(page, part) {
   await page.locator('main h1', { hasText: part.title }).first().waitFor();
   await page.locator(part.ready).first().waitFor();
+  await quiet(page);
 }
 
 /** Mappings, a recipe with a run, a snapshot, an earlier site, a written parameter, a standing alarm. */

@@ -1,5 +1,6 @@
 // Problem: what went wrong with a request, always with a sentence for people.
 // In: a response that is not good, or what fetch threw. Out: a Problem. Never shows a status number where the gateway gave words.
+import { plain } from '../words/plain';
 import type { ProblemDocument } from './types';
 
 export type ProblemKind =
@@ -19,7 +20,7 @@ export class Problem extends Error {
     /** Seconds that the gateway asks to wait; 0: it did not. */
     readonly retryAfter_s = 0,
   ) {
-    super(detail);
+    super(plain(detail));
   }
 
   /** The stable word of the gateway ("wrong_state"), or the kind where the gateway said nothing. */
@@ -36,7 +37,7 @@ export class Problem extends Error {
   get words(): string {
     const faults = (this.document.faults ?? []).map((f) => f.text).filter((t) => t && !this.message.includes(t));
     const code = this.document.code;
-    return [this.message, ...faults].join('; ') + (code !== null && code !== undefined ? ` (drive's code ${code})` : '');
+    return [this.message, ...faults.map(plain)].join('; ') + (code !== null && code !== undefined ? ` (drive's code ${code})` : '');
   }
 }
 

@@ -6,7 +6,9 @@ import type { Alarm } from '../api/types';
 import { useGateway } from '../gateway';
 import { linePath } from '../router';
 import { capital } from '../state/commander';
+import { emptied } from '../state/kept';
 import { alarmWord, canAcknowledge, shelfTimes, subjectOf, withoutSubject } from '../words/alarm';
+import { plain } from '../words/plain';
 import { clockTime } from '../words/time';
 import { Choice, quiet, Tell, TextField, type Told } from './form';
 import { useBarred, Why } from './gate';
@@ -46,12 +48,13 @@ export function AlarmSection() {
               type="button"
               class="button primary"
               {...no}
-              onClick={() =>
+              onClick={() => {
+                const sent = comment.peek();
                 void act(
-                  () => client.acknowledgeAlarms(open.map((a) => a.id), comment.peek().trim()),
+                  () => client.acknowledgeAlarms(open.map((a) => a.id), sent.trim()),
                   open.length === 1 ? '1 alarm acknowledged.' : `${open.length} alarms acknowledged.`,
-                ).then((good) => good && (comment.value = ''))
-              }
+                ).then((good) => good && emptied(comment, sent));
+              }}
             >
               Acknowledge all shown
             </button>
@@ -107,7 +110,7 @@ function AlarmRow(p: RowProps) {
       <div class="alarm-line">
         <Pill word={alarmWord(a)} label="State" />
         <span class="alarm-what">
-          {a.axis ? <AxisName name={a.axis} /> : a.drive ? <b><DriveName name={a.drive} /></b> : a.line ? <a href={linePath(a.line)}>{about}</a> : <b>{about}</b>} {withoutSubject(a.text, about)}
+          {a.axis ? <AxisName name={a.axis} /> : a.drive ? <b><DriveName name={a.drive} /></b> : a.line ? <a href={linePath(a.line)}>{about}</a> : <b>{about}</b>} {plain(withoutSubject(a.text, about))}
           {a.code !== null && <span class="mono"> (code {a.code})</span>}
         </span>
         <span class="alarm-buttons">

@@ -1,12 +1,13 @@
 // Axis controls: what a person can tell an axis: power, motion, jog, stops. In: the axis' name and unit. Out: commands; the answer in
 // words underneath. Whether the axis may do it is for the gateway to say: nothing is greyed by guesswork, a refusal tells its reason.
-import { signal, type Signal } from '@preact/signals';
+import { signal, useSignal, type Signal } from '@preact/signals';
 import { useId, useMemo } from 'preact/hooks';
 import type { Axis, Command } from '../api/types';
 import { useGateway } from '../gateway';
 import { kept } from '../state/kept';
-import { unitOf } from '../words/axis';
+import { setPositionWords, unitOf } from '../words/axis';
 import { parseQuantity } from '../words/number';
+import { Ask } from './ask';
 import { Field } from './field';
 import { Icon } from './icon';
 import { useBarred, Why } from './gate';
@@ -22,17 +23,29 @@ export function useControls(axis: Axis) {
   const name = axis.name;
   const fields = useMemo(() => {
     const f = (w: Which, first = '') => kept(`typed.${name}.${w}`, first);
-    return { target: f('target'), distance: f('distance'), speed: f('speed', gentle(axis)), acceleration: f('acceleration'), deceleration: f('deceleration'), zero: f('zero', '0') };
+    return { target: f('target'), distance: f('distance'), speed: f('speed', gentle(axis)), acceleration: f('acceleration'), deceleration: f('deceleration'), zero: f('zero') };
   }, [name]);
   const wrong: Signal<Which | ''> = useMemo(() => signal(''), [name]);
   const unit = unitOf(axis);
 
+  /** Until the field has another text. */
+  const tellWrong = (which: Which, text: string) => {
+    commander.tell(name, 'refused', text);
+    const told = commander.note(name).peek();
+    const typed = fields[which].peek();
+    const end = fields[which].subscribe((now) => {
+      if (now === typed) return;
+      queueMicrotask(() => end());
+      if (wrong.peek() === which) wrong.value = '';
+      commander.forget(name, told);
+    });
+  };
   const read = (which: Which, words: string, need: 'any' | 'positive'): number | null => {
     const parsed = parseQuantity(fields[which].value);
     let why = parsed.good ? '' : parsed.why;
     if (parsed.good && need === 'positive' && parsed.value <= 0) why = 'It must be greater than 0; the buttons give the direction.';
     wrong.value = why ? which : '';
-    if (why) commander.tell(name, 'refused', `${words}: ${why}`);
+    if (why) tellWrong(which, `${words}: ${why}`);
     return why || !parsed.good ? null : parsed.value;
   };
   /** An empty field: as the drive has it. undefined: wrong, and it has been said. */
@@ -54,11 +67,10 @@ export function useControls(axis: Axis) {
   const jogSpeed = () => read('speed', 'Speed', 'positive');
   const simple = (command: 'enable' | 'disable' | 'halt' | 'reset_fault' | 'home' | 'quick_stop', words: string) => () =>
     void commander.send(name, { command } as Command, words);
-  const setZero = () => {
-    const position = read('zero', 'Position', 'any');
-    if (position !== null) void commander.send(name, { command: 'set_position', position }, `Call this place ${position} ${unit}`);
-  };
-  return { fields, wrong, unit, move, jogSpeed, simple, setZero };
+  /** What the present position shall be called, as it is typed; null: it is no number, and that has been said. */
+  const newPosition = () => read('zero', 'Position', 'any');
+  const setPosition = (position: number) => void commander.send(name, { command: 'set_position', position }, `Call this place ${position} ${unit}`);
+  return { fields, wrong, unit, move, jogSpeed, simple, newPosition, setPosition };
 }
 
 export const resultId = (axis: string): string => `result-${axis}`;
@@ -99,12 +111,42 @@ export function TileControls({ axis, bare }: { axis: Axis; bare: boolean }) {
       <div class="control-power">
         <span class="group">
           <button type="button" class="button" aria-label={`Enable ${name}`} {...no} onClick={c.simple('enable', 'Enable')}>Enable</button>
-          <button type="button" class="button" aria-label={`Disable ${name}`} {...no} onClick={c.simple('disable', 'Disable')}>Disable</button>
+          <button type="button" class="button" aria-label={`Disable ${name}`} title="Takes the power off at once; the shaft is free" {...no} onClick={c.simple('disable', 'Disable')}>Disable</button>
         </span>
         <button type="button" class="button" aria-label={`Reset fault of ${name}`} {...no} onClick={c.simple('reset_fault', 'Reset fault')}>Reset</button>
         <button type="button" class="button" aria-label={`Halt ${name}`} title="Stop on the profile ramp, stay enabled" onClick={c.simple('halt', 'Halt')}>Halt</button>
       </div>
     </div>
+  );
+}
+
+/** The present position gets another name, after a question: what counts from the zero moves with it. */
+function SetPosition({ name, c, describedBy }: { name: string; c: ReturnType<typeof useControls>; describedBy: string }) {
+  const { store } = useGateway();
+  const no = useBarred('operator');
+  const asked = useSignal<number | null>(null);
+  const ask = () => void (asked.value = c.newPosition());
+  const now = asked.value === null ? undefined : store.axis(name)?.value.data;
+  const words = now ? setPositionWords(now, asked.value as number) : '';
+  return (
+    <>
+      <div class="control-rows">
+        <Field label="Position" longLabel="What the present position shall be called" unit={c.unit} text={c.fields.zero} wrong={c.wrong.value === 'zero'} describedBy={describedBy} placeholder="new value" onEnter={ask} />
+        <button type="button" class="button" title="Calls the present position this, after a question; nothing moves" {...no} onClick={ask}>Set position …</button>
+      </div>
+      {now && (
+        <Ask
+          field="set-position"
+          words={words}
+          yes="Set position"
+          onNo={() => (asked.value = null)}
+          onYes={() => {
+            c.setPosition(asked.peek() as number);
+            asked.value = null;
+          }}
+        />
+      )}
+    </>
   );
 }
 
@@ -122,13 +164,16 @@ export function FullControls({ axis }: { axis: Axis }) {
       <div class="control-power">
         <span class="group">
           <button type="button" class="button" {...no} onClick={c.simple('enable', 'Enable')}>Enable</button>
-          <button type="button" class="button" {...no} onClick={c.simple('disable', 'Disable')}>Disable</button>
+          <button type="button" class="button" title="Takes the power off at once; the shaft is free" {...no} onClick={c.simple('disable', 'Disable')}>Disable</button>
         </span>
         <button type="button" class="button" {...no} onClick={c.simple('reset_fault', 'Reset fault')}>Reset fault</button>
         <button type="button" class="button" title="Stop on the profile ramp, stay enabled" onClick={c.simple('halt', 'Halt')}>Halt</button>
         <button type="button" class="button" title="Stop on the quick-stop ramp; enable to go on" onClick={c.simple('quick_stop', 'Quick stop')}>Quick stop</button>
         <button type="button" class="button" title="Homing, by the drive's own method" {...no} onClick={c.simple('home', 'Home')}>Home</button>
       </div>
+      <p class="where stops-told">
+        <b>Halt</b> slows down on the profile ramp and stays enabled. <b>Quick stop</b>, STOP and Esc slow down on the quick-stop ramp; enable to go on. <b>Disable</b> takes the power off at once.
+      </p>
       <div class="control-rows">
         <Field label="Target" unit={u} text={c.fields.target} wrong={wrong === 'target'} describedBy={result} onEnter={() => c.move('move_absolute')} />
         <button type="button" class="button primary" {...no} onClick={() => c.move('move_absolute')}>Move to</button>
@@ -147,10 +192,7 @@ export function FullControls({ axis }: { axis: Axis }) {
         <Field label="Accel." longLabel="Acceleration" unit={`${u}/s²`} text={c.fields.acceleration} wrong={wrong === 'acceleration'} describedBy={result} placeholder="as is" />
         <Field label="Decel." longLabel="Deceleration" unit={`${u}/s²`} text={c.fields.deceleration} wrong={wrong === 'deceleration'} describedBy={result} placeholder="as is" />
       </div>
-      <div class="control-rows">
-        <Field label="Position" longLabel="What the present position shall be called" unit={u} text={c.fields.zero} wrong={wrong === 'zero'} describedBy={result} />
-        <button type="button" class="button" title="Calls the present position this; nothing moves" {...no} onClick={c.setZero}>Set position</button>
-      </div>
+      <SetPosition name={name} c={c} describedBy={result} />
       <ResultLine axis={name} id={result} />
     </div>
   );

@@ -2,6 +2,7 @@
 // Severity is a word and a shape before it is a colour.
 import type { GatewayEvent, Severity } from '../api/types';
 import { withoutSubject } from '../words/alarm';
+import { plainWord } from '../words/plain';
 import { clockTime } from '../words/time';
 import { useComputed } from '@preact/signals';
 import { useGateway } from '../gateway';
@@ -36,7 +37,7 @@ function ItemView({ event, scale }: { event: GatewayEvent; scale?: Scale | undef
       </time>
       <span class="event-what">
         {about && <b>{about} </b>}
-        <span>{inUnits(withoutSubject(event.text, event.axis ?? event.drive ?? event.line ?? ''), scale) || change || event.kind}</span>
+        <span>{inUnits(withoutSubject(event.text, event.axis ?? event.drive ?? event.line ?? ''), scale) || change || plainWord(event.kind)}</span>
         {event.text && change && <span class="event-change mono"> {change}</span>}
         {event.code ? <span class="mono"> (code {event.code})</span> : null}
         {event.who && <span class="event-who"> by {event.who}</span>}

@@ -29,7 +29,7 @@ export function Field({ label, longLabel, unit, text, wrong, describedBy, placeh
           spellcheck={false}
           value={text.value}
           placeholder={placeholder}
-          title={placeholder ? 'Empty: as the drive has it' : undefined}
+          title={placeholder === 'as is' ? 'Empty: as the drive has it' : undefined}
           aria-label={longLabel}
           aria-invalid={wrong || undefined}
           aria-describedby={describedBy}

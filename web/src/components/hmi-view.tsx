@@ -90,7 +90,7 @@ export function HmiView({ door, rows }: { door: MappingDoor; rows: readonly Mapp
         }}
       >
         <div class="form-grid">
-          <TextField label="Unit" number value={unit.value} onText={(t) => (unit.value = t)} fault={at.unit === null ? 'A whole number from 0 to 255.' : undefined} hint="1 is the standard map" />
+          <TextField label="Unit ID" number value={unit.value} onText={(t) => (unit.value = t)} fault={at.unit === null ? 'A whole number from 0 to 255.' : undefined} hint="1 is the standard map" />
           <Choice label="Table" value={table.value} onChoice={(t) => (table.value = t)} choices={tables.map((t) => ({ value: t.id, text: t.name }))} />
           <TextField label="Address" number value={address.value} onText={(t) => (address.value = t)} fault={at.address === null ? 'A whole number from 0 to 65535.' : undefined} hint={at.address === null ? undefined : `${oneBased(table.value as Table, at.address)} counted from 1`} />
           <TextField label="Count" number value={count.value} onText={(t) => (count.value = t)} fault={at.count === null ? 'A whole number from 1 to 125.' : undefined} />

@@ -4,7 +4,7 @@
 import { signal, useSignal, type Signal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import { useGateway } from '../gateway';
-import { kept } from '../state/kept';
+import { emptied, kept } from '../state/kept';
 import type { Clash, MappingBook } from '../state/mappings';
 import { checkTexts, conflictsOf, emptyTexts, fields, neighbourText, nextFree, oneBased, placeText, signWarning, tables, textsOf, types, widthOf, type Field, type Known, type Mapping, type Texts } from '../words/mapping';
 import { naturalType } from '../words/mapping-type';
@@ -89,6 +89,7 @@ export function MappingForm({ book, known, editing, done }: MappingFormProps) {
       return;
     }
     told.value = { tone: 'busy', text: editing ? 'Changing …' : 'Adding …' };
+    const sent = { ...texts };
     const outcome = editing ? await book.replace(editing.id, spec, opened) : await book.add(spec);
     told.value = toldOf(outcome);
     clash.value = outcome.good ? null : (outcome.clash ?? null);
@@ -100,10 +101,10 @@ export function MappingForm({ book, known, editing, done }: MappingFormProps) {
     } else {
       // Ready for the next one: the place behind it.
       const next = nextFree(book.rows.peek(), spec.unit, place.table, width, spec.address + width);
-      d.address.value = next === null ? '' : String(next);
-      d.point.value = '';
-      hand.value = '';
-      d.comment.value = '';
+      emptied(d.address, sent.address, next === null ? '' : String(next));
+      if (d.point.peek() === sent.point) hand.value = '';
+      emptied(d.point, sent.point);
+      emptied(d.comment, sent.comment);
     }
   };
   const names = known.parameters(texts.axis) ?? [];
@@ -124,7 +125,7 @@ export function MappingForm({ book, known, editing, done }: MappingFormProps) {
         <div class="form-grid">
           <Choice label="Axis" value={texts.axis} onChoice={set('axis')} fault={shown('axis')} choices={[{ value: '', text: 'choose' }, ...store.axisNames.value.map((n) => ({ value: n, text: named(n) }))]} />
           <TextField label="Point or parameter" class="wide" value={texts.point} onText={set('point')} fault={shown('point')} offers={offers} placeholder="position_units, MT[1] …" hint={known.points.find((p) => p.point === texts.point)?.description} />
-          <TextField label="Unit" number value={texts.unit} onText={set('unit')} fault={shown('unit')} />
+          <TextField label="Unit ID" number value={texts.unit} onText={set('unit')} fault={shown('unit')} />
           <Choice label="Table" value={texts.table} onChoice={set('table')} fault={shown('table')} choices={tables.map((t) => ({ value: t.id, text: t.name }))} />
           <TextField
             label="Address"

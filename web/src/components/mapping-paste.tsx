@@ -4,7 +4,7 @@ import { useSignal } from '@preact/signals';
 import { useMemo } from 'preact/hooks';
 import { Problem } from '../api/problem';
 import { useGateway } from '../gateway';
-import { kept } from '../state/kept';
+import { emptied, kept } from '../state/kept';
 import type { MappingBook } from '../state/mappings';
 import { catalogueMissing, csvOfSpecs, readTable } from '../words/mapping-table';
 import { placeText, tableOf, type Known } from '../words/mapping';
@@ -50,10 +50,11 @@ export function MappingPaste({ book, known }: { book: MappingBook; known: Known 
   };
   const send = async () => {
     told.value = { tone: 'busy', text: 'Sending …' };
+    const sent = text.value;
     const outcome = await book.table(csvOfSpecs(specs), replace.value);
     told.value = toldOf(outcome);
     if (!outcome.good) return;
-    text.value = '';
+    emptied(text, sent);
     report.value = null;
   };
   return (

@@ -4,7 +4,7 @@ import { useSignal } from '@preact/signals';
 import { MappingDoor } from '../api/mappings';
 import { asProblem } from '../api/problem';
 import { useGateway } from '../gateway';
-import { kept } from '../state/kept';
+import { emptied, kept } from '../state/kept';
 import type { MappingBook } from '../state/mappings';
 import { nextFree, placeText, type Mapping } from '../words/mapping';
 import { parseNumber } from '../words/number';
@@ -50,10 +50,11 @@ export function MappingTemplates({ book, door }: { book: MappingBook; door: Mapp
       told.value = { tone: 'refused', text: p.status === 404 || p.status === 405 || p.status === 501 ? notOffered('templates') : p.words };
       return;
     }
+    const sent = address.value;
     const outcome = await book.template(axis.value, u, at);
     differences.value = [];
     told.value = !outcome.good && (outcome.problem?.status === 404 || outcome.problem?.status === 405) ? { tone: 'refused', text: notOffered('templates') } : toldOf(outcome);
-    if (outcome.good) address.value = '';
+    if (outcome.good) emptied(address, sent);
   };
   return (
     <Section title="Template: the standard map of an axis" class="mapping-templates">
@@ -68,7 +69,7 @@ export function MappingTemplates({ book, door }: { book: MappingBook; door: Mapp
       >
         <div class="form-grid">
           <Choice label="Axis" value={axis.value} onChoice={(v) => (axis.value = v)} choices={[{ value: '', text: 'choose' }, ...store.axisNames.value.map((n) => ({ value: n, text: named(n) }))]} />
-          <TextField label="Unit" number value={unit.value} onText={(t) => (unit.value = t)} fault={u === null ? 'A whole number from 2 to 254.' : undefined} />
+          <TextField label="Unit ID" number value={unit.value} onText={(t) => (unit.value = t)} fault={u === null ? 'A whole number from 2 to 254.' : undefined} />
           <TextField
             label="Address"
             number

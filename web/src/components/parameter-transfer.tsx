@@ -7,7 +7,7 @@ import { asProblem } from '../api/problem';
 import type { AxisParameter } from '../api/types';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
-import { kept } from '../state/kept';
+import { emptied, kept } from '../state/kept';
 import { editText, steppedText, unitWords, valueText } from '../words/parameter';
 import { csvOfParameters, jsonOfParameters, parametersWords, readTransfer } from '../words/transfer';
 import { quiet, Tell, type Told } from './form';
@@ -70,6 +70,7 @@ export function ParameterTransfer({ axis }: { axis: string }) {
     const run: { stop: boolean } = { stop: false };
     sending.current = run;
     busy.value = true;
+    const sent = text.peek();
     let done = 0;
     for (const row of wanted) {
       if (run.stop) break;
@@ -83,7 +84,7 @@ export function ParameterTransfer({ axis }: { axis: string }) {
       }
     }
     if (done === wanted.length) {
-      text.value = '';
+      emptied(text, sent);
       told.value = { tone: 'good', text: `${parametersWords(done)} written.` };
     } else if (told.peek().tone === 'busy') told.value = { tone: 'refused', text: `Ended: ${done} of ${wanted.length} were written.` };
     busy.value = false;

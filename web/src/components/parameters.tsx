@@ -113,7 +113,8 @@ export function Parameters({ axis }: { axis: string }) {
 
   const write = async (row: Row) => {
     const p = row.data.peek();
-    const value = readValue(row.typed.peek() ?? '', p);
+    const sent = row.typed.peek();
+    const value = readValue(sent ?? '', p);
     if (!value.good) {
       row.note.value = { tone: 'refused', text: value.why };
       return;
@@ -123,7 +124,7 @@ export function Parameters({ axis }: { axis: string }) {
       const answer = await client.writeParameter(axis, p.id, value.value);
       row.data.value = { ...row.data.peek(), value: answer.value, quality: 'good' };
       row.note.value = { tone: 'good', text: sameValue(answer.value, value.value) ? 'Written.' : `Written; the drive took ${valueText(answer.value, p)}.` };
-      row.typed.value = null;
+      if (row.typed.peek() === sent) row.typed.value = null; // what was typed since then stays
       const now = await client.parameter(axis, p.id, { cached: true });
       row.data.value = now;
     } catch (error) {

@@ -7,7 +7,8 @@ import { asProblem } from '../api/problem';
 import type { RecipeReport, RecipeReportHead } from '../api/types';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
-import { doneOf, runWord, typedOf, valueOf, type Json, type RecipeDocument } from '../words/recipe';
+import { plain } from '../words/plain';
+import { doneOf, runWord, stepLabel, typedOf, valueOf, type Json, type RecipeDocument } from '../words/recipe';
 import { clockTime, duration } from '../words/time';
 import { Icon } from './icon';
 import { useLoaded } from './loaded';
@@ -150,7 +151,7 @@ export function RunSection({ name, parameters, saved, typed }: { name: string; p
                   </span>
                   <Pill word={runWord(x.state)} label="State" />
                 </div>
-                {x.text && <p class="why">{capital(x.text)}</p>}
+                {x.text && <p class="why">{capital(plain(x.text))}</p>}
               </li>
             ))}
           </ol>
@@ -176,7 +177,7 @@ export function Report({ report: r }: { report: RecipeReport }) {
         {r.text && (
           <p class="step-fault" data-field="run-text">
             {r.at_label || r.at_step ? `${r.at_label || r.at_step}: ` : ''}
-            {capital(r.text)}
+            {capital(plain(r.text))}
           </p>
         )}
         {r.stops.map((s) => (
@@ -193,10 +194,10 @@ export function Report({ report: r }: { report: RecipeReport }) {
               <Icon name={word.icon} size={14} />
               <span class="report-word">{word.text}</span>
               <span class="report-what">
-                <b>{s.step}</b> {s.axis && <AxisName name={s.axis} plain />}
+                <b>{stepLabel(s.step)}</b> {s.axis && <AxisName name={s.axis} plain />}
                 {s.times > 1 && ` × ${s.times}`}
                 {s.value !== null && s.value !== undefined && <span class="mono"> = {typedOf(typeof s.value === 'number' ? Number(s.value.toPrecision(9)) : s.value)}</span>}
-                {s.text && <span> {s.text}</span>}
+                {s.text && <span> {plain(s.text)}</span>}
                 {s.comment && <i> {s.comment}</i>}
               </span>
               <span class="report-at mono">{s.pointer}</span>

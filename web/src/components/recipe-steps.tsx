@@ -4,6 +4,8 @@ import { createContext } from 'preact';
 import { useContext } from 'preact/hooks';
 import type { components } from '../api/schema';
 import { added, at, axisMeant, changed, commands, comparisons, fieldsOfStep, freshStep, kindOf, moved, pointerOf, points, removed, stepKinds, takesTolerance, titleOf, unknownAxes, unknownWords, typedOf, unitOfField, valueOf, withCommand, type Json, type Path, type RecipeDocument, type Step, type StepField, type StepKind } from '../words/recipe';
+import { capital } from '../state/commander';
+import { plainWord } from '../words/plain';
 import { Icon } from './icon';
 import { SimulatedMark } from './name';
 import { Typed } from './typed';
@@ -149,7 +151,7 @@ function StepInput({ field, path, value, title, unit }: { field: StepField; path
         >
           {choices.map((c) => (
             <option key={c} value={c}>
-              {c === '' ? 'as mapped' : c}
+              {c === '' ? 'as mapped' : field.kind === 'command' ? capital(plainWord(c)) : c}
             </option>
           ))}
         </select>

@@ -185,7 +185,7 @@ function EntryForm({ room, draft, own, open, gateway }: FormProps) {
       )}
       <div class="form-foot">
         <button type="submit" class="button primary">
-          Take into the draft
+          Save to draft
         </button>
         <button type="button" class="button quiet" onClick={close}>
           Cancel

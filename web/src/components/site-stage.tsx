@@ -149,7 +149,7 @@ export function SiteStage({ draft }: { draft: SiteDraft }) {
         )}
         {(changes.length > 0 || inView) && (
           <>
-            {draft.offersStage.value !== false && <TextField label="Keep within, s" class="within" number value={within.value} onText={(t) => (within.value = t)} fault={seconds === null ? '5 to 600; 0: no roll back.' : undefined} />}
+            {draft.offersStage.value !== false && <TextField label="Confirm within, s" class="within" number value={within.value} onText={(t) => (within.value = t)} fault={seconds === null ? '5 to 600; 0: no roll back.' : undefined} />}
             <button type="button" class="button primary" disabled={busy || !ready || seconds === null} {...no} onClick={() => void draft.apply(seconds ?? 60)}>
               Apply{inView ? ' theirs' : ''}
             </button>

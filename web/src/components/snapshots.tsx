@@ -9,7 +9,7 @@ import { SnapshotDoor, type RestoreReport, type Snapshot } from '../api/snapshot
 import type { AxisParameter, MaybeValue } from '../api/types';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
-import { kept } from '../state/kept';
+import { emptied, kept } from '../state/kept';
 import { steppedText, unitWords, valueText } from '../words/parameter';
 import { foreignWords, snapshotWords } from '../words/snapshot';
 import { leftOut, parametersWords } from '../words/transfer';
@@ -58,8 +58,10 @@ export function Snapshots({ axis, family, onList }: { axis: string; family: stri
     wrong.value = name.value.trim() === '';
     if (wrong.value) return;
     void tell(from.value === 'device' ? 'Reading all parameters from the drive …' : 'Saving …', async () => {
-      const s = await door.save({ name: name.value.trim(), comment: comment.value.trim(), from: from.value });
-      name.value = comment.value = '';
+      const sent = { name: name.value, comment: comment.value };
+      const s = await door.save({ name: sent.name.trim(), comment: sent.comment.trim(), from: from.value });
+      emptied(name, sent.name);
+      emptied(comment, sent.comment);
       await again();
       return `Saved as ${s.n}.`;
     });

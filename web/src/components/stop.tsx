@@ -1,8 +1,10 @@
-// The stops: one per axis, and one for all in the head of the page, which is also the Escape key, wherever the keyboard is.
+// The stops: one per axis, and one for all in the head of the page, which is also the Escape key, wherever the keyboard is; while something is
+// being typed, the first Escape empties the field and the next one stops.
 // Never hidden, never waits for another answer; disabled only where the gateway has said that it serves nobody here without a sign-in, and then it
 // says so and names the machine's own emergency stop. It is a command over the network, not a safety function.
 import { useLayoutEffect } from 'preact/hooks';
 import { useGateway } from '../gateway';
+import { emptyTyped, typing, watchTyping } from '../state/typing';
 import { Icon } from './icon';
 
 /** Filled where there is something to stop, outlined where nothing moves: always there, loud only when it matters. */
@@ -24,6 +26,9 @@ export function StopButton({ axis, large = false, urgent = true }: { axis: strin
   );
 }
 
+/** What the key does, for the button and for those who look it up. */
+export const keyWords = 'The Escape key does the same; while you type, it empties the field first and stops when pressed again.';
+
 export function StopAll() {
   const { commander, session, store } = useGateway();
   const barred = session.stopBarred.value;
@@ -39,12 +44,15 @@ export function StopAll() {
       if (event.key !== 'Escape' || event.repeat || event.isComposing) return;
       // A search field would clear itself: a stop changes nothing of what is typed.
       if (event.target instanceof HTMLInputElement && event.target.type === 'search') event.preventDefault();
+      if (emptyTyped()) return;
       stopAll();
     };
     // In the capturing phase: nothing on the page can swallow it.
     addEventListener('keydown', onKey, true);
     return () => removeEventListener('keydown', onKey, true);
   }, [commander, session]);
+
+  useLayoutEffect(() => watchTyping(), []);
 
   const movingFirst = () => {
     const moves = (name: string) => (store.axis(name)?.peek().data.moving ? 0 : 1);
@@ -58,12 +66,12 @@ export function StopAll() {
       disabled={barred !== ''}
       aria-keyshortcuts="Escape"
       aria-description={barred || undefined}
-      title={barred || 'Quick stop of every axis. Not a safety function: keep the emergency stop of the machine at hand.'}
+      title={barred || `Quick stop of every axis. ${keyWords} Not a safety function: keep the emergency stop of the machine at hand.`}
       onClick={stopAll}
     >
       <Icon name="octagon" size={16} />
       <span>{barred ? 'No stop from here' : 'Stop all'}</span>
-      <kbd aria-hidden="true">Esc</kbd>
+      <kbd aria-hidden="true">{typing.value ? 'Esc Esc' : 'Esc'}</kbd>
     </button>
   );
 }

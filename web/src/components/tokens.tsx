@@ -37,7 +37,7 @@ export function Tokens() {
     try {
       setMade(await client.call<MadeToken>('/tokens', { method: 'POST', body: { name: name.trim(), role, ...(end ? { expires_in_s: Number(end) } : {}) } }));
       setTold({ tone: 'good', text: 'Made. It is shown this once: copy it now.' });
-      setName('');
+      setName((now) => (now === name ? '' : now));
       await list();
     } catch (error) {
       setTold({ tone: 'refused', text: asProblem(error).words });

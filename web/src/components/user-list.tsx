@@ -58,14 +58,14 @@ export function UserList() {
     const fault = passwordFault(fresh, fresh);
     if (fault) return setTold({ tone: 'refused', text: fault });
     if (await patch(n, `New password of ${n}`, { password: fresh })) setRenewing('');
-    setFresh('');
+    setFresh((now) => (now === fresh ? '' : now));
   };
   const add = async (event: Event) => {
     event.preventDefault();
     const fault = userFault(name) || passwordFault(password, password);
     if (fault) return setTold({ tone: 'refused', text: fault });
-    if (await act(`Add ${name}`, () => client.call('/users', { method: 'POST', body: { name, role: role as Role, password } }))) setName('');
-    setPassword('');
+    if (await act(`Add ${name}`, () => client.call('/users', { method: 'POST', body: { name, role: role as Role, password } }))) setName((now) => (now === name ? '' : now));
+    setPassword((now) => (now === password ? '' : now));
   };
 
   return (

@@ -3,6 +3,7 @@
 import { useSignal } from '@preact/signals';
 import { useGateway } from '../gateway';
 import { withoutSubject } from '../words/alarm';
+import { plain } from '../words/plain';
 import { whatIsWrong, type Wrong } from '../words/wrong';
 import { Icon } from './icon';
 import { AxisName, SimulatedMark } from './name';
@@ -40,7 +41,7 @@ export function WrongList() {
                   <SimulatedMark of={w.about} kind={w.path.startsWith('/axes/') ? 'axis' : 'drive'} lead=" " />
                 </b>
               )}
-              <span class="wrong-text">{withoutSubject(w.text, w.about)}</span>
+              <span class="wrong-text">{plain(withoutSubject(w.text, w.about))}</span>
             </a>
             {w.axes.length > 0 && <WrongAxes of={w} />}
           </li>

@@ -79,7 +79,7 @@ export function AxisPage({ name }: { name: string }) {
             <Console drive={axis.drive} />
           </Gate>
         </Section>
-        <Section title="Hand of the twin">
+        <Section title="Fault simulation">
           <Gate need="engineer">
             <Hand drive={axis.drive} axis={name} />
           </Gate>

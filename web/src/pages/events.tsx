@@ -10,6 +10,7 @@ import { Section } from '../components/section';
 import { useGateway } from '../gateway';
 import { kept } from '../state/kept';
 import { asked, eventFile, gathered } from '../words/alarm';
+import { plainWord } from '../words/plain';
 
 const least = kept('events.severity', 'info');
 const axis = kept('events.axis');
@@ -86,7 +87,7 @@ export function EventsPage() {
               <option value="">all</option>
               {kinds.map((k) => (
                 <option key={k} value={k}>
-                  {k}
+                  {plainWord(k)}
                 </option>
               ))}
             </select>

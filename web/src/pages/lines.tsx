@@ -57,7 +57,7 @@ export function LinePage({ name }: { name: string }) {
       {known && <ScanSection line={name} />}
       <Trace key={name} line={name} />
       {simulated.length > 0 && (
-        <Section title="Hand of the twins: rehearse what goes wrong">
+        <Section title="Fault simulation: rehearse what goes wrong">
           <div class="hands">
             {simulated.map((d) => (
               <section key={d} aria-label={`Hand of ${d}`}>

@@ -135,7 +135,7 @@ export function MappingsPage() {
         beside={
           <>
             <label class="select">
-              <span>Unit</span>
+              <span>Unit ID</span>
               <select value={unitShown.value} onChange={(e) => (unitShown.value = e.currentTarget.value)}>
                 {units.map((u) => (
                   <option key={u} value={String(u)}>

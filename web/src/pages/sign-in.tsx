@@ -28,7 +28,7 @@ export function SignInPage() {
     const problem = await (first ? session.first(code.trim(), user.value, password) : session.signIn(user.value, password));
     // A wrong code says nothing about the passwords: typed twice, they stay.
     if (!problem || !first) {
-      setPassword('');
+      setPassword((now) => (now === password ? '' : now));
       setSecond('');
     }
     if (problem) return setTold({ tone: 'refused', text: signInWords(problem) });
@@ -56,7 +56,7 @@ export function SignInPage() {
             {first ? 'Make the first administrator' : 'Sign in'}
           </button>
           {session.mayGoOn.value && (
-            <button type="button" class="button" onClick={() => location.reload()}>
+            <button type="button" class="button" onClick={() => (session.goOn(), location.reload())}>
               Go on without signing in
             </button>
           )}

@@ -1,11 +1,13 @@
 // Commander: what people tell an axis, and the answer in words. In: commands of tiles and keys. Out: requests, one note per axis.
 // A stop never waits: it goes past the queue of the page, drops what waits there, and is said again when a motion that was still on
 // its way has been answered, so that it cannot be overtaken. It may be said while the page is not live; nothing else may.
-// Never repeats a motion by itself.
+// What was taken is followed until its axis shows how it ended; a refusal goes with its cause. Never repeats a motion by itself.
 import { signal, type Signal } from '@preact/signals';
 import type { Client } from '../api/client';
 import { asProblem, Problem } from '../api/problem';
-import type { Command, CommandAnswer } from '../api/types';
+import type { Axis, Command, CommandAnswer } from '../api/types';
+import { causeOf, isWatched, outcomeOf, type Watched } from '../words/outcome';
+import { plain } from '../words/plain';
 
 /** `partly`: taken, but not by all who were meant. */
 export type NoteTone = 'none' | 'busy' | 'good' | 'partly' | 'refused';
@@ -26,6 +28,9 @@ export class Commander {
   private readonly onTheirWay = new Map<string, number>();
   private readonly stopsWanted = new Set<string>();
   private readonly serial = new Map<string, number>();
+  private readonly watched = new Map<string, Watched & { words: string; mine: number }>();
+  /** Refusals, and what their axis showed then: with another it is over. */
+  private readonly causes = new Map<string, { note: Note; reason: string; cause: string }>();
 
   constructor(
     private readonly client: Pick<Client, 'command' | 'dropWaitingCommands' | 'axes'>,
@@ -33,7 +38,30 @@ export class Commander {
     private readonly blocked: () => string = () => '',
     /** Nobody answers for the axis: what the gateway takes for it, it takes alone. */
     private readonly offline: (axis: string) => boolean = () => false,
+    /** The axis as it was last told, and the gateway's clock. */
+    private readonly known: (axis: string) => Axis | undefined = () => undefined,
+    private readonly now_ms: () => number = Date.now,
   ) {}
+
+  /** The axis as it is now: a command that was taken may have ended, a refusal may have lost its cause. */
+  look(axis: Axis): void {
+    const { name } = axis;
+    const w = this.watched.get(name);
+    if (w) {
+      const outcome = this.serial.get(name) === w.mine ? outcomeOf(w, axis) : { tone: 'none' as const, text: '' };
+      if (outcome) this.watched.delete(name);
+      if (outcome?.text) this.tell(name, outcome.tone, `${w.words}: ${outcome.text}`, 'interrupted', axis);
+      else if (outcome && this.serial.get(name) === w.mine) this.note(name).value = quiet;
+    }
+    const r = this.causes.get(name);
+    if (!r) return;
+    const over = r.reason === 'blocked' ? this.blocked() === '' : causeOf(r.reason, axis) !== r.cause;
+    if (this.note(name).peek() !== r.note) this.causes.delete(name);
+    else if (over) {
+      this.causes.delete(name);
+      this.note(name).value = quiet;
+    }
+  }
 
   note(axis: string): Signal<Note> {
     let n = this.notes.get(axis);
@@ -41,10 +69,19 @@ export class Commander {
     return n;
   }
 
-  tell(axis: string, tone: NoteTone, text: string): void {
+  /** `reason`: the gateway's word for a refusal, by which it is known when it is over. */
+  tell(axis: string, tone: NoteTone, text: string, reason = '', now = this.known(axis)): void {
     const n = this.note(axis);
     n.value = { tone, text };
     this.fade(n);
+    const cause = reason === 'blocked' ? reason : causeOf(reason, now);
+    if (tone === 'refused' && cause) this.causes.set(axis, { note: n.peek(), reason, cause });
+    else this.causes.delete(axis);
+  }
+
+  /** What was told of the axis is over: the field that it was about has another text. */
+  forget(axis: string, told: Note): void {
+    if (this.note(axis).peek() === told) this.note(axis).value = quiet;
   }
 
   /** Without a connection nothing green stands: what was accepted may be otherwise by now. */
@@ -65,7 +102,7 @@ export class Commander {
     const why = isStop(command) ? '' : this.blocked();
     const mine = this.begin(axis);
     if (why) {
-      this.tell(axis, 'refused', `${words}: not sent. ${why}`);
+      this.tell(axis, 'refused', `${words}: not sent. ${why}`, 'blocked');
       return new Problem('cancelled', why);
     }
     this.tell(axis, 'busy', `${words} …`);
@@ -77,7 +114,9 @@ export class Commander {
       result = asProblem(error);
     }
     if (isMotion(command)) this.arrived(axis);
-    if (this.serial.get(axis) === mine) this.tell(axis, ...noteOf(words, result));
+    if (this.serial.get(axis) !== mine) return result;
+    this.tell(axis, ...noteOf(words, result), 'result' in result ? '' : result.reason);
+    if ('result' in result && isWatched(command)) this.watched.set(axis, { command, words, mine, taken_ms: this.now_ms(), moved: false, target: undefined });
     return result;
   }
 
@@ -163,7 +202,7 @@ const isStop = (c: Command) => c.command === 'quick_stop' || c.command === 'halt
 
 function noteOf(words: string, result: CommandAnswer | Problem): [NoteTone, string] {
   if ('result' in result) {
-    const said = [result.reason, result.text].filter(Boolean).join('. ');
+    const said = plain([result.reason, result.text].filter(Boolean).join('. '));
     return ['good', `${words}: ${result.result}${said ? `. ${said}` : ''}`];
   }
   const failed = result.document.result === 'failed' || result.kind !== 'answered';

@@ -28,6 +28,11 @@ export function kept(name: string, first = '', where: 'session' | 'browser' = 's
   return s;
 }
 
+/** Empties a field whose text was sent and taken; what was typed in it since then stays. */
+export function emptied(field: Signal<string>, sent: string, next = ''): void {
+  if (field.peek() === sent) field.value = next;
+}
+
 function storageOf(where: 'session' | 'browser'): Storage | undefined {
   try {
     return where === 'session' ? globalThis.sessionStorage : globalThis.localStorage;

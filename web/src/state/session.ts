@@ -1,6 +1,6 @@
 // Session: who this page is to the gateway, and what that role may do. In: GET /session, sign-in, sign-out. Out: a signal, and reasons in words.
 // What the gateway has not answered forbids nothing here: the gateway itself refuses. Never keeps a password; the CSRF token lives in memory only.
-import { computed, signal } from '@preact/signals';
+import { computed, signal, type Signal } from '@preact/signals';
 import type { Client } from '../api/client';
 import { asProblem, type Problem } from '../api/problem';
 import type { Role, SessionInfo } from '../api/types';
@@ -33,6 +33,8 @@ export class Session {
     private readonly onChange: () => void = () => undefined,
     /** The other tabs of this browser, which share its cookie. */
     private readonly channel: TabChannel | null = null,
+    /** Who is signed in in this browser, kept over reloads and tabs: whose session has ended is asked, not made local access without a word. */
+    private readonly signedIn: Signal<string> = signal(''),
   ) {
     if (channel) channel.onmessage = () => void this.ask();
     client.onUnauthorized = (problem) => {
@@ -73,9 +75,10 @@ export class Session {
     if (info.ended) {
       this.end(info.ended);
       this.again = true;
-    } else if (old?.via === 'cookie' && info.via !== 'cookie' && !this.leaving) {
+    } else if ((old?.via === 'cookie' || this.signedIn.peek() !== '') && info.via !== 'cookie' && !this.leaving) {
       this.end('');
     }
+    if (info.via === 'cookie') this.signedIn.value = info.user ?? '';
     // Signed in again, perhaps in another tab.
     const back = this.ended.peek() !== '' && info.via === 'cookie' && info.role !== null;
     if (back) this.ended.value = '';
@@ -120,11 +123,18 @@ export class Session {
     }
     this.change += 1;
     this.client.csrf = null;
+    this.signedIn.value = '';
     this.leaving = true;
     await this.ask();
     this.leaving = false;
     this.tellOthers();
     return null;
+  }
+
+  /** On purpose from now on: without a session, with what the gateway gives this machine. */
+  goOn(): void {
+    this.signedIn.value = '';
+    this.ended.value = '';
   }
 
   private tellOthers(): void {

@@ -71,6 +71,13 @@ export const positionText = (axis: Axis): string => formatNumber(axis.position, 
 export const velocityText = (axis: Axis): string => formatNumber(axis.velocity, decimalsOf(axis.increments_per_unit));
 export const targetText = (axis: Axis): string => formatNumber(axis.target_position, decimalsOf(axis.increments_per_unit));
 
+/** The question before the present position gets another name. */
+export function setPositionWords(axis: Axis, position: number): string {
+  const unit = unitOf(axis);
+  const old = axis.position === null ? 'not known' : `${positionText(axis)} ${unit}`;
+  return `The axis stands where it is; its position is ${old} now and will be called ${formatNumber(position, decimalsOf(axis.increments_per_unit))} ${unit}. Targets, limits and what other machines read count from the new zero. Set it?`;
+}
+
 /** The one thing about the axis that a person must know now. */
 export function noticeOf(axis: Axis, trust: Trust, driveText: string, lastKnown: string): Word {
   if (trust === 'disconnected') {

@@ -1,5 +1,6 @@
 // A recipe in words and as a tree that can be edited. In: the document as the gateway keeps it. Out: a changed copy, the fields of each step, words.
 // Never changes a document in place, and keeps members that it does not know.
+import { plainWord } from './plain';
 import type { Word } from './axis';
 
 export type Json = null | boolean | number | string | Json[] | { [key: string]: Json };
@@ -65,7 +66,7 @@ export const stepKinds: StepKind[] = [
     word: 'write_register',
     label: 'Write a register',
     fields: [
-      { key: 'unit', label: 'Unit', kind: 'number' },
+      { key: 'unit', label: 'Unit ID', kind: 'number' },
       { key: 'address', label: 'Address', kind: 'number' },
       { key: 'type', label: 'Type', kind: 'register_type', optional: true },
       { key: 'value', label: 'Value', kind: 'value' },
@@ -115,6 +116,9 @@ export function axisMeant(named: string, parameters: RecipeDocument['parameters'
   const value = chosen[name] || parameters?.[name]?.default;
   return typeof value === 'string' && value !== '' ? value : null;
 }
+
+/** What the forms call a step of this word. */
+export const stepLabel = (word: string): string => stepKinds.find((k) => k.word === word)?.label ?? plainWord(word);
 
 export function kindOf(step: Step): StepKind | undefined {
   return stepKinds.find((k) => k.word in step);

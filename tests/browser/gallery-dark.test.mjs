@@ -1,4 +1,0 @@
-// Every part of the page in dark colours, at the widths of a desk, a tablet and a phone: pictures, accessibility, nothing cut off.
-import { gallery } from './lib/gallery.mjs';
-
-gallery('dark');

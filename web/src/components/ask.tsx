@@ -1,0 +1,19 @@
+// Ask: a question before what cannot be taken back: one sentence, and two answers. In: the sentence and what yes does. Out: the answer.
+// The keyboard goes to the answer that changes nothing, so that a second Enter is no yes. Never answers by itself.
+import { useEffect, useRef } from 'preact/hooks';
+
+export function Ask({ words, yes, field, onYes, onNo }: { words: string; yes: string; field: string; onYes: () => void; onNo: () => void }) {
+  const no = useRef<HTMLButtonElement>(null);
+  useEffect(() => no.current?.focus({ preventScroll: true }), []);
+  return (
+    <p class="form-foot ask" role="group" aria-label={words} data-field={field}>
+      <span>{words}</span>
+      <button type="button" class="button small" onClick={onYes}>
+        {yes}
+      </button>
+      <button type="button" class="button small quiet" ref={no} onClick={onNo}>
+        Leave it
+      </button>
+    </p>
+  );
+}

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "adapters/linmot/motions.hpp"
+#include "adapters/linmot/motion_commands.hpp"
 #include "adapters/linmot/wire.hpp"
 #include "gateway/axis/demand.hpp"
 #include "gateway/core/adapter.hpp"

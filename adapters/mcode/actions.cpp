@@ -10,7 +10,7 @@
 
 #include "adapters/mcode/node.hpp"
 #include "adapters/mcode/program.hpp"
-#include "adapters/mcode/variables.hpp"
+#include "adapters/mcode/parameters_variables.hpp"
 
 namespace axisgate::mcode {
 using namespace std::chrono_literals;

@@ -6,7 +6,7 @@
 #include "adapters/mcode/adapter.hpp"
 #include "adapters/mcode/decoder.hpp"
 #include "adapters/mcode/twin.hpp"
-#include "adapters/mcode/variables.hpp"
+#include "adapters/mcode/parameters_variables.hpp"
 
 namespace axisgate {
 

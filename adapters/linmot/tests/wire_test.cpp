@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "adapters/linmot/decoder.hpp"
-#include "adapters/linmot/motions.hpp"
+#include "adapters/linmot/motion_commands.hpp"
 #include "adapters/linmot/tests/page.hpp"
 #include "adapters/linmot/tests/vectors.hpp"
 #include "adapters/linmot/wire.hpp"

@@ -1,6 +1,6 @@
 // User variables as parameters: the drive's option, its own catalogue, what the drive's listing says of both.
 // In: options, embedded drives on a line with honest wire time. Out: parameters, values, notices, refusals in words.
-#include "adapters/mcode/variables.hpp"
+#include "adapters/mcode/parameters_variables.hpp"
 
 #include "adapters/mcode/tests/line_bench.hpp"
 

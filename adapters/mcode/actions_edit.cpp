@@ -7,7 +7,7 @@
 #include <charconv>
 
 #include "adapters/mcode/node.hpp"
-#include "adapters/mcode/variables.hpp"
+#include "adapters/mcode/parameters_variables.hpp"
 
 namespace axisgate::mcode {
 namespace {

@@ -1,6 +1,6 @@
 // Variables, read and worded. A name is one letter, or a letter and a letter or digit [L6022], in upper case from here on.
 // In: texts. Out: parameters, names, lines. Never takes a word of the language for a name, but PW, which only one product has [L4970].
-#include "adapters/mcode/variables.hpp"
+#include "adapters/mcode/parameters_variables.hpp"
 
 #include <fmt/format.h>
 

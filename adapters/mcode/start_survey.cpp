@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "adapters/mcode/node.hpp"
-#include "adapters/mcode/variables.hpp"
+#include "adapters/mcode/parameters_variables.hpp"
 
 namespace axisgate::mcode {
 namespace {

@@ -1,6 +1,6 @@
 // Motions: the catalogue's layouts, packed and unpacked.
 // In: values. Out: bytes. Never checks ranges: command_arguments.hpp has done that.
-#include "adapters/linmot/motions.hpp"
+#include "adapters/linmot/motion_commands.hpp"
 
 #include <fmt/format.h>
 

@@ -156,7 +156,7 @@ std::optional<Catalogue> Catalogue::parse(std::string_view text, std::vector<std
             if (v.is_object()) {
                 const auto& o = v.get_object();
                 CatalogueCommand command{text_or_empty(o, "id"), text_or_empty(o, "name"), text_or_empty(o, "description"), Completion::acknowledged, {}};
-                read.arguments(o, "commands: " + command.id, command.arguments);
+                Reader{faults}.arguments(o, "commands: " + command.id, command.arguments);
                 if (const std::string word = text_or_empty(o, "completes"); !word.empty()) {
                     const auto found = std::ranges::find(completion_names, word);
                     if (found == completion_names.end()) faults.push_back(fmt::format("commands: {}: completes: {} is not known", command.id, word));

@@ -1,5 +1,6 @@
 // Stream hub: asks each source for its version once per period and hands the same frame to all who subscribed to it.
-// In: requests, events, time. Out: frames in queues. A period that was missed is not made up for. Never waits for a slow client.
+// In: requests, events, time. Out: frames in queues, a few clients at a time. A period that was missed is not made up for. Never waits for a
+// slow client.
 #include "gateway/doors/http/stream_hub.hpp"
 
 #include <fmt/format.h>
@@ -67,7 +68,7 @@ void StreamHub::remove(const std::shared_ptr<StreamClient>& client) {
 }
 
 Instant StreamHub::deadline() const {
-    if (new_site_) return time_zero;
+    if (new_site_ || !due_.empty()) return time_zero;
     Instant next = never;
     for (const auto& [period, at] : groups_)
         next = std::min(next, at);
@@ -213,22 +214,57 @@ void StreamHub::on_deadline(Instant now) {
         const auto period = std::chrono::milliseconds(period_ms);
         at += period;
         if (at <= now) at = now + period;  // late: periods are not made up for
+        // Not all of the period before are told yet: this one is left out, as for one that comes late.
+        if (std::ranges::find(due_, period_ms, &Due::period_ms) != due_.end()) continue;
         for (const auto& c : clients_) {
-            if (c->closing_) continue;
-            if (const auto list = c->watches_.find(period_ms); list != c->watches_.end()) {
-                for (auto& w : list->second) {
-                    sources_.look(*w.source, now);
-                    if (w.sent_version == w.source->version) continue;
-                    w.sent_version = w.source->version;
-                    put_state(*c, w.source->number, w.source->frame);
-                }
-            }
-            for (auto& f : c->frames_) {
-                if (f.period_ms == period_ms) tell_frames(*c, f, now);
-            }
-            wake(*c);
+            const bool watches = c->watches_.contains(period_ms) || std::ranges::find(c->frames_, period_ms, &StreamClient::FrameWatch::period_ms) != c->frames_.end();
+            if (watches && !c->closing_) due_.push_back({c, period_ms, now});
         }
     }
+    for (int n = 0; n < clients_per_slice && !due_.empty(); ++n) {
+        const Due d = std::move(due_.front());
+        due_.pop_front();
+        if (const auto c = d.client.lock(); c && !c->closing_) tell(*c, d.period_ms, d.at);
+    }
+}
+
+void StreamHub::tell(StreamClient& c, std::int64_t period_ms, Instant at) {
+    if (const auto list = c.watches_.find(period_ms); list != c.watches_.end()) tell_states(c, list->second, at);
+    for (auto& f : c.frames_) {
+        if (f.period_ms == period_ms) tell_frames(c, f, at);
+    }
+    wake(c);
+}
+
+void StreamHub::tell_states(StreamClient& c, std::vector<StreamClient::Watch>& list, Instant at) {
+    const bool together = c.takes_at_once && c.queue.empty() && list.size() <= most_joined;
+    changed_.clear();
+    for (auto& w : list) {
+        sources_.look(*w.source, at);
+        if (w.sent_version == w.source->version) continue;
+        w.sent_version = w.source->version;
+        if (together) {
+            changed_.push_back(w.source->frame);
+        } else {
+            put_state(c, w.source->number, w.source->frame);
+        }
+    }
+    if (changed_.empty()) return;
+    c.queue.push_states(joined());
+    counters_.stream_frames_sent += changed_.size() - 1;
+    c.has_work_ = true;
+}
+
+/// What has changed as the bytes of one write. Clients that watch the same axes share it: made once, it spares each of them the queue.
+SharedFrame StreamHub::joined() {
+    auto& last = last_joined_;
+    if (last.parts == changed_) return last.all;
+    auto all = std::make_shared<std::string>();
+    for (const auto& f : changed_)
+        all->append(*f);
+    last.parts = changed_;
+    last.all = std::move(all);
+    return last.all;
 }
 
 void StreamHub::begin_frames(StreamClient& c, StreamClient::FrameWatch& watch) {

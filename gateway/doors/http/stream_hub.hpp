@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <list>
 #include <map>
@@ -14,13 +15,13 @@
 #include <string_view>
 #include <vector>
 
-#include "gateway/services/gateway.hpp"
 #include "gateway/doors/http/counters.hpp"
 #include "gateway/doors/http/frame_decoder.hpp"
 #include "gateway/doors/http/settings.hpp"
 #include "gateway/doors/http/stream_queue.hpp"
 #include "gateway/doors/http/stream_request.hpp"
 #include "gateway/doors/http/stream_sources.hpp"
+#include "gateway/services/gateway.hpp"
 
 namespace axisgate::http {
 
@@ -32,6 +33,8 @@ public:
     StreamClient(std::size_t max_events, std::function<void()> wake) : queue(max_events), wake_(std::move(wake)) {}
 
     StreamQueue queue;
+    /// Set by who sends: what is put into an empty queue now leaves at once, before anything newer can come.
+    bool takes_at_once = false;
     /// Not 0: the client is to be closed with this code; the close frame is in the queue.
     [[nodiscard]] std::uint16_t closing() const noexcept { return closing_; }
     /// Drops what waits and puts a close frame in its place.
@@ -83,7 +86,8 @@ public:
 
     /// One text message of a client.
     void on_text(StreamClient& client, std::string_view text, Instant now);
-    /// When on_deadline wants to be called; `never` if nobody watches anything.
+    /// When on_deadline wants to be called, time_zero: at once; `never` if nobody watches anything. One call tells a few clients and leaves
+    /// the others to the next.
     [[nodiscard]] Instant deadline() const;
     void on_deadline(Instant now);
 
@@ -105,8 +109,11 @@ private:
     static constexpr std::size_t first_frames = 200;  ///< of a line, told at once
     static constexpr std::size_t most_frames = 4096;  ///< in one message
     static constexpr int wrong_requests = 3;          ///< in a row, then the client is closed
-    /// Every subscription tells the whole state anew: a client may ask for so much at once, and for so much more a second. A request costs 1,
-    /// with 1 more for each 50 topics, and 4 for each line's frames. Beyond, the client is closed.
+    /// Told in one call: sending to a hundred clients takes milliseconds, in which nobody else would be answered.
+    static constexpr int clients_per_slice = 4;
+    static constexpr std::size_t most_joined = 128;  ///< states in one write, some 64 KiB
+    /// Every subscription tells the whole state anew: a client may ask for so much at once, and for so much more a second. A request costs
+    /// 1, with 1 more for each 50 topics, and 4 for each line's frames. Beyond, the client is closed.
     static constexpr double allowance = 200, allowance_per_s = 20;
 
     /// Counts a request against the allowance; false: it is used up.
@@ -122,6 +129,9 @@ private:
     void put_event(StreamClient& c, SharedFrame frame);
     void put_state(StreamClient& c, std::uint32_t number, SharedFrame frame);
     void wake(StreamClient& c);
+    void tell(StreamClient& c, std::int64_t period_ms, Instant at);
+    void tell_states(StreamClient& c, std::vector<StreamClient::Watch>& list, Instant at);
+    [[nodiscard]] SharedFrame joined();
     void take_site(Instant now);
     void keep_groups(Instant now);
     [[nodiscard]] std::uint32_t recipe_number(const std::string& recipe);
@@ -134,7 +144,13 @@ private:
     std::function<void()> rearm_;
     StreamSources sources_;
     std::list<std::shared_ptr<StreamClient>> clients_;
-    std::map<std::int64_t, Instant> groups_;     ///< next scan by period in ms
+    std::map<std::int64_t, Instant> groups_;  ///< next scan by period in ms
+    struct Due {
+        std::weak_ptr<StreamClient> client;
+        std::int64_t period_ms;
+        Instant at;  ///< of the period: all its clients are told the same states
+    };
+    std::deque<Due> due_;                        ///< who is still to be told of periods that have begun; each client once per period
     std::shared_ptr<const SiteState> new_site_;  ///< told, but not taken yet
     std::map<std::string, std::uint32_t, std::less<>> recipe_numbers_;  ///< of their states in the clients' queues
     std::uint32_t alarms_number_ = 0;                                   ///< of the list in the clients' queues; 0: not given yet
@@ -145,6 +161,13 @@ private:
         std::uint64_t next = 0;  ///< the first frame that it has not read
     };
     std::map<std::string, KeptDecoder, std::less<>> decoders_;  ///< by line of the site in force
+
+    std::vector<SharedFrame> changed_;  ///< what one client is to be told now; kept for its room
+    /// The last states that were told together, for clients that watch the same ones.
+    struct {
+        std::vector<SharedFrame> parts;
+        SharedFrame all;
+    } last_joined_;
 
     /// The last stretch of frames that was made, for clients that want the same one.
     struct {

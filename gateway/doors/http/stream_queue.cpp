@@ -6,14 +6,14 @@ namespace axisgate::http {
 
 bool StreamQueue::push_state(std::uint32_t topic, SharedFrame frame) {
     const auto [it, fresh] = states_.insert_or_assign(topic, std::move(frame));
-    if (fresh) order_.push_back({true, topic, {}});
+    if (fresh) order_.push_back({Item::Kind::state, topic, {}});
     return !fresh;
 }
 
 bool StreamQueue::push_event(SharedFrame frame) {
     if (events_ >= max_events_) return false;
     ++events_;
-    order_.push_back({false, 0, std::move(frame)});
+    order_.push_back({Item::Kind::event, 0, std::move(frame)});
     return true;
 }
 
@@ -43,13 +43,13 @@ std::vector<SharedFrame> StreamQueue::take(std::size_t max_bytes) {
     }
     while (!order_.empty()) {
         Item& item = order_.front();
-        const auto state = item.is_state ? states_.find(item.topic) : states_.end();
-        SharedFrame& frame = item.is_state ? state->second : item.event;
+        const auto state = item.kind == Item::Kind::state ? states_.find(item.topic) : states_.end();
+        SharedFrame& frame = state != states_.end() ? state->second : item.frame;
         if (!fits(frame)) break;
         put(std::move(frame));
-        if (item.is_state) {
+        if (item.kind == Item::Kind::state) {
             states_.erase(state);
-        } else {
+        } else if (item.kind == Item::Kind::event) {
             --events_;
         }
         order_.pop_front();

@@ -26,6 +26,8 @@ public:
     bool push_state(std::uint32_t topic, SharedFrame frame);
     /// False: the bound is reached, nothing was taken.
     [[nodiscard]] bool push_event(SharedFrame frame);
+    /// Several states as one run of bytes, for a queue that is empty and emptied at once: none of them can be replaced by a newer one.
+    void push_states(SharedFrame frames) { order_.push_back({Item::Kind::states, 0, std::move(frames)}); }
     void push_control(SharedFrame frame);
     /// Drops everything that waits.
     void clear();
@@ -39,9 +41,9 @@ public:
 private:
     static constexpr std::size_t most_control = 16;
     struct Item {
-        bool is_state = false;
-        std::uint32_t topic = 0;
-        SharedFrame event;
+        enum class Kind { state, event, states } kind = Kind::state;
+        std::uint32_t topic = 0;  ///< of a state, whose frame is in states_
+        SharedFrame frame;        ///< of the others
     };
     std::size_t max_events_;
     std::size_t events_ = 0;

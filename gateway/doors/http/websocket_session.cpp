@@ -26,6 +26,7 @@ void WebSocketSession::start(std::span<const std::uint8_t> early) {
     client_ = host_->hub.add([self = weak_from_this()] {
         if (const auto me = self.lock()) me->pump();
     });
+    client_->takes_at_once = true;
     heard_ = pinged_ = looked_ = std::chrono::steady_clock::now();
     arm();
     if (!early.empty()) take(early);
@@ -95,6 +96,7 @@ void WebSocketSession::pump() {
     batch_ = client_->queue.take(batch_bytes);
     if (batch_.empty()) return;
     writing_ = true;
+    client_->takes_at_once = false;
     write_began_ = std::chrono::steady_clock::now();
     std::vector<asio::const_buffer> buffers;
     buffers.reserve(batch_.size());
@@ -105,6 +107,7 @@ void WebSocketSession::pump() {
 
 void WebSocketSession::on_written(ErrorCode ec, std::size_t bytes) {
     writing_ = false;
+    client_->takes_at_once = true;
     host_->counters.bytes_out += bytes;
     host_->counters.stream_frames_sent += batch_.size();
     batch_.clear();

@@ -191,6 +191,82 @@ TEST_F(StreamHubTest, OneSerialisationServesAllClients) {
     EXPECT_EQ(a[0].get(), b[0].get()) << "the same frame, not a copy";
 }
 
+TEST_F(StreamHubTest, AFewClientsAreToldAtATimeAndAllTheSame) {
+    gateway.set_picture("slide", standing(1));
+    std::vector<std::shared_ptr<StreamClient>> many;
+    for (int i = 0; i < 10; ++i) {
+        many.push_back(hub.add({}));
+        hub.on_text(*many.back(), R"({"subscribe":["axes/*"],"period_ms":50})", now);
+        taken(*many.back());
+    }
+    gateway.set_picture("slide", standing(2));
+    const auto told = [&] { return std::ranges::count_if(many, [](const auto& c) { return !c->queue.empty(); }); };
+    now += milliseconds(50);
+    hub.on_deadline(now);
+    EXPECT_EQ(told(), 4) << "then others have their turn";
+    EXPECT_EQ(hub.deadline(), time_zero) << "the rest at once";
+    gateway.set_picture("slide", standing(3));  // while the period is being told
+    hub.on_deadline(now + milliseconds(1));
+    EXPECT_EQ(told(), 8);
+    many[9]->close(close_policy, "gone meanwhile");
+    hub.remove(many[9]);
+    hub.on_deadline(now + milliseconds(2));
+    EXPECT_EQ(hub.deadline(), now + milliseconds(50));
+    const auto first = many[0]->queue.take(SIZE_MAX), last = many[8]->queue.take(SIZE_MAX);
+    ASSERT_EQ(first.size(), 1u);
+    ASSERT_EQ(last.size(), 1u);
+    EXPECT_EQ(first[0].get(), last[0].get()) << "of one period everybody is told the same";
+}
+
+TEST_F(StreamHubTest, APeriodThatIsNotToldToAllYetDoesNotBeginAnew) {
+    gateway.set_picture("slide", standing(1));
+    std::vector<std::shared_ptr<StreamClient>> many;
+    for (int i = 0; i < 6; ++i) {
+        many.push_back(hub.add({}));
+        hub.on_text(*many.back(), R"({"subscribe":["axes/*"],"period_ms":50})", now);
+        taken(*many.back());
+    }
+    int seen = 2;
+    for (int i = 0; i < 2; ++i) {  // so slow that the next period comes before the last clients
+        gateway.set_picture("slide", standing(seen++));
+        now += milliseconds(50);
+        hub.on_deadline(now);
+    }
+    for (const auto& c : many)
+        EXPECT_EQ(taken(*c).size(), 1u) << "each once";
+    pass(49);
+    for (const auto& c : many)
+        EXPECT_TRUE(c->queue.empty()) << "the period that was left out is not made up for";
+}
+
+TEST_F(StreamHubTest, WhoIsSentToAtOnceSharesOneRunOfBytes) {
+    const auto two = [&](int position) {
+        gateway.set_picture("feeder", standing(position));
+        gateway.set_picture("slide", standing(position));
+    };
+    two(0);
+    const auto slow = hub.add({}), one = hub.add({}), other = hub.add({});
+    one->takes_at_once = other->takes_at_once = true;
+    for (const auto& c : {slow, one, other}) {
+        hub.on_text(*c, R"({"subscribe":["axes/*"],"period_ms":50})", now);
+        taken(*c);
+    }
+    two(1);
+    pass(50);
+    const auto a = one->queue.take(SIZE_MAX), b = other->queue.take(SIZE_MAX), each = slow->queue.take(SIZE_MAX);
+    ASSERT_EQ(a.size(), 1u);
+    ASSERT_EQ(b.size(), 1u);
+    ASSERT_EQ(each.size(), 2u) << "who is still being sent to keeps each state by itself, so that a newer one can take its place";
+    EXPECT_EQ(a[0].get(), b[0].get());
+    EXPECT_EQ(*a[0], *each[0] + *each[1]) << "the same frames";
+    EXPECT_EQ(counters.stream_frames_sent, 2u) << "all but the one that who sends counts";
+    hub.on_text(*one, R"({"subscribe":["events"]})", now);
+    gateway.tell(event("waits"));
+    two(2);
+    pass(50);
+    EXPECT_EQ(topics(taken(*one)), "events axes/feeder axes/slide") << "behind what waits, each by itself";
+}
+
 TEST_F(StreamHubTest, DifferentPeriodsOfOneClient) {
     gateway.set_picture("feeder", standing(0));
     gateway.set_picture("slide", standing(0));

@@ -14,6 +14,9 @@ namespace axisgate::bench {
 /// A socket that is connected, without delay and blocking; -1 if it could not be.
 [[nodiscard]] int connect_blocking(Address address);
 
+/// A request with everything that the program's HTTP door asks for.
+[[nodiscard]] std::string http_request(Address address, const std::string& method, const std::string& path, const std::string& body);
+
 /// One answer to one request on a connection of its own; empty head if there was none.
 struct HttpAnswer {
     std::string head, body;
@@ -22,7 +25,8 @@ struct HttpAnswer {
 
 class HttpLoad {
 public:
-    HttpLoad(Address address, const std::string& path, int connections);
+    /// `body`, if there is one, goes as JSON.
+    HttpLoad(Address address, const std::string& path, int connections, const std::string& method = "GET", const std::string& body = {});
     ~HttpLoad();
     HttpLoad(const HttpLoad&) = delete;
     HttpLoad& operator=(const HttpLoad&) = delete;

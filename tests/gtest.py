@@ -13,7 +13,7 @@ import subprocess
 import sys
 
 TESTS_PER_PROCESS, LIMIT_S = 40, 300
-ENDED = re.compile(r"^\[\s*(OK|FAILED|SKIPPED)\s*\] (\S+?)(?:, where .*)? \(\d+ ms\)$", re.M)
+ENDED = re.compile(r"\[\s*(OK|FAILED|SKIPPED)\s*\] (\S+?)(?:, where .*)? \(\d+ ms\)$", re.M)
 
 
 def tests_of(program):

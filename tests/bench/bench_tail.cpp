@@ -4,7 +4,6 @@
 // The load: 100 clients watch 33 axes at 20 Hz, 32 of which move; REST is asked at half of what it can; parameters are written and stored
 // one after the other on four axes, each command is an event that is stored; a trace is downloaded every second. The prober sleeps like any
 // client, and takes the kernel's word for when bytes came.
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -15,7 +14,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -271,7 +269,6 @@ int run(const std::string& path, int count) {
         }
         return d;
     };
-    Distribution bare = relay(count, -1, 0, true);
     Distribution writes = measure(
         [&](int i) {
             modbus.write(42, {0, static_cast<std::uint16_t>(velocity(i))});
@@ -283,6 +280,8 @@ int run(const std::string& path, int count) {
             http.post("/api/v1/axes/a/commands?wait=5", R"({"command":"move_velocity","velocity":)" + std::to_string(velocity(i)) + "}");
         },
         [&] { return http.answered(); }, http.fd(), true);
+    // Last, because nobody is the drive meanwhile.
+    Distribution bare = relay(count, -1, 0, true);
     rush.report();
     bool kept = say_tail("Modbus write (FC 16) to the frame on the drive's line (TCP)", writes, bare);
     kept &= say_tail("Modbus read (FC 3, 20 registers) to its answer", reads, bare);

@@ -10,6 +10,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <sys/epoll.h>
+#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <time.h>
@@ -18,6 +19,8 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -44,7 +47,7 @@ void note_arrivals(int fd) {
     ::setsockopt(fd, SOL_SOCKET, SO_TIMESTAMPNS, &one, sizeof one);
 }
 
-ssize_t receive(int fd, std::span<std::uint8_t> into, std::int64_t& at_ns) {
+ssize_t receive(int fd, std::span<std::uint8_t> into, std::int64_t& came_ns) {
     iovec part{into.data(), into.size()};
     alignas(cmsghdr) std::array<char, 256> notes;
     msghdr m{};
@@ -54,12 +57,12 @@ ssize_t receive(int fd, std::span<std::uint8_t> into, std::int64_t& at_ns) {
     m.msg_controllen = notes.size();
     const ssize_t n = ::recvmsg(fd, &m, MSG_DONTWAIT);
     if (n <= 0) return n;
-    at_ns = clock_ns();
+    came_ns = clock_ns();
     for (const cmsghdr* c = CMSG_FIRSTHDR(&m); c; c = CMSG_NXTHDR(&m, const_cast<cmsghdr*>(c))) {
         if (c->cmsg_level != SOL_SOCKET || c->cmsg_type != SO_TIMESTAMPNS) continue;
         timespec t{};
         std::memcpy(&t, CMSG_DATA(c), sizeof t);
-        at_ns = t.tv_sec * 1'000'000'000 + t.tv_nsec - (read_clock(CLOCK_REALTIME) - at_ns);
+        came_ns = t.tv_sec * 1'000'000'000 + t.tv_nsec - (read_clock(CLOCK_REALTIME) - came_ns);
     }
     return n;
 }
@@ -180,6 +183,7 @@ Program::Program(const std::string& path, const std::string& folder, const std::
     if (::pipe2(ends, O_CLOEXEC) != 0) give_up("no pipe");
     pid_ = ::fork();
     if (pid_ == 0) {
+        ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // also when a benchmark gives up
         ::dup2(ends[1], 1);
         (void)::sched_setaffinity(0, sizeof cpus, &cpus);
         std::vector<char*> arguments;
@@ -283,6 +287,7 @@ Distribution relay(int count, int cpu, std::int64_t pause_ns, bool sleeping) {
     const int in = listening_socket(in_port), out = listening_socket(out_port);
     const pid_t pid = ::fork();
     if (pid == 0) {
+        ::prctl(PR_SET_PDEATHSIG, SIGKILL);
         if (cpu >= 0) {
             cpu_set_t set;
             CPU_ZERO(&set);

@@ -31,8 +31,8 @@ void no_delay(int fd);
 /// The kernel notes from now on when bytes come in.
 void note_arrivals(int fd);
 
-/// recv without waiting. `at_ns`: when the last of the bytes came in, by clock_ns().
-[[nodiscard]] ssize_t receive(int fd, std::span<std::uint8_t> into, std::int64_t& at_ns);
+/// recv without waiting. `came_ns`: when the last of the bytes came in, by clock_ns().
+[[nodiscard]] ssize_t receive(int fd, std::span<std::uint8_t> into, std::int64_t& came_ns);
 /// Sleeps until one of them has something to read (negative ones are left out), at most so long.
 void wait_for(std::initializer_list<int> fds, int timeout_ms);
 

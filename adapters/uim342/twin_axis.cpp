@@ -1,4 +1,4 @@
-// Motion states, counter, encoder, lost pulses and stall; see twin_axis.hpp.
+// Motion states, counter, encoder, lost pulses and stall.
 // In: starts, stops, the hand, time. Out: events.
 // Never allocates and never ticks.
 #include "adapters/uim342/twin_axis.hpp"

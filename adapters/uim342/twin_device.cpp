@@ -1,4 +1,4 @@
-// Life of the drive: power, boot, events at their instants, input actions, notifications; see twin_device.hpp.
+// Life of the drive: power, boot, events at their instants, input actions, notifications.
 // In: time, edges, ends of motions. Out: notifications.
 // Never handles an instruction: twin_instructions.cpp does.
 #include "adapters/uim342/twin_device.hpp"

@@ -1,4 +1,4 @@
-// The tester's hand: outside conditions of the drive, by the names that all families share; see twin_device.hpp.
+// The tester's hand: outside conditions of the drive, by the names that all families share.
 // In: names and values. Out: what they cause on the wire, or why they make no sense.
 // Never writes a register, but for the bit rate that a service tool would set back.
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Sampling and trigger modes of the inputs; see twin_inputs.hpp.
+// Sampling and trigger modes of the inputs.
 // In: levels, modes, time. Out: edges.
 // Never ticks when nothing changes: the grid is computed, not counted.
 #include "adapters/uim342/twin_inputs.hpp"

@@ -1,4 +1,4 @@
-// The 28 instructions: validation, GETs, acknowledgements, error reports and their history; see twin_device.hpp.
+// The 28 instructions: validation, GETs, acknowledgements, error reports and their history.
 // In: telegrams for this drive. Out: at most one answer each.
 // Never executes a wrong instruction in part. SETs are in twin_sets.cpp.
 #include <algorithm>

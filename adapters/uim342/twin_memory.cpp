@@ -1,4 +1,4 @@
-// Storage classes, value sets and the named image of the non-volatile memory; see twin_memory.hpp.
+// Storage classes, value sets and the named image of the non-volatile memory.
 // In: values. Out: values.
 // Never acts on a value.
 #include "adapters/uim342/twin_memory.hpp"

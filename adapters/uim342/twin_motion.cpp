@@ -1,4 +1,4 @@
-// Planning and evaluation of trapezoids and triangles with a cut-in speed; see twin_motion.hpp.
+// Planning and evaluation of trapezoids and triangles with a cut-in speed.
 // In: state, target, ramps. Out: profiles.
 // Never allocates.
 #include "adapters/uim342/twin_motion.hpp"

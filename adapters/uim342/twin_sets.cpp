@@ -1,4 +1,4 @@
-// The SETs of all instructions, and the ones that do something (BG, ST, OG, SY); see twin_device.hpp.
+// The SETs of all instructions, and the ones that do something (BG, ST, OG, SY).
 // In: telegrams of a length that fits. Out: the acknowledgement, or the fault that kept the instruction from being executed.
 // Never sends: twin_instructions.cpp does.
 #include <cmath>

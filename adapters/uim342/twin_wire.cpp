@@ -1,4 +1,4 @@
-// The twin's own reading of the UIM342 wire; see twin_wire.hpp.
+// The twin's own reading of the UIM342 wire.
 // In: frames and bytes. Out: telegrams, frames.
 // Never interprets data.
 #include "adapters/uim342/twin_wire.hpp"

@@ -1,5 +1,5 @@
 // Adapter of the PA-CONTROL: the line and its manners.
-// In and out: see the header.
+// In: setup, bytes. Out: calls of the one Control, and its frames. Manners that the site does not give are chosen here.
 // Never decides about the control: that is Control's.
 #include "adapters/pacontrol/adapter.hpp"
 

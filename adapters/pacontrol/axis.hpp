@@ -109,6 +109,7 @@ struct Axis {
     bool position_known = false;
     bool missing = false;           ///< the control says 20h: it has no such axis
     bool on = false;                ///< 0A97 acknowledged since ONLINE began
+    bool off_ordered = false;       ///< 0A98 acknowledged since it was enabled last
     bool referenced_own = false;    ///< as far as the gateway's own commands tell
     int status = -1;                ///< 1910: 0 in position, 1 moving, 2 stopped, 4 malfunction, 8 measuring; -1 not read yet
     bool malfunction_told = false;  ///< status 4 is known to everybody; asking anew does not make it news

@@ -1,5 +1,5 @@
 // Check: the sums.
-// In and out: see the header.
+// In: the text, the digits that came. Out: decimal digits; by which of the forms (text, text with ETX, 0) a received check is right.
 // Never looks at control symbols: the caller cuts the text out.
 #include "adapters/pacontrol/check.hpp"
 

@@ -1,5 +1,5 @@
 // Commands: the tables.
-// In and out: see the header. Gates and data: the manual's chapters 5.2.1 to 5.2.6; names of errors and statuses: chapters 6.4 and 6.5.
+// In: codes. Out: rows and words. Gates and data: the manual's chapters 5.2.1 to 5.2.6; names of errors and statuses: chapters 6.4 and 6.5.
 // Never translates a word away: a user finds the manual's terms.
 #include "adapters/pacontrol/commands.hpp"
 

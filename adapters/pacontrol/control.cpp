@@ -1,5 +1,5 @@
 // Control, part turns: whose turn it is on the line, the axes' queues, and the run of jobs.
-// In and out: see the header.
+// In: commands, bytes, deadlines. Out: the next exchange; one result per command.
 // Order: stops; what brings the line back into step; polls for an end of processing; renewals of manual moves; commands; polls. After
 // four commands in a row one poll gets its turn, so that a busy line still shows where the axes are.
 #include "adapters/pacontrol/control.hpp"

@@ -109,6 +109,7 @@ private:
         bool blind = false;      ///< sent while answers could not be told apart: sent again afterwards
         bool stopped = false;    ///< off during processing: 0A93 has passed, 0A98 has to wait
         bool by_supervision = false;
+        Instant limit = never;  ///< off in home position: of the start of ONLINE
     };
 
     // exchange.cpp
@@ -235,7 +236,6 @@ private:
     void run_move(Axis& a, const Reply* reply, Turn& t);
     void next_of_move(Axis& a, Turn& t);
     void run_home(Axis& a, const Reply* reply, Turn& t);
-    void home_refused(Axis& a, Turn& t);
     void home_aborted(Axis& a, std::string text, std::int32_t code, Turn& t);
     void run_origin(Axis& a, const Reply* reply, Turn& t);
     void start_together(Axis& a, const StartTogether& what, Turn& t);
@@ -251,6 +251,10 @@ private:
     void stop_silent(Turn& t);
     void stop_over(Outcome outcome, Reason reason, std::string text, Turn& t, std::int32_t code = 0);
     void supervise(Turn& t);
+    [[nodiscard]] bool powered_at_home(const Axis& a) const noexcept;
+    [[nodiscard]] bool goes_online_to_switch_off(const Axis& a) const noexcept;
+    void stop_found_standing(Turn& t);
+    void keep_off(Turn& t);
 
     // values.cpp
     void run_value(Axis& a, const Reply* reply, Turn& t);

@@ -1,5 +1,5 @@
 // Decoder of the PA-CONTROL: text for frames.
-// In and out: see the header.
+// In: runs of bytes of both directions. Out: a line per frame or poll; bytes between frames are told as strange.
 // Never holds more than one frame and 64 strange bytes per direction.
 #include "adapters/pacontrol/decoder.hpp"
 

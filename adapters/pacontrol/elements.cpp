@@ -1,5 +1,5 @@
 // Elements: reading the `wire` keys, building requests, reading values.
-// In and out: see the header.
+// In: the catalogue; points with values; acknowledgements. Out: requests; values, cut out of bytes and bits where a point is a part.
 // Never invents a code: a parameter without one stays unbound, and is refused by name.
 #include "adapters/pacontrol/elements.hpp"
 

@@ -67,6 +67,8 @@ void Control::run_enable(Axis& a, const Reply* reply, Turn& t) {
         }
         if (asked == code::axis_on || asked == code::no_reference) {
             a.on = true;
+            a.off_ordered = false;
+            if (j.rounds > 0) keep_off(t);  // by way of home position
             give_back_due_ = false;
             emit(a, t);
             return job_over(a, j.command.until_done ? Outcome::done : Outcome::accepted, Reason::none, "", t);
@@ -137,6 +139,7 @@ void Control::run_reset(Axis& a, const Reply* reply, Turn& t) {
     if (mode_ < 0) return wait(a, t.now + change_limit);
     if (error_ == 0 && !is_malfunction(mode_) && !axis_fault) {
         a.fb.homing_error = false;
+        if (j.rounds > 0) keep_off(t);
         emit_all(t);
         return job_over(a, j.command.until_done ? Outcome::done : Outcome::accepted, Reason::none, "", t);
     }
@@ -206,12 +209,9 @@ void Control::consider_give_back(Turn& t) {
         exchange_.active())
         return;
     if (mode_ != status::online && mode_ != status::online_stopped) return;
-    // Out of ONLINE an axis with enable mode 1 has power again [L722], and who disabled it has not ordered that.
-    const bool asked_for = std::ranges::any_of(axes_, waits_for_home);
+    // Neither a disable nor a parameter that waits is an order to give power to an axis of enable mode 1.
     for (const Axis& a : axes_) {
-        const Aim::Known& m = a.aim.parameters[Aim::enable_mode];
-        if (!asked_for && a.id != no_axis && !a.missing && (!m.read || m.value == 1)) return;
-        if (a.on || a.running || a.motion.active()) return;
+        if (powered_at_home(a) || a.on || a.running || a.motion.active()) return;
         if (!waits_for_home(a) && (a.job.active() || !a.queue.empty())) return;
     }
     give_back_due_ = false;

@@ -151,13 +151,6 @@ void Control::run_move(Axis& a, const Reply* reply, Turn& t) {
 
 // --- references ------------------------------------------------------------------------------------------------------------------
 
-/// Nothing has begun, but it is the last homing that was asked for: an older "attained" is not true of it.
-void Control::home_refused(Axis& a, Turn& t) {
-    a.fb.homing_attained = false;
-    a.fb.homing_error = true;
-    emit(a, t);
-}
-
 /// A run that has begun and did not come to its end. What ended it is told to whoever asked, and as an event: it may have its answer long
 /// since.
 void Control::home_aborted(Axis& a, std::string text, std::int32_t code, Turn& t) {
@@ -177,16 +170,12 @@ void Control::run_home(Axis& a, const Reply* reply, Turn& t) {
     const auto ch = static_cast<std::uint32_t>(a.channel);
     if (!reply) {
         if (j.step != 0) return;
-        if (std::string why = why_not_movable(a); !why.empty()) {
-            home_refused(a, t);
-            return refuse(a, Reason::wrong_state, std::move(why), t);
-        }
+        if (std::string why = why_not_movable(a); !why.empty()) return refuse(a, Reason::wrong_state, std::move(why), t);
         const auto* home = std::get_if<Home>(&j.command.body);
         const int method = home ? home->method : 0;
         j.step = 1;
         if (method == 0) return ask(a, code::reference, ch, t);
         if (method == 35 || method == 37) return ask_real(a, code::reference_here, ch, "0.0", t);
-        home_refused(a, t);
         return refuse(
             a, Reason::not_supported,
             fmt::format("homing method {}: the control's own reference run (0) is set by its axis parameters; 35 and 37 reference "
@@ -197,7 +186,6 @@ void Control::run_home(Axis& a, const Reply* reply, Turn& t) {
     const std::string cause = what_ended(a);
     if (j.step == 1) {
         if (reply->quit != 0 && !j.begun) {
-            home_refused(a, t);
             (void)ended_by_quit(a, *reply, t, advice_for(reply->quit));
             return;
         }

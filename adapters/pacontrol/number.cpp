@@ -1,5 +1,5 @@
 // Number: reading and writing.
-// In and out: see the header.
+// In: numbers, texts. Out: decimal texts without exponent; numbers, or nothing where the text is not one to its end.
 // Never uses the locale.
 #include "adapters/pacontrol/number.hpp"
 

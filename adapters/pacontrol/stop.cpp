@@ -1,5 +1,5 @@
 // Control, part stop: quick stop, halt and disable: before everything that waits, after the exchange in progress at most.
-// In: the three urgent commands, supervision. Out: 0A9A (0A93 while something is processed), 0A98, 0600, 0A81; their results.
+// In: the three urgent commands, supervision. Out: 0A9A (0A93 while something is processed), 0A98, 0600, 0A81, 0603; their results.
 // Never lets a motion outlive a stop: what waits is ended as interrupted; a stop that is refused becomes one of all axes.
 #include <fmt/format.h>
 
@@ -10,12 +10,18 @@
 namespace axisgate::pacontrol {
 namespace {
 constexpr Duration supervise_after = std::chrono::seconds(10);
+constexpr Duration switch_off_limit = std::chrono::seconds(10);  // of the start of ONLINE, as for an enable
 
 bool is_motion(const CommandBody& b) {
     if (const auto* action = std::get_if<Action>(&b)) {
         return action->name == "reference" || action->name == "traverse_until_input" || action->name == "manual_move";
     }
     return std::holds_alternative<Move>(b) || std::holds_alternative<Home>(b) || std::holds_alternative<StartTogether>(b);
+}
+/// No order of this line moves an axis in this operating status.
+bool nobody_commands(int mode) {
+    return is_home(mode) || is_manual(mode) || mode == status::auto_stopped || mode == status::auto_stopped_malfunction ||
+           mode == status::none;
 }
 }  // namespace
 
@@ -78,8 +84,7 @@ void Control::send_stop(Turn& t) {
     }
     Stop& s = stops_.front();
     Request r{code::stop_axis, static_cast<std::uint32_t>(s.axis) + 1, true, "0"};
-    const bool standing = is_home(mode_) || is_manual(mode_) || mode_ == status::auto_stopped ||
-                          mode_ == status::auto_stopped_malfunction || mode_ == status::none;
+    const bool standing = nobody_commands(mode_);
     if (s.level == 1 || (s.level == 0 && is_automatic(mode_) && !standing)) {
         r = {code::stop, 0, false, "0"};
     } else if (s.level >= 2) {
@@ -87,6 +92,9 @@ void Control::send_stop(Turn& t) {
         r = {code::abort_online, 0, false, "0"};
     } else if (standing) {
         r = {code::get_state, 0, false, "0"};  // nothing that was commanded moves there: the control is asked whether that is so
+        if (s.kind == Stop::Kind::off && goes_online_to_switch_off(axes_[s.axis])) r = {code::start_online, 0, false, "0"};
+    } else if (s.kind == Stop::Kind::off && mode_ == status::online_started) {
+        r = {code::get_state, 0, false, "0"};  // no axis is commanded before it runs
     } else if (processing_.active) {
         r.code = code::abort_move;  // 0A93 passes while a command is being processed, 0A9A and 0A98 do not
     } else if (s.kind == Stop::Kind::off && s.stopped) {
@@ -112,6 +120,46 @@ void Control::stop_over(Outcome outcome, Reason reason, std::string text, Turn& 
     result(a, s.ticket, outcome, reason, std::move(text), t, code);
 }
 
+/// Out of ONLINE an axis with enable mode 1 has power [L722]; so may one whose mode could not be read.
+bool Control::powered_at_home(const Axis& a) const noexcept {
+    const Aim::Known& m = a.aim.parameters[Aim::enable_mode];
+    return a.id != no_axis && !a.missing && (!m.read || !m.value || *m.value == 1);
+}
+
+bool Control::goes_online_to_switch_off(const Axis& a) const noexcept {
+    return mode_ == status::home && error_ == 0 && options_.online_auto && powered_at_home(a);
+}
+
+/// A stop where no axis is commanded, or was not a moment ago. Off is what is known to have no power, and nothing else is called that.
+void Control::stop_found_standing(Turn& t) {
+    Stop& s = stops_.front();
+    const Axis& a = axes_[s.axis];
+    const bool off = s.kind == Stop::Kind::off;
+    s.tries = 0;
+    if (s.limit == never) s.limit = t.now + switch_off_limit;
+    if (t.now < s.limit && (!nobody_commands(mode_) || (off && goes_online_to_switch_off(a)))) return;
+    if (off && (!is_home(mode_) || powered_at_home(a))) {
+        const bool by_hand = mode_ == status::home && error_ == 0;
+        return stop_over(Outcome::failed, Reason::wrong_state,
+                         fmt::format("nothing that was commanded moves, but the axis may have power, and only ONLINE can take it: {}",
+                                     by_hand ? "start it with the action online.start, then disable again" : why_not_online()),
+                         t);
+    }
+    emit(axes_[s.axis], t);
+    stop_over(Outcome::accepted, Reason::none, fmt::format("operating status {}: no axis is commanded", status_text(mode_)), t);
+}
+
+/// What a way over home position has given power again, although it was disabled, is switched off anew.
+void Control::keep_off(Turn&) {
+    for (const Axis& a : axes_) {
+        if (!a.off_ordered || !powered_at_home(a) || stops_.size() >= stop_limit) continue;
+        Stop s;
+        s.kind = Stop::Kind::off;
+        s.axis = place(a);
+        stops_.push_back(s);
+    }
+}
+
 void Control::stop_answered(const Reply& reply, Turn& t) {
     if (stops_.empty()) return;
     Stop& s = stops_.front();
@@ -128,6 +176,15 @@ void Control::stop_answered(const Reply& reply, Turn& t) {
         s.tries = 0;
         return;
     }
+    if (sent == code::start_online) {
+        if (reply.quit == 0) started_by_us_ = true;
+        if (reply.quit == 0 || mode_ != status::home) return stop_found_standing(t);
+        ++counters_.refused;
+        return stop_over(
+            Outcome::failed, Reason::drive_refused,
+            fmt::format("the axis may have power, and ONLINE, where it is switched off, does not start: {}", describe_quit(reply.quit)), t,
+            reply.quit);
+    }
     if (reply.quit != 0) {
         ++counters_.refused;
         if (is_online(mode_) || is_automatic(mode_)) {
@@ -141,8 +198,9 @@ void Control::stop_answered(const Reply& reply, Turn& t) {
             if (is_online(mode_)) ++s.level;
             return;
         }
-        return stop_over(Outcome::accepted, Reason::none, fmt::format("operating status {}: no axis is commanded", status_text(mode_)), t);
+        return stop_found_standing(t);
     }
+    if (sent == code::get_state) return stop_found_standing(t);
     if (sent == code::abort_move) {
         if (!reply.end) {
             const bool other = processing_.active && processing_.axis != s.axis;
@@ -167,23 +225,25 @@ void Control::stop_answered(const Reply& reply, Turn& t) {
         }
     }
     cycle_at_ = t.now;
-    if (sent == code::axis_off || (s.kind == Stop::Kind::off && !is_online(mode_)) || sent == code::abort_online) {
+    if (sent == code::axis_off || sent == code::abort_online) {
         a.on = false;
+        a.off_ordered = s.kind == Stop::Kind::off;
         give_back_due_ = true;
     } else if (sent == code::stop_axis || sent == code::abort_move || sent == code::stop) {
         if (reply.real && number_of(reply)) learn_position(a, *number_of(reply), t);
         supervised_ = s.axis;
         supervise_at_ = t.now + supervise_after;
     }
-    if (s.kind == Stop::Kind::off && sent == code::stop && is_online(mode_)) {
-        // The axis could not be switched off, but it was stopped with all others: said, and not called done.
-        return stop_over(Outcome::failed, Reason::drive_refused, "the axis could not be switched off; all axes were stopped (0600)", t);
+    if (s.kind == Stop::Kind::off && sent == code::stop) {
+        // Stopped with all others, and not switched off.
+        const bool online = is_online(mode_);
+        return stop_over(Outcome::failed, online ? Reason::drive_refused : Reason::wrong_state,
+                         fmt::format("all axes were stopped (0600), but the axis could not be switched off{}{}", online ? "" : ": ",
+                                     online ? "" : why_not_online()),
+                         t);
     }
     emit(a, t);
-    std::string text;
-    if (sent == code::stop) text = "the control was stopped (0600): all axes";
-    if (sent == code::get_state) text = fmt::format("operating status {}: no axis is commanded", status_text(mode_));
-    stop_over(Outcome::accepted, Reason::none, std::move(text), t);
+    stop_over(Outcome::accepted, Reason::none, sent == code::stop ? "the control was stopped (0600): all axes" : "", t);
 }
 
 void Control::stop_silent(Turn& t) {

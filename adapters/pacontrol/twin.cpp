@@ -1,4 +1,4 @@
-// Maker of the PA-CONTROL twin, and its serial slave; see twin.hpp and twin_device.hpp.
+// Maker of the PA-CONTROL twin, and its serial slave.
 // In: setup, bytes, time. Out: a control without power; acknowledgements.
 // Never fails: what it cannot read of its options stays at the default.
 #include "adapters/pacontrol/twin.hpp"

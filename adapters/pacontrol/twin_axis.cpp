@@ -1,4 +1,4 @@
-// Motions of one axis: start, end, interruption, reference run, watchdog, what stops it by itself; see twin_axis.hpp.
+// Motions of one axis: start, end, interruption, reference run, watchdog, what stops it by itself.
 // In: motions, time. Out: positions, errors. Never steps: every event has its closed-form instant.
 #include "adapters/pacontrol/twin_axis.hpp"
 

@@ -1,4 +1,4 @@
-// Power, reference, limits, measuring mode of one axis, and what a tester's hand does to it; see twin_axis.hpp.
+// Power, reference, limits, measuring mode of one axis, and what a tester's hand does to it.
 // In: commands, hand. Out: states and errors. Never moves anything but by hand and by the measuring mode's synchronisation.
 #include <algorithm>
 #include <cmath>

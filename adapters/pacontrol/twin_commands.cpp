@@ -1,4 +1,4 @@
-// What each of the 66 commands does; see twin_commands.hpp. Numbers of lines are the manual's.
+// What each of the 66 commands does. Numbers of lines are the manual's.
 // In: parameter, data. Out: acknowledgement. The gate (mode) is checked before, here follow parameter, value, state, in this order.
 // Never formats or parses a transport's form.
 #include "adapters/pacontrol/twin_commands.hpp"

@@ -1,4 +1,4 @@
-// The control: commands in progress, mode control, time; see twin_control.hpp.
+// The control: commands in progress, mode control, time.
 // In: commands, conditions, time. Out: replies, states. Never lets an event wait for a call: each happens at its own instant.
 #include "adapters/pacontrol/twin_control.hpp"
 

@@ -1,4 +1,4 @@
-// The control: motions by command and by module, conditions, elements, parameters; see twin_control.hpp.
+// The control: motions by command and by module, conditions, elements, parameters.
 // In: tasks, values. Out: command errors, values. Never checks the operating mode: the commands' gates and the image do.
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-// Bytes to requests, acknowledgements to bytes; see twin_frame.hpp.
+// Bytes to requests, acknowledgements to bytes.
 // In: bytes. Out: requests, polls, faults; bytes. Never blocks on half a frame: the next SOH or 1 s of silence ends it.
 #include "adapters/pacontrol/twin_frame.hpp"
 

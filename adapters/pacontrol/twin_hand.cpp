@@ -1,4 +1,4 @@
-// The tester's hand: outside conditions of the control, by the names that all families share; see twin_device.hpp.
+// The tester's hand: outside conditions of the control, by the names that all families share.
 // In: names and values. Out: what they cause, or why they make no sense.
 // Never writes an element that belongs to the program: inputs alone are outside.
 #include <charconv>

@@ -1,5 +1,5 @@
 // The Profibus process image of the twin.
-// In and out: see the header. Bytes are big-endian: byte 0 is the high byte of word 0 [L412-L417].
+// In: the master's bytes. Out: the control's. Bytes are big-endian: byte 0 is the high byte of word 0 [L412-L417].
 // Never reacts to a level where the manual has an edge: SF, both starts of CTRL, the start of an axis.
 #include "adapters/pacontrol/twin_image.hpp"
 

@@ -1,4 +1,4 @@
-// Transitions of the operating mode; see twin_mode.hpp. The manual prints no table of them: what it does not name is the model's own.
+// Transitions of the operating mode. The manual prints no table of them: what it does not name is the model's own.
 // In: commands, time, standstill. Out: the status. Never skips a transitional state.
 #include "adapters/pacontrol/twin_mode.hpp"
 

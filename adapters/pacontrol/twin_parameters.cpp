@@ -1,4 +1,4 @@
-// The profile of the parameters; see twin_parameters.hpp. In: numbers. Out: limits. No figure here is the manual's, bar the four of
+// The profile of the parameters. In: numbers. Out: limits. No figure here is the manual's, bar the four of
 // its examples: language 3 is allowed, four axes are the most of a control with four, 0 the least, inputs may be numbered from 1.
 #include "adapters/pacontrol/twin_parameters.hpp"
 

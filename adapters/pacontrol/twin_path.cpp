@@ -1,4 +1,4 @@
-// The trapezoid; see twin_path.hpp. In: speeds and places. Out: the same at an instant. Never divides by what may be zero.
+// The trapezoid. In: speeds and places. Out: the same at an instant. Never divides by what may be zero.
 #include "adapters/pacontrol/twin_path.hpp"
 
 #include <algorithm>

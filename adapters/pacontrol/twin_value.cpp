@@ -1,4 +1,4 @@
-// Numbers of the serial port as text; see twin_value.hpp.
+// Numbers of the serial port as text.
 // In: numbers, text. Out: text, numbers. Never throws, never writes an exponent.
 #include "adapters/pacontrol/twin_value.hpp"
 

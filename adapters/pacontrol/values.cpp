@@ -26,6 +26,13 @@ void Control::run_value(Axis& a, const Reply* reply, Turn& t) {
                                                 status_text(mode_));
             if (!options_.parameters_wait) return refuse(a, Reason::wrong_state, why + " (option when = wait lets it wait)", t);
             j.text = why;
+            for (const Axis& x : axes_) {
+                if (!is_online(mode_) || !powered_at_home(x)) continue;
+                j.text += fmt::format(
+                    "; axis {} may have power there by its enable mode (AP[50]), so ONLINE is not left for it: online.give_back leaves it",
+                    x.channel);
+                break;
+            }
             return wait(a, j.limit == never ? t.now + options_.wait_limit : j.limit);
         }
         j.text.clear();

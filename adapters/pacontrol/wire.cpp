@@ -1,5 +1,5 @@
 // Wire: building, cutting and reading frames.
-// In and out: see the header.
+// In: requests, bytes one after the other. Out: frames; what was cut out of the stream, with its fault if it has one.
 // Never guesses a missing field: all of them must be there [L1123].
 #include "adapters/pacontrol/wire.hpp"
 

@@ -1,5 +1,5 @@
 // Adapter of the UIM342: the line: who is on it, whose turn it is, what arrives.
-// In and out: see the header. Every call ends with pump(): places of the window that became free are given away at once.
+// In: calls of the line's owner. Out: turns of nodes; each call ends with pump(), so that places of the window that are free are given away.
 // Never lets silent drives fill the window: a quarter of its places (at least one, never all but one of two or more) is theirs.
 #include "adapters/uim342/adapter.hpp"
 

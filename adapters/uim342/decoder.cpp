@@ -1,5 +1,5 @@
 // Decoder of the UIM342: text for frames.
-// In and out: see the header.
+// In: frames, or bytes cut anywhere, of both directions. Out: a line per message; bytes that are none are told with the next message.
 // Never holds more than half a frame and 64 strange bytes per direction.
 #include "adapters/uim342/decoder.hpp"
 

@@ -1,5 +1,5 @@
 // Family uim342: the table of its makers.
-// In and out: see the header.
+// In: nothing. Out: functions, and what lines of the family are like unless the site says otherwise.
 // Never decides anything: that is for the files beside it.
 #include "adapters/uim342/family.hpp"
 

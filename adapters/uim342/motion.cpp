@@ -275,11 +275,6 @@ void Drive::job_over(Outcome outcome, Reason reason, std::string text, Turn& t, 
     blind_.reset();
     const bool part = job_.kind == JobKind::together && outcome != Outcome::accepted && outcome != Outcome::done;
     if (part) bus_.part_done(*this, {false, reason, code, text}, t);
-    if (std::holds_alternative<Home>(job_.command.body) && (outcome == Outcome::refused || outcome == Outcome::failed)) {
-        fb_.homing_attained = false;  // bits 12 and 13 speak of the last homing that was asked for, and this one has not been
-        fb_.homing_error = true;
-        emit(t);
-    }
     result(job_.command.ticket, outcome, reason, std::move(text), t, code, std::move(value), std::move(job_.bytes));
 }
 

@@ -1,5 +1,5 @@
 // Native: parsing and describing.
-// In and out: see the header. Names and meanings of bits from the manual's chapters 3.7, 4 and 5.
+// In: what a person typed; messages. Out: messages; words. Names and meanings of bits from the manual's chapters 3.7, 4 and 5.
 // Never fails on a strange message: it is described as far as it can be read, and said to be strange.
 #include "adapters/uim342/native.hpp"
 

@@ -1,5 +1,5 @@
 // Points: reading the `wire` keys, and cutting values out of answers.
-// In and out: see the header.
+// In: the catalogue, answers. Out: bindings; values with the sign and width that the binding says.
 // Never invents a binding: a parameter without a known control word stays unbound and is refused by name.
 #include "adapters/uim342/parameters_points.hpp"
 

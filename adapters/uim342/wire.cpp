@@ -1,5 +1,5 @@
 // Wire of the UIM342: packing and unpacking, and the fixed words of its codes.
-// In and out: see the header.
+// In: identifier bits and data bytes. Out: message members, names of codes. Little-endian throughout, as the manual's examples are.
 // Never trusts a length: a byte that DL does not cover is not read.
 #include "adapters/uim342/wire.hpp"
 

@@ -1,5 +1,5 @@
 // Instructions of the UIM342: the table, and the rules of matching.
-// In and out: see the header. Figures from the register of control words [L258-287] and chapter 5 [L1046-1700].
+// In: control words and their data. Out: rows, verdicts. Figures from the register of control words [L258-287] and chapter 5 [L1046-1700].
 // Never guesses: a control word that is not here is unknown.
 #include "adapters/uim342/wire_instructions.hpp"
 

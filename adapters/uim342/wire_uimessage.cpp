@@ -1,5 +1,5 @@
 // UIMessage: packing and proving of one 16-byte frame.
-// In and out: see the header. R0 (byte 13) is the low byte of the CRC, R1 (byte 14) the high one.
+// In: a message, or bytes of a stream. Out: 16 bytes, or a message. R0 (byte 13) is the low byte of the CRC, R1 (byte 14) the high one.
 // Never accepts DL above 8 or an ID above 127: such bytes cannot be a message whatever their CRC says.
 #include "adapters/uim342/wire_uimessage.hpp"
 

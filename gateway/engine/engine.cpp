@@ -198,6 +198,9 @@ void Engine::on_command(Command c, Instant now) {
         return refuse(c, Reason::busy, fmt::format("axis {}: {} commands are on their way already; wait for their answers", name, max_clients_per_axis));
     }
     if (const auto* wish = std::get_if<HoldAxis>(&c.body)) return hold(*a, c, *wish, now);
+    if (now < a->leaving_until && !std::holds_alternative<ReadParameter>(c.body) && !only_stops(*a, c.body)) {
+        return refuse(c, Reason::busy, fmt::format("axis {}: a change of the site takes it away or makes it anew; come again when that is in force", name));
+    }
     const Catalogue& catalogue = *a->drive->catalogue;
     std::vector<CommandBody> orders;
     std::optional<Move> waits;

@@ -67,8 +67,12 @@ public:
     Engine(const Engine&) = delete;
     Engine& operator=(const Engine&) = delete;
 
-    /// Puts a checked site in force. Lines, drives and axes that are the same go on undisturbed.
+    /// Puts a checked site in force, at once. Lines, drives and axes that are the same go on undisturbed.
     std::shared_ptr<const SiteState> apply_site(Site site, SiteMemory memory, std::uint64_t revision, Instant now);
+    using Applied = std::function<void(std::shared_ptr<const SiteState>)>;
+    /// apply_site, after what the site takes away or makes anew while it moves has been stopped by its drive's own means. `then` is told as soon
+    /// as all of it stands, 5 s later at the latest, or from inside this call where nothing moves.
+    void change_site(Site site, SiteMemory memory, std::uint64_t revision, Instant now, Applied then);
     [[nodiscard]] const std::shared_ptr<const SiteState>& site() const noexcept { return site_; }
 
     void on_command(Command command, Instant now);
@@ -113,6 +117,7 @@ private:
     struct Client;
     struct OrderRecord;
     struct Scan;
+    struct Change;
 
     // routing (engine.cpp)
     void drain(Side& side, Out& out, Instant now);
@@ -164,6 +169,13 @@ private:
     void drop_axis(Axis& axis, std::string_view why, Instant now);
     void new_source(Axis& axis);
 
+    // the site changes in motion (engine_leave.cpp)
+    [[nodiscard]] bool online(const Axis& axis) const;
+    [[nodiscard]] bool awaits_answer(const Axis& axis) const;
+    [[nodiscard]] bool under_way(const Axis& axis) const;
+    void check_change(Instant now);
+    void put_change_in_force(Instant now);
+
     // scans (engine_scan.cpp)
     [[nodiscard]] static bool is_probe(DriveId id) noexcept;
     void scan_turn(LineUnit& unit, Instant now);
@@ -187,6 +199,7 @@ private:
     std::unordered_map<std::uint64_t, std::unique_ptr<Client>> clients_;   // by own number
     std::unordered_map<Ticket, OrderRecord> orders_;  // by the ticket that the adapter or the store has
     std::vector<Out> spare_;
+    std::unique_ptr<Change> change_;
     std::uint64_t next_ = 1;
     Instant now_{};
     Instant next_housekeeping_{};

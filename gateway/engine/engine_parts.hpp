@@ -120,6 +120,7 @@ struct Engine::Axis {
     std::int64_t last_deceleration = 0;  ///< of the last move that named one and was taken: a drive keeps it; 0: none since it came
     std::optional<Move> prepared;  ///< taken by the drive, starts with StartTogether
     Ticket setpoint_ticket = no_ticket;  ///< the set-point that came last by a control word: it may wait and begin later, without its client
+    Instant leaving_until{};  ///< a site change takes it away: until then nothing begins here any more
     bool at_limit = false;  ///< a velocity move was ended at a limit, and no motion has begun since
     AxisAuthority authority;
     LossCause loss = LossCause::none;  ///< why it was stopped without a command, until the next command to it
@@ -158,6 +159,20 @@ struct Engine::OrderRecord {
     Result kept;               ///< what the drive said, while the store works
     Value before;              ///< of a write: what was there, as far as it is known
     Instant given_at{};
+};
+
+/// A site that comes into force as soon as what it takes away stands.
+struct Engine::Change {
+    struct Stopped {
+        AxisId axis = no_axis;
+        Instant asked{};
+    };
+    Site site;
+    SiteMemory memory;
+    std::uint64_t revision = 0;
+    Applied then;
+    Instant until{};
+    std::vector<Stopped> stopped;
 };
 
 /// Commands of one axis that may be on their way at the same time; beyond it: busy.

@@ -7,6 +7,7 @@
 
 #include "gateway/engine/engine.hpp"
 #include "gateway/engine/engine_parts.hpp"
+#include "gateway/site/site_stage.hpp"
 #include "gateway/core/line_uri.hpp"
 #include "gateway/site/options.hpp"
 
@@ -110,20 +111,7 @@ std::shared_ptr<const SiteState> Engine::apply_site(Site site, SiteMemory memory
         if (unit) end_scan(*unit, ScanReport::State::cancelled, "the site has changed: scan again", now);
     }
     const Site& old = site_->site;
-    const auto line_stays = [&](const LineSpec& l) {
-        const LineSpec* n = site.line(l.name);
-        return n && *n == l;
-    };
-    const auto drive_stays = [&](const DriveSpec& d) {
-        const DriveSpec* n = site.drive(d.name);
-        const LineSpec* l = old.line(d.line);
-        return n && *n == d && l && line_stays(*l);
-    };
-    const auto axis_stays = [&](const AxisSpec& a) {
-        const AxisSpec* n = site.axis(a.name);
-        const DriveSpec* d = old.drive(a.drive);
-        return n && n->drive == a.drive && n->channel == a.channel && d && drive_stays(*d);
-    };
+    const KeptParts kept{old, site};
 
     // 1. what goes: axes, then drives, then lines. Their ids stay theirs if the name comes back.
     std::map<std::string, LineId> line_ids;
@@ -135,14 +123,14 @@ std::shared_ptr<const SiteState> Engine::apply_site(Site site, SiteMemory memory
 
     std::vector<std::unique_ptr<Axis>> gone_axes;
     for (const auto& a : old.axes) {
-        if (axis_stays(a)) continue;
+        if (kept.axis(a)) continue;
         auto& slot = axes_[index_of(axis_ids[a.name])];
         drop_axis(*slot, "it was removed or changed in the site", now);
         std::erase(slot->drive->axes, slot->id);
         gone_axes.push_back(std::move(slot));
     }
     for (const auto& d : old.drives) {
-        if (drive_stays(d)) continue;
+        if (kept.drive(d)) continue;
         auto& slot = drives_[index_of(drive_ids[d.name])];
         LineUnit& unit = *slot->line;
         if (slot->serving == Presence::twin && unit.twins) unit.twins->bus->remove(slot->id);
@@ -150,7 +138,7 @@ std::shared_ptr<const SiteState> Engine::apply_site(Site site, SiteMemory memory
         slot.reset();
     }
     for (const auto& l : old.lines) {
-        if (line_stays(l)) continue;
+        if (kept.line(l)) continue;
         auto& slot = lines_[index_of(line_ids[l.name])];
         for (Side* s : {slot->real.get(), slot->twins.get()}) {
             if (!s) continue;
@@ -224,6 +212,7 @@ std::shared_ptr<const SiteState> Engine::apply_site(Site site, SiteMemory memory
                 }
             }
         }
+        slot->leaving_until = {};
         slot->spec = a;  // number, unit, scale and limits change without disturbing anything
         slot->limits = AxisLimits::of(a);
         state->axis_ids.push_back(id);

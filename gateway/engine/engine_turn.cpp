@@ -37,6 +37,7 @@ void Engine::on_deadline(Instant now) {
     if (now >= next_housekeeping_) {
         next_housekeeping_ = now + housekeeping_period;
         housekeeping(now);
+        check_change(now);
         for (Side* s : sides_)
             s->touched();
     }

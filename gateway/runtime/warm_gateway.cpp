@@ -297,9 +297,13 @@ void WarmGateway::apply_site(Site site, std::uint64_t expected_revision, Origin 
         boost::asio::post(io_, [this, site = std::move(site), memory = std::move(memory), revision = *saved, e = std::move(e), then = std::move(then)]() mutable {
             auto job = [this, site = std::move(site), memory = std::move(memory), revision, e = std::move(e), then](Engine& engine, Instant now) mutable {
                 hot_.on_event(std::move(e), now);
-                auto state = engine.apply_site(std::move(site), std::move(memory), revision, now);
-                hot_.tell_site(*state);
-                boost::asio::post(io_, [this, state = std::move(state), then = std::move(then)]() mutable { finish_site(true, {}, std::move(state), then); });
+                engine.change_site(std::move(site), std::move(memory), revision, now,
+                                   [this, then = std::move(then)](std::shared_ptr<const SiteState> state) mutable {
+                                       hot_.tell_site(*state);
+                                       boost::asio::post(io_, [this, state = std::move(state), then = std::move(then)]() mutable {
+                                           finish_site(true, {}, std::move(state), then);
+                                       });
+                                   });
             };
             if (!hot_.jobs().push(Hot::Job(std::move(job)))) {
                 finish_site(false, "the site is stored, but could not be put in force now: restart, or save it again", nullptr, then);

@@ -150,14 +150,10 @@ json::array site_diff(const Site& from, const Site& to) {
 }
 
 std::vector<std::string> disturbed_axes(const Site& from, const Site& to) {
+    const KeptParts kept{from, to};
     std::vector<std::string> out;
     for (const auto& a : from.axes) {
-        const auto* b = to.axis(a.name);
-        const auto *d = from.drive(a.drive), *e = to.drive(a.drive);
-        const auto* l = d ? from.line(d->line) : nullptr;
-        const auto* m = d ? to.line(d->line) : nullptr;
-        const bool same = b && b->drive == a.drive && b->channel == a.channel && d && e && *d == *e && l && m && *l == *m;
-        if (!same) out.push_back(a.name);
+        if (!kept.axis(a)) out.push_back(a.name);
     }
     return out;
 }

@@ -63,6 +63,26 @@ private:
 };
 [[nodiscard]] std::string_view name_of(SiteStage::State state) noexcept;
 
+/// What of the site in force is the same in the next one and goes on undisturbed.
+struct KeptParts {
+    const Site& old;
+    const Site& next;
+    [[nodiscard]] bool line(const LineSpec& l) const {
+        const LineSpec* n = next.line(l.name);
+        return n && *n == l;
+    }
+    [[nodiscard]] bool drive(const DriveSpec& d) const {
+        const DriveSpec* n = next.drive(d.name);
+        const LineSpec* l = old.line(d.line);
+        return n && *n == d && l && line(*l);
+    }
+    [[nodiscard]] bool axis(const AxisSpec& a) const {
+        const AxisSpec* n = next.axis(a.name);
+        const DriveSpec* d = old.drive(a.drive);
+        return n && n->drive == a.drive && n->channel == a.channel && d && drive(*d);
+    }
+};
+
 /// Entry by entry: {"kind": "added|removed|changed", "what": "lines/can0", "before": {}, "after": {}}; before or after null where there is
 /// none.
 [[nodiscard]] boost::json::array site_diff(const Site& from, const Site& to);

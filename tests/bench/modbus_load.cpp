@@ -1,4 +1,5 @@
-// Load generator of the Modbus benchmark: see the header.
+// Load generator of the Modbus benchmark: one epoll loop; answers must come in the order of their requests.
+// In: sockets of the address. Out: a count, a sorted list of times. Never goes on after a wrong answer or an exception.
 #include "tests/bench/modbus_load.hpp"
 
 #include <arpa/inet.h>

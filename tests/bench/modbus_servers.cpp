@@ -1,4 +1,5 @@
-// Servers of the Modbus benchmark: see the header.
+// Servers of the Modbus benchmark: the door over a port without an engine, moved by its loop; the epoll server.
+// In: connections. Out: answers. Never more than one thread each.
 #include "tests/bench/modbus_servers.hpp"
 
 #include <arpa/inet.h>

@@ -50,6 +50,33 @@ TEST_P(OrderLaws, HomingEndsAtRestWithAKnownZeroOrSaysWhyNot) {
     }
 }
 
+TEST_P(OrderLaws, ARefusedHomingIsTheLastOne) {
+    enabled();
+    const std::int16_t ways[] = {0, 35, 37};
+    const auto way = std::ranges::find_if(ways, [&](std::int16_t method) {
+        const Result* r = ask(a1, Home{method}, true, 120s);
+        return r && r->outcome == Outcome::done;
+    });
+    ASSERT_NE(way, std::end(ways)) << "no way to a zero";
+    w.run_for(500ms);
+    EXPECT_NE(now().statusword & cia402::sw_mode_12, 0) << "attained";
+    EXPECT_EQ(now().statusword & cia402::sw_mode_13, 0);
+    for (const std::int16_t unknown : {std::int16_t{99}, std::int16_t{-128}}) {
+        const Result* r = ask(a1, Home{unknown});
+        ASSERT_TRUE(r);
+        EXPECT_EQ(r->outcome, Outcome::refused) << told(r);
+        EXPECT_FALSE(r->text.empty());
+        w.run_for(1s);
+        EXPECT_EQ(now().statusword & cia402::sw_mode_12, 0) << "an older one is not shown as its success";
+        EXPECT_NE(now().statusword & cia402::sw_mode_13, 0);
+        EXPECT_NE(now().flags & flag_referenced, 0) << "the zero is where it was";
+        order(a1, Home{*way});
+        w.run_for(500ms);
+        EXPECT_EQ(now().statusword & cia402::sw_mode_13, 0);
+        EXPECT_NE(now().statusword & cia402::sw_mode_12, 0);
+    }
+}
+
 TEST_P(OrderLaws, AStopEndsAHoming) {
     enabled();
     const Ticket search = w.command(a1, Home{}, true);

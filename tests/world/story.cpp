@@ -114,7 +114,7 @@ private:
     }
     void put_in_force() {
         world_->engine.set_lease(lease);
-        const auto state = world_->apply(document_);
+        const auto state = world_->change(document_);
         for (Machine& m : machines_) {
             const auto at = std::ranges::find(state->site.axes, m.name, &AxisSpec::name);
             m.present = at != state->site.axes.end();
@@ -184,6 +184,8 @@ private:
         }
     }
     void change_site() {
+        std::size_t first = machines_.size();  // of those that are taken away or made anew, up to the last
+        std::size_t behind = machines_.size();
         switch (pick(3)) {
             case 0:
                 for (auto& a : document_.axes)
@@ -191,17 +193,24 @@ private:
                 break;
             case 1:  // its drives are not where they were on the way: the line is built anew
                 document_.lines[0].manners.retries = document_.lines[0].manners.retries == 2 ? -1 : 2;
+                first = 0;
+                behind = static_cast<std::size_t>(std::ranges::count(machines_, std::size_t{0}, &Machine::line));
                 break;
             default:  // the last axis goes, or comes back
                 if (!removed_) {
                     removed_ = document_.axes.back();
                     document_.axes.pop_back();
+                    first = machines_.size() - 1;
                 } else {
                     document_.axes.push_back(*removed_);
                     removed_.reset();
                 }
         }
         put_in_force();
+        for (; first < behind; ++first) {  // on a wire that carries everything it stands by then
+            const Machine& m = machines_[first];
+            if (plan_.limits || m.line != 0) witness_.stopped(m.shaft, witness_.motions(m.shaft), world_->now);
+        }
     }
     void restart() {
         Instant then = world_->now;
@@ -326,7 +335,7 @@ private:
         if (g.stop) {
             EXPECT_NE(r.reason, Reason::authority) << "a stop is open to everybody: " << r.text;
             if (good(r)) witness_.stopped(m.shaft, g.motions, world_->now + stop_limit);
-            if (good(r) && g.off) witness_.switched_off(m.shaft, g.powers, world_->now, world_->now + stop_limit);
+            if (good(r) && g.off) witness_.switched_off(m.shaft, g.powers, world_->now + stop_limit);
             return;
         }
         if (!plan_.two_clients) return;

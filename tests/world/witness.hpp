@@ -47,11 +47,10 @@ public:
         s.rest_from = by;
         s.place.reset();
     }
-    /// Who starts with power has it by its own rule wherever no order switches it (PA-CONTROL in home position, enable mode 1 [L722]), and
-    /// says so: what is asked of it is that power which an order has taken away stays away.
-    void switched_off(std::size_t n, std::uint64_t powers, Instant now, Instant by) {
+    /// A disable was answered as good: from `by` on it has no power until the next order. Who starts with power has it by its own rule until
+    /// then, and again after its supply has failed (PA-CONTROL's enable mode 1 [L722]).
+    void switched_off(std::size_t n, std::uint64_t powers, Instant by) {
         Shaft& s = shafts_[n];
-        if (s.starts_with_power && mechanics(s, now).powered) return;
         if (s.powers == powers) s.off_from = std::min(s.off_from, by);
     }
     /// Its power fails or comes back, and its counter may begin anew.

@@ -195,6 +195,13 @@ public:
         auto s = engine.apply_site(std::move(site), std::move(memory), ++revision, now);
         return s;
     }
+    /// As a running gateway puts a changed site in force: what moves and goes is stopped first.
+    std::shared_ptr<const SiteState> change(Site site) {
+        std::shared_ptr<const SiteState> state;
+        engine.change_site(std::move(site), {}, ++revision, now, [&](std::shared_ptr<const SiteState> s) { state = std::move(s); });
+        EXPECT_TRUE(run_until_true([&] { return state != nullptr; }, std::chrono::seconds(6))) << "the site does not come into force";
+        return state;
+    }
     /// Puts a drive behind a simulated cable.
     void plug_in(const std::string& line, DriveId key, const FamilyEntry& e, const std::string& address, LineKind kind, const NonVolatile& memory = {}, int channels = 1) {
         TwinSetup t;

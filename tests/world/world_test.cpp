@@ -253,7 +253,7 @@ TEST_P(WorldSite, ChangesTouchOnlyWhatChanged) {
     if (doc.axes.size() > 1) doc.axes.pop_back();
     doc.axes[0].unit = "deg";
     doc.axes[0].number = 7;
-    const auto changed = w.apply(doc);
+    const auto changed = w.change(doc);
     EXPECT_EQ(changed->axis_ids[0], a1);
     EXPECT_EQ(w.picture(a1).number, 7);
     EXPECT_EQ(w.image.by_number(7), a1);

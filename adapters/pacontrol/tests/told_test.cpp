@@ -155,16 +155,6 @@ TEST(PacontrolTold, WhatAbortedAReferenceRunIsTold) {
     }
 }
 
-TEST(PacontrolTold, ARefusedHomingClearsAnOlderOne) {
-    Enabled b;
-    EXPECT_EQ(b.ask(Home{35}, true).outcome, Outcome::done);
-    ASSERT_TRUE(b.feedback().homing_attained);
-    b.control.script = [](const Request& q) { return q.code == 0x0A84 ? FakeControl::refuse(0x2E) : FakeControl::Verdict{}; };
-    EXPECT_EQ(b.ask(Home{}).outcome, Outcome::refused);
-    EXPECT_FALSE(b.feedback().homing_attained);
-    EXPECT_TRUE(b.feedback().homing_error);
-}
-
 // --- age -------------------------------------------------------------------------------------------------------------------------
 
 struct Crowd {

@@ -73,20 +73,6 @@ TEST(Uim342Truth, HomingIsDoneWhereItStands) {
     EXPECT_TRUE(r.b.feedback().homing_attained);
 }
 
-TEST(Uim342Truth, ARefusedHomingIsAnErrorAndTakesBackTheOneBefore) {
-    for (const std::int16_t method : {std::int16_t{1}, std::int16_t{20}}) {  // no such way; and no option says where the switch is
-        Ready r;
-        ASSERT_EQ(r.b.ask(Home{35}, true).outcome, Outcome::done);
-        ASSERT_TRUE(r.b.feedback().homing_attained);
-        EXPECT_EQ(r.b.ask(Home{method}).outcome, Outcome::refused);
-        EXPECT_FALSE(r.b.feedback().homing_attained);
-        EXPECT_TRUE(r.b.feedback().homing_error);
-        EXPECT_TRUE(r.b.feedback().referenced) << "the zero is where it was";
-        EXPECT_EQ(r.b.ask(Home{35}, true).outcome, Outcome::done);
-        EXPECT_FALSE(r.b.feedback().homing_error);
-    }
-}
-
 TEST(Uim342Truth, AFaultInMotionIsShownWithItsMotion) {
     for (const std::uint8_t code : Bytes{0x19, 0x1A, 0x1B, 0x1E}) {
         Ready r;

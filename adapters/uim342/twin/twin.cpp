@@ -1,4 +1,4 @@
-// Maker of the UIM342 twin: reads its setup; see twin.hpp.
+// Maker of the UIM342 twin: reads its setup.
 // In: address, line kind, bit rate, options. Out: a drive without power.
 // Never fails: what it cannot read becomes the factory's value.
 #include "adapters/uim342/twin/twin.hpp"

@@ -602,7 +602,7 @@ export interface paths {
         };
         /** The whole site as one document */
         get: operations["getSite"];
-        /** Replaces the whole site; only what changed is disturbed */
+        /** Replaces the whole site; only what changed is disturbed, and what of it moves is stopped first */
         put: operations["replaceSite"];
         post?: never;
         delete?: never;
@@ -1716,6 +1716,7 @@ export interface components {
             revision: number;
             faults: components["schemas"]["Fault"][];
             diff: components["schemas"]["SiteDifference"][];
+            /** @description axes that lose their connection by it, if only for a moment; those of them that move are stopped first */
             disturbs: string[];
             /**
              * Format: date-time

@@ -3,7 +3,11 @@
 #include "gateway/runtime/access_service.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <array>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include <boost/asio/post.hpp>
@@ -17,6 +21,14 @@ namespace asio = boost::asio;
 namespace {
 constexpr std::size_t most_waiting = 8;
 }  // namespace
+
+std::string session_cookie_of(const std::string& data_dir) {
+    std::array<char, 256> host{};
+    if (::gethostname(host.data(), host.size() - 1) != 0) host[0] = 0;
+    std::error_code bad;
+    const std::filesystem::path place = std::filesystem::weakly_canonical(data_dir, bad);
+    return "axisgate_session_" + digest_of(fmt::format("{} {}", host.data(), bad ? data_dir : place.string())).substr(0, 8);
+}
 
 AccessService::AccessService(asio::io_context& warm, Cold& cold, AccessSettings settings, Tell tell)
     : warm_(warm), cold_(cold), desk_(settings), tell_(std::move(tell)) {}

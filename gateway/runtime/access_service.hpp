@@ -17,6 +17,10 @@
 
 namespace axisgate {
 
+/// The session's cookie of the gateway whose data lie here: "axisgate_session_" and eight digits, the same after a restart, another one for
+/// every other gateway that a browser may reach under the same host name.
+[[nodiscard]] std::string session_cookie_of(const std::string& data_dir);
+
 class AccessService final : public AccessPort {
 public:
     using Tell = std::function<void(Event)>;

@@ -234,6 +234,7 @@ int Service::load_site(Site& site, std::uint64_t& revision) {
 int Service::open_access() {
     constexpr std::int64_t minute_ns = std::int64_t{60} * 1'000'000'000;
     AccessSettings as;
+    as.cookie = session_cookie_of(options.config.data_dir);
     as.local_role = role_named(options.config.users_local_role).value_or(Role::none);
     as.idle_ns = options.config.users_session_idle_min * minute_ns;
     as.max_ns = options.config.users_session_max_h * 60 * minute_ns;

@@ -160,6 +160,23 @@ test('a session that ended elsewhere is never local access without a word, after
   await page.context().close();
 });
 
+test('two gateways of one host do not sign each other out', async () => {
+  const other = await Program.start();
+  try {
+    const page = await pageOf('engineer');
+    const door = page.context().request;
+    const first = await door.post(`${other.url}/api/v1/session/first`, { data: { code: other.firstCode, user: 'anna', password } });
+    assert.equal(first.status(), 200, await first.text());
+    const who = async (url) => (await (await door.get(`${url}/api/v1/session`)).json()).user;
+    assert.deepEqual([await who(program.url), await who(other.url)], ['engineer', 'anna']);
+    const names = (await page.context().cookies()).map((c) => c.name);
+    assert.ok(names.length === 2 && names.every((n) => /^axisgate_session_[0-9a-f]{8}$/.test(n)), names.join(' '));
+    await page.context().close();
+  } finally {
+    await other.end();
+  }
+});
+
 test('a press that the gateway refuses would be seen', async () => {
   const page = await pageOf('viewer');
   await page.goto(program.url);

@@ -16,7 +16,7 @@ namespace axisgate::http {
 namespace {
 constexpr std::size_t most_cookies = 8;  // of our name; further ones are not looked at
 
-std::vector<std::string_view> cookies_of(const Request& request) {
+std::vector<std::string_view> cookies_of(const Request& request, std::string_view name) {
     std::vector<std::string_view> out;
     for (const auto& [key, value] : request.headers.fields) {
         if (key.size() != 6 || lower(key) != "cookie") continue;
@@ -26,7 +26,7 @@ std::vector<std::string_view> cookies_of(const Request& request) {
             const auto pair = trimmed(rest.substr(0, end));
             rest.remove_prefix(std::min(end + 1, rest.size()));
             const auto equals = pair.find('=');
-            if (equals != std::string_view::npos && pair.substr(0, equals) == session_cookie) out.push_back(pair.substr(equals + 1));
+            if (equals != std::string_view::npos && pair.substr(0, equals) == name) out.push_back(pair.substr(equals + 1));
         }
     }
     return out;
@@ -55,7 +55,7 @@ Identity identify(AccessPort* port, const Request& request, std::int64_t now_ns,
     Credentials c;
     c.peer = request.peer;
     c.forwarded = was_forwarded(request);
-    c.cookies = cookies_of(request);
+    if (port) c.cookies = cookies_of(request, port->desk().settings().cookie);
     if (request.headers.count("Authorization") > 0) {
         // Any other scheme is a credential that we do not know: it is not taken for nothing.
         const auto value = trimmed(request.headers.get("Authorization"));
@@ -70,8 +70,8 @@ Identity identify(AccessPort* port, const Request& request, std::int64_t now_ns,
     return port->desk().identify(c, now_ns, touch);
 }
 
-std::string set_cookie(std::string_view value, bool secure, bool ends) {
-    return fmt::format("{}={}; HttpOnly; SameSite=Strict; Path=/{}{}", session_cookie, value, secure ? "; Secure" : "", ends ? "; Max-Age=0" : "");
+std::string set_cookie(AccessPort& port, std::string_view value, bool secure, bool ends) {
+    return fmt::format("{}={}; HttpOnly; SameSite=Strict; Path=/{}{}", port.desk().settings().cookie, value, secure ? "; Secure" : "", ends ? "; Max-Age=0" : "");
 }
 
 std::optional<Response> refuse_below(const Identity& identity, Role needed) {

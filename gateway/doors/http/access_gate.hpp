@@ -18,10 +18,9 @@ namespace axisgate::http {
 /// 403 for a request that changes something over a cookie without the session's token in X-CSRF-Token.
 [[nodiscard]] std::optional<Response> check_csrf(const Identity& identity, const Request& request);
 
-inline constexpr std::string_view session_cookie = "axisgate_session";
 inline constexpr std::string_view session_ended_text =
     "this session has ended: it was signed out, has expired, or the gateway was restarted; sign in again, or go on without a sign-in";
 /// Set-Cookie of a session; `ends`: the browser forgets it.
-[[nodiscard]] std::string set_cookie(std::string_view value, bool secure, bool ends);
+[[nodiscard]] std::string set_cookie(AccessPort& port, std::string_view value, bool secure, bool ends);
 
 }  // namespace axisgate::http

@@ -16,7 +16,7 @@ Response paused(std::int64_t pause_s) {
 
 Response signed_in(AccessPort& port, const AccessRegister::NewSession& session, bool secure) {
     Response r = json_response(session_document(&port, session.identity));
-    r.headers.set("Set-Cookie", set_cookie(session.id, secure, false));
+    r.headers.set("Set-Cookie", set_cookie(port, session.id, secure, false));
     return r;
 }
 
@@ -27,7 +27,7 @@ std::string shown_name(std::string_view typed) { return user_name_fault(typed).e
 Handled get_session(Call& c) {
     Response r = json_response(session_document(c.context.access.get(), c.identity));
     // Said once: without the cookie the next request is this machine's again, as far as local access goes.
-    if (c.identity.session_ended) r.headers.set("Set-Cookie", set_cookie("", c.request.secure, true));
+    if (c.identity.session_ended) r.headers.set("Set-Cookie", set_cookie(*c.context.access, "", c.request.secure, true));
     return r;
 }
 
@@ -65,9 +65,9 @@ Handled sign_out(Call& c) {
     if (const auto port = c.context.access; port && c.identity.via == Identity::Via::cookie) {
         port->desk().sign_out(c.identity.session);
         tell_access(*port, c.who(), fmt::format("{} signed out", c.identity.user));
-        r.headers.set("Set-Cookie", set_cookie("", c.request.secure, true));
+        r.headers.set("Set-Cookie", set_cookie(*c.context.access, "", c.request.secure, true));
     } else if (c.identity.session_ended) {
-        r.headers.set("Set-Cookie", set_cookie("", c.request.secure, true));
+        r.headers.set("Set-Cookie", set_cookie(*c.context.access, "", c.request.secure, true));
     }
     return r;
 }

@@ -320,7 +320,7 @@ Router::Entry Router::enter(const Request& request, std::optional<Target> target
     e.identity = http::identify(context_.access.get(), request, context_.gateway.now_unix_ns(), touch);
     if (const Role needed = e.route->needed(); needed != Role::none) {
         if (auto refusal = refuse_below(e.identity, needed)) {
-            if (e.identity.session_ended) refusal->headers.set("Set-Cookie", set_cookie("", request.secure, true));
+            if (e.identity.session_ended) refusal->headers.set("Set-Cookie", set_cookie(*context_.access, "", request.secure, true));
             return answer(*std::move(refusal));
         }
     }

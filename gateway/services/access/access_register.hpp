@@ -72,7 +72,7 @@ struct Identity {
 [[nodiscard]] std::string session_of(const Identity& identity);
 
 struct Credentials {
-    std::vector<std::string_view> cookies;   ///< values of axisgate_session: there may be several, of other gateways on this host
+    std::vector<std::string_view> cookies;   ///< values of AccessSettings::cookie
     std::optional<std::string_view> bearer;
     std::string_view peer;                   ///< "127.0.0.1:51123"
     bool forwarded = false;                  ///< a header of proxies is there, or the host of another way in: the peer speaks for somebody else
@@ -86,6 +86,8 @@ struct Credentials {
 [[nodiscard]] Identity local_identity(const Credentials& credentials, Role local_role);
 
 struct AccessSettings {
+    /// Name of the session's cookie: cookies belong to a host, whatever the port, so each gateway on it needs a name of its own.
+    std::string cookie = "axisgate_session";
     Role local_role = Role::engineer;
     std::int64_t idle_ns = std::int64_t{60} * 60 * 1'000'000'000;       ///< a session without a request for so long ends
     std::int64_t max_ns = std::int64_t{12} * 3600 * 1'000'000'000;      ///< a session ends so long after the sign-in whatever happens

@@ -49,7 +49,7 @@ endif()
 if(CMAKE_CXX_COMPILER_ID MATCHES Clang)
   set(AXISGATE_PCH_OPTIONS -Xclang -fno-pch-timestamp)  # so that ccache knows it again
 endif()
-set(AXISGATE_PCH_core <boost/json.hpp> <fmt/format.h> <algorithm> <array> <charconv> <chrono> <cmath> <cstdint> <deque> <functional> <map>
+set(AXISGATE_PCH_core <boost/json.hpp> <fmt/core.h> <algorithm> <array> <charconv> <chrono> <cmath> <cstdint> <deque> <functional> <map>
     <memory> <optional> <set> <span> <sstream> <string> <string_view> <unordered_map> <utility> <variant> <vector>)
 set(AXISGATE_PCH_net <boost/asio.hpp> <boost/beast.hpp> ${AXISGATE_PCH_core} <atomic> <condition_variable> <mutex> <thread>)
 set(AXISGATE_PCH_test <gtest/gtest.h> <gmock/gmock.h> ${AXISGATE_PCH_net} <fstream> <future> <iostream> <random>)

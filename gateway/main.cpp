@@ -1,6 +1,6 @@
 // axisgate: start here. Reads the command line and hands over to the command that was named.
 // In: arguments, the environment. Out: the exit code (0 good, 1 failed, 2 wrong usage or configuration). Never does the work itself.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>

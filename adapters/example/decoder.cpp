@@ -2,7 +2,7 @@
 // In: frames. Out: lines. Never shows a control character.
 #include "adapters/example/decoder.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace axisgate::example {
 

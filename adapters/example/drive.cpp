@@ -2,7 +2,7 @@
 // In: places on the line, telegrams, time. Out: requests, feedback, links. Never asks two things at once.
 #include "adapters/example/drive.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cstdio>
 

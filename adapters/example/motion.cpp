@@ -1,6 +1,6 @@
 // Drive, part motion: each command as a short list of exchanges, and what follows from their answers.
 // In: commands from the queue, answers to their steps. Out: steps, the one result. Never begins a motion whose values were refused.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "adapters/example/drive.hpp"
 

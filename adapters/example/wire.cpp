@@ -2,7 +2,7 @@
 // In: telegrams, lines. Out: lines, telegrams. Never takes a line whose checksum is wrong.
 #include "adapters/example/wire.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace axisgate::example {
 namespace {

@@ -1,7 +1,7 @@
 // Actions: every motion command by name, and the messages beyond them: program handling, error texts, what a drive says of a parameter,
 // command table, curves. In: names with checked arguments. Out: exchanges, an answer in words.
 // Never sends what is inferred where the option says off; a table entry is checked before the drive's memory is touched, and read back.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <iterator>

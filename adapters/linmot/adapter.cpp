@@ -2,7 +2,7 @@
 // In: calls from outside. Out: what the drives give back. Never decides about a drive.
 #include "adapters/linmot/adapter.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

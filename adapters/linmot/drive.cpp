@@ -2,7 +2,7 @@
 // In: commands in order, answers. Out: the verb's telegrams, exactly one result. Never two jobs at once.
 #include "adapters/linmot/drive.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace axisgate::linmot {
 

@@ -3,7 +3,7 @@
 // Never decides anything about a drive.
 #include "adapters/linmot/family.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>

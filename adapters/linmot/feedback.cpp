@@ -1,7 +1,7 @@
 // What is learnt from a default response: the axis' picture, alarms, samples of the drive's own words.
 // In: status word, StateVar, position. Out: feedback, samples, notices. Never shows what the drive did not say; the speed is the change of
 // its position over the last tenth of a second.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // Homing: the drive's own search (control word bit 11, done at StateVar 090Fh), or its place given a name (Master Homing).
 // In: home commands, states. Out: control words. Never leaves the bit set when the search has ended.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "adapters/linmot/drive.hpp"
 

@@ -1,6 +1,6 @@
 // Motion: moves as commands of the VA interpolator, and how a motion command is known to have been executed: its count comes back.
 // In: moves in increments (0.1 um). Out: motion commands. Never uses a velocity, acceleration or deceleration that nobody gave or read.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <limits>

@@ -2,7 +2,7 @@
 // In: values. Out: bytes. Never checks ranges: command_arguments.hpp has done that.
 #include "adapters/linmot/motion_commands.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace axisgate::linmot {
 namespace {

@@ -1,7 +1,7 @@
 // Parameters: RAM values by the read that comes with a default response and by Write Live Parameter, ROM values by the parameter messages.
 // In: reads and writes of catalogue points. Out: values as the drive has them. What was written is read back: a RAM write has no answer of
 // its own.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "adapters/linmot/drive.hpp"
 

@@ -1,7 +1,7 @@
 // What is asked of a drive, and when: probes, the values at the start, polls, commands and stops in their order.
 // In: the passing of time, places on the line. Out: telegrams; what a silence means.
 // Never two exchanges at once; after a silence nothing for as long as its answer may still come.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "adapters/linmot/drive.hpp"
 

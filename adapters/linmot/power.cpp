@@ -1,6 +1,6 @@
 // Power: the control word's way from anywhere to operation enabled, and the acknowledgement of errors.
 // In: the drive's state. Out: the next control word, or the end. Never enables what somebody froze: a frozen motion would go on.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "adapters/linmot/drive.hpp"
 

@@ -1,6 +1,6 @@
 // How a drive is found and lost: its first answer, the values that moves rest on, the silence.
 // In: the line's state, answers to probes, silences. Out: presence, links. Never writes anything to a drive that was just found.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "adapters/linmot/drive.hpp"
 #include "gateway/drive/option_reader.hpp"

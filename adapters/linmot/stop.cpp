@@ -1,6 +1,6 @@
 // Stops: halt by VAI Stop, quick stop by /Abort (or OFF3, an option), disable by the switch on bit. They overtake all that waits.
 // In: urgent commands. Out: one telegram each, ended by what the drive shows. Never waits for more than the exchange in progress.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "adapters/linmot/drive.hpp"
 

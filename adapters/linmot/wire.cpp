@@ -2,7 +2,7 @@
 // In: bytes. Out: telegrams and values. Never holds more than one unfinished telegram and the run of bytes that it came in.
 #include "adapters/linmot/wire.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // Node: parameters, native lines, and the actions of the family: programs, saving, setting up.
 // In: commands, data of the drive. Out: steps, values, texts.
 // Never sends program text that has not been checked as a whole.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>

@@ -1,7 +1,7 @@
 // Node: part of a program changed: from a label or an address on, what the drive has is replaced by other lines, and the lines before stay.
 // In: the action's argument, the drive's listings. Out: steps of CP, PG and lines, behind which a download's own checks run.
 // Never reckons an address: how many a line takes the reference does not say (E-37), so the listing gives each.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>

@@ -3,7 +3,7 @@
 // Never takes a late ACK for a new one: after a time-out, lines whose answer has no mark wait until late answers are over.
 #include "adapters/mcode/adapter.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>

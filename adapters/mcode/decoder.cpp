@@ -3,7 +3,7 @@
 // Never guesses a direction: unknown ones are marked with `--`.
 #include "adapters/mcode/decoder.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 // In: commands from the queue, the end of their steps. Out: steps one after the other, the result.
 // Never starts what it could not set: a refused value ends the job before the motion. A relative move is sent as the absolute one that it
 // means at standstill, so that a repeat cannot move twice.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

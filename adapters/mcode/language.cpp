@@ -3,7 +3,7 @@
 // Never guesses: a field whose range the catalogue does not have takes any value.
 #include "adapters/mcode/language.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <charconv>
 #include <optional>

@@ -3,7 +3,7 @@
 // mode, an event, and the removal of what it has stored of this gateway's questions.
 // Never lets a stop, a poll or a command go to a drive that may take it as program text: PG toggles [L4778], so each PG is counted, and
 // when its acknowledgement was lost a marked question tells the mode: data means immediate, an acknowledgement alone means stored.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <utility>

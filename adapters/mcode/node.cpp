@@ -3,7 +3,7 @@
 // Never asks ER but when EF says that there is one: reading clears it [L2587].
 #include "adapters/mcode/node.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <charconv>
 #include <cmath>

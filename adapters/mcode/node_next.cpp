@@ -1,7 +1,7 @@
 // Node: what it wants and what it sends next: probes, its link, stops, errors, steps of a job, polls.
 // In: its phase, its queue, the time. Out: one request.
 // Never chooses a poll or a command while a stop waits, nor a stop while the drive may be in program mode (leaving.cpp).
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "adapters/mcode/node.hpp"
 

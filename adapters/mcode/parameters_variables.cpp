@@ -2,7 +2,7 @@
 // In: texts. Out: parameters, names, lines. Never takes a word of the language for a name, but PW, which only one product has [L4970].
 #include "adapters/mcode/parameters_variables.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <boost/json/object.hpp>

@@ -3,7 +3,7 @@
 // Never changes a statement: what is sent is what was written, without its comment when the line would be too long with nothing lost.
 #include "adapters/mcode/program.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cstdlib>
 #include <map>

@@ -2,7 +2,7 @@
 // that was restarted.
 // In: polls, lines that the drive took, errors, the loss of the drive. Out: the one result of the command that began it.
 // Never calls a program done that somebody has ended, nor one that nobody has seen end.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <utility>
 

@@ -1,7 +1,7 @@
 // Node: the drive's bit rate: BD acts at the next restart only, so what will go wrong is said while the drive can still be heard.
 // In: BD as the drive has it, the line's rate. Out: texts that say what will happen and what to do.
 // Never sets a rate by itself: that is for line.setup.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

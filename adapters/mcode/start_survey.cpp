@@ -1,7 +1,7 @@
 // Node: its user variables: which of them the site's option names, and which it does not.
 // In: the drive's own listing (PR UV), asked for once when it was found. Out: one notice for each difference; sentences for what it lacks.
 // Never declares a variable, and never refuses one that a program may declare later.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

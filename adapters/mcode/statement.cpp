@@ -3,7 +3,7 @@
 // Never refuses for a range that only one product or one mode of the encoder has.
 #include "adapters/mcode/statement.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <charconv>
 #include <optional>

@@ -1,7 +1,7 @@
 // Node: stops and confirmations, and what leaves a node: results, notices.
 // In: the end of a stop's exchange, the poll or error code that confirms a line. Out: the next line of a stop, results, notices.
 // Never takes an acknowledgement alone for a stop: a poll, and ER if it says that there is one, come behind it.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cstdlib>

@@ -3,7 +3,7 @@
 // Never keeps more than the last few times.
 #include "adapters/mcode/trouble.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <string_view>
 

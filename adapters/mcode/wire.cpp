@@ -3,7 +3,7 @@
 // Never accepts a byte that could end a line early.
 #include "adapters/mcode/wire.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace axisgate::mcode {
 namespace {

@@ -1,7 +1,7 @@
 // Control, part actions: the functions of this family beyond the common ones, by the catalogue's names, and every command code by its own.
 // In: Action with its argument. Out: jobs of the other parts, or one command.
 // Never guesses an argument: what cannot be read is refused with an example.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>

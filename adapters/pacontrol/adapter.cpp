@@ -3,7 +3,7 @@
 // Never decides about the control: that is Control's.
 #include "adapters/pacontrol/adapter.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 // Never translates a word away: a user finds the manual's terms.
 #include "adapters/pacontrol/commands.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 // four commands in a row one poll gets its turn, so that a busy line still shows where the axes are.
 #include "adapters/pacontrol/control.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>

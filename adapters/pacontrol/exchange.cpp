@@ -1,7 +1,7 @@
 // Control, part exchange: one request and its acknowledgement, and everything that can go wrong between them.
 // In: bytes, the passing of time. Out: requests; acknowledgements given to what asked for them.
 // Never takes an acknowledgement for another request's: it carries no mark, so after a silence a barrier sorts late ones out.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

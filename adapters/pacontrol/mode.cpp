@@ -1,7 +1,7 @@
 // Control, part mode: into ONLINE and back, AUTOMATIC, and the way out of errors.
 // In: enable, reset and the mode actions; the operating status as it changes. Out: 0603, 0A81, 0602, 0600, 0A41, 0909, 0A97.
 // Never fights an operator: what was switched at the control is told, and only a new command switches back.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

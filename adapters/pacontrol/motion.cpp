@@ -1,7 +1,7 @@
 // Control, part motion: absolute, relative and velocity moves, reference runs, setting a position, starting several axes.
 // In: the verbs of CiA 402. Out: 0A9A, 0A8D, 0A8E, 0A94, 0A95, 0A84, 0A96, 0A85, 0A86.
 // Never uses 0A87 or 0A89 by itself: they bar the line until their end, and only one axis would move.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,7 +1,7 @@
 // Control, part polls: what is asked again and again, in which order, and what the answers say.
 // In: turns on the line. Out: 1911 (who runs), positions, speeds or following errors of those that run, and one slow thing per cycle.
 // Never asks for what the control has said it does not have.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Control, part presence: finding the control, losing it, and what that means for what was on its way.
 // In: answers and silences. Out: links, failed commands, probes after growing pauses.
 // Never takes the end of a motion for granted that nobody saw: it is told as not known, with the position that is read back later.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

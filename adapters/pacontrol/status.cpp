@@ -1,7 +1,7 @@
 // Control, part status: what the control says of itself and of its axes, and what follows from it.
 // In: acknowledgements. Out: feedback, notices, the ends of motions and of waits.
 // Never mixes three different things: the command error (QUIT, of one command), the operating status, and the PA-CONTROL error (Exxx).
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,7 +1,7 @@
 // Control, part stop: quick stop, halt and disable: before everything that waits, after the exchange in progress at most.
 // In: the three urgent commands, supervision. Out: 0A9A (0A93 while something is processed), 0A98, 0600, 0A81, 0603; their results.
 // Never lets a motion outlive a stop: what waits is ended as interrupted; a stop that is refused becomes one of all axes.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

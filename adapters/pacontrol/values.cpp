@@ -1,7 +1,7 @@
 // Control, part values: reading and writing points, and exchanges in the control's own language.
 // In: ReadParameter, WriteParameter, Native. Out: get and put commands; values, samples.
 // Never lets a parameter of the home position wait for ever: it waits a bounded time if the option `when` says so, else it is refused.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 

@@ -3,7 +3,7 @@
 // Never guesses a missing field: all of them must be there [L1123].
 #include "adapters/pacontrol/wire.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <array>
 #include <charconv>

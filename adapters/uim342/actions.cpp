@@ -1,7 +1,7 @@
 // Adapter, part joint orders: StartTogether, the action start_group, and the action global_stop.
 // In: the command, each node's news of its own part. Out: one BG or ST to a group or to all, and one result for the whole.
 // Never starts an axis that was not named: the receivers of a group or of the global ID are counted first, and named if they are too many.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>

@@ -3,7 +3,7 @@
 // Never lets silent drives fill the window: a quarter of its places (at least one, never all but one of two or more) is theirs.
 #include "adapters/uim342/adapter.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>

@@ -3,7 +3,7 @@
 // Never takes a late answer for a new one: an instruction with the same mark waits behind another exchange (drive_exchange.hpp).
 #include "adapters/uim342/drive.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <charconv>
 

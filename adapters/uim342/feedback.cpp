@@ -1,7 +1,7 @@
 // Drive, part status: what the drive says of itself, turned into the axis' feedback, samples and notices; and the waits for "done".
 // In: answers, notifications (RT), error reports. Out: feedback, samples, notices, results of commands that waited for the end.
 // Never invents: PAIF alone says that a target was reached, STOP that the axis stands, SON that it is on.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cstdlib>

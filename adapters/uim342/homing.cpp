@@ -3,7 +3,7 @@
 // Out: TG[i]=60001 (one time) and IL[i] with "stop" or "origin, then stop", JV and BG; in the end the settings of before.
 // The drive itself sets the origin within 1 ms of the edge; nothing here is on the way between the switch and the zero.
 // Never writes to EEPROM: every SET is done with the driver on [L1632, L1667], and what was changed is put back.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "adapters/uim342/drive.hpp"
 #include "adapters/uim342/native.hpp"

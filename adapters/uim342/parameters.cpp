@@ -2,7 +2,7 @@
 // In: ReadParameter, WriteParameter, Native, Action. Out: exchanges; results with what the drive said.
 // Never writes FLASH for nothing: PP is read first and left alone if it holds the value already (10,000 writes [L1064]).
 // Never lets anything between MF and its value: group values go as a pair inside one job.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "adapters/uim342/drive.hpp"
 #include "adapters/uim342/native.hpp"

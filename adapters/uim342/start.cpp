@@ -1,7 +1,7 @@
 // Drive, part start-up: is it there, what is it, what does it hold; and what follows when it falls silent or restarts.
 // In: answers to ML and to the reads of the list below. Out: DriveLink, samples of everything read, the node made ready.
 // Never writes to the drive but MF=0, which changes no value: a group left selected by somebody else would falsify the reads.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "adapters/uim342/drive.hpp"
 #include "adapters/uim342/native.hpp"

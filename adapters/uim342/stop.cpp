@@ -2,7 +2,7 @@
 // In: the three urgent commands, a joint stop, supervision. Out: ST, MO=0, or JV=0 and BG, urgent; their results.
 // Never lets a motion outlive a stop: what waits is ended as interrupted, and if a BG may still be on its way behind the stop
 // (the line lets urgent frames overtake), the stop is repeated behind it.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cstdlib>
 

@@ -3,7 +3,7 @@
 // Never allows two holders, and never makes a longer lease shorter.
 #include "gateway/axis/authority.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

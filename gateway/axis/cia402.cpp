@@ -3,7 +3,7 @@
 // Never sends by itself: every order is a return value.
 #include "gateway/axis/cia402.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

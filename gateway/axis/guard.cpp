@@ -2,7 +2,7 @@
 // In: a command, limits, the position. Out: nothing, or the refusal with the range that is allowed. Never clips.
 #include "gateway/axis/guard.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <limits>

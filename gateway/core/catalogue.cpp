@@ -3,7 +3,7 @@
 #include "gateway/core/catalogue.hpp"
 
 #include <boost/json/parse.hpp>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 // In: JSON members or text. Out: values in counts, in order; all faults at once. Never keeps anything.
 #include "gateway/core/command_arguments.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>

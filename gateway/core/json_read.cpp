@@ -2,7 +2,7 @@
 // In: text. Out: a value or a fault. Never keeps names of an object that has ended.
 #include "gateway/core/json_read.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <boost/json/basic_parser_impl.hpp>

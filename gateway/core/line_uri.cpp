@@ -2,7 +2,7 @@
 // Never accepts what it does not understand: a mistyped option would otherwise be found on the machine, at night.
 #include "gateway/core/line_uri.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // Names: the words for enumerations, one place for all doors.
 // In: enumerators. Out: words that appear in REST answers, events and messages. Never translated, never changed: they are the contract.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "gateway/core/command.hpp"
 #include "gateway/core/frame.hpp"

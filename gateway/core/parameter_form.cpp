@@ -3,7 +3,7 @@
 // Never guesses: what is not written as it should be is a fault at the start (check_forms) and nothing here.
 #include "gateway/core/parameter_form.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>

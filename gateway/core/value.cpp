@@ -2,7 +2,7 @@
 // In: values and texts. Out: the same in the other form. Never rounds silently.
 #include "gateway/core/value.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <array>
 #include <charconv>

@@ -2,7 +2,7 @@
 // In: commands, the drive's presence. Out: the queue, or a refusal. Never drops a command that it took.
 #include "gateway/drive/command_queue.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <utility>
 

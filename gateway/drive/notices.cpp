@@ -2,7 +2,7 @@
 // In: one notice and the instant. Out: it, or nothing but a count. Never holds back an alarm.
 #include "gateway/drive/notices.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

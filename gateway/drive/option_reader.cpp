@@ -3,7 +3,7 @@
 // Never takes half of a number: what stands behind it makes it none.
 #include "gateway/drive/option_reader.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>

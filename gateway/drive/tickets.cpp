@@ -2,7 +2,7 @@
 // In: commands, answers. Out: Results with the axis that the command was for. Never answers what is not open.
 #include "gateway/drive/tickets.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <utility>

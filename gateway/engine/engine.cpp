@@ -3,7 +3,7 @@
 // Never blocks and never loops over more than what one call brought.
 #include "gateway/engine/engine.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // Engine, what others ask: reports of lines and drives, frame logs, the tester's hand, whether all is settled.
 // In: questions from the hot thread. Out: copies.
 // Never changes an axis; the hand changes a twin alone.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // Engine, command authority. Who may command an axis, what a lease does to the others, and what is said about it.
 // In: commands with their origin. Out: refusals that name the holder, events of kind "authority", the image's holder and register 17.
 // Never holds up a stop, and never asks the gateway's own orders.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "gateway/engine/engine.hpp"
 #include "gateway/engine/engine_parts.hpp"

@@ -1,7 +1,7 @@
 // Engine, loss of command: an axis whose commander is gone, or silent for too long, is halted, stopped or switched off as its site entry says.
 // In: doors' word that a client is gone, and the instant at which a client was heard last. Out: the action, an event, register 22, a count.
 // Never touches an axis that somebody else has commanded since.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

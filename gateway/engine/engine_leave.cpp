@@ -1,7 +1,7 @@
 // Engine, a site change in motion: what the new site takes away or makes anew is stopped first, while its line still stands.
 // In: the wanted site. Out: a quick stop and an event per axis under way, then the site in force.
 // Never waits for ever: a drive that cannot be brought to rest, or is not heard, does not keep its site from being changed.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // Engine, presence: lines going up and down, and who serves each drive: the device, its twin, or nobody.
 // In: line states, drives' links. Out: presence events, twins that take over and hand back.
 // Never hands an axis over while it moves.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 // its own search for a drive is the question, its DriveLink the answer.
 // In: wishes, links, the passing of time. Out: reports. Bounds: one scan per line, 16 addresses at once, 2 s per address, the wish's own
 // limit. Never asks an address that the site has given to a drive, and ends when the site changes.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

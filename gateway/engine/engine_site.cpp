@@ -1,7 +1,7 @@
 // Engine, the site in force: what is kept, made anew and taken away when another one is applied.
 // In: the wanted site. Out: lines, drives and axes; adapters configured, twins made and removed.
 // Never disturbs what did not change.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // Engine, time: whose deadline is next, who is due, and what is looked at every now and then.
 // In: the time. Out: turns of adapters and twins, stale axes, drives that are given up, memories of twins to keep.
 // Never looks at a side that nothing has touched and that is not due.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

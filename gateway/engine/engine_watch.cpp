@@ -1,7 +1,7 @@
 // Engine, watching motions until they are done, interrupted or lost; group starts; the stop of everything.
 // In: the profiles' feedback. Out: the one result of commands that asked to be answered when done.
 // Never takes silence for success: what nobody saw end is reported as failed or goes on being watched.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // In: names and frames. Out: descriptors and errno. Never waits.
 #include "gateway/lines/can_kernel.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <linux/can/raw.h>
 #include <linux/net_tstamp.h>
 #include <linux/netlink.h>

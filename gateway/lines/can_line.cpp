@@ -3,7 +3,7 @@
 // Never takes a frame for sent because the kernel took it: only the controller's echo says so.
 #include "gateway/lines/can_line.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <sys/socket.h>
 #include <unistd.h>
 

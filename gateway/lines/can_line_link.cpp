@@ -1,7 +1,7 @@
 // CanLine's interface: bus-off and back, the interface going down, vanishing and coming again.
 // In: netlink messages, the controller's reports. Out: state changes of the line, orders to restart the controller.
 // Never restarts a controller that restarts itself (restart-ms), and says what to type where it is not permitted to.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <linux/netlink.h>
 #include <sys/socket.h>
 #include <unistd.h>

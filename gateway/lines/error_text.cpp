@@ -2,7 +2,7 @@
 // Never uses strerror(), whose text another thread could change.
 #include "gateway/lines/error_text.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cstring>
 

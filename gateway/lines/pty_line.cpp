@@ -5,7 +5,7 @@
 #include "gateway/lines/error_text.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <poll.h>
 #include <sys/stat.h>
 #include <termios.h>

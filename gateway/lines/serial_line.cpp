@@ -2,7 +2,7 @@
 // Never gives up: an adapter that is pulled out and plugged in again is found under its path.
 #include "gateway/lines/serial_line.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -5,7 +5,7 @@
 
 #include <asm/termbits.h>
 #include <fcntl.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <linux/serial.h>
 #include <sys/file.h>
 #include <sys/ioctl.h>

@@ -2,7 +2,7 @@
 // Never blocks: names are resolved by Asio's own thread, and an address is used without asking anybody.
 #include "gateway/lines/tcp_line.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 // Never goes down because a client does; only the port itself can fail.
 #include "gateway/lines/tcp_listen_line.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <sys/socket.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // Never blocks; a datagram that the kernel cannot take now waits in the queue, one that it refuses is counted as an error.
 #include "gateway/lines/udp_line.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <iterator>

@@ -2,7 +2,7 @@
 // In: register writes, results. Out: commands, registers. Never shows a read value that does not fit the value register: it is refused.
 #include "gateway/registers/parameter_channel.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <bit>
 #include <charconv>

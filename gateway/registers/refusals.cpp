@@ -2,7 +2,7 @@
 // In: refusals. Out: events. Never looks at a clock: a bucket fills by the instants that it is given.
 #include "gateway/registers/refusals.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

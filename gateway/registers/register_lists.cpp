@@ -2,7 +2,7 @@
 // In: mappings. Out: CSV, a page, structured text. Never lets a comment or a name end what it stands in.
 #include "gateway/registers/register_lists.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

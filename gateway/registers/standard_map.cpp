@@ -2,7 +2,7 @@
 // In: requests by address. Out: registers, commands. Never takes a result of a parameter exchange for an axis that has been replaced.
 #include "gateway/registers/standard_map.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cstring>

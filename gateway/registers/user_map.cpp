@@ -3,7 +3,7 @@
 // Never allocates in a read of points that are not texts.
 #include "gateway/registers/user_map.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cstring>

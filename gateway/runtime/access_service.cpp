@@ -2,7 +2,7 @@
 // In and out: passwords in, hashes and records out. Never logs a password, a token or a code.
 #include "gateway/runtime/access_service.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <array>

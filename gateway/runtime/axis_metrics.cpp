@@ -2,7 +2,7 @@
 // In: pictures. Out: text. Never asks a drive.
 #include "gateway/runtime/axis_metrics.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

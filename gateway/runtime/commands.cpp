@@ -2,7 +2,7 @@
 // In: arguments. Out: tables, CSV or JSON on standard output, faults on standard error, the exit code. Never starts a thread.
 #include "gateway/runtime/commands.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <boost/json/serialize.hpp>

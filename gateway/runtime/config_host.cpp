@@ -3,7 +3,7 @@
 #include "gateway/runtime/config_host.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <sched.h>
 #include <unistd.h>
 

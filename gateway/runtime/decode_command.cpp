@@ -1,7 +1,7 @@
 // Decode: turns a recorded line into readable exchanges, one line per message.
 // In: a candump log, hex lines, or a trace as JSON; from a file or standard input. Out: text. Never drops a line silently: what cannot be
 // read is said with its place.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cstdio>
 

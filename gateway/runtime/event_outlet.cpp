@@ -2,7 +2,7 @@
 // In: events. Out: jobs for the storage thread. Never tells the same gap twice.
 #include "gateway/runtime/event_outlet.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace axisgate {
 

@@ -3,7 +3,7 @@
 // Never does more than a bounded amount of work between two looks at the clock.
 #include "gateway/runtime/hot.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <pthread.h>
 #include <sched.h>
 

@@ -2,7 +2,7 @@
 // In: memories or text. Out: the other, or a sentence. Never throws.
 #include "gateway/runtime/memory_file.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <boost/json/serialize.hpp>
 #include <cmath>

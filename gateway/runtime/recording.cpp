@@ -2,7 +2,7 @@
 // In: text of any origin. Out: frames, and what could not be read with its place. Never throws, whatever the text is.
 #include "gateway/runtime/recording.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <boost/json/value.hpp>

@@ -1,6 +1,6 @@
 // Service: `axisgate serve`: assembles store, hot, cold and warm threads and doors, says `ready`, and takes it all down again in order.
 // In: the configuration, a site. Out: the running gateway; an exit code. Never starts a door before what it shows is there.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>

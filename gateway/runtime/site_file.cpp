@@ -2,7 +2,7 @@
 // In: a path. Out: a site or all its faults; JSON that is none has only one. Never stops at the first fault.
 #include "gateway/runtime/site_file.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 
 #include "gateway/core/json_read.hpp"

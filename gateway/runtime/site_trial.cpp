@@ -3,7 +3,7 @@
 // Never leaves the mark behind when it has succeeded.
 #include "gateway/runtime/site_trial.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <boost/json/parse.hpp>
 #include <boost/json/serialize.hpp>

@@ -1,6 +1,6 @@
 // Twin: embedded drives by themselves on a line that anything can open: a maker's tool, a terminal, a test.
 // In: a line URI, addresses, a memory file, the tester's hand over HTTP. Out: the drives' frames. Never runs an adapter.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <boost/asio/io_context.hpp>

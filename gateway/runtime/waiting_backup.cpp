@@ -4,7 +4,7 @@
 #include "gateway/runtime/waiting_backup.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <cerrno>

@@ -1,7 +1,7 @@
 // Warm gateway, scans, documents and events of doors: questions to the hot thread, small named texts and events to the cold one.
 // In: calls on the warm thread. Out: what is stored; callbacks on the warm executor when it is on disk.
 // Never blocks but for a local read of the database.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <boost/asio/post.hpp>
 

@@ -2,7 +2,7 @@
 // In: calls, mailboxes. Out: callbacks. At most 1024 commands wait. Never blocks but for a local read of the database.
 #include "gateway/runtime/warm_gateway.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // WarmGateway, second part: snapshots, the site's history and its staged changes, registers as the Modbus door shows them, backups.
 // In: calls, the end of a trial. Out: callbacks. Reads of the database are local and short. Never writes by itself: the cold thread does.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <boost/asio/post.hpp>
 #include <boost/json/serialize.hpp>

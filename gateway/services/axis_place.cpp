@@ -2,7 +2,7 @@
 // In: a name. Out: the place, or nothing. Never keeps anything from call to call.
 #include "gateway/services/axis_place.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <utility>
 

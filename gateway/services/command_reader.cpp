@@ -2,7 +2,7 @@
 // In: JSON. Out: a CommandBody or all faults. Never takes a member that the command has no use for.
 #include "gateway/services/command_reader.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 // Never reads a value: only what may stand where.
 #include "gateway/site/mapping.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // Mapping, CSV: the whole list for a spreadsheet and back (RFC 4180: commas, quotes doubled, CR LF or LF).
 // In: text. Out: JSON entries for parse_mappings, and every faulty line. A semicolon as separator, and then a comma in numbers, is understood,
 // too: spreadsheets of many countries write it.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

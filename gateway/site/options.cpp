@@ -2,7 +2,7 @@
 // Never keeps a table of its own, apart from what the gateway itself reads of every line.
 #include "gateway/site/options.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>

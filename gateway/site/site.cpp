@@ -3,7 +3,7 @@
 #include "gateway/site/site.hpp"
 
 #include <boost/json/serialize.hpp>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // In: sites, callers, times. Out: states, refusals, differences. Never reads a clock.
 #include "gateway/site/site_stage.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

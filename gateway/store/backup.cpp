@@ -3,7 +3,7 @@
 // Never trusts a copy that was not read back: the check is part of both.
 #include "gateway/store/backup.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <atomic>

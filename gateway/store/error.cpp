@@ -3,7 +3,7 @@
 // Never depends on the locale: the texts of errno come from the C library's table as it is.
 #include "gateway/store/error.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <sqlite3.h>
 
 #include <array>

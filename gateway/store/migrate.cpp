@@ -3,7 +3,7 @@
 // Never writes before the checks have passed.
 #include "gateway/store/migrate.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>

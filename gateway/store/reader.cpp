@@ -3,7 +3,7 @@
 // Never reads without a bound: each list is bounded by its table's own bound.
 #include "gateway/store/reader.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <limits>

@@ -1,7 +1,7 @@
 // StoreReader: events, by any mix of filters.
 // In: an EventFilter. Out: events in order of id, at most the filter's limit.
 // Never puts a filter's text into SQL: the mixes are a fixed table of statements, their values are bound.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // StoreReader: axes, stored values, their history, values last seen, snapshots.
 // In: axis and parameter names. Out: rows as values.
 // Never shows a removed axis' values as stored, nor those of another family than the axis has: the same word is another parameter there.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <limits>

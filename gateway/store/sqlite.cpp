@@ -3,7 +3,7 @@
 // Never leaves a transaction open after an error: a failed write must not keep the next one from working.
 #include "gateway/store/sqlite.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <bit>
 #include <cerrno>

@@ -3,7 +3,7 @@
 // Never writes into a database before it has been found ours, not newer, sound and whole.
 #include "gateway/store/store.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // Store: snapshots of an axis' parameters, the twins' non-volatile memory, small documents.
 // In: named values and texts. Out: one transaction each.
 // Never writes what is already there: flash wears out by writing.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <unordered_set>
 

@@ -1,7 +1,7 @@
 // Store: the site document, and what a new site means for everything that is kept by name.
 // In: the document, renamed and removed axes and drives. Out: one transaction.
 // Never leaves a value under a name that the site no longer has: document and names change together.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <unordered_set>
 

@@ -1,7 +1,7 @@
 // Store: batches: acknowledged writes, events, values last seen.
 // In: StoreBatch. Out: one transaction, on the disk when it returns.
 // Never half a batch: what is wrong with it is found before the transaction begins.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 // In: texts. Out: texts. Never allocates more than the bound and a mark.
 #include "gateway/store/texts.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 // Never allocates per frame once its queues have grown to what the traffic needs.
 #include "gateway/wire/twin_bus.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

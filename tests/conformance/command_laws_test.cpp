@@ -76,7 +76,7 @@ protected:
         d.target_velocity = velocity;
         const Result r = answer(modbus(d));
         if (r.reason == Reason::not_supported) {
-            EXPECT_FALSE(r.text.empty());
+            lacks_velocity(r);
             EXPECT_FALSE(goes());
             return false;
         }

@@ -1,6 +1,9 @@
 // Laws: the list of subjects, and the family without a velocity mode.
-// In: all_families(). Out: subjects. Never changes what a family does otherwise.
+// In: all_families(), adapters/<family>/tests/facts.json. Out: subjects. Never changes what a family does otherwise.
 #include "tests/conformance/laws.hpp"
+
+#include <fstream>
+#include <iterator>
 
 namespace axisgate::test {
 namespace {
@@ -44,6 +47,16 @@ const Family& family_without_velocity() {
 }
 
 }  // namespace
+
+void Laws::lacks_velocity(const Result& r) const {
+    EXPECT_FALSE(r.text.empty()) << "where a drive cannot follow, it says so";
+    if (!e.variant.empty()) return;
+    const std::string path = std::string(AXISGATE_SOURCE_DIR "/adapters/") + std::string(e.family->name) + "/tests/facts.json";
+    std::ifstream file(path);
+    const auto facts = boost::json::parse(std::string(std::istreambuf_iterator<char>(file), {})).get_object();
+    const auto* velocity = facts.if_contains("velocity_mode");
+    EXPECT_TRUE(velocity && !velocity->get_bool()) << "by its manual the drive has a velocity mode (" << path << "), and: " << told(&r);
+}
 
 const std::vector<Subject>& law_subjects() {
     static const std::vector<Subject> all = [] {

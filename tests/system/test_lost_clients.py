@@ -1,8 +1,10 @@
-# Lost clients: what becomes of an axis when the Modbus client that moves it closes its connection, or stays connected and asks nothing.
-# In: the program with two sites, raw Modbus. Out: axis states, register 22, events, metrics.
+# Lost clients: what becomes of an axis when the Modbus client that moves it closes its connection, or stays connected and asks nothing; and
+# when the site itself lets go of it. In: the program with some sites, raw Modbus. Out: axis states, register 22, events, metrics.
+import re
+import socket
 import time
 
-from harness import Gateway, ModbusException, until
+from harness import Gateway, ModbusException, Process, until
 
 SITE = {
     "lines": [{"name": "can0", "uri": "twin", "family": "uim342"}],
@@ -113,3 +115,36 @@ def test_a_target_written_before_enabling_is_moved_to(folder):
         assert gateway.axis("one")["position_increments"] == 0, "nothing moves because it was enabled"
         m.write1(32, 0x1F)
         until(lambda: gateway.axis("one")["position_increments"] == 3000, 5, "the written target")
+
+
+def test_what_a_site_change_takes_away_is_stopped_first(folder):
+    with Process("twin", "mcode", "--line", "tcp-listen:127.0.0.1:0") as far:
+        port = int(re.search(r"127\.0\.0\.1:(\d+)", far.ready).group(1))
+        site = {"lines": [{"name": "a", "uri": f"tcp:127.0.0.1:{port}", "family": "mcode"}],
+                "drives": [{"name": "a", "line": "a", "address": "!", "presence": "device"}],
+                "axes": [{"name": "a", "drive": "a", "number": 1, "unit": "mm", "increments_per_unit": 1000}], "mappings": []}
+        with Gateway(folder, site) as g:
+            until(lambda: g.axis("a")["online"], 10, "the drive serves")
+            assert g.command("a", {"command": "enable"})["result"] == "done"
+            assert g.command("a", {"command": "move_velocity", "velocity": 40})["result"] == "done"
+            assert g.axis("a")["moving"]
+            s, answer, _ = g.request("DELETE", "/api/v1/lines/a?cascade=1")
+            assert s == 204, (s, answer)
+            texts = [e["text"] for e in g.get("/events?kind=site")]
+            assert any("the axis is stopped" in t for t in texts), texts
+            assert not g.get("/events?severity=alarm"), "it was seen to stand"
+
+            def says(question):
+                with socket.create_connection(("127.0.0.1", port), timeout=5) as c:
+                    c.sendall(question.encode() + b"\r")
+                    text = b""
+                    while not re.search(rb"-?\d+\s", text):
+                        part = c.recv(100)
+                        assert part, text
+                        text += part
+                    return int(re.search(rb"(-?\d+)\s", text).group(1))
+
+            assert says("PR V") == 0, "and the drive, asked past the gateway, says so, too"
+            place = says("PR P")
+            time.sleep(0.5)
+            assert says("PR P") == place

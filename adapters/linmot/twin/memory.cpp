@@ -2,7 +2,7 @@
 // In: raw values. Out: raw values that fit. Never knows what a parameter does.
 #include "adapters/linmot/twin/memory.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <charconv>
 

@@ -3,7 +3,7 @@
 // Never asks the adapter's reckoning itself: twins say where the rotor is, and known speeds say where it should be.
 #pragma once
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

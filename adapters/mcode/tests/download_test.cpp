@@ -2,7 +2,7 @@
 // In: texts, drives that refuse, a line that goes down, a drive that has just moved. Out: results with the line of the user's text, what
 // the drive holds, events.
 // Never judges a text: that is program_test.cpp.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "adapters/mcode/tests/line_bench.hpp"
 #include "adapters/mcode/tests/printed_listings.hpp"

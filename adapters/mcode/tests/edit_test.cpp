@@ -1,6 +1,6 @@
 // program.edit: part of a program replaced: what stays keeps its lines and addresses, a fault changes nothing, a broken edit leaves no
 // half. In: programs, edits, embedded drives on a line with honest wire time. Out: results, what the drive lists.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "adapters/mcode/tests/line_bench.hpp"
 

@@ -1,7 +1,7 @@
 // Faults of the line, one by one, with real twins on a TwinBus: what a cable, a converter or a wrong setting does to the bytes.
 // In: one fault at a time, at every place of an answer. Out: how long until every drive is heard again, who is named, and that no axis
 // ever shows another's position.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "adapters/mcode/tests/line_bench.hpp"
 

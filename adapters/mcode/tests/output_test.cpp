@@ -1,7 +1,7 @@
 // What programs print on the line of the adapter, and answers that are late, cut, spoiled, lost or doubled: real twins on a TwinBus.
 // In: programs that print, cables with faults, two drives with one name. Out: events `output` and `protocol`, named and few.
 // Never asks for the text itself.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <random>
 

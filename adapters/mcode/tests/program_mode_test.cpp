@@ -1,7 +1,7 @@
 // Program mode that somebody else has left open, and programs that run when a drive is found: real twins on a TwinBus.
 // In: lines that another master types, at a start or while the gateway works. Out: a drive that is led out, its program as it was, an
 // event; no stop and no command that became program text.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <random>
 

@@ -3,7 +3,7 @@
 // Never speaks to a drive: downloads are in download_test.cpp.
 #include "adapters/mcode/program.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "adapters/mcode/statement.hpp"
 #include "adapters/mcode/tests/fake_drive.hpp"

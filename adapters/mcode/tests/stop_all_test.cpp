@@ -1,6 +1,6 @@
 // All drives of a party line stopped at once: one line to `*`, then each is read; and when that is not possible, one by one.
 // In: stops of several axes in the same instant. Out: what was sent, when each drive stands, one result each.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "adapters/mcode/tests/line_bench.hpp"
 

@@ -1,6 +1,6 @@
 // Torque mode (AS = 3): the drive presses on by itself, V reads 0 and SL does not end it; every stop of the gateway must.
 // In: torque mode by a parameter, by a native line, by a stored program; then stops. Out: shafts that stand, results, one warning.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "adapters/mcode/tests/line_bench.hpp"
 

@@ -186,6 +186,20 @@ TEST(PacontrolOnline, NothingIsGivenBackThatWouldHavePowerThere) {
     }
 }
 
+TEST(PacontrolOnline, NorForAParameterThatWaits) {
+    Bench b(2, 0, {{"when", "wait"}, {"when_timeout_ms", "3000"}});
+    b.control.axis_parameters[2 << 8 | 0x32] = 1;
+    b.start();
+    b.run(1s);
+    EXPECT_EQ(b.enable(1).outcome, Outcome::accepted);
+    EXPECT_EQ(b.ask(Disable{}, true, 1).outcome, Outcome::done);
+    const Result r = b.ask(ReadParameter{Bench::point("SP2")}, false, 0);
+    EXPECT_EQ(r.reason, Reason::wrong_state);
+    EXPECT_NE(r.text.find("axis 2 may have power there by its enable mode (AP[50])"), std::string::npos) << r.text;
+    EXPECT_NE(r.text.find("online.give_back"), std::string::npos) << "and what to do: " << r.text;
+    EXPECT_EQ(b.control.mode, 31) << "who reads has not ordered power";
+}
+
 TEST(PacontrolOnline, TwoAxesEnabledAtOnceShareOneStart) {
     Bench b(2);
     b.start();

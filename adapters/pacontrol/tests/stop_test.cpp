@@ -1,5 +1,6 @@
 // Stops: they overtake what waits, leave after the exchange in progress at most, pass a reference run, and harden when they are refused.
 #include "adapters/pacontrol/tests/fake_bench.hpp"
+#include "adapters/pacontrol/tests/rig.hpp"
 
 namespace axisgate::pacontrol::test {
 namespace {
@@ -115,6 +116,51 @@ TEST(PacontrolStop, AtHomeTheControlIsAskedAndNothingIsChanged) {
         EXPECT_TRUE(good(r)) << r.text;
     }
     EXPECT_EQ(b.said(), (Lines{"190B;0;0;0", "190B;0;0;0", "190B;0;0;0"}));
+}
+
+TEST(PacontrolStop, ADisableTakesThePowerThatTheEnableModeGivesAtHome) {
+    Rig r(2);  // the model's axes have enable mode 1
+    r.run(2s);
+    for (const int axis : {0, 1})
+        ASSERT_EQ(r.axis(axis).power(), twin::AxisPower::on) << "by its own rule";
+    r.handed.clear();
+    const Result off = r.answer(r.command(Disable{}, 0, true));
+    EXPECT_EQ(off.outcome, Outcome::done) << off.text;
+    EXPECT_EQ(r.axis(0).power(), twin::AxisPower::idle);
+    EXPECT_EQ(r.axis(1).power(), twin::AxisPower::on) << "the other one was not asked for";
+    EXPECT_EQ(std::ranges::count_if(r.handed, [](const auto& x) { return x.text.starts_with("0603"); }), 1);
+    r.run(5s);
+    EXPECT_EQ(r.axis(0).power(), twin::AxisPower::idle) << "it is not given back to where it would have power";
+    // A way over home position, to leave a fault, gives power to both: what was disabled is disabled again.
+    r.hand("axis2.inject_error", Value{std::int64_t{531}});
+    r.run(1s);
+    EXPECT_TRUE(good(r.answer(r.command(ResetFault{}, 1, true))));
+    r.run(2s);
+    EXPECT_EQ(r.axis(0).power(), twin::AxisPower::idle);
+}
+
+TEST(PacontrolStop, ADisableThatCannotTakeThePowerIsNotCalledDone) {
+    struct Case {
+        std::map<std::string, std::string> options;
+        int mode;
+        bool external_stop;
+        const char* says;
+    };
+    for (const Case& c : {Case{{{"online", "manual"}}, 1, true, "online.start"}, Case{{}, 1, false, "external stop"},
+                          Case{{}, 2, true, "operator"}, Case{{}, 11, true, "automatic.cancel"}, Case{{}, 15, true, "automatic.cancel"}}) {
+        SCOPED_TRACE(c.says);
+        Bench b(1, 0, c.options);
+        b.control.axis_parameters[1 << 8 | 0x32] = 1;
+        b.control.mode = c.mode;
+        b.control.external_stop = c.external_stop;
+        b.start();
+        b.run(1s);
+        const Result r = b.ask(Disable{}, true);
+        EXPECT_EQ(r.outcome, Outcome::failed) << r.text;
+        EXPECT_NE(r.text.find(c.says), std::string::npos) << r.text;
+        for (const CommandBody& stop : {CommandBody{Halt{}}, CommandBody{QuickStop{}}})
+            EXPECT_TRUE(good(b.ask(stop, true))) << "nothing that was commanded moves";
+    }
 }
 
 TEST(PacontrolStop, SilenceIsNeverTakenForAStop) {

@@ -1,7 +1,7 @@
 // The 28 traps of this control, one test each, by number: what goes easily wrong in a model or in a reader of the manual.
 // In: frames of the serial port, words of the Profibus and Interbus images, the tester's hand. Out: what comes back.
 // Never looks inside the control: every trap can be seen from outside, or it is none.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // Parameters, native language and actions of the UIM342 adapter, late answers, and the bounds that hold under any weather.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <random>
 

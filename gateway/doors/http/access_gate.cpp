@@ -2,7 +2,7 @@
 // In: headers. Out: identities and refusals. Never takes an unknown scheme for no credentials.
 #include "gateway/doors/http/access_gate.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

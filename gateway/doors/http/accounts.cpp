@@ -2,7 +2,7 @@
 // In: bodies. Out: documents, answers. Bounds: 20 s for a hash and the disk together. Never shows a digest of a password.
 #include "gateway/doors/http/accounts.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 // In: what the door has counted. Out: lines with HELP and TYPE. Never a label that a client chose.
 #include "gateway/doors/http/counters.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace axisgate::http {
 

@@ -2,7 +2,7 @@
 // In: requests. Out: the hand's items as JSON. Never keeps a connection past its time.
 #include "gateway/doors/http/hand_server.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/core.hpp>

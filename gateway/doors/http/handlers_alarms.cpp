@@ -1,7 +1,7 @@
 // Handlers of alarms: the list, and what people do about it.
 // In: calls. Out: the list or one alarm; answers come when it is on disk.
 // Never decides what an alarm is: AlarmList does.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <boost/json/array.hpp>

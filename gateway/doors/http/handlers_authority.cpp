@@ -1,6 +1,6 @@
 // Handlers of who may command: the leases of axes.
 // In: calls. Out: JSON; a refusal names the holder and how long it has the axis still.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <set>

@@ -1,6 +1,6 @@
 // Handlers of backups: the database as one file, one laid down for the next start, what waits, and the way back.
 // In: calls. Out: the file; what waits; 202 where something will happen later. Never replaces the database while it is served.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "gateway/services/documents.hpp"
 #include "gateway/doors/http/handlers.hpp"

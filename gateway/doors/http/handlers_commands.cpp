@@ -1,6 +1,6 @@
 // Handlers of motion: commands, actions, and starting prepared axes together.
 // In: calls with JSON bodies. Out: answers when the drive has acknowledged, or when it is done, or when the wait is over.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

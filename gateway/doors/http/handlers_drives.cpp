@@ -1,6 +1,6 @@
 // Handlers of drives: one exchange in the drive's own language, and the tester's hand of simulated drives.
 // In: calls. Out: what the drive answered; the outside conditions as they are.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cctype>

@@ -1,6 +1,6 @@
 // Handlers of the program itself: health, metrics, description, about, and the handshake of the live feed; and what all handlers share.
 // In: calls. Out: answers at once.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 

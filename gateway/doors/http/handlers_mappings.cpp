@@ -1,7 +1,7 @@
 // Handlers of the site's own register maps: the list, one entry, the whole as CSV, and the points that can be mapped.
 // In: calls. Out: entries in their full form; changes go through parse_site as a whole, like every change of the site.
 // Never reads a register: what an address shows is the Modbus door's.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>

@@ -1,7 +1,7 @@
 // Handlers of parameters as a table: the history of one, all as CSV, and a table written back.
 // In: calls. Out: rows; an import is checked as a whole first, and nothing is written if one row is wrong.
 // Never guesses a value: a row that cannot be read is a fault with its line.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <set>

@@ -1,6 +1,6 @@
 // Handlers of an axis' parameters: the list without an exchange, one read from the drive now, one written and answered by the drive.
 // In: calls. Out: catalogue, live value, stored value, and who wrote it when.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <unordered_map>

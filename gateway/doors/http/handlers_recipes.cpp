@@ -1,7 +1,7 @@
 // Handlers of recipes: the stored documents, their runs, and the reports of those.
 // In: calls. Out: documents as they were put, reports as the recipe desk keeps them.
 // Never carries out a step: that is the desk's.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <boost/json/parse.hpp>

@@ -1,6 +1,6 @@
 // Handlers of what is recorded: the frames of a line, and the events.
 // In: calls. Out: JSON, or files that other tools read.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

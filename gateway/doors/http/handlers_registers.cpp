@@ -1,7 +1,7 @@
 // Handlers of registers as a client of a register door sees them, and of what helps to lay a register map out: printable lists, free
 // places, templates. In: calls. Out: words and bits of the register image, decoded by the site's mappings; lists with the revision of
 // registers 18-19. Never renders a register: what is shown is what the image answers, refusals under Modbus' exception codes.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

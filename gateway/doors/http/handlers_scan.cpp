@@ -1,6 +1,6 @@
 // Handlers of a line's scan: begin it, look at it, end it.
 // In: calls. Out: the report as the engine has it at that moment.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // Handlers of the session: who am I, sign in, sign out, and the first sign-in of a new gateway.
 // In: calls. Out: the session's document and its cookie. One answer for a wrong user and a wrong password, in the same time.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "gateway/doors/http/accounts.hpp"
 #include "gateway/services/access/secrets.hpp"

@@ -1,6 +1,6 @@
 // Handlers of the site: lines, drives and axes one by one, and the whole document.
 // In: calls. Out: documents with their live state; changes go through parse_site as a whole and through Gateway::apply_site.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "gateway/services/documents.hpp"
 #include "gateway/doors/http/handlers.hpp"

@@ -1,7 +1,7 @@
 // Handlers of snapshots: taken from the drive or from what is stored, compared with anything, restored one parameter at a time.
 // In: calls. Out: snapshots, differences, what was changed and what was not and why.
 // Never stores half a snapshot: a drive that falls silent gives a refusal that says how far it came.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <set>

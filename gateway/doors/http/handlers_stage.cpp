@@ -1,7 +1,7 @@
 // Handlers of staged site changes and of the site's history.
 // In: calls. Out: the stage with its differences; revisions.
 // Never changes a site at once: what is staged is applied as one, and taken back unless it is confirmed.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "gateway/services/documents.hpp"
 #include "gateway/doors/http/handlers.hpp"

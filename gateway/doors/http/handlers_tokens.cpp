@@ -1,6 +1,6 @@
 // Handlers of tokens: secrets for programs, each belonging to a user, never above his role, shown once.
 // In: calls. Out: tokens without their secrets, except in the answer that makes one.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

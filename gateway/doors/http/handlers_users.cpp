@@ -1,6 +1,6 @@
 // Handlers of users: made, changed and removed by administrators; everybody changes his own password.
 // In: calls. Out: users without their hashes. A change is in force when it is on the disk; the last administrator stays.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "gateway/doors/http/accounts.hpp"
 #include "gateway/doors/http/preconditions.hpp"

@@ -2,7 +2,7 @@
 // In: bytes and fields. Out: where it ends, or what two programs could read in two ways. Never takes a folded line or a bare line end.
 #include "gateway/doors/http/head.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <array>
 

@@ -2,7 +2,7 @@
 // In: states, headers. Out: tags, 412. Keeps nothing; never decides for the site, which has its revision.
 #include "gateway/doors/http/preconditions.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "gateway/doors/http/problem.hpp"
 #include "gateway/doors/http/text.hpp"

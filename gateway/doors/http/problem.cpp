@@ -2,7 +2,7 @@
 // In: faults and results. Out: responses. Texts that may repeat what a client sent are cut at 1024 bytes. Never drops the drive's code.
 #include "gateway/doors/http/problem.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <utility>
 

@@ -2,7 +2,7 @@
 // In: a request, its route's list. Out: a refusal, or nothing. Never knows a route by its name.
 #include "gateway/doors/http/request_checks.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 // In: requests. Out: answers.
 #include "gateway/doors/http/router.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

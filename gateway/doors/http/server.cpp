@@ -2,7 +2,7 @@
 // In: connections, timers. Out: sessions. A client that is turned away gets one small 503 that nobody waits for. Never blocks.
 #include "gateway/doors/http/server.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <unordered_map>
 

@@ -2,7 +2,7 @@
 // In: plans. Out: answers, through the Gateway. Never runs two changes at a time: the queue of the door gives each its turn.
 #include "gateway/doors/http/site_change.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 // In: JSON documents. Out: the changed document. Never renames by a name that is missing or no text: parse_site refuses that.
 #include "gateway/doors/http/site_edit.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <optional>
 #include <vector>

@@ -2,7 +2,7 @@
 // In: targets, Accept fields. Out: responses. Never packs during a request.
 #include "gateway/doors/http/static_files.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 // slow client.
 #include "gateway/doors/http/stream_hub.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

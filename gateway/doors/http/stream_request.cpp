@@ -2,7 +2,7 @@
 // In: text. Out: a request or a fault. Never reads on behind the first fault.
 #include "gateway/doors/http/stream_request.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 // In: bytes. Out: values or valid UTF-8. Every function depends on its arguments alone. Never guesses at bad input.
 #include "gateway/doors/http/text.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>

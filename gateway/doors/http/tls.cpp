@@ -2,7 +2,7 @@
 // In: PEM texts, names, the time. Out: an identity, or faults in words. Never asks for a passphrase: a locked key cannot be read.
 #include "gateway/doors/http/tls.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <openssl/bio.h>
 #include <openssl/err.h>
 #include <openssl/evp.h>

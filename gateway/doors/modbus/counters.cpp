@@ -2,7 +2,7 @@
 // In: counters. Out: text. Never counts anything itself.
 #include "gateway/doors/modbus/counters.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace axisgate::modbus {
 

@@ -3,7 +3,7 @@
 // Never carries out a part of a write that it must refuse.
 #include "gateway/doors/modbus/pdu.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cstring>
 #include <utility>

@@ -3,7 +3,7 @@
 #include "gateway/services/access/access_register.hpp"
 
 #include <arpa/inet.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 // In: texts. Out: ids, digests, hashes, refusals. Passwords that are tried first are found by rule and a short list. Never stores anything.
 #include "gateway/services/access/secrets.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <sodium.h>
 
 #include <algorithm>

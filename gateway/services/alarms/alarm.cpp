@@ -2,7 +2,7 @@
 // In: events, acknowledgements, shelves, time. Out: the list and what changed. Never takes the end of one drive's fault for another's.
 #include "gateway/services/alarms/alarm.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

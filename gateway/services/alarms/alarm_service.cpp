@@ -3,7 +3,7 @@
 // Never answers an acknowledgement before it is stored.
 #include "gateway/services/alarms/alarm_service.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <boost/json/array.hpp>

@@ -2,7 +2,7 @@
 // In: points, answers. Out: values and failures, told once. Never blocks.
 #include "gateway/services/parameters/axis_jobs.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 
 namespace axisgate {

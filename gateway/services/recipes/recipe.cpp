@@ -2,7 +2,7 @@
 // In: steps, conditions, values. Out: their words, and whether they hold.
 #include "gateway/services/recipes/recipe.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <boost/json/serialize.hpp>
 #include <cmath>

@@ -3,7 +3,7 @@
 // Never claims a motion that went on under another command beside a run's action.
 #include "gateway/services/recipes/recipe_claims.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

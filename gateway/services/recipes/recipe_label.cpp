@@ -1,6 +1,6 @@
 // Recipe labels: what people call a step: "Step 4.3 (pass 2 of 5): set_parameter AC of feeder = 20000".
 // In: a step with its arguments put in. Out: one line of bounded length. Never a value that has to be kept secret: a recipe holds none.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <boost/json/serialize.hpp>
 

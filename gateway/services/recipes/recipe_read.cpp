@@ -1,6 +1,6 @@
 // Reading a recipe: the document and the arguments of a run become steps, or faults with their places.
 // In: JSON. Out: steps, or faults, all at once. Never asks a drive.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 // Never orders the removal of a run's mark before its report: whatever ends the program between the two leaves both.
 #include "gateway/services/recipes/recipe_reports.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <boost/json/parse.hpp>

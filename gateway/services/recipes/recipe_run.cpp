@@ -2,7 +2,7 @@
 // In: answers, time, values of axes. Out: requests, the report. Never asks for anything but stops once it has failed or was cancelled.
 #include "gateway/services/recipes/recipe_run.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 // In: runs, answers, time. Out: commands, reports, events. Never keeps a pointer into the site: it may change during a run.
 #include "gateway/services/recipes/recipe_service.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <boost/json/serialize.hpp>

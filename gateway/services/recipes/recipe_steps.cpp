@@ -2,7 +2,7 @@
 // In: steps, the site. Out: commands, faults with pointers. Never submits anything.
 #include "gateway/services/recipes/recipe_steps.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <utility>

@@ -2,7 +2,7 @@
 // In: the stage, callers. Out: ids, whose it is. Never keeps more than the present stage.
 #include "gateway/services/site/stage_owner.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

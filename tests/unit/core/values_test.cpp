@@ -1,7 +1,9 @@
 // Values, catalogue and guard: conversions, range checks with their messages, limits in an axis' own unit.
 // In: tables. Out: values or refusals. Never uses a real family's catalogue.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 #include "gateway/core/catalogue.hpp"
 #include "gateway/axis/guard.hpp"
@@ -107,6 +109,20 @@ TEST(Catalogue, WritesAreCheckedAndRefusalsNameTheRange) {
              {{3, 1}, Value{std::int64_t{1} << 31}, "-2147483648..2147483647"}, {{3, 4}, Value{std::int64_t{1}}, "does not know"}}) {
         const auto r = c.check_write(point, value);
         EXPECT_NE(r.fault.find(part), std::string::npos) << r.fault << " should name " << part;
+    }
+}
+
+TEST(Catalogue, AFractionHasTheRangeOfItsTypeWhereThePageNamesNone) {
+    const auto c = read(R"({"family": "x", "number": 1, "commands": [], "errors": [], "parameters": [
+      {"id": "S", "name": "s", "group": "g", "type": "f32", "access": "RW", "description": "d"},
+      {"id": "D", "name": "d", "group": "g", "type": "f64", "access": "RW", "description": "d"}]})");
+    for (const double fits : {0.0, -3.4028234e38, 3.4028234e38}) EXPECT_EQ(c.check_write({0, 0}, Value{fits}).fault, "") << fits;
+    for (const double too_much : {1e300, -1e300, 3.5e38}) {
+        EXPECT_NE(c.check_write({0, 0}, Value{too_much}).fault.find("single precision"), std::string::npos) << too_much;
+        EXPECT_EQ(c.check_write({1, 0}, Value{too_much}).fault, "") << too_much;
+    }
+    for (const std::uint16_t i : {std::uint16_t{0}, std::uint16_t{1}}) {
+        for (const double none : {std::nan(""), HUGE_VAL}) EXPECT_NE(c.check_write({i, 0}, Value{none}).fault.find("takes a number"), std::string::npos) << none;
     }
 }
 

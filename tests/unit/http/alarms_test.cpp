@@ -1,5 +1,5 @@
 // Alarms over HTTP: the list, acknowledge, shelve, what is kept and found again, what is streamed; events as table and text.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "gateway/doors/http/stream_hub.hpp"
 #include "tests/unit/http/harness.hpp"

@@ -1,5 +1,5 @@
 // Recipes over HTTP: documents, runs through the Gateway in virtual time, reports, and who may run beside whom.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

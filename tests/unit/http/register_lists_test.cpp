@@ -1,6 +1,6 @@
 // Register lists through the router: what a PLC computes from the structures is where the mappings are; numbers and units on paper; templates.
 // In: sites. Out: judgements. The offsets are computed from the text alone, as a compiler with packed structures does.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <regex>
 #include <sstream>

@@ -1,6 +1,6 @@
 // Snapshots, tables of parameters, staged sites, registers and register lists through the router, with the fake gateway.
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "tests/unit/http/harness.hpp"
 

@@ -291,6 +291,30 @@ TEST_F(StreamHubTest, ResubscribingGivesASnapshotAgain) {
     EXPECT_EQ(topics(taken()), "") << "others get none";
 }
 
+TEST_F(StreamHubTest, WhoSubscribesWithoutEndIsClosed) {
+    int taken_requests = 0;
+    for (; client->closing() == 0 && taken_requests < 10'000; ++taken_requests) {
+        say(R"({"subscribe":["axes/slide"]})");
+        if (client->closing() == 0) taken();
+    }
+    EXPECT_GT(taken_requests, 150) << "a page that is drawn anew may ask often";
+    EXPECT_LT(taken_requests, 250);
+    EXPECT_EQ(client->closing(), close_policy);
+    EXPECT_EQ(topics(taken()).substr(0, 10), "close 1008");
+    // At the pace of a person, for ever; and the lines' frames, which tell a long past, cost more.
+    auto calm = hub.add({});
+    for (int i = 0; i < 2000; ++i, now += milliseconds(100))
+        hub.on_text(*calm, R"({"subscribe":["axes/slide"]})", now), (void)taken(*calm);
+    EXPECT_EQ(calm->closing(), 0);
+    auto frames = hub.add({});
+    int asked = 0;
+    for (; frames->closing() == 0 && asked < 10'000; ++asked) {
+        hub.on_text(*frames, R"({"subscribe":["lines/can0/frames"]})", now);
+        if (frames->closing() == 0) (void)taken(*frames);
+    }
+    EXPECT_LT(asked, 60);
+}
+
 TEST_F(StreamHubTest, Unsubscribing) {
     say(R"({"subscribe":["axes/*","events","site","lines/can0/frames"]})");
     taken();

@@ -1,6 +1,6 @@
 // The locks of the door: which functions are served, and what a read-only door still takes: a pure stop, proved against the CiA 402 profile
 // in all of its states. In: request PDUs. Out: answers, and what the profile would have done.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include "gateway/axis/cia402.hpp"

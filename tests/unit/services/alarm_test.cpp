@@ -1,7 +1,7 @@
 // Alarms: every transition of the state machine by table, in virtual time; who clears what; shelves and doubts that end; the bound.
 #include "gateway/services/alarms/alarm.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 namespace axisgate {

@@ -137,7 +137,10 @@ void Device::answer(std::uint8_t sub, std::vector<std::uint8_t> data, Out& out) 
     t.insert(t.end(), data.begin(), data.end());
     if (setup_.checksum != "none") put(t, sum(t), 2);
     t.push_back(4);
-    if (!silent_) out.send(Frame::run(t));
+    if (silent_) return;
+    Frame frame = Frame::run(t);
+    frame.at = at_;
+    out.send(frame);
 }
 
 void Device::default_response(Out& out, std::span<const std::uint8_t> more) const {
@@ -163,6 +166,7 @@ void Device::set_error_count() {
 }
 
 void Device::heard(Data body, Instant now, Out& out) {
+    at_ = now;
     drive_.advance(now);
     const std::uint8_t sub = body[0], main = body[1];
     const Data data = body.subspan(2);
@@ -224,8 +228,10 @@ void Device::on_deadline(Instant now, Out& out) {
     if (!powered_) return;
     drive_.advance(now);
     if (now >= reply_at_) {
+        Frame frame = Frame::run(reply_);
+        frame.at = reply_at_;
         reply_at_ = never;
-        if (!silent_ && !reply_.empty()) out.send(Frame::run(reply_));
+        if (!silent_ && !reply_.empty()) out.send(frame);
     }
 }
 
@@ -284,7 +290,8 @@ std::string Device::set_hand(const std::string& name, const Value& value, Instan
     }
     if (name == "silent") return silent_ = flag, std::string();
     if (name == "inject_error") {
-        if (!in(0, 255)) return "inject_error takes a code 0..255";
+        if (*n != 0 && (!in(0, 255) || !setup_.error_texts.contains(static_cast<std::uint16_t>(*n))))
+            return "inject_error takes an error code of the catalogue, or 0";
         drive_.inject(static_cast<std::uint16_t>(*n), now);
         set_error_count();
         return {};

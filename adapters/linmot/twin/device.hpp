@@ -76,7 +76,7 @@ private:
     std::uint8_t block_sub_ = 0;
     std::size_t block_at_ = 0;
     std::map<std::uint16_t, std::pair<std::size_t, std::size_t>> block_sizes_;  ///< info and data of curves that are being written
-    Instant last_byte_{};
+    Instant last_byte_{}, at_{};                                                ///< of the telegram that is answered
 };
 
 }  // namespace axisgate::linmot::twin

@@ -175,6 +175,8 @@ void Memory::set_rom(std::uint16_t upid, std::uint32_t raw) {
 }
 
 void Memory::load(const NonVolatile& memory) {
+    for (const auto& [upid, f] : facts_)
+        rom_[upid] = fit(f.type, static_cast<std::uint32_t>(f.factory));
     for (const auto& [name, value] : memory) {
         unsigned upid = 0;
         const auto [end, ec] = std::from_chars(name.data(), name.data() + name.size(), upid, 16);
@@ -187,7 +189,8 @@ void Memory::load(const NonVolatile& memory) {
 }
 void Memory::save(NonVolatile& into) const {
     for (const auto& [upid, f] : facts_) {
-        if (f.in_rom()) into[fmt::format("{:04X}", upid)] = std::int64_t{rom(upid)};
+        const bool factory = rom(upid) == fit(f.type, static_cast<std::uint32_t>(f.factory));
+        if (f.in_rom() && !factory) into[fmt::format("{:04X}", upid)] = std::int64_t{rom(upid)};
     }
 }
 

@@ -56,14 +56,14 @@ void Drive::set_axes(const DriveSetup& setup, Turn& t) {
 
 void Drive::submit(const Command& c, Turn& t) {
     if (drive::admit(c, setup_.name, presence_, queue_, tickets_, t) != drive::Admission::urgent) return;
-    const auto ends = [&](const Command& w) { return w.axis == c.axis && drive::is_motion(w.body); };
+    const bool off = std::holds_alternative<Disable>(c.body);
+    const auto ends = [&](const Command& w) { return w.axis == c.axis && (drive::is_motion(w.body) || (off && std::holds_alternative<Enable>(w.body))); };
     (void)queue_.interrupt(ends, name_of(c.body), tickets_, t);
     if (job_ && ends(job_->command)) {
         tickets_.failed(job_->command.ticket, Reason::interrupted, drive::CommandQueue::interrupted_by(name_of(c.body)), t.out);
         job_.reset();
     }
     exchange_.no_repeats();
-    const bool off = std::holds_alternative<Disable>(c.body);
     const Step stop{off ? "R20" : "R23", Kind::value, std::holds_alternative<QuickStop>(c.body) ? "1" : "0"};
     if (!stops_.add({c.ticket, telegram(c.axis, stop)}))
         tickets_.refused(c.ticket, Reason::busy, "8 stops are on their way already", t.out);

@@ -53,7 +53,7 @@ struct Telegram {
 };
 [[nodiscard]] std::vector<std::uint8_t> pack(const Telegram& telegram, const ChecksumRule& rule);
 /// Bytes of a telegram with so much data.
-[[nodiscard]] constexpr std::size_t wire_size(std::size_t data, const ChecksumRule& rule) noexcept { return data + 7 + rule.size(); }
+[[nodiscard]] inline std::size_t wire_size(std::size_t data, const ChecksumRule& rule) noexcept { return data + 7 + rule.size(); }
 
 /// Finds telegrams in a byte stream. Bytes that belong to none are given away as they are, with the reason.
 class Framer {

@@ -93,7 +93,7 @@ void LineAdapter::configure(const LineSetup& setup, Instant now, Out& out) {
             out.links.push_back({d.id, false, 0, Duration{}, std::move(why)});
             continue;
         }
-        nodes_.push_back(std::make_unique<Node>(catalogue_, manners_, counters_, d));
+        nodes_.push_back(std::make_unique<Node>(catalogue_, manners_, counters_, d, next_listing_));
         if (up_) nodes_.back()->line_up(t);
     }
     setup_ = setup;
@@ -389,8 +389,8 @@ void LineAdapter::on_deadline(Instant now, Out& out) {
 
 /// After a time-out: lines wait until late answers are over, and the drive that was late is not asked again while one waits for that.
 bool LineAdapter::held(const Node& n, Instant now) const noexcept {
-    if (n.wants_unmarked()) return now < dirty_until_;
-    return &n == dirty_ && std::ranges::any_of(nodes_, [](const auto& o) { return o->wants_unmarked(); });
+    if (n.wants_unmarked(now)) return now < dirty_until_;
+    return &n == dirty_ && std::ranges::any_of(nodes_, [now](const auto& o) { return o->wants_unmarked(now); });
 }
 
 Instant LineAdapter::deadline() const {

@@ -31,8 +31,8 @@ std::vector<std::string_view> split(std::string_view s) {
 }
 }  // namespace
 
-Node::Node(const Catalogue& catalogue, const Manners& manners, AdapterCounters& counters, const DriveSetup& setup)
-    : catalogue_(catalogue), manners_(manners), counters_(counters), setup_(setup) {
+Node::Node(const Catalogue& catalogue, const Manners& manners, AdapterCounters& counters, const DriveSetup& setup, Instant& next_listing)
+    : catalogue_(catalogue), manners_(manners), counters_(counters), next_listing_(next_listing), setup_(setup) {
     for (const auto& a : setup.axes) {
         if (a.channel == 1) axis_ = a.id;
     }
@@ -118,7 +118,10 @@ void Node::came(Turn& t) {
     aim_.knows({vi_, vm_, a_, d_, encoder_flag_});
     link_state(true, identity_.empty() ? fmt::format("answers to {}", setup_.address) : identity_, t);
     next_poll_ = t.now;
-    survey_ = true;
+    if (!std::exchange(survey_, true)) {  // it keeps the turn that it has
+        survey_at_ = std::max(t.now, next_listing_);
+        next_listing_ = survey_at_ + std::chrono::seconds(1);
+    }
     at_factory_rate_ = false;
     const std::string trouble = job_.kind == JobKind::named ? std::string() : rate_trouble();  // line.setup sets BD too
     if (!trouble.empty()) note(Severity::warning, "bit_rate", 0, trouble, t);

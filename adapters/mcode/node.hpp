@@ -76,7 +76,8 @@ public:
     static constexpr Duration restart_limit = std::chrono::seconds(20);  ///< a restarted drive that is not back by then has failed
     static constexpr int link_round_limit = 8;       ///< lines that set its link in a row; what it has then is used as it is
 
-    Node(const Catalogue& catalogue, const Manners& manners, AdapterCounters& counters, const DriveSetup& setup);
+    /// `next_listing`: of the line, shared by its nodes: a listing keeps the line to itself, so there is one in a second at most.
+    Node(const Catalogue& catalogue, const Manners& manners, AdapterCounters& counters, const DriveSetup& setup, Instant& next_listing);
 
     void line_up(Turn& t);
     void line_down(Turn& t, std::string_view why);
@@ -86,7 +87,7 @@ public:
     enum class Want : std::uint8_t { nothing, urgent, other };
     [[nodiscard]] Want wants(Instant now) const noexcept;
     /// What it would send next is answered without a mark (a line, not a question), and is no stop.
-    [[nodiscard]] bool wants_unmarked() const noexcept;
+    [[nodiscard]] bool wants_unmarked(Instant now) const noexcept;
     /// It gives a fresh drive its name: urgent, but behind stops.
     [[nodiscard]] bool naming() const noexcept { return job_.kind == JobKind::setup; }
     /// It could hear a line to all drives now, or later: else it is away.
@@ -288,7 +289,7 @@ private:
     [[nodiscard]] bool clear_from(const std::vector<ListedLine>& rows, Turn& t);
     [[nodiscard]] std::string memory_is_half() const;
     /// A listing is due: at rest, when nothing else is wanted; what a program prints would stand within it.
-    [[nodiscard]] bool surveys() const noexcept { return survey_ && seen_ && !running_ && !mv_ && job_.kind == JobKind::none && queue_.empty(); }
+    [[nodiscard]] bool surveys(Instant now) const noexcept { return survey_ && now >= survey_at_ && seen_ && !running_ && !mv_ && job_.kind == JobKind::none && queue_.empty(); }
     void variables_listed(std::string_view listing, Turn& t);
     [[nodiscard]] std::string variable_hint() const;
     [[nodiscard]] bool wait_for_rest(Turn& t);
@@ -303,6 +304,7 @@ private:
     const Catalogue& catalogue_;
     const Manners& manners_;
     AdapterCounters& counters_;
+    Instant& next_listing_;  ///< of the line
     DriveSetup setup_;
     AxisId axis_ = no_axis;
 
@@ -357,6 +359,7 @@ private:
     bool half_was_away_ = false;          ///< the drive was out of reach since: it may have restarted with another program
     std::string half_from_;               ///< ... from this address on; empty: all of it
     std::vector<std::string> half_;       ///< what that download had sent, as a listing is compared
+    Instant survey_at_{};                 ///< its turn to do so
     bool survey_ = false;                 ///< its user variables have not been listed since it came
     bool relearn_ = false;                ///< VI, VM, A, D or EE may be others than is known
     bool stopping_ = false;               ///< a stop was accepted, and rest has not been seen since

@@ -31,13 +31,13 @@ Node::Want Node::wants(Instant now) const noexcept {
     if (job_.kind != JobKind::none) {
         return job_.at < job_.steps.size() && job_.steps[job_.at].what == Step::What::standstill ? Want::nothing : Want::other;
     }
-    return queue_.empty() && !surveys() ? Want::nothing : Want::other;
+    return queue_.empty() && !surveys(now) ? Want::nothing : Want::other;
 }
 
-bool Node::wants_unmarked() const noexcept {
+bool Node::wants_unmarked(Instant now) const noexcept {
     if (phase_ == Phase::linking) return true;
     if (phase_ != Phase::ready || !stops_.empty() || leaving() || need_error_ || !seen_) return false;
-    if (job_.kind == JobKind::none) return !queue_.empty() || surveys() || ((clear_half_ || tidy_) && !running_ && !mv_);
+    if (job_.kind == JobKind::none) return !queue_.empty() || surveys(now) || ((clear_half_ || tidy_) && !running_ && !mv_);
     if (job_.confirming || job_.at >= job_.steps.size()) return false;
     const auto what = job_.steps[job_.at].what;
     return what == Step::What::send || what == Step::What::bare || what == Step::What::block;
@@ -163,7 +163,7 @@ Request Node::next(Turn& t) {
         job_.add(Step::What::query, R"(BE,",",AT,",",DT)");
     }
     if (job_.kind == JobKind::none && !queue_.empty()) take_next(t);
-    if (job_.kind == JobKind::none && surveys()) {
+    if (job_.kind == JobKind::none && surveys(t.now)) {
         survey_ = false;
         job_.kind = JobKind::survey;
         job_.add(Step::What::block, "PR UV");

@@ -80,17 +80,17 @@ void Engine::hold(Axis& a, const Command& c, const HoldAxis& wish, Instant now) 
 }
 
 void Engine::authority_changed(Axis& a, const AxisAuthority::Verdict& v, const Origin* by, Instant now) {
-    using Change = AxisAuthority::Change;
-    if (v.change == Change::none) {
+    using Authority = AxisAuthority::Change;
+    if (v.change == Authority::none) {
         return;  // a lease that a command prolongs is published with that command
     }
     publish(a, now);
-    if (v.change == Change::renewed) return;
+    if (v.change == Authority::renewed) return;
     Event e;
     e.kind = "authority";
     e.axis = a.spec.name;
     e.text = v.text;
-    if (v.change == Change::taken_over) e.severity = Severity::warning;
+    if (v.change == Authority::taken_over) e.severity = Severity::warning;
     if (by) {
         e.who = by->who ? *by->who : "";
         e.door = std::string(name_of(by->door));

@@ -7,6 +7,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <algorithm>
 #include <utility>
 
 namespace axisgate::mcode {

@@ -260,8 +260,7 @@ void Node::download_failed(std::string why, Turn& t) {
     const bool touched = job_.memory_touched;
     if (touched) keep_half();
     relearn_ = relearn_ || touched;
-    job_over(Outcome::failed, Reason::interrupted,
-             fmt::format("{}: {}{}", name(), why, touched ? "; " + memory_is_half() : ""), t);
+    job_over(Outcome::failed, Reason::interrupted, fmt::format("{}: {}{}", name(), why, touched ? "; " + memory_is_half() : ""), t);
 }
 
 /// Program mode is left first (leaving.cpp); CP then removes the half, behind every stop that waits, also when the drive was away.
@@ -286,12 +285,12 @@ void Node::setting_refused(const std::string& why, Turn& t) {
     relearn_ = true;
     const int code = last_error_;
     const ErrorCode* e = catalogue_.error(code);
-    job_over(Outcome::failed, code != 0 ? Reason::drive_refused : Reason::no_answer,
-             fmt::format(
-                 "{}: line {}: {} {}{}; {}", name(), step.line, step.what == Step::What::query ? job_.steps[job_.at - 1].text : step.text,
-                 why, code != 0 && e ? ", " + e->text : std::string(),
-                 begun && !more ? "the program before it is stored" : memory_is_half()),
-             t, code);
+    job_over(
+        Outcome::failed, code != 0 ? Reason::drive_refused : Reason::no_answer,
+        fmt::format("{}: line {}: {} {}{}; {}", name(), step.line,
+                    step.what == Step::What::query ? job_.steps[job_.at - 1].text : step.text, why,
+                    code != 0 && e ? ", " + e->text : std::string(), begun && !more ? "the program before it is stored" : memory_is_half()),
+        t, code);
 }
 
 /// Actions for which the drive must not move: behind a stop or the end of a move MV stays 1 for MT + HT, which is waited for.

@@ -34,7 +34,8 @@ bool Node::ended_by_stop(const CommandBody& b, bool power_off) const {
         return p && says(word(*p));
     }
     const auto* action = std::get_if<Action>(&b);
-    return action && (action->name == "program.start" || action->name == "program.resume" || action->name == "calibrate" || says(action->name));
+    return action &&
+           (action->name == "program.start" || action->name == "program.resume" || action->name == "calibrate" || says(action->name));
 }
 
 void Node::submit(const Command& c, Turn& t) {
@@ -338,7 +339,9 @@ void Node::step_ended(Verdict v, const ReplyReader& r, Turn& t) {
                 need_error_ = true;
                 error_is_ours_ = true;
                 return job_over(Outcome::refused, Reason::not_supported,
-                                variable_hint().empty() ? fmt::format("{} does not have {}, or cannot show it now", name(), step.text) : variable_hint(), t);
+                                variable_hint().empty() ? fmt::format("{} does not have {}, or cannot show it now", name(), step.text)
+                                                        : variable_hint(),
+                                t);
             }
             return job_over(Outcome::failed, Reason::no_answer, fmt::format("{} did not answer PR {}", name(), step.text), t);
         case Step::What::block:

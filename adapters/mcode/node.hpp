@@ -71,10 +71,10 @@ struct StartedProgram {
 
 class Node {
 public:
-    static constexpr std::size_t queue_limit = 64;   ///< waiting commands; one more is refused as busy
-    static constexpr std::size_t urgent_limit = 16;  ///< waiting stops; one more is refused as busy
+    static constexpr std::size_t queue_limit = 64;                       ///< waiting commands; one more is refused as busy
+    static constexpr std::size_t urgent_limit = 16;                      ///< waiting stops; one more is refused as busy
     static constexpr Duration restart_limit = std::chrono::seconds(20);  ///< a restarted drive that is not back by then has failed
-    static constexpr int link_round_limit = 8;       ///< lines that set its link in a row; what it has then is used as it is
+    static constexpr int link_round_limit = 8;  ///< lines that set its link in a row; what it has then is used as it is
 
     /// `next_listing`: of the line, shared by its nodes: a listing keeps the line to itself, so there is one in a second at most.
     Node(const Catalogue& catalogue, const Manners& manners, AdapterCounters& counters, const DriveSetup& setup, Instant& next_listing);
@@ -289,7 +289,9 @@ private:
     [[nodiscard]] bool clear_from(const std::vector<ListedLine>& rows, Turn& t);
     [[nodiscard]] std::string memory_is_half() const;
     /// A listing is due: at rest, when nothing else is wanted; what a program prints would stand within it.
-    [[nodiscard]] bool surveys(Instant now) const noexcept { return survey_ && now >= survey_at_ && seen_ && !running_ && !mv_ && job_.kind == JobKind::none && queue_.empty(); }
+    [[nodiscard]] bool surveys(Instant now) const noexcept {
+        return survey_ && now >= survey_at_ && seen_ && !running_ && !mv_ && job_.kind == JobKind::none && queue_.empty();
+    }
     void variables_listed(std::string_view listing, Turn& t);
     [[nodiscard]] std::string variable_hint() const;
     [[nodiscard]] bool wait_for_rest(Turn& t);

@@ -40,6 +40,11 @@ public:
         passed_ += n;
         busy_ = more;
     }
+    /// When the last of the bytes that have passed in this burst had crossed: at `now` at the latest, and earlier for who asks late.
+    [[nodiscard]] Instant crossed(Instant now) const noexcept { return active() ? std::min(now, origin_ + byte_time_ * passed_) : now; }
+    [[nodiscard]] Duration byte_time() const noexcept { return byte_time_; }
+    /// Bytes that pass together; 0: no pace.
+    [[nodiscard]] std::size_t grain() const noexcept { return static_cast<std::size_t>(step_); }
     /// Until the next bytes may pass; zero: now.
     [[nodiscard]] Duration pause(Instant now) const noexcept {
         if (!active() || !busy_) return {};

@@ -178,6 +178,19 @@ void PtyLine::on_gone(int error) {
     watch_for_somebody();
 }
 
+/// Bytes that were there before their time came have crossed at the line's pace, however late this process reads them; a program that keeps
+/// behind the pace has written the last of them just now.
+void PtyLine::got(std::size_t bytes, bool more) {
+    const Instant now = clock().now();
+    in_handed_ = in_crossed_;
+    in_.pass(bytes, more, now);
+    in_crossed_ = std::max(in_handed_, more ? in_.crossed(now) : now);
+}
+
+Instant PtyLine::crossed(std::size_t before_the_last) const {
+    return std::max(in_handed_, in_crossed_ - in_.byte_time() * static_cast<std::int64_t>(before_the_last));
+}
+
 void PtyLine::flush() {
     if (somebody_) return StreamLine::flush();
     const Instant now = clock().now();

@@ -36,7 +36,9 @@ private:
     void wrote(std::size_t bytes, bool more) override { out_.pass(bytes, more, clock().now()); }
     [[nodiscard]] std::size_t room_to_read() override { return std::min(in_.room(clock().now()), chunk); }
     [[nodiscard]] Duration pause_before_read() const override { return in_.pause(clock().now()); }
-    void got(std::size_t bytes, bool more) override { in_.pass(bytes, more, clock().now()); }
+    void got(std::size_t bytes, bool more) override;
+    [[nodiscard]] Instant crossed(std::size_t before_the_last) const override;
+    [[nodiscard]] std::size_t run() const override { return in_.active() ? std::min(in_.grain(), Frame::capacity) : Frame::capacity; }
     [[nodiscard]] std::string up_text() const override;
     void watch_for_somebody();
 
@@ -45,6 +47,8 @@ private:
     std::uint32_t pace_baud_;
     SerialFormat pace_format_;
     BytePace out_, in_;
+    Instant in_crossed_{};   // the last byte of the read in hand
+    Instant in_handed_{};    // the last byte of the reads before it: none crosses before that
     std::string slave_;      // what the link points to; empty: there is no link of ours
     bool somebody_ = false;  // has the other side open
     asio::steady_timer watch_;

@@ -88,9 +88,9 @@ bool StreamLine::hand_up(std::span<std::uint8_t> data) {
     load_in_.add(now, byte_time_ * static_cast<std::int64_t>(data.size()));
     auto rest = data.first(filter(data));
     while (!rest.empty()) {
-        Frame f = Frame::run(rest.first(std::min(rest.size(), Frame::capacity)));
-        f.at = now;
+        Frame f = Frame::run(rest.first(std::min(rest.size(), run())));
         rest = rest.subspan(f.size);
+        f.at = crossed(rest.size());
         count_received(1, f.size);
         if (!deliver(f)) return false;
     }

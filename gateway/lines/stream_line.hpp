@@ -46,6 +46,13 @@ protected:
         (void)bytes;
         (void)more;
     }
+    /// When the byte had crossed that stands so many bytes before the last one of the read in hand; frames are stamped so.
+    [[nodiscard]] virtual Instant crossed(std::size_t before_the_last) const {
+        (void)before_the_last;
+        return clock().now();
+    }
+    /// Bytes that are handed up as one frame, at most: those that have crossed together.
+    [[nodiscard]] virtual std::size_t run() const { return Frame::capacity; }
     /// Reading or writing failed, or (error 0) the other side has ended. Normally the line goes down.
     virtual void on_gone(int error);
 

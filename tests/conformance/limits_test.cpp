@@ -100,7 +100,8 @@ TEST_P(LimitLaws, RegistersDoNotLeadOutEither) {
         d.mode = cia402::mode_profile_velocity;
         d.profile_acceleration = d.profile_deceleration = 20'000;
     });
-    for (const int cw : {0x06, 0x07, 0x0F}) (void)write([&](ProcessData& d) { d.controlword = static_cast<std::uint16_t>(cw); });
+    for (const int cw : {0x06, 0x07, 0x0F})
+        (void)write([&](ProcessData& d) { d.controlword = static_cast<std::uint16_t>(cw); });
     const Result go = write([](ProcessData& d) { d.target_velocity = -5'000; });
     if (go.reason == Reason::not_supported) return no_velocity_leads_nowhere(go);
     ASSERT_TRUE(good(go)) << go.text;
@@ -129,7 +130,8 @@ TEST_P(LimitLaws, AnAxisThatIsFoundInMotionIsHaltedAtTheLimit) {
     site = next.apply(wanted);
     ASSERT_TRUE(next.run_until_true([&] { return (next.picture(a1).flags & flag_online) != 0; }, 8s));
     EXPECT_NE(next.picture(a1).flags & flag_moving, 0);
-    ASSERT_TRUE(next.run_until_true([&] { return (next.picture(a1).flags & flag_moving) == 0; }, 15s)) << "it goes on at " << next.picture(a1).position;
+    ASSERT_TRUE(next.run_until_true([&] { return (next.picture(a1).flags & flag_moving) == 0; }, 15s))
+        << "it goes on at " << next.picture(a1).position;
     next.run_for(500ms);
     EXPECT_LE(std::llabs(next.picture(a1).position), limit + 300);
     EXPECT_GE(std::llabs(next.picture(a1).position), limit - 1'500) << "found is not stopped: it goes on to the limit";

@@ -1,10 +1,13 @@
 """MCode from outside: a party line on a pseudo-terminal, driven as by hand; a program that curl stores and starts on the demo's drives."""
 import contextlib
+import http.client
 import json
+import os
 import pathlib
-import subprocess
 import re
+import signal
 import socket
+import subprocess
 import time
 
 from harness import Gateway, Port, Process, run, until
@@ -65,6 +68,38 @@ def test_the_rate_of_a_twin_is_its_own_after_a_restart(folder):
             assert port.ask(b"PR BD\r", end) == b"PR BD\r\n96\r\n>", "the old rate holds until the restart"
             port.ask(b"\x03")
             assert b"96" not in port.ask(b"PR BD\r"), "it speaks 9600 now, and the line 19200"
+
+
+def test_a_writer_is_held_up_at_the_drives_pace(folder):
+    """More than the terminal's buffers hold is not taken: the wire is slower than who writes."""
+    with Process("twin", "mcode", "--line", f"pty:{folder / 'slow'}?baud=4800", "--address", "!"):
+        with Port(folder / "slow") as port:
+            assert port.ask(b"EM=2\r", lambda got: got.endswith(b"\n")).startswith(b"EM=2")
+            os.set_blocking(port.fd, False)
+            taken, most = 0, 1 << 20
+            with contextlib.suppress(BlockingIOError):
+                while taken < most:
+                    taken += os.write(port.fd, b"' a comment of some length, which the drive reads and forgets\r" * 16)
+            assert taken < most, "a megabyte within a moment, and the wire carries 480 bytes in a second"
+
+
+def test_lines_that_waited_on_the_wire_reach_the_drive_one_after_the_other(folder):
+    """The twin's process stands still while a program writes on: to the drive each line comes at its time on the wire, and none is lost."""
+    count, rate = 300, 38400
+    line = b"IC Q1".ljust(59) + b"\r"  # 15 ms on the wire: longer than the drive needs for one
+    with Process("twin", "mcode", "--line", f"pty:{folder / 'slow'}?baud={rate}", "--address", "!") as twin:
+        with Port(folder / "slow") as port:
+            # EM=2: nothing comes back, so nobody has to read meanwhile.
+            assert port.ask(b"EM=2\r", lambda got: got.endswith(b"\n")).startswith(b"EM=2")
+            port.ask(b"VA Q1=0\r")
+            rest = line * count
+            while rest:
+                rest = rest[os.write(port.fd, rest[:2000]):]
+                twin.process.send_signal(signal.SIGSTOP)
+                time.sleep(0.3)
+                twin.process.send_signal(signal.SIGCONT)
+            got = port.ask(b"PR Q1,\" \",ER\r", lambda had: had.endswith(b"\r\n"), 30)
+            assert got.split() == [str(count).encode(), b"0"], got
 
 
 def test_a_program_that_prints_faster_than_the_line(folder):
@@ -180,6 +215,79 @@ def test_a_program_is_stored_started_and_stopped_by_http(folder):
         recording = g.get("/lines/rs485/trace?limit=300")
         code, out, err = run("decode", "mcode", "--format", "trace", stdin=json.dumps(recording))
         assert code == 0 and len(out.splitlines()) > 20, (out[:300], err)
+
+
+def test_user_variables_are_parameters_mapped_kept_and_told(folder):
+    site = {"lines": [{"name": "rs485", "uri": "twin", "family": "mcode", "bitrate": 115200}],
+            "drives": [{"name": "table", "line": "rs485", "address": "a", "presence": "twin", "options": {"variables": "Q1:mm,K2"}}],
+            "axes": [{"name": "table", "drive": "table", "number": 1, "unit": "mm", "increments_per_unit": 1000}],
+            "mappings": [{"unit": 2, "address": 0, "axis": "table", "point": "UV.Q1", "type": "i32"}]}
+    with Gateway(folder, site) as g:
+        until(lambda: g.axis("table")["online"], 15, "the drive")
+        missing = g.send("PUT", "/axes/table/parameters/UV.Q1", {"value": 5}, 409)
+        assert "has no user variable Q1 now" in missing["detail"], missing
+        told = until(lambda: [e for e in g.get("/events?limit=200") if e["kind"] == "variables"], 10, "the event about what the drive lacks")
+        assert "Q1, K2" in told[0]["text"], told
+        for line in ("VA Q1=5", "VA K2=-3"):
+            g.send("POST", "/drives/table/native", {"send": line})
+        assert g.get("/axes/table/parameters/UV.Q1")["value"] == 5
+        listed = {p["id"]: p for p in g.get("/axes/table/parameters")}
+        assert listed["UV.Q1"]["unit"] == "mm" and listed["UV.K2"]["access"] == "RW", listed["UV.Q1"]
+        assert not any(p["id"].startswith("UV.") for p in g.get("/families/mcode/parameters"))
+        with g.modbus() as m:
+            m.write(0, [0xFFFF, 0xFFD6], unit=2)
+            assert "-42" in g.send("POST", "/drives/table/native", {"send": "PR Q1"})["reply"]
+
+            def read():
+                with contextlib.suppress(Exception):
+                    return m.read32(0, unit=2)
+            until(lambda: read() == -42, 5, "the register shows the variable")
+            # The parameter channel of the standard map numbers it behind the family's own.
+            selector = listed["UV.K2"]["selector"]
+            m.write(48, [selector >> 16, selector & 0xFFFF, 1])
+            until(lambda: m.read(51, 1) == [2], 5, "the channel has read it")
+            assert m.read32(52) == -3
+        n = g.send("POST", "/axes/table/snapshots", {"name": "with variables"}, 201)["n"]
+        kept = {p["parameter"]: p["value"] for p in g.get(f"/axes/table/snapshots/{n}")["parameters"]}
+        assert kept["UV.Q1"] == -42 and kept["UV.K2"] == -3, kept
+        g.send("PUT", "/axes/table/parameters/UV.Q1", {"value": 1})
+        g.send("POST", f"/axes/table/snapshots/{n}/restore", {"parameters": ["UV.Q1"], "include_live": True})
+        until(lambda: "-42" in g.send("POST", "/drives/table/native", {"send": "PR Q1"})["reply"], 10, "the variable is back")
+        wrong = g.send("PATCH", "/drives/table", {"options": {"variables": "VM"}}, 422)
+        assert "VM is no user variable" in json.dumps(wrong), wrong
+        wrong = g.send("PATCH", "/drives/table", {"options": {"variables": "K2"}}, 422)
+        assert "no point UV.Q1" in json.dumps(wrong), "a mapping needs it: " + json.dumps(wrong)
+
+
+def test_a_program_is_edited_in_part(folder):
+    site = {"lines": [{"name": "rs485", "uri": "twin", "family": "mcode", "bitrate": 19200}],
+            "drives": [{"name": "table", "line": "rs485", "address": "a", "presence": "twin"}],
+            "axes": [{"name": "table", "drive": "table", "number": 1, "unit": "mm", "increments_per_unit": 1000}]}
+    with Gateway(folder, site) as g:
+        until(lambda: g.axis("table")["online"], 15, "the drive")
+
+        def act(name, argument="", status=200):
+            return g.send("POST", "/axes/table/actions", {"name": name, "argument": argument}, status)
+        act("program.download", "PG 1\nLB G1\nR1=1\nE\nLB K1\nR2=1\nRT\nPG\n")
+        fault = act("program.edit", "K1\nLB K1\nNONSENSE\n", 422)
+        assert "line 3" in fault["detail"] and "nothing was changed" in fault["detail"], fault
+        assert act("program.edit", "K1\nLB K1\nR2=7\nR3=8\nRT\n")["result"] == "done"
+        assert act("program.upload")["value"].split("\n")[:-1] == ["LB G1", "R1=1", "E", "LB K1", "R2=7", "R3=8", "RT"]
+
+
+def test_the_hand_of_a_moving_twin_is_as_it_is_now(folder):
+    """Nobody asks the drive over its line meanwhile."""
+    with Process("twin", "mcode", "--line", f"pty:{folder / 'one'}", "--address", "!", "--hand", "127.0.0.1:0") as twin:
+        with Port(folder / "one") as port:
+            def place():
+                host, at = twin.word("hand").rsplit(":", 1)
+                c = http.client.HTTPConnection(host, int(at), timeout=5)
+                c.request("GET", "/hand")
+                return json.loads(c.getresponse().read())["position"]
+            assert place() == 0
+            port.ask(b"SL 51200\r", lambda got: got.endswith(b">"))
+            first = until(lambda: place() or None, 5, "it has moved")
+            until(lambda: place() > first, 5, "and moves on")
 
 
 def over_ethernet(folder, twin_uri, scheme):

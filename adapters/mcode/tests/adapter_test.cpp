@@ -55,9 +55,16 @@ TEST(McodeAdapter, WorksInEveryWantedMode) {
 }
 TEST(McodeAdapter, WhatWouldMoveIsOverWithAStopInWhateverWordsItWaits) {
     const Point de = *catalogue().find("DE");
-    const std::pair<CommandBody, bool> rows[] = {  // and whether a halt ends it too
-        {native("MA 5000"), true},       {native("sl=400"), true},          {Action{"MR", "300"}, true}, {Action{"program.start", ""}, true},
-        {Action{"HM", "1"}, true},       {native("DE=1"), false},           {Enable{}, false},           {WriteParameter{de, Value{true}}, false},
+    const std::pair<CommandBody, bool> rows[] = {
+        // and whether a halt ends it too
+        {native("MA 5000"), true},
+        {native("sl=400"), true},
+        {Action{"MR", "300"}, true},
+        {Action{"program.start", ""}, true},
+        {Action{"HM", "1"}, true},
+        {native("DE=1"), false},
+        {Enable{}, false},
+        {WriteParameter{de, Value{true}}, false},
         {Action{"program.resume", ""}, true},
     };
     for (const auto& [body, by_halt] : rows) {
@@ -74,8 +81,8 @@ TEST(McodeAdapter, WhatWouldMoveIsOverWithAStopInWhateverWordsItWaits) {
             const bool over = by_halt || !halt;
             EXPECT_EQ(b.result(waits)->reason == Reason::interrupted, over) << name_of(body) << " halt " << halt;
             const bool heard = std::ranges::any_of(b.drives[0].heard, [](const std::string& line) {
-                return line.starts_with("MA") || line.starts_with("sl") || line.starts_with("MR") || line.starts_with("EX") || line.starts_with("HM") ||
-                       line.starts_with("DE=1") || line.starts_with("RS");
+                return line.starts_with("MA") || line.starts_with("sl") || line.starts_with("MR") || line.starts_with("EX") ||
+                       line.starts_with("HM") || line.starts_with("DE=1") || line.starts_with("RS");
             });
             EXPECT_EQ(heard, !over) << name_of(body) << " halt " << halt;
         }

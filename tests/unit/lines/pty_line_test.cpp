@@ -281,6 +281,21 @@ TEST_F(PtyLineTest, withAPaceBytesTakeTheirTimeIn) {
     EXPECT_GT(status().load, 0.0);
 }
 
+TEST_F(PtyLineTest, bytesAreStampedWithTheirTimeOnTheWireHoweverLateTheyAreRead) {
+    make(9600, paced);
+    const Fd f = program();
+    const Duration byte = paced_time / static_cast<std::int64_t>(paced_text.size());
+    f.write(paced_text);
+    ASSERT_TRUE(until([&] { return !owner.frames.empty(); }));
+    clock.ahead += milliseconds(500);  // this process was not given the processor, and the writer went on
+    ASSERT_TRUE(until([&] { return owner.heard().size() >= paced_text.size(); }));
+    EXPECT_EQ(owner.heard(), paced_text);
+    ASSERT_GT(owner.frames.size(), 10u) << "runs of what has crossed together";
+    for (std::size_t i = 1; i < owner.frames.size(); ++i)
+        EXPECT_GE(owner.frames[i].at - owner.frames[i - 1].at, byte * owner.frames[i].size - std::chrono::microseconds(1)) << "frame " << i;
+    EXPECT_LE(owner.frames.back().at, clock.now());
+}
+
 TEST_F(PtyLineTest, anUrgentFrameOvertakesWhatWaitsBehindThePace) {
     make(9600, paced);
     const Fd f = program();

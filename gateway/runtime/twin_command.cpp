@@ -11,9 +11,9 @@
 #include <csignal>
 #include <cstdio>
 #include <memory>
-#include <utility>
 
 #include "gateway/core/line_uri.hpp"
+#include "gateway/site/options.hpp"
 #include "gateway/doors/http/hand_server.hpp"
 #include "gateway/lines/make_line.hpp"
 #include "gateway/runtime/catalogues.hpp"
@@ -21,7 +21,6 @@
 #include "gateway/runtime/commands.hpp"
 #include "gateway/runtime/files.hpp"
 #include "gateway/runtime/memory_file.hpp"
-#include "gateway/site/options.hpp"
 
 namespace axisgate {
 namespace {
@@ -29,10 +28,8 @@ namespace {
 class ScaledClock {
 public:
     explicit ScaledClock(double scale) : scale_(scale), begun_(monotonic_now()) {}
-    [[nodiscard]] Instant now() const { return at(monotonic_now()); }
-    [[nodiscard]] Instant at(Instant real) const {
-        return time_zero + std::chrono::seconds(1) +
-               Duration(static_cast<std::int64_t>(static_cast<double>((real - begun_).count()) * scale_));
+    [[nodiscard]] Instant now() const {
+        return time_zero + std::chrono::seconds(1) + Duration(static_cast<std::int64_t>(static_cast<double>((monotonic_now() - begun_).count()) * scale_));
     }
     [[nodiscard]] Instant real(Instant scaled) const {
         if (scaled == never) return never;
@@ -48,8 +45,7 @@ private:
 
 class TwinHost final : public LineEvents {
 public:
-    TwinHost(boost::asio::io_context& io, double scale, std::string state_file)
-        : clock_(scale), timer_(io), state_file_(std::move(state_file)) {}
+    TwinHost(boost::asio::io_context& io, double scale, std::string state_file) : clock_(scale), timer_(io), state_file_(std::move(state_file)) {}
 
     struct Drive {
         std::string address;
@@ -65,17 +61,15 @@ public:
         for (auto& d : drives) {
             const auto m = memories.find(d.address);
             Out out;
-            passed_ = clock_.now();
-            d.twin->power_on(m == memories.end() ? NonVolatile{} : m->second, passed_, out);
+            d.twin->power_on(m == memories.end() ? NonVolatile{} : m->second, clock_.now(), out);
             d.saved = d.twin->non_volatile_revision();
             send(out);
         }
         arm();
     }
     void on_frame(const Frame& frame) override {
-        // At the wire's own time: what comes in one turn after a pause of this process has not come to the drives at one instant.
         Frame f = frame;
-        f.at = passed_ = std::max(passed_, clock_.at(frame.at));
+        f.at = clock_.now();
         for (auto& d : drives) {
             pass_until(d, f.at);
             Out out;
@@ -92,7 +86,7 @@ public:
 
     /// As it is now: a drive that nobody has asked may have moved on since.
     std::vector<HandItem> hand(std::size_t index) {
-        const Instant now = passed_ = std::max(passed_, clock_.now());
+        const Instant now = clock_.now();
         pass_until(drives[index], now);
         Out out;
         drives[index].twin->on_deadline(now, out);
@@ -102,11 +96,10 @@ public:
     }
     std::string set_hand(std::size_t index, const std::vector<std::pair<std::string, Value>>& items) {
         std::string wrong;
-        const Instant now = passed_ = std::max(passed_, clock_.now());
-        pass_until(drives[index], now);
+        pass_until(drives[index], clock_.now());
         for (const auto& [name, value] : items) {
             Out out;
-            wrong = drives[index].twin->set_hand(name, value, now, out);
+            wrong = drives[index].twin->set_hand(name, value, clock_.now(), out);
             send(out);
             if (!wrong.empty()) break;
         }
@@ -117,9 +110,6 @@ public:
 private:
     /// Deadlines that one late turn meets, each at its own instant; what is left is met at the next.
     static constexpr int events_per_turn = 10'000;
-    /// Real time that one turn of the timer passes: bytes that have crossed meanwhile, and are read by a timer of the line, come in
-    /// between.
-    static constexpr Duration slice = std::chrono::milliseconds(1);
 
     /// However late this process runs, a drive reacts at the instant of the cause.
     void pass_until(Drive& d, Instant now) {
@@ -133,8 +123,7 @@ private:
         }
     }
     void send(const Out& out) {
-        for (const auto& tx : out.frames)
-            (void)line->send(tx.frame, tx.priority, monotonic_now());
+        for (const auto& tx : out.frames) (void)line->send(tx.frame, tx.priority, monotonic_now());
     }
     void after() {
         save();
@@ -149,35 +138,30 @@ private:
         }
         if (!changed || state_file_.empty()) return;
         std::map<std::string, NonVolatile> memories;
-        for (auto& d : drives)
-            memories[d.address] = d.twin->non_volatile();
+        for (auto& d : drives) memories[d.address] = d.twin->non_volatile();
         if (const std::string fault = write_file(state_file_, memories_to_json(memories)); !fault.empty()) complain(fault);
     }
     void arm() {
         Instant next = never;
-        for (auto& d : drives)
-            next = std::min(next, d.twin->deadline());
+        for (auto& d : drives) next = std::min(next, d.twin->deadline());
         const Instant real = clock_.real(next);
         if (real == armed_) return;
         armed_ = real;
         timer_.cancel();
         if (real == never) return;
-        timer_.expires_at(std::chrono::steady_clock::time_point(
-            std::chrono::duration_cast<std::chrono::steady_clock::duration>(real.time_since_epoch())));
+        timer_.expires_at(std::chrono::steady_clock::time_point(std::chrono::duration_cast<std::chrono::steady_clock::duration>(real.time_since_epoch())));
         timer_.async_wait([this](const boost::system::error_code& ec) {
             if (ec) return;
-            const Instant turn = std::exchange(armed_, never) + slice;
-            const Instant now = clock_.at(std::min(turn, monotonic_now()));
-            passed_ = std::max(passed_ + std::chrono::microseconds(1), now);
+            armed_ = never;
+            const Instant now = clock_.now();
             for (auto& d : drives) {
-                pass_until(d, passed_);
+                pass_until(d, now);
             }
             after();
         });
     }
 
     ScaledClock clock_;
-    Instant passed_{};  ///< the drives' time as far as it has come: it lags behind the clock while a late process catches up
     boost::asio::steady_timer timer_;
     Instant armed_ = never;
     std::string state_file_;
@@ -187,8 +171,7 @@ private:
 int command_twin(const TwinOptions& o) {
     std::vector<std::string> faults;
     const auto families = load_families(faults);
-    for (const auto& f : faults)
-        complain(f);
+    for (const auto& f : faults) complain(f);
     if (!faults.empty()) return exit_failed;
     const auto entry = families.find(o.family);
     if (!entry.family) {
@@ -203,8 +186,7 @@ int command_twin(const TwinOptions& o) {
         usable = false;
     };
     if (!uri.good()) refuse("--line: " + uri.fault);
-    if (uri.good() && uri.uri.kind == LineUri::Kind::twin)
-        refuse("--line: twin is a line of `serve` alone; use tcp-listen:HOST:PORT, pty:PATH, serial: or can:");
+    if (uri.good() && uri.uri.kind == LineUri::Kind::twin) refuse("--line: twin is a line of `serve` alone; use tcp-listen:HOST:PORT, pty:PATH, serial: or can:");
     if (!(o.time_scale >= 0.001 && o.time_scale <= 10000)) refuse("--time-scale: write a number from 0.001 to 10000");
     auto addresses = o.addresses;
     if (addresses.empty()) addresses.emplace_back(family.factory_address);
@@ -219,8 +201,7 @@ int command_twin(const TwinOptions& o) {
             refuse("--option: write NAME=VALUE");
         } else {
             const std::string name = x.substr(0, equals), value = x.substr(equals + 1);
-            if (const std::string wrong = check_option(*entry.catalogue, {OptionOf::twin}, name, value); !wrong.empty())
-                refuse("--option: " + wrong);
+            if (const std::string wrong = check_option(*entry.catalogue, {OptionOf::twin}, name, value); !wrong.empty()) refuse("--option: " + wrong);
             options[name] = value;
         }
     }
@@ -280,10 +261,8 @@ int command_twin(const TwinOptions& o) {
     std::function<void()> look = [&] {
         if (host.up) {
             std::string list;
-            for (const auto& a : addresses)
-                list += (list.empty() ? "" : ",") + a;
-            fmt::print("ready {} addresses={} line={}{}\n", o.family, list, host.line->status(monotonic_now()).text,
-                       hand ? " hand=" + hand->address() : "");
+            for (const auto& a : addresses) list += (list.empty() ? "" : ",") + a;
+            fmt::print("ready {} addresses={} line={}{}\n", o.family, list, host.line->status(monotonic_now()).text, hand ? " hand=" + hand->address() : "");
             std::fflush(stdout);
             return;
         }

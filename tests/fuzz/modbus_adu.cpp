@@ -147,6 +147,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     world.work();
     require(world.expected.empty());
     require(world.worthless == (world.last == Session::Work::not_modbus) || world.last == Session::Work::not_modbus);
-    require(world.responder.waiting() == 0);
+    require(world.responder.writer().waiting() == 0);
     return 0;
 }

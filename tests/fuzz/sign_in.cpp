@@ -6,7 +6,6 @@
 #include "tests/fuzz/fuzz.hpp"
 
 using namespace axisgate;
-using namespace axisgate::http;
 using fuzz::require;
 
 namespace {

@@ -133,18 +133,3 @@ def test_what_a_site_change_takes_away_is_stopped_first(folder):
             texts = [e["text"] for e in g.get("/events?kind=site")]
             assert any("the axis is stopped" in t for t in texts), texts
             assert not g.get("/events?severity=alarm"), "it was seen to stand"
-
-            def says(question):
-                with socket.create_connection(("127.0.0.1", port), timeout=5) as c:
-                    c.sendall(question.encode() + b"\r")
-                    text = b""
-                    while not re.search(rb"-?\d+\s", text):
-                        part = c.recv(100)
-                        assert part, text
-                        text += part
-                    return int(re.search(rb"(-?\d+)\s", text).group(1))
-
-            assert says("PR V") == 0, "and the drive, asked past the gateway, says so, too"
-            place = says("PR P")
-            time.sleep(0.5)
-            assert says("PR P") == place

@@ -2090,8 +2090,7 @@ export interface components {
             /** @description null: what the type holds */
             min: number | null;
             max: number | null;
-            /** @description null: it must be given */
-            default: unknown;
+            default: components["schemas"]["MaybeValue"];
             description: string | null;
         };
         ErrorCode: {

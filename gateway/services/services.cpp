@@ -33,8 +33,9 @@ Services::~Services() {
 Instant Services::deadline() const { return std::min(recipes->deadline(), alarms->deadline()); }
 
 void Services::on_deadline(Instant now) {
-    if (recipes->deadline() <= now) recipes->on_deadline(now);
-    if (alarms->deadline() <= now) alarms->on_deadline(now);
+    // Each looks for itself what is due: the alarms' deadline hangs on the wall clock, and is not what it was a moment ago.
+    recipes->on_deadline(now);
+    alarms->on_deadline(now);
 }
 
 }  // namespace axisgate

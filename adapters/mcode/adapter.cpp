@@ -352,6 +352,7 @@ bool LineAdapter::stop_all_at_once(Turn& t) {
 
 void LineAdapter::pump(Turn& t) {
     if (!up_) return;
+    looked_at_ = t.now;
     // Each round starts an exchange or ends the loop; a node that only gives results does so a bounded number of times (its queue).
     for (std::size_t guard = 0; guard < 4 && !flight_.node && t.now >= quiet_until_; ++guard) {
         if (stop_all_at_once(t)) return;
@@ -396,14 +397,15 @@ bool LineAdapter::held(const Node& n, Instant now) const noexcept {
 Instant LineAdapter::deadline() const {
     if (!up_) return never;
     if (flight_.node) return flight_.deadline;
+    const Instant earliest = std::max(quiet_until_, looked_at_);
     Instant due = never;
     for (const auto& n : nodes_) {
-        const Node::Want want = n->wants(quiet_until_);
-        Instant at = want == Node::Want::nothing ? n->due() : quiet_until_;
-        if (want != Node::Want::urgent && held(*n, quiet_until_)) at = std::max(at, dirty_until_);
+        const Node::Want want = n->wants(earliest);
+        Instant at = want == Node::Want::nothing ? n->due() : earliest;
+        if (want != Node::Want::urgent && held(*n, earliest)) at = std::max(at, dirty_until_);
         due = std::min(due, at);
     }
-    return std::max(due, quiet_until_);
+    return std::max(due, earliest);
 }
 
 }  // namespace axisgate::mcode

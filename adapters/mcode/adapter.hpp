@@ -63,6 +63,7 @@ private:
     std::string answered_mark_;  ///< of the last question that was answered: seen again, two drives answer to one name
     Node* answered_ = nullptr;   ///< by whom
     Instant quiet_until_{};      ///< LineManners::pause
+    Instant looked_at_{};        ///< when the nodes were asked last what they want: the deadline asks them for no earlier time
     Instant next_listing_{};     ///< when the next drive that comes may list its variables
     Instant dirty_until_{};      ///< answers of an exchange that was given up may come until then
     const Node* dirty_ = nullptr;

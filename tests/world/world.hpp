@@ -238,29 +238,24 @@ public:
         ++steps;
     }
     void run_until(Instant end) {
-        for (std::uint64_t n = 0;; ++n) {
-            const Instant d = next();
-            if (d > end) break;
-            step(d);
-            if (n > most_steps) {
-                ADD_FAILURE() << "a storm: " << n << " steps in one run, and time stands at " << ns_of(now) << " ns";
-                std::abort();
-            }
-        }
-        now = end;
+        (void)run_until_true([] { return false; }, end - now);
     }
     void run_for(Duration d) { run_until(now + d); }
     /// Runs until `condition` holds, at most for `limit`. False: it never did.
     template <class F>
     bool run_until_true(F&& condition, Duration limit) {
         const Instant end = now + limit;
-        while (!condition()) {
+        for (std::uint64_t n = 0; !condition(); ++n) {
             const Instant d = next();
             if (d > end) {
                 now = end;
                 return condition();
             }
             step(d);
+            if (n > most_steps) {
+                ADD_FAILURE() << "a storm: " << n << " steps in one run, and time stands at " << ns_of(now) << " ns";
+                std::abort();
+            }
         }
         return true;
     }

@@ -66,9 +66,10 @@ async function pressAll(page, part) {
   }
   const fields = page.locator('main input[type=text]:enabled, main input[type=search]:enabled');
   let entered = 0;
-  for (let i = 0; i < Math.min(await fields.count(), 60); i += 1) {
-    // Held on to: an Enter may take the field away, and then the next of this number is another one.
-    const field = await fields.nth(i).elementHandle();
+  for (let i = 0; i < 60; i += 1) {
+    // Held on to: an Enter may take the field away, and then the next of this number is another one, or none.
+    const field = (await fields.elementHandles())[i];
+    if (!field) break;
     if (!(await field.isVisible()) || !(await field.isEditable())) continue;
     await field.fill('1');
     await field.press('Enter');

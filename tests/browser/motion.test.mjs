@@ -59,6 +59,7 @@ test('enable, move to a target: the position runs, the target is reached', async
 });
 
 test('a move that somebody else ends is told as ended where it was given; a refusal goes when its cause does', async () => {
+  await until('it is seen to be disabled', async () => /Disabled/.test(await feeder.text('state')) || (await feeder.text('state')));
   await say('Move to target of feeder');
   await until('it is refused', async () => /enable it first/.test(await feeder.result()) || (await feeder.result()));
   await program.command('feeder', { command: 'enable' });

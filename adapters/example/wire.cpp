@@ -4,6 +4,8 @@
 
 #include <fmt/core.h>
 
+#include "gateway/core/text.hpp"
+
 namespace axisgate::example {
 namespace {
 std::string check_of(std::string_view text) {
@@ -12,7 +14,6 @@ std::string check_of(std::string_view text) {
         sum += static_cast<std::uint8_t>(c);
     return fmt::format("*{:02X}", sum & 0xFF);
 }
-bool digit(char c) { return c >= '0' && c <= '9'; }
 }  // namespace
 
 std::string text_of(const Telegram& t, bool request) {
@@ -24,7 +25,7 @@ std::optional<Telegram> telegram_of(std::string_view line, bool& request) {
     if (line.size() < 11 || line.size() > longest || line.substr(line.size() - 3) != check_of(line.substr(0, line.size() - 3))) return {};
     const char kind = line[7];
     request = line[0] == '@';
-    if ((!request && line[0] != '#') || !digit(line[1]) || !digit(line[2]) || line[3] < '1' || line[3] > '4') return {};
+    if ((!request && line[0] != '#') || !is_digit(line[1]) || !is_digit(line[2]) || line[3] < '1' || line[3] > '4') return {};
     if (kind != (request ? '?' : '!') && kind != '=') return {};
     return Telegram{(line[1] - '0') * 10 + line[2] - '0', line[3] - '0', std::string(line.substr(4, 3)), static_cast<Telegram::Kind>(kind),
                     std::string(line.substr(8, line.size() - 11))};

@@ -28,6 +28,9 @@
 namespace axisgate::linmot {
 using drive::Turn;
 
+/// UPIDs of the values that are read before a drive is served.
+inline constexpr std::uint16_t core_values[] = {0x14BE, 0x14BF, 0x14C0};
+
 /// What the drives of a line have in common.
 struct Bus {
     explicit Bus(const Catalogue& of_family) : catalogue(of_family), motions(of_family) {}

@@ -8,9 +8,7 @@
 namespace axisgate::linmot {
 using drive::Want;
 using Phase = drive::Presence::Phase;
-namespace {
-constexpr std::uint16_t core_values[] = {0x14BE, 0x14BF, 0x14C0};
-}
+namespace {}
 
 Want Drive::wants(Instant now) const noexcept {
     if (presence_.is(Phase::down) || exchange_.active() || !late_.over(now)) return Want::nothing;

@@ -7,7 +7,7 @@
 namespace axisgate::linmot {
 namespace {
 constexpr Duration enable_limit = std::chrono::seconds(5);
-constexpr Duration look_again = std::chrono::milliseconds(10);
+constexpr Duration look_again_for_power = std::chrono::milliseconds(10);
 }  // namespace
 
 Telegram Drive::control(std::uint16_t word) {
@@ -30,7 +30,7 @@ std::optional<Telegram> Drive::power_request(Turn& t) {
                 t);
         return std::nullopt;
     }
-    job_.not_before = t.now + look_again;
+    job_.not_before = t.now + look_again_for_power;
     switch (status_.state()) {
         case state::not_ready:
         case state::disabled:

@@ -6,9 +6,7 @@
 #include "gateway/drive/option_reader.hpp"
 
 namespace axisgate::linmot {
-namespace {
-constexpr std::uint16_t core_values[] = {0x14BE, 0x14BF, 0x14C0};
-}
+namespace {}
 
 Duration Bus::wire(std::size_t bytes) const noexcept {
     return bit_rate == 0 ? Duration{} : Duration{static_cast<std::int64_t>(bytes * bits_per_byte * 1'000'000'000ull / bit_rate)};

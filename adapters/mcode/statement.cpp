@@ -9,10 +9,10 @@
 #include <optional>
 #include <vector>
 
+#include "gateway/core/text.hpp"
+
 namespace axisgate::mcode {
 namespace {
-bool is_letter(char c) noexcept { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-bool is_digit(char c) noexcept { return c >= '0' && c <= '9'; }
 
 struct Token {
     enum class Kind : std::uint8_t { end, word, number, text, sign, open_text };

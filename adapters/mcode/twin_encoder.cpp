@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapters/mcode/twin_errors.hpp"
 #include "adapters/mcode/twin_motor.hpp"
 
 namespace axisgate::mcode::twin {
 namespace {
-
-constexpr int wrong_type = 8, bad_value = 21, bad_ratio = 36, stall_detected = 86, position_error = 92;
 /// Attempts to come into the dead band; then error 92. The manual gives no figure.
 constexpr int correction_limit = 3;
 constexpr std::array microsteps{1, 2, 4, 5, 8, 10, 16, 25, 32, 50, 64, 100, 108, 125, 127, 128, 180, 200, 250, 256};
@@ -122,9 +121,9 @@ void Motor::write_counter(Word w, double value, Instant now) {
 int Motor::set_encoder_mode(bool on, Instant now) {
     if (on == (setting(Word::EE) != 0)) return 0;
     // The unit of everything changes: only at rest.
-    if (phase_ != Phase::rest) return bad_value;
+    if (phase_ != Phase::rest) return err::bad_value;
     const double least = counts_per_turn() * 2 / (360.0 / setting(Word::SA));  // MS >= EL*8/full steps [L2624-2632]
-    if (on && (setup_.product & lmm) != 0 && setting(Word::MS) < least) return bad_ratio;
+    if (on && (setup_.product & lmm) != 0 && setting(Word::MS) < least) return err::bad_ratio;
     if (hmt_mode() != 0) {
         // Beside hMT it waits: motion stays in step pulses until AS is 0 [L696, L7520]. Only MS is locked at 256 already [L7194].
         const int code = on ? set_microsteps(256, now) : 0;
@@ -156,11 +155,11 @@ void Motor::encoder_defaults() noexcept {
 }
 
 int Motor::set_microsteps(std::int64_t ms, Instant now) {
-    if (std::ranges::find(microsteps, ms) == microsteps.end()) return bad_value;
+    if (std::ranges::find(microsteps, ms) == microsteps.end()) return err::bad_value;
     const double old = setting(Word::MS);
     if (static_cast<double>(ms) == old) return 0;
-    if (setting(Word::EE) != 0) return wrong_type;  // locked at 256 [L7194]
-    if (phase_ != Phase::rest || (hmt_mode() != 0 && ms < 10)) return bad_value;
+    if (setting(Word::EE) != 0) return err::wrong_type;  // locked at 256 [L7194]
+    if (phase_ != Phase::rest || (hmt_mode() != 0 && ms < 10)) return err::bad_value;
     const Kept k = keep(now);
     set(Word::MS, static_cast<double>(ms));
     for (const Word w : {Word::VI, Word::VM, Word::A, Word::D})
@@ -175,7 +174,7 @@ int Motor::set_microsteps(std::int64_t ms, Instant now) {
 void Motor::stalled(Instant now) {
     stall_told_ = true;
     stall_flag_ = true;
-    raise(stall_detected);
+    raise(err::stall_detected);
     if (setting(Word::SM) != 0) return;
     aborted_ = true;
     freeze(now);
@@ -199,7 +198,7 @@ void Motor::settled(Instant now) {
             correct(now);
             return;
         }
-        raise(position_error);
+        raise(err::position_error);
         aborted_ = true;
     }
     if (task_ == Task::correction) {

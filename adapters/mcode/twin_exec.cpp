@@ -4,15 +4,11 @@
 #include <algorithm>
 
 #include "adapters/mcode/twin_device.hpp"
+#include "adapters/mcode/twin_errors.hpp"
+#include "gateway/core/text.hpp"
 
 namespace axisgate::mcode::twin {
 namespace {
-
-constexpr int unknown_set = 20, bad_value = 21, illegal_data = 24, read_only = 25, redefine_word = 29, unknown_label = 30, bad_print = 35,
-              not_available = 37, not_running = 40, locked = 44, not_program = 46, bad_baud = 61, already_pending = 62,
-              saving_in_motion = 73, restoring_in_motion = 74;
-
-bool is_digit(char c) noexcept { return c >= '0' && c <= '9'; }
 
 /// `PG1` of the manual's listing [L7052]: no name may have this form, so the address is meant.
 bool is_joined_pg(std::string_view s) noexcept {
@@ -22,7 +18,7 @@ bool is_joined_pg(std::string_view s) noexcept {
 }  // namespace
 
 int Device::available(Word word) const noexcept {
-    if ((info(word).products & setup_.product) == 0) return not_available;
+    if ((info(word).products & setup_.product) == 0) return err::not_available;
     if (setup_.ethernet) {
         switch (word) {
             case Word::BD:
@@ -31,7 +27,7 @@ int Device::available(Word word) const noexcept {
             case Word::DN:
             case Word::PY:
             case Word::QD:
-                return not_available;
+                return err::not_available;
             default:
                 break;
         }
@@ -81,7 +77,7 @@ int Device::typed(std::string_view text) {
     }
     if (s.kind == Statement::Kind::assign || s.kind == Statement::Kind::execute) {
         if (const int code = available(s.word); code != 0) return code;
-        if (!info(s.word).immediate) return not_program;
+        if (!info(s.word).immediate) return err::not_program;
     }
     return run_.execute(s, now_);
 }
@@ -95,8 +91,8 @@ int Device::program_line(std::string_view text) {
     if (tokens.peek(1).kind == Token::Kind::name && word_named(tokens.peek(1).text) == Word::PW && (setup_.product & lmm) != 0) {
         // A word of the module, and a free name elsewhere [L4970].
         const auto first = word_named(tokens.peek().text);
-        if (first == Word::VA) return illegal_data;
-        if (first == Word::LB) return redefine_word;
+        if (first == Word::VA) return err::illegal_data;
+        if (first == Word::LB) return err::redefine_word;
     }
     return program_.enter(text, program_address_);
 }
@@ -106,7 +102,7 @@ int Device::input_value(std::string_view text) {
     if (text.empty()) return 0;
     Symbols none;
     const Statement s = compile(text, none, false);
-    if (s.kind != Statement::Kind::bare_number) return bad_value;
+    if (s.kind != Statement::Kind::bare_number) return err::bad_value;
     int error = 0;
     const Number n = run_.value(s.fields[0], input_word_ >= Word::F1 && input_word_ <= Word::F8, error);
     if (error != 0) return error;
@@ -162,25 +158,25 @@ Number Device::read(Word word, int& error) {
     }
     if (word >= Word::F1 && word <= Word::F8)
         return Number::of_real(run_.real(static_cast<std::size_t>(word) - static_cast<std::size_t>(Word::F1)));
-    error = bad_print;
+    error = err::bad_print;
     return {};
 }
 
 int Device::write(Word word, std::span<const Number> fields) {
     if (const int code = available(word); code != 0) return code;
     const WordInfo& i = info(word);
-    if (i.access == Access::ro) return read_only;
-    if (i.access == Access::none) return unknown_set;
-    if (fields.size() != 1 && i.kind != WordKind::setup) return bad_value;
+    if (i.access == Access::ro) return err::read_only;
+    if (i.access == Access::none) return err::unknown_set;
+    if (fields.size() != 1 && i.kind != WordKind::setup) return err::bad_value;
     if (i.ranged) {
         const auto v = static_cast<double>(fields[0].as_integer());  // the fraction is dropped first [L2813]
-        if (!(v >= i.min && v <= i.max)) return bad_value;
+        if (!(v >= i.min && v <= i.max)) return err::bad_value;
     }
     if (i.owner == Owner::motor) return motor_->write(word, fields, now_);
     const std::int64_t v = fields[0].as_integer();
     switch (word) {
         case Word::BD:
-            if (rate_of_code(static_cast<int>(std::clamp<std::int64_t>(v, 0, 1000))) == 0) return bad_baud;
+            if (rate_of_code(static_cast<int>(std::clamp<std::int64_t>(v, 0, 1000))) == 0) return err::bad_baud;
             bd_ = static_cast<int>(v);
             return 0;
         case Word::CE:
@@ -196,7 +192,7 @@ int Device::write(Word word, std::span<const Number> fields) {
             comm_.flags.em = static_cast<int>(v);
             return 0;
         case Word::ER:
-            if (v != 0) return bad_value;
+            if (v != 0) return err::bad_value;
             clear_error();
             return 0;
         case Word::ES:
@@ -207,7 +203,7 @@ int Device::write(Word word, std::span<const Number> fields) {
             return 0;
         case Word::LK:
             // A saved lock goes only with the programs: full CP or FD [L3907].
-            if (v == 0 && lk_saved_) return locked;
+            if (v == 0 && lk_saved_) return err::locked;
             lk_ = v != 0;
             return 0;
         case Word::NE:
@@ -216,10 +212,10 @@ int Device::write(Word word, std::span<const Number> fields) {
         case Word::PF: {
             PrintFormat f = format_;
             const std::array<std::int64_t, 4> top{16, 16, 1, 1};
-            if (fields.size() > top.size()) return bad_value;
+            if (fields.size() > top.size()) return err::bad_value;
             for (std::size_t k = 0; k < fields.size(); ++k) {
                 const std::int64_t n = fields[k].as_integer();
-                if (n < 0 || n > top[k]) return bad_value;
+                if (n < 0 || n > top[k]) return err::bad_value;
                 if (k == 0) f.width = static_cast<int>(n);
                 if (k == 1) f.decimals = static_cast<int>(n);
                 if (k == 2) f.scientific = n == 1;
@@ -229,7 +225,7 @@ int Device::write(Word word, std::span<const Number> fields) {
             return 0;
         }
         case Word::PW:
-            if (fields.size() > pw_.size()) return bad_value;
+            if (fields.size() > pw_.size()) return err::bad_value;
             for (std::size_t k = 0; k < fields.size(); ++k)
                 pw_[k] = fields[k].as_integer();
             return 0;
@@ -246,7 +242,7 @@ int Device::write(Word word, std::span<const Number> fields) {
         case Word::TE:
             return enable_trips(v);
         default:
-            return read_only;
+            return err::read_only;
     }
 }
 
@@ -262,10 +258,10 @@ int Device::perform(const Statement& s, std::span<const Number> fields) {
     }
     if (const int code = available(s.word); code != 0) return code;
     if (s.kind == Statement::Kind::assign) {
-        if (s.word != Word::DN) return unknown_set;
+        if (s.word != Word::DN) return err::unknown_set;
         if (s.name.size() != 1 ||
             !(is_digit(s.name[0]) || (s.name[0] >= 'a' && s.name[0] <= 'z') || (s.name[0] >= 'A' && s.name[0] <= 'Z')))
-            return bad_value;
+            return err::bad_value;
         comm_.flags.dn = s.name[0];
         return 0;
     }
@@ -286,7 +282,7 @@ int Device::perform(const Statement& s, std::span<const Number> fields) {
             return execute_label(s, fields);
         case Word::E:
             // In a program its end; typed: the program ends when the motion is over [L2523-2531].
-            if (run_.idle()) return not_running;
+            if (run_.idle()) return err::not_running;
             if (data_ == nullptr) {
                 stop_program();
             } else {
@@ -294,12 +290,12 @@ int Device::perform(const Statement& s, std::span<const Number> fields) {
             }
             return 0;
         case Word::PS:
-            if (run_.idle() || paused_) return not_running;
+            if (run_.idle() || paused_) return err::not_running;
             paused_ = true;
             motor_->pause(now_);
             return 0;
         case Word::RS:
-            if (run_.idle() || !paused_) return not_running;
+            if (run_.idle() || !paused_) return err::not_running;
             paused_ = false;
             motor_->resume(now_);
             slice_due_ = now_;
@@ -312,20 +308,20 @@ int Device::perform(const Statement& s, std::span<const Number> fields) {
             }
             {
                 int error = 0;
-                if (!s.target) return unknown_label;
-                if (program_.find(*s.target, error) < 0) return unknown_label;
+                if (!s.target) return err::unknown_name;
+                if (program_.find(*s.target, error) < 0) return err::unknown_name;
                 on_error_ = s.target;
             }
             return 0;
         case Word::IV: {
-            if (input_pending_) return already_pending;
+            if (input_pending_) return err::already_pending;
             if (s.symbol != no_symbol) {
                 const auto kind = program_.symbols().at(s.symbol).kind;
-                if (kind != Symbol::Kind::global && kind != Symbol::Kind::local) return unknown_label;
+                if (kind != Symbol::Kind::global && kind != Symbol::Kind::local) return err::unknown_name;
                 input_symbol_ = s.symbol;
             } else {
                 const Operand& o = s.fields[0].terms[0].operand;
-                if (info(o.word).access != Access::rw) return read_only;
+                if (info(o.word).access != Access::rw) return err::read_only;
                 input_symbol_ = no_symbol;
                 input_word_ = o.word;
             }
@@ -343,11 +339,11 @@ int Device::perform(const Statement& s, std::span<const Number> fields) {
         case Word::S:
             return save();
         case Word::IP:
-            if (motor_->busy(true, now_)) return restoring_in_motion;
+            if (motor_->busy(true, now_)) return err::restoring_in_motion;
             restore(nvm_, false);
             return 0;
         case Word::FD:
-            if (motor_->busy(true, now_)) return saving_in_motion;
+            if (motor_->busy(true, now_)) return err::saving_in_motion;
             stop_program();
             factory_state(false);
             nvm_ = snapshot();
@@ -355,13 +351,13 @@ int Device::perform(const Statement& s, std::span<const Number> fields) {
             return 0;
         case Word::UG: {
             const std::int64_t code = fields.empty() ? 0 : fields[0].as_integer();
-            if (code != 2656102 && code != 2956102) return bad_value;
+            if (code != 2656102 && code != 2956102) return err::bad_value;
             stop_everything();
             upgrading_ = true;  // at 19200 and deaf for MCode until power comes back
             return 0;
         }
         default:
-            return not_program;
+            return err::not_program;
     }
 }
 

@@ -6,15 +6,6 @@
 #include "adapters/mcode/twin_device.hpp"
 
 namespace axisgate::mcode::twin {
-namespace {
-
-std::optional<bool> as_flag(const Value& v) {
-    const auto n = as_integer(v);
-    if (!n || (*n != 0 && *n != 1)) return std::nullopt;
-    return *n == 1;
-}
-
-}  // namespace
 
 std::vector<HandItem> Device::hand() const {
     std::vector<HandItem> items;

@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapters/mcode/twin_errors.hpp"
 #include "adapters/mcode/twin_motor.hpp"
 
 namespace axisgate::mcode::twin {
 namespace {
-
-constexpr int bad_value = 21, in_motion = 87, no_supply = 96, locked_rotor = 104, lead_reached = 106, lag_reached = 107;
 constexpr int ta_active = 2, ta_locked = 4, ta_lag = 8, ta_lead = 16;
 /// Make-up is planned at most this far ahead; a rotor that cannot catch up is planned anew with the next command.
 constexpr double horizon_s = 1e6;
@@ -18,9 +17,9 @@ constexpr double horizon_s = 1e6;
 
 int Motor::set_hmt_mode(std::int64_t mode, Instant now) {
     if (mode == hmt_mode() && mode != 3) return 0;
-    if (phase_ != Phase::rest) return in_motion;
-    if (mode != 0 && setting(Word::MS) < 10) return bad_value;  // [L1480]
-    if (mode == 3 && !supply_.plus_v_good()) return no_supply;
+    if (phase_ != Phase::rest) return err::in_motion;
+    if (mode != 0 && setting(Word::MS) < 10) return err::bad_value;  // [L1480]
+    if (mode == 3 && !supply_.plus_v_good()) return err::no_supply;
     const Kept k = keep(now);
     // P goes on from its number; the rotor is taken as it stands.
     const double p = std::round(position(now).position);
@@ -194,13 +193,13 @@ void Motor::judge_lag(Instant now) {
     hmt_.at_bounds = at_bounds;
     const bool behind = owed >= setting(Word::LG) - slack;
     if (behind && !hmt_.lag_limit) {
-        raise(lag_reached);
+        raise(err::lag_reached);
         status_trip(ta_lag, now);
     }
     hmt_.lag_limit = behind;
     const bool ahead = owed <= -setting(Word::LD) + slack;
     if (ahead && !hmt_.lead_limit) {
-        raise(lead_reached);
+        raise(err::lead_reached);
         status_trip(ta_lead, now);
     }
     hmt_.lead_limit = ahead;
@@ -210,7 +209,7 @@ void Motor::judge_lag(Instant now) {
 void Motor::locked(Instant now) {
     hmt_.lock_due = never;
     hmt_.locked = true;
-    raise(locked_rotor);
+    raise(err::locked_rotor);
     status_trip(ta_locked, now);
     if (hmt_mode() == 3) return;
     bridge_off_ = true;

@@ -4,20 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapters/mcode/twin_errors.hpp"
 #include "adapters/mcode/twin_motor.hpp"
 
 namespace axisgate::mcode::twin {
-namespace {
-
-constexpr int bad_value = 21, no_home_switch = 80, bad_type = 81;
-
-}  // namespace
 
 int Motor::start_homing(Word word, std::span<const Number> f, Instant now) {
-    if (f.size() != 1) return bad_value;
+    if (f.size() != 1) return err::bad_value;
     const std::int64_t type = f[0].as_integer();
-    if (type < 1 || type > 4) return bad_type;
-    if (word == Word::HM && !inputs_.with_type(InputType::home)) return no_home_switch;
+    if (type < 1 || type > 4) return err::bad_type;
+    if (word == Word::HM && !inputs_.with_type(InputType::home)) return err::no_home_switch;
     if (const int code = may_move(word, now); code != 0) return code;
     home_ = {};
     home_.word = word;

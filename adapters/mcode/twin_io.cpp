@@ -6,18 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapters/mcode/twin_errors.hpp"
+
 namespace axisgate::mcode::twin {
 namespace {
-
-constexpr int already_so = 6, wrong_type = 8, typed = 9, no_such_point = 10, wrong_clock = 11, bad_value = 21, illegal_data = 24,
-              not_available = 37;
-
-std::int64_t integer_in(const NonVolatile& m, const std::string& name, std::int64_t fallback, std::int64_t low, std::int64_t high) {
-    const auto it = m.find(name);
-    const std::int64_t v = it == m.end() ? fallback : as_integer(it->second).value_or(fallback);
-    return v < low || v > high ? fallback : v;
-}
-
 bool is_clock(InputType t) noexcept { return t >= InputType::step_direction; }
 
 bool known_input(std::int64_t type) noexcept { return (type >= 0 && type <= 8) || (type >= 11 && type <= 15); }
@@ -43,11 +35,11 @@ void Inputs::factory(Instant now) {
 }
 
 int Inputs::set_up(std::span<const std::int64_t> f, Instant now) {
-    if (f.empty()) return bad_value;
+    if (f.empty()) return err::bad_value;
     if (f[0] == 5) {
-        if (!analog_set_) return illegal_data;
-        if (f.size() != 3 || (f[2] != 0 && f[2] != 1)) return bad_value;
-        if (f[1] != 9 && f[1] != 10) return wrong_type;
+        if (!analog_set_) return err::illegal_data;
+        if (f.size() != 3 || (f[2] != 0 && f[2] != 1)) return err::bad_value;
+        if (f[1] != 9 && f[1] != 10) return err::wrong_type;
         sense_ = static_cast<int>(f[1]);
         range_ = static_cast<int>(f[2]);
         return 0;
@@ -55,25 +47,25 @@ int Inputs::set_up(std::span<const std::int64_t> f, Instant now) {
     if (f[0] == 6) {
         // The index has no type; the printed form has a 0 in its place, which is taken too.
         const std::int64_t a = f.size() == 3 ? f[2] : f.size() == 2 ? f[1] : -1;
-        if (a != 0 && a != 1) return bad_value;
+        if (a != 0 && a != 1) return err::bad_value;
         index_high_ = a == 1;
         return 0;
     }
-    if (f[0] < 1 || f[0] > static_cast<std::int64_t>(fitted_)) return no_such_point;
-    if (f.size() < 2 || f.size() > 3) return bad_value;
+    if (f[0] < 1 || f[0] > static_cast<std::int64_t>(fitted_)) return err::no_such_point;
+    if (f.size() < 2 || f.size() > 3) return err::bad_value;
     const auto n = static_cast<std::size_t>(f[0] - 1);
     const bool high = f.size() == 3 ? f[2] == 1 : high_[n];
-    if (f.size() == 3 && f[2] != 0 && f[2] != 1) return bad_value;
-    if (!known_input(f[1])) return wrong_type;
+    if (f.size() == 3 && f[2] != 0 && f[2] != 1) return err::bad_value;
+    if (!known_input(f[1])) return err::wrong_type;
     const auto type = static_cast<InputType>(f[1]);
-    if (type == InputType::capture && (n != 0 || fitted_ < input_count)) return wrong_type;
+    if (type == InputType::capture && (n != 0 || fitted_ < input_count)) return err::wrong_type;
     if (is_clock(type)) {
-        if (n < 2) return wrong_type;
-        if (fitted_ < input_count) return wrong_clock;
+        if (n < 2) return err::wrong_type;
+        if (fitted_ < input_count) return err::wrong_clock;
     } else if (type != InputType::general && type_[n] == type) {
         // This point has it already; other points may have it too. General is free: listing 9.3 sets it on points that have it. So are
         // the clocks, since setting one of the pair sets the other.
-        return already_so;
+        return err::already_so;
     }
     type_[n] = type;
     high_[n] = high;
@@ -249,47 +241,47 @@ void Outputs::factory() {
 bool Outputs::has(OutputType type) const noexcept { return std::ranges::find(type_, type) != type_.end(); }
 
 int Outputs::set_up(std::span<const std::int64_t> f) {
-    if (f.empty() || f[0] < 1 || f[0] > static_cast<std::int64_t>(output_count)) return no_such_point;
+    if (f.empty() || f[0] < 1 || f[0] > static_cast<std::int64_t>(output_count)) return err::no_such_point;
     const auto n = static_cast<std::size_t>(f[0] - 1);
-    if (!fitted(n)) return no_such_point;
-    if (f.size() < 2 || f.size() > 3 || (f.size() == 3 && f[2] != 0 && f[2] != 1)) return bad_value;
-    if (!known_output(f[1])) return wrong_type;
+    if (!fitted(n)) return err::no_such_point;
+    if (f.size() < 2 || f.size() > 3 || (f.size() == 3 && f[2] != 0 && f[2] != 1)) return err::bad_value;
+    if (!known_output(f[1])) return err::wrong_type;
     const auto type = static_cast<OutputType>(f[1]);
     const bool high = f.size() == 3 ? f[2] == 1 : high_[n];
     switch (type) {
         case OutputType::encoder_a:
-            if (n != 0) return wrong_type;
+            if (n != 0) return err::wrong_type;
             break;
         case OutputType::encoder_b:
-            if (n != 1) return wrong_type;
+            if (n != 1) return err::wrong_type;
             break;
         case OutputType::trip:
-            if (n != 2) return wrong_type;
+            if (n != 2) return err::wrong_type;
             break;
         case OutputType::locked_rotor:
         case OutputType::hmt_active:
         case OutputType::makeup_active:
-            if (!closed_loop_) return wrong_type;
+            if (!closed_loop_) return err::wrong_type;
             break;
         default:
             break;
     }
-    if (type != OutputType::general && type_[n] == type) return already_so;
+    if (type != OutputType::general && type_[n] == type) return err::already_so;
     type_[n] = type;
     high_[n] = type == OutputType::trip ? false : high;  // the trip output is active low only [L4629]
     return 0;
 }
 
 int Outputs::set(std::size_t n, bool on) {
-    if (!fitted(n)) return not_available;
-    if (type_[n] != OutputType::general) return typed;
+    if (!fitted(n)) return err::not_available;
+    if (type_[n] != OutputType::general) return err::typed;
     on_[n] = on;
     return 0;
 }
 
 int Outputs::set_all(std::int64_t mask) {
     for (std::size_t i = 0; i < output_count; ++i) {
-        if (fitted(i) && type_[i] != OutputType::general) return typed;
+        if (fitted(i) && type_[i] != OutputType::general) return err::typed;
     }
     for (std::size_t i = 0; i < output_count; ++i) {
         if (fitted(i)) on_[i] = (mask >> i & 1) != 0;

@@ -5,12 +5,11 @@
 #include <cmath>
 #include <limits>
 
+#include "adapters/mcode/twin_errors.hpp"
 #include "adapters/mcode/twin_motor.hpp"
 
 namespace axisgate::mcode::twin {
 namespace {
-
-constexpr int bad_value = 21, both_limits = 82, plus_limit = 83, minus_limit = 84;
 /// Length of the home switch that the hand puts beside the axis, in turns.
 constexpr double home_length = 0.05;
 /// A switch opens this much behind the place where it has closed, in turns: less than a thousandth of a step.
@@ -19,14 +18,14 @@ constexpr double switch_gap = 1e-8;
 }  // namespace
 
 int Motor::set_soft_limit(std::span<const std::int64_t> f) {
-    if (f.size() != 3 || f[0] < 0 || f[0] > 1 || f[2] < 0 || f[2] > 1) return bad_value;
-    if (f[1] < -2147483648LL || f[1] > 2147483647LL) return bad_value;
+    if (f.size() != 3 || f[0] < 0 || f[0] > 1 || f[2] < 0 || f[2] > 1) return err::bad_value;
+    if (f[1] < -2147483648LL || f[1] > 2147483647LL) return err::bad_value;
     auto limit = soft_limit_;
     auto on = soft_on_;
     const auto n = static_cast<std::size_t>(f[0]);
     limit[n] = static_cast<double>(f[1]);
     on[n] = f[2] == 1;
-    if (on[0] && on[1] && limit[0] >= limit[1]) return bad_value;  // minus must lie below plus [L4029]
+    if (on[0] && on[1] && limit[0] >= limit[1]) return err::bad_value;  // minus must lie below plus [L4029]
     soft_limit_ = limit;
     soft_on_ = on;
     return 0;
@@ -34,8 +33,8 @@ int Motor::set_soft_limit(std::span<const std::int64_t> f) {
 
 int Motor::held_limit(int way, Instant now) const noexcept {
     const double p = position(now).position;
-    if (way > 0 && (inputs_.active(InputType::limit_plus) || (soft_on_[1] && p >= soft_limit_[1]))) return plus_limit;
-    if (way < 0 && (inputs_.active(InputType::limit_minus) || (soft_on_[0] && p <= soft_limit_[0]))) return minus_limit;
+    if (way > 0 && (inputs_.active(InputType::limit_plus) || (soft_on_[1] && p >= soft_limit_[1]))) return err::plus_limit;
+    if (way < 0 && (inputs_.active(InputType::limit_minus) || (soft_on_[0] && p <= soft_limit_[0]))) return err::minus_limit;
     return 0;
 }
 
@@ -58,7 +57,7 @@ void Motor::limit_met(int way, Instant now) {
     }
     if (homing && home_.stage == Homing::Stage::back) return;  // the same limit again, while braking at it
     if (braking_ && !at_once) return;
-    raise(homing && home_.reversed ? both_limits : way > 0 ? plus_limit : minus_limit);
+    raise(homing && home_.reversed ? err::both_limits : way > 0 ? err::plus_limit : err::minus_limit);
     aborted_ = true;
     if (task_ == Task::homing || task_ == Task::calibration || task_ == Task::torque) task_ = Task::slew;
     hmt_.torque_runs = false;
@@ -72,7 +71,6 @@ void Motor::limit_met(int way, Instant now) {
 }
 
 namespace {
-
 struct Region {
     double low, high;
 };

@@ -5,18 +5,9 @@
 #include <charconv>
 
 #include "adapters/mcode/twin_device.hpp"
+#include "adapters/mcode/twin_errors.hpp"
 
 namespace axisgate::mcode::twin {
-namespace {
-
-constexpr int saving_in_motion = 73;
-
-std::int64_t integer_in(const NonVolatile& m, const std::string& name, std::int64_t fallback) {
-    const auto it = m.find(name);
-    return it == m.end() ? fallback : as_integer(it->second).value_or(fallback);
-}
-
-}  // namespace
 
 std::uint32_t Device::rate_of_code(int code) const noexcept {
     switch (code) {
@@ -177,7 +168,7 @@ void Device::boot() {
 }
 
 int Device::save() {
-    if (motor_->busy(false, now_)) return saving_in_motion;
+    if (motor_->busy(false, now_)) return err::saving_in_motion;
     lk_saved_ = lk_;
     nvm_ = snapshot();
     ++nvm_revision_;

@@ -4,19 +4,18 @@
 // In: instants. Out: events.
 // Never loses an event silently within its bound: beyond 64 waiting ones the newest is dropped, and no error raises more than one at once.
 #include "adapters/mcode/twin_motor.hpp"
+#include "adapters/mcode/twin_errors.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace axisgate::mcode::twin {
 namespace {
-
 constexpr std::size_t event_limit = 64;
 /// Happenings that one call works off; the rest stay due.
 constexpr int happenings_per_call = 256;
 /// 20 kHz, the highest rate of position trips [L5844]; those in between are lost.
 constexpr Duration trip_pause = std::chrono::microseconds(50);
-constexpr int max_count = 105;
 
 }  // namespace
 
@@ -107,7 +106,7 @@ void Motor::handle(Instant t) {
     if (due.stall <= t) stalled(t);
     if (due.lag <= t) judge_lag(t);
     if (hmt_.lock_due <= t) locked(t);
-    if (due.wrap <= t) raise(max_count);
+    if (due.wrap <= t) raise(err::max_count);
     if (due.tp <= t) trip(Word::TP, t, false);
     if (due.tr <= t) {
         trip(Word::TR, t, false);
@@ -142,31 +141,30 @@ void Motor::capture(Instant now) {
 }
 
 int Motor::arm(Word w, std::span<const Number> f, Instant now) {
-    constexpr int no_capture = 12, bad_value = 21, two_trips = 39;
     advance(now);
     if (const int code = available(w); code != 0) return code;
     const auto first = [&] { return f.empty() ? std::int64_t{0} : f[0].as_integer(); };
     switch (w) {
         case Word::TI:
-            if (f.size() != 1 || first() < 1 || first() > static_cast<std::int64_t>(inputs_.fitted())) return bad_value;
+            if (f.size() != 1 || first() < 1 || first() > static_cast<std::int64_t>(inputs_.fitted())) return err::bad_value;
             ti_input_ = static_cast<int>(first());
             break;
         case Word::TP:
-            if (f.size() != 1 || std::abs(first()) > 2147483648LL) return bad_value;
-            if ((te_ & 16) != 0) return two_trips;
+            if (f.size() != 1 || std::abs(first()) > 2147483648LL) return err::bad_value;
+            if ((te_ & 16) != 0) return err::two_trips;
             tp_ = static_cast<double>(first());
             break;
         case Word::TR:
-            if (f.empty() || first() == 0 || std::abs(first()) > 2147483647LL) return bad_value;
-            if ((te_ & 2) != 0) return two_trips;
+            if (f.empty() || first() == 0 || std::abs(first()) > 2147483647LL) return err::bad_value;
+            if ((te_ & 2) != 0) return err::two_trips;
             tr_ = static_cast<double>(std::abs(first()));
             tr_from_ = position(now).position;
             break;
         case Word::TC:
-            if (!inputs_.with_type(InputType::capture)) return no_capture;
+            if (!inputs_.with_type(InputType::capture)) return err::no_capture;
             break;
         case Word::TA:
-            if (f.size() != 1 || first() < 0 || first() > 31) return bad_value;
+            if (f.size() != 1 || first() < 0 || first() > 31) return err::bad_value;
             ta_mask_ = static_cast<int>(first());
             break;
         default:

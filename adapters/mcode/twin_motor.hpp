@@ -207,7 +207,6 @@ private:
     double target_ = 0;
     double slew_ = 0;
     Word last_motion_ = Word::MR;
-    bool ever_moved_ = false;
     int corrections_ = 0;
     Homing home_;
     bool aborted_ = false;  ///< stopped by a limit, input or fault: not a completion

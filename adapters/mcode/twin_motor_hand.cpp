@@ -4,19 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapters/mcode/twin_errors.hpp"
 #include "adapters/mcode/twin_motor.hpp"
 
 namespace axisgate::mcode::twin {
 namespace {
-
-constexpr int lmm_disabled = 14;
-
-std::optional<bool> as_flag(const Value& v) {
-    const auto n = as_integer(v);
-    if (!n || (*n != 0 && *n != 1)) return std::nullopt;
-    return *n == 1;
-}
-
 struct Figure {
     const char* name;
     double low, high;
@@ -189,7 +181,7 @@ std::optional<std::string> Motor::set_hand(const std::string& name, const Value&
     } else if (name == "enable_input" && (setup_.product & lmm) != 0) {
         if (!flag) return want_flag;
         if (enable_input_ && !*flag) {
-            raise(lmm_disabled);
+            raise(err::lmm_disabled);
             bridges_off(now);
         }
         enable_input_ = *flag;

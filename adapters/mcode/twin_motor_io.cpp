@@ -4,14 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapters/mcode/twin_errors.hpp"
 #include "adapters/mcode/twin_motor.hpp"
 
 namespace axisgate::mcode::twin {
-namespace {
-
-constexpr int program_stopped = 48, warm = 71, hot = 72, aux_out = 78, plus_v_out = 79, motion_stopped = 91;
-
-}  // namespace
 
 void Motor::edge(const InputEdge& e, Instant now) {
     using Kind = MotorEvent::Kind;
@@ -36,9 +32,9 @@ void Motor::edge(const InputEdge& e, Instant now) {
                 hmt_.torque_runs = false;
                 if (task_ == Task::homing || task_ == Task::torque || task_ == Task::calibration) task_ = Task::slew;
                 brake(now);
-                raise(motion_stopped);
+                raise(err::motion_stopped);
             }
-            if (program_running_) emit({Kind::end_program, program_stopped, {}});
+            if (program_running_) emit({Kind::end_program, err::program_stopped, {}});
             break;
         case InputType::pause:
             emit({e.active ? Kind::pause : Kind::resume, 0, {}});
@@ -122,21 +118,21 @@ void Motor::bridges_off(Instant now) {
 void Motor::judge_supply(Instant now) {
     // Both out: 78 first and 79 last [E-33]. An unused aux supply is no error.
     const bool aux_bad = supply_.has_aux && !supply_.aux_unused() && !supply_.aux_good();
-    if (aux_bad && !supply_.aux_told) raise(aux_out);
+    if (aux_bad && !supply_.aux_told) raise(err::aux_out);
     supply_.aux_told = aux_bad;
     const bool plus_bad = !supply_.plus_v_good();
     if (plus_bad && !supply_.plus_v_told) {
-        raise(plus_v_out);
+        raise(err::plus_v_out);
         if ((te_ & 64) != 0 && supply_.plus_v < plus_v_low && supply_.aux_good()) trip(Word::TM, now, true);
         bridges_off(now);
     }
     supply_.plus_v_told = plus_bad;
     const bool is_warm = supply_.hottest() > setting(Word::WT);
-    if (is_warm && !supply_.warned) raise(warm);
+    if (is_warm && !supply_.warned) raise(err::warm);
     supply_.warned = is_warm;
     const bool is_hot = supply_.hottest() >= shut_down_temperature;
     if (is_hot && !supply_.over_temperature) {
-        raise(hot);
+        raise(err::hot);
         set(Word::DE, 0);
         bridges_off(now);
     }

@@ -4,14 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapters/mcode/twin_errors.hpp"
 #include "adapters/mcode/twin_motor.hpp"
 
 namespace axisgate::mcode::twin {
 namespace {
-
-constexpr int bad_value = 21, too_large = 77, in_homing = 85, in_calibration = 88, calibration_moving = 89, too_low = 90, correcting = 93,
-              disabled = 94, no_supply = 96, below_vi = 97, illegal_up = 98, illegal_down = 99, resolution_wrong = 100,
-              calibration_disabled = 103, calibration_lost = 109;
 constexpr std::int64_t position_limit = 2147483647;  // [E-44]
 /// An S table of 256 points needs a point of 1 us at least; shorter ramps are errors 98 and 99. The manual gives no figure.
 constexpr double shortest_table = 256e-6;
@@ -37,23 +34,23 @@ double Motor::speed_limit() const noexcept {
 int Motor::may_move(Word word, Instant) const {
     const bool stepping = phase_ == Phase::steps;
     const bool homes = word == Word::HM || word == Word::HI || word == Word::HF;
-    if (task_ == Task::homing && phase_ != Phase::rest) return in_homing;
-    if (task_ == Task::calibration && stepping) return in_calibration;
-    if (homes && stepping) return in_homing;  // "HOME not allowed while MOVING"
-    if (setting(Word::DE) == 0 || bridge_off_) return disabled;
-    if (!supply_.plus_v_good()) return no_supply;
-    if (hmt_mode() == 3) return in_homing;  // torque mode has no positions
+    if (task_ == Task::homing && phase_ != Phase::rest) return err::in_homing;
+    if (task_ == Task::calibration && stepping) return err::in_calibration;
+    if (homes && stepping) return err::in_homing;  // "HOME not allowed while MOVING"
+    if (setting(Word::DE) == 0 || bridge_off_) return err::disabled;
+    if (!supply_.plus_v_good()) return err::no_supply;
+    if (hmt_mode() == 3) return err::in_homing;  // torque mode has no positions
     if (word != Word::SL) {
-        if (stepping && (task_ == Task::correction || corrections_ > 0)) return correcting;
+        if (stepping && (task_ == Task::correction || corrections_ > 0)) return err::correcting;
         // After SL 0 motion has to come to a stop first [L5404].
-        if (stepping && braking_) return in_homing;
+        if (stepping && braking_) return err::in_homing;
     }
     const double vi = setting(Word::VI), vm = setting(Word::VM);
-    if (vi < 1 || (word != Word::SL && vm <= vi)) return too_low;
-    if (word != Word::SL && vm > speed_limit()) return too_large;
+    if (vi < 1 || (word != Word::SL && vm <= vi)) return err::too_low;
+    if (word != Word::SL && vm > speed_limit()) return err::too_large;
     const Kinematics k = kinematics();
-    if (k.up.type != 1 && (vm - vi) / k.up.mean() < shortest_table) return illegal_up;
-    if (k.down.type != 1 && (vm - vi) / k.down.mean() < shortest_table) return illegal_down;
+    if (k.up.type != 1 && (vm - vi) / k.up.mean() < shortest_table) return err::illegal_up;
+    if (k.down.type != 1 && (vm - vi) / k.down.mean() < shortest_table) return err::illegal_down;
     return 0;
 }
 
@@ -67,7 +64,7 @@ int Motor::start(Word word, std::span<const Number> fields, Instant now) {
                 code = start_move(word, fields, now);
                 break;
             case Word::SL:
-                if (fields.size() != 1) return bad_value;
+                if (fields.size() != 1) return err::bad_value;
                 code = start_slew(fields[0].as_integer(), now);
                 break;
             case Word::HM:
@@ -82,7 +79,7 @@ int Motor::start(Word word, std::span<const Number> fields, Instant now) {
                 code = clear_locked(now);
                 break;
             default:
-                code = bad_value;
+                code = err::bad_value;
                 break;
         }
     }
@@ -91,11 +88,11 @@ int Motor::start(Word word, std::span<const Number> fields, Instant now) {
 }
 
 int Motor::start_move(Word word, std::span<const Number> f, Instant now) {
-    if (f.empty() || f.size() > 3) return bad_value;
+    if (f.empty() || f.size() > 3) return err::bad_value;
     const std::int64_t value = f[0].as_integer();
-    if (value > position_limit || value < -position_limit - 1) return bad_value;
+    if (value > position_limit || value < -position_limit - 1) return err::bad_value;
     for (std::size_t i = 1; i < f.size(); ++i) {
-        if (f[i].as_integer() != 0 && f[i].as_integer() != 1) return bad_value;
+        if (f[i].as_integer() != 0 && f[i].as_integer() != 1) return err::bad_value;
     }
     if (const int code = may_move(word, now); code != 0) return code;
     const bool go_on = f.size() == 3 && f[2].as_integer() == 1;
@@ -130,10 +127,10 @@ int Motor::start_move(Word word, std::span<const Number> f, Instant now) {
 
 int Motor::start_slew(std::int64_t velocity, Instant now) {
     const double v = static_cast<double>(velocity);
-    if (std::abs(v) > (encoder_mode() ? speed_limit() : 5'000'000.0)) return bad_value;
+    if (std::abs(v) > (encoder_mode() ? speed_limit() : 5'000'000.0)) return err::bad_value;
     if (const int code = may_move(Word::SL, now); code != 0) return code;
-    if (!encoder_mode() && setting(Word::MS) < 256 && std::abs(v) > speed_limit()) return too_large;  // [E-67]
-    if (velocity != 0 && std::abs(v) < setting(Word::VI)) return below_vi;
+    if (!encoder_mode() && setting(Word::MS) < 256 && std::abs(v) > speed_limit()) return err::too_large;  // [E-67]
+    if (velocity != 0 && std::abs(v) < setting(Word::VI)) return err::below_vi;
     if (velocity != 0) {
         if (const int code = held_limit(way_of(v), now); code != 0) return code;
     }
@@ -157,10 +154,10 @@ int Motor::start_slew(std::int64_t velocity, Instant now) {
 
 /// SC 1: half a turn, by which resolution and direction of the encoder are compared [L5343].
 int Motor::start_calibration(std::span<const Number> f, Instant now) {
-    if (f.size() != 1 || f[0].as_integer() != 1) return bad_value;
-    if (phase_ == Phase::steps) return calibration_moving;
-    if (setting(Word::DE) == 0 || bridge_off_) return calibration_disabled;
-    if (!supply_.plus_v_good()) return no_supply;
+    if (f.size() != 1 || f[0].as_integer() != 1) return err::bad_value;
+    if (phase_ == Phase::steps) return err::calibration_moving;
+    if (setting(Word::DE) == 0 || bridge_off_) return err::calibration_disabled;
+    if (!supply_.plus_v_good()) return err::no_supply;
     resync(now);
     task_ = Task::calibration;
     braking_ = aborted_ = go_on_ = false;
@@ -191,7 +188,7 @@ void Motor::brake(Instant now) {
 
 /// Stands at once, without a ramp.
 void Motor::freeze(Instant now) {
-    if (task_ == Task::calibration && phase_ == Phase::steps) raise(calibration_lost);
+    if (task_ == Task::calibration && phase_ == Phase::steps) raise(err::calibration_lost);
     const double here = std::round(position(now).position);
     const bool slipped = !feedback() && (rotor_state_ == Rotor::held || slip_ != 0);
     if (phase_ == Phase::steps || feedback()) {
@@ -232,7 +229,9 @@ void Motor::steps_over(Instant now) {
         return;
     }
     if (task_ == Task::calibration && !braking_) {
-        const int fault = std::abs(lag(now)) > 1 ? resolution_wrong : encoder_fault_ != 0 ? resolution_wrong + encoder_fault_ - 1 : 0;
+        const int fault = std::abs(lag(now)) > 1 ? err::resolution_wrong
+                          : encoder_fault_ != 0  ? err::resolution_wrong + encoder_fault_ - 1
+                                                 : 0;
         if (fault != 0) raise(fault);
         status_trip(1, now);
     }

@@ -4,14 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapters/mcode/twin_errors.hpp"
 #include "adapters/mcode/twin_motor.hpp"
 
 namespace axisgate::mcode::twin {
 namespace {
-
-constexpr int bad_value = 21, vi_too_large = 22, vm_too_small = 23, read_only = 25, bad_print = 35, bad_ratio = 36, not_available = 37,
-              over_temperature = 72, makeup_out = 76, too_large = 77, reverse_moving = 95, makeup_disabled = 110;
-
 struct Default {
     Word word;
     double value;
@@ -44,9 +41,9 @@ void Motor::defaults() noexcept {
 }
 
 int Motor::available(Word w) const noexcept {
-    if ((info(w).products & setup_.product) == 0) return not_available;
+    if ((info(w).products & setup_.product) == 0) return err::not_available;
     if (setup_.frame_size == 17) {
-        if (w == Word::O1 || w == Word::O2 || w == Word::FC || w == Word::I4 || w == Word::D4) return not_available;
+        if (w == Word::O1 || w == Word::O2 || w == Word::FC || w == Word::I4 || w == Word::D4) return err::not_available;
     }
     return 0;
 }
@@ -106,7 +103,7 @@ Number Motor::read(Word w, Instant now, int& error) {
             break;
     }
     if (info(w).access != Access::rw || info(w).owner != Owner::motor) {
-        error = bad_print;
+        error = err::bad_print;
         return {};
     }
     return Number::of(whole(w));
@@ -142,19 +139,19 @@ int Motor::write(Word w, std::span<const Number> fields, Instant now) {
     advance(now);
     if (const int code = available(w); code != 0) return code;
     const WordInfo& i = info(w);
-    if (i.access == Access::ro || i.access == Access::none) return read_only;
+    if (i.access == Access::ro || i.access == Access::none) return err::read_only;
     int code = 0;
     if (w == Word::IS || w == Word::OS || w == Word::LS) {
         std::array<std::int64_t, 3> values{};
-        if (fields.empty() || fields.size() > values.size()) return bad_value;
+        if (fields.empty() || fields.size() > values.size()) return err::bad_value;
         for (std::size_t k = 0; k < fields.size(); ++k)
             values[k] = fields[k].as_integer();
         const std::span<const std::int64_t> given(values.data(), fields.size());
         code = w == Word::IS ? inputs_.set_up(given, now) : w == Word::OS ? outputs_.set_up(given) : set_soft_limit(given);
     } else {
-        if (fields.size() != 1) return bad_value;
+        if (fields.size() != 1) return err::bad_value;
         const double v = w == Word::SA ? fields[0].as_double() : static_cast<double>(fields[0].as_integer());
-        if (i.ranged && !(v >= i.min && v <= i.max)) return bad_value;
+        if (i.ranged && !(v >= i.min && v <= i.max)) return err::bad_value;
         code = write_value(w, fields[0], now);
     }
     if (w == Word::IS && code == 0) place_switches(now);
@@ -170,16 +167,16 @@ int Motor::write_value(Word w, const Number& n, Instant now) {
         case Word::D: {
             const double low = w == Word::A && encoder_mode() ? 6 : 66;
             const double high = encoder_mode() ? 44e6 : 1.1e9;
-            if (d < low || d > high) return bad_value;
+            if (d < low || d > high) return err::bad_value;
             break;
         }
         case Word::VI:
-            if (v < 1) return bad_value;
-            if (d >= setting(Word::VM)) return vi_too_large;
+            if (v < 1) return err::bad_value;
+            if (d >= setting(Word::VM)) return err::vi_too_large;
             break;
         case Word::VM:
-            if (d <= setting(Word::VI)) return vm_too_small;
-            if (d > speed_limit()) return too_large;
+            if (d <= setting(Word::VI)) return err::vm_too_small;
+            if (d > speed_limit()) return err::too_large;
             break;
         case Word::MS:
             return set_microsteps(v, now);
@@ -190,7 +187,7 @@ int Motor::write_value(Word w, const Number& n, Instant now) {
         case Word::HT:
         case Word::MT: {
             const double other = setting(w == Word::HT ? Word::MT : Word::HT);
-            if (v < 0 || d + other > 65535) return bad_value;
+            if (v < 0 || d + other > 65535) return err::bad_value;
             break;
         }
         case Word::P:
@@ -205,7 +202,7 @@ int Motor::write_value(Word w, const Number& n, Instant now) {
             index_offset_ = d;
             return 0;
         case Word::RD: {
-            if (phase_ != Phase::rest) return reverse_moving;
+            if (phase_ != Phase::rest) return err::reverse_moving;
             const Kept k = keep(now);
             set(w, d);
             put_back(k, now);
@@ -217,9 +214,9 @@ int Motor::write_value(Word w, const Number& n, Instant now) {
                 aborted_ = true;
                 freeze(now);
                 resync(now);
-                if (owes) raise(makeup_disabled);
+                if (owes) raise(err::makeup_disabled);
             }
-            if (v != 0 && supply_.over_temperature) return over_temperature;
+            if (v != 0 && supply_.over_temperature) return err::hot;
             set(w, d);
             if (v != 0) {
                 maintain(now);
@@ -228,26 +225,26 @@ int Motor::write_value(Word w, const Number& n, Instant now) {
             return 0;
         case Word::SA: {
             const auto angle = std::ranges::find_if(step_angles, [&](double a) { return std::abs(a - n.as_double()) < 1e-9; });
-            if (angle == step_angles.end() || phase_ != Phase::rest) return bad_value;
+            if (angle == step_angles.end() || phase_ != Phase::rest) return err::bad_value;
             const Kept k = keep(now);
             set(w, *angle);
             put_back(k, now);
             return 0;
         }
         case Word::EL: {
-            if (phase_ != Phase::rest) return bad_value;
-            if (encoder_mode() && d * 8 / (360.0 / setting(Word::SA)) > setting(Word::MS)) return bad_ratio;
+            if (phase_ != Phase::rest) return err::bad_value;
+            if (encoder_mode() && d * 8 / (360.0 / setting(Word::SA)) > setting(Word::MS)) return err::bad_ratio;
             const Kept k = keep(now);
             set(w, d);
             put_back(k, now);
             return 0;
         }
         case Word::MF:
-            if (v < 92 || d > top_turns_per_second * 51200) return makeup_out;
+            if (v < 92 || d > top_turns_per_second * 51200) return err::makeup_out;
             break;
         case Word::TS:
-            if (v < 46512) return bad_value;
-            if (d > speed_limit()) return too_large;
+            if (v < 46512) return err::bad_value;
+            if (d > speed_limit()) return err::too_large;
             break;
         case Word::O1:
         case Word::O2:

@@ -4,13 +4,9 @@
 #include <algorithm>
 
 #include "adapters/mcode/twin_device.hpp"
+#include "adapters/mcode/twin_errors.hpp"
 
 namespace axisgate::mcode::twin {
-namespace {
-
-constexpr int bad_value = 21;
-
-}  // namespace
 
 std::optional<std::string> Device::text_of_word(Word word, int& error) {
     if (const int code = available(word); code != 0) {
@@ -93,7 +89,7 @@ int Device::print(const Statement& s) {
                                  s.items[i + 1].value.terms[0].operand.kind == Operand::Kind::constant;
             if (own && indexed) {
                 const std::int64_t n = s.items[++i].value.terms[0].operand.number.as_integer();
-                if (n != 1 && n != 2) return bad_value;
+                if (n != 1 && n != 2) return err::bad_value;
                 // IT: bridge, controller. VT: status, auxiliary, +V; the module has no auxiliary supply and answers with +V for both
                 // [L6220-6228].
                 const std::int64_t skip = t.operand.word == Word::IT ? n - 1 : (setup_.product & lmm) != 0 ? 1 : n;

@@ -4,13 +4,10 @@
 #include <algorithm>
 
 #include "adapters/mcode/twin_device.hpp"
+#include "adapters/mcode/twin_errors.hpp"
 
 namespace axisgate::mcode::twin {
 namespace {
-
-constexpr int bad_value = 21, illegal_data = 24, trip_undefined = 27, unknown_label = 30, two_trips = 39, not_running = 40, running = 41,
-              bad_address = 42, locked = 44, saving_in_motion = 73, restoring_in_motion = 74;
-
 /// Bits of TE in order: TI TP TC TT TR TA TM.
 constexpr std::array trip_words{Word::TI, Word::TP, Word::TC, Word::TT, Word::TR, Word::TA, Word::TM};
 
@@ -19,7 +16,7 @@ std::size_t trip_index(Word w) noexcept { return static_cast<std::size_t>(std::r
 }  // namespace
 
 int Device::declare(const Statement& s, std::span<const Number> fields) {
-    if (s.name.size() == 2 && (setup_.product & lmm) != 0 && word_named(s.name) == Word::PW) return illegal_data;
+    if (s.name.size() == 2 && (setup_.product & lmm) != 0 && word_named(s.name) == Word::PW) return err::illegal_data;
     Symbols& names = program_.symbols();
     if (s.symbol == no_symbol) return 31;
     const bool stored = data_ == nullptr;
@@ -46,16 +43,16 @@ int Device::run_program(const Target& target, Mode mode) {
 }
 
 int Device::execute_label(const Statement& s, std::span<const Number> fields) {
-    if (!run_.idle()) return running;
+    if (!run_.idle()) return err::running;
     const std::int64_t mode = fields.empty() ? 0 : fields[0].as_integer();
-    if (mode < 0 || mode > 2) return bad_value;
-    if (!s.target) return unknown_label;
+    if (mode < 0 || mode > 2) return err::bad_value;
+    if (!s.target) return err::unknown_name;
     return run_program(*s.target, static_cast<Mode>(mode));
 }
 
 int Device::break_point(const Statement& s, std::span<const Number> fields) {
     if (!s.target || !s.target->given) {
-        if (run_.idle()) return not_running;
+        if (run_.idle()) return err::not_running;
         mode_ = Mode::step;
         comm_.stepping(true);
         return 0;
@@ -76,18 +73,18 @@ int Device::set_trip(const Statement& s, std::span<const Number> fields) {
     const bool none = s.target && s.target->label == no_symbol && s.target->address == 0 && !s.target->missing_name;
     if (!(none && s.word == Word::TR)) {
         int error = 0;
-        if (!s.target || program_.find(*s.target, error) < 0) return unknown_label;
+        if (!s.target || program_.find(*s.target, error) < 0) return err::unknown_name;
     }
     Trip t;
     t.defined = true;
     t.target = *s.target;
     if (s.word == Word::TT) {
         t.ms = fields[0].as_integer();
-        if (t.ms < 1 || t.ms > 65535) return bad_value;
+        if (t.ms < 1 || t.ms > 65535) return err::bad_value;
     } else {
         if (s.word == Word::TR && fields.size() > 1) {
             t.repeats = fields[1].as_integer();
-            if (t.repeats < 0 || t.repeats > 65000) return bad_value;
+            if (t.repeats < 0 || t.repeats > 65000) return err::bad_value;
             t.left = t.repeats;
         }
         if (const int code = motor_->arm(s.word, fields, now_); code != 0) return code;
@@ -98,9 +95,9 @@ int Device::set_trip(const Statement& s, std::span<const Number> fields) {
 
 int Device::enable_trips(std::int64_t mask) {
     for (std::size_t i = 0; i < trips_.size(); ++i) {
-        if ((mask >> i & 1) != 0 && !trips_[i].defined) return trip_undefined;
+        if ((mask >> i & 1) != 0 && !trips_[i].defined) return err::trip_undefined;
     }
-    if ((mask & 2) != 0 && (mask & 16) != 0) return two_trips;
+    if ((mask & 2) != 0 && (mask & 16) != 0) return err::two_trips;
     if ((mask & 8) != 0 && (te_ & 8) == 0) trip_time_ = now_ + std::chrono::milliseconds(trips_[3].ms);
     if ((mask & 8) == 0) trip_time_ = never;
     if ((mask & 16) != 0 && (te_ & 16) == 0) trips_[4].left = trips_[4].repeats;  // each series begins with TE [L5836]
@@ -148,19 +145,19 @@ void Device::stop_everything() {
 }
 
 int Device::enter_program_mode(std::span<const Number> fields) {
-    if (data_ == nullptr) return running;  // PG in a stored program has nothing to leave
-    if (!run_.idle()) return running;
-    if (lk_) return locked;
-    if (motor_->busy(true, now_)) return saving_in_motion;
+    if (data_ == nullptr) return err::running;  // PG in a stored program has nothing to leave
+    if (!run_.idle()) return err::running;
+    if (lk_) return err::locked;
+    if (motor_->busy(true, now_)) return err::saving_in_motion;
     const std::int64_t address = fields.empty() ? 1 : fields[0].as_integer();
-    if (address < 1 || address > Program::space) return bad_address;
+    if (address < 1 || address > Program::space) return err::bad_address;
     program_address_ = static_cast<std::int32_t>(address);
     programming_ = true;
     return 0;
 }
 
 int Device::list(const Statement& s) {
-    if (lk_) return locked;
+    if (lk_) return err::locked;
     std::size_t from = 0;
     if (s.target && s.target->given) {
         int error = 0;
@@ -179,12 +176,12 @@ int Device::list(const Statement& s) {
 }
 
 int Device::clear_program(const Statement& s, std::span<const Number> fields) {
-    if (!run_.idle()) return running;
-    if (motor_->busy(true, now_)) return restoring_in_motion;
+    if (!run_.idle()) return err::running;
+    if (motor_->busy(true, now_)) return err::restoring_in_motion;
     const std::int64_t variables = fields.empty() ? 0 : fields[0].as_integer();
-    if (variables != 0 && variables != 1) return bad_value;
+    if (variables != 0 && variables != 1) return err::bad_value;
     if (s.target && s.target->given) {
-        if (lk_) return locked;
+        if (lk_) return err::locked;
         int error = 0;
         const std::int32_t line = program_.find(*s.target, error);
         if (line < 0) return error;

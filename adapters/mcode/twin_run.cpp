@@ -7,11 +7,10 @@
 #include <cmath>
 #include <limits>
 
+#include "adapters/mcode/twin_errors.hpp"
+
 namespace axisgate::mcode::twin {
 namespace {
-
-constexpr int bad_value = 21, read_only = 25, not_countable = 26, unknown_name = 30, set_label = 32, stack_full = 43;
-
 bool fits_int32(std::int64_t v) noexcept {
     return v >= std::numeric_limits<std::int32_t>::min() && v <= std::numeric_limits<std::int32_t>::max();
 }
@@ -55,7 +54,7 @@ Number function(Word f, const Number& n, bool radians, bool base_two, int& error
             r = std::log10(x);
             break;
     }
-    if (!std::isfinite(r)) error = bad_value;
+    if (!std::isfinite(r)) error = err::bad_value;
     return Number::of_real(r);
 }
 
@@ -96,7 +95,7 @@ Number Run::operand(const Operand& o, int& error) {
             return Number::of_real(reals_[o.index]);
         case Operand::Kind::symbol: {
             const Symbol& s = program_.symbols().at(o.symbol);
-            if (s.kind != Symbol::Kind::global && s.kind != Symbol::Kind::local) error = unknown_name;
+            if (s.kind != Symbol::Kind::global && s.kind != Symbol::Kind::local) error = err::unknown_name;
             return Number::of(s.value);
         }
         case Operand::Kind::word:
@@ -125,7 +124,7 @@ Number Run::value(const Expression& e, bool real, int& error) {
         }
         const auto r = apply(t.op, result, n, real);
         if (!r || !std::isfinite(r->as_double())) {
-            error = bad_value;  // division by zero, beyond the largest double: the manual is silent
+            error = err::bad_value;  // division by zero, beyond the largest double: the manual is silent
             return result;
         }
         result = *r;
@@ -142,13 +141,13 @@ bool Run::holds(const Condition& c, int& error) {
 int Run::store(Word word, const Number& n) {
     if (word >= Word::R1 && word <= Word::R4) {
         const std::int64_t v = n.as_integer();
-        if (!fits_register(v)) return bad_value;
+        if (!fits_register(v)) return err::bad_value;
         integers_[static_cast<std::size_t>(word) - static_cast<std::size_t>(Word::R1)] = static_cast<std::int32_t>(v);
         return 0;
     }
     if (word >= Word::F1 && word <= Word::F8) {
         const double v = n.as_double();
-        if (!std::isfinite(v)) return bad_value;
+        if (!std::isfinite(v)) return err::bad_value;
         reals_[static_cast<std::size_t>(word) - static_cast<std::size_t>(Word::F1)] = v;
         return 0;
     }
@@ -156,12 +155,12 @@ int Run::store(Word word, const Number& n) {
 }
 
 int Run::store(SymbolId symbol, const Number& n) {
-    if (symbol == no_symbol) return unknown_name;
+    if (symbol == no_symbol) return err::unknown_name;
     Symbol& s = program_.symbols().at(symbol);
-    if (s.kind == Symbol::Kind::label) return set_label;
+    if (s.kind == Symbol::Kind::label) return err::set_label;
     if (s.kind == Symbol::Kind::unknown) return 20;
     const std::int64_t v = n.as_integer();
-    if (!fits_int32(v)) return bad_value;
+    if (!fits_int32(v)) return err::bad_value;
     s.value = static_cast<std::int32_t>(v);
     return 0;
 }
@@ -169,13 +168,13 @@ int Run::store(SymbolId symbol, const Number& n) {
 int Run::count(const Statement& s, int by) {
     if (s.symbol != no_symbol) {
         Symbol& v = program_.symbols().at(s.symbol);
-        if (v.kind != Symbol::Kind::global && v.kind != Symbol::Kind::local) return read_only;  // unspecified counts as that [L2336]
+        if (v.kind != Symbol::Kind::global && v.kind != Symbol::Kind::local) return err::read_only;  // unspecified counts as that [L2336]
         return store(s.symbol, Number::of(std::int64_t{v.value} + by));
     }
     const Operand& o = s.fields[0].terms[0].operand;
     if (o.kind == Operand::Kind::integer_register) {
         std::int32_t& r = integers_[o.index];
-        if (!fits_register(std::int64_t{r} + by)) return bad_value;
+        if (!fits_register(std::int64_t{r} + by)) return err::bad_value;
         r += by;
         return 0;
     }
@@ -183,8 +182,8 @@ int Run::count(const Statement& s, int by) {
         reals_[o.index] += by;
         return 0;
     }
-    if (o.kind != Operand::Kind::word || info(o.word).access == Access::ro || info(o.word).access == Access::none) return read_only;
-    if (!countable(o.word)) return not_countable;
+    if (o.kind != Operand::Kind::word || info(o.word).access == Access::ro || info(o.word).access == Access::none) return err::read_only;
+    if (!countable(o.word)) return err::not_countable;
     int error = 0;
     const Number n = host_.read(o.word, error);
     if (error != 0) return error;
@@ -198,7 +197,7 @@ int Run::jump(const Statement& s, bool call) {
     const std::int32_t to = program_.find(*s.target, error);
     if (to < 0) return error;
     if (call) {
-        if (stack_.size() >= stack_limit) return stack_full;
+        if (stack_.size() >= stack_limit) return err::stack_full;
         stack_.push_back({static_cast<std::uint32_t>(next_), State::running, CallKind::call, {}, false});
     }
     next_ = static_cast<std::size_t>(to);
@@ -235,7 +234,7 @@ int Run::execute(const Statement& s, Instant now) {
                 case Word::DC:
                     return count(s, -1);
                 case Word::RT: {
-                    if (stack_.empty()) return stack_full;
+                    if (stack_.empty()) return err::stack_full;
                     const Frame f = stack_.back();
                     stack_.pop_back();
                     if (f.ends) {
@@ -254,7 +253,7 @@ int Run::execute(const Statement& s, Instant now) {
                     }
                     const std::int64_t ms = value(s.fields[0], false, error).as_integer();
                     if (error != 0) return error;
-                    if (ms < 1 || ms > 65000) return bad_value;
+                    if (ms < 1 || ms > 65000) return err::bad_value;
                     state_ = State::hold_time;
                     until_ = now + std::chrono::milliseconds(ms);
                     return 0;
@@ -271,7 +270,7 @@ int Run::execute(const Statement& s, Instant now) {
     // IV names a place, not a value.
     if (!(s.kind == Statement::Kind::execute && s.word == Word::IV)) {
         for (const Expression& e : s.fields) {
-            if (n == fields.size()) return bad_value;
+            if (n == fields.size()) return err::bad_value;
             fields[n++] = value(e, false, error);
             if (error != 0) return error;
         }
@@ -306,7 +305,7 @@ int Run::step(Instant now) {
 }
 
 int Run::interrupt(std::size_t line, CallKind kind) {
-    if (stack_.size() >= stack_limit) return stack_full;
+    if (stack_.size() >= stack_limit) return err::stack_full;
     const bool ends = state_ == State::idle;
     stack_.push_back({static_cast<std::uint32_t>(next_), state_, kind, until_, ends});
     next_ = line;

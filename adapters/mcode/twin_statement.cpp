@@ -3,12 +3,10 @@
 // Never throws a line away silently: what it cannot read becomes the code that the drive answers with.
 #include "adapters/mcode/twin_statement.hpp"
 
+#include "adapters/mcode/twin_errors.hpp"
+
 namespace axisgate::mcode::twin {
 namespace {
-
-constexpr int unknown_set = 20, redefine_word = 29, unknown_name = 30, set_label = 32, set_instruction = 33, run_variable = 34,
-              bad_print = 35, separator = 38, unknown_command = 60;
-
 bool is_motion(Word w) noexcept {
     switch (w) {
         case Word::MA:
@@ -72,7 +70,7 @@ public:
         if (tokens_.at_end()) return {};
         const Token& first = tokens_.peek();
         if (first.kind == Token::Kind::number || tokens_.is_sign('-') || tokens_.is_sign('+')) return bare_number();
-        if (first.kind != Token::Kind::name) return faulty(unknown_command);
+        if (first.kind != Token::Kind::name) return faulty(err::unknown_command);
         if (const auto word = word_named(first.text)) {
             tokens_.take();
             // PW is a word of one product only, and a free name on the others [L4970]: a user who has declared it means his own.
@@ -90,7 +88,7 @@ private:
         return s;
     }
 
-    Statement finish(Statement s) { return error_ != 0 ? faulty(error_) : tokens_.at_end() ? std::move(s) : faulty(separator); }
+    Statement finish(Statement s) { return error_ != 0 ? faulty(error_) : tokens_.at_end() ? std::move(s) : faulty(err::separator); }
 
     [[nodiscard]] bool declared(std::string_view name) const noexcept {
         const SymbolId id = symbols_.find(name);
@@ -103,7 +101,7 @@ private:
 
     SymbolId symbol(std::string_view name) {
         const SymbolId id = define_ ? symbols_.mention(name) : symbols_.find(name);
-        if (id == no_symbol) fail(define_ ? 31 : unknown_name);
+        if (id == no_symbol) fail(define_ ? 31 : err::unknown_name);
         return id;
     }
 
@@ -120,14 +118,15 @@ private:
         const SymbolId known = symbols_.find(name);
         const bool good = Symbols::well_formed(name, 3);
         if (tokens_.at_end() && !sign) {
-            return faulty(known != no_symbol && symbols_.at(known).kind != Symbol::Kind::unknown ? run_variable : unknown_command);
+            return faulty(known != no_symbol && symbols_.at(known).kind != Symbol::Kind::unknown ? err::run_variable
+                                                                                                 : err::unknown_command);
         }
-        if (!good) return faulty(sign ? unknown_set : unknown_command);
-        if (known == no_symbol && !define_) return faulty(sign ? unknown_set : unknown_command);
+        if (!good) return faulty(sign ? err::unknown_set : err::unknown_command);
+        if (known == no_symbol && !define_) return faulty(sign ? err::unknown_set : err::unknown_command);
         s.kind = Statement::Kind::assign_name;
         s.with_sign = sign;
         s.symbol = symbol(name);
-        if (s.symbol != no_symbol && symbols_.at(s.symbol).kind == Symbol::Kind::label) return faulty(set_label);
+        if (s.symbol != no_symbol && symbols_.at(s.symbol).kind == Symbol::Kind::label) return faulty(err::set_label);
         s.fields.push_back(expression());
         return finish(std::move(s));
     }
@@ -141,9 +140,9 @@ private:
             case WordKind::reserved:
                 return faulty(24);
             case WordKind::math:
-                return faulty(unknown_command);
+                return faulty(err::unknown_command);
             case WordKind::keyword:
-                return faulty(tokens_.is_sign('=') ? 25 : run_variable);
+                return faulty(tokens_.is_sign('=') ? 25 : err::run_variable);
             case WordKind::variable:
             case WordKind::flag:
             case WordKind::setup:
@@ -158,7 +157,7 @@ private:
 
     Statement assignment(Statement s) {
         s.with_sign = tokens_.take_sign('=');
-        if (tokens_.at_end()) return faulty(s.with_sign ? 21 : run_variable);
+        if (tokens_.at_end()) return faulty(s.with_sign ? 21 : err::run_variable);
         s.kind = Statement::Kind::assign;
         if (s.word == Word::DN) {
             if (tokens_.peek().kind != Token::Kind::text) return faulty(21);
@@ -172,7 +171,7 @@ private:
     /// TI input,label; TP position,label; TR distance,label|0[,repeat]; TT ms,label; TA mask,label; TC label; TM label.
     Statement trip(Statement s) {
         s.with_sign = tokens_.take_sign('=');
-        if (tokens_.at_end()) return faulty(s.with_sign ? 21 : run_variable);
+        if (tokens_.at_end()) return faulty(s.with_sign ? 21 : err::run_variable);
         if (s.word == Word::TC || s.word == Word::TM) {
             s.target = target();
             return finish(std::move(s));
@@ -182,7 +181,7 @@ private:
             s.target = Target{};  // no subroutine: the trip output alone [L5832]
             return s;
         }
-        if (!tokens_.take_sign(',')) return faulty(error_ != 0 ? error_ : separator);
+        if (!tokens_.take_sign(',')) return faulty(error_ != 0 ? error_ : err::separator);
         s.target = target();
         if (s.word == Word::TR && tokens_.take_sign(',')) s.fields.push_back(expression());
         return finish(std::move(s));
@@ -197,11 +196,11 @@ private:
                 return declaration(std::move(s));
             case Word::BR:
             case Word::CL:
-                if (tokens_.is_sign('=')) return faulty(set_instruction);
+                if (tokens_.is_sign('=')) return faulty(err::set_instruction);
                 s.target = target();
-                if (!s.target->given) return faulty(error_ != 0 ? error_ : unknown_name);
+                if (!s.target->given) return faulty(error_ != 0 ? error_ : err::unknown_name);
                 if (!tokens_.at_end()) {
-                    if (!tokens_.take_sign(',')) return faulty(separator);
+                    if (!tokens_.take_sign(',')) return faulty(err::separator);
                     if (!tokens_.at_end()) s.condition = condition();  // a blank condition is none [L2117]
                 }
                 return finish(std::move(s));
@@ -210,7 +209,7 @@ private:
             case Word::L:
             case Word::BP:
                 s.with_sign = tokens_.take_sign('=');
-                if (s.with_sign && (s.word == Word::EX || s.word == Word::L)) return faulty(set_instruction);
+                if (s.with_sign && (s.word == Word::EX || s.word == Word::L)) return faulty(err::set_instruction);
                 if (!tokens_.at_end()) s.target = target();
                 if ((s.word == Word::EX || s.word == Word::BP) && tokens_.take_sign(',')) s.fields.push_back(expression());
                 return finish(std::move(s));
@@ -224,7 +223,7 @@ private:
                 break;
         }
         s.with_sign = tokens_.take_sign('=');
-        if (s.with_sign && !is_motion(s.word)) return faulty(set_instruction);
+        if (s.with_sign && !is_motion(s.word)) return faulty(err::set_instruction);
         if (!tokens_.at_end()) fields(s);
         if (is_motion(s.word) && s.fields.empty()) return faulty(error_ != 0 ? error_ : 21);
         return finish(std::move(s));
@@ -232,7 +231,7 @@ private:
 
     /// CP, CP label, CP 0, CP 1, CP 0,label [L2149-2161].
     Statement clear(Statement s) {
-        if (tokens_.is_sign('=')) return faulty(set_instruction);
+        if (tokens_.is_sign('=')) return faulty(err::set_instruction);
         if (tokens_.at_end()) return s;
         if (tokens_.peek().kind == Token::Kind::number) {
             s.fields.push_back(expression());
@@ -247,7 +246,7 @@ private:
     Statement counted(Statement s) {
         const Token t = tokens_.take();
         // IC and DC of nothing are as of what cannot be written [L2336, L3375].
-        if (t.kind != Token::Kind::name) return faulty(s.word == Word::IV ? unknown_name : 25);
+        if (t.kind != Token::Kind::name) return faulty(s.word == Word::IV ? err::unknown_name : 25);
         if (const auto w = word_named(t.text)) {
             Expression e;
             e.terms.push_back({});
@@ -255,20 +254,20 @@ private:
             s.fields.push_back(std::move(e));
         } else {
             s.symbol = symbol(t.text);
-            if (error_ == unknown_name && s.word != Word::IV) error_ = 25;
+            if (error_ == err::unknown_name && s.word != Word::IV) error_ = 25;
         }
         return finish(std::move(s));
     }
 
     Statement declaration(Statement s) {
-        if (tokens_.is_sign('=')) return faulty(set_instruction);
+        if (tokens_.is_sign('=')) return faulty(err::set_instruction);
         const Token t = tokens_.take();
-        if (t.kind != Token::Kind::name) return faulty(unknown_name);
+        if (t.kind != Token::Kind::name) return faulty(err::unknown_name);
         s.name = std::string(t.text);
         if (const auto w = word_named(t.text)) {
             const bool reserved = info(*w).kind == WordKind::reserved;
             const bool start_up = s.word == Word::LB && *w == Word::SU;
-            if (!start_up && *w != Word::PW) return faulty(reserved || s.word == Word::VA ? 24 : redefine_word);
+            if (!start_up && *w != Word::PW) return faulty(reserved || s.word == Word::VA ? 24 : err::redefine_word);
         }
         // Two characters; a label may also be a letter and two digits [L3765, E-9].
         const bool digits = t.text.size() == 3 && t.text.find_first_not_of("0123456789", 1) == std::string_view::npos;
@@ -283,8 +282,8 @@ private:
     }
 
     Statement print(Statement s) {
-        if (tokens_.is_sign('=')) return faulty(set_instruction);
-        if (tokens_.at_end()) return faulty(unknown_set);
+        if (tokens_.is_sign('=')) return faulty(err::set_instruction);
+        if (tokens_.at_end()) return faulty(err::unknown_set);
         bool after_text = true;  // no separator is needed before the first item and after a text [E-8]
         bool first = true;
         while (!tokens_.at_end() && error_ == 0) {
@@ -292,7 +291,7 @@ private:
                 s.open_end = true;
                 break;
             }
-            if (!first && !tokens_.take_sign(',') && !after_text) return faulty(separator);
+            if (!first && !tokens_.take_sign(',') && !after_text) return faulty(err::separator);
             if (tokens_.at_end() || tokens_.is_sign(';')) continue;
             first = false;
             PrintItem item;
@@ -301,8 +300,8 @@ private:
                 item.text = unescaped(tokens_.take().text);
                 after_text = true;
             } else {
-                if (tokens_.peek().kind == Token::Kind::other) return faulty(unknown_set);
-                item.value = expression(bad_print);
+                if (tokens_.peek().kind == Token::Kind::other) return faulty(err::unknown_set);
+                item.value = expression(err::bad_print);
                 after_text = false;
             }
             s.items.push_back(std::move(item));
@@ -322,7 +321,7 @@ private:
         const Token name = tokens_.take();
         const auto word = word_named(name.text);
         if (word && *word != Word::SU && *word != Word::PW) {
-            fail(info(*word).kind == WordKind::variable || info(*word).kind == WordKind::flag ? run_variable : unknown_name);
+            fail(info(*word).kind == WordKind::variable || info(*word).kind == WordKind::flag ? err::run_variable : err::unknown_name);
             return t;
         }
         t.given = true;
@@ -356,7 +355,7 @@ private:
                 c.comparison = Comparison::greater_equal;
                 break;
             default:
-                fail(separator);
+                fail(err::separator);
                 return c;
         }
         c.right = expression();
@@ -391,7 +390,7 @@ private:
         return o;
     }
 
-    Expression expression(int unknown = unknown_name) {
+    Expression expression(int unknown = err::unknown_name) {
         Expression e;
         Operator op = Operator::add;
         for (;;) {
@@ -421,8 +420,9 @@ private:
                 const SymbolId own = symbols_.find(token.text);
                 if (w && !(*w == Word::PW && declared(token.text))) {
                     const WordInfo& i = info(*w);
-                    if (i.access == Access::none && i.kind != WordKind::trip) fail(unknown == bad_print ? bad_print : unknown_name);
-                    if (i.access == Access::wo) fail(bad_print);
+                    if (i.access == Access::none && i.kind != WordKind::trip)
+                        fail(unknown == err::bad_print ? err::bad_print : err::unknown_name);
+                    if (i.access == Access::wo) fail(err::bad_print);
                     t.operand = operand_of(*w);
                 } else {
                     t.operand.kind = Operand::Kind::symbol;
@@ -430,7 +430,7 @@ private:
                     t.operand.symbol = symbol(token.text);
                 }
             } else {
-                fail(token.kind == Token::Kind::end ? 21 : separator);
+                fail(token.kind == Token::Kind::end ? 21 : err::separator);
             }
             e.terms.push_back(t);
             if (error_ != 0) return e;

@@ -5,12 +5,10 @@
 
 #include <algorithm>
 
+#include "gateway/core/text.hpp"
+
 namespace axisgate::mcode::twin {
 namespace {
-
-constexpr char upper(char c) noexcept { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
-constexpr bool letter(char c) noexcept { return upper(c) >= 'A' && upper(c) <= 'Z'; }
-constexpr bool digit(char c) noexcept { return c >= '0' && c <= '9'; }
 
 bool same_name(std::string_view a, std::string_view b) noexcept {
     return std::ranges::equal(a, b, [](char x, char y) { return upper(x) == upper(y); });
@@ -56,8 +54,8 @@ void Symbols::forget(Symbol::Kind kind) noexcept {
 }
 
 bool Symbols::well_formed(std::string_view name, std::size_t longest) noexcept {
-    return !name.empty() && name.size() <= longest && letter(name[0]) &&
-           std::ranges::all_of(name, [](char c) { return letter(c) || digit(c); });
+    return !name.empty() && name.size() <= longest && is_letter(name[0]) &&
+           std::ranges::all_of(name, [](char c) { return is_letter(c) || is_digit(c); });
 }
 
 }  // namespace axisgate::mcode::twin

@@ -7,26 +7,25 @@
 #include <charconv>
 #include <limits>
 
+#include "gateway/core/text.hpp"
+
 namespace axisgate::mcode::twin {
 namespace {
 
-constexpr bool letter(char c) noexcept { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-constexpr bool digit(char c) noexcept { return c >= '0' && c <= '9'; }
-
 /// End of the number that begins at `at`.
 std::size_t number_end(std::string_view s, std::size_t at) noexcept {
-    while (at < s.size() && digit(s[at]))
+    while (at < s.size() && is_digit(s[at]))
         ++at;
     if (at < s.size() && s[at] == '.') {
         ++at;
-        while (at < s.size() && digit(s[at]))
+        while (at < s.size() && is_digit(s[at]))
             ++at;
     }
     if (at < s.size() && (s[at] == 'e' || s[at] == 'E')) {
         std::size_t e = at + 1;
         if (e < s.size() && (s[e] == '+' || s[e] == '-')) ++e;
-        if (e < s.size() && digit(s[e])) {
-            while (e < s.size() && digit(s[e]))
+        if (e < s.size() && is_digit(s[e])) {
+            while (e < s.size() && is_digit(s[e]))
                 ++e;
             at = e;
         }
@@ -74,11 +73,11 @@ Tokens::Tokens(std::string_view line) noexcept {
         if (c == '\'') break;
         Token& t = tokens_[size_++];
         const std::size_t begin = at;
-        if (letter(c)) {
-            while (at < line.size() && (letter(line[at]) || digit(line[at]) || line[at] == '_'))
+        if (is_letter(c)) {
+            while (at < line.size() && (is_letter(line[at]) || is_digit(line[at]) || line[at] == '_'))
                 ++at;
             t.kind = Token::Kind::name;
-        } else if (digit(c) || (c == '.' && at + 1 < line.size() && digit(line[at + 1]))) {
+        } else if (is_digit(c) || (c == '.' && at + 1 < line.size() && is_digit(line[at + 1]))) {
             at = number_end(line, at);
             t.kind = Token::Kind::number;
             t.number = number_of(line.substr(begin, at - begin));

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
+#include "gateway/core/text.hpp"
+
 namespace axisgate::mcode::twin {
 namespace {
-
-constexpr char upper(char c) noexcept { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 
 // At most three letters, upper case, packed into one number: a statement is looked up with a few comparisons of numbers.
 constexpr std::uint32_t key_of(std::string_view letters) noexcept {

@@ -5,6 +5,8 @@
 
 #include <fmt/core.h>
 
+#include "gateway/core/text.hpp"
+
 namespace axisgate::mcode {
 namespace {
 unsigned sum_of(std::string_view text) noexcept {
@@ -13,8 +15,6 @@ unsigned sum_of(std::string_view text) noexcept {
         sum += static_cast<std::uint8_t>(c);
     return sum;
 }
-bool is_letter(char c) noexcept { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-bool is_digit(char c) noexcept { return c >= '0' && c <= '9'; }
 }  // namespace
 
 char checksum(std::string_view text) noexcept { return static_cast<char>(((0U - sum_of(text)) & 0x7FU) | 0x80U); }

@@ -13,7 +13,7 @@
 namespace axisgate::pacontrol {
 namespace {
 constexpr auto no = Carries::nothing;
-constexpr auto bit = Carries::bit, word = Carries::word, whole = Carries::integer, real = Carries::real;
+constexpr auto bit = Carries::bit, word = Carries::word, integer = Carries::integer, real = Carries::real;
 constexpr auto none = Takes::nothing;
 constexpr auto element = Takes::element, axis = Takes::axis, group = Takes::axis_or_all, ap = Takes::axis_parameter,
                sp = Takes::system_parameter;
@@ -23,10 +23,10 @@ constexpr std::array<CommandInfo, 66> table{{
     {0x0600, "cmd_stop", none, no, no, false, false, true},
     {0x0602, "cmd_start_auto", none, no, no, false, false, false},
     {0x0603, "cmd_start_online", none, no, no, false, false, false},
-    {0x0700, "cmd_set_system_parameter", sp, whole, whole, true, false, true},
-    {0x1700, "cmd_get_system_parameter", sp, no, whole, true, false, true},
-    {0x1701, "cmd_get_system_parameter_max", sp, no, whole, true, false, true},
-    {0x1702, "cmd_get_system_parameter_min", sp, no, whole, true, false, true},
+    {0x0700, "cmd_set_system_parameter", sp, integer, integer, true, false, true},
+    {0x1700, "cmd_get_system_parameter", sp, no, integer, true, false, true},
+    {0x1701, "cmd_get_system_parameter_max", sp, no, integer, true, false, true},
+    {0x1702, "cmd_get_system_parameter_min", sp, no, integer, true, false, true},
     {0x0800, "cmd_set_axis_parameter", ap, real, real, true, false, true},
     {0x1800, "cmd_get_axis_parameter", ap, no, real, true, false, true},
     {0x1801, "cmd_get_axis_parameter_max", ap, no, real, true, false, true},
@@ -41,26 +41,26 @@ constexpr std::array<CommandInfo, 66> table{{
     {0x1904, "cmd_get_single_flag", element, no, bit, false, false, true},
     {0x0905, "cmd_put_flag_word", element, word, word, false, false, true},
     {0x1905, "cmd_get_flag_word", element, no, word, false, false, true},
-    {0x0906, "cmd_put_int_reg", element, whole, whole, false, false, true},
-    {0x1906, "cmd_get_int_reg", element, no, whole, false, false, true},
+    {0x0906, "cmd_put_int_reg", element, integer, integer, false, false, true},
+    {0x1906, "cmd_get_int_reg", element, no, integer, false, false, true},
     {0x0907, "cmd_put_float_reg", element, real, real, false, false, true},
     {0x1907, "cmd_get_float_reg", element, no, real, false, false, true},
-    {0x0909, "cmd_reset_error", none, no, whole, true, false, false},
-    {0x1909, "cmd_get_error", none, no, whole, false, false, true},
-    {0x190B, "cmd_get_state", none, no, whole, false, false, true},
+    {0x0909, "cmd_reset_error", none, no, integer, true, false, false},
+    {0x1909, "cmd_get_error", none, no, integer, false, false, true},
+    {0x190B, "cmd_get_state", none, no, integer, false, false, true},
     {0x190C, "cmd_get_actual_pos", axis, no, real, false, false, true},
     {0x190D, "cmd_get_actual_speed", axis, no, real, false, false, true},
     {0x190E, "cmd_get_actual_rotation_control_pos", axis, no, real, false, false, true},
     {0x190F, "cmd_get_max_towfault", axis, no, real, false, false, true},
-    {0x1910, "cmd_get_status_axis", axis, no, whole, false, false, true},
-    {0x1911, "cmd_get_status_all_axis", none, no, whole, false, false, true},
+    {0x1910, "cmd_get_status_axis", axis, no, integer, false, false, true},
+    {0x1911, "cmd_get_status_all_axis", none, no, integer, false, false, true},
     {0x1913, "cmd_get_axis_traverse_area_min", axis, no, real, false, false, true},
     {0x1914, "cmd_get_axis_traverse_area_max", axis, no, real, false, false, true},
     {0x1915, "cmd_get_axis_following_error", axis, no, real, false, false, true},
     {0x1920, "cmd_get_temperature", axis, no, real, false, false, true},
-    {0x1921, "cmd_get_extended_status_axis", axis, no, whole, false, false, true},
+    {0x1921, "cmd_get_extended_status_axis", axis, no, integer, false, false, true},
     {0x1934, "cmd_send_system_flag", element, no, bit, false, false, true},
-    {0x1935, "cmd_send_system_n_reg", element, no, whole, false, false, true},
+    {0x1935, "cmd_send_system_n_reg", element, no, integer, false, false, true},
     {0x1937, "cmd_send_system_r_reg", element, no, real, false, false, true},
     {0x0A41, "cmd_abort_auto", none, no, no, false, false, false},
     {0x0A81, "cmd_abort_online", none, no, no, false, true, false},
@@ -85,7 +85,7 @@ constexpr std::array<CommandInfo, 66> table{{
     {0x0AA0, "cmd_set_measuring_mode", axis, no, no, false, false, true},         // also in AUTOMATIC [L3774]
     {0x0AA1, "cmd_reset_axis_measuring_mode", axis, no, no, false, false, true},  // where it can be begun it can be ended
     {0x0AA2, "cmd_put_limit_switch_monitoring_on_off", group, bit, no, false, true, true},
-    {0x0AA3, "cmd_put_condition_move_axis", group, whole, no, false, true, true},
+    {0x0AA3, "cmd_put_condition_move_axis", group, integer, no, false, true, true},
 }};
 
 struct Text {

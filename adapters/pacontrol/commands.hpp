@@ -25,6 +25,9 @@ inline constexpr std::uint16_t stop = 0x0600, start_auto = 0x0602, start_online 
                                measuring_off = 0x0AA1, limit_switches = 0x0AA2, condition = 0x0AA3;
 }  // namespace code
 
+/// SM51 is "axis 1 is referenced" [L3935].
+inline constexpr std::uint32_t referenced_flag = 50;
+
 enum class Takes : std::uint8_t { nothing, element, axis, axis_or_all, axis_parameter, system_parameter };
 enum class Carries : std::uint8_t { nothing, bit, word, integer, real };
 

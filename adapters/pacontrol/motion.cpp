@@ -13,7 +13,6 @@
 namespace axisgate::pacontrol {
 namespace {
 constexpr Duration stand_limit = std::chrono::seconds(10);  // a motion that was stopped for the next one has to stand within
-constexpr std::uint32_t referenced_flag = 50;               // SM51..66 [L3935]
 
 std::string_view advice_for(std::uint16_t q) {
     switch (q) {

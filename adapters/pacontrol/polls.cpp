@@ -12,7 +12,6 @@
 
 namespace axisgate::pacontrol {
 namespace {
-constexpr std::uint32_t referenced_flag = 50;  // SM51 is "axis 1 is referenced" [L3935]
 constexpr Duration longest_cycle = std::chrono::seconds(10);
 constexpr Duration standing_age = std::chrono::milliseconds(2400);  // below the 3 s from which a byte line's data count as stale
 constexpr int standing_cycles = 4;                                  // in which each axis that stands is asked once while none moves

@@ -1,26 +1,13 @@
 // The tester's hand: outside conditions of the control, by the names that all families share.
 // In: names and values. Out: what they cause, or why they make no sense.
 // Never writes an element that belongs to the program: inputs alone are outside.
-#include <charconv>
 #include <cmath>
 
 #include "adapters/pacontrol/twin_device.hpp"
+#include "gateway/core/text.hpp"
 
 namespace axisgate::pacontrol::twin {
 namespace {
-
-std::optional<bool> as_flag(const Value& v) {
-    const auto n = as_integer(v);
-    if (!n || (*n != 0 && *n != 1)) return std::nullopt;
-    return *n == 1;
-}
-
-std::optional<std::int64_t> decimal(std::string_view text) {
-    std::int64_t n = 0;
-    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), n);
-    if (fault != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    return n;
-}
 
 constexpr int mask_bits = 32;
 
@@ -127,7 +114,7 @@ std::string Device::set_condition(const std::string& name, const Value& value, I
         return set_condition(text->substr(0, equals), Value{level == "1"}, now);
     }
     if (name.size() > 1 && name.front() == 'I') {
-        const auto n = decimal(std::string_view(name).substr(1));
+        const auto n = parse_whole(std::string_view(name).substr(1), 0, INT64_MAX);
         if (!n || !control_.elements().inputs.has(*n)) return "there is no input '" + name + "': I1..I1024";
         if (!flag) return want_flag;
         control_.set_input(*n, *flag, now);
@@ -161,7 +148,7 @@ std::string Device::set_condition(const std::string& name, const Value& value, I
     }
     if (name.starts_with("axis")) {
         const auto dot = name.find('.');
-        const auto n = dot == std::string::npos ? std::nullopt : decimal(std::string_view(name).substr(4, dot - 4));
+        const auto n = dot == std::string::npos ? std::nullopt : parse_whole(std::string_view(name).substr(4, dot - 4), 0, INT64_MAX);
         if (!n || *n < 1 || *n > control_.axes())
             return "there is no '" + name + "' here; axes are axis1 to axis" + std::to_string(control_.axes());
         return set_axis_condition(static_cast<int>(*n), name.substr(dot + 1), value, now);

@@ -11,8 +11,6 @@
 
 namespace axisgate::pacontrol::twin {
 namespace {
-constexpr std::uint16_t inadmissible = 0x14, not_executable = 0x15, out_of_range = 0x29, no_reference = 0x2B;
-constexpr std::uint16_t no_reference_error = 525;  // E525
 constexpr std::uint32_t bit_of(int n) { return 1u << n; }
 constexpr std::uint32_t traverse_bits = 0xFCF8;  // 3..7 and 10..15
 
@@ -169,7 +167,7 @@ void Image::command(Control& control, Instant now) {
         const std::uint32_t raw = has_short_data(code) ? dword(in_, 0) & 0xFFFFu : dword(in_, 0);
         const Datum data =
             carries_real(code) ? Datum::number(float_of(raw)) : Datum::integer(static_cast<double>(static_cast<std::int32_t>(raw)));
-        reply = shape_.modules > 0 && blocked(code) ? CommandReply{inadmissible, true, {}, never}  // E-63
+        reply = shape_.modules > 0 && blocked(code) ? CommandReply{quit::inadmissible, true, {}, never}  // E-63
                                                     : control.execute(code, word(in_, 4), data, now);
         running_ = reply->quit == 0 && !reply->done;
     } else if (running_) {
@@ -316,14 +314,14 @@ void Image::start(Control& control, std::size_t k, Module& m, std::uint32_t w, I
     task.value = real_at(at + 8);
     const std::uint32_t conditions = w & (bit_of(8) | bit_of(9));
     if (traverse == 0) {
-        m.command_error = not_executable;
+        m.command_error = quit::not_executable;
     } else if (!kind || conditions == (bit_of(8) | bit_of(9))) {
-        m.command_error = m.own_error = inadmissible;  // several at once: both errors [L712-L716], E-36
+        m.command_error = m.own_error = quit::inadmissible;  // several at once: both errors [L712-L716], E-36
     } else if (uses_speed(*kind) && (task.speed_permille < 1 || task.speed_permille > 1000 || task.acceleration_permille == 0)) {
-        m.command_error = out_of_range;  // E-67
+        m.command_error = quit::value;  // E-67
     } else if (needs_reference(*kind) && !control.axis(static_cast<int>(k) + 1).referenced()) {
-        m.command_error = no_reference;
-        m.own_error = no_reference_error;
+        m.command_error = quit::no_reference;
+        m.own_error = error::no_reference;
     } else {
         task.kind = *kind;
         if (conditions && (*kind == AxisTask::Kind::absolute || *kind == AxisTask::Kind::relative))

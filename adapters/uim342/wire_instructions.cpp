@@ -7,6 +7,8 @@
 #include <array>
 #include <limits>
 
+#include "gateway/core/text.hpp"
+
 namespace axisgate::uim342 {
 namespace {
 constexpr std::array<std::uint8_t, 3> pp_indices{5, 7, 8};
@@ -81,8 +83,6 @@ constexpr std::array<std::int8_t, 128> make_by_cw() {
     return by;
 }
 constexpr auto by_cw = make_by_cw();
-
-char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 
 /// DV[i] that answers a SET of these four [L1429, L1452, L1475, L1497].
 std::uint8_t desired_index(std::uint8_t function) noexcept { return function == cw::PR ? 3 : function == cw::PA ? 4 : 2; }

@@ -17,14 +17,14 @@ constexpr std::array<std::uint16_t, 256> make_table() noexcept {
     }
     return t;
 }
-constexpr auto table = make_table();
+constexpr auto crc_table = make_table();
 constexpr std::uint8_t with_crc = 0xAA, without_crc = 0xAD, end_byte = 0xCC;
 }  // namespace
 
 std::uint16_t crc16(std::span<const std::uint8_t> data) noexcept {
     std::uint16_t crc = 0xFFFF;
     for (const auto b : data)
-        crc = static_cast<std::uint16_t>(crc >> 8 ^ table[(crc ^ b) & 0xFF]);
+        crc = static_cast<std::uint16_t>(crc >> 8 ^ crc_table[(crc ^ b) & 0xFF]);
     return crc;
 }
 

@@ -9,6 +9,8 @@
 #include <charconv>
 #include <set>
 
+#include "gateway/core/text.hpp"
+
 namespace axisgate {
 namespace {
 
@@ -32,7 +34,7 @@ std::optional<std::uint32_t> number(std::string_view text) noexcept {
     return v;
 }
 
-bool is_letter_or_digit(char c) noexcept { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+bool is_letter_or_digit(char c) noexcept { return is_letter(c) || is_digit(c); }
 
 /// What is wrong with a host, or nothing.
 std::string host_fault(std::string_view host, bool bracketed) {

@@ -20,9 +20,6 @@ int hex_digit(char c) noexcept {
     return -1;
 }
 
-char lower_char(char c) noexcept { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-
 /// Length of the valid UTF-8 sequence at the beginning of `s` (no surrogates, no overlong forms); 0 if there is none.
 std::size_t sequence_length(std::string_view s) noexcept {
     const auto at = [&](std::size_t i) { return static_cast<unsigned char>(s[i]); };
@@ -215,7 +212,7 @@ bool is_utf8(std::string_view text) noexcept {
 
 std::string lower(std::string_view text) {
     std::string out(text);
-    std::ranges::transform(out, out.begin(), lower_char);
+    std::ranges::transform(out, out.begin(), [](char c) { return lower(c); });
     return out;
 }
 

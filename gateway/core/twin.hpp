@@ -16,6 +16,13 @@ namespace axisgate {
 
 /// A drive's non-volatile memory, by the drive's own names. Kept by the store and by `axisgate twin --state`.
 using NonVolatile = std::map<std::string, Value>;
+/// A whole number of the memory; `fallback` where there is none, or one that is out of the bounds.
+[[nodiscard]] inline std::int64_t integer_in(const NonVolatile& memory, const std::string& name, std::int64_t fallback,
+                                             std::int64_t low = INT64_MIN, std::int64_t high = INT64_MAX) {
+    const auto it = memory.find(name);
+    const std::int64_t v = it == memory.end() ? fallback : as_integer(it->second).value_or(fallback);
+    return v < low || v > high ? fallback : v;
+}
 
 /// One outside condition that a tester can set. The same names serve all families:
 ///   power (bool), silent (bool: hears, does not answer), stall (bool: the shaft is held), inputs (bit mask), limit_positive,
@@ -29,8 +36,8 @@ struct HandItem {
 };
 
 struct TwinSetup {
-    std::string address;       ///< in the family's own form
-    int axes = 1;              ///< channels that the site uses; a family may build more
+    std::string address;  ///< in the family's own form
+    int axes = 1;         ///< channels that the site uses; a family may build more
     LineKind kind = LineKind::bytes;
     std::uint32_t bit_rate = 0;
     std::map<std::string, std::string> options;
@@ -53,7 +60,8 @@ struct Twin {
     /// Power on at `now` with this memory (empty: factory state). Called once before anything else, and to restore.
     virtual void power_on(const NonVolatile& memory, Instant now, Out& out) = 0;
     [[nodiscard]] virtual NonVolatile non_volatile() const = 0;
-    /// The site uses this many channels from now on. True: they are there, and nothing else has changed; false: the twin must be built anew.
+    /// The site uses this many channels from now on. True: they are there, and nothing else has changed; false: the twin must be built
+    /// anew.
     [[nodiscard]] virtual bool fit_axes(int axes, Instant now) { return (void)axes, (void)now, false; }
     /// Grows by one with each change of the non-volatile memory: tells when to save it.
     [[nodiscard]] virtual std::uint64_t non_volatile_revision() const = 0;

@@ -46,6 +46,12 @@ std::optional<std::int64_t> as_integer(const Value& v) noexcept {
     return std::nullopt;
 }
 
+std::optional<bool> as_flag(const Value& v) noexcept {
+    const auto n = as_integer(v);
+    if (!n || (*n != 0 && *n != 1)) return std::nullopt;
+    return *n == 1;
+}
+
 std::optional<double> as_number(const Value& v) noexcept {
     if (const auto* d = std::get_if<double>(&v)) return *d;
     if (const auto i = as_integer(v)) return static_cast<double>(*i);
@@ -53,24 +59,34 @@ std::optional<double> as_number(const Value& v) noexcept {
 }
 
 std::string to_text(const Value& v) {
-    return std::visit(Overload{[](std::monostate) { return std::string("unknown"); }, [](bool b) { return std::string(b ? "true" : "false"); },
-                               [](std::int64_t i) { return std::to_string(i); }, [](double d) { return fmt::format("{}", d); },
-                               [](const std::string& s) { return s; }},
+    return std::visit(Overload{[](std::monostate) { return std::string("unknown"); },
+                               [](bool b) { return std::string(b ? "true" : "false"); }, [](std::int64_t i) { return std::to_string(i); },
+                               [](double d) { return fmt::format("{}", d); }, [](const std::string& s) { return s; }},
                       v);
 }
 
 std::optional<IntegerRange> range_of(ValueType type) noexcept {
     switch (type) {
-        case ValueType::boolean: return IntegerRange{0, 1};
-        case ValueType::u8: return IntegerRange{0, 0xFF};
-        case ValueType::i8: return IntegerRange{-128, 127};
-        case ValueType::u16: return IntegerRange{0, 0xFFFF};
-        case ValueType::i16: return IntegerRange{-32768, 32767};
-        case ValueType::i24: return IntegerRange{-8388608, 8388607};
-        case ValueType::u32: return IntegerRange{0, 0xFFFFFFFFLL};
-        case ValueType::i32: return IntegerRange{std::numeric_limits<std::int32_t>::min(), std::numeric_limits<std::int32_t>::max()};
-        case ValueType::i64: return IntegerRange{std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max()};
-        default: return std::nullopt;
+        case ValueType::boolean:
+            return IntegerRange{0, 1};
+        case ValueType::u8:
+            return IntegerRange{0, 0xFF};
+        case ValueType::i8:
+            return IntegerRange{-128, 127};
+        case ValueType::u16:
+            return IntegerRange{0, 0xFFFF};
+        case ValueType::i16:
+            return IntegerRange{-32768, 32767};
+        case ValueType::i24:
+            return IntegerRange{-8388608, 8388607};
+        case ValueType::u32:
+            return IntegerRange{0, 0xFFFFFFFFLL};
+        case ValueType::i32:
+            return IntegerRange{std::numeric_limits<std::int32_t>::min(), std::numeric_limits<std::int32_t>::max()};
+        case ValueType::i64:
+            return IntegerRange{std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max()};
+        default:
+            return std::nullopt;
     }
 }
 

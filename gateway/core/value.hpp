@@ -23,6 +23,8 @@ enum class ValueType : std::uint8_t { boolean, u8, i8, u16, i16, i24, u32, i32, 
 
 /// The value as an integer: booleans are 0 or 1, doubles only if they are whole and fit.
 [[nodiscard]] std::optional<std::int64_t> as_integer(const Value& v) noexcept;
+/// 0 and 1, and what reads as one of them.
+[[nodiscard]] std::optional<bool> as_flag(const Value& v) noexcept;
 /// The value as a double; nothing for texts and unknown values.
 [[nodiscard]] std::optional<double> as_number(const Value& v) noexcept;
 /// For people and logs: `true`, `-12`, `3.5`, the text itself, or `unknown`.

@@ -8,7 +8,7 @@ namespace axisgate {
 namespace {
 
 /// A line that stayed up this long begins anew with the shortest pause when it goes down.
-constexpr Duration settled_after = std::chrono::seconds(5);
+constexpr Duration up_for_good_after = std::chrono::seconds(5);
 
 }  // namespace
 
@@ -105,7 +105,7 @@ void RealLine::went_down(std::string why) {
     flush_posted_ = false;
     stop();
     drop_all();
-    if (was_up && (heard_ || base_.clock.now() - up_since_ >= settled_after)) pause_.reset();
+    if (was_up && (heard_ || base_.clock.now() - up_since_ >= up_for_good_after)) pause_.reset();
     retry_after(pause_.take());
     if (was_up || was_bus_off || !told_) {
         (void)tell_state(State::down, false, std::move(why));

@@ -36,7 +36,8 @@ struct Key {
 Fault set_integer(std::int64_t& into, const std::string& s, std::int64_t low, std::int64_t high) {
     std::int64_t v = 0;
     const auto [p, ec] = std::from_chars(s.data(), s.data() + s.size(), v);
-    if (ec != std::errc{} || p != s.data() + s.size() || v < low || v > high) return fmt::format("write a whole number from {} to {}", low, high);
+    if (ec != std::errc{} || p != s.data() + s.size() || v < low || v > high)
+        return fmt::format("write a whole number from {} to {}", low, high);
     into = v;
     return {};
 }
@@ -75,8 +76,8 @@ std::vector<std::string> split_list(const std::string& s) {
     return out;
 }
 
-/// A list as the file has it, ["a", "b"], in the form with bare commas; any other text as it is, also [::1],[::2]. A shell may have eaten the
-/// quotes.
+/// A list as the file has it, ["a", "b"], in the form with bare commas; any other text as it is, also [::1],[::2]. A shell may have eaten
+/// the quotes.
 std::string bare_list(const std::string& text) {
     std::string_view s = without_blanks(text);
     if (s.size() < 2 || s.front() != '[' || s.back() != ']') return text;
@@ -97,7 +98,8 @@ std::string bare_list(const std::string& text) {
 
 const std::vector<Key>& keys() {
     static const std::vector<Key> list{
-        {"data", "dir", [](Config& c, const std::string& s) -> Fault { return s.empty() ? Fault("name a directory") : set_text(c.data_dir, s); }},
+        {"data", "dir",
+         [](Config& c, const std::string& s) -> Fault { return s.empty() ? Fault("name a directory") : set_text(c.data_dir, s); }},
         {"http", "bind", [](Config& c, const std::string& s) { return set_bind(c.http_bind, s); }},
         {"http", "tls_cert", [](Config& c, const std::string& s) { return set_text(c.http_tls_cert, s); }},
         {"http", "tls_key", [](Config& c, const std::string& s) { return set_text(c.http_tls_key, s); }},
@@ -114,8 +116,10 @@ const std::vector<Key>& keys() {
              }
              return "write none, viewer, operator, engineer or administrator";
          }},
-        {"users", "session_idle_min", [](Config& c, const std::string& s) { return set_integer(c.users_session_idle_min, s, 1, 1440); }, Written::as_number},
-        {"users", "session_max_h", [](Config& c, const std::string& s) { return set_integer(c.users_session_max_h, s, 1, 720); }, Written::as_number},
+        {"users", "session_idle_min", [](Config& c, const std::string& s) { return set_integer(c.users_session_idle_min, s, 1, 1440); },
+         Written::as_number},
+        {"users", "session_max_h", [](Config& c, const std::string& s) { return set_integer(c.users_session_max_h, s, 1, 720); },
+         Written::as_number},
         {"users", "new_code", [](Config& c, const std::string& s) { return set_bool(c.users_new_code, s); }, Written::as_switch},
         {"http", "allowed_hosts",
          [](Config& c, const std::string& s) -> Fault {
@@ -125,7 +129,8 @@ const std::vector<Key>& keys() {
              };
              if (std::ranges::all_of(c.http_allowed_hosts, is_name)) return {};
              return "write names without scheme, port and path, such as [\"axisgate.example\"]";
-         }, Written::as_list},
+         },
+         Written::as_list},
         {"modbus", "bind", [](Config& c, const std::string& s) { return set_bind(c.modbus_bind, s); }},
         {"modbus", "word_order",
          [](Config& c, const std::string& s) -> Fault {
@@ -140,17 +145,22 @@ const std::vector<Key>& keys() {
              c.modbus_gaps = *gaps;
              return {};
          }},
-        {"modbus", "idle_timeout_s", [](Config& c, const std::string& s) { return set_integer(c.modbus_idle_timeout_s, s, 1, 86400); }, Written::as_number},
-        {"modbus", "watchdog_ms", [](Config& c, const std::string& s) { return set_integer(c.modbus_watchdog_ms, s, 0, 600'000); }, Written::as_number},
-        {"modbus", "max_connections", [](Config& c, const std::string& s) { return set_integer(c.modbus_max_connections, s, 1, 8192); }, Written::as_number},
+        {"modbus", "idle_timeout_s", [](Config& c, const std::string& s) { return set_integer(c.modbus_idle_timeout_s, s, 1, 86400); },
+         Written::as_number},
+        {"modbus", "watchdog_ms", [](Config& c, const std::string& s) { return set_integer(c.modbus_watchdog_ms, s, 0, 600'000); },
+         Written::as_number},
+        {"modbus", "max_connections", [](Config& c, const std::string& s) { return set_integer(c.modbus_max_connections, s, 1, 8192); },
+         Written::as_number},
         {"modbus", "allow",
          [](Config& c, const std::string& s) -> Fault {
              c.modbus_allow = split_list(s);
              for (const auto& one : c.modbus_allow) {
-                 if (!modbus::parse_network(one)) return "write addresses or networks, such as [\"127.0.0.0/8\", \"192.168.1.20\", \"fd00::/8\"]";
+                 if (!modbus::parse_network(one))
+                     return "write addresses or networks, such as [\"127.0.0.0/8\", \"192.168.1.20\", \"fd00::/8\"]";
              }
              return {};
-         }, Written::as_list},
+         },
+         Written::as_list},
         {"modbus", "functions",
          [](Config& c, const std::string& s) -> Fault {
              c.modbus_functions = split_list(s);
@@ -159,11 +169,15 @@ const std::vector<Key>& keys() {
                  if (set_integer(ignored, one, 1, 127)) return "write function codes from 1 to 127, such as [3, 4, 6, 16]";
              }
              return {};
-         }, Written::as_list},
+         },
+         Written::as_list},
         {"modbus", "read_only", [](Config& c, const std::string& s) { return set_bool(c.modbus_read_only, s); }, Written::as_switch},
-        {"authority", "lease_s", [](Config& c, const std::string& s) { return set_integer(c.authority_lease_s, s, 1, 3600); }, Written::as_number},
+        {"authority", "lease_s", [](Config& c, const std::string& s) { return set_integer(c.authority_lease_s, s, 1, 3600); },
+         Written::as_number},
         {"lines", "pty_dir",
-         [](Config& c, const std::string& s) -> Fault { return s.starts_with('/') ? set_text(c.lines_pty_dir, s) : Fault("name a folder by its whole path, such as /run/axisgate"); }},
+         [](Config& c, const std::string& s) -> Fault {
+             return s.starts_with('/') ? set_text(c.lines_pty_dir, s) : Fault("name a folder by its whole path, such as /run/axisgate");
+         }},
         {"modbus_rtu", "port", [](Config& c, const std::string& s) { return set_text(c.modbus_rtu_port, s); }},
         {"enip", "bind", [](Config& c, const std::string& s) { return set_bind(c.enip_bind, s); }},
         {"dds", "enabled", [](Config& c, const std::string& s) { return set_bool(c.dds_enabled, s); }, Written::as_switch},
@@ -178,8 +192,10 @@ const std::vector<Key>& keys() {
         {"log", "file", [](Config& c, const std::string& s) { return set_text(c.log_file, s); }},
         {"runtime", "spin_us", [](Config& c, const std::string& s) { return set_integer(c.spin_us, s, 0, 1000); }, Written::as_number},
         {"runtime", "hot_cpu", [](Config& c, const std::string& s) { return set_integer(c.hot_cpu, s, -1, 1023); }, Written::as_number},
-        {"limits", "http_connections", [](Config& c, const std::string& s) { return set_integer(c.max_http_connections, s, 1, 8192); }, Written::as_number},
-        {"limits", "trace_frames", [](Config& c, const std::string& s) { return set_integer(c.trace_frames, s, 64, 1'000'000); }, Written::as_number},
+        {"limits", "http_connections", [](Config& c, const std::string& s) { return set_integer(c.max_http_connections, s, 1, 8192); },
+         Written::as_number},
+        {"limits", "trace_frames", [](Config& c, const std::string& s) { return set_integer(c.trace_frames, s, 64, 1'000'000); },
+         Written::as_number},
     };
     return list;
 }
@@ -236,7 +252,8 @@ bool has_foreign(std::string_view text) {
 /// of a key, which it does not do safely: a comment, or `key = "..."` or `key = ["...", "..."]` with all of them inside the quotes.
 bool foreign_letters_are_quoted(std::string_view line) {
     const auto skip = [&](auto&& wanted) {
-        while (!line.empty() && wanted(line.front())) line.remove_prefix(1);
+        while (!line.empty() && wanted(line.front()))
+            line.remove_prefix(1);
     };
     const auto blank = [](char c) { return c == ' ' || c == '\t'; };
     // Strings of several lines begin so, and an empty string beside another would be taken for them.
@@ -253,7 +270,8 @@ bool foreign_letters_are_quoted(std::string_view line) {
             const char quote = line.front();
             line.remove_prefix(1);
             if (quote == '"' || quote == '\'') {
-                while (!line.empty() && line.front() != quote) line.remove_prefix(quote == '"' && line.front() == '\\' && line.size() > 1 ? 2 : 1);
+                while (!line.empty() && line.front() != quote)
+                    line.remove_prefix(quote == '"' && line.front() == '\\' && line.size() > 1 ? 2 : 1);
                 if (line.empty()) return false;
                 line.remove_prefix(1);
             } else if (!blank(quote) && quote != '[' && quote != ',' && quote != ']' && quote != '\r') {
@@ -279,23 +297,26 @@ std::size_t line_of_foreign_letter(std::string_view text) {
 /// Where each value that counts was written.
 using Places = std::map<const Key*, std::string>;
 
-void read_file(Config& c, const ConfigSources& sources, Places& places, std::vector<ConfigFault>& faults) {
+void read_config_file(Config& c, const ConfigSources& sources, Places& places, std::vector<ConfigFault>& faults) {
     const auto place = [&](const toml::source_region& r) { return fmt::format("{}:{}", sources.file_name, r.begin.line); };
     // TOML knows no control characters but tab and line ends, and the parser does not take NUL as a fault but as a reason to end.
     for (std::size_t i = 0, line = 1; i < sources.file_text->size(); ++i) {
         const auto byte = static_cast<unsigned char>((*sources.file_text)[i]);
         line += byte == '\n';
         if ((byte >= 0x20 && byte != 0x7F) || byte == '\t' || byte == '\n' || byte == '\r') continue;
-        faults.push_back({fmt::format("{}:{}", sources.file_name, line), fmt::format("the line has the control character {:02X} in it", byte), "write the line again as plain text"});
+        faults.push_back({fmt::format("{}:{}", sources.file_name, line),
+                          fmt::format("the line has the control character {:02X} in it", byte), "write the line again as plain text"});
         return;
     }
     if (const std::size_t line = line_of_foreign_letter(*sources.file_text)) {
-        faults.push_back({fmt::format("{}:{}", sources.file_name, line), "the line has a letter beyond ASCII outside of quotes", "keys are plain ASCII; put texts in double quotes"});
+        faults.push_back({fmt::format("{}:{}", sources.file_name, line), "the line has a letter beyond ASCII outside of quotes",
+                          "keys are plain ASCII; put texts in double quotes"});
         return;
     }
     const toml::parse_result parsed = toml::parse(*sources.file_text, std::string_view(sources.file_name));
     if (!parsed) {
-        faults.push_back({place(parsed.error().source()), std::string(parsed.error().description()), "mend the line; strings stand in double quotes"});
+        faults.push_back(
+            {place(parsed.error().source()), std::string(parsed.error().description()), "mend the line; strings stand in double quotes"});
         return;
     }
     for (const auto& [section, node] : parsed.table()) {
@@ -315,7 +336,10 @@ void read_file(Config& c, const ConfigSources& sources, Places& places, std::vec
             const auto kind = wrong_kind(value, key->written);
             const Fault fault = !text ? Fault("write a text, a number, true or false") : kind ? kind : key->set(c, *text);
             if (!fault) places[key] = place(value.source());
-            if (fault) faults.push_back({place(value.source()), fmt::format("{}.{}: {} is not possible", section.str(), name.str(), text.value_or("this value")), *fault});
+            if (fault)
+                faults.push_back({place(value.source()),
+                                  fmt::format("{}.{}: {} is not possible", section.str(), name.str(), text.value_or("this value")),
+                                  *fault});
         }
     }
 }
@@ -340,12 +364,13 @@ std::optional<HostPort> parse_host_port(std::string_view text) {
 Config read_config(const ConfigSources& sources, std::vector<ConfigFault>& faults) {
     Config c;
     Places places;
-    if (sources.file_text) read_file(c, sources, places, faults);
+    if (sources.file_text) read_config_file(c, sources, places, faults);
     const auto apply = [&](std::string_view section, std::string_view name, const std::string& value, const std::string& place) {
         const Key* key = find_key(section, name);
         if (!key) {
             const std::string names = known_names(section);
-            faults.push_back({place, fmt::format("there is no key {}.{}", section, name), names.empty() ? "sections: " + known_names("") : "keys: " + names});
+            faults.push_back({place, fmt::format("there is no key {}.{}", section, name),
+                              names.empty() ? "sections: " + known_names("") : "keys: " + names});
             return;
         }
         if (const Fault fault = key->set(c, key->written == Written::as_list ? bare_list(value) : value))
@@ -377,13 +402,18 @@ Config read_config(const ConfigSources& sources, std::vector<ConfigFault>& fault
         apply(o.substr(0, dot), o.substr(dot + 1, equals - dot - 1), o.substr(equals + 1), "--set " + o.substr(0, equals));
     }
     // Doors that the contract names and this version has not: never silently left out.
-    if (!c.modbus_rtu_port.empty()) faults.push_back({places[find_key("modbus_rtu", "port")], "modbus_rtu.port: this version has no Modbus RTU door", "leave the key out"});
-    if (c.dds_enabled) faults.push_back({places[find_key("dds", "enabled")], "dds.enabled: this version has no DDS door", "set it to false"});
+    if (!c.modbus_rtu_port.empty())
+        faults.push_back(
+            {places[find_key("modbus_rtu", "port")], "modbus_rtu.port: this version has no Modbus RTU door", "leave the key out"});
+    if (c.dds_enabled)
+        faults.push_back({places[find_key("dds", "enabled")], "dds.enabled: this version has no DDS door", "set it to false"});
     if (c.http_tls_cert.empty() != c.http_tls_key.empty()) {
-        faults.push_back({sources.file_name.empty() ? "configuration" : sources.file_name, "http.tls_cert and http.tls_key go together", "give both or none"});
+        faults.push_back({sources.file_name.empty() ? "configuration" : sources.file_name, "http.tls_cert and http.tls_key go together",
+                          "give both or none"});
     }
     if (c.http_tls_self_signed && !c.http_tls_cert.empty()) {
-        faults.push_back({sources.file_name.empty() ? "configuration" : sources.file_name, "http.tls = self_signed and http.tls_cert are both there", "leave one of them out"});
+        faults.push_back({sources.file_name.empty() ? "configuration" : sources.file_name,
+                          "http.tls = self_signed and http.tls_cert are both there", "leave one of them out"});
     }
     return c;
 }

@@ -6,7 +6,7 @@
 
 namespace axisgate::linmot::test {
 namespace {
-constexpr std::int64_t a1 = 1'000'000;  // 10 m/s2
+constexpr std::int64_t ramp = 1'000'000;  // 10 m/s2
 
 TEST(LinmotTwin, PrintedExchangesByTheirFields) {
     std::size_t played = 0;
@@ -77,7 +77,7 @@ void bring(Bench& b, int state) {
         case 13:
             return b.control(0x1F);
         case 14:
-            b.motion("010xh", {1'000'000, 1'000'000, a1, a1});
+            b.motion("010xh", {1'000'000, 1'000'000, ramp, ramp});
             b.run(200ms);
             return b.control(0x3B);
         case 15:

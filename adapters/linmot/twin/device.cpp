@@ -6,18 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapters/linmot/twin/bytes.hpp"
+
 namespace axisgate::linmot::twin {
-namespace {
-std::uint16_t at16(std::span<const std::uint8_t> d, std::size_t i) {
-    const auto byte = [&](std::size_t k) { return k < d.size() ? d[k] : std::uint8_t{0}; };
-    return static_cast<std::uint16_t>(byte(i) | byte(i + 1) << 8);
-}
-void put(std::vector<std::uint8_t>& v, std::uint32_t value, int bytes) {
-    for (int i = 0; i < bytes; ++i)
-        v.push_back(static_cast<std::uint8_t>(value >> 8 * i));
-}
-constexpr std::uint8_t ok = 0;  // communication state
-}  // namespace
 
 std::uint16_t Device::sum(std::span<const std::uint8_t> bytes) const {
     const auto part = bytes.subspan(std::min(setup_.checksum_from, bytes.size()));
@@ -144,7 +135,7 @@ void Device::answer(std::uint8_t sub, std::vector<std::uint8_t> data, Out& out) 
 }
 
 void Device::default_response(Out& out, std::span<const std::uint8_t> more) const {
-    std::vector<std::uint8_t> d{ok};
+    std::vector<std::uint8_t> d{Comm::ok};
     put(d, drive_.status_word(), 2);
     put(d, drive_.state_var(), 2);
     put(d, static_cast<std::uint32_t>(static_cast<std::int32_t>(std::lround(std::clamp(drive_.actual(), -2147483648.0, 2147483647.0)))), 4);

@@ -3,31 +3,10 @@
 // Never touches the flash memory while the software runs.
 #include <algorithm>
 
+#include "adapters/linmot/twin/bytes.hpp"
 #include "adapters/linmot/twin/device.hpp"
 
 namespace axisgate::linmot::twin {
-namespace {
-std::uint16_t at16(std::span<const std::uint8_t> d, std::size_t i) {
-    const auto byte = [&](std::size_t k) { return k < d.size() ? d[k] : std::uint8_t{0}; };
-    return static_cast<std::uint16_t>(byte(i) | byte(i + 1) << 8);
-}
-std::uint32_t at32(std::span<const std::uint8_t> d, std::size_t i) { return at16(d, i) | std::uint32_t{at16(d, i + 2)} << 16; }
-void put(std::vector<std::uint8_t>& v, std::uint32_t value, int bytes) {
-    for (int i = 0; i < bytes; ++i)
-        v.push_back(static_cast<std::uint8_t>(value >> 8 * i));
-}
-enum Comm : std::uint8_t {
-    ok = 0,
-    unfinished = 4,
-    no_upid = 0xC0,
-    usage = 0xC3,
-    not_started = 0xC5,
-    list_end = 0xC6,
-    wrong_size = 0xD1,
-    missing = 0xD4,
-    not_stopped = 0xD7
-};
-}  // namespace
 
 void Device::parameters(std::uint8_t sub, Data data, Out& out) {
     const std::uint16_t upid = at16(data, 0);

@@ -10,7 +10,6 @@
 namespace axisgate::mcode::test {
 namespace {
 
-Native line(std::string_view s) { return {{s.begin(), s.end()}, true}; }
 Action download(std::string_view text) { return {"program.download", std::string(text)}; }
 std::size_t told(const std::vector<Notice>& notices, std::string_view text) {
     return static_cast<std::size_t>(

@@ -7,8 +7,8 @@
 
 #include "adapters/mcode/tests/fake_drive.hpp"
 #include "adapters/mcode/twin.hpp"
-#include "gateway/wire/twin_bus.hpp"
 #include "gateway/core/wire_time.hpp"
+#include "gateway/wire/twin_bus.hpp"
 
 namespace axisgate::mcode::test {
 
@@ -147,5 +147,8 @@ struct LineBench : LineEvents, CommandDesk<LineBench> {
         now = end;
     }
 };
+
+/// A line of a program, as a native command.
+inline Native line(std::string_view s) { return {{s.begin(), s.end()}, true}; }
 
 }  // namespace axisgate::mcode::test

@@ -6,8 +6,6 @@
 namespace axisgate::mcode::test {
 namespace {
 
-Native line(std::string_view s) { return {{s.begin(), s.end()}, true}; }
-
 /// Some two kilobytes of program, with text in it that looks like a closing answer.
 std::string long_program() {
     std::string s = "LB AA\n";

@@ -5,8 +5,6 @@
 namespace axisgate::mcode::test {
 namespace {
 
-Native line(std::string_view s) { return {{s.begin(), s.end()}, true}; }
-
 TEST(McodeParty, AProgramThatWaitsForInputTakesNoPollForIt) {
     for (const std::string_view names : {"ab", "!"}) {
         LineBench b(names, 19200);

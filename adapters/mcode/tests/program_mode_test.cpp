@@ -11,8 +11,6 @@
 namespace axisgate::mcode::test {
 namespace {
 
-Native line(std::string_view s) { return {{s.begin(), s.end()}, true}; }
-
 struct Typist : LineBench {
     using LineBench::LineBench;
     /// Somebody else's terminal at the same line.

@@ -8,8 +8,6 @@
 namespace axisgate::mcode::twin::test {
 namespace {
 
-using std::chrono::seconds;
-
 struct Said {
     const char* line;
     const char* ask;
@@ -208,9 +206,9 @@ TEST(TwinLanguage, HeldProgramCostsNothing) {
     b.program({"LB K1", "H 65000", "E"});
     b.type("EX K1");
     const long calls = b.calls;
-    b.pass(seconds(60));
+    b.pass(std::chrono::seconds(60));
     EXPECT_EQ(b.calls, calls);
-    b.pass(seconds(6));
+    b.pass(std::chrono::seconds(6));
     EXPECT_EQ(b.type("PR BY"), "0");
 }
 
@@ -218,7 +216,7 @@ TEST(TwinLanguage, EndlessLoopDoesNotHangTheDrive) {
     Bench b;
     b.program({"R1=0", "LB K1", "IC R1", "BR K1"});
     b.type("EX 1");
-    b.pass(seconds(1));
+    b.pass(std::chrono::seconds(1));
     const int passes = std::stoi(b.type("PR R1"));  // 20 lines per ms, three of them in the loop
     EXPECT_GT(passes, 6600);
     EXPECT_LT(passes, 6800);
@@ -250,7 +248,7 @@ TEST(TwinLanguage, TripsClearTheirOwnBitAlone) {  // trap 12
     b.send("", milliseconds(700));
     EXPECT_NE(b.sent.find("trip 384000"), std::string::npos);
     EXPECT_EQ(b.type("PR TE"), "8");
-    b.send("", seconds(60));
+    b.send("", std::chrono::seconds(60));
     EXPECT_NE(b.sent.find("trip 768000"), std::string::npos);
     EXPECT_EQ(b.type("PR TE"), "0");
     EXPECT_EQ(b.error_of("TC=K1"), 12);
@@ -365,7 +363,7 @@ TEST(TwinLanguage, TraceStepAndBreakPoint) {
     b.type("EX K1,2");
     EXPECT_EQ(b.send(" "), "1 LB K1\r\n");
     EXPECT_EQ(b.send(" "), "7 IC R1\r\n");
-    b.pass(seconds(1));
+    b.pass(std::chrono::seconds(1));
     EXPECT_EQ(b.type("PR R1"), "1");
     b.send("\r", milliseconds(50));
     EXPECT_EQ(b.type("PR R1"), "5");

@@ -6,8 +6,6 @@
 namespace axisgate::mcode::twin::test {
 namespace {
 
-using std::chrono::seconds;
-
 void load(Bench& b, const std::vector<std::string>& lines) {
     for (const auto& l : lines) {
         b.type(l);
@@ -43,13 +41,13 @@ TEST(TwinListings, MoveOnAnInput) {  // 9.1
              "S",
              "'Keep this line to save program on load"});
     EXPECT_EQ(b.type("PR D"), "1000000");
-    b.type("EX Ga", seconds(1));
+    b.type("EX Ga", std::chrono::seconds(1));
     EXPECT_EQ(b.type("PR MV"), "0");
     b.motor->values[Word::I1] = 1;
     b.pass(milliseconds(900));
     EXPECT_EQ(b.type("PR P"), "512000");
     b.motor->values[Word::I1] = 0;
-    b.pass(seconds(5));
+    b.pass(std::chrono::seconds(5));
     EXPECT_EQ(b.type("PR P"), "0");
     EXPECT_EQ(b.type("PR BY"), "1");
 }
@@ -75,7 +73,7 @@ TEST(TwinListings, ChangeVelocityDuringAMove) {  // 9.2; D=8000000000 is beyond 
              "PG",          "S"});
     b.type("EX Ga");
     b.sent.clear();
-    b.pass(seconds(60));
+    b.pass(std::chrono::seconds(60));
     ASSERT_TRUE(b.sent.starts_with("Average end pos = ")) << shown(b.sent);
     EXPECT_NEAR(std::stod(b.sent.substr(18)), 102290, 15000);
 }
@@ -108,10 +106,10 @@ TEST(TwinListings, BinaryMask) {  // 9.3
                                    "PG",
                                    "S"};
     load(b, lines);
-    b.send("\x03", seconds(1));
+    b.send("\x03", std::chrono::seconds(1));
     EXPECT_NE(b.sent.find("Logic 000"), std::string::npos);
     b.motor->values[Word::IN] = 13;
-    b.send("", seconds(10));
+    b.send("", std::chrono::seconds(10));
     EXPECT_NE(b.sent.find("Logic 101"), std::string::npos);
     EXPECT_GE(std::stoi(b.type("PR P")), 256000);
 }
@@ -152,7 +150,7 @@ TEST(TwinListings, ClosedLoopWithErrorHandler) {  // 9.4
              "S"});
     b.type("EX Ga");
     b.sent.clear();
-    b.pass(seconds(20));
+    b.pass(std::chrono::seconds(20));
     EXPECT_EQ(shown(b.sent), "Counts error = 0<CR><LF>Error = 0<CR><LF>");
     EXPECT_EQ(b.type("PR Q1"), "3");
 }
@@ -211,13 +209,13 @@ TEST(TwinListings, UserInputIntoVariables) {  // 9.5
              "E",
              "PG",
              "S"});
-    b.send("\x03", seconds(3));
+    b.send("\x03", std::chrono::seconds(3));
     EXPECT_NE(b.sent.find("Enter the number"), std::string::npos);
-    EXPECT_NE(b.send("3\r", seconds(1)).find("Enter rotation direction"), std::string::npos);
-    EXPECT_NE(b.send("5\r", seconds(1)).find("Invalid Entry"), std::string::npos);
-    EXPECT_NE(b.send("0\r", seconds(2)).find("Axis position is -3 absolute from home"), std::string::npos);
-    b.pass(seconds(4));
-    EXPECT_NE(b.send("0\r", seconds(1)).find("Program Ended"), std::string::npos);
+    EXPECT_NE(b.send("3\r", std::chrono::seconds(1)).find("Enter rotation direction"), std::string::npos);
+    EXPECT_NE(b.send("5\r", std::chrono::seconds(1)).find("Invalid Entry"), std::string::npos);
+    EXPECT_NE(b.send("0\r", std::chrono::seconds(2)).find("Axis position is -3 absolute from home"), std::string::npos);
+    b.pass(std::chrono::seconds(4));
+    EXPECT_NE(b.send("0\r", std::chrono::seconds(1)).find("Program Ended"), std::string::npos);
     EXPECT_EQ(b.type("PR BY"), "0");
     EXPECT_EQ(b.type("PR P"), "-153600");
 }
@@ -246,14 +244,14 @@ TEST(TwinListings, InputTrip) {  // 9.7
              "  E",
              "PG      ' End of Program",
              "S"});
-    b.type("EX G1", seconds(1));
+    b.type("EX G1", std::chrono::seconds(1));
     EXPECT_EQ(b.type("PR TE"), "1");
     b.motor->events.push_back({MotorEvent::Kind::trip, 0, Word::TI});
     b.type("A=1000000");
     EXPECT_EQ(b.type("PR TE"), "0");
-    b.pass(seconds(5));
+    b.pass(std::chrono::seconds(5));
     EXPECT_EQ(b.type("PR Q1"), "3");
-    b.pass(seconds(6));
+    b.pass(std::chrono::seconds(6));
     EXPECT_EQ(b.type("PR TE"), "1");
     EXPECT_EQ(b.type("PR Q1"), "0");
     EXPECT_EQ(b.type("PR ER"), "0");
@@ -290,10 +288,10 @@ TEST(TwinListings, AnalogSpeedControl) {  // 9.9
              "PG",
              "S"});
     b.motor->values[Word::I5] = 1000;
-    b.type("EX G1", seconds(1));
+    b.type("EX G1", std::chrono::seconds(1));
     EXPECT_EQ(b.type("PR V"), "-645000");
     b.motor->values[Word::I5] = 2100;
-    b.pass(seconds(1));
+    b.pass(std::chrono::seconds(1));
     EXPECT_EQ(b.type("PR V"), "0");
 }
 
@@ -324,10 +322,10 @@ TEST(TwinListings, AnalogSlewWithStall) {  // 9.10
              "PG ' End of Program",
              "S"});
     b.motor->values[Word::I5] = 100;
-    b.type("EX Su", seconds(1));
+    b.type("EX Su", std::chrono::seconds(1));
     b.sent.clear();
     b.motor->events.push_back({MotorEvent::Kind::error, 86, {}});
-    b.pass(seconds(1));
+    b.pass(std::chrono::seconds(1));
     // PR ER clears ER, so the comparison after it does not find 86: the listing as printed says no more than this.
     EXPECT_NE(b.sent.find("Error! 86"), std::string::npos) << shown(b.sent);
     EXPECT_EQ(b.type("PR BY"), "0");
@@ -362,7 +360,7 @@ TEST(TwinListings, SpeedProfileByTrips) {  // 9.11, of which the first half is l
              "S"});
     b.type("EX G1");
     b.sent.clear();
-    b.pass(seconds(10));
+    b.pass(std::chrono::seconds(10));
     EXPECT_NE(b.sent.find(" Starting Step 2  P=102"), std::string::npos) << shown(b.sent);
     EXPECT_NE(b.sent.find(" Starting Step 3  P=153"), std::string::npos) << shown(b.sent);
     EXPECT_EQ(b.type("PR VM"), "84480");

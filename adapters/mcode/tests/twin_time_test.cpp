@@ -13,7 +13,7 @@
 namespace axisgate::mcode::twin::test {
 namespace {
 
-const Catalogue& catalogue() {
+const Catalogue& catalogue_of_twin() {
     static const auto c = [] {
         std::ifstream in(std::string(AXISGATE_SOURCE_DIR) + "/schema/families/mcode.json");
         std::stringstream s;
@@ -36,7 +36,7 @@ public:
     explicit Late(Duration step) : step_(step) {
         TwinSetup s;
         s.address = "!";
-        twin_ = make_twin(catalogue(), s);
+        twin_ = make_twin(catalogue_of_twin(), s);
         twin_->power_on({}, now_, out_);
     }
     void type(const std::string& line) {

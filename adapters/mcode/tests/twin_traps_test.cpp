@@ -6,8 +6,6 @@
 namespace axisgate::mcode::twin::test {
 namespace {
 
-using std::chrono::seconds;
-
 std::string sum(const std::string& text) {
     unsigned total = 0;
     for (const char c : text)
@@ -27,7 +25,7 @@ TEST(McodeTrap, T01_PartyModeIsSilentUntilTheFirstLineFeed) {
 TEST(McodeTrap, T02_GlobalCommandsMoveWithoutAByte) {
     Wire w(lmdc, 'a');
     w.bytes("\n");
-    EXPECT_EQ(w.bytes("*MR 10000\n", seconds(3)), "");
+    EXPECT_EQ(w.bytes("*MR 10000\n", std::chrono::seconds(3)), "");
     EXPECT_EQ(w.bytes("aPR P\n"), "PR P<CR><LF>10000<CR><LF>>");
     w.bytes("aDG=0\n");
     EXPECT_EQ(w.bytes("*MR 10000\n"), "MR 10000<CR><LF>>");
@@ -38,8 +36,8 @@ TEST(McodeTrap, T03_TheChecksumIncludesTheName) {
     w.bytes("PY=1\r");
     w.bytes("\n!EM=1\n");
     w.bytes("!CK=1\n");
-    EXPECT_EQ(w.bytes("!MR 512000\xF8\n", seconds(4)), "<ACK>");
-    EXPECT_EQ(w.bytes("!MR 512001\xF8\n", seconds(4)), "<NAK>");
+    EXPECT_EQ(w.bytes("!MR 512000\xF8\n", std::chrono::seconds(4)), "<ACK>");
+    EXPECT_EQ(w.bytes("!MR 512001\xF8\n", std::chrono::seconds(4)), "<NAK>");
     EXPECT_EQ(w.bytes(sum("!PR P") + "\n"), "<ACK>512000" + shown(sum("512000").substr(6)) + "<CR><LF>");
     EXPECT_EQ(w.bytes("!mr 1" + sum("!MR 1").substr(5) + "\n"), "<NAK>") << "small letters have another sum";
     EXPECT_EQ(w.bytes(sum("!mr 1") + "\n"), "<ACK>");
@@ -82,14 +80,14 @@ TEST(McodeTrap, T07_TheStallFlagOutlivesTheError) {
     w.lines({"EE=1", "MR 40000"});
     w.pass(milliseconds(300));
     w.hand("stall", Value{true});
-    w.pass(seconds(1));
+    w.pass(std::chrono::seconds(1));
     w.hand("stall", Value{false});
     EXPECT_EQ(w.number("ER"), 86);
     EXPECT_EQ(w.number("ER"), 0);
     EXPECT_EQ(w.number("ST"), 1);
     const std::int64_t here = w.number("P");
     EXPECT_EQ(w.error_of("MR 100"), 0);
-    w.pass(seconds(3));
+    w.pass(std::chrono::seconds(3));
     EXPECT_EQ(w.number("P"), here + 100);
     EXPECT_EQ(w.number("ST"), 1);
     w.ask("ST=0");
@@ -98,17 +96,17 @@ TEST(McodeTrap, T07_TheStallFlagOutlivesTheError) {
 
 TEST(McodeTrap, T08_ThreeStops) {
     Wire w;
-    w.ask("SL 500000", seconds(1));
+    w.ask("SL 500000", std::chrono::seconds(1));
     w.bytes("\x1B", Duration::zero());
     EXPECT_EQ(w.number("V"), 0) << "ESC has no ramp";
-    w.ask("SL 500000", seconds(1));
+    w.ask("SL 500000", std::chrono::seconds(1));
     w.ask("SL 0", milliseconds(100));
     EXPECT_NEAR(static_cast<double>(w.number("V")), 401000, 3000) << "D = 1000000";
-    w.pass(seconds(2));
+    w.pass(std::chrono::seconds(2));
     EXPECT_EQ(w.number("ER"), 0);
     w.program({"LB G1", "SL 500000", "H 60000", "E"});
     w.ask("IS=4,5,0");
-    w.ask("EX G1", seconds(1));
+    w.ask("EX G1", std::chrono::seconds(1));
     w.hand("inputs", Value{std::int64_t{7}});
     w.pass(milliseconds(100));
     EXPECT_NEAR(static_cast<double>(w.number("V")), 400000, 3000) << "the input stops with the ramp";
@@ -116,8 +114,8 @@ TEST(McodeTrap, T08_ThreeStops) {
     const std::int64_t code = w.number("ER");
     EXPECT_TRUE(code == 91 || code == 48) << code;
     w.hand("inputs", Value{std::int64_t{15}});
-    w.pass(seconds(3));
-    w.ask("SL 500000", seconds(1));
+    w.pass(std::chrono::seconds(3));
+    w.ask("SL 500000", std::chrono::seconds(1));
     w.hand("inputs", Value{std::int64_t{7}});
     w.pass(milliseconds(10));
     EXPECT_EQ(w.number("ER"), 91) << "motion without a program";
@@ -142,19 +140,19 @@ TEST(McodeTrap, T09_MvAndMpLastForMtAndHt) {
 TEST(McodeTrap, T10_VmCountsFromTheNextMoveSlAtOnce) {
     Wire w;
     w.ask("VM=100000");
-    w.ask("MR 500000", seconds(1));
+    w.ask("MR 500000", std::chrono::seconds(1));
     w.ask("VM=200000", milliseconds(500));
     EXPECT_EQ(w.number("V"), 100000);
-    w.pass(seconds(8));
-    w.ask("MR 500000", seconds(1));
+    w.pass(std::chrono::seconds(8));
+    w.ask("MR 500000", std::chrono::seconds(1));
     EXPECT_EQ(w.number("V"), 200000);
-    w.pass(seconds(8));
-    w.ask("SL 100000", seconds(1));
+    w.pass(std::chrono::seconds(8));
+    w.ask("SL 100000", std::chrono::seconds(1));
     w.ask("SL 300000", milliseconds(100));
     const std::int64_t v = w.number("V");
     EXPECT_GT(v, 150000);
     EXPECT_LT(v, 250000);
-    w.pass(seconds(1));
+    w.pass(std::chrono::seconds(1));
     EXPECT_EQ(w.number("V"), 300000);
 }
 
@@ -182,7 +180,7 @@ TEST(McodeTrap, T12_TripsClearTheirOwnBitAndKnowEachOther) {
     EXPECT_EQ(w.error_of("TE=18"), 39);
     w.ask("TE=10");
     w.ask("EX G1");
-    w.ask("MA 20000", seconds(3));
+    w.ask("MA 20000", std::chrono::seconds(3));
     EXPECT_EQ(w.number("R1"), 1);
     EXPECT_EQ(w.number("TE"), 8) << "the other trip stays armed";
     EXPECT_EQ(w.number("PC"), 0) << "TP does not capture";
@@ -191,9 +189,9 @@ TEST(McodeTrap, T12_TripsClearTheirOwnBitAndKnowEachOther) {
 TEST(McodeTrap, T13_FieldsOfMa) {
     Wire w;
     w.ask("MA 51200,1");
-    EXPECT_EQ(w.bytes("", seconds(4)), "!") << "the name, in single mode as well";
+    EXPECT_EQ(w.bytes("", std::chrono::seconds(4)), "!") << "the name, in single mode as well";
     w.ask("MA 100000,0,1");
-    w.pass(seconds(10));
+    w.pass(std::chrono::seconds(10));
     EXPECT_EQ(w.number("MV"), 1) << "never stops";
     EXPECT_GT(w.number("P"), 1000000);
 }
@@ -269,10 +267,10 @@ TEST(McodeTrap, T18_TheNewBitRateWaitsForSaveAndReset) {
 TEST(McodeTrap, T19_Backlash) {
     Wire w;
     w.lines({"BE=1", "BL=1000", "MA 100000"});
-    w.pass(seconds(5));
-    w.ask("MR -50000", seconds(5));
+    w.pass(std::chrono::seconds(5));
+    w.ask("MR -50000", std::chrono::seconds(5));
     EXPECT_EQ(w.number("P"), 49000) << "51000 steps: BL comes on top";
-    w.ask("MR -50000", seconds(5));
+    w.ask("MR -50000", std::chrono::seconds(5));
     EXPECT_EQ(w.number("P"), -1000) << "once per reversal";
     w.lines({"BM=1", "BL=15000", "VM=50000"});
     w.ask("MR -100000");
@@ -282,7 +280,7 @@ TEST(McodeTrap, T19_Backlash) {
         least = std::min(least, w.number("P"));
     }
     EXPECT_NEAR(static_cast<double>(least), -116000, 300);
-    w.pass(seconds(2));
+    w.pass(std::chrono::seconds(2));
     EXPECT_EQ(w.number("P"), -101000) << "a second move in the direction of BL";
 }
 
@@ -310,7 +308,7 @@ TEST(McodeTrap, T21_LimitsAndHoming) {
         } else {
             w.hand("home_position", Value{1.0});
         }
-        w.ask("HM 1", seconds(60));
+        w.ask("HM 1", std::chrono::seconds(60));
         return w.number("ER");
     };
     for (const int mode : {1, 4}) {
@@ -322,7 +320,7 @@ TEST(McodeTrap, T21_LimitsAndHoming) {
     for (int mode = 1; mode <= 6; ++mode) {
         Wire w;
         w.lines({"LM=" + std::to_string(mode), "IS=2,2,0"});
-        w.ask("SL 500000", seconds(1));
+        w.ask("SL 500000", std::chrono::seconds(1));
         w.hand("inputs", Value{std::int64_t{13}});
         w.pass(milliseconds(100));
         if (mode <= 3) {
@@ -330,7 +328,7 @@ TEST(McodeTrap, T21_LimitsAndHoming) {
         } else {
             EXPECT_EQ(w.number("V"), 0) << mode;
         }
-        w.pass(seconds(3));
+        w.pass(std::chrono::seconds(3));
         EXPECT_EQ(w.number("ER"), 83) << mode;
         EXPECT_EQ(w.error_of("MR 1000"), 83) << mode << ": held";
         EXPECT_EQ(w.error_of("MR -1000"), 0) << mode << ": away is free";
@@ -360,7 +358,7 @@ TEST(McodeTrap, T23_InIgnoresLevelAndFilter) {
 TEST(McodeTrap, T24_TorqueModeMovesAtOnce) {
     Wire w;
     w.lines({"TS=51200", "AS=3"});
-    w.pass(seconds(1));
+    w.pass(std::chrono::seconds(1));
     EXPECT_EQ(w.number("V"), 0);
     EXPECT_EQ(w.number("AV"), 51200);
     EXPECT_EQ(w.number("MV"), 1);
@@ -370,7 +368,7 @@ TEST(McodeTrap, T24_TorqueModeMovesAtOnce) {
 TEST(McodeTrap, T25_CountersWrap) {
     Wire w;
     w.lines({"C1=2147483647", "C2=2147483647"});
-    w.ask("MR 51200", seconds(4));
+    w.ask("MR 51200", std::chrono::seconds(4));
     EXPECT_EQ(w.number("ER"), 0);
     EXPECT_EQ(w.number("C1"), -2147483648LL + 51199);
     EXPECT_EQ(w.number("C2"), -2147483648LL + 3999);

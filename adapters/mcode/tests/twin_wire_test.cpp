@@ -9,8 +9,6 @@
 namespace axisgate::mcode::twin::test {
 namespace {
 
-using std::chrono::seconds;
-
 TEST(TwinWire, FactoryDefaultsOnAPartyLineEndTheNameAndTheParty) {
     Wire w(lmdc, 'a');
     EXPECT_EQ(w.bytes("\n"), "");
@@ -31,26 +29,26 @@ TEST(TwinWire, TripOnTimeCapturesThePositionOfItsInstant) {
     Wire w;
     w.program({"LB T1", "R1=R1+1", "RT", "LB G1", "TT=250,T1", "TE=8", "SL 100000", "H 5000", "SL 0", "H", "E"});
     w.lines({"A=1000000000", "VI=50000"});
-    w.ask("EX G1", seconds(1));
+    w.ask("EX G1", std::chrono::seconds(1));
     const std::int64_t captured = w.number("PC");
     // 250 ms at 100000 steps/s, less the ramp, which takes 50 us.
     EXPECT_NEAR(static_cast<double>(captured), 25000, 60);
     EXPECT_EQ(w.number("R1"), 1);
     EXPECT_EQ(w.number("TE"), 0);
-    w.pass(seconds(1));
+    w.pass(std::chrono::seconds(1));
     EXPECT_EQ(w.number("PC"), captured) << "once: TE is not armed again";
 }
 
 TEST(TwinWire, WhatWasAnnouncedIsNotSaidOfAnotherMotion) {
     Wire w;
     w.ask("MA 768000,1");
-    EXPECT_EQ(w.bytes("", seconds(5)), "!");
+    EXPECT_EQ(w.bytes("", std::chrono::seconds(5)), "!");
     w.ask("MR 768000,1");
     w.pass(milliseconds(500));
     w.ask("SL 50000");
-    w.pass(seconds(2));
+    w.pass(std::chrono::seconds(2));
     w.ask("SL 0");
-    EXPECT_EQ(w.bytes("", seconds(5)), "") << "the slew ended, not the move";
+    EXPECT_EQ(w.bytes("", std::chrono::seconds(5)), "") << "the slew ended, not the move";
 }
 
 TEST(TwinWire, PgMayStandJoinedToItsAddress) {  // the manual's listing of 7.2.5
@@ -111,7 +109,7 @@ TEST(TwinWire, OneWordForEthernet) {
         setup.options["ethernet"] = text;
         auto twin = make_twin(Catalogue{}, setup);
         Out out;
-        Instant now = Instant{} + seconds(1);
+        Instant now = Instant{} + std::chrono::seconds(1);
         twin->power_on({}, now, out);
         std::string sent;
         for (const std::string line : {"CK=0\r", "PR ER\r"}) {
@@ -130,11 +128,11 @@ TEST(TwinWire, AHoldCostsNothing) {
     w.program({"LB G1", "H 60000", "R1=1", "E"});
     w.ask("EX G1");
     const long before = w.calls;
-    EXPECT_GT(w.device->deadline() - w.now, seconds(59)) << "nothing is due before the hold ends";
-    w.pass(seconds(59));
+    EXPECT_GT(w.device->deadline() - w.now, std::chrono::seconds(59)) << "nothing is due before the hold ends";
+    w.pass(std::chrono::seconds(59));
     EXPECT_EQ(w.calls, before);
     EXPECT_EQ(w.number("R1"), 0);
-    w.pass(seconds(2));
+    w.pass(std::chrono::seconds(2));
     EXPECT_EQ(w.number("R1"), 1);
     EXPECT_EQ(w.number("BY"), 0);
 }

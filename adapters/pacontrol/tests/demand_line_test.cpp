@@ -11,7 +11,7 @@ namespace {
 constexpr AxisId first{0};
 const std::map<std::string, std::string> other{{"model", "other"}};
 
-Move to(std::int64_t target, std::int64_t velocity, std::int64_t ramp = 50'000) {
+Move move_to(std::int64_t target, std::int64_t velocity, std::int64_t ramp = 50'000) {
     Move m;
     m.target = target;
     m.velocity = velocity;
@@ -19,7 +19,7 @@ Move to(std::int64_t target, std::int64_t velocity, std::int64_t ramp = 50'000) 
     return m;
 }
 Move by(std::int64_t way, std::int64_t velocity) {
-    Move m = to(way, velocity);
+    Move m = move_to(way, velocity);
     m.kind = Move::Kind::relative;
     return m;
 }
@@ -71,7 +71,7 @@ TEST(PacontrolDemandLine, AnEpTellsItsDemandWhileItStandsAndWhileItMoves) {
     EXPECT_EQ(r.behind(), 0);
     r.hand("load", 1.0);  // 1 ms of its way behind
     r.history.clear();
-    const Ticket go = r.command(to(60'000, 20'000), 0, true);
+    const Ticket go = r.command(move_to(60'000, 20'000), 0, true);
     r.run(1500ms);
     EXPECT_EQ(r.fb().demand_source, DemandSource::drive);
     EXPECT_NEAR(static_cast<double>(r.behind()), 20, 1) << "1 ms at 20000 increments/s; position and demand belong together";
@@ -89,7 +89,7 @@ TEST(PacontrolDemandLine, AHeldShaftStandsAndTheDemandGoesOnInBothDirections) {
     for (const int sign : {1, -1}) {
         SCOPED_TRACE(sign);
         Guided r;
-        const Ticket go = r.command(to(sign * 60'000, 4'000), 0, true);
+        const Ticket go = r.command(move_to(sign * 60'000, 4'000), 0, true);
         r.run(2s);
         r.hand("stall", true);
         const auto held = static_cast<std::int64_t>(std::llround(1e3 * r.axis(0).shaft(r.now)));
@@ -115,7 +115,7 @@ TEST(PacontrolDemandLine, AHeldShaftStandsAndTheDemandGoesOnInBothDirections) {
 
 TEST(PacontrolDemandLine, LostStepsStayVisibleAtRestAndAFaultlessAxisIsNotAskedMoreOften) {
     Guided r;
-    const Ticket go = r.command(to(8'000, 8'000), 0, true);
+    const Ticket go = r.command(move_to(8'000, 8'000), 0, true);
     r.run(600ms);
     r.hand("stall", true);
     r.run(300ms);
@@ -161,7 +161,7 @@ TEST(PacontrolDemandLine, OtherModelsRefuse1915OnceAndTheirDemandIsComputed) {
     EXPECT_EQ(r.asked("1915;2"), 1u);
     EXPECT_EQ(r.fb().demand_source, DemandSource::computed) << "rests where it stands";
     EXPECT_EQ(r.behind(), 0);
-    r.command(to(60'000, 20'000), 0, true);
+    r.command(move_to(60'000, 20'000), 0, true);
     r.run(10s);
     EXPECT_EQ(r.asked("1915"), 2u);
 }
@@ -170,7 +170,7 @@ TEST(PacontrolDemandLine, AComputedMoveIsWhereTheControlIs) {
     for (const int sign : {1, -1}) {
         SCOPED_TRACE(sign);
         Guided r(other);
-        EXPECT_EQ(r.answer(r.command(to(sign * 30'000, 20'000), 0, true)).outcome, Outcome::done);
+        EXPECT_EQ(r.answer(r.command(move_to(sign * 30'000, 20'000), 0, true)).outcome, Outcome::done);
         r.run(300ms);
         EXPECT_EQ(r.sources(), Sources{DemandSource::computed});
         // Both instants are those of an acknowledgement's last byte; their lengths differ by up to 4 bytes, 3.75 ms at 20 increments/ms.
@@ -215,13 +215,13 @@ TEST(PacontrolDemandLine, RelativeMovesRetargetsAndStopsAreFollowed) {
     EXPECT_EQ(r.answer(r.command(by(-20'000, 20'000), 0, true)).outcome, Outcome::done);
     EXPECT_EQ(r.answer(r.command(by(-12'000, 20'000), 0, true)).outcome, Outcome::done);
     EXPECT_EQ(r.fb().position_demand, -32'000);
-    r.command(to(100'000, 20'000), 0);
+    r.command(move_to(100'000, 20'000), 0);
     r.run(1s);
-    const Ticket back = r.command(to(-40'000, 30'000), 0, true);  // the control is stopped first
+    const Ticket back = r.command(move_to(-40'000, 30'000), 0, true);  // the control is stopped first
     EXPECT_EQ(r.answer(back).outcome, Outcome::done);
     r.run(300ms);
     EXPECT_EQ(r.fb().position_demand, -40'000);
-    r.command(to(100'000, 30'000, 20'000), 0);
+    r.command(move_to(100'000, 30'000, 20'000), 0);
     r.run(2500ms);
     const Ticket halt = r.command(Halt{}, 0, true);
     r.run(700ms);
@@ -298,7 +298,7 @@ TEST(PacontrolDemandLine, AnAxisThatIsOffHasNoneWhileAnotherIsOn) {
 
 TEST(PacontrolDemandLine, ALimitSwitchEndsTheDemandUntilAnotherOrder) {
     Guided r(other);
-    r.command(to(100'000, 20'000), 0);
+    r.command(move_to(100'000, 20'000), 0);
     r.run(2s);
     r.hand("limit_positive", true);
     r.run(500ms);
@@ -327,7 +327,7 @@ TEST(PacontrolDemandLine, AConditionEndsTheMoveAndTheAxisRestsWhereItStands) {
 TEST(PacontrolDemandLine, SettingThePositionMovesTheDemandAlong) {
     for (const auto& model : {std::map<std::string, std::string>{}, other}) {
         Guided r(model);
-        EXPECT_EQ(r.answer(r.command(to(5'000, 20'000), 0, true)).outcome, Outcome::done);
+        EXPECT_EQ(r.answer(r.command(move_to(5'000, 20'000), 0, true)).outcome, Outcome::done);
         r.run(300ms);
         r.history.clear();
         EXPECT_TRUE(good(r.answer(r.command(SetPosition{123'000}, 0, true))));
@@ -347,7 +347,7 @@ TEST(PacontrolDemandLine, FoundInOnlineItsParametersAreNotKnown) {
     EXPECT_TRUE(good(r.answer(r.command(Enable{}, 0))));
     r.run(1s);
     EXPECT_EQ(r.feedback[first].demand_source, DemandSource::computed) << "at rest: where it stands";
-    const Ticket go = r.command(to(30'000, 20'000), 0, true);
+    const Ticket go = r.command(move_to(30'000, 20'000), 0, true);
     r.run(700ms);
     EXPECT_EQ(r.feedback[first].demand_source, DemandSource::none) << "neither gear nor start-stop speed can be asked in ONLINE";
     EXPECT_EQ(r.answer(go).outcome, Outcome::done);

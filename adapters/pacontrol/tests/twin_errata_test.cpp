@@ -6,8 +6,6 @@
 namespace axisgate::pacontrol::twin::test {
 namespace {
 
-std::uint32_t real_bits(float x) { return std::bit_cast<std::uint32_t>(x); }
-
 TEST(TwinErrata, E02_E03_SohIsOneAndAllFieldsButTheCodeAreDecimal) {
     Bench b;
     b.good("0906;16;0;10");

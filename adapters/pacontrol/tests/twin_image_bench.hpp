@@ -98,4 +98,6 @@ inline ImageShape with_modules(std::size_t n) {
     return s;
 }
 
+inline std::uint32_t real_bits(float x) { return std::bit_cast<std::uint32_t>(x); }
+
 }  // namespace axisgate::pacontrol::twin

@@ -37,7 +37,6 @@ std::vector<int> statuses(Bench& b, Duration d) {
     }
     return list;
 }
-std::uint32_t real_bits(float x) { return std::bit_cast<std::uint32_t>(x); }
 /// Time until the axis stands again.
 Duration way(Bench& b, std::string_view text) {
     const Instant begun = b.now;

@@ -566,4 +566,26 @@ private:
 
 inline std::vector<std::string> lines(std::initializer_list<const char*> l) { return {l.begin(), l.end()}; }
 
+inline Move absolute(std::int64_t target, std::optional<std::int64_t> v = {}, std::optional<std::int64_t> a = {},
+                     std::optional<std::int64_t> d = {}) {
+    Move m;
+    m.kind = Move::Kind::absolute;
+    m.target = target;
+    m.velocity = v;
+    m.acceleration = a;
+    m.deceleration = d;
+    return m;
+}
+inline Move relative(std::int64_t target, std::int64_t v) {
+    Move m = absolute(target, v);
+    m.kind = Move::Kind::relative;
+    return m;
+}
+inline Move jog(std::int64_t v) {
+    Move m;
+    m.kind = Move::Kind::velocity;
+    m.target = v;
+    return m;
+}
+
 }  // namespace axisgate::uim342::test

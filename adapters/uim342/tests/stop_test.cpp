@@ -4,19 +4,6 @@
 namespace axisgate::uim342::test {
 namespace {
 
-Move jog(std::int64_t v) {
-    Move m;
-    m.kind = Move::Kind::velocity;
-    m.target = v;
-    return m;
-}
-Move absolute(std::int64_t target, std::int64_t v) {
-    Move m;
-    m.target = target;
-    m.velocity = v;
-    return m;
-}
-
 struct Running {
     Bench b;
     FakeNode& f;

@@ -9,10 +9,10 @@
 namespace axisgate::uim342::test {
 namespace {
 
-struct Ready {
+struct ReadyForValues {
     Bench b;
     FakeNode& f;
-    explicit Ready(bool on = false, LineKind kind = LineKind::can) : b(kind), f(b.add(5)) {
+    explicit ReadyForValues(bool on = false, LineKind kind = LineKind::can) : b(kind), f(b.add(5)) {
         b.start(1s);
         if (on) b.ask(Enable{});
         b.run(100ms);
@@ -23,7 +23,7 @@ struct Ready {
 // --- parameters ------------------------------------------------------------------------------------------------------------------
 
 TEST(Uim342Values, EveryParameterOfTheCatalogueIsBoundAndReadable) {
-    Ready r;
+    ReadyForValues r;
     int n = 0;
     for (std::uint16_t i = 0; i < catalogue().parameters().size(); ++i) {
         const Parameter& p = catalogue().parameters()[i];
@@ -47,7 +47,7 @@ TEST(Uim342Values, EveryParameterOfTheCatalogueIsBoundAndReadable) {
 }
 
 TEST(Uim342Values, EveryWritableParameterTakesItsValue) {
-    Ready r;
+    ReadyForValues r;
     int n = 0;
     for (std::uint16_t i = 0; i < catalogue().parameters().size(); ++i) {
         const Parameter& p = catalogue().parameters()[i];
@@ -68,14 +68,14 @@ TEST(Uim342Values, EveryWritableParameterTakesItsValue) {
 }
 
 TEST(Uim342Values, GetAndSetAreToldApartByLengthAlone) {
-    Ready r;
+    ReadyForValues r;
     r.b.read("AC");
     r.b.write("AC", 500);
     EXPECT_EQ(r.b.heard(5), lines({"99", "99 F4 01 00 00"}));
 }
 
 TEST(Uim342Values, GroupValuesGoAsPairs) {
-    Ready r;
+    ReadyForValues r;
     EXPECT_EQ(r.b.read("MF3.AC").value, Value{std::int64_t{503}});
     EXPECT_EQ(r.b.write("MF3.AC", 1000).value, Value{std::int64_t{1000}});
     EXPECT_EQ(r.b.read("AC").value, Value{std::int64_t{10000}}) << "the selection is used up by one message";
@@ -85,7 +85,7 @@ TEST(Uim342Values, GroupValuesGoAsPairs) {
 
 TEST(Uim342Values, ALostGroupValueIsRepeatedWithItsSelection) {
     for (const bool executed : {true, false}) {
-        Ready r;
+        ReadyForValues r;
         int lost = 0;
         r.f.script = [&](const Message& m) {
             FakeNode::Verdict v;
@@ -106,7 +106,7 @@ TEST(Uim342Values, ALostGroupValueIsRepeatedWithItsSelection) {
 
 TEST(Uim342Values, AfterAGroupExchangeWithAnUnknownEndGroupZeroIsSelected) {
     for (const bool refused : {true, false}) {
-        Ready r;
+        ReadyForValues r;
         r.f.script = [&](const Message& m) {
             FakeNode::Verdict v;
             if (m.cw == 0x99 && m.dl == 4) {
@@ -129,14 +129,14 @@ TEST(Uim342Values, AfterAGroupExchangeWithAnUnknownEndGroupZeroIsSelected) {
 }
 
 TEST(Uim342Values, WritingMfItselfDoesNotMisleadWhatFollows) {
-    Ready r;
+    ReadyForValues r;
     EXPECT_EQ(r.b.write("MF", 4).outcome, Outcome::done);
     EXPECT_EQ(r.b.write("AC", 123).outcome, Outcome::done);
     EXPECT_EQ(r.f.values[0x19FF], le(123, 4));
 }
 
 TEST(Uim342Values, FlashIsNotWrittenForNothing) {
-    Ready r;
+    ReadyForValues r;
     const Result same = r.b.write("PP[8]", 10);
     EXPECT_EQ(same.outcome, Outcome::done);
     EXPECT_EQ(r.b.heard(5), lines({"81 08"}));
@@ -163,10 +163,10 @@ TEST(Uim342Values, IdsOfOneNetworkMustDiffer) {
 }
 
 TEST(Uim342Values, WhereAWriteIsKeptIsSaid) {
-    Ready off;
+    ReadyForValues off;
     EXPECT_EQ(off.b.write("AC", 11).text, "");
     EXPECT_NE(off.b.write("MT[0]", 32).text.find("restart"), std::string::npos);
-    Ready on(true);
+    ReadyForValues on(true);
     for (const char* id : {"AC", "DC", "SS", "SD", "BL", "QE[1]", "MT[1]", "TG[0]", "IL[3]", "IE[0]", "MF3.AC"}) {
         EXPECT_NE(on.b.write(id, id[0] == 'I' ? 1 : 15).text.find("RAM"), std::string::npos) << id;
     }
@@ -175,7 +175,7 @@ TEST(Uim342Values, WhereAWriteIsKeptIsSaid) {
 }
 
 TEST(Uim342Values, AlternateRangeOfRampsAsTimes) {
-    Ready r;
+    ReadyForValues r;
     EXPECT_EQ(r.b.write("AC", 60001).outcome, Outcome::done) << "a rate";
     r.b.write("IC[4]", 1);
     r.b.mark();
@@ -190,7 +190,7 @@ TEST(Uim342Values, AlternateRangeOfRampsAsTimes) {
 }
 
 TEST(Uim342Values, MotorOnAsAParameterStopsFirst) {
-    Ready r;
+    ReadyForValues r;
     EXPECT_EQ(r.b.write("MO", 1).outcome, Outcome::done);
     EXPECT_EQ(r.b.heard(5), lines({"97", "95 01"}));
     EXPECT_EQ(r.b.feedback().power, AxisFeedback::Power::on);
@@ -199,7 +199,7 @@ TEST(Uim342Values, MotorOnAsAParameterStopsFirst) {
 }
 
 TEST(Uim342Values, TheDrivesRefusalIsPassedOn) {
-    Ready r;
+    ReadyForValues r;
     r.f.script = [](const Message& m) { return FakeNode::refuse_if(m.cw == 0x9C && m.dl == 4, 0x3C); };
     const Result x = r.b.write("SD", 5);
     EXPECT_EQ(x.outcome, Outcome::refused);
@@ -209,7 +209,7 @@ TEST(Uim342Values, TheDrivesRefusalIsPassedOn) {
 }
 
 TEST(Uim342Values, WhatTheDriveTookIsTheValue) {
-    Ready r;
+    ReadyForValues r;
     r.f.script = [](const Message& m) {
         FakeNode::Verdict v;
         if (m.cw == 0x99 && m.dl == 4) v.instead = message(5, 0x19, std::array<std::uint8_t, 4>{0x10, 0x27});
@@ -222,7 +222,7 @@ TEST(Uim342Values, WhatTheDriveTookIsTheValue) {
 }
 
 TEST(Uim342Values, UnknownAndReadOnlyPoints) {
-    Ready r;
+    ReadyForValues r;
     EXPECT_EQ(r.b.ask(ReadParameter{{9999, 0}}).reason, Reason::unknown_point);
     EXPECT_EQ(r.b.ask(WriteParameter{{9999, 0}, Value{std::int64_t{1}}}).reason, Reason::unknown_point);
     EXPECT_EQ(r.b.write("ML", 1).reason, Reason::not_writable);
@@ -236,7 +236,7 @@ TEST(Uim342Values, UnknownAndReadOnlyPoints) {
 
 TEST(Uim342Late, AnAnswerOfAnEarlierWriteIsNotTakenForThatOfALaterOne) {
     // All three attempts of AC=1000 are answered very late: when AC=2000 waits for its own answer.
-    Ready r;
+    ReadyForValues r;
     const Instant until = r.b.now + 165ms;
     r.f.script = [&](const Message& m) {
         FakeNode::Verdict v;
@@ -256,7 +256,7 @@ TEST(Uim342Late, AnAnswerOfAnEarlierWriteIsNotTakenForThatOfALaterOne) {
 }
 
 TEST(Uim342Late, AMissingBeginIsNotAnsweredByItsPredecessor) {
-    Ready r(true);
+    ReadyForValues r(true);
     int begins = 0;
     r.f.script = [&](const Message& m) {
         FakeNode::Verdict v;
@@ -280,7 +280,7 @@ TEST(Uim342Late, AMissingBeginIsNotAnsweredByItsPredecessor) {
 }
 
 TEST(Uim342Late, ARepeatedRequestTakesEitherAnswerOnce) {
-    Ready r;
+    ReadyForValues r;
     int n = 0;
     r.f.script = [&](const Message& m) {
         FakeNode::Verdict v;
@@ -298,7 +298,7 @@ TEST(Uim342Late, ARepeatedRequestTakesEitherAnswerOnce) {
 }
 
 TEST(Uim342Late, ALateErrorSlotIsNoErrorReport) {
-    Ready r;
+    ReadyForValues r;
     r.f.last_error = {0, 0x33, 0x81, 5, 0, 0};
     int n = 0;
     r.f.script = [&](const Message& m) { return m.cw == 0x8F && n++ == 0 ? FakeNode::late(60ms) : FakeNode::Verdict{}; };
@@ -309,7 +309,7 @@ TEST(Uim342Late, ALateErrorSlotIsNoErrorReport) {
 }
 
 TEST(Uim342Late, ALateRefusalIsNotThatOfTheNextInstruction) {
-    Ready r;
+    ReadyForValues r;
     int n = 0;
     const Instant until = r.b.now + 165ms;
     r.f.script = [&](const Message& m) {
@@ -328,7 +328,7 @@ TEST(Uim342Late, ALateRefusalIsNotThatOfTheNextInstruction) {
 
 TEST(Uim342Late, AnswersOfBeforeTheSilenceDoNotCountAfterIt) {
     // A gateway that was stuck for seconds delivers everything at once.
-    Ready r;
+    ReadyForValues r;
     r.f.position = 111;
     r.b.run(200ms);
     bool stuck = true;
@@ -346,7 +346,7 @@ TEST(Uim342Late, AnswersOfBeforeTheSilenceDoNotCountAfterIt) {
 // --- native ----------------------------------------------------------------------------------------------------------------------
 
 TEST(Uim342Native, TextAndBytes) {
-    Ready r;
+    ReadyForValues r;
     Result x = r.b.native("MO=1");
     EXPECT_EQ(x.outcome, Outcome::done);
     EXPECT_EQ(x.text, "MO = 1 (driver on)");
@@ -364,7 +364,7 @@ TEST(Uim342Native, TextAndBytes) {
 }
 
 TEST(Uim342Native, RefusalsAndWrongText) {
-    Ready r;
+    ReadyForValues r;
     Result x = r.b.native("MT[9]");
     EXPECT_EQ(x.outcome, Outcome::refused);
     EXPECT_EQ(x.code, 0x34);
@@ -384,14 +384,14 @@ TEST(Uim342Native, RefusalsAndWrongText) {
 }
 
 TEST(Uim342Native, GroupPairInOneLine) {
-    Ready r;
+    ReadyForValues r;
     EXPECT_EQ(r.b.native("MF=3;AC=1000").text, "MF = 3; AC = 1000");
     EXPECT_EQ(r.f.group[0x0319], le(1000, 4));
     EXPECT_EQ(r.b.read("AC").value, Value{std::int64_t{10000}}) << "the cache of group 0 was not touched either";
 }
 
 TEST(Uim342Native, WithoutAcknowledgement) {
-    Ready r;
+    ReadyForValues r;
     Result x = r.b.native_hex({0x15, 1, 1});
     EXPECT_EQ(x.outcome, Outcome::done);
     EXPECT_TRUE(x.bytes.empty());
@@ -408,14 +408,14 @@ TEST(Uim342Native, WithoutAcknowledgement) {
 }
 
 TEST(Uim342Native, UnknownControlWordsGoThrough) {
-    Ready r;
+    ReadyForValues r;
     const Result x = r.b.native_hex({0x82, 0});
     EXPECT_EQ(x.outcome, Outcome::refused);
     EXPECT_EQ(x.code, 0x32);
 }
 
 TEST(Uim342Native, ABeginByHandIsAMotion) {
-    Ready r(true);
+    ReadyForValues r(true);
     r.f.paif = true;
     r.b.run(200ms);
     r.b.native("PA=100;SP=10;BG");
@@ -424,7 +424,7 @@ TEST(Uim342Native, ABeginByHandIsAMotion) {
 }
 
 TEST(Uim342Native, RebootIsSilentAndBeginsAnew) {
-    Ready r;
+    ReadyForValues r;
     r.b.ask(Home{35});
     r.f.position = 5;
     r.b.run(100ms);
@@ -444,7 +444,7 @@ TEST(Uim342Native, RebootIsSilentAndBeginsAnew) {
 }
 
 TEST(Uim342Action, RebootUntilItIsBack) {
-    Ready r;
+    ReadyForValues r;
     const Ticket t = r.b.command(Action{"reboot", ""}, true);
     r.b.run(200ms);
     EXPECT_FALSE(r.b.results.contains(t));
@@ -463,7 +463,7 @@ TEST(Uim342Action, RebootUntilItIsBack) {
 }
 
 TEST(Uim342Action, FactoryDefaultsAreReadAgain) {
-    Ready r;
+    ReadyForValues r;
     r.b.write("AC", 5);
     r.f.script = [&](const Message& m) {
         if (m.function() == 0x7E) r.f.values[0x19FF] = le(10000, 4);
@@ -479,7 +479,7 @@ TEST(Uim342Action, FactoryDefaultsAreReadAgain) {
 }
 
 TEST(Uim342Action, InstructionsByName) {
-    Ready r(true);
+    ReadyForValues r(true);
     EXPECT_EQ(r.b.ask(Action{"set_origin", ""}).outcome, Outcome::accepted);
     EXPECT_TRUE(r.b.feedback().referenced);
     EXPECT_EQ(r.b.ask(Action{"motor_driver", "[1]=30"}).outcome, Outcome::accepted);

@@ -11,12 +11,6 @@
 namespace axisgate::uim342::twin {
 namespace {
 
-std::optional<bool> as_flag(const Value& v) {
-    const auto n = as_integer(v);
-    if (!n || (*n != 0 && *n != 1)) return std::nullopt;
-    return *n == 1;
-}
-
 bool known_alarm(std::int64_t code) {
     switch (code) {
         case 0x0A:

@@ -10,8 +10,8 @@
 #include <boost/json.hpp>
 
 #include "gateway/core/json_read.hpp"
-#include "gateway/services/documents.hpp"
 #include "gateway/doors/http/server.hpp"
+#include "gateway/services/documents.hpp"
 
 namespace axisgate::http {
 namespace {
@@ -66,8 +66,10 @@ Answer handle(const Drives& drives, const bhttp::request<bhttp::string_body>& re
         return fault(bhttp::status::method_not_allowed, "use GET, PATCH or PUT");
     JsonFault unread;
     const auto parsed = read_json(request.body(), unread);
-    if (!parsed && unread.twice) return fault(bhttp::status::bad_request, fmt::format("{} ({}): keep one of them", unread.text, unread.pointer));
-    if (!parsed || !parsed->is_object()) return fault(bhttp::status::bad_request, "the body must be a JSON object such as {\"stall\": true}");
+    if (!parsed && unread.twice)
+        return fault(bhttp::status::bad_request, fmt::format("{} ({}): keep one of them", unread.text, unread.pointer));
+    if (!parsed || !parsed->is_object())
+        return fault(bhttp::status::bad_request, "the body must be a JSON object such as {\"stall\": true}");
     std::vector<std::pair<std::string, Value>> items;
     for (const auto& [name, v] : parsed->get_object()) {
         Value value;
@@ -94,15 +96,15 @@ Answer handle(const Drives& drives, const bhttp::request<bhttp::string_body>& re
     return show(*drive);
 }
 
-class Session : public std::enable_shared_from_this<Session> {
+class HandSession : public std::enable_shared_from_this<HandSession> {
 public:
-    Session(asio::ip::tcp::socket socket, const Drives& drives, std::shared_ptr<std::size_t> count)
+    HandSession(asio::ip::tcp::socket socket, const Drives& drives, std::shared_ptr<std::size_t> count)
         : stream_(std::move(socket)), drives_(drives), count_(std::move(count)) {
         ++*count_;
     }
-    ~Session() { --*count_; }
-    Session(const Session&) = delete;
-    Session& operator=(const Session&) = delete;
+    ~HandSession() { --*count_; }
+    HandSession(const HandSession&) = delete;
+    HandSession& operator=(const HandSession&) = delete;
 
     void read() {
         parser_.emplace();
@@ -149,7 +151,7 @@ struct HandServer::Parts : std::enable_shared_from_this<HandServer::Parts> {
     void accept() {
         acceptor.async_accept([self = shared_from_this()](const boost::system::error_code& ec, asio::ip::tcp::socket socket) {
             if (ec == asio::error::operation_aborted) return;
-            if (!ec && *self->count < max_connections) std::make_shared<Session>(std::move(socket), self->drives, self->count)->read();
+            if (!ec && *self->count < max_connections) std::make_shared<HandSession>(std::move(socket), self->drives, self->count)->read();
             self->accept();
         });
     }

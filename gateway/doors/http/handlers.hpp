@@ -13,26 +13,28 @@
 #include <string_view>
 #include <vector>
 
-#include "gateway/services/alarms/alarm.hpp"
-#include "gateway/services/axis_place.hpp"
-#include "gateway/services/gateway.hpp"
-#include "gateway/services/services.hpp"
-#include "gateway/services/parameters/axis_jobs.hpp"
-#include "gateway/services/axis_texts.hpp"
 #include "gateway/doors/http/access_gate.hpp"
-#include "gateway/services/change_queue.hpp"
 #include "gateway/doors/http/clients_seen.hpp"
 #include "gateway/doors/http/message.hpp"
 #include "gateway/doors/http/problem.hpp"
 #include "gateway/doors/http/settings.hpp"
-#include "gateway/services/site/stage_owner.hpp"
 #include "gateway/doors/http/text.hpp"
+#include "gateway/services/alarms/alarm.hpp"
+#include "gateway/services/axis_place.hpp"
+#include "gateway/services/axis_texts.hpp"
+#include "gateway/services/change_queue.hpp"
+#include "gateway/services/gateway.hpp"
+#include "gateway/services/parameters/axis_jobs.hpp"
+#include "gateway/services/services.hpp"
+#include "gateway/services/site/stage_owner.hpp"
 
 namespace axisgate::http {
 
 /// For a change queue: 500 to whoever waits for a job that threw.
 [[nodiscard]] inline ChangeQueue::Failed thrown(Respond respond) {
-    return [respond = std::move(respond)](const std::string& what) { respond(problem(500, "internal", "a fault of the gateway itself: " + what)); };
+    return [respond = std::move(respond)](const std::string& what) {
+        respond(problem(500, "internal", "a fault of the gateway itself: " + what));
+    };
 }
 
 /// What all handlers share; outlives every call.
@@ -42,13 +44,13 @@ struct Context {
     AssetLookup asset;
     std::function<std::string()> own_metrics;                                ///< the door's own counters as Prometheus text
     std::shared_ptr<ChangeQueue> changes = std::make_shared<ChangeQueue>();  ///< of the site
-    std::shared_ptr<RecipeService> recipes{};                                   ///< runs recipes; whoever makes a context for service gives one
-    std::shared_ptr<AxisJobs> jobs = std::make_shared<AxisJobs>();           ///< many parameters of one axis, one after the other
-    std::shared_ptr<AccessPort> access = nullptr;                            ///< users; without it this machine alone is let in
-    std::shared_ptr<AlarmService> alarms{};                                     ///< the list of alarms; as with recipes
-    std::shared_ptr<AxisTexts> axis_texts = std::make_shared<AxisTexts>();   ///< what GET /axes/{name} answers
-    std::shared_ptr<StageOwner> stages = std::make_shared<StageOwner>();       ///< whose the staged site is
-    std::shared_ptr<ClientsSeen> clients = std::make_shared<ClientsSeen>();  ///< to whom an axis can be handed over
+    std::shared_ptr<RecipeService> recipes{};                               ///< runs recipes; whoever makes a context for service gives one
+    std::shared_ptr<AxisJobs> jobs = std::make_shared<AxisJobs>();          ///< many parameters of one axis, one after the other
+    std::shared_ptr<AccessPort> access = nullptr;                           ///< users; without it this machine alone is let in
+    std::shared_ptr<AlarmService> alarms{};                                 ///< the list of alarms; as with recipes
+    std::shared_ptr<AxisTexts> axis_texts = std::make_shared<AxisTexts>();  ///< what GET /axes/{name} answers
+    std::shared_ptr<StageOwner> stages = std::make_shared<StageOwner>();    ///< whose the staged site is
+    std::shared_ptr<ClientsSeen> clients = std::make_shared<ClientsSeen>();       ///< to whom an axis can be handed over
     std::shared_ptr<WritesUnderWay> writes = std::make_shared<WritesUnderWay>();  ///< of parameters, each until the drive has answered
 };
 
@@ -248,5 +250,9 @@ struct WriteBack {
 
 /// Longest time that a handler waits for the gateway when the client gave none: a result must come, this is for when it does not.
 inline constexpr std::chrono::seconds gateway_limit{30};
+/// The hot thread did not say how the Modbus door stands.
+[[nodiscard]] inline Response late_modbus() {
+    return problem(504, "no_answer", "the Modbus door did not say in time; come again in a moment");
+}
 
 }  // namespace axisgate::http

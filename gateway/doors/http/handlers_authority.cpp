@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <set>
 
-#include "gateway/services/documents.hpp"
 #include "gateway/doors/http/handlers.hpp"
+#include "gateway/services/documents.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
 namespace {
-Response late_modbus() { return problem(504, "no_answer", "the Modbus door did not say in time; come again in a moment"); }
 
 json::object authority_document(const Gateway& gateway, const AxisSpec& spec, AxisId id) {
     const AxisPicture p = gateway.picture(id);
@@ -41,13 +40,15 @@ void add_connections(json::object& document, const std::optional<Gateway::Modbus
         }
     }
     const std::string door(document.at("door").get_string());
-    document["holder_text"] = holder.empty()      ? std::string("nobody")
-                              : peers.size() > 1  ? fmt::format("{} {}: one client with {} connections, {}", door, holder, peers.size(), list)
+    document["holder_text"] = holder.empty() ? std::string("nobody")
+                              : peers.size() > 1
+                                  ? fmt::format("{} {}: one client with {} connections, {}", door, holder, peers.size(), list)
                               : peers.size() == 1 ? fmt::format("{} {}, connected from {}", door, holder, list)
                                                   : fmt::format("{} {}", door, holder);
     document["connections"] = std::move(peers);
 }
-/// Who could be named as the next holder: clients of this door that gave themselves a name or signed in, and hosts that are connected by Modbus.
+/// Who could be named as the next holder: clients of this door that gave themselves a name or signed in, and hosts that are connected by
+/// Modbus.
 json::array clients_document(const Context& context, const std::optional<Gateway::ModbusReport>& report) {
     json::array out;
     for (const auto& x : context.clients->list(context.gateway.now_unix_ns())) {
@@ -75,16 +76,17 @@ Handled submit_hold(Call& c, HoldAxis wish, bool empty_answer) {
     command.body = std::move(wish);
     const std::string word(name_of(command.body));
     Gateway* const gateway = &c.gateway();
-    return submit_command(c, std::move(command), c.names[0], word, 0, [gateway, spec = place->spec(), id = place->id(), empty_answer](const Result&) {
-        if (!empty_answer) {
-            auto o = authority_document(*gateway, spec, id);
-            add_connections(o, std::nullopt);
-            return json_response(o);
-        }
-        Response r;
-        r.status = 204;
-        return r;
-    });
+    return submit_command(c, std::move(command), c.names[0], word, 0,
+                          [gateway, spec = place->spec(), id = place->id(), empty_answer](const Result&) {
+                              if (!empty_answer) {
+                                  auto o = authority_document(*gateway, spec, id);
+                                  add_connections(o, std::nullopt);
+                                  return json_response(o);
+                              }
+                              Response r;
+                              r.status = 204;
+                              return r;
+                          });
 }
 
 /// Reads the members of a small body; what is wrong with it as faults.
@@ -99,13 +101,14 @@ void check_members(const json::object& body, std::initializer_list<std::string_v
 
 Origin Call::origin() const {
     Origin o{Door::http, std::make_shared<const std::string>(who()), {}};
-    // Who has signed in is one client wherever from, and each of his tokens another one; without a name, several connections of one page are
-    // one client: the host, and the name that the client gives itself.
+    // Who has signed in is one client wherever from, and each of his tokens another one; without a name, several connections of one page
+    // are one client: the host, and the name that the client gives itself.
     std::string name = identity.user.empty() ? request.peer.substr(0, request.peer.rfind(':')) : identity.user;
     if (!identity.token.empty()) name += ' ' + identity.token;
     if (const auto own = trimmed(request.headers.get("X-Client")); !own.empty()) {
         name += ' ';
-        for (const char x : own.substr(0, 40)) name += static_cast<unsigned char>(x) < 0x20 || x == 0x7F ? '_' : x;
+        for (const char x : own.substr(0, 40))
+            name += static_cast<unsigned char>(x) < 0x20 || x == 0x7F ? '_' : x;
     }
     o.client = std::make_shared<const std::string>(std::move(name));
     return o;
@@ -167,12 +170,16 @@ Handled take_authority(Call& c) {
     HoldAxis wish;
     if (const auto* ttl = body.if_contains("ttl_s")) {
         const bool good = ttl->is_int64() && ttl->get_int64() >= 1 && ttl->get_int64() <= 3600;
-        if (good) wish.lease_s = ttl->get_int64();
-        else faults.push_back({"/ttl_s", "ttl_s must be a whole number of seconds", "write a value from 1 to 3600"});
+        if (good)
+            wish.lease_s = ttl->get_int64();
+        else
+            faults.push_back({"/ttl_s", "ttl_s must be a whole number of seconds", "write a value from 1 to 3600"});
     }
     if (const auto* over = body.if_contains("take_over")) {
-        if (over->is_bool()) wish.take_over = over->get_bool();
-        else faults.push_back({"/take_over", "take_over must be true or false", "write one of them"});
+        if (over->is_bool())
+            wish.take_over = over->get_bool();
+        else
+            faults.push_back({"/take_over", "take_over must be true or false", "write one of them"});
     }
     if (!faults.empty()) return invalid(std::move(faults), c.names[0]);
     if (wish.take_over) {
@@ -196,7 +203,8 @@ Handled hand_over_authority(Call& c) {
     if (const auto* to = body.if_contains("to"); to && to->is_string() && !to->get_string().empty() && to->get_string().size() <= 80) {
         wish.to = std::string(to->get_string());
     } else {
-        faults.push_back({"/to", "to must name the next holder in 1 to 80 bytes", "write \"modbus 192.0.2.7\", or a holder as GET shows it"});
+        faults.push_back(
+            {"/to", "to must name the next holder in 1 to 80 bytes", "write \"modbus 192.0.2.7\", or a holder as GET shows it"});
     }
     if (!faults.empty()) return invalid(std::move(faults), c.names[0]);
     return submit_hold(c, std::move(wish), false);

@@ -6,19 +6,19 @@
 #include <algorithm>
 #include <charconv>
 
-#include "gateway/site/mapping.hpp"
 #include "gateway/doors/http/site_change.hpp"
+#include "gateway/site/mapping.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
 namespace {
 
-std::string_view id_of(const json::value& mapping) {
+std::string_view mapping_id_of(const json::value& mapping) {
     const auto* id = mapping.get_object().if_contains("id");
     return id && id->is_string() ? std::string_view(id->get_string()) : std::string_view();
 }
 std::optional<std::size_t> place_of(const json::array& mappings, std::string_view id) {
-    const auto it = std::ranges::find(mappings, id, id_of);
+    const auto it = std::ranges::find(mappings, id, mapping_id_of);
     return it == mappings.end() ? std::nullopt : std::optional(static_cast<std::size_t>(it - mappings.begin()));
 }
 std::string pointer_of(std::size_t i) { return fmt::format("/mappings/{}", i); }
@@ -29,9 +29,9 @@ Response shown(const SiteState& now, const json::value& body, unsigned status = 
     return r;
 }
 
-using Edit = std::function<std::optional<Response>(json::array& mappings, std::string& id, std::size_t& place)>;
+using MappingEdit = std::function<std::optional<Response>(json::array& mappings, std::string& id, std::size_t& place)>;
 /// Changes the list, checks the site as a whole, and shows the entry `id`, or nothing if `id` is left empty.
-Handled change_mappings(Call& c, Edit edit, bool created) {
+Handled change_mappings(Call& c, MappingEdit edit, bool created) {
     return change_site(c, false, [&gateway = c.gateway(), edit = std::move(edit), created](const SiteState& before) -> Planned {
         json::object document = to_json(before.site);
         json::array& list = document["mappings"].get_array();
@@ -41,7 +41,7 @@ Handled change_mappings(Call& c, Edit edit, bool created) {
         std::vector<SiteFault> faults;
         auto site = parse_site(document, gateway.families(), faults);
         if (!site) return refusal_for(faults, pointer_of(place), false);
-        if (id.empty() && place < site->mappings.size() && created) id = std::string(id_of(site->mappings[place]));
+        if (id.empty() && place < site->mappings.size() && created) id = std::string(mapping_id_of(site->mappings[place]));
         return Plan{std::move(*site), [id, created](const std::shared_ptr<const SiteState>& now) {
                         const auto i = place_of(now->site.mappings, id);
                         if (!i) {
@@ -78,13 +78,14 @@ Handled import_csv(Call& c, bool whole) {
     auto rows = mappings_from_csv(c.request.body, lines, csv);
     if (!rows) return csv_faults(csv);
     const auto count = rows->size();
-    auto plan = [&gateway = c.gateway(), rows = std::move(*rows), lines = std::move(lines), csv = std::move(csv), whole](const SiteState& before) -> Planned {
+    auto plan = [&gateway = c.gateway(), rows = std::move(*rows), lines = std::move(lines), csv = std::move(csv),
+                 whole](const SiteState& before) -> Planned {
         json::object document = to_json(before.site);
         json::array& list = document["mappings"].get_array();
         if (whole) list.clear();
         std::vector<std::size_t> line_of(list.size(), 0);
         for (std::size_t i = 0; i < rows.size(); ++i) {
-            const auto known = id_of(rows[i]).empty() ? std::nullopt : place_of(list, id_of(rows[i]));
+            const auto known = mapping_id_of(rows[i]).empty() ? std::nullopt : place_of(list, mapping_id_of(rows[i]));
             if (known && line_of[*known] == 0 && !whole) {
                 list[*known] = rows[i];
                 line_of[*known] = lines[i];
@@ -98,7 +99,9 @@ Handled import_csv(Call& c, bool whole) {
         if (!site || !csv.empty()) {
             std::vector<CsvFault> told = csv;
             // Said again with the rows by their lines: an id that a row would get is known to nobody.
-            const auto row = [&](std::size_t i) { return i < line_of.size() && line_of[i] != 0 ? fmt::format("row {}", line_of[i]) : std::string(); };
+            const auto row = [&](std::size_t i) {
+                return i < line_of.size() && line_of[i] != 0 ? fmt::format("row {}", line_of[i]) : std::string();
+            };
             std::erase_if(faults, [](const SiteFault& f) { return f.pointer == "/mappings" || f.pointer.starts_with("/mappings/"); });
             (void)parse_mappings(list, before.site, gateway.families(), faults, row);
             for (const auto& f : faults) {
@@ -129,10 +132,10 @@ Handled import_csv(Call& c, bool whole) {
     json::array d;
     for (const auto& x : differences(now->site, std::get<Plan>(planned).site))
         d.emplace_back(x);
-    return shown(*now, json::object{{"dry_run", true},
-                                    {"rows", count},
-                                    {"mappings", std::get<Plan>(planned).site.mappings.size()},
-                                    {"differences", std::move(d)}});
+    return shown(
+        *now,
+        json::object{
+            {"dry_run", true}, {"rows", count}, {"mappings", std::get<Plan>(planned).site.mappings.size()}, {"differences", std::move(d)}});
 }
 
 }  // namespace
@@ -184,7 +187,7 @@ Handled replace_mapping(Call& c) {
             list[place] = entry;
             auto& o = list[place].get_object();
             if (!o.contains("id")) o["id"] = name;
-            id = id_of(list[place]);
+            id = mapping_id_of(list[place]);
             return std::nullopt;
         },
         false);
@@ -217,7 +220,8 @@ Handled remove_mappings(Call& c) {
         rest.remove_prefix(std::min(end + 1, rest.size()));
     }
     if (ids && wanted.empty()) return bad_query("ids", "ids of mappings with commas between them");
-    auto plan = [&gateway = c.gateway(), unit, wanted, by_id = ids.has_value(), axis = axis ? std::optional<std::string>(*axis) : std::nullopt](const SiteState& before) -> Planned {
+    auto plan = [&gateway = c.gateway(), unit, wanted, by_id = ids.has_value(),
+                 axis = axis ? std::optional<std::string>(*axis) : std::nullopt](const SiteState& before) -> Planned {
         for (const auto& id : wanted) {
             if (!place_of(before.site.mappings, id)) return nothing_named("mapping", id);
         }
@@ -227,7 +231,7 @@ Handled remove_mappings(Call& c) {
         for (auto& m : list) {
             const auto& o = m.get_object();
             const bool meant = (unit == 0 || o.at("unit") == unit) && (!axis || o.at("axis").get_string() == *axis) &&
-                               (!by_id || std::ranges::find(wanted, id_of(m)) != wanted.end());
+                               (!by_id || std::ranges::find(wanted, mapping_id_of(m)) != wanted.end());
             (meant ? removed : kept).push_back(meant ? o.at("id") : m);
         }
         list = std::move(kept);
@@ -246,7 +250,7 @@ Handled remove_mappings(Call& c) {
     const auto& left = std::get<Plan>(planned).site.mappings;
     json::array removed;
     for (const auto& m : now->site.mappings) {
-        if (!place_of(left, id_of(m))) removed.emplace_back(id_of(m));
+        if (!place_of(left, mapping_id_of(m))) removed.emplace_back(mapping_id_of(m));
     }
     return shown(*now, json::object{{"dry_run", true}, {"removed", std::move(removed)}, {"mappings", left.size()}});
 }
@@ -255,8 +259,12 @@ namespace {
 json::object unit_document(const SiteState& site, std::uint8_t unit, MapGaps of_host) {
     const auto it = site.site.gaps.find(unit);
     const bool own = it != site.site.gaps.end();
-    const auto used = std::ranges::count_if(site.site.mappings, [&](const json::value& m) { return m.get_object().at("unit") == std::int64_t{unit}; });
-    return {{"unit", std::int64_t{unit}}, {"gaps", own ? json::value(name_of(it->second)) : json::value()}, {"shown", name_of(own ? it->second : of_host)}, {"mappings", used}};
+    const auto used =
+        std::ranges::count_if(site.site.mappings, [&](const json::value& m) { return m.get_object().at("unit") == std::int64_t{unit}; });
+    return {{"unit", std::int64_t{unit}},
+            {"gaps", own ? json::value(name_of(it->second)) : json::value()},
+            {"shown", name_of(own ? it->second : of_host)},
+            {"mappings", used}};
 }
 }  // namespace
 
@@ -276,20 +284,27 @@ Handled change_mapping_unit(Call& c) {
     std::vector<Fault> faults;
     const auto& body = c.body.get_object();
     for (const auto& [k, v] : body) {
-        if (k != "gaps") faults.push_back({"/" + std::string(k), fmt::format("{} is not known here", std::string_view(k)), "write {\"gaps\": \"zero\"}, \"refuse\" or null"});
+        if (k != "gaps")
+            faults.push_back({"/" + std::string(k), fmt::format("{} is not known here", std::string_view(k)),
+                              "write {\"gaps\": \"zero\"}, \"refuse\" or null"});
     }
     const auto* given = body.if_contains("gaps");
     const auto gaps = given && given->is_string() ? map_gaps_named(std::string_view(given->get_string())) : std::nullopt;
-    if (!given || (!gaps && !given->is_null())) faults.push_back({"/gaps", "gaps must be zero, refuse or null", "null: as the host's [modbus] gaps says"});
+    if (!given || (!gaps && !given->is_null()))
+        faults.push_back({"/gaps", "gaps must be zero, refuse or null", "null: as the host's [modbus] gaps says"});
     if (!faults.empty()) return invalid(std::move(faults));
-    return change_site(c, false, [unit = static_cast<std::uint8_t>(*number), gaps, of_host = c.context.settings.map_gaps](const SiteState& before) -> Planned {
-        Site site = before.site;
-        if (gaps)
-            site.gaps[unit] = *gaps;
-        else
-            site.gaps.erase(unit);
-        return Plan{std::move(site), [unit, of_host](const std::shared_ptr<const SiteState>& now) { return shown(*now, unit_document(*now, unit, of_host)); }};
-    });
+    return change_site(
+        c, false,
+        [unit = static_cast<std::uint8_t>(*number), gaps, of_host = c.context.settings.map_gaps](const SiteState& before) -> Planned {
+            Site site = before.site;
+            if (gaps)
+                site.gaps[unit] = *gaps;
+            else
+                site.gaps.erase(unit);
+            return Plan{std::move(site), [unit, of_host](const std::shared_ptr<const SiteState>& now) {
+                            return shown(*now, unit_document(*now, unit, of_host));
+                        }};
+        });
 }
 
 Handled get_mappings_csv(Call& c) {

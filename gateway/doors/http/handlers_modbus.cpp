@@ -9,33 +9,44 @@ namespace json = boost::json;
 namespace {
 using Report = std::optional<Gateway::ModbusReport>;
 
-Response late_modbus() { return problem(504, "no_answer", "the Modbus door did not say in time; come again in a moment"); }
-
 /// Over what can be set, not over who is connected: a client that comes does not make a change of the locks another one.
-std::string tag_of(const Gateway::ModbusReport& r) {
+std::string modbus_tag(const Gateway::ModbusReport& r) {
     std::string allow, functions;
-    for (const auto& a : r.allow) allow += a + ",";
-    for (const auto& f : r.functions) functions += f + ",";
+    for (const auto& a : r.allow)
+        allow += a + ",";
+    for (const auto& f : r.functions)
+        functions += f + ",";
     return tag_over({r.bind, allow, functions, r.read_only ? "read-only" : ""});
 }
 
-json::object document_of(const Gateway::ModbusReport& report) {
+json::object modbus_document(const Gateway::ModbusReport& report) {
     json::array allow, functions, connections;
-    for (const auto& a : report.allow) allow.emplace_back(a);
-    for (const auto& f : report.functions) functions.emplace_back(std::stoi(f));
+    for (const auto& a : report.allow)
+        allow.emplace_back(a);
+    for (const auto& f : report.functions)
+        functions.emplace_back(std::stoi(f));
     for (const auto& x : report.connections) {
         json::array holds;
-        for (const auto& h : x.holds) holds.emplace_back(h);
-        connections.push_back(json::object{{"peer", x.peer}, {"requests", x.requests}, {"writes", x.writes}, {"exceptions", x.exceptions},
-                                           {"since", format_time(x.since_unix_ns)}, {"holds", std::move(holds)}});
+        for (const auto& h : x.holds)
+            holds.emplace_back(h);
+        connections.push_back(json::object{{"peer", x.peer},
+                                           {"requests", x.requests},
+                                           {"writes", x.writes},
+                                           {"exceptions", x.exceptions},
+                                           {"since", format_time(x.since_unix_ns)},
+                                           {"holds", std::move(holds)}});
     }
-    return {{"bind", report.bind}, {"allow", std::move(allow)}, {"functions", std::move(functions)}, {"read_only", report.read_only},
+    return {{"bind", report.bind},
+            {"allow", std::move(allow)},
+            {"functions", std::move(functions)},
+            {"read_only", report.read_only},
             {"connections", std::move(connections)}};
 }
 
 Response shown(const Report& report) {
-    if (!report) return problem(503, "busy", "the Modbus door is switched off, or cannot say now: see modbus.bind, or come again in a moment");
-    return with_tag(json_response(document_of(*report)), tag_of(*report));
+    if (!report)
+        return problem(503, "busy", "the Modbus door is switched off, or cannot say now: see modbus.bind, or come again in a moment");
+    return with_tag(json_response(modbus_document(*report)), modbus_tag(*report));
 }
 }  // namespace
 
@@ -48,7 +59,8 @@ Handled change_modbus_door(Call& c) {
     const json::object& body = c.body.get_object();
     std::vector<Fault> faults;
     for (const auto& [k, v] : body) {
-        if (k != "read_only") faults.push_back({"/" + std::string(k), std::string(k) + " is not known here", "write {\"read_only\": true} or false"});
+        if (k != "read_only")
+            faults.push_back({"/" + std::string(k), std::string(k) + " is not known here", "write {\"read_only\": true} or false"});
     }
     const auto* value = body.if_contains("read_only");
     if (!value || !value->is_bool()) faults.push_back({"/read_only", "read_only must be true or false", "write one of them"});
@@ -68,15 +80,18 @@ Handled change_modbus_door(Call& c) {
     };
     const std::string if_match(c.request.headers.get("If-Match"));
     // In the queue of the site's changes: of two that mean the same state one comes first, and the other is told so.
-    const bool taken = c.context.changes->run([gateway, set, if_match, respond = c.respond](std::function<void()> done) {
-        if (if_match.empty()) return set(std::move(done));
-        gateway->modbus_report([set, if_match, respond, done = std::move(done)](const Report& now) {
-            if (now && !means_another(if_match, tag_of(*now))) return set(done);
-            respond(now ? overtaken("the locks of the Modbus door were changed by another client meanwhile: read them again", tag_of(*now), document_of(*now))
-                        : shown(now));
-            done();
-        });
-    }, thrown(c.respond));
+    const bool taken = c.context.changes->run(
+        [gateway, set, if_match, respond = c.respond](std::function<void()> done) {
+            if (if_match.empty()) return set(std::move(done));
+            gateway->modbus_report([set, if_match, respond, done = std::move(done)](const Report& now) {
+                if (now && !means_another(if_match, modbus_tag(*now))) return set(done);
+                respond(now ? overtaken("the locks of the Modbus door were changed by another client meanwhile: read them again",
+                                        modbus_tag(*now), modbus_document(*now))
+                            : shown(now));
+                done();
+            });
+        },
+        thrown(c.respond));
     if (!taken) return problem(503, "busy", "too many changes wait already: try again");
     return {gateway_limit, late_modbus()};
 }

@@ -6,15 +6,15 @@
 #include <algorithm>
 #include <set>
 
-#include "gateway/services/parameters/axis_jobs.hpp"
 #include "gateway/core/parameter_form.hpp"
-#include "gateway/services/documents.hpp"
 #include "gateway/doors/http/handlers.hpp"
+#include "gateway/services/documents.hpp"
+#include "gateway/services/parameters/axis_jobs.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
 namespace {
-constexpr std::uint16_t most_elements = 256;
+constexpr std::uint16_t most_listed_elements = 256;
 constexpr std::size_t most_kept_faults = 1000;  // of one file; the first of them are told
 
 /// RFC 4180; `;` as separator where the first line has one outside quotes and no comma.
@@ -89,7 +89,7 @@ Handled get_parameters_csv(Call& c) {
     const auto all = axis->catalogue ? axis->catalogue->parameters() : std::span<const Parameter>();
     for (std::size_t i = 0; i < all.size(); ++i) {
         const Parameter& p = all[i];
-        if (p.count > most_elements) continue;
+        if (p.count > most_listed_elements) continue;
         const std::uint32_t first = p.count == 0 ? 0 : p.first, end = p.count == 0 ? 1 : std::uint32_t{p.first} + p.count;
         for (std::uint32_t e = first; e < end; ++e) {
             const Point point{static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(e)};
@@ -145,7 +145,9 @@ Handled put_parameters_csv(Call& c) {
     std::map<std::string, Value> given;
     for (std::size_t i = 1; i < rows.size(); ++i) {
         const auto& cells = rows[i].second;
-        const auto point = axis->catalogue && cells.size() > std::max(id_column, value_column) ? axis->catalogue->find(trimmed(cells[id_column])) : std::nullopt;
+        const auto point = axis->catalogue && cells.size() > std::max(id_column, value_column)
+                               ? axis->catalogue->find(trimmed(cells[id_column]))
+                               : std::nullopt;
         const auto value = point ? parse_value(trimmed(cells[value_column]), axis->catalogue->parameter(*point)->type) : std::nullopt;
         if (value) given[axis->catalogue->id_of(*point)] = *value;
     }

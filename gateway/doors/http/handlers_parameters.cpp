@@ -6,9 +6,9 @@
 #include <unordered_map>
 
 #include "gateway/core/parameter_form.hpp"
-#include "gateway/services/documents.hpp"
 #include "gateway/doors/http/handlers.hpp"
 #include "gateway/doors/http/preconditions.hpp"
+#include "gateway/services/documents.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
@@ -16,7 +16,7 @@ namespace {
 /// Arrays up to this length are listed element by element; longer ones are one entry, so that a list stays a list.
 constexpr std::uint16_t listed_elements = 256;
 /// Elements answered when one array is asked for.
-constexpr std::size_t most_elements = 1024;
+constexpr std::size_t most_elements_shown = 1024;
 
 struct ParameterPlace {
     AxisPlace axis;
@@ -55,7 +55,7 @@ const StoredParameter* stored_of(const std::vector<StoredParameter>& list, std::
 }
 
 /// Of the last write: the same value written again is another state, since somebody meant it. What nobody wrote has a tag too.
-std::string tag_of(const StoredParameter* s) {
+std::string parameter_tag(const StoredParameter* s) {
     if (!s) return "\"never-written\"";
     return tag_over({json_text(to_json(s->value)), s->who, s->door, std::to_string(s->at_unix_ns)});
 }
@@ -90,7 +90,7 @@ Response whole(Gateway& gateway, const ParameterPlace& place, const LiveParamete
         }
         o["history"] = std::move(list);
     }
-    return with_tag(json_response(o), tag_of(stored_of(stored, place.id)));
+    return with_tag(json_response(o), parameter_tag(stored_of(stored, place.id)));
 }
 
 /// 412 with the last write, if If-Match means another one: nothing goes to the drive.
@@ -98,18 +98,21 @@ std::optional<Response> refuse_other(const Call& c, const ParameterPlace& place)
     const std::string if_match(c.request.headers.get("If-Match"));
     if (if_match.empty()) return std::nullopt;
     if (c.context.writes->contains({c.names[0], place.id})) {
-        return to_response(Problem{.status = 409,
-                                   .reason = "busy",
-                                   .detail = fmt::format("{} of {} is being written by another client just now: read it again in a moment", place.id, c.names[0]),
-                                   .axis = c.names[0]});
+        return to_response(Problem{
+            .status = 409,
+            .reason = "busy",
+            .detail = fmt::format("{} of {} is being written by another client just now: read it again in a moment", place.id, c.names[0]),
+            .axis = c.names[0]});
     }
     const auto stored = c.gateway().stored(c.names[0]);
     const auto* now = stored_of(stored, place.id);
-    if (!means_another(if_match, tag_of(now))) return std::nullopt;
-    if (!now) return overtaken(fmt::format("{} of {} was never written through the gateway: read it again", place.id, c.names[0]), tag_of(now), nullptr);
+    if (!means_another(if_match, parameter_tag(now))) return std::nullopt;
+    if (!now)
+        return overtaken(fmt::format("{} of {} was never written through the gateway: read it again", place.id, c.names[0]),
+                         parameter_tag(now), nullptr);
     return overtaken(fmt::format("{} of {} was written by {} at {}: read it again; nothing was sent to the drive", place.id, c.names[0],
                                  now->who.empty() ? "somebody" : now->who, format_time(now->at_unix_ns)),
-                     tag_of(now),
+                     parameter_tag(now),
                      json::object{{"parameter", place.id},
                                   {"value", to_json(now->value)},
                                   {"written_at", format_time(now->at_unix_ns)},
@@ -147,8 +150,8 @@ Handled list_parameters(Call& c) {
         if (!p) return;
         const std::string id = axis->catalogue->id_of(point);
         const auto it = by_id.find(id);
-        out.push_back(document_now(c.gateway(), *axis, point, id, c.gateway().live(axis->id(), point),
-                                   it == by_id.end() ? nullptr : it->second, ""));
+        out.push_back(
+            document_now(c.gateway(), *axis, point, id, c.gateway().live(axis->id(), point), it == by_id.end() ? nullptr : it->second, ""));
     };
     bool array_found = false;
     const auto all = axis->catalogue->parameters();
@@ -160,7 +163,7 @@ Handled list_parameters(Call& c) {
             if ((p.id != *array && p.name != *array) || p.count == 0) continue;
             array_found = true;
             const std::uint32_t from = std::max<std::uint32_t>(p.first, static_cast<std::uint32_t>(first));
-            for (std::uint32_t e = from; e < std::uint32_t{p.first} + p.count && out.size() < most_elements; ++e)
+            for (std::uint32_t e = from; e < std::uint32_t{p.first} + p.count && out.size() < most_elements_shown; ++e)
                 put(index, static_cast<std::uint16_t>(e));
         } else if (p.count == 0) {
             put(index, 0);
@@ -168,8 +171,8 @@ Handled list_parameters(Call& c) {
             for (std::uint32_t e = p.first; e < std::uint32_t{p.first} + p.count; ++e)
                 put(index, static_cast<std::uint16_t>(e));
         } else {
-            out.push_back(
-                axis_parameter_document(*axis->catalogue, {index, p.first}, p.id, {}, nullptr, fmt::format("{} elements: list them with ?array={}", p.count, p.id)));
+            out.push_back(axis_parameter_document(*axis->catalogue, {index, p.first}, p.id, {}, nullptr,
+                                                  fmt::format("{} elements: list them with ?array={}", p.count, p.id)));
         }
     }
     if (array && !array_found) {
@@ -190,7 +193,8 @@ Handled read_parameter(Call& c) {
     if (fault) return *fault;
     Gateway& gateway = c.gateway();
     if (cached || !place->parameter().readable()) {
-        return whole(gateway, *place, gateway.live(place->axis.id(), place->point), place->parameter().readable() ? "" : "can only be written", history);
+        return whole(gateway, *place, gateway.live(place->axis.id(), place->point),
+                     place->parameter().readable() ? "" : "can only be written", history);
     }
     Command command;
     command.axis = place->axis.id();

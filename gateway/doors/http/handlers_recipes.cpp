@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <boost/json/parse.hpp>
 
-#include "gateway/services/change_queue.hpp"
 #include "gateway/doors/http/handlers.hpp"
 #include "gateway/doors/http/preconditions.hpp"
+#include "gateway/services/change_queue.hpp"
 #include "gateway/services/recipes/recipe_service.hpp"
 #include "gateway/services/recipes/recipe_steps.hpp"
 
@@ -58,7 +58,7 @@ std::optional<std::uint64_t> number_of(const Call& c) {
 }
 
 /// Names one state of one document: another text, time or author is another tag.
-std::string tag_of(const Gateway::Document& d) { return tag_over({d.text, d.who, std::to_string(d.at_unix_ns)}); }
+std::string recipe_tag(const Gateway::Document& d) { return tag_over({d.text, d.who, std::to_string(d.at_unix_ns)}); }
 
 /// If-Match and If-None-Match of a request that changes a recipe, kept until its turn comes.
 struct Wanted {
@@ -69,14 +69,16 @@ struct Wanted {
     [[nodiscard]] std::optional<Response> refuse(const std::string& name, const std::optional<Gateway::Document>& now) const {
         const auto refused = [&](std::string text) {
             const auto o = now ? parsed(*now) : std::nullopt;
-            return overtaken(std::move(text), now ? std::optional(tag_of(*now)) : std::nullopt, o ? json::value(shown(*now, *o)) : json::value(nullptr));
+            return overtaken(std::move(text), now ? std::optional(recipe_tag(*now)) : std::nullopt,
+                             o ? json::value(shown(*now, *o)) : json::value(nullptr));
         };
         if (!if_match.empty() && !now) return refused(fmt::format("there is no recipe {} any more: leave If-Match out to make it", name));
-        if (now && means_another(if_match, tag_of(*now)))
+        if (now && means_another(if_match, recipe_tag(*now)))
             return refused(fmt::format("recipe {} was changed by {} at {}: read it again; its ETag is {}, not {}", name,
-                                       now->who.empty() ? "somebody" : now->who, format_time(now->at_unix_ns), tag_of(*now), if_match));
-        if (!if_none_match.empty() && now && tag_listed(if_none_match, tag_of(*now), true))
-            return refused(fmt::format("there is a recipe {} already: choose another name, or send If-Match: {} to replace it", name, tag_of(*now)));
+                                       now->who.empty() ? "somebody" : now->who, format_time(now->at_unix_ns), recipe_tag(*now), if_match));
+        if (!if_none_match.empty() && now && tag_listed(if_none_match, recipe_tag(*now), true))
+            return refused(fmt::format("there is a recipe {} already: choose another name, or send If-Match: {} to replace it", name,
+                                       recipe_tag(*now)));
         return std::nullopt;
     }
 };
@@ -107,7 +109,7 @@ Handled list_recipes(Call& c) {
         const auto recipe = read_recipe(*o, nullptr, none);
         const auto n = c.context.recipes->running(d.name);
         out.push_back(json::object{{"name", d.name},
-                                   {"etag", tag_of(d)},
+                                   {"etag", recipe_tag(d)},
                                    {"description", description ? *description : json::value("")},
                                    {"parameters", parameters ? *parameters : json::value(json::object())},
                                    {"steps", recipe ? recipe->count : 0},
@@ -121,7 +123,7 @@ Handled list_recipes(Call& c) {
 Handled get_recipe(Call& c) {
     auto found = find_recipe(c);
     if (!found) return nothing_named("recipe", c.names[0]);
-    return with_tag(json_response(shown(found->first, std::move(found->second))), tag_of(found->first));
+    return with_tag(json_response(shown(found->first, std::move(found->second))), recipe_tag(found->first));
 }
 
 Handled put_recipe(Call& c) {
@@ -147,7 +149,8 @@ Handled put_recipe(Call& c) {
         created = !now;
         if (auto refusal = wanted.refuse(name, now)) return refusal;
         if (created && gateway.documents(kind).size() >= RecipeService::most_recipes)
-            return problem(409, "too_many", fmt::format("there are {} recipes: delete those that are no longer needed", RecipeService::most_recipes));
+            return problem(409, "too_many",
+                           fmt::format("there are {} recipes: delete those that are no longer needed", RecipeService::most_recipes));
         return std::nullopt;
     };
     if (dry_run) {
@@ -155,58 +158,62 @@ Handled put_recipe(Call& c) {
         if (auto refusal = refused(created)) return *refusal;
         return json_response(json::object{{"dry_run", true}, {"steps", recipe->count}});
     }
-    const bool taken = c.context.recipes->changes->run([refused, name, document, respond = c.respond, who = c.who(), &gateway = c.gateway()](std::function<void()> done) {
-        bool created = false;
-        if (auto refusal = refused(created)) {
-            respond(*std::move(refusal));
-            return done();
-        }
-        const Gateway::Document d{name, json_text(document), who, gateway.now_unix_ns()};
-        gateway.save_document(kind, d, [respond, &gateway, d, document, created, done](const std::string& why) {
-            if (why.empty()) {
-                gateway.note(told_of(d.who, fmt::format("recipe {} {}", d.name, created ? "made" : "changed")));
-                Response r = with_tag(json_response(shown(d, document), created ? 201 : 200), tag_of(d));
-                if (created) r.headers.set("Location", "/api/v1/recipes/" + percent_encode(d.name));
-                respond(std::move(r));
-            } else {
-                respond(store_fault(why));
+    const bool taken = c.context.recipes->changes->run(
+        [refused, name, document, respond = c.respond, who = c.who(), &gateway = c.gateway()](std::function<void()> done) {
+            bool created = false;
+            if (auto refusal = refused(created)) {
+                respond(*std::move(refusal));
+                return done();
             }
-            done();
-        });
-    }, thrown(c.respond));
+            const Gateway::Document d{name, json_text(document), who, gateway.now_unix_ns()};
+            gateway.save_document(kind, d, [respond, &gateway, d, document, created, done](const std::string& why) {
+                if (why.empty()) {
+                    gateway.note(told_of(d.who, fmt::format("recipe {} {}", d.name, created ? "made" : "changed")));
+                    Response r = with_tag(json_response(shown(d, document), created ? 201 : 200), recipe_tag(d));
+                    if (created) r.headers.set("Location", "/api/v1/recipes/" + percent_encode(d.name));
+                    respond(std::move(r));
+                } else {
+                    respond(store_fault(why));
+                }
+                done();
+            });
+        },
+        thrown(c.respond));
     if (!taken) return too_busy();
     return {gateway_limit, problem(504, "no_answer", "the store has not answered")};
 }
 
 Handled remove_recipe(Call& c) {
     if (!find_recipe(c)) return nothing_named("recipe", c.names[0]);
-    const bool taken = c.context.recipes->changes->run([name = c.names[0], wanted = Wanted(c), desk = c.context.recipes, respond = c.respond, who = c.who(),
-                                                        &gateway = c.gateway()](std::function<void()> done) {
-        const auto refusal = [&]() -> std::optional<Response> {
-            const auto now = gateway.document(kind, name);
-            if (!now) return nothing_named("recipe", name);
-            if (auto r = wanted.refuse(name, now)) return r;
-            if (const auto n = desk->running(name); n != 0)
-                return problem(409, "running", fmt::format("recipe {} is running (run {}): cancel it first", name, n));
-            return std::nullopt;
-        }();
-        if (refusal) {
-            respond(*refusal);
-            return done();
-        }
-        gateway.delete_document(kind, name, [respond, &gateway, desk, name, who, done](const std::string& why) {
-            if (why.empty()) {
-                gateway.note(told_of(who, fmt::format("recipe {} deleted", name)));
-                desk->forget(name);
-                Response r;
-                r.status = 204;
-                respond(std::move(r));
-            } else {
-                respond(store_fault(why));
+    const bool taken = c.context.recipes->changes->run(
+        [name = c.names[0], wanted = Wanted(c), desk = c.context.recipes, respond = c.respond, who = c.who(),
+         &gateway = c.gateway()](std::function<void()> done) {
+            const auto refusal = [&]() -> std::optional<Response> {
+                const auto now = gateway.document(kind, name);
+                if (!now) return nothing_named("recipe", name);
+                if (auto r = wanted.refuse(name, now)) return r;
+                if (const auto n = desk->running(name); n != 0)
+                    return problem(409, "running", fmt::format("recipe {} is running (run {}): cancel it first", name, n));
+                return std::nullopt;
+            }();
+            if (refusal) {
+                respond(*refusal);
+                return done();
             }
-            done();
-        });
-    }, thrown(c.respond));
+            gateway.delete_document(kind, name, [respond, &gateway, desk, name, who, done](const std::string& why) {
+                if (why.empty()) {
+                    gateway.note(told_of(who, fmt::format("recipe {} deleted", name)));
+                    desk->forget(name);
+                    Response r;
+                    r.status = 204;
+                    respond(std::move(r));
+                } else {
+                    respond(store_fault(why));
+                }
+                done();
+            });
+        },
+        thrown(c.respond));
     if (!taken) return too_busy();
     return {gateway_limit, problem(504, "no_answer", "the store has not answered")};
 }

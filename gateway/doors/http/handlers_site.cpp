@@ -2,17 +2,15 @@
 // In: calls. Out: documents with their live state; changes go through parse_site as a whole and through Gateway::apply_site.
 #include <fmt/core.h>
 
-#include "gateway/services/documents.hpp"
 #include "gateway/doors/http/handlers.hpp"
 #include "gateway/doors/http/site_change.hpp"
 #include "gateway/doors/http/site_edit.hpp"
+#include "gateway/services/documents.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
 namespace {
-std::string tag_of(std::uint64_t revision) { return fmt::format("\"{}\"", revision); }
-
-json::object document_of(Gateway& gateway, const std::shared_ptr<const SiteState>& site, Collection collection, std::size_t i) {
+json::object entry_document(Gateway& gateway, const std::shared_ptr<const SiteState>& site, Collection collection, std::size_t i) {
     switch (collection) {
         case Collection::lines:
             return line_document(*site, i, i < site->line_ids.size() ? gateway.line_report(site->line_ids[i]) : LineReport{});
@@ -55,7 +53,7 @@ Handled list(Call& c, Collection collection) {
     const auto site = c.gateway().site();
     json::array out;
     for (std::size_t i = 0; i < size_of(site->site, collection); ++i)
-        out.push_back(document_of(c.gateway(), site, collection, i));
+        out.push_back(entry_document(c.gateway(), site, collection, i));
     Response r = json_response(out);
     put_revision(r, *site);
     return r;
@@ -73,7 +71,7 @@ Handled get(Call& c, Collection collection) {
         put_revision(r, *site);
         return r;
     }
-    Response r = json_response(document_of(c.gateway(), site, collection, *i));
+    Response r = json_response(entry_document(c.gateway(), site, collection, *i));
     put_revision(r, *site);
     return r;
 }
@@ -81,16 +79,17 @@ Handled get(Call& c, Collection collection) {
 /// A change of one entry: made on the document, checked as a whole, shown by its entry.
 Handled change_entry(Call& c, std::function<Edited(json::object document)> make,
                      std::function<Response(const std::shared_ptr<const SiteState>& now, const Edit& edit)> show) {
-    return change_site(c, false, [&gateway = c.gateway(), make = std::move(make), show = std::move(show)](const SiteState& before) -> Planned {
-        auto edited = make(to_json(before.site));
-        if (auto* refusal = std::get_if<Response>(&edited)) return std::move(*refusal);
-        auto& edit = std::get<Edit>(edited);
-        std::vector<SiteFault> faults;
-        auto site = parse_site(edit.document, gateway.families(), faults);
-        if (!site) return refusal_for(faults, edit.pointer, false);
-        return Plan{std::move(*site),
-                    [show, edit = std::move(edit)](const std::shared_ptr<const SiteState>& now) { return show(now, edit); }};
-    });
+    return change_site(
+        c, false, [&gateway = c.gateway(), make = std::move(make), show = std::move(show)](const SiteState& before) -> Planned {
+            auto edited = make(to_json(before.site));
+            if (auto* refusal = std::get_if<Response>(&edited)) return std::move(*refusal);
+            auto& edit = std::get<Edit>(edited);
+            std::vector<SiteFault> faults;
+            auto site = parse_site(edit.document, gateway.families(), faults);
+            if (!site) return refusal_for(faults, edit.pointer, false);
+            return Plan{std::move(*site),
+                        [show, edit = std::move(edit)](const std::shared_ptr<const SiteState>& now) { return show(now, edit); }};
+        });
 }
 
 /// 200, or 201 with its place, with the entry as it is now.
@@ -99,7 +98,7 @@ auto show_entry(Gateway& gateway, Collection collection, bool created) {
         const auto i = find_in(now->site, collection, edit.name);
         if (!i)
             return problem(409, "conflict", fmt::format("{} {} was removed by another client meanwhile", item_name(collection), edit.name));
-        Response r = json_response(document_of(gateway, now, collection, *i), created ? 201 : 200);
+        Response r = json_response(entry_document(gateway, now, collection, *i), created ? 201 : 200);
         if (created) r.headers.set("Location", fmt::format("/api/v1/{}/{}", list_name(collection), percent_encode(edit.name)));
         put_revision(r, *now);
         return r;
@@ -152,7 +151,7 @@ Response site_change(const SiteState& now, bool dry_run, const std::vector<std::
                                             {"revision", now.revision},
                                             {"differences", std::move(d)},
                                             {"faults", std::move(f)}});
-    r.headers.set("ETag", tag_of(now.revision));
+    r.headers.set("ETag", site_tag(now.revision));
     put_revision(r, now);
     return r;
 }
@@ -180,13 +179,13 @@ Handled remove_axis(Call& c) { return remove(c, Collection::axes); }
 Handled get_site(Call& c) {
     const auto site = c.gateway().site();
     Response r;
-    if (tag_listed(c.request.headers.get("If-None-Match"), tag_of(site->revision), true)) {
+    if (tag_listed(c.request.headers.get("If-None-Match"), site_tag(site->revision), true)) {
         r.status = 304;
         r.without_body = true;
     } else {
         r = json_response(to_json(site->site));
     }
-    r.headers.set("ETag", tag_of(site->revision));
+    r.headers.set("ETag", site_tag(site->revision));
     put_revision(r, *site);
     return r;
 }

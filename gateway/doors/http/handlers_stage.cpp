@@ -3,29 +3,20 @@
 // Never changes a site at once: what is staged is applied as one, and taken back unless it is confirmed.
 #include <fmt/core.h>
 
-#include "gateway/services/documents.hpp"
 #include "gateway/doors/http/handlers.hpp"
 #include "gateway/doors/http/site_change.hpp"
+#include "gateway/services/documents.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
 namespace {
-std::string tag_of(std::uint64_t revision) { return fmt::format("\"{}\"", revision); }
-
 Response stage_answer(Gateway& gateway, const StageOwner& desk, unsigned status = 200) {
     const auto now = gateway.site();
     const auto& stage = gateway.site_stage();
-    json::object o{{"state", name_of(stage.state())},
-                   {"id", json::value()},
-                   {"by", text_or_null(stage.by())},
-                   {"client", json::value()},
-                   {"staged_at", json::value()},
-                   {"base_revision", json::value()},
-                   {"revision", now->revision},
-                   {"faults", json::array()},
-                   {"diff", json::array()},
-                   {"disturbs", json::array()},
-                   {"confirm_by", json::value()}};
+    json::object o{{"state", name_of(stage.state())}, {"id", json::value()},        {"by", text_or_null(stage.by())},
+                   {"client", json::value()},         {"staged_at", json::value()}, {"base_revision", json::value()},
+                   {"revision", now->revision},       {"faults", json::array()},    {"diff", json::array()},
+                   {"disturbs", json::array()},       {"confirm_by", json::value()}};
     if (stage.state() != SiteStage::State::none) {
         o["id"] = desk.id(stage);
         o["client"] = text_or_null(desk.applier(stage).empty() ? desk.stager(stage) : desk.applier(stage));
@@ -41,7 +32,7 @@ Response stage_answer(Gateway& gateway, const StageOwner& desk, unsigned status 
         o["disturbs"] = std::move(axes);
     }
     Response r = json_response(o, status);
-    r.headers.set("ETag", tag_of(now->revision));
+    r.headers.set("ETag", site_tag(now->revision));
     put_revision(r, *now);
     return r;
 }
@@ -52,7 +43,8 @@ Response conflict(std::string text) { return problem(409, "conflict", std::move(
 std::string stager_text(const StageOwner& desk, const SiteStage& stage) {
     const auto& client = desk.stager(stage);
     const auto at = desk.at_unix_ns(stage);
-    return fmt::format("{}{}{}", stage.by(), client.empty() ? "" : fmt::format(" (client {})", client), at == 0 ? "" : " at " + format_time(at));
+    return fmt::format("{}{}{}", stage.by(), client.empty() ? "" : fmt::format(" (client {})", client),
+                       at == 0 ? "" : " at " + format_time(at));
 }
 
 /// 409 if another client's stage waits: it is not replaced in silence.
@@ -64,7 +56,8 @@ std::optional<Response> refuse_taken(const Call& c) {
     if (fault || replace || stage.state() != SiteStage::State::staged || desk.stager(stage) == *c.origin().client) return fault;
     Problem p{.status = 409,
               .reason = "stage_taken",
-              .detail = fmt::format("{} has staged a site that is not applied yet: wait for it, or replace it with ?replace=true", stager_text(desk, stage))};
+              .detail = fmt::format("{} has staged a site that is not applied yet: wait for it, or replace it with ?replace=true",
+                                    stager_text(desk, stage))};
     p.more["stage"] = desk.id(stage);
     return to_response(p);
 }
@@ -126,7 +119,8 @@ Handled apply_stage(Call& c) {
     const auto& desk = c.context.stages;
     if (const bool some = stage.state() != SiteStage::State::none; meant && (!some || *meant != desk->id(stage))) {
         Problem p{.status = 409, .reason = "stage_replaced", .detail = {}};
-        p.detail = some ? fmt::format("the staged site is another than {}: {} staged it; nothing was applied, look at it first", *meant, stager_text(*desk, stage))
+        p.detail = some ? fmt::format("the staged site is another than {}: {} staged it; nothing was applied, look at it first", *meant,
+                                      stager_text(*desk, stage))
                         : fmt::format("{} is not staged any more: it was applied or discarded; nothing was applied", *meant);
         p.more["stage"] = some ? json::value(desk->id(stage)) : json::value(nullptr);
         return to_response(p);
@@ -141,11 +135,13 @@ Handled confirm_stage(Call& c) {
     const auto& applier = c.context.stages->applier(stage);
     const Origin origin = c.origin();
     // The same user in another session is another one: who confirms has seen that he can still reach the gateway from where he applied it.
-    const bool own = identity_of(*origin.who) == stage.by() && (applier.empty() || (applier == *origin.client && c.context.stages->applier_session(stage) == session_of(c.identity)));
+    const bool own = identity_of(*origin.who) == stage.by() &&
+                     (applier.empty() || (applier == *origin.client && c.context.stages->applier_session(stage) == session_of(c.identity)));
     if (stage.state() == SiteStage::State::applied && !own) {
-        return conflict(fmt::format("only {}{}, who applied the site, can confirm it, in the same session; it rolls back by itself at {}, or now with "
-                                    "POST /api/v1/site/stage/roll-back, and can then be applied from here",
-                                    stage.by(), applier.empty() ? "" : fmt::format(" (client {})", applier), format_time(stage.confirm_by_unix_ns())));
+        return conflict(
+            fmt::format("only {}{}, who applied the site, can confirm it, in the same session; it rolls back by itself at {}, or now with "
+                        "POST /api/v1/site/stage/roll-back, and can then be applied from here",
+                        stage.by(), applier.empty() ? "" : fmt::format(" (client {})", applier), format_time(stage.confirm_by_unix_ns())));
     }
     if (auto fault = stage.check_confirm(*origin.who, c.gateway().now_unix_ns()); !fault.empty()) return conflict(std::move(fault));
     // The disk is asked; until it has answered the stage still stands as applied, and it is confirmed once.

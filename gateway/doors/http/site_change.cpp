@@ -12,8 +12,6 @@ namespace {
 /// A change that lost a race against another one is made again on the newer site, so often.
 constexpr int most_attempts = 3;
 
-std::string tag_of(std::uint64_t revision) { return fmt::format("\"{}\"", revision); }
-
 /// What became of the site since the first revision that `if_match` names and the history still has; null if it has none of them.
 json::value changes_since(Gateway& gateway, std::string_view if_match, const SiteState& now) {
     for (auto rest = if_match; !rest.empty();) {
@@ -32,18 +30,19 @@ json::value changes_since(Gateway& gateway, std::string_view if_match, const Sit
 }
 
 /// 412: the site in force, and what has changed since the one that was meant.
-Response overtaken(Gateway& gateway, std::string_view if_match, const SiteState& now, std::string detail) {
-    Response r = to_response(Problem{.status = 412,
-                                     .reason = "precondition_failed",
-                                     .detail = std::move(detail),
-                                     .more = {{"etag", tag_of(now.revision)}, {"changes", changes_since(gateway, if_match, now)}, {"current", to_json(now.site)}}});
-    r.headers.set("ETag", tag_of(now.revision));
+Response site_overtaken(Gateway& gateway, std::string_view if_match, const SiteState& now, std::string detail) {
+    Response r = to_response(Problem{
+        .status = 412,
+        .reason = "precondition_failed",
+        .detail = std::move(detail),
+        .more = {{"etag", site_tag(now.revision)}, {"changes", changes_since(gateway, if_match, now)}, {"current", to_json(now.site)}}});
+    r.headers.set("ETag", site_tag(now.revision));
     put_revision(r, now);
     return r;
 }
 
 /// One change on its way: planned on the site in force, applied; and planned again if another change came between.
-struct Change : std::enable_shared_from_this<Change> {
+struct QueuedChange : std::enable_shared_from_this<QueuedChange> {
     Gateway& gateway;
     Origin origin;
     std::optional<std::uint64_t> only_for;  ///< If-Match was given: the change is for this revision alone
@@ -53,7 +52,7 @@ struct Change : std::enable_shared_from_this<Change> {
     std::function<void()> done;
     int attempts = 0;
 
-    Change(Gateway& g, Origin o) : gateway(g), origin(std::move(o)) {}
+    QueuedChange(Gateway& g, Origin o) : gateway(g), origin(std::move(o)) {}
 
     void end(Response r) {
         respond(std::move(r));
@@ -73,16 +72,19 @@ struct Change : std::enable_shared_from_this<Change> {
                 return self->end(problem(507, "not_stored", answer.fault.empty() ? "the site could not be stored" : answer.fault));
             }
             if (!self->only_for && self->attempts < most_attempts) return self->attempt();
-            self->end(self->only_for ? self->overtaken(*answer.now) : problem(503, "busy", "other clients keep changing the site: try again"));
+            self->end(self->only_for ? self->overtaken(*answer.now)
+                                     : problem(503, "busy", "other clients keep changing the site: try again"));
         };
         gateway.apply_site(std::move(site), before->revision, origin, std::move(then));
     }
     Response overtaken(const SiteState& now) {
-        return http::overtaken(gateway, if_match, now, "the site was changed by another client meanwhile: read it again");
+        return site_overtaken(gateway, if_match, now, "the site was changed by another client meanwhile: read it again");
     }
 };
 
 }  // namespace
+
+std::string site_tag(std::uint64_t revision) { return fmt::format("\"{}\"", revision); }
 
 void put_revision(Response& r, const SiteState& site) { r.headers.set("Site-Revision", std::to_string(site.revision)); }
 
@@ -92,8 +94,9 @@ std::optional<Response> precondition(const Call& c, const SiteState& site, bool 
         if (!demanded) return std::nullopt;
         return problem(428, "precondition_required", "say with If-Match which revision of the site you change: its ETag");
     }
-    if (tag_listed(header, tag_of(site.revision), false)) return std::nullopt;
-    return overtaken(c.gateway(), header, site, fmt::format("the site has the revision {} by now, not {}: read it again", tag_of(site.revision), header));
+    if (tag_listed(header, site_tag(site.revision), false)) return std::nullopt;
+    return site_overtaken(c.gateway(), header, site,
+                          fmt::format("the site has the revision {} by now, not {}: read it again", site_tag(site.revision), header));
 }
 
 std::vector<Fault> faults_for(const std::vector<SiteFault>& faults, std::string_view entry, bool whole_document) {
@@ -122,15 +125,17 @@ Handled change_site(Call& c, bool if_match_demanded, std::function<Planned(const
     if (c.gateway().site_stage().busy())
         return problem(409, "conflict", "a staged site is on trial: confirm it or roll it back before the site is changed otherwise");
     if (auto refusal = precondition(c, *site, if_match_demanded)) return *refusal;
-    auto order = std::make_shared<Change>(c.gateway(), c.origin());
+    auto order = std::make_shared<QueuedChange>(c.gateway(), c.origin());
     order->if_match = c.request.headers.get("If-Match");
     if (!order->if_match.empty()) order->only_for = site->revision;
     order->plan = std::move(plan);
     order->respond = c.respond;
-    const bool taken = c.context.changes->run([order](std::function<void()> done) {
-        order->done = std::move(done);
-        order->attempt();
-    }, thrown(order->respond));
+    const bool taken = c.context.changes->run(
+        [order](std::function<void()> done) {
+            order->done = std::move(done);
+            order->attempt();
+        },
+        thrown(order->respond));
     if (!taken) return problem(503, "busy", "too many changes of the site wait already: try again");
     return {gateway_limit, problem(504, "time_out", "the change was not applied in time: look at the site before trying again")};
 }

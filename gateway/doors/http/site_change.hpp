@@ -21,6 +21,9 @@ struct Plan {
 };
 using Planned = std::variant<Plan, Response>;
 
+/// The entity tag of the site of this revision.
+[[nodiscard]] std::string site_tag(std::uint64_t revision);
+
 /// Queues the change. `if_match_demanded`: 428 without If-Match.
 [[nodiscard]] Handled change_site(Call& call, bool if_match_demanded, std::function<Planned(const SiteState& before)> plan);
 

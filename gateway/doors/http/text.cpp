@@ -9,6 +9,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "gateway/core/text.hpp"
+
 namespace axisgate::http {
 namespace {
 namespace json = boost::json;
@@ -20,9 +22,9 @@ int hex_digit(char c) noexcept {
     return -1;
 }
 
-char lower_char(char c) noexcept { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-bool same_word(std::string_view a, std::string_view b) noexcept { return std::ranges::equal(a, b, {}, lower_char, lower_char); }
+bool same_word(std::string_view a, std::string_view b) noexcept {
+    return std::ranges::equal(a, b, [](char x, char y) { return lower(x) == lower(y); });
+}
 
 /// How well the Accept header likes the type, 0..1000; -1: not at all. The most specific range decides (RFC 9110 12.5.1).
 int liking(std::string_view accept, std::string_view media) noexcept {

@@ -42,8 +42,12 @@ std::string token(std::string_view key) {
 
 /// The same words stand under a field of a form, where nobody writes quotes: they say what such a text looks like.
 std::string example(std::string_view key) {
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 6> examples{
-        {{"axis", "feeder"}, {"parameter", "AC"}, {"command", "halt"}, {"name", "program.start"}, {"point", "position"}, {"on_failure", "halt"}}};
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 6> examples{{{"axis", "feeder"},
+                                                                                     {"parameter", "AC"},
+                                                                                     {"command", "halt"},
+                                                                                     {"name", "program.start"},
+                                                                                     {"point", "position"},
+                                                                                     {"on_failure", "halt"}}};
     for (const auto& [k, word] : examples) {
         if (k == key) return fmt::format(", such as \"{}\"", word);
     }
@@ -56,9 +60,9 @@ bool good_name(std::string_view s) {
     });
 }
 
-class Reader {
+class RecipeReader {
 public:
-    Reader(std::vector<SiteFault>& faults, bool with_arguments) : faults_(faults), with_arguments_(with_arguments) {}
+    RecipeReader(std::vector<SiteFault>& faults, bool with_arguments) : faults_(faults), with_arguments_(with_arguments) {}
 
     void fault(std::string pointer, std::string text, std::string remedy) {
         if (faults_.size() < 100) faults_.push_back({std::move(pointer), std::move(text), std::move(remedy), false});
@@ -460,7 +464,7 @@ private:
 
 std::optional<Recipe> read_recipe(const json::object& document, const json::object* arguments, std::vector<SiteFault>& faults) {
     const auto before = faults.size();
-    Reader r(faults, arguments != nullptr);
+    RecipeReader r(faults, arguments != nullptr);
     Recipe out;
     r.unknown(document, " name description parameters steps timeout_s on_failure changed_at changed_by ", "");
     out.description = r.text(document, "description", "", false);

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "gateway/core/catalogue.hpp"
 #include "gateway/axis/guard.hpp"
 #include "gateway/axis/image.hpp"
+#include "gateway/core/catalogue.hpp"
 
 namespace axisgate {
 namespace {
@@ -39,7 +39,7 @@ TEST(Value, IntegersAreOnlyWhatIsWhole) {
     }
 }
 
-constexpr const char* page = R"({"family": "test", "number": 9, "parameters": [
+constexpr const char* values_page = R"({"family": "test", "number": 9, "parameters": [
   {"id": "AC", "name": "acceleration", "group": "motion", "type": "u32", "unit": "pulse/s^2", "min": 1, "max": 65000000, "default": null, "access": "RW", "storage": "eeprom", "description": "d"},
   {"id": "MT[0]", "name": "microsteps", "group": "motor", "type": "u16", "unit": null, "min": null, "max": null, "default": 16, "access": "RW", "storage": "eeprom",
    "allowed": {"1": "full", "2": "half"}, "description": "d"},
@@ -50,18 +50,20 @@ constexpr const char* page = R"({"family": "test", "number": 9, "parameters": [
 Catalogue read(std::string_view text) {
     std::vector<std::string> faults;
     auto c = Catalogue::parse(text, faults);
-    for (const auto& f : faults) ADD_FAILURE() << f;
+    for (const auto& f : faults)
+        ADD_FAILURE() << f;
     return std::move(*c);
 }
 
 TEST(Catalogue, FindsByIdNameAndElement) {
-    const auto c = read(page);
+    const auto c = read(values_page);
     EXPECT_EQ(c.find("AC"), (Point{0, 0}));
     EXPECT_EQ(c.find("acceleration"), (Point{0, 0}));
     EXPECT_EQ(c.find("MT[0]"), (Point{1, 0}));
     EXPECT_EQ(c.find("N[3]"), (Point{3, 3}));
     EXPECT_EQ(c.id_of({3, 2}), "N[2]");
-    for (const auto* bad : {"N", "N[0]", "N[4]", "N[x]", "N[1", "XX", "", "AC[1]"}) EXPECT_FALSE(c.find(bad)) << bad;
+    for (const auto* bad : {"N", "N[0]", "N[4]", "N[x]", "N[1", "XX", "", "AC[1]"})
+        EXPECT_FALSE(c.find(bad)) << bad;
     EXPECT_EQ(c.parameter({0, 1}), nullptr);
     EXPECT_EQ(c.error(50, "alarm")->name, "other");
     EXPECT_EQ(c.error(51), nullptr);
@@ -90,10 +92,14 @@ TEST(Catalogue, AClassSpeaksForTheCodesThatNothingElseNames) {
     EXPECT_EQ(c.error(64, "command")->name, "answer");
     EXPECT_EQ(c.error(99)->name, "class");
     EXPECT_EQ(c.error(100)->name, "hundred");
-    for (const int none : {0, 101}) EXPECT_EQ(c.error(none), nullptr) << none;
+    for (const int none : {0, 101})
+        EXPECT_EQ(c.error(none), nullptr) << none;
     for (const auto* wrong : {"\"9\"", "5", "4", "5.5"}) {
         std::vector<std::string> faults;
-        const std::string written = std::string(R"({"family": "x", "number": 1, "commands": [], "parameters": [], "errors": [{"code": 5, "text": "t", "through": )") + wrong + "}]}";
+        const std::string written =
+            std::string(
+                R"({"family": "x", "number": 1, "commands": [], "parameters": [], "errors": [{"code": 5, "text": "t", "through": )") +
+            wrong + "}]}";
         EXPECT_FALSE(Catalogue::parse(written, faults)) << wrong;
         ASSERT_EQ(faults.size(), 1u);
         EXPECT_NE(faults[0].find("errors[0].through"), std::string::npos) << faults[0];
@@ -101,12 +107,17 @@ TEST(Catalogue, AClassSpeaksForTheCodesThatNothingElseNames) {
 }
 
 TEST(Catalogue, WritesAreCheckedAndRefusalsNameTheRange) {
-    const auto c = read(page);
+    const auto c = read(values_page);
     EXPECT_EQ(c.check_write({0, 0}, Value{std::int64_t{65000000}}).fault, "");
-    for (const auto& [point, value, part] : std::vector<std::tuple<Point, Value, std::string>>{
-             {{0, 0}, Value{std::int64_t{0}}, "1..65000000 pulse/s^2"}, {{0, 0}, Value{std::int64_t{65000001}}, "1..65000000"}, {{0, 0}, Value{1.5}, "whole number"},
-             {{0, 0}, Value{std::string("x")}, "whole number"}, {{1, 0}, Value{std::int64_t{3}}, "1 (full), 2 (half)"}, {{2, 0}, Value{20.0}, "only be read"},
-             {{3, 1}, Value{std::int64_t{1} << 31}, "-2147483648..2147483647"}, {{3, 4}, Value{std::int64_t{1}}, "does not know"}}) {
+    for (const auto& [point, value, part] :
+         std::vector<std::tuple<Point, Value, std::string>>{{{0, 0}, Value{std::int64_t{0}}, "1..65000000 pulse/s^2"},
+                                                            {{0, 0}, Value{std::int64_t{65000001}}, "1..65000000"},
+                                                            {{0, 0}, Value{1.5}, "whole number"},
+                                                            {{0, 0}, Value{std::string("x")}, "whole number"},
+                                                            {{1, 0}, Value{std::int64_t{3}}, "1 (full), 2 (half)"},
+                                                            {{2, 0}, Value{20.0}, "only be read"},
+                                                            {{3, 1}, Value{std::int64_t{1} << 31}, "-2147483648..2147483647"},
+                                                            {{3, 4}, Value{std::int64_t{1}}, "does not know"}}) {
         const auto r = c.check_write(point, value);
         EXPECT_NE(r.fault.find(part), std::string::npos) << r.fault << " should name " << part;
     }
@@ -116,47 +127,59 @@ TEST(Catalogue, AFractionHasTheRangeOfItsTypeWhereThePageNamesNone) {
     const auto c = read(R"({"family": "x", "number": 1, "commands": [], "errors": [], "parameters": [
       {"id": "S", "name": "s", "group": "g", "type": "f32", "access": "RW", "description": "d"},
       {"id": "D", "name": "d", "group": "g", "type": "f64", "access": "RW", "description": "d"}]})");
-    for (const double fits : {0.0, -3.4028234e38, 3.4028234e38}) EXPECT_EQ(c.check_write({0, 0}, Value{fits}).fault, "") << fits;
+    for (const double fits : {0.0, -3.4028234e38, 3.4028234e38})
+        EXPECT_EQ(c.check_write({0, 0}, Value{fits}).fault, "") << fits;
     for (const double too_much : {1e300, -1e300, 3.5e38}) {
         EXPECT_NE(c.check_write({0, 0}, Value{too_much}).fault.find("single precision"), std::string::npos) << too_much;
         EXPECT_EQ(c.check_write({1, 0}, Value{too_much}).fault, "") << too_much;
     }
     for (const std::uint16_t i : {std::uint16_t{0}, std::uint16_t{1}}) {
-        for (const double none : {std::nan(""), HUGE_VAL}) EXPECT_NE(c.check_write({i, 0}, Value{none}).fault.find("takes a number"), std::string::npos) << none;
+        for (const double none : {std::nan(""), HUGE_VAL})
+            EXPECT_NE(c.check_write({i, 0}, Value{none}).fault.find("takes a number"), std::string::npos) << none;
     }
 }
 
 TEST(Catalogue, FormsThatCannotBeReadAreFaultsWithTheirPlace) {
     const auto faults_of = [](const std::string& members) {
         std::vector<std::string> faults;
-        (void)Catalogue::parse(R"({"family": "f", "number": 1, "commands": [], "errors": [], "parameters": [{"id": "A", "name": "a", "group": "g",
-            "description": "d", "type": "u16", "min": 0, "max": 100, "access": "RW", )" + members + "}]}", faults);
+        (void)Catalogue::parse(
+            R"({"family": "f", "number": 1, "commands": [], "errors": [], "parameters": [{"id": "A", "name": "a", "group": "g",
+            "description": "d", "type": "u16", "min": 0, "max": 100, "access": "RW", )" +
+                members + "}]}",
+            faults);
         return faults;
     };
-    for (const auto& [members, says] : {std::pair<std::string, std::string>{R"("fields": [{"name": "x", "bits": "0..3"}])", "parameters[0].fields"},
-                                        {R"("fields": [{"name": "x", "bits": "3..0"}, {"name": "y", "bits": "3"}])", "shares its bits"},
-                                        {R"("fields": [{"name": "x", "bits": "3..0", "values": "none"}])", "names no list"},
-                                        {R"("meanings": {"1..": "x"})", "parameters[0].meanings"},
-                                        {R"("alternate": {"when": "B=1", "unit": "ms", "min": 0, "max": 9})", "parameters[0].alternate"},
-                                        {R"("alternate": {"when": "A=1", "unit": "ms", "min": 0, "max": 101})", "within min..max"}}) {
+    for (const auto& [members, says] :
+         {std::pair<std::string, std::string>{R"("fields": [{"name": "x", "bits": "0..3"}])", "parameters[0].fields"},
+          {R"("fields": [{"name": "x", "bits": "3..0"}, {"name": "y", "bits": "3"}])", "shares its bits"},
+          {R"("fields": [{"name": "x", "bits": "3..0", "values": "none"}])", "names no list"},
+          {R"("meanings": {"1..": "x"})", "parameters[0].meanings"},
+          {R"("alternate": {"when": "B=1", "unit": "ms", "min": 0, "max": 9})", "parameters[0].alternate"},
+          {R"("alternate": {"when": "A=1", "unit": "ms", "min": 0, "max": 101})", "within min..max"}}) {
         const auto faults = faults_of(members);
         ASSERT_EQ(faults.size(), 1u) << members;
         EXPECT_NE(faults[0].find(says), std::string::npos) << faults[0];
     }
-    EXPECT_TRUE(faults_of(R"("alternate": {"when": "A=1", "unit": "ms", "min": 0, "max": 100}, "meanings": {"0": "x"}, "fields": null)").empty());
+    EXPECT_TRUE(
+        faults_of(R"("alternate": {"when": "A=1", "unit": "ms", "min": 0, "max": 100}, "meanings": {"0": "x"}, "fields": null)").empty());
 }
 
 TEST(Catalogue, WhatADriveIsReachedByIsMarkedAndNothingElse) {
     const auto parse = [](std::string_view mark, std::vector<std::string>& faults) {
-        return Catalogue::parse(fmt::format(R"({{"family": "x", "number": 1, "parameters": [{{"id": "A", "name": "a", "group": "g", "type": "u8", "access": "RW", "description": "d"{}}}],
-          "commands": [], "errors": []}})", mark), faults);
+        return Catalogue::parse(
+            fmt::format(
+                R"({{"family": "x", "number": 1, "parameters": [{{"id": "A", "name": "a", "group": "g", "type": "u8", "access": "RW", "description": "d"{}}}],
+          "commands": [], "errors": []}})",
+                mark),
+            faults);
     };
     std::vector<std::string> faults;
     EXPECT_FALSE(parse("", faults)->parameters()[0].addressing);
     EXPECT_FALSE(parse(R"(, "addressing": false)", faults)->parameters()[0].addressing);
     EXPECT_TRUE(parse(R"(, "addressing": true)", faults)->parameters()[0].addressing);
     EXPECT_TRUE(faults.empty());
-    for (const auto* wrong : {R"(, "addressing": 1)", R"(, "addressing": "yes")", R"(, "addressing": null)"}) EXPECT_FALSE(parse(wrong, faults)) << wrong;
+    for (const auto* wrong : {R"(, "addressing": 1)", R"(, "addressing": "yes")", R"(, "addressing": null)"})
+        EXPECT_FALSE(parse(wrong, faults)) << wrong;
     EXPECT_EQ(faults.size(), 3u);
     faults.clear();
     EXPECT_FALSE(parse("", faults)->parameters()[0].live);
@@ -166,8 +189,10 @@ TEST(Catalogue, WhatADriveIsReachedByIsMarkedAndNothingElse) {
 }
 TEST(Catalogue, EveryFaultOfAPageIsFound) {
     std::vector<std::string> faults;
-    EXPECT_FALSE(Catalogue::parse(R"({"family": "", "parameters": [{"id": "A", "name": "a", "group": "g", "type": "u9", "access": "X", "description": "d", "min": 2, "max": 1},
-      {"id": "A", "name": "b", "group": "g", "type": "u8", "access": "R", "description": "d"}, 5], "commands": {}, "errors": [{"text": "t"}]})", faults));
+    EXPECT_FALSE(Catalogue::parse(
+        R"({"family": "", "parameters": [{"id": "A", "name": "a", "group": "g", "type": "u9", "access": "X", "description": "d", "min": 2, "max": 1},
+      {"id": "A", "name": "b", "group": "g", "type": "u8", "access": "R", "description": "d"}, 5], "commands": {}, "errors": [{"text": "t"}]})",
+        faults));
     EXPECT_EQ(faults.size(), 9u);
     faults.clear();
     EXPECT_FALSE(Catalogue::parse("[", faults));

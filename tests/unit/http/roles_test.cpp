@@ -8,7 +8,7 @@
 
 namespace axisgate::http::test {
 namespace {
-constexpr std::string_view far_peer = "192.0.2.7:5123";
+constexpr std::string_view faraway_peer = "192.0.2.7:5123";
 using Fields = std::vector<std::pair<std::string, std::string>>;
 
 class AccessTest : public ::testing::Test, public Harness {
@@ -42,7 +42,7 @@ protected:
     /// Cookie and X-CSRF-Token of a fresh session; none for "none".
     Fields as(std::string_view role) {
         if (role == "none") return {};
-        const auto a = from(far_peer, "POST", "/api/v1/session",
+        const auto a = from(faraway_peer, "POST", "/api/v1/session",
                             R"({"user":")" + std::string(role) + R"(","password":"secret )" + std::string(role) + R"("})");
         EXPECT_EQ(a.status, 200u) << role << a.text;
         const std::string cookie(a.headers.get("Set-Cookie"));
@@ -75,7 +75,7 @@ TEST_F(AccessTest, EachRoleAgainstEachRoute) {
             } else if (route.takes != Route::Takes::nothing) {
                 body = "{}";
             }
-            const auto a = from(far_peer, name_of(route.method), with_names(route.path), body, headers);
+            const auto a = from(faraway_peer, name_of(route.method), with_names(route.path), body, headers);
             const bool may = *role_named(role) >= route.needed();
             const std::string what = std::string(name_of(route.method)) + " " + std::string(route.path) + " as " + role + ": " + a.text;
             ++checked;
@@ -100,15 +100,15 @@ TEST_F(AccessTest, EachRoleAgainstEachRoute) {
 TEST_F(AccessTest, ABackupThatCannotBeKeptIsNotCalledABadOne) {
     Fields headers = as("administrator");
     headers.emplace_back("Content-Type", "application/octet-stream");
-    ASSERT_EQ(from(far_peer, "GET", "/api/v1/backup", "", headers).status, 200u);
+    ASSERT_EQ(from(faraway_peer, "GET", "/api/v1/backup", "", headers).status, 200u);
     ASSERT_EQ(gateway.noted.size(), 1u) << "that all of it left the house is told";
     EXPECT_EQ(gateway.noted[0].kind, "site");
     EXPECT_NE(gateway.noted[0].text.find("the whole database"), std::string::npos) << gateway.noted[0].text;
     EXPECT_NE(gateway.noted[0].who.find("administrator"), std::string::npos);
     EXPECT_EQ(gateway.noted[0].door, "http");
-    EXPECT_EQ(from(far_peer, "HEAD", "/api/v1/backup", "", headers).status, 200u);
+    EXPECT_EQ(from(faraway_peer, "HEAD", "/api/v1/backup", "", headers).status, 200u);
     EXPECT_EQ(gateway.noted.size(), 1u) << "HEAD hands nothing out";
-    const auto put = [&] { return from(far_peer, "PUT", "/api/v1/backup", std::string("SQLite format 3\0...", 19), headers); };
+    const auto put = [&] { return from(faraway_peer, "PUT", "/api/v1/backup", std::string("SQLite format 3\0...", 19), headers); };
     EXPECT_EQ(put().status, 202u);
     gateway.keep_fault = "the file is damaged";
     EXPECT_EQ(put().status, 422u);
@@ -132,13 +132,13 @@ TEST_F(AccessTest, EachRouteWithABodyRefusesBeforeItIsRead) {
                                                  : route.takes == Route::Takes::bytes ? "application/octet-stream"
                                                                                       : "application/json");
             Request head = request(name_of(route.method), with_names(route.path), {}, headers);
-            head.peer = std::string(far_peer);
-            const bool stranger = std::string_view(role) == "none";  // who signs in sends little
-            head.announced_bytes = stranger ? 8'000 : 1'000'000;
+            head.peer = std::string(faraway_peer);
+            const bool unknown = std::string_view(role) == "none";  // who signs in sends little
+            head.announced_bytes = unknown ? 8'000 : 1'000'000;
             const auto a = door.admit(head);
             if (*role_named(role) >= route.needed()) {
                 EXPECT_FALSE(a.refusal) << what << a.refusal->body;
-                EXPECT_EQ(a.max_body_bytes, stranger                              ? settings.max_stranger_bytes
+                EXPECT_EQ(a.max_body_bytes, unknown                              ? settings.max_stranger_bytes
                                             : route.takes == Route::Takes::bytes ? settings.max_backup_bytes
                                                                                  : settings.max_body_bytes)
                     << what;
@@ -152,7 +152,7 @@ TEST_F(AccessTest, EachRouteWithABodyRefusesBeforeItIsRead) {
             ASSERT_TRUE(a.refusal) << what;
             EXPECT_EQ(a.refusal->status, std::string_view(role) == "none" ? 401u : 403u) << what;
             EXPECT_EQ(a.refusal->headers.get("Content-Type"), "application/problem+json") << what;
-            EXPECT_EQ(a.refusal->body, from(far_peer, name_of(route.method), with_names(route.path), "{}", headers).text) << what;
+            EXPECT_EQ(a.refusal->body, from(faraway_peer, name_of(route.method), with_names(route.path), "{}", headers).text) << what;
         }
     }
     EXPECT_GE(with_body, 40);
@@ -163,12 +163,12 @@ TEST_F(AccessTest, AdmittingRenewsNoSession) {
     const auto headers = as("engineer");
     Request head = request("PUT", "/api/v1/site", {}, headers);
     head.headers.set("Content-Type", "application/json");
-    head.peer = std::string(far_peer);
+    head.peer = std::string(faraway_peer);
     const std::int64_t idle_ns = AccessSettings{}.idle_ns, second_ns = 1'000'000'000;
     gateway.now_ns += idle_ns - second_ns;
     EXPECT_FALSE(door.admit(head).refusal);
     gateway.now_ns += 2 * second_ns;
-    EXPECT_EQ(from(far_peer, "GET", "/api/v1/axes", "", headers).status, 401u) << "asking whether one may is no use of the session";
+    EXPECT_EQ(from(faraway_peer, "GET", "/api/v1/axes", "", headers).status, 401u) << "asking whether one may is no use of the session";
 }
 
 TEST_F(AccessTest, OpenRoutesAreTheseAlone) {
@@ -189,9 +189,9 @@ TEST_F(AccessTest, EverybodyWhoIsKnownMayStopAndOperatorsMayMove) {
     for (const auto* role : {"none", "viewer", "operator", "engineer"}) {
         const auto headers = as(role);
         for (const auto* word : {"halt", "quick_stop", "disable", "enable", "home", "reset_fault"}) {
-            const bool stops =
-                std::string_view(word) == "halt" || std::string_view(word) == "quick_stop";
-            const auto a = from(far_peer, "POST", "/api/v1/axes/feeder/commands", R"({"command":")" + std::string(word) + "\"}", headers);
+            const bool stops = std::string_view(word) == "halt" || std::string_view(word) == "quick_stop";
+            const auto a =
+                from(faraway_peer, "POST", "/api/v1/axes/feeder/commands", R"({"command":")" + std::string(word) + "\"}", headers);
             const Role r = *role_named(role);
             const unsigned wanted = r == Role::none ? 401 : r == Role::viewer && !stops ? 403 : 200;
             EXPECT_EQ(a.status, wanted) << role << " " << word << a.text;
@@ -204,24 +204,26 @@ TEST_F(AccessTest, AChangeOverACookieNeedsItsToken) {
     const auto good = headers.back().second;
     for (const std::string& token : {std::string(), std::string("x"), good + "x", good.substr(1)}) {
         headers.back().second = token;
-        EXPECT_EQ(from(far_peer, "POST", "/api/v1/axes/feeder/commands", R"({"command":"halt"})", headers).at("reason"), "csrf") << token;
-        EXPECT_EQ(from(far_peer, "DELETE", "/api/v1/session", "", headers).at("reason"), "csrf");
-        EXPECT_EQ(from(far_peer, "GET", "/api/v1/axes", "", headers).status, 200u) << "a read needs none";
+        EXPECT_EQ(from(faraway_peer, "POST", "/api/v1/axes/feeder/commands", R"({"command":"halt"})", headers).at("reason"), "csrf")
+            << token;
+        EXPECT_EQ(from(faraway_peer, "DELETE", "/api/v1/session", "", headers).at("reason"), "csrf");
+        EXPECT_EQ(from(faraway_peer, "GET", "/api/v1/axes", "", headers).status, 200u) << "a read needs none";
     }
     headers.pop_back();
-    EXPECT_EQ(from(far_peer, "DELETE", "/api/v1/session", "", headers).status, 403u);
+    EXPECT_EQ(from(faraway_peer, "DELETE", "/api/v1/session", "", headers).status, 403u);
     EXPECT_TRUE(gateway.submitted.empty());
 }
 
 TEST_F(AccessTest, WhoseSessionHasEndedIsNotThisMachine) {
     auto headers = as("viewer");
     ASSERT_EQ(from("127.0.0.1:5", "PUT", "/api/v1/site", "{}", headers).status, 403u) << "a viewer, also on this machine";
-    ASSERT_EQ(from(far_peer, "DELETE", "/api/v1/session", "", headers).status, 204u);
+    ASSERT_EQ(from(faraway_peer, "DELETE", "/api/v1/session", "", headers).status, 204u);
     const auto expires = [](const Answer& a) {
         const auto cookie = a.headers.get("Set-Cookie");
         return cookie.starts_with("axisgate_session=;") && cookie.find("Max-Age=0") != std::string_view::npos;
     };
-    for (const auto& [method, target] : {std::pair{"GET", "/api/v1/axes"}, {"PUT", "/api/v1/site"}, {"GET", "/api/v1/stream"}, {"GET", "/metrics"}}) {
+    for (const auto& [method, target] :
+         {std::pair{"GET", "/api/v1/axes"}, {"PUT", "/api/v1/site"}, {"GET", "/api/v1/stream"}, {"GET", "/metrics"}}) {
         const auto a = from("127.0.0.1:5", method, target, std::string_view(method) == "PUT" ? "{}" : "", headers);
         EXPECT_EQ(a.status, 401u) << target << a.text;
         EXPECT_EQ(a.at("type"), "urn:axisgate:problem:session_ended") << target;
@@ -239,7 +241,8 @@ TEST_F(AccessTest, WhoseSessionHasEndedIsNotThisMachine) {
     EXPECT_TRUE(expires(from("127.0.0.1:5", "DELETE", "/api/v1/session", "", headers)));
     EXPECT_EQ(from("127.0.0.1:5", "POST", "/api/v1/session", R"({"user":"viewer","password":"secret viewer"})", headers).status, 200u);
     EXPECT_EQ(from("127.0.0.1:5", "GET", "/api/v1/axes", "", {{"Cookie", "axisgate_session=; other=1"}}).at("reason"), "session_ended");
-    EXPECT_EQ(from("127.0.0.1:5", "GET", "/api/v1/axes", "", {{"Cookie", "other=1"}}).status, 200u) << "no session cookie at all: this machine";
+    EXPECT_EQ(from("127.0.0.1:5", "GET", "/api/v1/axes", "", {{"Cookie", "other=1"}}).status, 200u)
+        << "no session cookie at all: this machine";
     EXPECT_EQ(from("127.0.0.1:5", "GET", "/api/v1/session").at("ended"), "null");
 }
 
@@ -247,9 +250,9 @@ TEST_F(AccessTest, NobodyConfirmsWhatAnotherApplied) {
     const std::string site = R"({"lines":[],"drives":[],"axes":[],"mappings":[]})";
     ASSERT_EQ(from("127.0.0.1:5", "POST", "/api/v1/site/stage", site).status, 200u);
     ASSERT_EQ(from("127.0.0.1:5", "POST", "/api/v1/site/stage/apply", "{}").status, 200u);
-    EXPECT_EQ(from(far_peer, "POST", "/api/v1/site/stage/confirm", "", as("engineer")).status, 409u);
+    EXPECT_EQ(from(faraway_peer, "POST", "/api/v1/site/stage/confirm", "", as("engineer")).status, 409u);
     EXPECT_EQ(from("127.0.0.1:5", "POST", "/api/v1/site/stage/confirm", "", {{"X-Client", "other"}}).status, 409u);
-    const auto administrator = from(far_peer, "POST", "/api/v1/site/stage/confirm", "", as("administrator"));
+    const auto administrator = from(faraway_peer, "POST", "/api/v1/site/stage/confirm", "", as("administrator"));
     EXPECT_EQ(administrator.status, 409u) << "nor does an administrator from elsewhere";
     EXPECT_NE(administrator.at("detail").find("local 127.0.0.1"), std::string::npos);
     EXPECT_EQ(gateway.confirmed_by, "");
@@ -260,12 +263,12 @@ TEST_F(AccessTest, WhoAppliedConfirmsInTheSameSession) {
     const std::string site = R"({"lines":[],"drives":[],"axes":[],"mappings":[]})";
     const auto first = as("engineer"), second = as("engineer");
     ASSERT_NE(first, second) << "signed in twice";
-    ASSERT_EQ(from(far_peer, "POST", "/api/v1/site/stage", site, first).status, 200u);
-    ASSERT_EQ(from(far_peer, "POST", "/api/v1/site/stage/apply", "{}", first).status, 200u);
-    const auto other = from(far_peer, "POST", "/api/v1/site/stage/confirm", "", second);
+    ASSERT_EQ(from(faraway_peer, "POST", "/api/v1/site/stage", site, first).status, 200u);
+    ASSERT_EQ(from(faraway_peer, "POST", "/api/v1/site/stage/apply", "{}", first).status, 200u);
+    const auto other = from(faraway_peer, "POST", "/api/v1/site/stage/confirm", "", second);
     EXPECT_EQ(other.status, 409u) << "the same user, another session: " << other.text;
     EXPECT_NE(other.text.find("same session"), std::string::npos) << other.text;
-    EXPECT_EQ(from(far_peer, "POST", "/api/v1/site/stage/confirm", "", first).status, 200u);
+    EXPECT_EQ(from(faraway_peer, "POST", "/api/v1/site/stage/confirm", "", first).status, 200u);
 }
 
 TEST_F(AccessTest, LocalAccessIsAnEngineerAndAProxyIsNot) {
@@ -280,14 +283,14 @@ TEST_F(AccessTest, LocalAccessIsAnEngineerAndAProxyIsNot) {
 
 TEST_F(AccessTest, WhoIsToldWithEveryCommand) {
     gateway.at_once = [](const Command&) { return good_result(); };
-    (void)from(far_peer, "POST", "/api/v1/axes/feeder/commands", R"({"command":"halt"})", as("viewer"));
+    (void)from(faraway_peer, "POST", "/api/v1/axes/feeder/commands", R"({"command":"halt"})", as("viewer"));
     EXPECT_EQ(*gateway.submitted.back().origin.who, "viewer 192.0.2.7:5123");
     (void)from("127.0.0.1:5", "POST", "/api/v1/axes/feeder/commands", R"({"command":"halt"})");
     EXPECT_EQ(*gateway.submitted.back().origin.who, "local 127.0.0.1:5");
 }
 
 TEST_F(AccessTest, WrongUserAndWrongPasswordLookAlikeAndAreCompared) {
-    const auto a = from(far_peer, "POST", "/api/v1/session", R"({"user":"viewer","password":"x"})");
+    const auto a = from(faraway_peer, "POST", "/api/v1/session", R"({"user":"viewer","password":"x"})");
     const auto b = from("192.0.2.8:1", "POST", "/api/v1/session", R"({"user":"nobody9","password":"x"})");
     EXPECT_EQ(a.status, 401u);
     EXPECT_EQ(a.text, b.text);
@@ -301,17 +304,17 @@ TEST_F(AccessTest, WrongUserAndWrongPasswordLookAlikeAndAreCompared) {
 
 TEST_F(AccessTest, LockoutAnswersHowLong) {
     for (int i = 0; i < 3; ++i)
-        EXPECT_EQ(from(far_peer, "POST", "/api/v1/session", R"({"user":"viewer","password":"x"})").status, 401u);
-    const auto a = from(far_peer, "POST", "/api/v1/session", R"({"user":"viewer","password":"secret viewer"})");
+        EXPECT_EQ(from(faraway_peer, "POST", "/api/v1/session", R"({"user":"viewer","password":"x"})").status, 401u);
+    const auto a = from(faraway_peer, "POST", "/api/v1/session", R"({"user":"viewer","password":"secret viewer"})");
     EXPECT_EQ(a.status, 429u) << "also the right password waits";
     EXPECT_EQ(a.headers.get("Retry-After"), "1");
     gateway.now_ns += 1'000'000'000;
-    EXPECT_EQ(from(far_peer, "POST", "/api/v1/session", R"({"user":"viewer","password":"secret viewer"})").status, 200u);
+    EXPECT_EQ(from(faraway_peer, "POST", "/api/v1/session", R"({"user":"viewer","password":"secret viewer"})").status, 200u);
 }
 
 TEST_F(AccessTest, CookieIsGuardedAndSecureOverTls) {
     Request r = request("POST", "/api/v1/session", R"({"user":"viewer","password":"secret viewer"})");
-    r.peer = std::string(far_peer);
+    r.peer = std::string(faraway_peer);
     auto cookie = std::string(send(r).headers.get("Set-Cookie"));
     EXPECT_NE(cookie.find("; HttpOnly; SameSite=Strict; Path=/"), std::string::npos) << cookie;
     EXPECT_EQ(cookie.find("Secure"), std::string::npos);
@@ -322,24 +325,24 @@ TEST_F(AccessTest, CookieIsGuardedAndSecureOverTls) {
 
 TEST_F(AccessTest, SignOutEndsTheSession) {
     const auto headers = as("viewer");
-    EXPECT_EQ(from(far_peer, "GET", "/api/v1/axes", "", headers).status, 200u);
-    const auto a = from(far_peer, "DELETE", "/api/v1/session", "", headers);
+    EXPECT_EQ(from(faraway_peer, "GET", "/api/v1/axes", "", headers).status, 200u);
+    const auto a = from(faraway_peer, "DELETE", "/api/v1/session", "", headers);
     EXPECT_EQ(a.status, 204u);
     EXPECT_NE(a.headers.get("Set-Cookie").find("Max-Age=0"), std::string_view::npos);
-    EXPECT_EQ(from(far_peer, "GET", "/api/v1/axes", "", headers).status, 401u);
+    EXPECT_EQ(from(faraway_peer, "GET", "/api/v1/axes", "", headers).status, 401u);
 }
 
 TEST_F(AccessTest, FirstSignInIsOnceAndNeedsTheCode) {
     const std::string body = R"({"code":"abcd-0000","user":"Eva","password":"correct-horse-9"})";
-    EXPECT_EQ(from(far_peer, "POST", "/api/v1/session/first", body).status, 409u);
+    EXPECT_EQ(from(faraway_peer, "POST", "/api/v1/session/first", body).status, 409u);
     access->own_desk = AccessRegister{AccessSettings{}};
-    EXPECT_EQ(from(far_peer, "POST", "/api/v1/session/first", body).status, 401u);
+    EXPECT_EQ(from(faraway_peer, "POST", "/api/v1/session/first", body).status, 401u);
     access->own_desk.load_code(digest_of(plain_code("ABCD-0000")));
-    EXPECT_EQ(from(far_peer, "POST", "/api/v1/session/first", R"({"code":"abcd-0000","user":"Eva","password":"short"})").status, 422u);
+    EXPECT_EQ(from(faraway_peer, "POST", "/api/v1/session/first", R"({"code":"abcd-0000","user":"Eva","password":"short"})").status, 422u);
     access->store_fault = "the disk is full";
-    EXPECT_EQ(from(far_peer, "POST", "/api/v1/session/first", body).status, 507u);
+    EXPECT_EQ(from(faraway_peer, "POST", "/api/v1/session/first", body).status, 507u);
     access->store_fault.clear();
-    const auto a = from(far_peer, "POST", "/api/v1/session/first", body);
+    const auto a = from(faraway_peer, "POST", "/api/v1/session/first", body);
     EXPECT_EQ(a.status, 200u) << a.text;
     EXPECT_EQ(a.at("user"), "eva");
     EXPECT_EQ(a.at("role"), "administrator");
@@ -348,83 +351,88 @@ TEST_F(AccessTest, FirstSignInIsOnceAndNeedsTheCode) {
 
 TEST_F(AccessTest, UsersAreMadeChangedAndRemovedByAdministrators) {
     const auto admin = as("administrator");
-    const auto make = from(far_peer, "POST", "/api/v1/users", R"({"name":"Ben","password":"a-long-sentence-1","role":"operator"})", admin);
+    const auto make =
+        from(faraway_peer, "POST", "/api/v1/users", R"({"name":"Ben","password":"a-long-sentence-1","role":"operator"})", admin);
     ASSERT_EQ(make.status, 201u) << make.text;
     EXPECT_EQ(make.at("name"), "ben");
     EXPECT_EQ(make.headers.get("Location"), "/api/v1/users/ben");
     EXPECT_EQ(access->kept.back().name, "ben");
     EXPECT_EQ(access->kept.back().text->find("a-long-sentence-1\""), access->kept.back().text->find("hash of ") + 8) << "the fake's hash";
     EXPECT_EQ(make.text.find("hash"), std::string::npos);
-    EXPECT_EQ(from(far_peer, "POST", "/api/v1/users", R"({"name":"ben","password":"a-long-sentence-1","role":"operator"})", admin).status,
-              409u);
-    const auto wrong = from(far_peer, "POST", "/api/v1/users", R"({"name":"x y","password":"short","role":"king","more":1})", admin);
+    EXPECT_EQ(
+        from(faraway_peer, "POST", "/api/v1/users", R"({"name":"ben","password":"a-long-sentence-1","role":"operator"})", admin).status,
+        409u);
+    const auto wrong = from(faraway_peer, "POST", "/api/v1/users", R"({"name":"x y","password":"short","role":"king","more":1})", admin);
     EXPECT_EQ(wrong.status, 422u);
     EXPECT_EQ(wrong.object().at("faults").get_array().size(), 4u);
-    EXPECT_EQ(from(far_peer, "PATCH", "/api/v1/users/ben", R"({"role":"engineer"})", admin).at("role"), "engineer");
-    EXPECT_EQ(from(far_peer, "PATCH", "/api/v1/users/administrator", R"({"role":"viewer"})", admin).status, 409u);
-    EXPECT_EQ(from(far_peer, "PATCH", "/api/v1/users/administrator", R"({"enabled":false})", admin).status, 409u);
-    EXPECT_EQ(from(far_peer, "DELETE", "/api/v1/users/administrator", "", admin).status, 409u);
+    EXPECT_EQ(from(faraway_peer, "PATCH", "/api/v1/users/ben", R"({"role":"engineer"})", admin).at("role"), "engineer");
+    EXPECT_EQ(from(faraway_peer, "PATCH", "/api/v1/users/administrator", R"({"role":"viewer"})", admin).status, 409u);
+    EXPECT_EQ(from(faraway_peer, "PATCH", "/api/v1/users/administrator", R"({"enabled":false})", admin).status, 409u);
+    EXPECT_EQ(from(faraway_peer, "DELETE", "/api/v1/users/administrator", "", admin).status, 409u);
     access->store_fault = "the disk is full";
-    EXPECT_EQ(from(far_peer, "DELETE", "/api/v1/users/ben", "", admin).status, 507u);
-    EXPECT_EQ(from(far_peer, "GET", "/api/v1/users/ben", "", admin).status, 200u) << "not stored, not in force";
+    EXPECT_EQ(from(faraway_peer, "DELETE", "/api/v1/users/ben", "", admin).status, 507u);
+    EXPECT_EQ(from(faraway_peer, "GET", "/api/v1/users/ben", "", admin).status, 200u) << "not stored, not in force";
     access->store_fault.clear();
-    EXPECT_EQ(from(far_peer, "DELETE", "/api/v1/users/ben", "", admin).status, 204u);
-    EXPECT_EQ(from(far_peer, "GET", "/api/v1/users/ben", "", admin).status, 404u);
+    EXPECT_EQ(from(faraway_peer, "DELETE", "/api/v1/users/ben", "", admin).status, 204u);
+    EXPECT_EQ(from(faraway_peer, "GET", "/api/v1/users/ben", "", admin).status, 404u);
     access->full = true;
-    EXPECT_EQ(from(far_peer, "POST", "/api/v1/users", R"({"name":"cleo","password":"a-long-sentence-1","role":"viewer"})", admin).status,
-              503u);
+    EXPECT_EQ(
+        from(faraway_peer, "POST", "/api/v1/users", R"({"name":"cleo","password":"a-long-sentence-1","role":"viewer"})", admin).status,
+        503u);
 }
 
 TEST_F(AccessTest, OnesOwnPasswordNeedsTheOldOne) {
     const auto viewer = as("viewer");
+    EXPECT_EQ(from(faraway_peer, "PUT", "/api/v1/users/engineer/password", R"({"old":"secret engineer","new":"a-long-sentence-1"})", viewer)
+                  .status,
+              403u);
+    EXPECT_EQ(from(faraway_peer, "PUT", "/api/v1/users/viewer/password", R"({"old":"wrong","new":"a-long-sentence-1"})", viewer).status,
+              403u);
+    EXPECT_EQ(from(faraway_peer, "PUT", "/api/v1/users/viewer/password", R"({"old":"secret viewer","new":"short"})", viewer).status, 422u);
     EXPECT_EQ(
-        from(far_peer, "PUT", "/api/v1/users/engineer/password", R"({"old":"secret engineer","new":"a-long-sentence-1"})", viewer).status,
-        403u);
-    EXPECT_EQ(from(far_peer, "PUT", "/api/v1/users/viewer/password", R"({"old":"wrong","new":"a-long-sentence-1"})", viewer).status, 403u);
-    EXPECT_EQ(from(far_peer, "PUT", "/api/v1/users/viewer/password", R"({"old":"secret viewer","new":"short"})", viewer).status, 422u);
-    EXPECT_EQ(from(far_peer, "PUT", "/api/v1/users/viewer/password", R"({"old":"secret viewer","new":"a-long-sentence-1"})", viewer).status,
-              204u);
-    EXPECT_EQ(from(far_peer, "GET", "/api/v1/axes", "", viewer).status, 401u) << "his sessions ended";
-    EXPECT_EQ(from(far_peer, "POST", "/api/v1/session", R"({"user":"viewer","password":"a-long-sentence-1"})").status, 200u);
+        from(faraway_peer, "PUT", "/api/v1/users/viewer/password", R"({"old":"secret viewer","new":"a-long-sentence-1"})", viewer).status,
+        204u);
+    EXPECT_EQ(from(faraway_peer, "GET", "/api/v1/axes", "", viewer).status, 401u) << "his sessions ended";
+    EXPECT_EQ(from(faraway_peer, "POST", "/api/v1/session", R"({"user":"viewer","password":"a-long-sentence-1"})").status, 200u);
 }
 
 TEST_F(AccessTest, TokensAreShownOnceAndNotAboveTheirOwner) {
     const auto engineer = as("engineer");
-    EXPECT_EQ(from(far_peer, "POST", "/api/v1/tokens", R"({"name":"line3","role":"administrator"})", engineer).status, 403u);
+    EXPECT_EQ(from(faraway_peer, "POST", "/api/v1/tokens", R"({"name":"line3","role":"administrator"})", engineer).status, 403u);
     EXPECT_EQ(from("127.0.0.1:5", "POST", "/api/v1/tokens", R"({"name":"line3","role":"viewer"})").status, 403u)
         << "local access is no user";
-    const auto made = from(far_peer, "POST", "/api/v1/tokens", R"({"name":"line3","role":"operator","expires_in_s":60})", engineer);
+    const auto made = from(faraway_peer, "POST", "/api/v1/tokens", R"({"name":"line3","role":"operator","expires_in_s":60})", engineer);
     ASSERT_EQ(made.status, 201u) << made.text;
     const Fields bearer{{"Authorization", "Bearer " + made.at("token")}};
     const std::string secret = made.at("token").substr(made.at("token").find('.') + 1);
     EXPECT_EQ(access->kept.back().text->find(secret), std::string::npos) << "stored as a digest";
     for (const auto& e : access->told)
         EXPECT_EQ(e.text.find(secret), std::string::npos);
-    EXPECT_EQ(from(far_peer, "GET", "/api/v1/session", "", bearer).at("role"), "operator");
-    EXPECT_EQ(from(far_peer, "POST", "/api/v1/tokens", R"({"name":"x","role":"viewer"})", bearer).status, 403u)
+    EXPECT_EQ(from(faraway_peer, "GET", "/api/v1/session", "", bearer).at("role"), "operator");
+    EXPECT_EQ(from(faraway_peer, "POST", "/api/v1/tokens", R"({"name":"x","role":"viewer"})", bearer).status, 403u)
         << "a token makes no tokens";
-    const auto list = from(far_peer, "GET", "/api/v1/tokens", "", engineer);
+    const auto list = from(faraway_peer, "GET", "/api/v1/tokens", "", engineer);
     EXPECT_EQ(list.array().size(), 1u);
     EXPECT_EQ(list.text.find(secret), std::string::npos);
-    EXPECT_EQ(from(far_peer, "GET", "/api/v1/tokens", "", as("viewer")).array().size(), 0u);
-    EXPECT_EQ(from(far_peer, "DELETE", "/api/v1/tokens/" + made.at("id"), "", as("viewer")).status, 404u);
+    EXPECT_EQ(from(faraway_peer, "GET", "/api/v1/tokens", "", as("viewer")).array().size(), 0u);
+    EXPECT_EQ(from(faraway_peer, "DELETE", "/api/v1/tokens/" + made.at("id"), "", as("viewer")).status, 404u);
     gateway.now_ns += 60'000'000'000;
-    EXPECT_EQ(from(far_peer, "GET", "/api/v1/axes", "", bearer).status, 401u) << "expired";
-    EXPECT_EQ(from(far_peer, "DELETE", "/api/v1/tokens/" + made.at("id"), "", as("administrator")).status, 204u);
+    EXPECT_EQ(from(faraway_peer, "GET", "/api/v1/axes", "", bearer).status, 401u) << "expired";
+    EXPECT_EQ(from(faraway_peer, "DELETE", "/api/v1/tokens/" + made.at("id"), "", as("administrator")).status, 204u);
     EXPECT_TRUE(access->own_desk.tokens().empty());
 }
 
 TEST_F(AccessTest, LiveFeedIsOverWhenItsSessionIs) {
     const auto headers = as("viewer");
     Request r = request("GET", "/api/v1/stream", "", headers);
-    r.peer = std::string(far_peer);
+    r.peer = std::string(faraway_peer);
     EXPECT_EQ(door.why_not_watched_on(r), "");
-    EXPECT_EQ(from(far_peer, "DELETE", "/api/v1/session", "", headers).status, 204u);
+    EXPECT_EQ(from(faraway_peer, "DELETE", "/api/v1/session", "", headers).status, 204u);
     EXPECT_EQ(door.why_not_watched_on(r), "signed out");
     // A token is not signed out: it ends.
-    const auto made = from(far_peer, "POST", "/api/v1/tokens", R"({"name":"feed","role":"viewer","expires_in_s":60})", as("viewer"));
+    const auto made = from(faraway_peer, "POST", "/api/v1/tokens", R"({"name":"feed","role":"viewer","expires_in_s":60})", as("viewer"));
     Request by_token = request("GET", "/api/v1/stream", "", {{"Authorization", "Bearer " + made.at("token")}});
-    by_token.peer = std::string(far_peer);
+    by_token.peer = std::string(faraway_peer);
     EXPECT_EQ(door.why_not_watched_on(by_token), "");
     gateway.now_ns += 60'000'000'000;
     EXPECT_EQ(door.why_not_watched_on(by_token), "the token has expired or was removed");

@@ -8,20 +8,20 @@ namespace axisgate::modbus {
 namespace {
 using test::bytes;
 using test::hex;
-using Verdict = AduFramer::Verdict;
+using Framed = AduFramer::Verdict;
 
 std::string all(AduFramer& framer) {
     std::string out;
     Adu a;
     for (;;) {
         switch (framer.peek(a)) {
-            case Verdict::need_more:
+            case Framed::need_more:
                 return out;
-            case Verdict::bad_protocol:
+            case Framed::bad_protocol:
                 return out + "bad protocol";
-            case Verdict::bad_length:
+            case Framed::bad_length:
                 return out + "bad length";
-            case Verdict::adu:
+            case Framed::adu:
                 out += std::to_string(a.transaction) + "/" + std::to_string(a.unit) + " " + hex(a.pdu) + "; ";
                 framer.pop();
         }
@@ -39,10 +39,10 @@ TEST(AduFramer, PeekDoesNotTake) {
     AduFramer f;
     f.feed(bytes("00 01 00 00 00 02 01 11"));
     Adu a;
-    EXPECT_EQ(f.peek(a), Verdict::adu);
-    EXPECT_EQ(f.peek(a), Verdict::adu);
+    EXPECT_EQ(f.peek(a), Framed::adu);
+    EXPECT_EQ(f.peek(a), Framed::adu);
     f.pop();
-    EXPECT_EQ(f.peek(a), Verdict::need_more);
+    EXPECT_EQ(f.peek(a), Framed::need_more);
 }
 
 TEST(AduFramer, ByteByByteGivesTheSame) {
@@ -94,7 +94,7 @@ TEST(AduFramer, TheGreatestAduFits) {
     AduFramer f;
     EXPECT_EQ(f.feed(stream), max_adu);
     Adu a;
-    ASSERT_EQ(f.peek(a), Verdict::adu);
+    ASSERT_EQ(f.peek(a), Framed::adu);
     EXPECT_EQ(a.pdu.size(), max_pdu);
 }
 
@@ -109,7 +109,7 @@ TEST(AduFramer, TakesNoMoreThanItsCapacityAndGoesOnWhenTaken) {
     EXPECT_TRUE(f.space().empty());
     Adu a;
     for (int i = 0; i < 1000; ++i) {  // full all the time, and moving through the buffer
-        ASSERT_EQ(f.peek(a), Verdict::adu);
+        ASSERT_EQ(f.peek(a), Framed::adu);
         f.pop();
         ASSERT_EQ(f.feed(one), one.size());
     }
@@ -129,7 +129,7 @@ TEST(AduFramer, KeepsHalfAnAduWhenTheRestMoves) {
     int seen = 0;
     for (std::size_t piece = 1; at < stream.size(); piece = piece % 401 + 7) {
         at += f.feed(std::span(stream).subspan(at, std::min(piece, stream.size() - at)));
-        for (Adu a; f.peek(a) == Verdict::adu; f.pop())
+        for (Adu a; f.peek(a) == Framed::adu; f.pop())
             EXPECT_EQ(a.transaction, seen++);
     }
     EXPECT_EQ(seen, 1000);

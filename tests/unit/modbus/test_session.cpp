@@ -48,7 +48,7 @@ struct SessionTest : testing::Test {
     AxisId axes[4] = {};
 };
 
-const std::string read_one = "03 00 00 00 01", read_answer = "03 02 02 50", control = "06 00 20 00 0F";
+const std::string reading = "03 00 00 00 01", reading_answer = "03 02 02 50", switching_on = "06 00 20 00 0F";
 std::string join(std::initializer_list<std::string> parts) {
     std::string out;
     for (const auto& p : parts)
@@ -57,20 +57,20 @@ std::string join(std::initializer_list<std::string> parts) {
 }
 
 TEST_F(SessionTest, AnswersWithTheSameTransactionAndUnit) {
-    EXPECT_EQ(client.send(adu(0x1234, read_one, 255)), adu(0x1234, read_answer, 255));
+    EXPECT_EQ(client.send(adu(0x1234, reading, 255)), adu(0x1234, reading_answer, 255));
     EXPECT_EQ(client.send(adu(0xFFFF, "64", 0)), adu(0xFFFF, "E4 01", 0));
-    EXPECT_EQ(client.send(adu(1, read_one, 7)), adu(1, "83 0A", 7));
+    EXPECT_EQ(client.send(adu(1, reading, 7)), adu(1, "83 0A", 7));
     EXPECT_EQ(client.last, Work::need_bytes);
 }
 
 TEST_F(SessionTest, AllRequestsOfOneArrivalAreAnsweredTogether) {
-    EXPECT_EQ(client.send(join({adu(1, read_one), adu(2, "11"), adu(3, read_one, 0)})),
-              join({adu(1, read_answer), adu(2, "11 0C 01 FF 61 78 69 73 67 61 74 65 20 30"), adu(3, read_answer, 0)}));
+    EXPECT_EQ(client.send(join({adu(1, reading), adu(2, "11"), adu(3, reading, 0)})),
+              join({adu(1, reading_answer), adu(2, "11 0C 01 FF 61 78 69 73 67 61 74 65 20 30"), adu(3, reading_answer, 0)}));
 }
 
 TEST_F(SessionTest, ByteByByteGivesTheSameAnswers) {
     const auto stream =
-        bytes(join({adu(1, read_one), adu(2, "17 00 00 00 01 00 20 00 01 02 00 0F"), adu(3, "2B 0E 01 02"), adu(4, "08 00 00 AA BB")}));
+        bytes(join({adu(1, reading), adu(2, "17 00 00 00 01 00 20 00 01 02 00 0F"), adu(3, "2B 0E 01 02"), adu(4, "08 00 00 AA BB")}));
     std::string got;
     for (const auto b : stream) {
         const std::string now = client.send(hex(std::span(&b, 1)));
@@ -78,25 +78,26 @@ TEST_F(SessionTest, ByteByByteGivesTheSameAnswers) {
         while (port.answer())
             got += " " + client.work();
     }
-    EXPECT_EQ(got, join({adu(1, read_answer), adu(2, "17 02 02 50"), adu(3, "2B 0E 01 83 00 00 01 02 01 30"), adu(4, "08 00 00 AA BB")}));
+    EXPECT_EQ(got,
+              join({adu(1, reading_answer), adu(2, "17 02 02 50"), adu(3, "2B 0E 01 83 00 00 01 02 01 30"), adu(4, "08 00 00 AA BB")}));
 }
 
 TEST_F(SessionTest, AWriteIsAnsweredWhenTheDriveHas) {
-    EXPECT_EQ(client.send(adu(5, control)), "");
+    EXPECT_EQ(client.send(adu(5, switching_on)), "");
     EXPECT_EQ(client.last, Work::need_bytes);
     EXPECT_EQ(client.session->in_flight(), 1u);
     port.answer();
     EXPECT_EQ(client.wakes, 1);
-    EXPECT_EQ(client.work(), adu(5, control));
+    EXPECT_EQ(client.work(), adu(5, switching_on));
     EXPECT_EQ(client.session->in_flight(), 0u);
 }
 
 TEST_F(SessionTest, AReadBehindAWriteWaitsAndSeesIt) {
-    EXPECT_EQ(client.send(join({adu(5, control), adu(6, "03 00 20 00 01"), adu(7, read_one)})), "");
+    EXPECT_EQ(client.send(join({adu(5, switching_on), adu(6, "03 00 20 00 01"), adu(7, reading)})), "");
     EXPECT_EQ(client.last, Work::waits_for_results);
     EXPECT_EQ(client.session->requests(), 1u);
     port.answer();
-    EXPECT_EQ(client.work(), join({adu(5, control), adu(6, "03 02 00 0F"), adu(7, read_answer)}));
+    EXPECT_EQ(client.work(), join({adu(5, switching_on), adu(6, "03 02 00 0F"), adu(7, reading_answer)}));
 }
 
 TEST_F(SessionTest, AStopIsNotHeldUpByASlowWrite) {
@@ -108,7 +109,7 @@ TEST_F(SessionTest, AStopIsNotHeldUpByASlowWrite) {
 }
 
 TEST_F(SessionTest, AnswersStayInOrderWhenResultsDoNot) {
-    EXPECT_EQ(client.send(join({adu(1, control), adu(2, "06 00 60 00 0F"), adu(3, "06 00 00 00 01"), adu(4, "06 00 A0 00 0F")})), "");
+    EXPECT_EQ(client.send(join({adu(1, switching_on), adu(2, "06 00 60 00 0F"), adu(3, "06 00 00 00 01"), adu(4, "06 00 A0 00 0F")})), "");
     ASSERT_EQ(port.commands.size(), 3u) << "the third is refused without a command";
     std::rotate(port.commands.begin(), port.commands.begin() + 1, port.commands.end());  // axes 2, 3, 1
     port.refuse(Reason::no_answer);
@@ -125,7 +126,7 @@ TEST_F(SessionTest, WhatReadsWaitsForWritesAndHoldsUpWhatFollows) {
     for (const std::string waits :
          {"16 00 20 FF FF 00 00", "17 00 00 00 01 00 20 00 01 02 00 0F", "01 00 00 00 01", "11", "2B 0E 01 00", "64"}) {
         Client c(responder, port);
-        EXPECT_EQ(c.send(join({adu(1, control), adu(2, waits), adu(3, control)})), "");
+        EXPECT_EQ(c.send(join({adu(1, switching_on), adu(2, waits), adu(3, switching_on)})), "");
         EXPECT_EQ(c.last, Work::waits_for_results) << waits;
         EXPECT_EQ(port.commands.size(), 1u) << waits;
         while (port.answer())
@@ -147,7 +148,7 @@ TEST_F(SessionTest, NothingIsBegunBehindAReadWrite) {
 TEST_F(SessionTest, AtMost32WritesAreOnTheirWay) {
     std::string stream;
     for (std::uint16_t i = 0; i < 40; ++i)
-        stream += adu(i, control) + " ";
+        stream += adu(i, switching_on) + " ";
     EXPECT_EQ(client.send(stream), "");
     EXPECT_EQ(client.last, Work::waits_for_results);
     EXPECT_EQ(port.commands.size(), Session::max_in_flight);
@@ -155,28 +156,28 @@ TEST_F(SessionTest, AtMost32WritesAreOnTheirWay) {
     for (int i = 0; i < 40; ++i) {
         EXPECT_TRUE(port.answer());
         const auto now = client.work();
-        EXPECT_EQ(now, adu(static_cast<std::uint16_t>(i), control));
+        EXPECT_EQ(now, adu(static_cast<std::uint16_t>(i), switching_on));
         EXPECT_LE(port.commands.size(), Session::max_in_flight);
     }
     EXPECT_EQ(client.wakes, 40);
 }
 
 TEST_F(SessionTest, ParameterChannelWritesKeepTheirPlaceInTheOrder) {
-    EXPECT_EQ(client.send(join({adu(1, control), adu(2, "10 00 30 00 03 06 00 00 00 00 00 01"), adu(3, "06 00 32 00 01")})), "");
+    EXPECT_EQ(client.send(join({adu(1, switching_on), adu(2, "10 00 30 00 03 06 00 00 00 00 00 01"), adu(3, "06 00 32 00 01")})), "");
     ASSERT_EQ(port.commands.size(), 2u);
     EXPECT_TRUE(std::holds_alternative<ReadParameter>(port.commands[1].body)) << "the exchange has begun";
     port.answer();
-    EXPECT_EQ(client.work(), join({adu(1, control), adu(2, "10 00 30 00 03"), adu(3, "86 06")}));
+    EXPECT_EQ(client.work(), join({adu(1, switching_on), adu(2, "10 00 30 00 03"), adu(3, "86 06")}));
 }
 
 TEST_F(SessionTest, GarbageEndsItAfterWhatCameBefore) {
-    EXPECT_EQ(client.send(join({adu(1, read_one), "DE AD BE EF 00 00"})), adu(1, read_answer));
+    EXPECT_EQ(client.send(join({adu(1, reading), "DE AD BE EF 00 00"})), adu(1, reading_answer));
     EXPECT_EQ(client.last, Work::not_modbus);
     Client other(responder, port);
-    EXPECT_EQ(other.send(join({adu(1, control), "00 00 00 00 00 01 01"})), "");
+    EXPECT_EQ(other.send(join({adu(1, switching_on), "00 00 00 00 00 01 01"})), "");
     EXPECT_EQ(other.last, Work::waits_for_results) << "the write is still answered";
     port.answer();
-    EXPECT_EQ(other.work(), adu(1, control));
+    EXPECT_EQ(other.work(), adu(1, switching_on));
     EXPECT_EQ(other.last, Work::not_modbus);
 }
 
@@ -185,7 +186,7 @@ TEST_F(SessionTest, TellsHalfRequestsFromWholeOnes) {
     EXPECT_TRUE(client.session->holds_partial());
     client.send("00 00 00 01");
     EXPECT_FALSE(client.session->holds_partial());
-    client.send(join({adu(1, control), adu(2, read_one), "00"}));
+    client.send(join({adu(1, switching_on), adu(2, reading), "00"}));
     EXPECT_FALSE(client.session->holds_partial()) << "not yet known: it waits for the write";
     port.answer();
     client.work();
@@ -215,7 +216,7 @@ TEST_F(SessionTest, AFullOutputIsToldAndNothingIsLost) {
 }
 
 TEST_F(SessionTest, AClientThatHasGoneIsNotTold) {
-    client.send(adu(1, control));
+    client.send(adu(1, switching_on));
     client.session.reset();
     EXPECT_TRUE(port.answer());
     EXPECT_EQ(responder.writer().counters().results_unclaimed.value(), 1u);
@@ -224,8 +225,8 @@ TEST_F(SessionTest, AClientThatHasGoneIsNotTold) {
 
 TEST_F(SessionTest, OneClientsWritesDoNotHoldUpAnother) {
     Client other(responder, port);
-    client.send(join({adu(1, control), adu(2, read_one)}));
-    EXPECT_EQ(other.send(adu(9, read_one)), adu(9, read_answer));
+    client.send(join({adu(1, switching_on), adu(2, reading)}));
+    EXPECT_EQ(other.send(adu(9, reading)), adu(9, reading_answer));
     other.send(adu(10, "06 00 60 00 06"));
     port.commands.pop_front();  // the first client's drive never answers
     port.answer();
@@ -242,7 +243,7 @@ TEST_F(SessionTest, CommandsNow) {
     };
     moving(axes[1], true);
     EXPECT_FALSE(client.session->commands_now(port.image())) << "it commanded nothing";
-    client.send(adu(1, control));
+    client.send(adu(1, switching_on));
     moving(axes[1], false);
     EXPECT_TRUE(client.session->commands_now(port.image())) << "a write is on its way";
     port.answer();

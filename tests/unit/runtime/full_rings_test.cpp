@@ -37,7 +37,7 @@ bool until(Condition condition) {
 }
 
 /// A hot thread that is not running unless a test starts it, a disk thread likewise, and the gateway between them.
-struct Bench {
+struct RingBench {
     TempDir dir;
     FaultVfs vfs;
     std::unique_ptr<Store> store;
@@ -50,7 +50,7 @@ struct Bench {
     boost::asio::io_context warm;
     std::unique_ptr<WarmGateway> gateway;
 
-    Bench() {
+    RingBench() {
         test_time = ns_of(monotonic_now()) + 3'600'000'000'000;  // no timer of the real clock rings meanwhile
         StoreOptions options = options_for(dir.path());
         options.vfs = vfs.name();
@@ -72,7 +72,7 @@ struct Bench {
         gateway = std::make_unique<WarmGateway>(warm, *hot, *cold, Families{}, must(StoreReader::open(options)));
         hot->connect({&gateway->results(), &gateway->samples(), &cold->from_hot()});
     }
-    ~Bench() {
+    ~RingBench() {
         hot->stop();
         cold->stop();
     }
@@ -145,7 +145,7 @@ TEST(FullRings, AGapThatCannotBeToldYetIsToldLaterWithAllThatIsMissing) {
 }
 
 TEST(FullRings, NotesOfTheServiceGoStraightToTheDiskAndAreCountedWhenTheyFindNoPlace) {
-    Bench b;
+    RingBench b;
     b.fill_jobs();  // the hot thread takes nothing more: it is not on their way
     for (std::int32_t i = 1; i <= static_cast<std::int32_t>(service_places) + 2; ++i)
         b.gateway->note(numbered(i));
@@ -161,7 +161,7 @@ TEST(FullRings, NotesOfTheServiceGoStraightToTheDiskAndAreCountedWhenTheyFindNoP
 }
 
 TEST(FullRings, WhoeverAsksIsAnsweredOnceAlthoughNothingCanBeTaken) {
-    Bench b;
+    RingBench b;
     b.gateway->modbus_on_hot = [] { return Gateway::ModbusReport{}; };
     registers::RegisterImage image(*b.hot, {});
     b.gateway->use_registers(image);
@@ -180,14 +180,15 @@ TEST(FullRings, WhoeverAsksIsAnsweredOnceAlthoughNothingCanBeTaken) {
     b.gateway->scan_report(LineId{0},
                            [&](const ScanReport& r) { told("scan_report", r.state == ScanReport::State::failed ? r.text : "not failed"); });
     b.gateway->modbus_report([&](auto report) { told("modbus_report", report ? "report" : "none"); });
-    b.gateway->read_registers(1, registers::Table::holding_registers, 0, 1, [&](auto read) { told("read_registers", read ? "answer" : "none"); });
+    b.gateway->read_registers(1, registers::Table::holding_registers, 0, 1,
+                              [&](auto read) { told("read_registers", read ? "answer" : "none"); });
     b.gateway->events_settled([&] { told("events_settled", ""); });
     b.run_warm();
     b.empty_jobs();
     b.run_warm();
     const std::string later = "too much is asked at once; come again in a moment";
-    const std::map<std::string, std::string> expected{{"hand", "none"},       {"set_hand", later},    {"start_scan", later},
-                                                      {"cancel_scan", later}, {"scan_report", later}, {"modbus_report", "none"},
+    const std::map<std::string, std::string> expected{{"hand", "none"},           {"set_hand", later},    {"start_scan", later},
+                                                      {"cancel_scan", later},     {"scan_report", later}, {"modbus_report", "none"},
                                                       {"read_registers", "none"}, {"events_settled", ""}};
     EXPECT_EQ(said, expected);
     for (const auto& [who, times] : answered)
@@ -195,7 +196,7 @@ TEST(FullRings, WhoeverAsksIsAnsweredOnceAlthoughNothingCanBeTaken) {
 }
 
 TEST(FullRings, CommandsToAThreadThatIsHeldUpAreAnsweredExactlyOnceEach) {
-    Bench b;
+    RingBench b;
     b.hot->start();
     std::promise<void> held, go;
     ASSERT_TRUE(b.hot->jobs().push([&](Engine&, Instant) {
@@ -237,7 +238,7 @@ TEST(FullRings, CommandsToAThreadThatIsHeldUpAreAnsweredExactlyOnceEach) {
 }
 
 TEST(HotClock, AJumpOfAnHourCostsSomeTurnsAndNotOnePerPeriod) {
-    Bench b;
+    RingBench b;
     b.hot->start();
     ASSERT_TRUE(until([&] { return b.hot->turns() > 0; }));
     const auto before = b.hot->reports();
@@ -252,7 +253,7 @@ TEST(HotClock, AJumpOfAnHourCostsSomeTurnsAndNotOnePerPeriod) {
 }
 
 TEST(ColdDisk, AnOrderThatCannotBeSyncedIsReportedAndHealsWithTheDisk) {
-    Bench b;
+    RingBench b;
     b.cold->start();
     const auto order = [&](Ticket t) {
         StoreOrder o;

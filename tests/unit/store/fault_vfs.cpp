@@ -29,11 +29,11 @@ int close_file(sqlite3_file* f) {
     delete file.path;
     return rc;
 }
-int read_file(sqlite3_file* f, void* to, int n, sqlite3_int64 at) {
+int read_bytes(sqlite3_file* f, void* to, int n, sqlite3_int64 at) {
     if (const int rc = file_of(f).owner->verdict(FaultVfs::read); rc != SQLITE_OK) return rc;
     return file_of(f).real->pMethods->xRead(file_of(f).real, to, n, at);
 }
-int write_file(sqlite3_file* f, const void* from, int n, sqlite3_int64 at) {
+int write_bytes(sqlite3_file* f, const void* from, int n, sqlite3_int64 at) {
     File& file = file_of(f);
     if (const int rc = file.owner->verdict(FaultVfs::write); rc != SQLITE_OK) {
         // A full disk takes what still fits: half of it is written, so that what comes after must not trust the length.
@@ -83,9 +83,9 @@ int shm_lock(sqlite3_file* f, int offset, int n, int flags) {
 void shm_barrier(sqlite3_file* f) { file_of(f).real->pMethods->xShmBarrier(file_of(f).real); }
 int shm_unmap(sqlite3_file* f, int remove) { return file_of(f).real->pMethods->xShmUnmap(file_of(f).real, remove); }
 
-const sqlite3_io_methods methods = {2,        close_file,  read_file,      write_file, truncate_file, sync_file,       file_size,
-                                    lock,     unlock,      check_reserved, control,    sector_size,   characteristics, shm_map,
-                                    shm_lock, shm_barrier, shm_unmap,      nullptr,    nullptr};
+const sqlite3_io_methods methods = {2,        close_file,  read_bytes,     write_bytes, truncate_file, sync_file,       file_size,
+                                    lock,     unlock,      check_reserved, control,     sector_size,   characteristics, shm_map,
+                                    shm_lock, shm_barrier, shm_unmap,      nullptr,     nullptr};
 
 int open_file(sqlite3_vfs* v, const char* path, sqlite3_file* f, int flags, int* out_flags) {
     File& file = file_of(f);

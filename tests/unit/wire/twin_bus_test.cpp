@@ -14,23 +14,23 @@ using namespace test;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr Instant t0 = time_zero + std::chrono::seconds(10);
+constexpr Instant begin = time_zero + std::chrono::seconds(10);
 
 TwinBusOptions can_bus(std::uint32_t bit_rate = 1'000'000) { return {LineKind::can, bit_rate, 10, false}; }
 TwinBusOptions wires(std::uint32_t bit_rate, bool full_duplex = false) { return {LineKind::bytes, bit_rate, 10, full_duplex}; }
 
 struct Bus {
     explicit Bus(const TwinBusOptions& o) : bus(o) {
-        bus.open(owner, t0);
-        bus.on_deadline(t0);
+        bus.open(owner, begin);
+        bus.on_deadline(begin);
     }
     ScriptTwin& add(int key, Hearing hearing = {}) {
         auto twin = std::make_unique<ScriptTwin>();
         ScriptTwin& t = *twin;
-        bus.add(static_cast<DriveId>(key), std::move(twin), {}, t0, hearing);
+        bus.add(static_cast<DriveId>(key), std::move(twin), {}, begin, hearing);
         return t;
     }
-    void send(const Frame& f, Instant at = t0, Priority p = Priority::command) { EXPECT_TRUE(bus.send(f, p, at)); }
+    void send(const Frame& f, Instant at = begin, Priority p = Priority::command) { EXPECT_TRUE(bus.send(f, p, at)); }
     void run_to(Instant until) { run(bus, until); }
     [[nodiscard]] std::vector<std::uint32_t> ids() const {
         std::vector<std::uint32_t> v;
@@ -55,28 +55,28 @@ TEST(TwinBusCan, deliversAtTheEndOfTheFrame) {
     twin.hears = [](const Frame&, Instant, Out& out) { out.send(can(0x04280095, {1})); };
     const Frame request = can(0x18FF1234, {1, 2, 3, 4, 5, 6, 7, 8});  // 140 bits with its stuff bits
     b.send(request);
-    EXPECT_EQ(b.bus.deadline(), t0);
-    b.run_to(t0 + us(139));
+    EXPECT_EQ(b.bus.deadline(), begin);
+    b.run_to(begin + us(139));
     EXPECT_TRUE(twin.heard.empty());
-    EXPECT_EQ(b.bus.deadline(), t0 + us(140));
-    b.run_to(t0 + ms(1));
+    EXPECT_EQ(b.bus.deadline(), begin + us(140));
+    b.run_to(begin + ms(1));
     ASSERT_EQ(twin.heard.size(), 1u);
     EXPECT_TRUE(twin.heard[0].first.same(request));
-    EXPECT_EQ(twin.heard[0].second, t0 + us(140));
-    EXPECT_EQ(twin.heard[0].first.at, t0 + us(140));
+    EXPECT_EQ(twin.heard[0].second, begin + us(140));
+    EXPECT_EQ(twin.heard[0].first.at, begin + us(140));
     ASSERT_EQ(b.owner.sent.size(), 1u);
-    EXPECT_EQ(b.owner.sent[0].at, t0 + us(140));
+    EXPECT_EQ(b.owner.sent[0].at, begin + us(140));
     ASSERT_EQ(b.owner.frames.size(), 1u);
-    EXPECT_EQ(b.owner.frames[0].at, t0 + us(140 + 3 + 77));  // three bits of intermission, then the answer's 77
+    EXPECT_EQ(b.owner.frames[0].at, begin + us(140 + 3 + 77));  // three bits of intermission, then the answer's 77
     EXPECT_EQ(b.bus.deadline(), never);
 }
 
 TEST(TwinBusCan, takesLongerAtALowerBitRate) {
     Bus b(can_bus(125'000));
     b.send(can(0x04280095, {1}));
-    b.run_to(t0 + ms(2));
+    b.run_to(begin + ms(2));
     ASSERT_EQ(b.owner.sent.size(), 1u);
-    EXPECT_EQ(b.owner.sent[0].at, t0 + us(77 * 8));
+    EXPECT_EQ(b.owner.sent[0].at, begin + us(77 * 8));
 }
 
 TEST(TwinBusCan, arbitratesLowestIdentifierFirstAmongAllNodes) {
@@ -84,15 +84,15 @@ TEST(TwinBusCan, arbitratesLowestIdentifierFirstAmongAllNodes) {
     b.keep_order();
     for (const int id : {7, 3, 5}) {
         ScriptTwin& t = b.add(id);
-        t.next = t0 + us(50);
+        t.next = begin + us(50);
         t.due = [id](Instant, Out& out) {
             out.send(can(static_cast<std::uint32_t>(id) * 16));
             out.send(can(1));  // behind it: a node offers one frame at a time
         };
-        (void)b.bus.set_hand(static_cast<DriveId>(id), "", {}, t0);  // so that the bus looks at the deadline
+        (void)b.bus.set_hand(static_cast<DriveId>(id), "", {}, begin);  // so that the bus looks at the deadline
     }
-    b.send(can(4 * 16), t0 + us(50));
-    b.run_to(t0 + ms(5));
+    b.send(can(4 * 16), begin + us(50));
+    b.run_to(begin + ms(5));
     EXPECT_THAT(b.ids(), ElementsAre(3 * 16, 1, 4 * 16, 5 * 16, 1, 7 * 16, 1));
 }
 
@@ -101,12 +101,12 @@ TEST(TwinBusCan, aWaitingFrameLosesToALowerOneThatCameLater) {
     b.keep_order();
     b.add(1);
     b.send(can(100));
-    b.send(can(90), t0 + us(1));
-    b.bus.on_deadline(t0 + us(2));
+    b.send(can(90), begin + us(1));
+    b.bus.on_deadline(begin + us(2));
     ScriptTwin& twin = b.add(2);
     twin.shout = can(80);
-    EXPECT_EQ(b.bus.set_hand(DriveId{2}, "shout", true, t0 + us(20)), "");
-    b.run_to(t0 + ms(1));
+    EXPECT_EQ(b.bus.set_hand(DriveId{2}, "shout", true, begin + us(20)), "");
+    b.run_to(begin + ms(1));
     EXPECT_THAT(b.ids(), ElementsAre(100, 80, 90));  // the one on the wire is not interrupted
 }
 
@@ -115,11 +115,11 @@ TEST(TwinBusCan, urgentFramesOfTheHostGoFirstWithinTheHost) {
     b.keep_order();
     ScriptTwin& twin = b.add(1);
     twin.shout = can(50);
-    (void)b.bus.set_hand(DriveId{1}, "shout", true, t0);
-    b.send(can(10), t0, Priority::poll);
-    b.send(can(20), t0, Priority::command);
-    b.send(can(60), t0, Priority::urgent);
-    b.run_to(t0 + ms(1));
+    (void)b.bus.set_hand(DriveId{1}, "shout", true, begin);
+    b.send(can(10), begin, Priority::poll);
+    b.send(can(20), begin, Priority::command);
+    b.send(can(60), begin, Priority::urgent);
+    b.run_to(begin + ms(1));
     // The host offers its stop (60), which loses the bus to the twin's 50 and then goes before its own lower ones.
     EXPECT_THAT(b.ids(), ElementsAre(50, 60, 20, 10));
 }
@@ -131,10 +131,10 @@ TEST(TwinBusCan, hasNoWireTimeAtBitRateZero) {
         if (f.id == 1) out.send(can(2));
     };
     b.send(can(1));
-    b.bus.on_deadline(t0);
+    b.bus.on_deadline(begin);
     ASSERT_EQ(b.owner.frames.size(), 1u);
-    EXPECT_EQ(b.owner.frames[0].at, t0);
-    EXPECT_EQ(b.bus.status(t0).load, 0.0);
+    EXPECT_EQ(b.owner.frames[0].at, begin);
+    EXPECT_EQ(b.bus.status(begin).load, 0.0);
 }
 
 TEST(TwinBusCan, everybodyHearsEverybodyElse) {
@@ -142,9 +142,9 @@ TEST(TwinBusCan, everybodyHearsEverybodyElse) {
     ScriptTwin& one = b.add(1);
     ScriptTwin& two = b.add(2);
     one.shout = can(11);
-    (void)b.bus.set_hand(DriveId{1}, "shout", true, t0);
-    b.send(can(12), t0);
-    b.run_to(t0 + ms(1));
+    (void)b.bus.set_hand(DriveId{1}, "shout", true, begin);
+    b.send(can(12), begin);
+    b.run_to(begin + ms(1));
     ASSERT_EQ(one.heard.size(), 1u);  // not its own
     EXPECT_EQ(one.heard[0].first.id, 12u);
     ASSERT_EQ(two.heard.size(), 2u);
@@ -160,7 +160,7 @@ TEST(TwinBusCan, aHearingHintSparesCalls) {
     ScriptTwin& all = b.add(3);
     b.send(can(0x101));
     b.send(can(0x202));
-    b.run_to(t0 + ms(1));
+    b.run_to(begin + ms(1));
     EXPECT_EQ(one.heard.size(), 1u);
     EXPECT_EQ(two.heard.size(), 1u);
     EXPECT_EQ(all.heard.size(), 2u);
@@ -182,15 +182,15 @@ std::vector<std::string> conversation(Duration step) {
             p->next = now + us(170);
         };
         t.due = [=](Instant now, Out& out) {
-            if (now < t0 + ms(5)) out.send(can(static_cast<std::uint32_t>(500 + key)));
+            if (now < begin + ms(5)) out.send(can(static_cast<std::uint32_t>(500 + key)));
         };
     }
     b.owner.hears = [&](const Frame& f) { note("host", f, f.at); };
     b.owner.has_sent = [&](const Frame& f) { note("sent", f, f.at); };
     b.send(can(1));
-    for (Instant t = t0; t <= t0 + ms(20); t += step)
+    for (Instant t = begin; t <= begin + ms(20); t += step)
         b.bus.on_deadline(t);
-    b.bus.on_deadline(t0 + ms(20));
+    b.bus.on_deadline(begin + ms(20));
     return log;
 }
 
@@ -205,16 +205,16 @@ TEST(TwinBusCan, aFrameSentNowDoesNotTravelBackToEventsThatAreStillDue) {
     Bus b(can_bus());
     b.keep_order();
     ScriptTwin& twin = b.add(1);
-    twin.next = t0 + us(10);
+    twin.next = begin + us(10);
     twin.due = [](Instant, Out& out) { out.send(can(900)); };
-    (void)b.bus.set_hand(DriveId{1}, "", {}, t0);
+    (void)b.bus.set_hand(DriveId{1}, "", {}, begin);
     // The owner is late: at 10 ms it sends before it has let the bus go on.
-    b.send(can(1), t0 + ms(10));
-    b.bus.on_deadline(t0 + ms(11));
+    b.send(can(1), begin + ms(10));
+    b.bus.on_deadline(begin + ms(11));
     ASSERT_EQ(b.all.size(), 2u);
     EXPECT_EQ(b.all[0].id, 900u);
-    EXPECT_LT(b.all[0].at, t0 + us(200));
-    EXPECT_GE(b.all[1].at, t0 + ms(10));
+    EXPECT_LT(b.all[0].at, begin + us(200));
+    EXPECT_GE(b.all[1].at, begin + ms(10));
 }
 
 TEST(TwinBusCan, callsTwinsAtTheirDeadlinesInOrderOfTime) {
@@ -223,27 +223,27 @@ TEST(TwinBusCan, callsTwinsAtTheirDeadlinesInOrderOfTime) {
     std::vector<ScriptTwin*> twins;
     for (int key = 0; key < 50; ++key) {
         ScriptTwin& t = b.add(key);
-        t.next = t0 + us((key * 37) % 50 + 1);
+        t.next = begin + us((key * 37) % 50 + 1);
         t.due = [&order, key](Instant, Out&) { order.push_back((key * 37) % 50); };
-        (void)b.bus.set_hand(static_cast<DriveId>(key), "", {}, t0);
+        (void)b.bus.set_hand(static_cast<DriveId>(key), "", {}, begin);
         twins.push_back(&t);
     }
     b.bus.remove(DriveId{7});
-    EXPECT_EQ(b.bus.deadline(), t0 + us(1));
-    b.bus.on_deadline(t0 + ms(1));
+    EXPECT_EQ(b.bus.deadline(), begin + us(1));
+    b.bus.on_deadline(begin + ms(1));
     EXPECT_EQ(order.size(), 49u);
     EXPECT_TRUE(std::ranges::is_sorted(order));
-    EXPECT_EQ(twins[3]->dues, (std::vector<Instant>{t0 + us((3 * 37) % 50 + 1)}));
+    EXPECT_EQ(twins[3]->dues, (std::vector<Instant>{begin + us((3 * 37) % 50 + 1)}));
 }
 
 TEST(TwinBusCan, aTwinThatIsAlwaysDueDoesNotStopTheWorld) {
     Bus b(can_bus());
     ScriptTwin& stuck = b.add(1);
-    stuck.next = t0 + us(5);
+    stuck.next = begin + us(5);
     stuck.due = [&stuck](Instant now, Out&) { stuck.next = now; };
-    (void)b.bus.set_hand(DriveId{1}, "", {}, t0);
+    (void)b.bus.set_hand(DriveId{1}, "", {}, begin);
     b.send(can(3));
-    b.bus.on_deadline(t0 + ms(1));
+    b.bus.on_deadline(begin + ms(1));
     EXPECT_EQ(b.owner.sent.size(), 1u);
     EXPECT_GT(stuck.dues.size(), 100u);
 }
@@ -256,22 +256,22 @@ TEST(TwinBusCan, aCallIsBoundedEvenIfTwinsTalkForEverWithoutWireTime) {
     std::size_t heard = 0;
     b.owner.hears = [&](const Frame&) { ++heard; };
     b.send(can(1));
-    b.bus.on_deadline(t0);
+    b.bus.on_deadline(begin);
     EXPECT_LE(heard, TwinBus::max_events_per_call);
     EXPECT_GT(heard, 100u);
-    EXPECT_LE(b.bus.deadline(), t0);  // it goes on at the next turn
+    EXPECT_LE(b.bus.deadline(), begin);  // it goes on at the next turn
 }
 
 TEST(TwinBusCan, aTwinThatFloodsLosesItsOwnFrames) {
     Bus b(can_bus());
     ScriptTwin& twin = b.add(1);
-    twin.next = t0 + us(1);
+    twin.next = begin + us(1);
     twin.due = [](Instant, Out& out) {
         for (int i = 0; i < 300; ++i)
             out.send(can(7));
     };
-    (void)b.bus.set_hand(DriveId{1}, "", {}, t0);
-    b.run_to(t0 + std::chrono::seconds(1));
+    (void)b.bus.set_hand(DriveId{1}, "", {}, begin);
+    b.run_to(begin + std::chrono::seconds(1));
     EXPECT_EQ(b.owner.frames.size(), SendQueue::default_capacity);
     EXPECT_EQ(b.bus.counters().twin_dropped, 300 - SendQueue::default_capacity);
 }
@@ -279,28 +279,28 @@ TEST(TwinBusCan, aTwinThatFloodsLosesItsOwnFrames) {
 TEST(TwinBusCan, refusesWhatDoesNotBelong) {
     Bus b(can_bus());
     ScriptTwin& twin = b.add(1);
-    EXPECT_FALSE(b.bus.send(text("PR P"), Priority::command, t0));
+    EXPECT_FALSE(b.bus.send(text("PR P"), Priority::command, begin));
     Frame report = can(0x40);
     report.kind = Frame::Kind::can_error;
-    EXPECT_FALSE(b.bus.send(report, Priority::command, t0));
+    EXPECT_FALSE(b.bus.send(report, Priority::command, begin));
     twin.shout = text("hello");
-    (void)b.bus.set_hand(DriveId{1}, "shout", true, t0);
-    b.run_to(t0 + ms(1));
+    (void)b.bus.set_hand(DriveId{1}, "shout", true, begin);
+    b.run_to(begin + ms(1));
     EXPECT_EQ(b.bus.counters().foreign, 3u);
-    EXPECT_EQ(b.bus.status(t0).dropped, 2u);
+    EXPECT_EQ(b.bus.status(begin).dropped, 2u);
     EXPECT_TRUE(b.owner.frames.empty());
 }
 
 TEST(TwinBusCan, isBoundedForTheHost) {
     Bus b(can_bus());
     for (std::size_t i = 0; i < SendQueue::default_capacity; ++i)
-        b.send(can(1), t0, Priority::poll);
-    EXPECT_FALSE(b.bus.send(can(2), Priority::command, t0));
-    EXPECT_EQ(b.bus.status(t0).dropped, 1u);
-    EXPECT_EQ(b.bus.status(t0).queued, SendQueue::default_capacity);
-    EXPECT_TRUE(b.bus.send(can(3), Priority::urgent, t0));  // a stop finds room all the same
-    EXPECT_EQ(b.bus.status(t0).dropped, 2u);
-    b.run_to(t0 + std::chrono::seconds(1));
+        b.send(can(1), begin, Priority::poll);
+    EXPECT_FALSE(b.bus.send(can(2), Priority::command, begin));
+    EXPECT_EQ(b.bus.status(begin).dropped, 1u);
+    EXPECT_EQ(b.bus.status(begin).queued, SendQueue::default_capacity);
+    EXPECT_TRUE(b.bus.send(can(3), Priority::urgent, begin));  // a stop finds room all the same
+    EXPECT_EQ(b.bus.status(begin).dropped, 2u);
+    b.run_to(begin + std::chrono::seconds(1));
     EXPECT_EQ(b.owner.sent.front().id, 3u);
     EXPECT_EQ(b.owner.sent.size(), SendQueue::default_capacity);
 }
@@ -309,8 +309,8 @@ TEST(TwinBusCan, measuresItsLoad) {
     Bus b(can_bus());
     for (int i = 0; i < 100; ++i)
         b.send(can(0x15555555, {0x55, 0x55, 0x55, 0x55, 0x55, 0x55, 0x55, 0x55}));  // 128 us each
-    b.run_to(t0 + ms(500));
-    const LineStatus s = b.bus.status(t0 + ms(500));
+    b.run_to(begin + ms(500));
+    const LineStatus s = b.bus.status(begin + ms(500));
     EXPECT_NEAR(s.load, 0.0128, 0.0001);
     EXPECT_EQ(s.frames_out, 100u);
     EXPECT_EQ(s.bytes_out, 800u);
@@ -325,11 +325,11 @@ TEST(TwinBusBytes, chargesEachByte) {
     ScriptTwin& twin = b.add(1);
     twin.hears = [](const Frame&, Instant, Out& out) { out.send(text("0123456789")); };
     b.send(text("PR P\r"));
-    b.run_to(t0 + ms(100));
+    b.run_to(begin + ms(100));
     ASSERT_EQ(twin.heard.size(), 1u);
-    EXPECT_EQ(twin.heard[0].second, t0 + Duration(5'208'333));  // 50 bits at 9600 bit/s
+    EXPECT_EQ(twin.heard[0].second, begin + Duration(5'208'333));  // 50 bits at 9600 bit/s
     ASSERT_EQ(b.owner.frames.size(), 1u);
-    EXPECT_EQ(b.owner.frames[0].at, t0 + Duration(5'208'333) + Duration(10'416'667));
+    EXPECT_EQ(b.owner.frames[0].at, begin + Duration(5'208'333) + Duration(10'416'667));
     EXPECT_EQ(as_text(b.owner.frames[0]), "0123456789");
 }
 
@@ -337,10 +337,10 @@ TEST(TwinBusBytes, oneSenderSendsItsRunsOneAfterTheOther) {
     Bus b(wires(1'000'000));
     b.send(text("aaaa"));
     b.send(text("bb"));
-    b.run_to(t0 + ms(1));
+    b.run_to(begin + ms(1));
     ASSERT_EQ(b.owner.sent.size(), 2u);
-    EXPECT_EQ(b.owner.sent[0].at, t0 + us(40));
-    EXPECT_EQ(b.owner.sent[1].at, t0 + us(60));
+    EXPECT_EQ(b.owner.sent[0].at, begin + us(40));
+    EXPECT_EQ(b.owner.sent[1].at, begin + us(60));
     EXPECT_EQ(b.bus.counters().collisions, 0u);
 }
 
@@ -349,9 +349,9 @@ TEST(TwinBusBytes, twoSendersAtOnceGarbleEachOther) {
     ScriptTwin& one = b.add(1);
     ScriptTwin& two = b.add(2);
     one.shout = text("11111111");  // 0..80 us
-    (void)b.bus.set_hand(DriveId{1}, "shout", true, t0);
-    b.send(text("hhhh"), t0 + us(45));  // 45..85 us: over bytes 4..7 of the twin, and all of its own that end after 45 us
-    b.run_to(t0 + ms(1));
+    (void)b.bus.set_hand(DriveId{1}, "shout", true, begin);
+    b.send(text("hhhh"), begin + us(45));  // 45..85 us: over bytes 4..7 of the twin, and all of its own that end after 45 us
+    b.run_to(begin + ms(1));
     ASSERT_EQ(b.owner.frames.size(), 1u);
     const std::string heard = as_text(b.owner.frames[0]);
     EXPECT_EQ(heard.substr(0, 4), "1111");
@@ -363,7 +363,7 @@ TEST(TwinBusBytes, twoSendersAtOnceGarbleEachOther) {
     for (std::size_t i = 0; i < 4; ++i)
         EXPECT_NE(request[i], 'h') << i;
     EXPECT_EQ(b.bus.counters().collisions, 2u);
-    EXPECT_EQ(b.bus.status(t0 + ms(1)).errors, 2u);
+    EXPECT_EQ(b.bus.status(begin + ms(1)).errors, 2u);
 }
 
 TEST(TwinBusBytes, aThirdSenderDoesNotMakeItGoodAgain) {
@@ -371,9 +371,9 @@ TEST(TwinBusBytes, aThirdSenderDoesNotMakeItGoodAgain) {
     for (const int key : {1, 2, 3}) {
         ScriptTwin& t = b.add(key);
         t.shout = text(std::string(4, static_cast<char>('0' + key)));
-        (void)b.bus.set_hand(static_cast<DriveId>(key), "shout", true, t0);
+        (void)b.bus.set_hand(static_cast<DriveId>(key), "shout", true, begin);
     }
-    b.run_to(t0 + ms(1));
+    b.run_to(begin + ms(1));
     ASSERT_EQ(b.owner.frames.size(), 3u);
     for (const Frame& f : b.owner.frames) {
         for (const char c : as_text(f))
@@ -387,7 +387,7 @@ TEST(TwinBusBytes, backToBackIsNoCollision) {
     ScriptTwin& twin = b.add(1);
     twin.hears = [](const Frame&, Instant, Out& out) { out.send(text("answer")); };  // at once, in the bit after the request's last
     b.send(text("request"));
-    b.run_to(t0 + ms(1));
+    b.run_to(begin + ms(1));
     EXPECT_EQ(b.bus.counters().collisions, 0u);
     ASSERT_EQ(b.owner.frames.size(), 1u);
     EXPECT_EQ(as_text(b.owner.frames[0]), "answer");
@@ -398,9 +398,9 @@ TEST(TwinBusBytes, fullDuplexHasTwoPairsOfWires) {
     ScriptTwin& one = b.add(1);
     ScriptTwin& two = b.add(2);
     one.shout = text("unasked");
-    (void)b.bus.set_hand(DriveId{1}, "shout", true, t0);
+    (void)b.bus.set_hand(DriveId{1}, "shout", true, begin);
     b.send(text("request"));
-    b.run_to(t0 + ms(1));
+    b.run_to(begin + ms(1));
     EXPECT_EQ(b.bus.counters().collisions, 0u);
     ASSERT_EQ(b.owner.frames.size(), 1u);
     EXPECT_EQ(as_text(b.owner.frames[0]), "unasked");
@@ -413,7 +413,7 @@ TEST(TwinBusBytes, twoDrivesOnTheReturnPairCollideAlsoInFullDuplex) {
     for (const int key : {1, 2})
         b.add(key).hears = [](const Frame&, Instant, Out& out) { out.send(text("same address")); };
     b.send(text("?"));
-    b.run_to(t0 + ms(1));
+    b.run_to(begin + ms(1));
     EXPECT_EQ(b.bus.counters().collisions, 2u);
     EXPECT_NE(as_text(b.owner.frames[0]), "same address");
 }
@@ -424,19 +424,21 @@ TEST(TwinBusBytes, aConverterSendsWhatDrivesSayAtOnceOneAfterTheOther) {
     Bus b(o);
     auto& first = b.add(1);
     auto& second = b.add(2);
-    for (auto* t : {&first, &second}) t->hears = [](const Frame&, Instant, Out& out) { out.send(text("0123456789")); };
+    for (auto* t : {&first, &second})
+        t->hears = [](const Frame&, Instant, Out& out) { out.send(text("0123456789")); };
     b.send(text("ask"));
-    b.run_to(t0 + ms(100));
+    b.run_to(begin + ms(100));
     ASSERT_EQ(b.owner.frames.size(), 2u);
-    for (const auto& f : b.owner.frames) EXPECT_EQ(as_text(f), "0123456789");
-    EXPECT_EQ(b.owner.frames[0].at, t0 + ms(13));  // three bytes there, ten back
-    EXPECT_EQ(b.owner.frames[1].at, t0 + ms(23));
+    for (const auto& f : b.owner.frames)
+        EXPECT_EQ(as_text(f), "0123456789");
+    EXPECT_EQ(b.owner.frames[0].at, begin + ms(13));  // three bytes there, ten back
+    EXPECT_EQ(b.owner.frames[1].at, begin + ms(23));
     EXPECT_EQ(first.heard.size(), 1u);  // no drive hears another one's bytes
     EXPECT_EQ(b.bus.counters().collisions, 0u);
-    b.send(text("more"), t0 + ms(100));  // the host has a pair of its own
-    b.run_to(t0 + ms(105));
-    b.send(text("still"), t0 + ms(105));
-    b.run_to(t0 + ms(200));
+    b.send(text("more"), begin + ms(100));  // the host has a pair of its own
+    b.run_to(begin + ms(105));
+    b.send(text("still"), begin + ms(105));
+    b.run_to(begin + ms(200));
     EXPECT_EQ(b.bus.counters().collisions, 0u);
 }
 
@@ -447,10 +449,10 @@ TEST(TwinBusBytes, withoutABitRateNothingCollides) {
             if (as_text(f) == "?") out.send(text("here"));
         };
     b.send(text("?"));
-    b.bus.on_deadline(t0);
+    b.bus.on_deadline(begin);
     ASSERT_EQ(b.owner.frames.size(), 2u);
     EXPECT_EQ(as_text(b.owner.frames[0]), "here");
-    EXPECT_EQ(b.owner.frames[1].at, t0);
+    EXPECT_EQ(b.owner.frames[1].at, begin);
 }
 
 // --- the line as such -----------------------------------------------------------------------------------------------
@@ -459,20 +461,20 @@ TEST(TwinBus, comesUpFromOnDeadlineAndNotFromOpen) {
     Owner owner;
     TwinBus bus(can_bus());
     EXPECT_EQ(bus.deadline(), never);
-    EXPECT_FALSE(bus.send(can(1), Priority::command, t0));  // closed
-    bus.open(owner, t0);
+    EXPECT_FALSE(bus.send(can(1), Priority::command, begin));  // closed
+    bus.open(owner, begin);
     EXPECT_TRUE(owner.states.empty());
-    EXPECT_FALSE(bus.send(can(1), Priority::command, t0));  // not up yet
-    EXPECT_EQ(bus.status(t0).state, LineStatus::State::opening);
-    EXPECT_EQ(bus.deadline(), t0);
-    bus.on_deadline(t0);
+    EXPECT_FALSE(bus.send(can(1), Priority::command, begin));  // not up yet
+    EXPECT_EQ(bus.status(begin).state, LineStatus::State::opening);
+    EXPECT_EQ(bus.deadline(), begin);
+    bus.on_deadline(begin);
     EXPECT_TRUE(owner.up());
     EXPECT_EQ(bus.deadline(), never);
-    EXPECT_EQ(bus.status(t0).dropped, 2u);
+    EXPECT_EQ(bus.status(begin).dropped, 2u);
     bus.close();
-    EXPECT_EQ(bus.status(t0).state, LineStatus::State::closed);
-    EXPECT_EQ(bus.status(t0).text, "closed");
-    EXPECT_FALSE(bus.send(can(1), Priority::command, t0));
+    EXPECT_EQ(bus.status(begin).state, LineStatus::State::closed);
+    EXPECT_EQ(bus.status(begin).text, "closed");
+    EXPECT_FALSE(bus.send(can(1), Priority::command, begin));
     EXPECT_EQ(bus.deadline(), never);
 }
 
@@ -497,7 +499,7 @@ TEST(TwinBus, theOwnerMaySendFromItsEvents) {
         if (f.id < 105) b.send(can(f.id - 99), f.at);
     };
     b.send(can(1));
-    b.run_to(t0 + ms(10));
+    b.run_to(begin + ms(10));
     EXPECT_THAT(b.ids(), ElementsAre(1, 101, 2, 102, 3, 103, 4, 104, 5, 105));
 }
 
@@ -507,7 +509,7 @@ TEST(TwinBus, theOwnerMayCloseOrRemoveFromItsEvents) {
         b.add(1).hears = [](const Frame&, Instant, Out& out) { out.send(can(2)); };
         b.owner.hears = [&](const Frame&) { b.bus.close(); };
         b.send(can(1));
-        b.bus.on_deadline(t0);
+        b.bus.on_deadline(begin);
         EXPECT_EQ(b.owner.frames.size(), 1u);
     }
     Bus b(can_bus(0));
@@ -521,7 +523,7 @@ TEST(TwinBus, theOwnerMayCloseOrRemoveFromItsEvents) {
         if (b.bus.size() < 3) b.add(9);
     };
     b.send(can(1));
-    b.bus.on_deadline(t0);
+    b.bus.on_deadline(begin);
     EXPECT_EQ(b.bus.twin(DriveId{1}), nullptr);
     EXPECT_EQ(b.bus.twin(DriveId{2}), nullptr);
     EXPECT_NE(b.bus.twin(DriveId{3}), nullptr);
@@ -534,17 +536,17 @@ TEST(TwinBusBytes, whatATwinSaysReachesTheHostWhileItIsOnTheWire) {
         ScriptTwin& other = b.add(2);
         ScriptTwin& twin = b.add(1);
         const std::string said(200, 'x');
-        twin.next = t0;
+        twin.next = begin;
         twin.due = [&](Instant, Out& out) { out.send(Frame::run({reinterpret_cast<const std::uint8_t*>(said.data()), said.size()})); };
-        (void)b.bus.set_hand(DriveId{1}, "", {}, t0);
-        b.run_to(t0 + std::chrono::seconds(3));
+        (void)b.bus.set_hand(DriveId{1}, "", {}, begin);
+        b.run_to(begin + std::chrono::seconds(3));
         const Duration byte = Duration{std::chrono::seconds(1)} * 10 / rate;
         std::size_t got = 0;
-        Instant last = t0;
+        Instant last = begin;
         for (const Frame& f : b.owner.frames) {
             got += f.size;
             EXPECT_LE(f.at - last, std::max<Duration>(TwinBus::run_time, byte) + us(1)) << "no byte waits longer";
-            EXPECT_NEAR(static_cast<double>((f.at - t0).count()), static_cast<double>((byte * static_cast<std::int64_t>(got)).count()),
+            EXPECT_NEAR(static_cast<double>((f.at - begin).count()), static_cast<double>((byte * static_cast<std::int64_t>(got)).count()),
                         2e3);
             last = f.at;
         }
@@ -559,16 +561,16 @@ TEST(TwinBus, aRemovedTwinCompletesTheFrameOnTheWireAndNoOther) {
     Bus b(can_bus());
     ScriptTwin& twin = b.add(1);
     ScriptTwin& other = b.add(2);
-    twin.next = t0;
+    twin.next = begin;
     twin.due = [](Instant, Out& out) {
         out.send(can(1));
         out.send(can(2));
     };
-    (void)b.bus.set_hand(DriveId{1}, "", {}, t0);
-    b.bus.on_deadline(t0 + us(10));
+    (void)b.bus.set_hand(DriveId{1}, "", {}, begin);
+    b.bus.on_deadline(begin + us(10));
     b.bus.remove(DriveId{1});
     ScriptTwin& next = b.add(3);  // takes over its place inside the bus, but not its frame
-    b.run_to(t0 + ms(1));
+    b.run_to(begin + ms(1));
     ASSERT_EQ(b.owner.frames.size(), 1u);
     EXPECT_EQ(b.owner.frames[0].id, 1u);
     EXPECT_EQ(other.heard.size(), 1u);
@@ -579,15 +581,15 @@ TEST(TwinBus, aRemovedTwinCompletesTheFrameOnTheWireAndNoOther) {
 TEST(TwinBus, powersTwinsOnWithTheirMemory) {
     Bus b(can_bus());
     auto first = std::make_unique<ScriptTwin>();
-    b.bus.add(DriveId{1}, std::move(first), {{"VM", Value(std::int64_t{5})}}, t0);
+    b.bus.add(DriveId{1}, std::move(first), {{"VM", Value(std::int64_t{5})}}, begin);
     auto* twin = dynamic_cast<ScriptTwin*>(b.bus.twin(DriveId{1}));
     ASSERT_NE(twin, nullptr);
     EXPECT_EQ(twin->powered_on, 1);
     EXPECT_EQ(twin->memory.at("VM"), Value(std::int64_t{5}));
-    b.bus.restart(DriveId{1}, {{"VM", Value(std::int64_t{6})}}, t0 + ms(1));
+    b.bus.restart(DriveId{1}, {{"VM", Value(std::int64_t{6})}}, begin + ms(1));
     EXPECT_EQ(twin->powered_on, 2);
     EXPECT_EQ(twin->memory.at("VM"), Value(std::int64_t{6}));
-    b.bus.restart(DriveId{9}, {}, t0);
+    b.bus.restart(DriveId{9}, {}, begin);
     b.add(1);  // the same key: replaced
     EXPECT_EQ(b.bus.size(), 1u);
     EXPECT_EQ(dynamic_cast<ScriptTwin*>(b.bus.twin(DriveId{1}))->powered_on, 1);
@@ -598,10 +600,10 @@ TEST(TwinBus, theHandReachesTheWire) {
     Bus b(can_bus());
     ScriptTwin& twin = b.add(1);
     twin.shout = can(5);
-    EXPECT_EQ(b.bus.set_hand(DriveId{1}, "shout", true, t0), "");
-    EXPECT_EQ(b.bus.set_hand(DriveId{1}, "dance", true, t0), "no such item: use shout");
-    EXPECT_THAT(b.bus.set_hand(DriveId{2}, "shout", true, t0), HasSubstr("no twin"));
-    b.run_to(t0 + ms(1));
+    EXPECT_EQ(b.bus.set_hand(DriveId{1}, "shout", true, begin), "");
+    EXPECT_EQ(b.bus.set_hand(DriveId{1}, "dance", true, begin), "no such item: use shout");
+    EXPECT_THAT(b.bus.set_hand(DriveId{2}, "shout", true, begin), HasSubstr("no twin"));
+    b.run_to(begin + ms(1));
     EXPECT_EQ(b.owner.frames.size(), 1u);
 }
 

@@ -1,0 +1,32 @@
+// Bytes of LinRS as the drive reads and writes them, low byte first; and its communication states.
+// In: a telegram's data, which may be too short: what is missing reads as 0. Out: numbers, bytes.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace axisgate::linmot::twin {
+
+inline std::uint16_t at16(std::span<const std::uint8_t> d, std::size_t i) {
+    const auto byte = [&](std::size_t k) { return k < d.size() ? d[k] : std::uint8_t{0}; };
+    return static_cast<std::uint16_t>(byte(i) | byte(i + 1) << 8);
+}
+inline std::uint32_t at32(std::span<const std::uint8_t> d, std::size_t i) { return at16(d, i) | std::uint32_t{at16(d, i + 2)} << 16; }
+inline void put(std::vector<std::uint8_t>& v, std::uint32_t value, int bytes) {
+    for (int i = 0; i < bytes; ++i)
+        v.push_back(static_cast<std::uint8_t>(value >> 8 * i));
+}
+enum Comm : std::uint8_t {
+    ok = 0,
+    unfinished = 4,
+    no_upid = 0xC0,
+    usage = 0xC3,
+    not_started = 0xC5,
+    list_end = 0xC6,
+    wrong_size = 0xD1,
+    missing = 0xD4,
+    not_stopped = 0xD7
+};
+
+}  // namespace axisgate::linmot::twin

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <utility>
 
 #include "gateway/engine/engine.hpp"
@@ -70,9 +69,10 @@ std::optional<Refusal> Engine::against(const Axis& a, const SetPoint& p, const A
         if (auto v = a.authority.may(who, now); !v.allowed) return Refusal{Reason::authority, std::move(v.text)};
     }
     // Whatever ended a stream holds: who does not notice, and goes on, must not begin another one with its next cycle.
-    if (!s.on && s.ended_by == who && now - s.ended_heard <= p.good_for)
+    const Duration pause = std::max(p.good_for, s.good_for);
+    if (!s.on && s.ended_by == who && now - s.ended_heard <= pause)
         return Refusal{s.ended_for, fmt::format("the stream is over ({}); send nothing for {} ms before a new one", s.ended_why,
-                                                milliseconds_of(p.good_for))};
+                                                milliseconds_of(pause))};
     if (!a.drive->catalogue->offers_mode(mode)) {
         return Refusal{Reason::not_supported,
                        fmt::format("the drive does not follow streamed set-points of {} (mode {}); it has the modes {}", name_of(p.mode),
@@ -80,7 +80,7 @@ std::optional<Refusal> Engine::against(const Axis& a, const SetPoint& p, const A
     }
     if (p.mode != SetPoint::Mode::torque) {
         if (auto no = beyond_limits(a, p.as_move())) return no;
-    } else if (std::llabs(p.value) > 32767) {
+    } else if (p.value < -32767 || p.value > 32767) {
         return Refusal{Reason::out_of_range, fmt::format("torque {} is outside -32767..32767 thousandths", p.value)};
     }
     if (auto d = a.profile.may_follow(); d.refused) return Refusal{d.reason, std::move(d.text)};

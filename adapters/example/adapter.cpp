@@ -58,6 +58,15 @@ void LineAdapter::on_command(const Command& command, Instant now, Out& out) {
     drive::serve(line_.turns, drives_, t);
 }
 
+void LineAdapter::on_set_point(const SetPoint& p, Instant now, Out& out) {
+    Turn t{now, out};
+    Drive* d = drives_.of(p.axis);
+    if (!d) return;
+    d->follow(p);
+    drive::settle(line_.turns, *d, now);
+    drive::serve(line_.turns, drives_, t);
+}
+
 void LineAdapter::on_frame(const Frame& frame, Instant now, Out& out) {
     Turn t{now, out};
     if (!up_ || frame.kind != Frame::Kind::bytes) return;

@@ -29,6 +29,7 @@ void Drive::line_down(std::string_view why, Turn& t) {
     stops_.clear();
     queue_.clear();
     polls_.clear();
+    set_points_.clear();
     job_.reset();
     tickets_.fail_all(Reason::line_down, why, t.out);
     presence_.report(std::string(why), t.out);
@@ -43,6 +44,7 @@ void Drive::set_axes(const DriveSetup& setup, Turn& t) {
         const auto its = [&](const Command& w) { return w.axis == a.id; };
         tickets_.fail_axis(a.id, Reason::line_down, "the axis was removed or changed", t.out);
         (void)queue_.interrupt(its, "its removal", tickets_, t);
+        set_points_.forget(a.id);
         if (job_ && its(job_->command)) job_.reset();
         polls_.drop(static_cast<drive::Polls::Item>(a.channel));
         if (std::exchange(axes_[static_cast<std::size_t>(a.channel)], {}).moving)  // nobody could stop it any more
@@ -54,7 +56,12 @@ void Drive::set_axes(const DriveSetup& setup, Turn& t) {
     setup_ = setup;
 }
 
+void Drive::follow(const SetPoint& p) {
+    if (presence_.online()) set_points_.put(p);
+}
+
 void Drive::submit(const Command& c, Turn& t) {
+    if (is_urgent(c.body) || drive::is_motion(c.body)) set_points_.forget(c.axis);
     if (drive::admit(c, setup_.name, presence_, queue_, tickets_, t) != drive::Admission::urgent) return;
     const bool off = std::holds_alternative<Disable>(c.body);
     const auto ends = [&](const Command& w) { return w.axis == c.axis && (drive::is_motion(w.body) || (off && std::holds_alternative<Enable>(w.body))); };
@@ -63,6 +70,7 @@ void Drive::submit(const Command& c, Turn& t) {
         tickets_.failed(job_->command.ticket, Reason::interrupted, drive::CommandQueue::interrupted_by(name_of(c.body)), t.out);
         job_.reset();
     }
+    followed_[static_cast<std::size_t>(channel_of(c.axis))] = {};
     exchange_.no_repeats();
     const Step stop{off ? "R20" : "R23", Kind::value, std::holds_alternative<QuickStop>(c.body) ? "1" : "0"};
     if (!stops_.add({c.ticket, telegram(c.axis, stop)}))
@@ -73,7 +81,7 @@ drive::Want Drive::wants(Instant now) const noexcept {
     if (exchange_.active() || presence_.is(Phase::down)) return drive::Want::nothing;
     if (!stops_.empty()) return drive::Want::urgent;
     if (!presence_.online()) return presence_.probe_due(now) ? drive::Want::probe : drive::Want::nothing;
-    if (job_ || !queue_.empty()) return drive::Want::command;
+    if (job_ || !queue_.empty() || !set_points_.empty()) return drive::Want::command;
     const bool moves = std::ranges::any_of(axes_, &AxisFeedback::moving);
     return !polls_.due(now) ? drive::Want::nothing : moves ? drive::Want::quick_poll : drive::Want::poll;
 }
@@ -88,12 +96,16 @@ void Drive::go(Turn& t) {
     }
     while (!job_ && !queue_.empty())
         begin(queue_.pop(), t);
+    const bool poll_first = streamed_last_ && polls_.due(t.now);  // where the axis is must be seen, however fast set-points come
+    streamed_last_ = !job_ && !set_points_.empty() && !poll_first;
+    if (streamed_last_) job_ = job_for(set_points_.take());
     if (job_) {
         Step& s = job_->steps[job_->at];
         if (std::exchange(s.from_here, false))
             s.text = std::to_string(std::atoll(s.text.c_str()) + axes_[static_cast<std::size_t>(channel_of(job_->command.axis))].position);
-        const bool native = std::holds_alternative<Native>(job_->command.body);
-        return send({Ask::Why::step, telegram(job_->command.axis, s), job_->command.ticket}, native ? 0 : line_.timing.retries, t);
+        // A streamed set-point is not repeated: the next one is newer.
+        const bool once = std::holds_alternative<Native>(job_->command.body) || job_->command.ticket == no_ticket;
+        return send({Ask::Why::step, telegram(job_->command.axis, s), job_->command.ticket}, once ? 0 : line_.timing.retries, t);
     }
     if (const auto channel = polls_.next(t.now))
         send({Ask::Why::poll, {address_, static_cast<int>(*channel), "S00", Kind::read, {}}, no_ticket}, 0, t);
@@ -167,13 +179,17 @@ void Drive::on_deadline(Turn& t) {
     line_.turns.ended(slot_);
     late_.add(mark_of(ask.telegram));
     if (ask.why == Ask::Why::stop && !stops_.empty()) stops_.remove(stops_.first());
-    if (ask.why == Ask::Why::step && job_ && job_->command.ticket == ask.ticket) job_.reset();
+    if (ask.why == Ask::Why::step && job_ && job_->command.ticket == ask.ticket) {
+        followed_[static_cast<std::size_t>(channel_of(job_->command.axis))] = {};
+        job_.reset();
+    }
     tickets_.failed(ask.ticket, Reason::no_answer, ask.telegram.item + " was not answered: whether the drive took it is not known", t.out);
     const auto silence = presence_.silent(t.now);
     if (silence == Presence::Silence::counted) return;
     // Stops that were not sent yet still are: a drive that is not heard may hear.
     queue_.clear();
     polls_.clear();
+    set_points_.clear();
     job_.reset();
     tickets_.fail_all(Reason::no_answer, "the drive does not answer", t.out);
     presence_.report("the drive does not answer", t.out);

@@ -11,6 +11,7 @@
 #include "gateway/drive/exchange.hpp"
 #include "gateway/drive/notices.hpp"
 #include "gateway/drive/polls.hpp"
+#include "gateway/drive/set_points.hpp"
 #include "gateway/drive/turns.hpp"
 
 namespace axisgate::example {
@@ -38,6 +39,7 @@ public:
     /// The site has other axes of this drive: those that stay go on.
     void set_axes(const DriveSetup& setup, Turn& t);
     void submit(const Command& command, Turn& t);
+    void follow(const SetPoint& set_point);
     void on_telegram(const Telegram& telegram, Turn& t);
     // asked by drive::settle, serve and wake
     [[nodiscard]] drive::Want wants(Instant now) const noexcept;
@@ -82,6 +84,7 @@ private:
     [[nodiscard]] int channel_of(AxisId axis) const noexcept;
     // motion.cpp
     void begin(Command command, Turn& t);
+    [[nodiscard]] Job job_for(const SetPoint& set_point);
     [[nodiscard]] std::string plan(Job& job, Reason& reason) const;
     void step_answered(const Telegram& answer, Turn& t);
 
@@ -96,6 +99,9 @@ private:
     drive::Exchange<Ask> exchange_;
     drive::LateMarks<Telegram, 8> late_;  ///< by address, axis and item: what an answer can be told by
     drive::Polls polls_;                  ///< items are channels
+    drive::SetPoints set_points_;
+    bool streamed_last_ = false;
+    std::array<Move, channels + 1> followed_;  ///< by channel: whose ramps and speed the drive was told last by a stream
     std::optional<Job> job_;
     std::array<AxisFeedback, channels + 1> axes_;  ///< by channel
 };

@@ -12,7 +12,26 @@ void Drive::begin(Command command, Turn& t) {
     Reason reason = Reason::not_supported;
     std::string why = plan(job, reason);
     if (!why.empty()) return void(tickets_.refused(job.command.ticket, reason, std::move(why), t.out));
+    followed_[static_cast<std::size_t>(channel_of(job.command.axis))] = {};  // it may set what a stream has set
     job_ = std::move(job);
+}
+
+/// A motion without a ticket. Speed and ramps are settings that the drive keeps: they are told again only where they change.
+Drive::Job Drive::job_for(const SetPoint& p) {
+    Job job{{}, {}, 0};
+    job.command.axis = p.axis;
+    const Move wanted = p.as_move();
+    job.command.body = wanted;
+    Move& told = followed_[static_cast<std::size_t>(channel_of(p.axis))];
+    const auto write = [&](const char* item, std::int64_t v) { job.steps.push_back({item, Kind::value, std::to_string(v)}); };
+    const auto setting = [&](const char* item, const std::optional<std::int64_t>& v, std::optional<std::int64_t>& before) {
+        if (v && v != before) write(item, *(before = v));
+    };
+    setting("R07", wanted.acceleration, told.acceleration);
+    setting("R08", wanted.deceleration, told.deceleration);
+    setting("R06", wanted.velocity, told.velocity);
+    write(p.mode == SetPoint::Mode::velocity ? "R22" : "R21", p.value);
+    return job;
 }
 
 /// Empty, or why it is refused.
@@ -68,6 +87,12 @@ void Drive::step_answered(const Telegram& answer, Turn& t) {
     if (answer.kind == Kind::refused && !std::holds_alternative<Native>(c.body)) {
         const int code = std::atoi(answer.text.c_str());
         const ErrorCode* known = line_.catalogue.error(code);
+        if (c.ticket == no_ticket && std::holds_alternative<Move>(c.body)) {
+            followed_[static_cast<std::size_t>(channel_of(c.axis))] = {};
+            t.out.stream_ends.push_back(
+                {c.axis, Reason::drive_refused,
+                 fmt::format("{}={}: {}", answer.item, job.steps[job.at].text, known ? known->text : "code " + answer.text)});
+        }
         tickets_.refused(c.ticket, Reason::drive_refused,
                          fmt::format("{}={}: {}", answer.item, job.steps[job.at].text, known ? known->text : "code " + answer.text), t.out,
                          code);
@@ -76,6 +101,10 @@ void Drive::step_answered(const Telegram& answer, Turn& t) {
     if (!last) return void(++job.at);
     const int channel = channel_of(c.axis);
     AxisFeedback& fb = axes_[static_cast<std::size_t>(channel)];
+    if (c.ticket == no_ticket) {
+        if (!fb.moving) (void)polls_.soon(static_cast<drive::Polls::Item>(channel), t.now);
+        return job_.reset();
+    }
     if (std::holds_alternative<Move>(c.body)) {
         fb.target_reached = false;  // the old "reached" must not stand for the new target
         fb.moving = true;

@@ -94,6 +94,16 @@ void LineAdapter::on_command(const Command& command, Instant now, Out& out) {
     pump(t);
 }
 
+void LineAdapter::on_set_point(const SetPoint& p, Instant now, Out& out) {
+    Turn t{now, out};
+    last_ = now;
+    Drive* d = roster_.of(p.axis);
+    if (!d) return;
+    d->follow(p);
+    settle(*d, t);
+    pump(t);
+}
+
 void LineAdapter::on_frame(const Frame& frame, Instant now, Out& out) {
     Turn t{now, out};
     last_ = now;

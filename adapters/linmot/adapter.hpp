@@ -21,6 +21,7 @@ public:
     void configure(const LineSetup& setup, Instant now, Out& out) override;
     void on_line(bool up, Instant now, Out& out) override;
     void on_command(const Command& command, Instant now, Out& out) override;
+    void on_set_point(const SetPoint& set_point, Instant now, Out& out) override;
     void on_frame(const Frame& frame, Instant now, Out& out) override;
     void on_deadline(Instant now, Out& out) override;
     [[nodiscard]] Instant deadline() const override;

@@ -74,7 +74,10 @@ void Drive::end_job(Outcome outcome, Reason reason, std::string text, Turn& t, s
     std::vector<std::uint8_t> bytes =
         std::holds_alternative<Native>(job_.command.body) ? std::move(job_.bytes) : std::vector<std::uint8_t>();
     if (outcome == Outcome::refused && reason == Reason::drive_refused) ++bus_.counters.refused;
+    const bool streamed = ticket == no_ticket && std::holds_alternative<Move>(job_.command.body);
     job_ = {};
+    if (streamed && outcome != Outcome::accepted && reason != Reason::interrupted)
+        t.out.stream_ends.push_back({axis_, reason, text});
     tickets_.answer(ticket, outcome, reason, std::move(text), t.out, code, std::move(value), std::move(bytes));
 }
 

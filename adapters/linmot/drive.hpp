@@ -21,6 +21,7 @@
 #include "gateway/drive/notices.hpp"
 #include "gateway/drive/polls.hpp"
 #include "gateway/drive/presence.hpp"
+#include "gateway/drive/set_points.hpp"
 #include "gateway/drive/tickets.hpp"
 #include "gateway/drive/timing.hpp"
 #include "gateway/drive/turn.hpp"
@@ -59,6 +60,7 @@ public:
     void line_down(Turn& t, std::string_view why);
     void remove(Turn& t, std::string_view why);
     void submit(const Command& command, Turn& t);
+    void follow(const SetPoint& set_point);
     [[nodiscard]] drive::Want wants(Instant now) const noexcept;
     [[nodiscard]] Instant deadline() const noexcept { return exchange_.deadline(); }
     [[nodiscard]] Instant wish() const noexcept;
@@ -193,6 +195,7 @@ private:
     drive::Presence presence_;
     drive::Exchange<Request> exchange_;
     drive::CommandQueue queue_;
+    drive::SetPoints set_points_;
     drive::Tickets tickets_;
     drive::Notices notices_;
     drive::PollTimer poll_;

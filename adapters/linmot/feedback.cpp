@@ -81,6 +81,12 @@ void Drive::tell(Turn& t) {
     fb_.error_code = in_error() ? sub : std::uint16_t{0};
     fb_.internal_limit = fb_.fault && (sub == 0x07 || sub == 0x08 || sub == 0x87 || sub == 0x88);
     fb_.quick_stopping = main == state::aborting || main == state::quick_stop;
+    // Its own state, as CiA 402 codes it. Not below: there it follows from the control word that this gateway keeps, not from a client's.
+    const bool standing_by = main == state::tests || main == state::ready_to_operate;
+    fb_.statusword = fb_.quick_stopping       ? std::optional<std::uint16_t>(0x0007)
+                     : main >= state::enabled ? std::optional<std::uint16_t>(0x0027)
+                     : standing_by            ? std::optional<std::uint16_t>(0x0023)
+                                              : std::nullopt;
     fb_.homing = main == state::homing && sub != finished;
     const bool own_motion = (main == state::homing || main == 10 || main == state::initial || main == 15) && sub != finished;
     const bool braking = main == state::aborting || main == state::freezing || main == state::quick_stop;

@@ -15,7 +15,7 @@ Want Drive::wants(Instant now) const noexcept {
     if (!stops_.empty()) return Want::urgent;
     if (!presence_.is(Phase::ready) && !presence_.is(Phase::starting)) return presence_.probe_due(now) ? Want::probe : Want::nothing;
     if (reading_.core_pending() || release_home_) return Want::command;
-    if (job_.active ? now >= job_.not_before : !queue_.empty()) return Want::command;
+    if (job_.active ? now >= job_.not_before : !queue_.empty() || !set_points_.empty()) return Want::command;
     if (poll_.due(now)) return fb_.moving ? Want::quick_poll : Want::poll;
     return Want::nothing;
 }
@@ -26,7 +26,7 @@ Instant Drive::wish() const noexcept {
     if (presence_.is(Phase::ready) || presence_.is(Phase::starting)) {
         at = std::min(at, poll_.deadline());
         if (job_.active) at = std::min(at, job_.not_before);
-        if (release_home_ || reading_.core_pending() || (!job_.active && !queue_.empty())) at = Instant{};
+        if (release_home_ || reading_.core_pending() || (!job_.active && (!queue_.empty() || !set_points_.empty()))) at = Instant{};
     }
     if (!stops_.empty()) at = Instant{};
     return std::max(at, late_.until());
@@ -51,6 +51,13 @@ void Drive::go(Turn& t) {
     // Commands that end at once make room for the next one.
     while (!job_.active && !queue_.empty())
         begin_job(t);
+    if (!job_.active && !set_points_.empty()) {  // a move without a ticket; its answers say where the axis is, so no poll is held up
+        Command c;
+        c.axis = axis_;
+        c.body = set_points_.take().as_move();
+        (void)queue_.push(std::move(c));
+        begin_job(t);
+    }
     if (job_.active && t.now >= job_.not_before) {
         if (auto telegram = job_request(t)) {
             Request r{std::move(*telegram), Purpose::job};

@@ -58,6 +58,7 @@ void Drive::remove(Turn& t, std::string_view why) {
 /// Forgets what only a drive that answers can know. With a reason: everything that waits ends by it.
 void Drive::lost(Turn& t, std::string why) {
     queue_.clear();
+    set_points_.clear();
     stops_.clear();
     job_ = {};
     poll_.stop();

@@ -9,7 +9,12 @@ namespace {
 constexpr std::size_t most_stops = 16;
 }
 
+void Drive::follow(const SetPoint& p) {
+    if (p.axis == axis_ && presence_.online()) set_points_.put(p);
+}
+
 void Drive::submit(const Command& command, Turn& t) {
+    if (is_urgent(command.body) || drive::is_motion(command.body)) set_points_.clear();
     switch (drive::admit(command, title(), presence_, queue_, tickets_, t)) {
         case drive::Admission::urgent:
             return begin_stop(command, t);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <utility>
 
 namespace axisgate {
 using namespace cia402;
@@ -48,6 +49,14 @@ void AxisProfile::forget_motion(State& s) {
     s.target_velocity = 0;
     s.setpoint_acknowledged = false;
     s.halted = false;
+    leave_stream(s);
+}
+
+/// Back to the mode before it, unless somebody has chosen another one since.
+void AxisProfile::leave_stream(State& s) {
+    if (!std::exchange(s.following, false) || s.mode < mode_cyclic_position || s.mode > mode_cyclic_torque) return;
+    s.mode = s.mode_before;
+    s.target_velocity = 0;
 }
 
 void AxisProfile::order_on(State& s, const AuthorityClient& by, Decision& d) {
@@ -97,8 +106,10 @@ void AxisProfile::settle(State& s) const {
         s.state = PowerState::not_ready_to_switch_on;
         return;
     }
+    const auto own = s.feedback.statusword ? std::optional(power_state_of(*s.feedback.statusword)) : std::nullopt;
     if (s.feedback.fault) {
-        s.state = s.feedback.moving ? PowerState::fault_reaction_active : PowerState::fault;
+        const bool told = own == PowerState::fault || own == PowerState::fault_reaction_active;
+        s.state = told ? *own : s.feedback.moving ? PowerState::fault_reaction_active : PowerState::fault;
         s.virtual_step = 0;
         s.quick_stopped = false;
         s.active.reset();
@@ -108,7 +119,8 @@ void AxisProfile::settle(State& s) const {
     if (s.feedback.power == AxisFeedback::Power::on) {
         if (s.power_pending == 0) return;  // it will be off soon; the answer decides
         // The drive may have been stopped at itself: by its own panel, an input, or another master. It is left like any quick stop.
-        const bool stopped = s.quick_stopped || (s.feedback.quick_stopping && s.power_pending != 1);
+        const bool stopping = s.feedback.quick_stopping || own == PowerState::quick_stop_active;
+        const bool stopped = s.quick_stopped || (stopping && s.power_pending != 1);
         if (stopped && s.state == PowerState::operation_enabled) forget_motion(s);
         s.state = stopped ? PowerState::quick_stop_active : PowerState::operation_enabled;
         return;
@@ -119,9 +131,17 @@ void AxisProfile::settle(State& s) const {
         forget_motion(s);
     }
     s.quick_stopped = false;
-    s.state = s.virtual_step == 1   ? PowerState::ready_to_switch_on
-              : s.virtual_step == 2 ? PowerState::switched_on
-                                    : PowerState::switch_on_disabled;
+    s.state = state_when_off(s);
+}
+
+/// Without power: the steps that a control word has gone where the drive knows on and off alone. A drive's own state is never shown lower
+/// than it is; a step that it does not know, and that a control word waits for, is shown above it.
+PowerState AxisProfile::state_when_off(const State& s) noexcept {
+    const PowerState step = s.virtual_step == 1   ? PowerState::ready_to_switch_on
+                            : s.virtual_step == 2 ? PowerState::switched_on
+                                                  : PowerState::switch_on_disabled;
+    const auto own = s.feedback.statusword ? power_state_of(*s.feedback.statusword) : step;
+    return own <= PowerState::switched_on ? std::max(own, step) : step;
 }
 
 /// Nobody answers, or nobody has said yet where the axis is: it may be moving all the same. What stops is sent, and its answer is the
@@ -310,6 +330,7 @@ AxisProfile::Decision AxisProfile::on_process_data(const ProcessData& data, cons
             d.orders.emplace_back(Halt{});
         }
         s.mode = *data.mode;
+        if (s.following) s.mode_before = s.mode;
         s.setpoint_acknowledged = false;
         s.buffered.reset();
         if (!data.target_velocity) s.target_velocity = 0;  // an old speed must not start the axis in its new mode
@@ -464,6 +485,34 @@ void AxisProfile::on_order_result(const CommandBody& order, bool good, Instant n
     }
 }
 
+AxisProfile::Decision AxisProfile::may_follow() const {
+    const State& s = s_;
+    if (s.presence == Presence::offline || !s.seen)
+        return refuse(Reason::no_answer,
+                      s.presence == Presence::offline ? "the drive does not answer" : "the drive has not said yet where it is");
+    if (s.feedback.fault)
+        return refuse(Reason::wrong_state,
+                      fmt::format("the axis is in fault (drive's code {}): reset the fault first", s.feedback.error_code));
+    if (s.state != PowerState::operation_enabled || s.power_pending == 0)
+        return refuse(Reason::wrong_state, fmt::format("the axis is {}: enable it first", name_of(s.state)));
+    if (s.halted) return refuse(Reason::wrong_state, "halt (bit 8 of the control word) is set: clear it first");
+    return {};
+}
+
+void AxisProfile::follow(const SetPoint& p) {
+    State& s = s_;
+    if (!s.following) {
+        forget_motion(s);
+        s.following = true;
+        s.mode_before = s.mode;
+    }
+    s.mode = mode_of(p.mode);
+    if (p.mode == SetPoint::Mode::position) s.target_position = static_cast<std::int32_t>(p.value);
+    s.target_velocity = p.mode == SetPoint::Mode::velocity ? static_cast<std::int32_t>(p.value) : 0;
+}
+
+void AxisProfile::end_following() { leave_stream(s_); }
+
 std::optional<CommandBody> AxisProfile::on_feedback(const AxisFeedback& feedback, Instant now) {
     State& s = s_;
     AxisFeedback f = feedback;
@@ -476,7 +525,7 @@ std::optional<CommandBody> AxisProfile::on_feedback(const AxisFeedback& feedback
     s.seen = true;
     s.heard = s.presence;
     settle(s);
-    if (s.state == PowerState::fault_reaction_active) {
+    if (s.state == PowerState::fault_reaction_active && s.feedback.moving) {
         if (s.reacting || (s.reaction_at != Instant{} && now - s.reaction_at < reaction_again)) return std::nullopt;
         s.reacting = true;
         s.reaction_at = now;
@@ -565,6 +614,11 @@ void AxisProfile::fill(AxisPicture& p) const noexcept {
             reached = !f.moving && !f.homing;
             if (f.homing_attained && !s.homing_refused) sw |= sw_mode_12;
             if (f.homing_error || s.homing_refused) sw |= sw_mode_13;
+            break;
+        case mode_cyclic_position:
+        case mode_cyclic_velocity:
+        case mode_cyclic_torque:
+            if (s.following) sw |= sw_mode_12;  // the drive follows the command value
             break;
         default:
             if (s.halted) reached = !f.moving;

@@ -1,4 +1,4 @@
-// CiA 402: the power state machine, control word, status word and modes 1, 3 and 6 (IEC 61800-7-201) over any drive of ours.
+// CiA 402: the power state machine, control word, status word and modes 1, 3, 6 and, streamed, 8 to 10 (IEC 61800-7-201) over any drive.
 // In: control words, set-points, commands; what the drive says; which orders it took. Out: orders for the adapter, the status word.
 // Never knows a family, a clock or a door. A refused request changes nothing.
 #pragma once
@@ -40,7 +40,12 @@ inline constexpr std::uint16_t sw_ready = 1u << 0, sw_switched_on = 1u << 1, sw_
                                sw_warning = 1u << 7, sw_simulated = 1u << 8, sw_remote = 1u << 9, sw_target_reached = 1u << 10,
                                sw_internal_limit = 1u << 11, sw_mode_12 = 1u << 12 /* set-point acknowledged, speed 0, homing attained */,
                                sw_mode_13 = 1u << 13 /* mode 6: homing error */, sw_stale = 1u << 14, sw_referenced = 1u << 15;
-inline constexpr std::int16_t mode_none = 0, mode_profile_position = 1, mode_profile_velocity = 3, mode_homing = 6;
+inline constexpr std::int16_t mode_none = 0, mode_profile_position = 1, mode_profile_velocity = 3, mode_homing = 6,
+                              mode_cyclic_position = 8, mode_cyclic_velocity = 9, mode_cyclic_torque = 10;
+/// The mode of operation in which an axis follows streamed set-points of this kind.
+[[nodiscard]] constexpr std::int16_t mode_of(SetPoint::Mode m) noexcept {
+    return m == SetPoint::Mode::position ? mode_cyclic_position : m == SetPoint::Mode::velocity ? mode_cyclic_velocity : mode_cyclic_torque;
+}
 }  // namespace cia402
 
 class AxisProfile {
@@ -61,6 +66,12 @@ public:
     [[nodiscard]] Decision on_process_data(const ProcessData& data, const Origin& by = {});
     /// The commands of POST /axes/{name}/commands (all bodies but ProcessData, parameters and the like).
     [[nodiscard]] Decision on_command(const CommandBody& body, const Origin& by = {});
+    /// Whether the axis may follow streamed set-points now: `refused` and why not, or not.
+    [[nodiscard]] Decision may_follow() const;
+    /// It follows this one: the mode is the set-point's until the stream ends. A motion under way is forgotten with the first.
+    void follow(const SetPoint& set_point);
+    /// The stream is over; the mode is again the one before it.
+    void end_following();
     /// The drive took an order, or did not.
     void on_order_result(const CommandBody& order, bool good, Instant now);
     /// What the drive says. Gives back what is to be ordered because of it: a buffered set-point whose turn has come, or the stop of a drive
@@ -116,10 +127,13 @@ private:
         bool reacting = false;                   // the stop of the present fault is on its way, or was taken
         Instant reaction_at{};
         std::int64_t ordered_velocity = 0;       // mode 3: last velocity given to the drive
+        bool following = false;                  // streamed set-points, in a mode of their own
+        std::int16_t mode_before = cia402::mode_none;
         std::optional<Move> active;              // motion that a halt interrupts and its end continues (absolute target)
         std::optional<Move> buffered;            // one set-point that waits for the running one
     };
 
+    [[nodiscard]] static PowerState state_when_off(const State& s) noexcept;
     [[nodiscard]] Decision refuse(Reason reason, std::string text) const;
     [[nodiscard]] bool change_unheard(State& s, std::uint16_t before, std::uint16_t cw, Decision& d) const;
     void change_power(State& s, std::uint16_t before, std::uint16_t cw, const AuthorityClient& by, Decision& d) const;
@@ -130,6 +144,7 @@ private:
     static void order_off_blindly(State& s, Decision& d);
     static void order_reset(State& s, Decision& d);
     static void forget_motion(State& s);
+    static void leave_stream(State& s);
     State s_;
 };
 

@@ -60,6 +60,13 @@ struct AxisPicture {
     /// The command whose motion the drive took last; no_ticket: none yet, or a stop after it.
     Ticket motion_ticket = no_ticket;
 
+    bool streaming = false;                                 ///< a client renews set-points (SetPoint) ...
+    SetPoint::Mode stream_mode = SetPoint::Mode::position;  ///< ... of this kind
+    std::uint32_t set_points = 0;                           ///< streamed ones that were handed to the drive; counts up
+    std::uint32_t set_points_refused = 0;                   ///< those that were not; counts up
+    Reason set_point_refusal =
+        Reason::none;  ///< why the newest one was not handed on, or why the stream ended; none: it was, or none came yet
+
     /// Somebody says where the axis should be, and something else where it is.
     [[nodiscard]] constexpr bool following_error_known() const noexcept { return demand_source == DemandSource::drive || demand_source == DemandSource::computed; }
     /// Demand less position (CiA 402 60F4h), increments; 0 while it is not known.

@@ -22,12 +22,19 @@ struct Out {
         AxisId axis = no_axis;
         AxisFeedback value;
     };
+    /// The drive does not follow a streamed set-point: the stream is over.
+    struct StreamEnd {
+        AxisId axis = no_axis;
+        Reason reason = Reason::drive_refused;
+        std::string text;  ///< for people
+    };
     std::vector<Tx> frames;
     std::vector<Feedback> feedback;
     std::vector<Sample> samples;
     std::vector<Result> results;
     std::vector<DriveLink> links;
     std::vector<Notice> notices;
+    std::vector<StreamEnd> stream_ends;
 
     void clear() noexcept {
         frames.clear();
@@ -36,6 +43,7 @@ struct Out {
         results.clear();
         links.clear();
         notices.clear();
+        stream_ends.clear();
     }
     void send(const Frame& frame, Priority priority = Priority::command) { frames.push_back({frame, priority}); }
 };
@@ -66,6 +74,10 @@ struct Adapter {
     virtual void on_line(bool up, Instant now, Out& out) = 0;
     /// Bodies that reach an adapter: all but ProcessData and Hand.
     virtual void on_command(const Command& command, Instant now, Out& out) = 0;
+    /// The newest set-point of an axis, of a mode (8, 9 or 10) that the drive's catalogue offers. It waits for the line like a command,
+    /// and a newer one takes its place; a command that moves or stops its axis takes it away. Without an answer: if the drive refuses it or
+    /// does not answer, Out::stream_ends says so.
+    virtual void on_set_point(const SetPoint& /*set_point*/, Instant /*now*/, Out& /*out*/) {}
     virtual void on_frame(const Frame& frame, Instant now, Out& out) = 0;
     virtual void on_deadline(Instant now, Out& out) = 0;
     /// When on_deadline wants to be called; `never` if nothing is waited for.

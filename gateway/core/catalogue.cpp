@@ -186,6 +186,18 @@ std::optional<Catalogue> Catalogue::parse(std::string_view text, std::vector<std
                                  range ? static_cast<std::int32_t>(through->get_int64()) : 0});
         }
     }
+    if (const auto* list = c.document_.if_contains("modes")) {
+        c.modes_.clear();
+        for (const auto& v : list->is_array() ? list->get_array() : json::array()) {
+            const auto* n = v.if_int64();
+            if (n && *n >= -128 && *n <= 127 && *n != 0 && !c.offers_mode(static_cast<std::int16_t>(*n)))
+                c.modes_.push_back(static_cast<std::int16_t>(*n));
+            else
+                faults.push_back("catalogue.modes: modes of operation are whole numbers from -128 to 127 without 0, each once");
+        }
+        if (c.modes_.empty())
+            faults.push_back("catalogue.modes: a list of the modes of operation (CiA 402) that the drives offer is missing");
+    }
     check_forms(c, faults);
     if (faults.size() != before) return std::nullopt;
     return c;
@@ -223,6 +235,8 @@ int Catalogue::most_channels() const noexcept {
     const auto* max = c && c->is_object() ? c->get_object().if_contains("max") : nullptr;
     return max && max->is_int64() ? static_cast<int>(max->get_int64()) : 1;
 }
+
+bool Catalogue::offers_mode(std::int16_t mode) const noexcept { return std::ranges::find(modes_, mode) != modes_.end(); }
 
 std::string_view name_of(Completion completion) noexcept { return completion_names[static_cast<std::size_t>(completion)]; }
 

@@ -105,6 +105,9 @@ public:
     [[nodiscard]] std::span<const ErrorCode> errors() const noexcept { return errors_; }
     /// How many axes one drive can have: the page's "channels"; 1 if it does not say.
     [[nodiscard]] int most_channels() const noexcept;
+    /// CiA 402 modes of operation that its drives offer, in the page's order ("modes"; 1, 3 and 6 if it does not say).
+    [[nodiscard]] std::span<const std::int16_t> modes() const noexcept { return modes_; }
+    [[nodiscard]] bool offers_mode(std::int16_t mode) const noexcept;
     /// The document itself, for doors that show more than the fields above.
     [[nodiscard]] const boost::json::object& document() const noexcept { return document_; }
 
@@ -138,6 +141,7 @@ private:
     std::vector<Parameter> parameters_;
     std::vector<CatalogueCommand> commands_;
     std::vector<ErrorCode> errors_;
+    std::vector<std::int16_t> modes_{1, 3, 6};
     std::unordered_map<std::string, std::uint16_t> by_id_;
     boost::json::object document_;
 };

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "gateway/core/ids.hpp"
+#include "gateway/core/instant.hpp"
 #include "gateway/core/value.hpp"
 
 namespace axisgate {
@@ -123,6 +124,37 @@ struct Command {
 [[nodiscard]] inline bool is_urgent(const CommandBody& b) noexcept {
     return std::holds_alternative<QuickStop>(b) || std::holds_alternative<Halt>(b) || std::holds_alternative<Disable>(b);
 }
+
+/// Where an axis shall be, or how fast it shall go, as long as this is renewed: beside commands, for what comes in cycles. It has no ticket
+/// and no answer; the newest one counts and an older one that was not sent yet is forgotten. The first one begins a stream, which is one
+/// event, as is its end; what was taken, refused and why is state of the axis (AxisPicture). One client streams to an axis at a time.
+struct SetPoint {
+    enum class Mode : std::uint8_t { position, velocity, torque };  ///< CiA 402 modes 8, 9 and 10
+    static constexpr Duration good_for_min = std::chrono::milliseconds(20), good_for_max = std::chrono::seconds(10);
+    AxisId axis = no_axis;
+    Mode mode = Mode::position;
+    std::int64_t value = 0;                    ///< increments; increments/s; 1/1000 of the rated torque
+    std::optional<std::int64_t> velocity;      ///< at which the axis goes there at most, increments/s, > 0; not used by Mode::velocity
+    std::optional<std::int64_t> acceleration;  ///< increments/s^2, > 0; absent, as all three: as the drive has it
+    std::optional<std::int64_t> deceleration;  ///< increments/s^2, > 0
+    /// Without the next one for so long, its client counts as lost (LossCause::set_points_silent).
+    Duration good_for = std::chrono::milliseconds(500);
+    Instant at{};  ///< when the client's message was here; what is older than good_for when its turn comes is refused
+    Origin origin;
+    /// The motion that it asks for: what the axis' limits are compared with. Not for torque.
+    [[nodiscard]] Move as_move() const {
+        Move m;
+        m.kind = mode == Mode::velocity ? Move::Kind::velocity : Move::Kind::absolute;
+        m.target = value;
+        if (mode != Mode::velocity) m.velocity = velocity;
+        m.acceleration = acceleration;
+        m.deceleration = deceleration;
+        return m;
+    }
+};
+/// "position", "velocity", "torque".
+[[nodiscard]] std::string_view name_of(SetPoint::Mode mode) noexcept;
+[[nodiscard]] std::optional<SetPoint::Mode> set_point_mode_of(std::string_view name) noexcept;
 
 /// What to call the command in messages: "move_absolute", "enable", ... (the names of POST /axes/{name}/commands).
 [[nodiscard]] std::string_view name_of(const CommandBody& body) noexcept;

@@ -2,6 +2,9 @@
 // In: enumerators. Out: words that appear in REST answers, events and messages. Never translated, never changed: they are the contract.
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <array>
+
 #include "gateway/core/command.hpp"
 #include "gateway/core/frame.hpp"
 #include "gateway/core/sample.hpp"
@@ -19,6 +22,18 @@ std::string_view name_of(Door door) noexcept {
         case Door::internal: return "internal";
     }
     return "none";
+}
+
+namespace {
+constexpr std::array<std::string_view, 3> set_point_modes{"position", "velocity", "torque"};
+}  // namespace
+
+std::string_view name_of(SetPoint::Mode mode) noexcept { return set_point_modes[static_cast<std::size_t>(mode)]; }
+
+std::optional<SetPoint::Mode> set_point_mode_of(std::string_view name) noexcept {
+    const auto found = std::ranges::find(set_point_modes, name);
+    if (found == set_point_modes.end()) return std::nullopt;
+    return static_cast<SetPoint::Mode>(found - set_point_modes.begin());
 }
 
 std::string_view name_of(Outcome outcome) noexcept {

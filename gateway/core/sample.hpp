@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "gateway/core/command.hpp"
@@ -61,6 +62,9 @@ struct AxisFeedback {
     std::int64_t velocity = 0;         ///< actual velocity, increments/s
     std::uint16_t error_code = 0;      ///< the drive's own, 0 = none
     std::uint32_t native_status = 0;   ///< the drive's own status word(s), as its README says
+    /// The state of a drive that has CiA 402's state machine itself, as the bits 0..6 of a status word (0x27: operation enabled); absent:
+    /// it knows on and off alone. Other bits are not looked at: they are members of their own here.
+    std::optional<std::uint16_t> statusword{};
     Instant at{};
 };
 

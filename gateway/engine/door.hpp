@@ -61,6 +61,8 @@ struct DoorPort {
     /// Takes a command whose ticket was made with the door's number. The result comes to the door: never from inside this call (so that a
     /// door need not be re-entrant), at the end of the same turn at the earliest.
     virtual void submit(Command command) = 0;
+    /// Hands on a streamed set-point (SetPoint): no ticket, no result; what came of it is in the image.
+    virtual void set_point(const SetPoint& /*set_point*/) {}
     /// Puts a door into the list; it gets all that HotDoor has until it is detached, which it must be before it ends.
     [[nodiscard]] virtual DoorNumber attach(HotDoor& door) = 0;
     virtual void detach(HotDoor& door) = 0;

@@ -89,6 +89,8 @@ void Engine::drain(Side& side, Out& out, Instant now) {
         event(std::move(e), now);
     }
     for (const auto& r : out.results) order_result(r, now);
+    for (const auto& end : out.stream_ends)
+        stream_refused(side, end, now);
 }
 
 void Engine::feedback(Side& side, AxisId id, const AxisFeedback& value, Instant now) {
@@ -126,6 +128,8 @@ void Engine::feedback(Side& side, AxisId id, const AxisFeedback& value, Instant 
         a->last_error = value.error_code;
         event(std::move(e), now);
     }
+    if (a->stream.on && a->profile.state() != PowerState::operation_enabled)
+        end_stream(*a, Reason::wrong_state, fmt::format("the axis is {} now", name_of(a->profile.state())), now);
     check_run(*a, now);
     publish(*a, now);
     if (next) {
@@ -169,6 +173,11 @@ void Engine::publish(Axis& a, Instant) {
     put(p.flags, flag_online, online);
     if (a.at_limit) p.statusword |= cia402::sw_internal_limit;
     p.fail_safe_cause = static_cast<std::uint16_t>(a.loss);
+    p.streaming = a.stream.on;
+    p.stream_mode = a.stream.mode;
+    p.set_points = a.stream.taken;
+    p.set_points_refused = a.stream.refused;
+    p.set_point_refusal = a.stream.refusal;
     put(p.flags, flag_fail_safe, a.loss != LossCause::none);
     put(p.flags, flag_simulated, simulated);
     put(p.flags, flag_stale, stale);
@@ -178,190 +187,6 @@ void Engine::publish(Axis& a, Instant) {
 }
 
 // --- down -----------------------------------------------------------------------------------------------------------
-
-void Engine::refuse(const Command& c, Reason reason, std::string text) {
-    Result r;
-    r.ticket = c.ticket;
-    r.axis = c.axis;
-    r.outcome = Outcome::refused;
-    r.reason = reason;
-    r.text = std::move(text);
-    host_.on_result(r);
-}
-
-void Engine::on_command(Command c, Instant now) {
-    now_ = std::max(now_, now);
-    Axis* a = axis(c.axis);
-    if (!a || closing_) return refuse(c, Reason::line_down, a ? "the gateway is stopping" : "there is no such axis");
-    const std::string& name = a->spec.name;
-    if (a->clients.size() >= max_clients_per_axis && !is_urgent(c.body)) {
-        return refuse(c, Reason::busy, fmt::format("axis {}: {} commands are on their way already; wait for their answers", name, max_clients_per_axis));
-    }
-    if (const auto* wish = std::get_if<HoldAxis>(&c.body)) return hold(*a, c, *wish, now);
-    if (now < a->leaving_until && !std::holds_alternative<ReadParameter>(c.body) && !only_stops(*a, c.body)) {
-        return refuse(c, Reason::busy, fmt::format("axis {}: a change of the site takes it away or makes it anew; come again when that is in force", name));
-    }
-    const Catalogue& catalogue = *a->drive->catalogue;
-    std::vector<CommandBody> orders;
-    std::optional<Move> waits;
-    bool commands_motion = false, stops = false, lets_go = false;
-
-    if (auto* hand = std::get_if<Hand>(&c.body)) {
-        const std::string wrong = set_hand(a->drive->id, {{hand->name, hand->value}}, c.origin, now);
-        if (!wrong.empty()) return refuse(c, Reason::out_of_range, wrong);
-        Result r;
-        r.ticket = c.ticket;
-        r.axis = c.axis;
-        return host_.on_result(r);
-    }
-    if (auto* read = std::get_if<ReadParameter>(&c.body)) {
-        const Parameter* p = catalogue.parameter(read->point);
-        if (!p) return refuse(c, Reason::unknown_point, fmt::format("axis {}: {} has no such parameter", name, catalogue.family()));
-        if (!p->readable()) return refuse(c, Reason::not_writable, fmt::format("axis {}: {} can only be written", name, catalogue.id_of(read->point)));
-        orders.push_back(c.body);
-    } else if (auto* write = std::get_if<WriteParameter>(&c.body)) {
-        const Parameter* p = catalogue.parameter(write->point);
-        if (!p) return refuse(c, Reason::unknown_point, fmt::format("axis {}: {} has no such parameter", name, catalogue.family()));
-        if (!p->writable()) return refuse(c, Reason::not_writable, fmt::format("axis {}: {} can only be read", name, catalogue.id_of(write->point)));
-        auto checked = catalogue.check_write(write->point, write->value);
-        if (!checked.fault.empty()) return refuse(c, Reason::out_of_range, fmt::format("axis {}: {}", name, checked.fault));
-        write->value = std::move(checked.value);
-        if (!ask_authority(*a, c, now)) return;
-        orders.push_back(c.body);
-    } else if (std::holds_alternative<Native>(c.body) || std::holds_alternative<Action>(c.body)) {
-        if (!ask_authority(*a, c, now)) return;
-        orders.push_back(c.body);
-    } else {
-        stops = only_stops(*a, c.body);
-        if (stops) {
-            // A stop counts for everybody; but only who may command gives set-points with it.
-            if (auto* data = std::get_if<ProcessData>(&c.body); data && !may_command(*a, c, now).allowed) {
-                const auto only = data->controlword;
-                *data = {};
-                data->controlword = only;
-            }
-        } else if (const auto v = may_command(*a, c, now); !v.allowed) {
-            return refuse(c, Reason::authority, v.text);
-        }
-        const auto* word = std::get_if<ProcessData>(&c.body);
-        if (std::holds_alternative<Disable>(c.body) || (word && word->controlword && !(*word->controlword & cia402::cw_enable_voltage))) {
-            a->drive->device_lost_while_commanded = false;  // nobody commands it any more: its twin may take over
-            lets_go = a->drive->spec.presence == PresenceRule::automatic && a->drive->serving == Presence::device && !a->drive->device_online;
-        }
-        auto* data = std::get_if<ProcessData>(&c.body);
-        std::optional<Refusal> no = data ? guard_process_data(*data, a->limits) : beyond_limits(*a, c.body);
-        // A block of registers whose word stops is not lost for a wrong value beside it: the stop is given, and the answer is about the value.
-        const auto refuse_values = [&](Reason reason, const std::string& text) {
-            if (stops && data && (data->target_position || data->target_velocity || data->profile_velocity || data->profile_acceleration ||
-                                  data->profile_deceleration || data->mode || data->homing_method)) {
-                Command only = c;
-                only.ticket = make_ticket(engine_itself, next_++);
-                ProcessData stop;
-                stop.controlword = data->controlword;
-                only.body = stop;
-                on_command(std::move(only), now);
-            }
-            refuse(c, reason, fmt::format("axis {}: {}", name, text));
-        };
-        if (no) return refuse_values(no->reason, no->text);
-        if (hold_on(*a, c, now)) return;
-        auto before = a->profile;
-        auto decision = data ? a->profile.on_process_data(*data, c.origin) : a->profile.on_command(c.body, c.origin);
-        if (decision.refused && decision.reason == Reason::no_answer) {
-            if (const Side* side = side_of(*a->drive); side && !side->up) {
-                decision.reason = Reason::line_down;
-                decision.text = fmt::format("line {} is down: {}", side->unit.spec.name, side->why);
-            }
-        }
-        if (decision.refused) return refuse_values(decision.reason, decision.text);
-        if (data) {  // a set-point that starts with this word, or waits because of it, is checked as what it is
-            for (const auto& o : decision.orders) {
-                if (!no) no = beyond_limits(*a, o);
-            }
-            if (!no && decision.waits) no = guard_move(*decision.waits, a->limits, before.active_target().value_or(a->profile.feedback().position));
-            if (no) {
-                a->profile = before;
-                return refuse(c, no->reason, fmt::format("axis {}: {}", name, no->text));
-            }
-        }
-        waits = decision.waits;
-        orders = std::move(decision.orders);
-        commands_motion = true;
-    }
-    if (commands_motion && (!orders.empty() || waits) && !stops && !ask_authority(*a, c, now)) return;
-    if ((!orders.empty() || waits) && (commands_motion || std::holds_alternative<Native>(c.body) || std::holds_alternative<Action>(c.body)) &&
-        c.origin.door != Door::internal) {
-        Event e;
-        e.kind = "command";
-        e.axis = name;
-        e.who = c.origin.who ? *c.origin.who : "";
-        e.door = std::string(name_of(c.origin.door));
-        for (const auto& o : orders) {
-            e.text += (e.text.empty() ? "" : ", ") + std::string(name_of(o));
-            if (const auto* m = std::get_if<Move>(&o)) e.text += fmt::format(" {}", m->target);
-            if (const auto* n = std::get_if<Native>(&o); n && n->is_text) e.text += " " + std::string(n->send.begin(), n->send.end());
-            if (const auto* x = std::get_if<Action>(&o)) e.text += " " + x->name;
-        }
-        if (waits) e.text += fmt::format("{}{} {} waits for the running motion", e.text.empty() ? "" : ", ", name_of(CommandBody{*waits}), waits->target);
-        event(std::move(e), now);
-    }
-
-    auto client = std::make_unique<Client>();
-    client->number = next_++;
-    client->ticket = c.ticket;
-    client->axis = c.axis;
-    client->body = std::move(c.body);
-    client->origin = c.origin;
-    client->until_done = c.until_done;
-    client->lets_go = lets_go;
-    client->waiting = orders.size();
-    client->result.outcome = Outcome::accepted;
-    if (const auto* data = std::get_if<ProcessData>(&client->body); data && data->controlword && (*data->controlword & cia402::cw_new_setpoint))
-        a->setpoint_ticket = client->ticket;
-    if (commands_motion && !stops && (!orders.empty() || waits)) a->loss = LossCause::none;
-    Client& ref = *client;
-    a->clients.push_back(ref.number);
-    clients_.emplace(ref.number, std::move(client));
-    publish(*a, now);
-    if (orders.empty()) {
-        ref.accepted = true;
-        ref.accepted_at = now;
-        return track(*a, now);
-    }
-    const auto number = ref.number;
-    for (auto& o : orders) {
-        Client* still = clients_.contains(number) ? clients_.at(number).get() : nullptr;
-        if (!still) return;  // an earlier order was refused at once
-        give_order(*a, still, std::move(o), c.origin, now);
-    }
-}
-
-/// The site's limits, for every order on its one way down: what moves the axis, now or when others are ready, and what it shall be called.
-std::optional<Refusal> Engine::beyond_limits(const Axis& a, const CommandBody& body) const {
-    const std::int64_t position = a.profile.feedback().position;
-    if (const auto* m = std::get_if<Move>(&body)) {
-        if (auto no = guard_move(*m, a.limits, position)) return no;
-        // Some drives count a distance from where they are, some from where they were going: neither may lead out.
-        const auto from = m->kind == Move::Kind::relative ? a.profile.active_target() : std::nullopt;
-        return from ? guard_move(*m, a.limits, *from) : std::nullopt;
-    }
-    if (const auto* set = std::get_if<SetPosition>(&body)) {
-        Move probe;
-        probe.target = set->position;
-        return guard_move(probe, AxisLimits{}, 0);
-    }
-    if (const auto* together = std::get_if<StartTogether>(&body)) {
-        for (const AxisId id : together->axes) {
-            const Axis* x = axis(id);
-            if (!x || !x->prepared) continue;
-            if (auto no = guard_move(*x->prepared, x->limits, x->profile.feedback().position)) {
-                no->text = fmt::format("axis {}: {}", x->spec.name, no->text);
-                return no;
-            }
-        }
-    }
-    return std::nullopt;
-}
 
 /// Sends one order to the adapter of the axis' line. `client`: whose command it is; null for the engine's own.
 void Engine::give_order(Axis& a, Client* client, CommandBody body, Origin origin, Instant now) {
@@ -377,6 +202,7 @@ void Engine::give_order(Axis& a, Client* client, CommandBody body, Origin origin
         }
     }
     if (std::holds_alternative<Move>(body) || std::holds_alternative<Home>(body) || is_urgent(body)) {
+        end_stream(a, Reason::interrupted, fmt::format("ended by {}", name_of(body)), now);
         supersede(a, client ? client->number : 0, name_of(body), now);
         a.held = {};  // another motion, or a stop: nobody's finger holds this one
         a.run = {};
@@ -385,6 +211,11 @@ void Engine::give_order(Axis& a, Client* client, CommandBody body, Origin origin
         a.homing_why.clear();
         const auto* move = client ? std::get_if<Move>(&client->body) : nullptr;
         if (move && move->hold_ms) begin_hold(a, *move, client->origin);
+    }
+    if (const auto* together = std::get_if<StartTogether>(&body)) {
+        for (const AxisId id : together->axes) {
+            if (Axis* x = axis(id)) end_stream(*x, Reason::interrupted, fmt::format("ended by {}", name_of(body)), now);
+        }
     }
     const Ticket ticket = make_ticket(engine_itself, next_++);
     OrderRecord record;

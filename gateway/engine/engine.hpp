@@ -76,6 +76,8 @@ public:
     [[nodiscard]] const std::shared_ptr<const SiteState>& site() const noexcept { return site_; }
 
     void on_command(Command command, Instant now);
+    /// Without an answer: whether it was handed on, and why not, is told by the axis' picture (streaming, set_points, set_point_refusal).
+    void on_set_point(const SetPoint& set_point, Instant now);
     /// How long a command holds an axis of mode "lease".
     void set_lease(Duration lease) noexcept { lease_ = lease; }
     /// How long a Modbus client that commands an axis may be silent, where the axis' site entry does not say it; 0: for ever.
@@ -121,6 +123,18 @@ private:
 
     // routing (engine.cpp)
     void drain(Side& side, Out& out, Instant now);
+    // from a command to its orders (engine_command.cpp)
+    struct Plan;
+    [[nodiscard]] std::optional<Refusal> turned_away(const Axis& axis, const Command& command, Instant now) const;
+    void answer_hand(const Axis& axis, const Command& command, const Hand& hand, Instant now);
+    [[nodiscard]] std::optional<Refusal> plan_for(Axis& axis, Command& command, Plan& plan, Instant now);
+    [[nodiscard]] std::optional<Refusal> plan_parameter(const Axis& axis, CommandBody& body, Plan& plan) const;
+    [[nodiscard]] std::optional<Refusal> plan_motion(Axis& axis, Command& command, Plan& plan, Instant now);
+    [[nodiscard]] static ProcessData stop_alone(const ProcessData& data);
+    void give_the_stop_alone(const Command& command, Instant now);
+    [[nodiscard]] static bool needs_authority(const Command& command, const Plan& plan);
+    void note_command(const Axis& axis, const Command& command, const Plan& plan, Instant now);
+    void carry_out(Axis& axis, Command&& command, Plan&& plan, Instant now);
     void give_order(Axis& axis, Client* client, CommandBody body, Origin origin, Instant now);
     [[nodiscard]] std::optional<Refusal> beyond_limits(const Axis& axis, const CommandBody& body) const;
     void remember_ramp(Axis& axis, const CommandBody& body);
@@ -137,8 +151,9 @@ private:
     [[nodiscard]] AxisAuthority::Verdict may_command(const Axis& axis, const Command& command, Instant now) const;
     /// Ends motion and nothing else: not asked for a lease.
     [[nodiscard]] static bool only_stops(const Axis& axis, const CommandBody& body);
-    /// False: another client holds the axis; the command has been refused with its name.
-    [[nodiscard]] bool ask_authority(Axis& axis, const Command& command, Instant now);
+    /// Nothing: the client is noted as the one who commands; else another client holds the axis, by its name.
+    [[nodiscard]] std::optional<Refusal> ask_authority(Axis& axis, const Command& command, Instant now);
+    void note_commander(Axis& axis, const Origin& origin, Instant now);
     void hold(Axis& axis, const Command& command, const HoldAxis& wish, Instant now);
     void authority_changed(Axis& axis, const AxisAuthority::Verdict& verdict, const Origin* by, Instant now);
     void supersede(Axis& axis, std::uint64_t by, std::string_view what, Instant now);
@@ -146,6 +161,15 @@ private:
     void begin_hold(Axis& axis, const Move& move, const Origin& origin);
     void check_hold(Axis& axis, Instant now);
     void check_run(Axis& axis, Instant now);
+
+    // streamed set-points (engine_stream.cpp)
+    [[nodiscard]] std::optional<Refusal> against(const Axis& axis, const SetPoint& set_point, const AuthorityClient& who,
+                                                 Instant now) const;
+    void begin_stream(Axis& axis, const SetPoint& set_point, const AuthorityClient& who, Instant now);
+    void end_stream(Axis& axis, Reason reason, const std::string& why, Instant now);
+    void tell_stream(const Axis& axis, const Origin& by, Severity severity, std::string text, Instant now);
+    void stream_refused(const Side& side, const Out::StreamEnd& end, Instant now);
+    void check_stream(Axis& axis, Instant now);
 
     // loss of command (engine_fail_safe.cpp)
     void fail_safe(Axis& axis, LossCause cause, Instant now);

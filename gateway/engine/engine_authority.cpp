@@ -27,7 +27,7 @@ AxisAuthority::Verdict Engine::may_command(const Axis& a, const Command& c, Inst
     const auto who = AuthorityClient::of(c.origin);
     const auto ask = [&](const Axis& x) {
         auto v = x.authority.may(who, now);
-        if (!v.allowed) v.text = fmt::format("axis {}: {}", x.spec.name, v.text);
+        if (!v.allowed && &x != &a) v.text = fmt::format("axis {}: {}", x.spec.name, v.text);
         return v;
     };
     if (const auto* together = std::get_if<StartTogether>(&c.body)) {
@@ -40,25 +40,24 @@ AxisAuthority::Verdict Engine::may_command(const Axis& a, const Command& c, Inst
     return ask(a);
 }
 
-bool Engine::ask_authority(Axis& a, const Command& c, Instant now) {
-    if (!is_asked(c.origin)) return true;
-    if (const auto v = may_command(a, c, now); !v.allowed) {
-        refuse(c, Reason::authority, v.text);
-        return false;
-    }
-    const auto who = AuthorityClient::of(c.origin);
-    const auto note = [&](Axis& x) {
-        authority_changed(x, x.authority.expire(now), nullptr, now);  // the end of a lease is told before the next one begins
-        const auto v = x.authority.command(who, x.spec.authority_mode, lease_, now);
-        authority_changed(x, v, &c.origin, now);
-    };
+std::optional<Refusal> Engine::ask_authority(Axis& a, const Command& c, Instant now) {
+    if (!is_asked(c.origin)) return std::nullopt;
+    if (const auto v = may_command(a, c, now); !v.allowed) return Refusal{Reason::authority, v.text};
     if (const auto* together = std::get_if<StartTogether>(&c.body)) {
         for (const AxisId id : together->axes) {
-            if (Axis* x = axis(id); x && x != &a) note(*x);
+            if (Axis* x = axis(id); x && x != &a) note_commander(*x, c.origin, now);
         }
     }
-    note(a);
-    return true;
+    note_commander(a, c.origin, now);
+    return std::nullopt;
+}
+
+/// Whoever may command does: takes or renews the lease where the axis wants one.
+void Engine::note_commander(Axis& x, const Origin& origin, Instant now) {
+    if (!is_asked(origin)) return;
+    authority_changed(x, x.authority.expire(now), nullptr, now);  // the end of a lease is told before the next one begins
+    const auto v = x.authority.command(AuthorityClient::of(origin), x.spec.authority_mode, lease_, now);
+    authority_changed(x, v, &origin, now);
 }
 
 void Engine::hold(Axis& a, const Command& c, const HoldAxis& wish, Instant now) {

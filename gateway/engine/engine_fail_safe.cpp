@@ -13,14 +13,17 @@ namespace axisgate {
 void Engine::on_client_lost(const AuthorityClient& who, LossCause cause, Instant now) {
     now_ = std::max(now_, now);
     for (const auto& a : axes_) {
-        if (a && a->authority.commander() == who) fail_safe(*a, cause, now);
+        if (!a || a->authority.commander() != who) continue;
+        fail_safe(*a, cause, now);
+        if (a->stream.who == who) end_stream(*a, Reason::interrupted, who.text() + " is gone", now);
     }
 }
 
 void Engine::fail_safe(Axis& a, LossCause cause, Instant now) {
     const AxisFeedback& f = a.profile.feedback();
     const bool moving = f.moving || f.homing || a.profile.active_target().has_value();
-    const auto action = a.spec.fail_safe.action(cause, a.run.velocity != 0, moving || a.run.velocity != 0, a.profile.commanded());
+    const bool endless = a.run.velocity != 0 || a.stream.on;  // set-points have no end of their own
+    const auto action = a.spec.fail_safe.action(cause, endless, moving || a.run.velocity != 0, a.profile.commanded());
     if (closing_ || action == FailSafeAction::nothing || a.loss != LossCause::none) return;
     a.loss = cause;
     ++losses_[static_cast<std::size_t>(cause)];
@@ -32,9 +35,13 @@ void Engine::fail_safe(Axis& a, LossCause cause, Instant now) {
     e.kind = "fail_safe";
     e.axis = a.spec.name;
     e.code = static_cast<std::int32_t>(cause);
-    e.text = fmt::format("{}: {} commanded the axis and {}", name_of(body), a.authority.commander().text(),
-                         cause == LossCause::modbus_silent ? fmt::format("has been silent for {} ms", milliseconds_of(a.spec.fail_safe.watchdog(watchdog_)))
-                                                           : "has closed its last connection");
+    const auto ms = [](Duration d) { return milliseconds_of(d); };
+    const std::string what =
+        cause == LossCause::modbus_silent       ? fmt::format("has been silent for {} ms", ms(a.spec.fail_safe.watchdog(watchdog_)))
+        : cause == LossCause::set_points_silent ? fmt::format("has not renewed its set-points for {} ms", ms(a.stream.good_for))
+                                                : "has closed its last connection";
+    e.text = fmt::format("{}: {} commanded the axis and {}", name_of(body),
+                         a.stream.on ? a.stream.who.text() : a.authority.commander().text(), what);
     event(std::move(e), now);
     auto decision = a.profile.on_command(body);
     for (auto& o : decision.orders) give_order(a, nullptr, std::move(o), {}, now);

@@ -32,7 +32,7 @@ bool Engine::awaits_answer(const Axis& a) const {
 bool Engine::under_way(const Axis& a) const {
     if (!online(a)) return a.drive->device_lost_while_commanded;  // it may be moving: nobody knows
     const AxisFeedback& f = a.profile.feedback();
-    return f.moving || f.homing || a.profile.active_target() || a.run.velocity != 0 || awaits_answer(a);
+    return f.moving || f.homing || a.stream.on || a.profile.active_target() || a.run.velocity != 0 || awaits_answer(a);
 }
 
 void Engine::change_site(Site site, SiteMemory memory, std::uint64_t revision, Instant now, Applied then) {

@@ -119,6 +119,22 @@ struct Engine::Axis {
     } run;
     std::int64_t last_deceleration = 0;  ///< of the last move that named one and was taken: a drive keeps it; 0: none since it came
     std::optional<Move> prepared;  ///< taken by the drive, starts with StartTogether
+    /// Set-points that one client renews.
+    struct Stream {
+        bool on = false;
+        SetPoint::Mode mode = SetPoint::Mode::position;
+        AuthorityClient who;
+        Origin origin;
+        Instant renewed{};  ///< by one that was handed to the drive: a refused one keeps nothing alive
+        Duration good_for{};
+        std::uint32_t taken = 0, refused = 0;
+        Reason refusal = Reason::none;  ///< of the newest one, or of the stream
+        Instant tell_again_at{};
+        AuthorityClient ended_by;  ///< whose stream was the last; it must pause before its next one
+        Instant ended_heard{};     ///< when it sent one last, since then
+        Reason ended_for = Reason::none;
+        std::string ended_why;
+    } stream;
     Ticket setpoint_ticket = no_ticket;  ///< the set-point that came last by a control word: it may wait and begin later, without its client
     Instant leaving_until{};  ///< a site change takes it away: until then nothing begins here any more
     bool at_limit = false;  ///< a velocity move was ended at a limit, and no motion has begun since

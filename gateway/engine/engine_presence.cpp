@@ -67,6 +67,7 @@ void Engine::link(Side& side, const DriveLink& l, Instant now) {
         d->why = l.text;
         for (const AxisId id : d->axes) {
             Axis& a = *axes_[index_of(id)];
+            if (changed) end_stream(a, Reason::no_answer, l.online ? "the drive answers again" : "the drive does not answer", now);
             a.profile.on_presence(l.online ? d->serving : Presence::offline);
             publish(a, now);
             track(a, now);
@@ -151,6 +152,7 @@ void Engine::serve(Drive& d, Presence by, std::string why, Instant now) {
     const bool online = by == Presence::twin ? d.twin_online : d.device_online;
     for (const AxisId id : d.axes) {
         Axis& a = *axes_[index_of(id)];
+        end_stream(a, Reason::interrupted, by == Presence::twin ? "the twin takes over" : "the device takes over", now);
         a.profile.on_presence(Presence::offline);
         if (online) a.profile.on_presence(by);
         a.stale = true;

@@ -58,6 +58,7 @@ void Engine::housekeeping(Instant now) {
         if (!a.clients.empty()) track(a, now);
         check_hold(a, now);
         check_watchdog(a, now);
+        check_stream(a, now);
         if (const auto v = a.authority.expire(now); v.change != AxisAuthority::Change::none) authority_changed(a, v, nullptr, now);
     }
     for (const auto& slot : drives_) {

@@ -20,6 +20,7 @@
 #include "gateway/runtime/cold.hpp"
 #include "gateway/runtime/event_outlet.hpp"
 #include "gateway/runtime/mailbox.hpp"
+#include "gateway/runtime/set_point_slots.hpp"
 
 namespace axisgate {
 
@@ -59,6 +60,7 @@ public:
     }
     [[nodiscard]] boost::asio::io_context& context() noexcept { return io_; }
     [[nodiscard]] Mailbox<Command>& commands() noexcept { return commands_; }
+    [[nodiscard]] SetPointSlots& set_points() noexcept { return set_points_; }
     [[nodiscard]] Mailbox<Job>& jobs() noexcept { return jobs_; }
     [[nodiscard]] Mailbox<Stored>& stored() noexcept { return stored_; }
     /// Any thread: cells of the image; axis pictures by AxisCell.
@@ -84,6 +86,7 @@ public:
     [[nodiscard]] const Image& image() const override { return image_; }
     [[nodiscard]] const Catalogue* catalogue(AxisId axis) const override { return engine_.catalogue(axis); }
     void submit(Command command) override;
+    void set_point(const SetPoint& set_point) override { engine_.on_set_point(set_point, now()); }
     void client_lost(const AuthorityClient& who, LossCause cause) override { engine_.on_client_lost(who, cause, now()); }
     void note(Event&& event, AxisId axis) override;
     [[nodiscard]] DoorNumber attach(HotDoor& door) override;
@@ -115,6 +118,7 @@ private:
     Engine engine_;
     Outlets out_;
     Mailbox<Command> commands_;
+    SetPointSlots set_points_;
     Mailbox<Job> jobs_;
     Mailbox<Stored> stored_;
     std::vector<Command> submitted_;  // by doors of this thread, during the present turn

@@ -52,6 +52,7 @@ public:
     [[nodiscard]] AxisPicture picture(AxisId axis) const override;
     [[nodiscard]] std::uint64_t picture_revision(AxisId axis) const override;
     Ticket submit(Command command, std::function<void(const Result&)> then) override;
+    void set_point(SetPoint set_point) override { hot_.set_points().put(std::move(set_point)); }
     void client_lost(const AuthorityClient& who, LossCause cause) override;
     [[nodiscard]] LiveParameter live(AxisId axis, Point point) const override;
     [[nodiscard]] std::vector<StoredParameter> stored(const std::string& axis) const override;

@@ -2,7 +2,7 @@
 // In: JSON. Out: a CommandBody or all faults. Never takes a member that the command has no use for.
 #include "gateway/services/command_reader.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -97,16 +97,18 @@ public:
         }
         return static_cast<std::int16_t>(d);
     }
-    std::optional<std::int64_t> hold() {
-        const auto* v = body_.if_contains("hold_ms");
+    /// Milliseconds after which the axis is halted unless the same comes again.
+    std::optional<std::int64_t> hold(std::string_view key, std::int64_t least) {
+        const auto* v = body_.if_contains(key);
         if (!v || v->is_null()) return std::nullopt;
         const double d = v->is_number() ? v->to_number<double>() : 0.5;
         if (std::nearbyint(d) != d) {
-            malformed("hold_ms", "hold_ms must be a whole number", "write milliseconds, 100 to 10000, or leave it out");
+            malformed(key, fmt::format("{} must be a whole number", key),
+                      fmt::format("write milliseconds, {} to 10000, or leave it out", least));
             return std::nullopt;
         }
-        if (d < 100 || d > 10'000) {
-            out_of_range("hold_ms", "hold_ms is outside 100..10000",
+        if (d < static_cast<double>(least) || d > 10'000) {
+            out_of_range(key, fmt::format("{} is outside {}..10000", key, least),
                          "write milliseconds after which the axis is halted unless the command comes again");
             return std::nullopt;
         }
@@ -125,7 +127,7 @@ public:
         m.deceleration = increments("deceleration", false, true, "/s^2");
         m.prepare_only = flag("prepare");
         if (kind == Move::Kind::velocity) {
-            m.hold_ms = hold();
+            m.hold_ms = hold("hold_ms", 100);
             m.renew_only = flag("renew");
             if (m.renew_only && !m.hold_ms) malformed("renew", "renew needs hold_ms", "add \"hold_ms\", the time until the next renewal");
         }
@@ -150,6 +152,34 @@ std::string known_commands() {
     return s;
 }
 }  // namespace
+
+ReadSetPoint read_set_point(const json::object& body, double increments_per_unit, std::string_view unit) {
+    static constexpr std::array<std::string_view, 7> known{"axis",         "mode",         "value",      "velocity",
+                                                           "acceleration", "deceleration", "good_for_ms"};
+    ReadCommand read_into;
+    read_into.name = "a set-point";
+    const auto* word = body.if_contains("mode");
+    const auto mode = word && word->is_string() ? set_point_mode_of(std::string_view(word->get_string())) : std::nullopt;
+    const bool torque = mode == SetPoint::Mode::torque;
+    Reader read(body, torque ? 1 : increments_per_unit, torque ? "1/1000 of the rated torque" : unit, read_into);
+    for (const auto& [k, v] : body) {
+        if (std::ranges::find(known, std::string_view(k)) == known.end())
+            read.malformed(k, fmt::format("a set-point does not know {}", std::string_view(k)),
+                           fmt::format("remove it; a set-point takes {}", fmt::join(known, ", ")));
+    }
+    SetPoint p;
+    if (!mode) read.malformed("mode", "mode must be \"position\", \"velocity\" or \"torque\"", "write what the value is");
+    p.mode = mode.value_or(SetPoint::Mode::position);
+    p.value = read.increments("value", true, false, p.mode == SetPoint::Mode::velocity ? "/s" : "").value_or(0);
+    p.velocity = read.increments("velocity", false, true, "/s");
+    p.acceleration = read.increments("acceleration", false, true, "/s^2");
+    p.deceleration = read.increments("deceleration", false, true, "/s^2");
+    if (const auto ms = read.hold("good_for_ms", milliseconds_of(SetPoint::good_for_min))) p.good_for = std::chrono::milliseconds(*ms);
+    ReadSetPoint out;
+    out.faults = std::move(read_into.faults);
+    if (out.faults.empty()) out.set_point = std::move(p);
+    return out;
+}
 
 ReadCommand read_command(const json::object& body, double increments_per_unit, std::string_view unit) {
     ReadCommand out;

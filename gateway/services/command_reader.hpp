@@ -25,4 +25,12 @@ struct ReadCommand {
 /// whole number of increments. Velocities and accelerations that would become 0 increments are refused.
 [[nodiscard]] ReadCommand read_command(const boost::json::object& body, double increments_per_unit, std::string_view unit);
 
+struct ReadSetPoint {
+    std::optional<SetPoint> set_point;  ///< axis, instant and origin are the caller's; only if there are no faults
+    std::vector<Fault> faults;
+};
+/// {"axis": ..., "mode": "position" or "velocity" (in the unit, or unit/s) or "torque" (1/1000 of the rated one), "value": ..., and, if
+/// wanted, "velocity", "acceleration", "deceleration" and "good_for_ms" (20 to 10000; 500)}.
+[[nodiscard]] ReadSetPoint read_set_point(const boost::json::object& body, double increments_per_unit, std::string_view unit);
+
 }  // namespace axisgate

@@ -15,7 +15,8 @@ namespace json = boost::json;
 namespace {
 
 /// Beside those that tell the state in one value.
-constexpr std::array<std::string_view, 6> other_axis_live_members{"at", "authority_holder", "authority_until", "error", "family", "line"};
+constexpr std::array<std::string_view, 8> other_axis_live_members{"at",    "authority_holder", "authority_until", "error", "family", "line",
+                                                                  "modes", "set_points"};
 constexpr std::array<std::string_view, 3> drive_live_members{"family", "axes", "status"};
 constexpr std::array<std::string_view, 2> line_live_members{"drives", "status"};
 
@@ -39,6 +40,12 @@ std::string_view mode_name(std::int16_t mode) noexcept {
             return "profile_velocity";
         case cia402::mode_homing:
             return "homing";
+        case cia402::mode_cyclic_position:
+            return "cyclic_position";
+        case cia402::mode_cyclic_velocity:
+            return "cyclic_velocity";
+        case cia402::mode_cyclic_torque:
+            return "cyclic_torque";
         default:
             return "other";
     }
@@ -109,6 +116,18 @@ json::object axis_document(const AxisView& v) {
     o["controlword"] = p.controlword;
     o["mode"] = mode_name(p.mode_display);
     o["mode_number"] = p.mode_display;
+    json::array modes;
+    if (v.catalogue) {
+        for (const std::int16_t mode : v.catalogue->modes())
+            modes.emplace_back(mode);
+    }
+    o["modes"] = std::move(modes);
+    o["set_points"] =
+        json::object{{"streaming", p.streaming},
+                     {"mode", p.streaming ? json::value(name_of(p.stream_mode)) : json::value(nullptr)},
+                     {"taken", p.set_points},
+                     {"refused", p.set_points_refused},
+                     {"reason", p.set_point_refusal == Reason::none ? json::value(nullptr) : json::value(name_of(p.set_point_refusal))}};
     o["moving"] = flag(flag_moving);
     o["target_reached"] = flag(flag_target_reached);
     o["referenced"] = flag(flag_referenced);

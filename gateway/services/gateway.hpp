@@ -84,6 +84,9 @@ public:
     /// One command, one result; the ticket is given by the gateway and told at once. Result::reason busy if too many wait.
     virtual Ticket submit(Command command, std::function<void(const Result&)> then) = 0;
 
+    /// A streamed set-point, `at` included: the newest per axis counts, nothing is answered, and the axis' picture tells what came of it.
+    virtual void set_point(SetPoint set_point) = 0;
+
     /// The last connection of a client has ended: what it commanded is treated as the axes' site entries say.
     virtual void client_lost(const AuthorityClient& /*who*/, LossCause /*cause*/) {}
 

@@ -6,7 +6,7 @@
 
 namespace axisgate {
 namespace {
-constexpr std::array<std::string_view, 3> cause_names{"none", "modbus_closed", "modbus_silent"};
+constexpr std::array<std::string_view, 4> cause_names{"none", "modbus_closed", "modbus_silent", "set_points_silent"};
 constexpr std::array<std::string_view, 4> action_names{"nothing", "halt", "quick_stop", "disable"};
 }  // namespace
 

@@ -14,11 +14,12 @@ namespace axisgate {
 /// Why the commander of an axis counts as lost. The numbers are register 22 of the standard map.
 enum class LossCause : std::uint8_t {
     none = 0,
-    modbus_closed = 1,  ///< its last Modbus connection has ended: by itself, by the network, or closed by the gateway
-    modbus_silent = 2   ///< connected, but no request for longer than the watchdog time
+    modbus_closed = 1,     ///< its last Modbus connection has ended: by itself, by the network, or closed by the gateway
+    modbus_silent = 2,     ///< connected, but no request for longer than the watchdog time
+    set_points_silent = 3  ///< it streamed set-points, and the next one did not come in time
 };
-inline constexpr std::array<LossCause, 2> loss_causes{LossCause::modbus_closed, LossCause::modbus_silent};
-/// "modbus_closed", "modbus_silent"; "none".
+inline constexpr std::array<LossCause, 3> loss_causes{LossCause::modbus_closed, LossCause::modbus_silent, LossCause::set_points_silent};
+/// "modbus_closed", "modbus_silent", "set_points_silent"; "none".
 [[nodiscard]] std::string_view name_of(LossCause cause) noexcept;
 
 enum class FailSafeAction : std::uint8_t { nothing, halt, quick_stop, disable };

@@ -25,6 +25,7 @@ public:
         r.text = "this drive has no velocity mode: use a positioning";
         if (command.ticket != no_ticket) out.results.push_back(std::move(r));
     }
+    void on_set_point(const SetPoint& p, Instant now, Out& out) override { inner_->on_set_point(p, now, out); }
     void on_frame(const Frame& frame, Instant now, Out& out) override { inner_->on_frame(frame, now, out); }
     void on_deadline(Instant now, Out& out) override { inner_->on_deadline(now, out); }
     [[nodiscard]] Instant deadline() const override { return inner_->deadline(); }

@@ -70,6 +70,9 @@ struct Call {
     [[nodiscard]] Origin origin() const;  ///< in handlers_authority.cpp
 };
 
+/// Who commands by such a request, `who` as Call has it. In handlers_authority.cpp.
+[[nodiscard]] Origin origin_of(const Request& request, const Identity& identity, std::string who);
+
 using Handler = Handled (*)(Call&);
 
 // --- handlers_gateway.cpp ---------------------------------------------------------------------------------------------

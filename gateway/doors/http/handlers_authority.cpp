@@ -99,8 +99,10 @@ void check_members(const json::object& body, std::initializer_list<std::string_v
 }
 }  // namespace
 
-Origin Call::origin() const {
-    Origin o{Door::http, std::make_shared<const std::string>(who()), {}};
+Origin Call::origin() const { return origin_of(request, identity, who()); }
+
+Origin origin_of(const Request& request, const Identity& identity, std::string who) {
+    Origin o{Door::http, std::make_shared<const std::string>(std::move(who)), {}};
     // Who has signed in is one client wherever from, and each of his tokens another one; without a name, several connections of one page
     // are one client: the host, and the name that the client gives itself.
     std::string name = identity.user.empty() ? request.peer.substr(0, request.peer.rfind(':')) : identity.user;

@@ -437,6 +437,12 @@ std::string_view Router::why_not_watched_on(const Request& request) const {
     return now.wrong_token ? "the token has expired or was removed" : "signed out";
 }
 
+std::optional<Origin> Router::commander_of(const Request& request) const {
+    const Identity now = http::identify(context_.access.get(), request, context_.gateway.now_unix_ns(), false);
+    if (now.role < Role::operating) return std::nullopt;
+    return origin_of(request, now, context_.access ? who(now, request.peer) : request.peer);
+}
+
 std::string_view Router::route_of(const Request& request) const { return route_word(parse_target(request.target)); }
 
 }  // namespace axisgate::http

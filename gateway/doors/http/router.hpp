@@ -76,6 +76,8 @@ public:
     [[nodiscard]] Admission admit(const Request& head) const;
     /// Why a live feed that was opened by this request may not go on, for its close frame; empty: its session or token still holds.
     [[nodiscard]] std::string_view why_not_watched_on(const Request& request) const;
+    /// Who commands over a live feed that was opened by this request; nothing: it has no role that may.
+    [[nodiscard]] std::optional<Origin> commander_of(const Request& request) const;
     /// The route's path for a counter: as in the table, "static" for files, "none" where nothing matched.
     [[nodiscard]] std::string_view route_of(const Request& request) const;
 

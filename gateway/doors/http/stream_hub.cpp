@@ -7,10 +7,12 @@
 
 #include <algorithm>
 
-#include "gateway/services/documents.hpp"
 #include "gateway/doors/http/handlers.hpp"
 #include "gateway/doors/http/text.hpp"
 #include "gateway/doors/http/websocket_codec.hpp"
+#include "gateway/services/axis_place.hpp"
+#include "gateway/services/command_reader.hpp"
+#include "gateway/services/documents.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
@@ -91,6 +93,8 @@ void StreamHub::on_text(StreamClient& c, std::string_view text, Instant now) {
         return wake(c);
     }
     c.wrong_in_a_row_ = 0;
+    if (!request->set_point.empty()) give_set_point(c, request->set_point, now);
+    if (request->subscribe.empty() && request->unsubscribe.empty()) return wake(c);
     for (const auto& topic : request->unsubscribe)
         unsubscribe(c, topic);
     for (const auto& topic : request->subscribe)
@@ -102,12 +106,30 @@ void StreamHub::on_text(StreamClient& c, std::string_view text, Instant now) {
 }
 
 bool StreamHub::may_ask(StreamClient& c, const StreamRequest& request, Instant now) {
-    double cost = 1 + static_cast<double>(request.subscribe.size() + request.unsubscribe.size()) / 50;
+    const bool alone = request.subscribe.empty() && request.unsubscribe.empty();
+    double cost = (alone ? 0.02 : 1) + static_cast<double>(request.subscribe.size() + request.unsubscribe.size()) / 50;
     for (const auto& topic : request.subscribe)
         cost += topic.ends_with("/frames") ? 4 : 0;
     c.asked_ = std::max(0.0, c.asked_ - seconds(now - c.asked_at_) * allowance_per_s) + cost;
     c.asked_at_ = now;
     return c.asked_ <= allowance;
+}
+
+/// Handed on without an answer; only what could not be handed on is told to the client.
+void StreamHub::give_set_point(StreamClient& c, const json::object& body, Instant now) {
+    auto origin = c.commander ? c.commander() : std::nullopt;
+    if (!origin) return tell_error(c, "set-points need the role operator or a higher one");
+    const auto* name = body.if_contains("axis");
+    const auto place = name && name->is_string() ? find_axis(gateway_, std::string_view(name->get_string())) : std::nullopt;
+    if (!place)
+        return tell_error(c, name && name->is_string() ? fmt::format("there is no axis {}", std::string_view(name->get_string()))
+                                                       : "a set-point needs \"axis\", its name");
+    auto read = read_set_point(body, place->spec().increments_per_unit, place->spec().unit);
+    if (!read.set_point) return tell_error(c, fmt::format("set_point: {}: {}", read.faults.front().text, read.faults.front().remedy));
+    read.set_point->axis = place->id();
+    read.set_point->at = now;
+    read.set_point->origin = std::move(*origin);
+    gateway_.set_point(std::move(*read.set_point));
 }
 
 void StreamHub::subscribe(StreamClient& c, const std::string& topic, std::int64_t period_ms) {

@@ -36,6 +36,8 @@ public:
     StreamQueue queue;
     /// Set by who sends: what is put into an empty queue now leaves at once, before anything newer can come.
     bool takes_at_once = false;
+    /// Who gives set-points over this feed; nothing: its user may not command. Set by who knows the handshake; empty: nobody may.
+    std::function<std::optional<Origin>()> commander;
     /// Not 0: the client is to be closed with this code; the close frame is in the queue.
     [[nodiscard]] std::uint16_t closing() const noexcept { return closing_; }
     /// Drops what waits and puts a close frame in its place.
@@ -114,11 +116,13 @@ private:
     static constexpr int clients_per_slice = 4;
     static constexpr std::size_t most_joined = 128;  ///< states in one write, some 64 KiB
     /// Every subscription tells the whole state anew: a client may ask for so much at once, and for so much more a second. A request costs
-    /// 1, with 1 more for each 50 topics, and 4 for each line's frames. Beyond, the client is closed.
+    /// 1, with 1 more for each 50 topics, a set-point alone 1/50 (1000 a second), and 4 for each line's frames. Beyond, the client is
+    /// closed.
     static constexpr double allowance = 200, allowance_per_s = 20;
 
     /// Counts a request against the allowance; false: it is used up.
     [[nodiscard]] static bool may_ask(StreamClient& c, const StreamRequest& request, Instant now);
+    void give_set_point(StreamClient& c, const boost::json::object& body, Instant now);
     void subscribe(StreamClient& c, const std::string& topic, std::int64_t period_ms);
     void unsubscribe(StreamClient& c, const std::string& topic);
     void resolve(StreamClient& c, Instant now, const std::vector<std::string>* snapshots_of);

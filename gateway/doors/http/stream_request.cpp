@@ -45,6 +45,13 @@ std::optional<StreamRequest> read_stream_request(std::string_view text, std::str
         if (k == "subscribe" || k == "unsubscribe") {
             asks = true;
             if (!read_topics(x, k, k == "subscribe" ? r.subscribe : r.unsubscribe, fault)) return std::nullopt;
+        } else if (k == "set_point") {
+            asks = true;
+            if (!x.is_object() || x.get_object().empty()) {
+                fault = "set_point must be an object: {\"axis\": \"feeder\", \"mode\": \"position\", \"value\": 12.5}";
+                return std::nullopt;
+            }
+            r.set_point = x.get_object();
         } else if (k == "period_ms") {
             const double ms = x.is_number() ? x.to_number<double>() : 0;
             if (!(ms >= 10 && ms <= 10'000) || std::nearbyint(ms) != ms) {
@@ -53,12 +60,12 @@ std::optional<StreamRequest> read_stream_request(std::string_view text, std::str
             }
             r.period_ms = (static_cast<std::int64_t>(ms) + 9) / 10 * 10;
         } else {
-            fault = fmt::format("{} is not known here: use subscribe, unsubscribe, period_ms", std::string_view(k));
+            fault = fmt::format("{} is not known here: use subscribe, unsubscribe, period_ms, set_point", std::string_view(k));
             return std::nullopt;
         }
     }
     if (!asks) {
-        fault = "subscribe or unsubscribe is missing";
+        fault = "subscribe, unsubscribe or set_point is missing";
         return std::nullopt;
     }
     return r;

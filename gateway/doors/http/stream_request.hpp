@@ -3,6 +3,7 @@
 // Never knows which topics exist: that is the hub's.
 #pragma once
 
+#include <boost/json/object.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@ namespace axisgate::http {
 
 struct StreamRequest {
     std::vector<std::string> subscribe, unsubscribe;
+    boost::json::object set_point{};  ///< as it was written; empty: none (see read_set_point)
     std::int64_t period_ms = 100;  ///< 10..10000, a multiple of 10 (rounded up), so that clients share their scans
 };
 

@@ -26,6 +26,14 @@ void WebSocketSession::start(std::span<const std::uint8_t> early) {
     client_ = host_->hub.add([self = weak_from_this()] {
         if (const auto me = self.lock()) me->pump();
     });
+    // Looked up once, and again whenever the right to watch is: a set-point comes perhaps a thousand times a second.
+    client_->commander = [self = weak_from_this()]() -> std::optional<Origin> {
+        const auto me = self.lock();
+        if (!me) return std::nullopt;
+        if (!me->commander_known_) me->commander_ = me->host_->router.commander_of(me->opened_by_);
+        me->commander_known_ = true;
+        return me->commander_;
+    };
     client_->takes_at_once = true;
     heard_ = pinged_ = looked_ = std::chrono::steady_clock::now();
     arm();
@@ -151,6 +159,7 @@ void WebSocketSession::on_timer() {
     }
     if (!closing_ && now >= looked_ + host_->settings.right_period) {
         looked_ = now;
+        commander_known_ = false;
         if (const auto why = host_->router.why_not_watched_on(opened_by_); !why.empty()) return begin_close(close_policy, why);
     }
     if (!closing_ && writing_ && now >= write_began_ + host_->settings.write_limit / 2) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <boost/asio/steady_timer.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -51,6 +52,8 @@ private:
     std::array<std::uint8_t, 8192> buffer_{};
     std::vector<SharedFrame> batch_;  ///< being written
     SteadyTime heard_{}, pinged_{}, looked_{}, write_began_{}, close_began_{};
+    std::optional<Origin> commander_;  ///< who gives set-points by it; nothing: its user may not
+    bool commander_known_ = false;
     bool writing_ = false;
     bool closing_ = false;  ///< a close frame is in the queue or was sent
     bool close_heard_ = false;

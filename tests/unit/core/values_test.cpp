@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "gateway/axis/guard.hpp"
@@ -67,6 +68,25 @@ TEST(Catalogue, FindsByIdNameAndElement) {
     EXPECT_EQ(c.parameter({0, 1}), nullptr);
     EXPECT_EQ(c.error(50, "alarm")->name, "other");
     EXPECT_EQ(c.error(51), nullptr);
+}
+
+TEST(Catalogue, ModesOfOperationAreThePagesOrTheCommonThree) {
+    EXPECT_TRUE(std::ranges::equal(read(page).modes(), std::vector<std::int16_t>{1, 3, 6}));
+    const auto with = [](std::string_view modes) {
+        std::string text(page);
+        text.insert(text.find('{') + 1, "\"modes\": " + std::string(modes) + ",");
+        return text;
+    };
+    const auto c = read(with("[6, 8, -1]"));
+    EXPECT_TRUE(std::ranges::equal(c.modes(), std::vector<std::int16_t>{6, 8, -1}));
+    EXPECT_TRUE(c.offers_mode(8));
+    EXPECT_FALSE(c.offers_mode(1));
+    for (const auto* bad : {"[]", "5", "[0]", "[1, 1]", "[128]", "[\"1\"]", "[1.5]", "null"}) {
+        std::vector<std::string> faults;
+        EXPECT_FALSE(Catalogue::parse(with(bad), faults)) << bad;
+        ASSERT_FALSE(faults.empty()) << bad;
+        EXPECT_NE(faults.front().find("modes"), std::string::npos) << faults.front();
+    }
 }
 
 TEST(Catalogue, ASelectorIsThePositionAndTheElementAndNothingForTexts) {

@@ -115,5 +115,21 @@ TEST(CommandReader, NumbersThatAreNotFinite) {
         EXPECT_TRUE(ec.failed());
     }
 }
+
+ReadSetPoint streamed(std::string_view text, double scale = 3200) {
+    return read_set_point(boost::json::parse(text).get_object(), scale, "mm");
+}
+
+TEST(CommandReader, SetPointsAreInTheUnitAndTorqueIsNot) {
+    const auto speed = streamed(R"({"axis":"x","mode":"velocity","value":-2.5,"acceleration":10,"good_for_ms":20})");
+    ASSERT_TRUE(speed.set_point);
+    EXPECT_EQ(speed.set_point->mode, SetPoint::Mode::velocity);
+    EXPECT_EQ(speed.set_point->value, -8000);
+    EXPECT_EQ(speed.set_point->acceleration, 32000);
+    EXPECT_EQ(speed.set_point->good_for, std::chrono::milliseconds(20));
+    EXPECT_EQ(streamed(R"({"axis":"x","mode":"torque","value":-125})").set_point->value, -125);
+    EXPECT_EQ(streamed(R"({"axis":"x","mode":"position","value":1e30})").faults.size(), 1u);
+    EXPECT_EQ(streamed(R"({"axis":"x","mode":7,"value":"1","good_for_ms":1.5,"velocity":0})").faults.size(), 4u);
+}
 }  // namespace
 }  // namespace axisgate::http

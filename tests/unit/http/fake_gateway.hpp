@@ -105,6 +105,7 @@ public:
     std::vector<Event> events_;
     mutable std::vector<EventQuery> event_queries;
     std::uint64_t last_event = 0;
+    std::vector<SetPoint> set_points;
     std::set<GatewayListener*> listeners;
     mutable int pictures_read = 0;
 
@@ -161,6 +162,7 @@ public:
         const auto it = revisions.find(id);
         return it == revisions.end() ? 0 : it->second;
     }
+    void set_point(SetPoint p) override { set_points.push_back(std::move(p)); }
     Ticket submit(Command command, std::function<void(const Result&)> then) override {
         command.ticket = ++last_ticket;
         submitted.push_back(command);

@@ -512,5 +512,62 @@ TEST(StreamHub, StopsListeningWhenItEnds) {
     }
     EXPECT_EQ(gateway.listeners.size(), 0u);
 }
+
+TEST_F(StreamHubTest, ASetPointIsHandedOnWithoutAnAnswer) {
+    client->commander = [] {
+        return Origin{Door::http, std::make_shared<const std::string>("anna 10.0.0.7:4711"), std::make_shared<const std::string>("anna")};
+    };
+    say(R"({"set_point":{"axis":"feeder","mode":"position","value":12.5,"velocity":2,"good_for_ms":100}})");
+    say(R"({"set_point":{"axis":"slide","mode":"velocity","value":-7}})");
+    ASSERT_EQ(gateway.set_points.size(), 2u);
+    const SetPoint& p = gateway.set_points[0];
+    EXPECT_EQ(p.axis, gateway.axis("feeder"));
+    EXPECT_EQ(p.mode, SetPoint::Mode::position);
+    EXPECT_EQ(p.value, 40000);
+    EXPECT_EQ(p.velocity, 6400);
+    EXPECT_FALSE(p.acceleration);
+    EXPECT_EQ(p.good_for, milliseconds(100));
+    EXPECT_EQ(p.at, now) << "when the message was here";
+    EXPECT_EQ(*p.origin.client, "anna");
+    EXPECT_EQ(gateway.set_points[1].value, -7);
+    EXPECT_EQ(gateway.set_points[1].good_for, milliseconds(500));
+    EXPECT_TRUE(taken(*client).empty());
+    EXPECT_EQ(hub.deadline(), never) << "nobody watches anything";
+}
+
+TEST_F(StreamHubTest, ASetPointThatCannotBeHandedOnIsToldWithTheReason) {
+    const auto told = [&](std::string_view text) {
+        say(text);
+        const auto messages = taken(*client);
+        EXPECT_EQ(messages.size(), 1u) << text;
+        return messages.empty() ? std::string() : messages[0].topic + " " + json::serialize(messages[0].data);
+    };
+    EXPECT_NE(told(R"({"set_point":{"axis":"feeder","mode":"position","value":1}})").find("operator"), std::string::npos);
+    client->commander = [] { return std::optional<Origin>(); };
+    EXPECT_NE(told(R"({"set_point":{"axis":"feeder","mode":"position","value":1}})").find("operator"), std::string::npos);
+    client->commander = [] { return Origin{Door::http, {}, {}}; };
+    EXPECT_NE(told(R"({"set_point":{"axis":"nobody","mode":"position","value":1}})").find("no axis nobody"), std::string::npos);
+    EXPECT_NE(told(R"({"set_point":{"mode":"position","value":1}})").find("axis"), std::string::npos);
+    EXPECT_NE(told(R"({"set_point":{"axis":"feeder","mode":"place","value":1}})").find("torque"), std::string::npos);
+    EXPECT_NE(told(R"({"set_point":{"axis":"feeder","mode":"position"}})").find("needs value"), std::string::npos);
+    EXPECT_NE(told(R"({"set_point":{"axis":"feeder","mode":"position","value":1,"good_for_ms":19}})").find("20..10000"), std::string::npos);
+    EXPECT_NE(told(R"({"set_point":{"axis":"feeder","mode":"position","value":1,"speed":2}})").find("speed"), std::string::npos);
+    EXPECT_NE(told(R"({"set_point":5})").find("object"), std::string::npos);
+    EXPECT_TRUE(gateway.set_points.empty());
+}
+
+TEST_F(StreamHubTest, AThousandSetPointsASecondAreNotTooMany) {
+    client->commander = [] { return Origin{Door::http, {}, {}}; };
+    for (int i = 0; i < 20'000; ++i) {
+        now += milliseconds(1);
+        say(R"({"set_point":{"axis":"slide","mode":"position","value":1}})");
+    }
+    EXPECT_EQ(client->closing(), 0);
+    EXPECT_EQ(gateway.set_points.size(), 20'000u);
+    for (int i = 0; i < 20'000; ++i)
+        say(R"({"set_point":{"axis":"slide","mode":"position","value":1}})");
+    EXPECT_EQ(client->closing(), 1008) << "a flood is";
+    EXPECT_LT(gateway.set_points.size(), 30'100u);
+}
 }  // namespace
 }  // namespace axisgate::http::test

@@ -183,6 +183,8 @@ export class MockAxis {
       controlword: 0,
       mode: this.motion === 'velocity' ? 'profile_velocity' : this.setpoints > 0 ? 'profile_position' : 'none',
       mode_number: 0,
+      modes: [1, 3, 6],
+      set_points: { streaming: false, mode: null, taken: 0, refused: 0, reason: null },
       moving: online && this.moving,
       target_reached: online && this.reached && !this.moving,
       referenced: this.referenced,

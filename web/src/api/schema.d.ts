@@ -2245,6 +2245,7 @@ export interface components {
         FailSafe: {
             modbus_closed?: components["schemas"]["FailSafeAction"];
             modbus_silent?: components["schemas"]["FailSafeAction"];
+            set_points_silent?: components["schemas"]["FailSafeAction"];
             /** @description how long a connected Modbus client may ask nothing; 0: for ever; left out: [modbus] watchdog_ms */
             watchdog_ms?: number;
         };
@@ -2282,9 +2283,26 @@ export interface components {
             /** @description as last accepted */
             readonly controlword: number;
             /** @enum {string} */
-            readonly mode: "none" | "profile_position" | "profile_velocity" | "homing" | "other";
+            readonly mode: "none" | "profile_position" | "profile_velocity" | "homing" | "cyclic_position" | "cyclic_velocity" | "cyclic_torque" | "other";
             /** @description modes of operation display */
             readonly mode_number: number;
+            /** @description the CiA 402 modes of operation that the drive offers; 8, 9 and 10 by streamed set-points alone */
+            readonly modes: number[];
+            /** @description set-points that a client streams over `/stream` or another cyclic door */
+            readonly set_points: {
+                streaming: boolean;
+                /**
+                 * @description null while nobody streams
+                 * @enum {string|null}
+                 */
+                mode: "position" | "velocity" | "torque" | null;
+                /** @description handed to the drive since the start; counts up */
+                taken: number;
+                /** @description not handed to it; counts up */
+                refused: number;
+                /** @description why the newest one was not handed to the drive, or why the stream ended, as in a Result; null - it was, or none came yet */
+                reason: string | null;
+            };
             readonly moving: boolean;
             readonly target_reached: boolean;
             /** @description the position has a known zero */
@@ -2297,7 +2315,7 @@ export interface components {
              * @description why the gateway stopped the axis without a command, until the next command to it; null - it did not
              * @enum {string|null}
              */
-            readonly fail_safe_cause: "modbus_closed" | "modbus_silent" | null;
+            readonly fail_safe_cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | null;
             /** @description in `unit`; null until the drive has said it */
             readonly position: number | null;
             /** @description whether somebody says where the axis should be now; if not, position_demand and following_error are null */
@@ -3170,7 +3188,7 @@ export interface components {
             differences: string[];
             faults: components["schemas"]["Fault"][];
         };
-        /** @description `subscribe`, `unsubscribe` or both; unsubscribing comes first */
+        /** @description `subscribe`, `unsubscribe`, `set_point`, or several; unsubscribing comes first */
         StreamRequest: {
             /**
              * @example [
@@ -3186,6 +3204,23 @@ export interface components {
              * @default 100
              */
             period_ms?: number;
+            set_point?: components["schemas"]["StreamedSetPoint"];
+        };
+        /** @description where the axis shall be, or how fast it shall go, for as long as this is sent again and again: the newest counts, nothing is answered, and `set_points` of the axis tells what came of it. Limits and authority are those of commands; the role is operator. The first one begins a stream, which ends with a stop, with a command that moves the axis, and when none has come for `good_for_ms`: then the axis' `fail_safe` says what happens (left out: a halt). After an end the client sends nothing for that time before it begins anew. At most 1000 a second */
+        StreamedSetPoint: {
+            axis: string;
+            /** @enum {string} */
+            mode: "position" | "velocity" | "torque";
+            /** @description in `unit`, `unit`/s, or thousandths of the rated torque */
+            value: number;
+            /** @description `unit`/s, at most so fast; left out, as the next two: as the drive has it */
+            velocity?: number | null;
+            /** @description `unit`/s^2 */
+            acceleration?: number | null;
+            /** @description `unit`/s^2 */
+            deceleration?: number | null;
+            /** @default 500 */
+            good_for_ms?: number | null;
         };
         StreamMessage: {
             topic: string;

@@ -60,7 +60,8 @@ export function StateMachine({ axis, trust }: { axis: Axis; trust: Trust }) {
       </svg>
       <details class="bits">
         <summary>
-          Status word <span class="mono">{live ? hex(axis.statusword, 4) : '–'}</span>, drive's own <span class="mono">{live ? hex(axis.native, 8) : '–'}</span>
+          Status word <span class="mono">{live ? hex(axis.statusword, 4) : '–'}</span>, drive's own <span class="mono">{live ? hex(axis.native, 8) : '–'}</span>, mode{' '}
+          <span class="mono">{live ? axis.mode_number : '–'}</span> of {axis.modes.join(', ')}
         </summary>
         <ol>
           {[...statusBits].reverse().map(({ bit, name, lowActive }) => {

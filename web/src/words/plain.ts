@@ -23,6 +23,8 @@ const words: Record<string, string> = {
   read_register: 'read register',
   profile_position: 'profile position',
   profile_velocity: 'profile velocity',
+  set_points: 'set-points',
+  set_points_silent: 'set-points silent',
 };
 const known = new RegExp(`(?<![\\w/"'.])(?:${Object.keys(words).join('|')})(?![\\w"'/])`, 'g');
 

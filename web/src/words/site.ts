@@ -83,6 +83,7 @@ export const fieldsOf: Record<Room, readonly FieldSpec[]> = {
     { key: 'acceleration_max', label: 'Highest acceleration', kind: 'number', above: 0, hint: 'unit/s²' },
     { key: 'fail_safe.modbus_closed', label: 'When its Modbus client has closed', kind: 'choice', more: true, choices: failSafeActions },
     { key: 'fail_safe.modbus_silent', label: 'When its Modbus client is silent', kind: 'choice', more: true, choices: failSafeActions },
+    { key: 'fail_safe.set_points_silent', label: 'When its streamed set-points stop', kind: 'choice', more: true, choices: failSafeActions },
     { key: 'fail_safe.watchdog_ms', label: 'Silent after, ms', kind: 'integer', min: 0, max: 600000, more: true, placeholder: "the gateway's", hint: '0: silence is not watched' },
     { key: 'authority_mode', label: 'Authority', kind: 'choice', more: true, choices: [{ value: '', text: 'as the gateway has it' }, { value: 'free', text: 'free' }, { value: 'lease', text: 'lease' }] },
   ],

@@ -1,0 +1,253 @@
+// Engine, commands: from a client's command to the orders that carry it out, or to the one reason for which it is refused.
+// In: commands with their origin. Out: orders on their way to the adapter, or a refusal; the audit's event.
+// Never changes an axis for a command that is refused, but for the stop in it.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "gateway/engine/engine.hpp"
+#include "gateway/engine/engine_parts.hpp"
+
+namespace axisgate {
+
+/// What a command of a client comes to.
+struct Engine::Plan {
+    std::vector<CommandBody> orders;
+    std::optional<Move> waits;  ///< a set-point behind the running motion
+    bool motion = false;        ///< a command of CiA 402's, by word or by name
+    bool stops = false;         ///< it ends motion and nothing else: free for everybody
+    bool lets_go = false;       ///< see Client
+    bool answered = false;      ///< nothing is left to do
+    [[nodiscard]] bool empty() const { return orders.empty() && !waits; }
+};
+
+void Engine::refuse(const Command& c, Reason reason, std::string text) {
+    Result r;
+    r.ticket = c.ticket;
+    r.axis = c.axis;
+    r.outcome = Outcome::refused;
+    r.reason = reason;
+    r.text = std::move(text);
+    host_.on_result(r);
+}
+
+void Engine::on_command(Command c, Instant now) {
+    now_ = std::max(now_, now);
+    Axis* a = axis(c.axis);
+    if (!a || closing_) return refuse(c, Reason::line_down, a ? "the gateway is stopping" : "there is no such axis");
+    if (const auto no = turned_away(*a, c, now)) return refuse(c, no->reason, no->text);
+    if (const auto* wish = std::get_if<HoldAxis>(&c.body)) return hold(*a, c, *wish, now);
+    if (const auto* hand = std::get_if<Hand>(&c.body)) return answer_hand(*a, c, *hand, now);
+
+    Plan plan;
+    auto no = plan_for(*a, c, plan, now);
+    if (!no && !plan.stops && needs_authority(c, plan)) no = ask_authority(*a, c, now);
+    if (plan.answered) return;
+    if (no) {
+        if (plan.stops) give_the_stop_alone(c, now);
+        return refuse(c, no->reason, fmt::format("axis {}: {}", a->spec.name, no->text));
+    }
+    note_command(*a, c, plan, now);
+    carry_out(*a, std::move(c), std::move(plan), now);
+}
+
+/// Not looked at any closer: too many are on their way, or the axis is about to go.
+std::optional<Refusal> Engine::turned_away(const Axis& a, const Command& c, Instant now) const {
+    if (a.clients.size() >= max_clients_per_axis && !is_urgent(c.body)) {
+        return Refusal{Reason::busy, fmt::format("axis {}: {} commands are on their way already; wait for their answers", a.spec.name,
+                                                 max_clients_per_axis)};
+    }
+    const bool free = std::holds_alternative<HoldAxis>(c.body) || std::holds_alternative<ReadParameter>(c.body);
+    if (now < a.leaving_until && !free && !only_stops(a, c.body)) {
+        return Refusal{
+            Reason::busy,
+            fmt::format("axis {}: a change of the site takes it away or makes it anew; come again when that is in force", a.spec.name)};
+    }
+    return std::nullopt;
+}
+
+void Engine::answer_hand(const Axis& a, const Command& c, const Hand& hand, Instant now) {
+    const std::string wrong = set_hand(a.drive->id, {{hand.name, hand.value}}, c.origin, now);
+    if (!wrong.empty()) return refuse(c, Reason::out_of_range, wrong);
+    Result r;
+    r.ticket = c.ticket;
+    r.axis = c.axis;
+    host_.on_result(r);
+}
+
+/// Nothing, with the plan; or why not.
+std::optional<Refusal> Engine::plan_for(Axis& a, Command& c, Plan& plan, Instant now) {
+    if (std::holds_alternative<Native>(c.body) || std::holds_alternative<Action>(c.body)) {
+        plan.orders.push_back(c.body);
+        return std::nullopt;
+    }
+    if (std::holds_alternative<ReadParameter>(c.body) || std::holds_alternative<WriteParameter>(c.body))
+        return plan_parameter(a, c.body, plan);
+    return plan_motion(a, c, plan, now);
+}
+
+std::optional<Refusal> Engine::plan_parameter(const Axis& a, CommandBody& body, Plan& plan) const {
+    const Catalogue& catalogue = *a.drive->catalogue;
+    auto* write = std::get_if<WriteParameter>(&body);
+    const Point point = write ? write->point : std::get<ReadParameter>(body).point;
+    const Parameter* p = catalogue.parameter(point);
+    if (!p) return Refusal{Reason::unknown_point, fmt::format("{} has no such parameter", catalogue.family())};
+    if (!write && !p->readable()) return Refusal{Reason::not_writable, fmt::format("{} can only be written", catalogue.id_of(point))};
+    if (write) {
+        if (!p->writable()) return Refusal{Reason::not_writable, fmt::format("{} can only be read", catalogue.id_of(point))};
+        auto checked = catalogue.check_write(point, write->value);
+        if (!checked.fault.empty()) return Refusal{Reason::out_of_range, std::move(checked.fault)};
+        write->value = std::move(checked.value);
+    }
+    plan.orders.push_back(body);
+    return std::nullopt;
+}
+
+std::optional<Refusal> Engine::plan_motion(Axis& a, Command& c, Plan& plan, Instant now) {
+    auto* data = std::get_if<ProcessData>(&c.body);
+    plan.motion = true;
+    plan.stops = only_stops(a, c.body);
+    if (const auto v = may_command(a, c, now); !v.allowed) {
+        if (!plan.stops) return Refusal{Reason::authority, v.text};
+        // A stop counts for everybody; but only who may command gives set-points with it.
+        if (data) *data = stop_alone(*data);
+    }
+    if (std::holds_alternative<Disable>(c.body) || (data && data->controlword && !(*data->controlword & cia402::cw_enable_voltage))) {
+        a.drive->device_lost_while_commanded = false;  // nobody commands it any more: its twin may take over
+        plan.lets_go = a.drive->spec.presence == PresenceRule::automatic && a.drive->serving == Presence::device && !a.drive->device_online;
+    }
+    if (auto no = beyond_limits(a, c.body)) return no;
+    if (hold_on(a, c, now)) {
+        plan.answered = true;
+        return std::nullopt;
+    }
+    const auto before = data ? std::optional(a.profile) : std::nullopt;
+    const std::int64_t buffered_from = a.profile.active_target().value_or(a.profile.feedback().position);
+    auto decision = data ? a.profile.on_process_data(*data, c.origin) : a.profile.on_command(c.body, c.origin);
+    if (decision.refused) {
+        const Side* side = side_of(*a.drive);
+        if (decision.reason == Reason::no_answer && side && !side->up)
+            return Refusal{Reason::line_down, fmt::format("line {} is down: {}", side->unit.spec.name, side->why)};
+        return Refusal{decision.reason, std::move(decision.text)};
+    }
+    plan.orders = std::move(decision.orders);
+    plan.waits = std::move(decision.waits);
+    if (!data) return std::nullopt;
+    std::optional<Refusal> no;  // a set-point that starts with this word, or waits because of it, is looked at as what it is
+    for (const auto& o : plan.orders) {
+        if (!no) no = beyond_limits(a, o);
+    }
+    if (!no && plan.waits) no = guard_move(*plan.waits, a.limits, buffered_from);
+    if (no) a.profile = *before;
+    return no;
+}
+
+ProcessData Engine::stop_alone(const ProcessData& data) {
+    ProcessData stop;
+    stop.controlword = data.controlword;
+    return stop;
+}
+
+/// A block of registers whose word stops is not lost for a wrong value beside it: the stop is given, and the answer is about the value.
+void Engine::give_the_stop_alone(const Command& c, Instant now) {
+    const auto* data = std::get_if<ProcessData>(&c.body);
+    const bool values = data && (data->target_position || data->target_velocity || data->profile_velocity || data->profile_acceleration ||
+                                 data->profile_deceleration || data->mode || data->homing_method);
+    if (!values) return;
+    Command only = c;
+    only.ticket = make_ticket(engine_itself, next_++);
+    only.body = stop_alone(*data);
+    on_command(std::move(only), now);
+}
+
+bool Engine::needs_authority(const Command& c, const Plan& plan) { return !std::holds_alternative<ReadParameter>(c.body) && !plan.empty(); }
+
+void Engine::note_command(const Axis& a, const Command& c, const Plan& plan, Instant now) {
+    const bool audited =
+        plan.motion || std::holds_alternative<Native>(c.body) || std::holds_alternative<Action>(c.body);  // writes when they are stored
+    if (plan.empty() || !audited || c.origin.door == Door::internal) return;
+    Event e;
+    e.kind = "command";
+    e.axis = a.spec.name;
+    e.who = c.origin.who ? *c.origin.who : "";
+    e.door = std::string(name_of(c.origin.door));
+    for (const auto& o : plan.orders) {
+        e.text += (e.text.empty() ? "" : ", ") + std::string(name_of(o));
+        if (const auto* m = std::get_if<Move>(&o)) e.text += fmt::format(" {}", m->target);
+        if (const auto* n = std::get_if<Native>(&o); n && n->is_text) e.text += " " + std::string(n->send.begin(), n->send.end());
+        if (const auto* x = std::get_if<Action>(&o)) e.text += " " + x->name;
+    }
+    if (plan.waits)
+        e.text += fmt::format("{}{} {} waits for the running motion", e.text.empty() ? "" : ", ", name_of(CommandBody{*plan.waits}),
+                              plan.waits->target);
+    event(std::move(e), now);
+}
+
+void Engine::carry_out(Axis& a, Command&& c, Plan&& plan, Instant now) {
+    auto client = std::make_unique<Client>();
+    const auto number = client->number = next_++;
+    client->ticket = c.ticket;
+    client->axis = c.axis;
+    client->body = std::move(c.body);
+    client->origin = c.origin;
+    client->until_done = c.until_done;
+    client->lets_go = plan.lets_go;
+    client->waiting = plan.orders.size();
+    client->result.outcome = Outcome::accepted;
+    if (const auto* data = std::get_if<ProcessData>(&client->body);
+        data && data->controlword && (*data->controlword & cia402::cw_new_setpoint))
+        a.setpoint_ticket = client->ticket;
+    if (plan.motion && !plan.stops && !plan.empty()) a.loss = LossCause::none;
+    if (plan.orders.empty()) {
+        client->accepted = true;
+        client->accepted_at = now;
+    }
+    a.clients.push_back(number);
+    clients_.emplace(number, std::move(client));
+    publish(a, now);
+    if (plan.orders.empty()) return track(a, now);
+    for (auto& o : plan.orders) {
+        const auto still = clients_.find(number);
+        if (still == clients_.end()) return;  // an earlier order was refused at once
+        give_order(a, still->second.get(), std::move(o), c.origin, now);
+    }
+}
+
+/// The site's limits, for every order on its one way down: what moves the axis, now or when others are ready, and what it shall be called;
+/// of registers the values that are kept for later, and a mode that the drive has not. The one place that compares with them: streamed
+/// set-points come here as the motion that they ask for.
+std::optional<Refusal> Engine::beyond_limits(const Axis& a, const CommandBody& body) const {
+    if (const auto* data = std::get_if<ProcessData>(&body)) {
+        const Catalogue& catalogue = *a.drive->catalogue;
+        if (data->mode && *data->mode != cia402::mode_none && !catalogue.offers_mode(*data->mode)) {
+            return Refusal{Reason::out_of_range, fmt::format("mode of operation {} is not offered; the drive has {}", *data->mode,
+                                                             fmt::join(catalogue.modes(), ", "))};
+        }
+        return guard_process_data(*data, a.limits);
+    }
+    const std::int64_t position = a.profile.feedback().position;
+    if (const auto* m = std::get_if<Move>(&body)) {
+        if (auto no = guard_move(*m, a.limits, position)) return no;
+        // Some drives count a distance from where they are, some from where they were going: neither may lead out.
+        const auto from = m->kind == Move::Kind::relative ? a.profile.active_target() : std::nullopt;
+        return from ? guard_move(*m, a.limits, *from) : std::nullopt;
+    }
+    if (const auto* set = std::get_if<SetPosition>(&body)) {
+        Move probe;
+        probe.target = set->position;
+        return guard_move(probe, AxisLimits{}, 0);
+    }
+    if (const auto* together = std::get_if<StartTogether>(&body)) {
+        for (const AxisId id : together->axes) {
+            const Axis* x = axis(id);
+            if (!x || !x->prepared) continue;
+            if (auto no = guard_move(*x->prepared, x->limits, x->profile.feedback().position)) {
+                no->text = fmt::format("axis {}: {}", x->spec.name, no->text);
+                return no;
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace axisgate

@@ -1,0 +1,161 @@
+// Engine, streamed set-points: what is renewed in cycles without an answer. The first is looked at like a command, each by the same limits.
+// In: set-points, what adapters say of them, the passing of time. Out: the newest one to its adapter; begin and end as events, all else as
+// state. Never an event per cycle: a client that goes on after a refusal is told at most once a second.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+
+#include "gateway/engine/engine.hpp"
+#include "gateway/engine/engine_parts.hpp"
+
+namespace axisgate {
+namespace {
+constexpr Duration refusal_told_again = std::chrono::seconds(1);
+}  // namespace
+
+void Engine::on_set_point(const SetPoint& p, Instant now) {
+    now_ = std::max(now_, now);
+    Axis* a = axis(p.axis);
+    if (!a || closing_) return;  // as with any state: who looks at the axis sees that it is not there
+    Axis::Stream& s = a->stream;
+    const auto who = AuthorityClient::of(p.origin);
+    const auto no = against(*a, p, who, now);
+    if (!s.on && s.ended_by == who) s.ended_heard = now;
+    if (no) {
+        ++s.refused;
+        const bool news = std::exchange(s.refusal, no->reason) != no->reason;
+        if (news && now >= s.tell_again_at) {
+            s.tell_again_at = now + refusal_told_again;
+            tell_stream(*a, p.origin, Severity::warning, fmt::format("a set-point of {} is refused: {}", who.text(), no->text), now);
+        }
+        return publish(*a, now);
+    }
+    if (!s.on) begin_stream(*a, p, who, now);
+    s.mode = p.mode;
+    s.good_for = p.good_for;
+    s.renewed = now;
+    s.refusal = Reason::none;
+    ++s.taken;
+    a->profile.follow(p);
+    if (p.mode == SetPoint::Mode::velocity) {  // watched at the limits of position like any velocity move
+        a->run.velocity = p.value;
+        a->run.acceleration = p.acceleration.value_or(0);
+        if (p.deceleration) a->last_deceleration = *p.deceleration;
+        a->run.deceleration = a->last_deceleration;
+    } else {
+        a->run.velocity = 0;
+    }
+    publish(*a, now);
+    Side& side = *side_of(*a->drive);
+    Out out = take_out();
+    side.adapter->on_set_point(p, now, out);
+    drain(side, out, now);
+    give_back(std::move(out));
+}
+
+/// Why this one is not handed on; nothing: it is.
+std::optional<Refusal> Engine::against(const Axis& a, const SetPoint& p, const AuthorityClient& who, Instant now) const {
+    const Axis::Stream& s = a.stream;
+    const std::int16_t mode = cia402::mode_of(p.mode);
+    if (p.good_for < SetPoint::good_for_min || p.good_for > SetPoint::good_for_max)
+        return Refusal{Reason::out_of_range, fmt::format("a set-point is good for {} to {} ms", milliseconds_of(SetPoint::good_for_min),
+                                                         milliseconds_of(SetPoint::good_for_max))};
+    if (now - p.at > p.good_for) return Refusal{Reason::interrupted, "it came too late: it is older than the time for which it is good"};
+    if (now < a.leaving_until) return Refusal{Reason::busy, "a change of the site takes the axis away or makes it anew"};
+    if (s.on && !(s.who == who))
+        return Refusal{Reason::authority, fmt::format("{} streams set-points to the axis; stop it, or wait until it ends", s.who.text())};
+    if (p.origin.door != Door::internal) {
+        if (auto v = a.authority.may(who, now); !v.allowed) return Refusal{Reason::authority, std::move(v.text)};
+    }
+    // Whatever ended a stream holds: who does not notice, and goes on, must not begin another one with its next cycle.
+    if (!s.on && s.ended_by == who && now - s.ended_heard <= p.good_for)
+        return Refusal{s.ended_for, fmt::format("the stream is over ({}); send nothing for {} ms before a new one", s.ended_why,
+                                                milliseconds_of(p.good_for))};
+    if (!a.drive->catalogue->offers_mode(mode)) {
+        return Refusal{Reason::not_supported,
+                       fmt::format("the drive does not follow streamed set-points of {} (mode {}); it has the modes {}", name_of(p.mode),
+                                   mode, fmt::join(a.drive->catalogue->modes(), ", "))};
+    }
+    if (p.mode != SetPoint::Mode::torque) {
+        if (auto no = beyond_limits(a, p.as_move())) return no;
+    } else if (std::llabs(p.value) > 32767) {
+        return Refusal{Reason::out_of_range, fmt::format("torque {} is outside -32767..32767 thousandths", p.value)};
+    }
+    if (auto d = a.profile.may_follow(); d.refused) return Refusal{d.reason, std::move(d.text)};
+    const Side* side = side_of(*a.drive);
+    if (!side || !side->up) return Refusal{Reason::line_down, "its line is down"};
+    return std::nullopt;
+}
+
+/// What a motion of a command would end ends here, too.
+void Engine::begin_stream(Axis& a, const SetPoint& p, const AuthorityClient& who, Instant now) {
+    note_commander(a, p.origin, now);
+    supersede(a, 0, "streamed set-points", now);
+    a.held = {};
+    a.run = {};
+    a.run.position = a.profile.feedback().position;
+    a.run.since = now;
+    a.at_limit = false;
+    a.loss = LossCause::none;
+    a.homing_why.clear();
+    a.prepared.reset();
+    image_.picture(a.id).motion_ticket = no_ticket;
+    a.stream.on = true;
+    a.stream.who = who;
+    a.stream.origin = p.origin;
+    tell_stream(a, p.origin, Severity::info, fmt::format("streamed set-points begin ({})", name_of(p.mode)), now);
+}
+
+void Engine::end_stream(Axis& a, Reason reason, const std::string& why, Instant now) {
+    Axis::Stream& s = a.stream;
+    if (!s.on) return;
+    s.on = false;
+    s.refusal = s.ended_for = reason;
+    s.ended_by = s.who;
+    s.ended_heard = now;
+    s.ended_why = why;
+    a.profile.end_following();
+    a.run.velocity = 0;
+    tell_stream(a, s.origin, reason == Reason::none ? Severity::info : Severity::warning, fmt::format("streamed set-points end: {}", why),
+                now);
+    publish(a, now);
+}
+
+/// The drive has not taken one: what it does now is not what the client wants, so it is treated as if the client were lost.
+void Engine::stream_refused(const Side& side, const Out::StreamEnd& end, Instant now) {
+    Axis* a = axis(end.axis);
+    if (!a || !a->stream.on || a->drive->serving != (side.twin ? Presence::twin : Presence::device)) return;
+    const bool was_running = a->run.velocity != 0;
+    end_stream(*a, end.reason, end.text, now);
+    if (was_running || a->profile.feedback().moving) {
+        auto decision = a->profile.on_command(Halt{});
+        for (auto& o : decision.orders)
+            give_order(*a, nullptr, std::move(o), {}, now);
+    }
+}
+
+/// Looked at with every housekeeping, so an end comes at most one of its periods late.
+void Engine::check_stream(Axis& a, Instant now) {
+    if (!a.stream.on) return;
+    if (now - a.stream.renewed > a.stream.good_for) {
+        fail_safe(a, LossCause::set_points_silent, now);
+        return end_stream(a, Reason::interrupted,
+                          fmt::format("{} has not renewed them for {} ms", a.stream.who.text(), milliseconds_of(a.stream.good_for)), now);
+    }
+    note_commander(a, a.stream.origin, now);  // whoever streams commands: its lease goes on
+}
+
+void Engine::tell_stream(const Axis& a, const Origin& by, Severity severity, std::string text, Instant now) {
+    Event e;
+    e.severity = severity;
+    e.kind = "set_points";
+    e.axis = a.spec.name;
+    e.text = std::move(text);
+    e.who = by.who ? *by.who : "";
+    e.door = std::string(name_of(by.door));
+    event(std::move(e), now);
+}
+
+}  // namespace axisgate

@@ -1,0 +1,62 @@
+// SetPointSlots: streamed set-points on their way from other threads to the hot one: a place per axis, in which the newest counts.
+// In: set-points, from any thread. Out: one call of the handler per axis that has a new one, on the receiver's executor.
+// Never blocks, never grows, never queues: what was not taken when the next one comes is forgotten.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <bit>
+#include <boost/asio/any_io_executor.hpp>
+#include <boost/asio/post.hpp>
+#include <functional>
+#include <memory>
+#include <utility>
+
+#include "gateway/axis/image.hpp"
+#include "gateway/core/command.hpp"
+
+namespace axisgate {
+
+class SetPointSlots {
+public:
+    /// The slots outlive every handler that they post (the owner stops the receiver first).
+    SetPointSlots(boost::asio::any_io_executor receiver, std::function<void(const SetPoint&)> handler)
+        : receiver_(std::move(receiver)), handler_(std::move(handler)) {}
+    ~SetPointSlots() {
+        for (auto& slot : slots_)
+            delete slot.load();
+    }
+    SetPointSlots(const SetPointSlots&) = delete;
+    SetPointSlots& operator=(const SetPointSlots&) = delete;
+
+    /// Any thread. An axis that cannot exist is no axis' set-point.
+    void put(SetPoint p) {
+        const std::size_t i = index_of(p.axis);
+        if (i >= Image::max_ids) return;
+        delete slots_[i].exchange(std::make_unique<SetPoint>(std::move(p)).release(), std::memory_order_acq_rel);
+        filled_[i / 64].fetch_or(std::uint64_t{1} << (i % 64), std::memory_order_release);
+        if (!on_its_way_.exchange(true, std::memory_order_acq_rel)) boost::asio::post(receiver_, [this] { empty(); });
+    }
+
+private:
+    void empty() {
+        // An exchange, not a store: a sender that found it true has filled its slot before, and is seen below.
+        (void)on_its_way_.exchange(false, std::memory_order_acq_rel);
+        for (std::size_t w = 0; w < filled_.size(); ++w) {
+            if (filled_[w].load(std::memory_order_relaxed) == 0) continue;
+            for (std::uint64_t bits = filled_[w].exchange(0, std::memory_order_acq_rel); bits != 0; bits &= bits - 1) {
+                const std::size_t i = w * 64 + static_cast<std::size_t>(std::countr_zero(bits));
+                const std::unique_ptr<SetPoint> p(slots_[i].exchange(nullptr, std::memory_order_acq_rel));
+                if (p) handler_(*p);
+            }
+        }
+    }
+
+    std::array<std::atomic<SetPoint*>, Image::max_ids> slots_{};
+    std::array<std::atomic<std::uint64_t>, Image::max_ids / 64> filled_{};
+    boost::asio::any_io_executor receiver_;
+    std::function<void(const SetPoint&)> handler_;
+    std::atomic<bool> on_its_way_{false};
+};
+
+}  // namespace axisgate

@@ -1,0 +1,69 @@
+// SetPointSlots: the newest of each axis counts, nothing is lost for good, and two threads do not tear it.
+// In: set-points from this thread and others. Out: what the receiver was told. Never waits for a time to pass.
+#include "gateway/runtime/set_point_slots.hpp"
+
+#include <gtest/gtest.h>
+
+#include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/io_context.hpp>
+#include <thread>
+#include <vector>
+
+namespace axisgate {
+namespace {
+
+SetPoint point(std::uint16_t axis, std::int64_t value) {
+    SetPoint p;
+    p.axis = AxisId{axis};
+    p.value = value;
+    p.origin.who = std::make_shared<const std::string>("somebody");
+    return p;
+}
+
+TEST(SetPointSlots, TheNewestOfEachAxisCounts) {
+    boost::asio::io_context io;
+    std::vector<std::pair<int, std::int64_t>> heard;
+    SetPointSlots slots(io.get_executor(), [&](const SetPoint& p) { heard.emplace_back(index_of(p.axis), p.value); });
+    for (int i = 0; i < 100; ++i)
+        slots.put(point(70, i));
+    slots.put(point(3, 7));
+    slots.put(point(0xFFFF, 1));  // no axis
+    EXPECT_EQ(io.poll(), 1u) << "announced once";
+    EXPECT_EQ(heard, (std::vector<std::pair<int, std::int64_t>>{{3, 7}, {70, 99}}));
+    io.restart();
+    slots.put(point(70, 5));
+    (void)io.poll();
+    EXPECT_EQ(heard.back(), (std::pair<int, std::int64_t>{70, 5}));
+    slots.put(point(1, 1));  // what nobody fetches any more ends with the slots
+}
+
+TEST(SetPointSlots, TheLastOfEachThreadArrives) {
+    boost::asio::io_context io;
+    auto work = boost::asio::make_work_guard(io);
+    constexpr int senders = 3;
+    constexpr std::int64_t last = 20'000;
+    std::array<std::int64_t, senders> newest{};
+    bool backwards = false;
+    int done = 0;
+    SetPointSlots slots(io.get_executor(), [&](const SetPoint& p) {
+        auto& n = newest[index_of(p.axis)];
+        backwards = backwards || p.value <= n;
+        n = p.value;
+        if (p.value == last && ++done == senders) work.reset();
+    });
+    std::vector<std::thread> threads;
+    for (int s = 0; s < senders; ++s) {
+        threads.emplace_back([&slots, s] {
+            for (std::int64_t i = 1; i <= last; ++i)
+                slots.put(point(static_cast<std::uint16_t>(s), i));
+        });
+    }
+    io.run();
+    for (auto& t : threads)
+        t.join();
+    EXPECT_FALSE(backwards);
+    EXPECT_EQ(newest, (std::array<std::int64_t, senders>{last, last, last}));
+}
+
+}  // namespace
+}  // namespace axisgate

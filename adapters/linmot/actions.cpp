@@ -1,24 +1,23 @@
 // Actions: every motion command by name, and the messages beyond them: program handling, error texts, what a drive says of a parameter,
 // command table, curves. In: names with checked arguments. Out: exchanges, an answer in words.
-// Never sends what is inferred where the option says off; a table entry is checked before the drive's memory is touched, and read back.
+// Never sends what is inferred where the option says off; an entry or a curve is checked before the drive's memory is touched, and read
+// back.
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <iterator>
+#include <array>
 
 #include "adapters/linmot/drive.hpp"
+#include "adapters/linmot/parameters_tables.hpp"
 #include "gateway/core/command_arguments.hpp"
 
 namespace axisgate::linmot {
 namespace {
-constexpr std::size_t entry_size = 64;
-constexpr std::uint16_t entry_version = 0xA701, no_entry = 0xFFFF;
 std::int64_t whole(const std::vector<Value>& v, std::size_t i) { return i < v.size() ? as_integer(v[i]).value_or(0) : 0; }
 std::string text(const std::vector<Value>& v, std::size_t i) {
     const auto* s = i < v.size() ? std::get_if<std::string>(&v[i]) : nullptr;
     return s ? *s : std::string();
 }
-std::uint16_t at16(std::span<const std::uint8_t> b, std::size_t i) { return static_cast<std::uint16_t>(b[i] | b[i + 1] << 8); }
 }  // namespace
 
 void Drive::begin_action(Turn& t) {
@@ -41,30 +40,24 @@ void Drive::begin_action(Turn& t) {
         return begin_motion(*m, action.values, t);
     }
     action.name = command->id;
-    if (!inferred_ && (action.name == "table.read" || action.name == "table.write" || action.name == "curve.read"))
+    static constexpr std::array<std::string_view, 4> carried{"table.read", "table.write", "curve.read", "curve.write"};
+    if (std::ranges::find(carried, action.name) == carried.end()) return;
+    if (!inferred_)
         return refuse(Reason::not_supported,
                       fmt::format("{} rests on messages that are inferred, and the drive option inferred is off", action.name));
-    if (action.name != "table.write") return;
-    // The whole entry is made before anything is sent.
-    const Motion* m = bus_.motions.named(text(action.values, 1));
-    if (!m) return refuse(Reason::out_of_range, fmt::format("row command: there is no motion command {}", text(action.values, 1)));
-    const auto inner = check_arguments(*m->command, text(action.values, 2));
-    if (!inner.faults.empty())
-        return refuse(Reason::out_of_range, fmt::format("row arguments: {}; {}", inner.faults[0].text, inner.faults[0].remedy));
-    const std::string label = text(action.values, 4);
-    if (label.size() > 15) return refuse(Reason::out_of_range, "row label: a name has at most 15 characters");
-    std::vector<std::uint8_t> entry(entry_size, 0);
-    const auto put = [&](std::size_t at, std::uint16_t v) {
-        entry[at] = static_cast<std::uint8_t>(v);
-        entry[at + 1] = static_cast<std::uint8_t>(v >> 8);
-    };
-    put(0, entry_version);
-    const auto next = static_cast<std::uint16_t>(whole(action.values, 3));
-    put(2, next == 0 ? no_entry : next);
-    const auto bytes = Motions::pack(*m, 0, inner.values);
-    std::ranges::copy(bytes, entry.begin() + 4);
-    std::ranges::copy(label, entry.begin() + 38);
-    job_.bytes = std::move(entry);
+    const auto number = static_cast<std::uint16_t>(whole(action.values, 0));
+    if (action.name == "table.read" || action.name == "curve.read") return begin_transfer(action.name == "curve.read", false, number);
+    // The whole entry, the whole curve is made before anything is sent.
+    if (action.name == "table.write") {
+        auto e = entry_of(bus_.motions, text(action.values, 1), text(action.values, 2), static_cast<std::uint16_t>(whole(action.values, 3)),
+                          text(action.values, 4));
+        if (!e.fault.empty()) return refuse(Reason::out_of_range, fmt::format("row {}: {}", number, e.fault));
+        return begin_transfer(false, true, number, std::move(e.bytes));
+    }
+    auto c = curve_of(number, text(action.values, 1));
+    if (c.fault.empty() && c.data.empty()) c.fault = "no points are given; curve.delete takes a curve away";
+    if (!c.fault.empty()) return refuse(Reason::out_of_range, fmt::format("curve {}: {}", number, c.fault));
+    begin_transfer(true, true, number, std::move(c.info), std::move(c.data));
 }
 
 std::optional<Telegram> Drive::action_request(Turn& t) {
@@ -90,16 +83,9 @@ std::optional<Telegram> Drive::action_request(Turn& t) {
     if (name == "table.delete") return request16(id_, Main::table, 2, number);
     if (name == "table.delete_all") return request(id_, Main::table, 1);
     if (name == "table.save") return request(id_, Main::table, 0);
-    if (name == "table.read") return request16(id_, Main::table, step == 0 ? 5 : 6, number);
-    if (name == "table.write") {
-        if (step == 0) return request48(id_, Main::table, 3, number, entry_size);
-        const auto at = static_cast<std::size_t>(step - 1) * 4;
-        if (at < entry_size)
-            return request48(id_, Main::table, 4, number,
-                             std::uint32_t{at16(job_.bytes, at)} | std::uint32_t{at16(job_.bytes, at + 2)} << 16);
-        return request16(id_, Main::table, 6, number);
-    }
-    if (name == "curve.read") return request16(id_, Main::curves, 0x0A, number);
+    if (name == "curve.delete") return request16(id_, Main::curves, 2, number);
+    if (name == "curve.delete_all") return request16(id_, Main::curves, 1, 0);
+    if (name == "curve.save") return request16(id_, Main::curves, 0, 0);
     end_job(Outcome::refused, Reason::not_supported, fmt::format("{} is not carried out by this gateway", name), t);
     return std::nullopt;
 }
@@ -107,6 +93,11 @@ std::optional<Telegram> Drive::action_request(Turn& t) {
 void Drive::action_answered(const Telegram& telegram, Turn& t) {
     const std::string name = std::get<Action>(job_.command.body).name;
     const auto accept = [&](std::string said) { end_job(Outcome::accepted, Reason::none, std::move(said), t); };
+    if (job_.transfer.active) {
+        if (!transfer_answered(telegram, t)) return;
+        const bool written = job_.transfer.write;
+        return accept(written ? "written and read back" : transfer_text());
+    }
     if (name == "program.stop" || name == "program.reset") {
         cw_known_ = false;
         return accept({});
@@ -129,15 +120,15 @@ void Drive::action_answered(const Telegram& telegram, Turn& t) {
     rows_answered(telegram, t);
 }
 
-/// What comes in several answers: a list, a table entry, a curve.
+/// What comes in several answers: a list, the presence of the table's entries.
 void Drive::rows_answered(const Telegram& telegram, Turn& t) {
     const auto& action = std::get<Action>(job_.command.body);
     const std::string name = action.name;
     const auto a = config_of(telegram);
     if (!a) return end_job(Outcome::failed, Reason::drive_refused, "the answer has another form", t);
-    constexpr std::uint8_t unfinished = 0x04, list_end = 0xC6;
+    constexpr std::uint8_t list_end = 0xC6;
     const auto accept = [&](std::string said) { end_job(Outcome::accepted, Reason::none, std::move(said), t); };
-    if (a->communication != 0 && a->communication != unfinished && !(name == "parameter.list" && a->communication == list_end))
+    if (a->communication != 0 && !(name == "parameter.list" && a->communication == list_end))
         return end_job(Outcome::refused, Reason::drive_refused, refusal(a->communication), t, a->communication);
     const int step = job_.step++;
     const auto add = [&](std::string row) {
@@ -169,37 +160,6 @@ void Drive::rows_answered(const Telegram& telegram, Turn& t) {
             if ((a->value >> i & 1) == 0 && step * 32 + i > 0) job_.text += (job_.text.empty() ? "" : " ") + std::to_string(step * 32 + i);
         }
         if (step == 7) return accept(job_.text);
-        return;
-    }
-    if (name == "curve.read") {
-        add(std::to_string(static_cast<std::int32_t>(a->value)));
-        if (a->communication != unfinished) return accept(job_.text);
-        return;
-    }
-    if (name == "table.read") {
-        if (step == 0) return;
-        for (int i = 0; i < 4; ++i)
-            job_.bytes.push_back(static_cast<std::uint8_t>(a->value >> 8 * i));
-        if (job_.bytes.size() < entry_size) {
-            if (a->communication == unfinished) return;
-            return end_job(Outcome::failed, Reason::drive_refused, "the entry is shorter than 64 bytes", t);
-        }
-        const std::span<const std::uint8_t> entry(job_.bytes);
-        std::string label(entry.begin() + 38, entry.begin() + 54);
-        label.resize(std::min(label.find('\0'), label.size()));
-        const std::uint16_t next = at16(entry, 2);
-        return accept(fmt::format("{}; next {}{}{}", bus_.motions.describe(entry.subspan(4, 32)),
-                                  next == no_entry || next == 0 ? "none" : std::to_string(next), label.empty() ? "" : "; name ", label));
-    }
-    if (name == "table.write") {
-        const auto words = static_cast<int>(entry_size / 4);
-        if (step <= words) return;
-        const auto at = static_cast<std::size_t>(step - 1 - words) * 4;
-        const std::uint32_t wanted = std::uint32_t{at16(job_.bytes, at)} | std::uint32_t{at16(job_.bytes, at + 2)} << 16;
-        if (a->value != wanted)
-            return end_job(Outcome::failed, Reason::drive_refused,
-                           fmt::format("entry {} reads back other than it was written, at byte {}", a->index, at), t);
-        if (at + 4 >= entry_size) return accept("written and read back");
         return;
     }
     accept({});

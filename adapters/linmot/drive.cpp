@@ -30,6 +30,7 @@ void Drive::begin_job(Turn& t) {
 std::optional<Telegram> Drive::job_request(Turn& t) {
     const CommandBody& body = job_.command.body;
     if (job_.number == -1) return motion_request(t);
+    if (job_.transfer.active) return transfer_request();
     if (std::holds_alternative<Enable>(body)) return power_request(t);
     if (std::holds_alternative<ResetFault>(body)) return reset_request(t);
     if (std::holds_alternative<Home>(body)) return home_request(t);
@@ -62,6 +63,7 @@ void Drive::job_answered(const Telegram& telegram, Turn& t) {
 }
 
 void Drive::job_failed_silent(Turn& t) {
+    if (transfer_again()) return;
     to_target_ = false;
     demand_.forget();
     end_job(Outcome::failed, Reason::no_answer, fmt::format("drive {} does not answer", title()), t);

@@ -2,10 +2,11 @@
 // In: commands, its answers, the passing of time, a place on the line. Out: telegrams, feedback, samples, results, links, notices.
 // Every telegram may be repeated: control words and reads change nothing the second time, and a motion command with the same count is not
 // executed twice. Never commands a motion that nobody asked for.
-// Files: start.cpp, polls.cpp, feedback.cpp, power.cpp, motion.cpp, homing.cpp, stop.cpp, parameters.cpp, native.cpp, actions.cpp,
-// demand.cpp.
+// Files: start.cpp, polls.cpp, feedback.cpp, power.cpp, motion.cpp, homing.cpp, stop.cpp, parameters.cpp, parameters_transfer.cpp,
+// native.cpp, actions.cpp, demand.cpp.
 #pragma once
 
+#include <array>
 #include <deque>
 #include <optional>
 #include <string>
@@ -83,7 +84,18 @@ private:
         Telegram telegram;
         Purpose purpose = Purpose::poll;
         bool any_length = false;  ///< native: whatever comes from this ID is the answer
+        bool once = false;        ///< not to be repeated by itself: the drive counts such telegrams
         bool quiet = false;       ///< its answer may take seconds: silence is none, and the line is not held
+    };
+    /// A command table entry (one block) or a curve (info and data) on its way.
+    struct Transfer {
+        bool active = false, curve = false, write = false;
+        std::uint16_t id = 0;
+        std::array<std::vector<std::uint8_t>, 2> blocks{}, seen{};  ///< to be written; read
+        std::array<std::uint32_t, 2> sizes{};
+        int step = 0;
+        std::size_t at = 0;
+        int tries = 0;
     };
     /// A command that is being carried out: exchanges one after the other, `step` counts them.
     struct Job {
@@ -97,6 +109,7 @@ private:
         std::int64_t number = 0;
         std::string text;
         std::vector<std::uint8_t> bytes;
+        Transfer transfer;
     };
     struct Stop {
         Command command;
@@ -149,6 +162,14 @@ private:
     // parameters.cpp
     [[nodiscard]] std::optional<Telegram> parameter_request(Turn& t);
     void parameter_answered(const Telegram& telegram, Turn& t);
+    [[nodiscard]] bool begin_table_parameter(const Parameter& parameter, Point point, Turn& t);
+    // parameters_transfer.cpp
+    void begin_transfer(bool curve, bool write, std::uint16_t id, std::vector<std::uint8_t> first = {},
+                        std::vector<std::uint8_t> second = {});
+    [[nodiscard]] std::optional<Telegram> transfer_request();
+    [[nodiscard]] bool transfer_answered(const Telegram& telegram, Turn& t);
+    [[nodiscard]] bool transfer_again();
+    [[nodiscard]] std::string transfer_text() const;
     // native.cpp
     [[nodiscard]] std::optional<Telegram> native_request(Turn& t);
     void native_answered(const Telegram& telegram, Turn& t);

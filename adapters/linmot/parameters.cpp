@@ -1,9 +1,10 @@
 // Parameters: RAM values by the read that comes with a default response and by Write Live Parameter, ROM values by the parameter messages.
 // In: reads and writes of catalogue points. Out: values as the drive has them. What was written is read back: a RAM write has no answer of
-// its own.
+// its own. Entries of the command table and curves are texts, carried by parameters_transfer.cpp.
 #include <fmt/core.h>
 
 #include "adapters/linmot/drive.hpp"
+#include "adapters/linmot/parameters_tables.hpp"
 
 namespace axisgate::linmot {
 namespace {
@@ -40,6 +41,34 @@ Place place_of(const Catalogue& catalogue, Point point) {
 }
 }  // namespace
 
+/// A text of the command table or of a curve: what is to be written is checked as a whole, before the drive is asked anything.
+bool Drive::begin_table_parameter(const Parameter& parameter, Point point, Turn& t) {
+    const auto* item = parameter.wire.if_contains("item");
+    const bool curve = item && item->as_string() == "curve";
+    if (!item || (!curve && item->as_string() != "table")) return false;
+    const auto* write = std::get_if<WriteParameter>(&job_.command.body);
+    if (!inferred_) {
+        end_job(Outcome::refused, Reason::not_supported,
+                fmt::format("{} rests on messages that are inferred, and the drive option inferred is off", parameter.id), t);
+        return true;
+    }
+    if (!write) return begin_transfer(curve, false, point.element), true;
+    const auto* text = std::get_if<std::string>(&write->value);
+    CurveBytes c;
+    EntryBytes e;
+    if (curve)
+        c = curve_of(point.element, text ? *text : std::string());
+    else
+        e = entry_of(bus_.motions, text ? *text : std::string());
+    if (const std::string& fault = curve ? c.fault : e.fault; !fault.empty()) {
+        end_job(Outcome::refused, Reason::out_of_range, fmt::format("{}[{}]: {}", parameter.id, point.element, fault), t);
+        return true;
+    }
+    curve ? begin_transfer(true, true, point.element, std::move(c.info), std::move(c.data))
+          : begin_transfer(false, true, point.element, std::move(e.bytes));
+    return true;
+}
+
 std::string Drive::refusal(std::uint8_t code) const { return fmt::format("drive {} refused: {}", title(), communication_text(code)); }
 
 std::optional<Telegram> Drive::parameter_request(Turn& t) {
@@ -50,6 +79,7 @@ std::optional<Telegram> Drive::parameter_request(Turn& t) {
         end_job(Outcome::refused, Reason::unknown_point, "this drive has no such parameter", t);
         return std::nullopt;
     }
+    if (begin_table_parameter(*p.parameter, read ? read->point : write->point, t)) return job_.active ? transfer_request() : std::nullopt;
     if (p.item == "warn") {
         if (warn_inferred_) return request(id_, Main::response, 3);
         end_job(Outcome::refused, Reason::not_supported,
@@ -76,6 +106,10 @@ void Drive::parameter_answered(const Telegram& telegram, Turn& t) {
         t.out.samples.push_back({axis_, point, v, Quality::good, t.now, 0});
         end_job(Outcome::done, Reason::none, {}, t, 0, std::move(v));
     };
+    if (job_.transfer.active) {
+        if (transfer_answered(telegram, t)) done(transfer_text());
+        return;
+    }
     if (p.item == "status") return done(std::int64_t{status_.status});
     if (p.item == "state") return done(std::int64_t{status_.state_var});
     if (p.item == "warn") {

@@ -63,6 +63,7 @@ void Drive::go(Turn& t) {
             Request r{std::move(*telegram), Purpose::job};
             if (std::holds_alternative<Native>(job_.command.body)) r.any_length = true;
             // The drive answers the start of its software after about 3 s: for so long no stop could pass on this line.
+            r.once = job_.transfer.active;
             r.quiet = r.telegram.main == static_cast<std::uint8_t>(Main::program) && r.telegram.sub == 4;
             return send(std::move(r), t);
         }
@@ -75,7 +76,8 @@ void Drive::go(Turn& t) {
 void Drive::send(Request r, Turn& t) {
     const auto bytes = pack(r.telegram, bus_.checksum);
     const Duration both = bus_.wire(bytes.size() + wire_size(ram_size, bus_.checksum));
-    const bool once = r.purpose == Purpose::probe || r.purpose == Purpose::poll || r.purpose == Purpose::warn || r.any_length || r.quiet;
+    const bool once =
+        r.purpose == Purpose::probe || r.purpose == Purpose::poll || r.purpose == Purpose::warn || r.any_length || r.quiet || r.once;
     t.out.send(Frame::run(bytes), r.purpose == Purpose::stop                                  ? Priority::urgent
                                   : r.purpose == Purpose::poll || r.purpose == Purpose::probe ? Priority::poll
                                                                                               : Priority::command);

@@ -28,8 +28,9 @@ namespace {
 class ScaledClock {
 public:
     explicit ScaledClock(double scale) : scale_(scale), begun_(monotonic_now()) {}
-    [[nodiscard]] Instant now() const {
-        return time_zero + std::chrono::seconds(1) + Duration(static_cast<std::int64_t>(static_cast<double>((monotonic_now() - begun_).count()) * scale_));
+    [[nodiscard]] Instant now() const { return at(monotonic_now()); }
+    [[nodiscard]] Instant at(Instant real) const {
+        return time_zero + std::chrono::seconds(1) + Duration(static_cast<std::int64_t>(static_cast<double>((real - begun_).count()) * scale_));
     }
     [[nodiscard]] Instant real(Instant scaled) const {
         if (scaled == never) return never;
@@ -61,15 +62,17 @@ public:
         for (auto& d : drives) {
             const auto m = memories.find(d.address);
             Out out;
-            d.twin->power_on(m == memories.end() ? NonVolatile{} : m->second, clock_.now(), out);
+            passed_ = clock_.now();
+            d.twin->power_on(m == memories.end() ? NonVolatile{} : m->second, passed_, out);
             d.saved = d.twin->non_volatile_revision();
             send(out);
         }
         arm();
     }
     void on_frame(const Frame& frame) override {
+        // At the wire's own time: what comes in one turn after a pause of this process has not come to the drives at one instant.
         Frame f = frame;
-        f.at = clock_.now();
+        f.at = passed_ = std::max(passed_, clock_.at(frame.at));
         for (auto& d : drives) {
             pass_until(d, f.at);
             Out out;
@@ -86,7 +89,7 @@ public:
 
     /// As it is now: a drive that nobody has asked may have moved on since.
     std::vector<HandItem> hand(std::size_t index) {
-        const Instant now = clock_.now();
+        const Instant now = passed_ = std::max(passed_, clock_.now());
         pass_until(drives[index], now);
         Out out;
         drives[index].twin->on_deadline(now, out);
@@ -96,10 +99,11 @@ public:
     }
     std::string set_hand(std::size_t index, const std::vector<std::pair<std::string, Value>>& items) {
         std::string wrong;
-        pass_until(drives[index], clock_.now());
+        const Instant now = passed_ = std::max(passed_, clock_.now());
+        pass_until(drives[index], now);
         for (const auto& [name, value] : items) {
             Out out;
-            wrong = drives[index].twin->set_hand(name, value, clock_.now(), out);
+            wrong = drives[index].twin->set_hand(name, value, now, out);
             send(out);
             if (!wrong.empty()) break;
         }
@@ -110,6 +114,8 @@ public:
 private:
     /// Deadlines that one late turn meets, each at its own instant; what is left is met at the next.
     static constexpr int events_per_turn = 10'000;
+    /// Real time that one turn of the timer passes: bytes that have crossed meanwhile, and are read by a timer of the line, come in between.
+    static constexpr Duration slice = std::chrono::milliseconds(1);
 
     /// However late this process runs, a drive reacts at the instant of the cause.
     void pass_until(Drive& d, Instant now) {
@@ -150,18 +156,20 @@ private:
         timer_.cancel();
         if (real == never) return;
         timer_.expires_at(std::chrono::steady_clock::time_point(std::chrono::duration_cast<std::chrono::steady_clock::duration>(real.time_since_epoch())));
-        timer_.async_wait([this](const boost::system::error_code& ec) {
-            if (ec) return;
+        timer_.async_wait([this, real](const boost::system::error_code& ec) {
+            // One whose time had come when it was cancelled arrives all the same, without an error: another is armed, or none.
+            if (ec || real != armed_) return;
             armed_ = never;
-            const Instant now = clock_.now();
+            passed_ = std::max(passed_ + std::chrono::microseconds(1), clock_.at(std::min(real + slice, monotonic_now())));
             for (auto& d : drives) {
-                pass_until(d, now);
+                pass_until(d, passed_);
             }
             after();
         });
     }
 
     ScaledClock clock_;
+    Instant passed_{};  ///< the drives' time as far as it has come: it lags behind the clock while a late process catches up
     boost::asio::steady_timer timer_;
     Instant armed_ = never;
     std::string state_file_;

@@ -83,6 +83,25 @@ def test_a_writer_is_held_up_at_the_drives_pace(folder):
             assert taken < most, "a megabyte within a moment, and the wire carries 480 bytes in a second"
 
 
+def test_lines_that_waited_on_the_wire_reach_the_drive_one_after_the_other(folder):
+    """The twin's process stands still while a program writes on: to the drive each line comes at its time on the wire, and none is lost."""
+    count, rate = 300, 38400
+    line = b"IC Q1".ljust(59) + b"\r"  # 15 ms on the wire: longer than the drive needs for one
+    with Process("twin", "mcode", "--line", f"pty:{folder / 'slow'}?baud={rate}", "--address", "!") as twin:
+        with Port(folder / "slow") as port:
+            # EM=2: nothing comes back, so nobody has to read meanwhile.
+            assert port.ask(b"EM=2\r", lambda got: got.endswith(b"\n")).startswith(b"EM=2")
+            port.ask(b"VA Q1=0\r")
+            rest = line * count
+            while rest:
+                rest = rest[os.write(port.fd, rest[:2000]):]
+                twin.process.send_signal(signal.SIGSTOP)
+                time.sleep(0.3)
+                twin.process.send_signal(signal.SIGCONT)
+            got = port.ask(b"PR Q1,\" \",ER\r", lambda had: had.endswith(b"\r\n"), 30)
+            assert got.split() == [str(count).encode(), b"0"], got
+
+
 def test_a_program_that_prints_faster_than_the_line(folder):
     text = "x" * 50
     with Process("twin", "mcode", "--line", f"pty:{folder / 'chatty'}?baud=4800", "--address", "!"):

@@ -15,10 +15,10 @@ describe('a site on trial', () => {
     expect(appliedWords(anna, 'page-999999', 'Only she.')).toBe('Applied by anna (from the page page-1a2b3c). Only she.');
     expect(appliedWords({ by: 'local 127.0.0.1', client: '127.0.0.1' }, 'page-999999', '')).toBe('Applied by somebody at 127.0.0.1.');
   });
-  it('does not disturb what it removes', () => {
+  it('does not disturb what it removes, and says that what moves of either is stopped first', () => {
     const site = (...names: string[]) => ({ axes: names.map((name) => ({ name })) });
-    expect(disturbedWords(['a', 'b'], site('a', 'b', 'c'), site('b', 'c'))).toBe('Applying removes a. Applying disturbs for a moment: b.');
-    expect([disturbedWords([], site('a'), site('a')), disturbedWords(['a'], site('a'), site())]).toEqual(['', 'Applying removes a.']);
+    expect(disturbedWords(['a', 'b'], site('a', 'b', 'c'), site('b', 'c'))).toBe('Applying removes a. Applying disturbs for a moment: b. What of it moves is stopped first.');
+    expect([disturbedWords([], site('a'), site('a')), disturbedWords(['a'], site('a'), site())]).toEqual(['', 'Applying removes a. What of it moves is stopped first.']);
   });
   it('that cannot be applied yet says what to do', () => {
     expect([applyBarred({ inView: false, theirs: false, faults: false }), applyBarred({ inView: false, theirs: false, faults: true }), applyBarred({ inView: false, theirs: true, faults: true })]).toEqual(['Check first.', 'Mend the faults, then check again.', 'Decide first about what somebody else has changed.']);

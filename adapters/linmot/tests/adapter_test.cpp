@@ -94,8 +94,10 @@ TEST(LinmotAdapter, WhatTheDriveRefusesIsToldWithItsCode) {
     (void)b.hand("control_mask", Value{std::int64_t{0}});
     EXPECT_TRUE(good(b.ask(ResetFault{})));
     EXPECT_FALSE(b.axis().fault);
-    ASSERT_TRUE(b.enable());
-    const Result winding = b.act("Encoder Winding Start With Default Parameters");
+    LineBench small(1, 115200, {{"series", "b1100"}});
+    small.run(1s);
+    ASSERT_TRUE(small.enable());
+    const Result winding = small.act("Encoder Winding Start With Default Parameters");
     EXPECT_EQ(winding.code, 0x81) << winding.text;
 }
 
@@ -235,7 +237,7 @@ TEST(LinmotAdapter, ACommandTableIsWrittenReadAndRun) {
     EXPECT_EQ(b.act("table.presence").text, "1 2 3 4 5 6 7 8");
     EXPECT_EQ(
         b.act("table.read", {{"entry", 2}}).text,
-        "VAI Go To Pos (010xh), count 0: position 20 mm, velocity 1 m/s, acceleration 50 m/s^2, deceleration 50 m/s^2; next 3; name row");
+        "VAI Go To Pos: position=20 velocity=1 acceleration=50 deceleration=50; next=3; name=row");
     EXPECT_TRUE(good(b.act("Start Command Table Command", {{"entry", 1}})));
     b.run(2s);
     EXPECT_EQ(b.drive().ram(0x1E72), 3u);

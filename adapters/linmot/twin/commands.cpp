@@ -96,14 +96,6 @@ bool Drive::has(std::uint16_t header) const noexcept {
     return h != 0x0040 && h != 0x2080 && h != 0x2090 && h != 0x2630;
 }
 
-bool Drive::modelled(std::uint16_t header) noexcept {
-    const auto master = static_cast<std::uint8_t>(header >> 8);
-    if (!listed(header)) return false;
-    if (master == 0x06 || (master >= 0x10 && master <= 0x12) || master == 0x30 || master == 0x31) return false;  // cams and winding
-    const std::uint16_t h = header & 0xFFF0;
-    return h != 0x0DE0 && h != 0x0DF0;  // the run modes' own commands: their parameters are not in the manual
-}
-
 void Drive::write_motion_command(std::span<const std::uint8_t> bytes, Instant now) {
     advance(now);
     if (!running_ || bytes.size() < 2) return;
@@ -122,7 +114,7 @@ void Drive::execute(std::uint16_t header, const Bytes& b, bool from_table, Insta
     const bool anywhere = master == 0 && sub <= 8;
     if (state_ == error || state_ == setup_error) {
         if (!anywhere) return;  // dropped: the first code stays (choice O-01)
-    } else if (!has(header) || !modelled(header)) {
+    } else if (!has(header)) {
         return raise(0x81, now);
     } else if (!anywhere && state_ != operation_enabled) {
         return raise(0x86, now);
@@ -132,8 +124,9 @@ void Drive::execute(std::uint16_t header, const Bytes& b, bool from_table, Insta
     const bool waits_or_branches = master >= 0x20 && master <= 0x26;
     const bool arms = (master == 1 || master == 2 || master == 9 || master == 0x0A || master == 0x0B || master == 0x0C)
                           ? sub >= 0x0A && !((master == 2 || master == 0x0C) && sub >= 0x0E)
-                          : master == 4 && sub >= 6;
-    if (master != 0 && !waits_or_branches && !arms && sub != 8 && master != 5) {
+                          : (master == 4 && sub >= 6) || (master == 6 && sub >= 9);
+    const bool defines = (master >= 0x10 && master <= 0x12 && (master != 0x10 || sub == 4)) || (master == 0x30 && sub >= 4);
+    if (master != 0 && !waits_or_branches && !arms && !defines && sub != 8 && master != 5) {
         after_.reset();
         if (!from_table) end_table();
     }
@@ -154,6 +147,14 @@ void Drive::execute(std::uint16_t header, const Bytes& b, bool from_table, Insta
         case 0x04:
         case 0x05:
             return curve_command(header, b, now);
+        case 0x06:
+        case 0x10:
+        case 0x11:
+        case 0x12:
+            return cam_command(header, b, now);
+        case 0x30:
+        case 0x31:
+            return winding_command(header, b, now);
         case 0x38:
             return force_command(sub, b, now);
         default:
@@ -169,8 +170,12 @@ void Drive::general(std::uint8_t sub, const Bytes& b, Instant now) {
             compute_control_word(now);
             return;
         case 2:
-            if (const auto* f = memory.facts(u16(b, 2)); f && f->live())
-                memory.set_ram(u16(b, 2), u32(b, 4));  // others: ignored (choice O-24)
+            if (const auto* f = memory.facts(u16(b, 2)); f && f->live()) {  // others: ignored (choice O-24)
+                follow_step(now);
+                const double here = demand_at(now).position;
+                memory.set_ram(u16(b, 2), u32(b, 4));
+                if (follow_ != Follow::none && !follows()) profile_.rest(here, now);  // "cam enabled" was cleared: it rests there
+            }
             return;
         case 3:
             return masked(x4_outputs_);
@@ -260,6 +265,8 @@ void Drive::interpolator(std::uint16_t header, const Bytes& b, Instant now) {
                 o = {0, captured_ + s32(b, 2), {v32(6), a32(10), a32(14)}};
             else if (sub == 1)
                 o = {0, s16(b, 2), {v16(4), a16(6), a16(6)}};
+            else if (sub >= 0x0E)
+                o = {0, sub == 0x0E ? setup_.trig_rise : setup_.trig_fall, predefined()};
             else
                 o = {static_cast<std::uint8_t>(sub >= 6 ? 3 : 0),
                      memory.number((sub & 1) == 0 ? 0x1E72 : 0x1E73),
@@ -271,8 +278,9 @@ void Drive::interpolator(std::uint16_t header, const Bytes& b, Instant now) {
             if (sub <= 1) {
                 indexing_ = true;
                 index_base_ = o.value;
-                index_zero_ = 0;
                 index_ramps_ = o.ramps;  // latched once [L2043]
+                stop_play(now);
+                streaming_ = false;
                 return index(now);
             }
             indexing_ = false;
@@ -281,26 +289,26 @@ void Drive::interpolator(std::uint16_t header, const Bytes& b, Instant now) {
         default:
             return;
     }
-    stop_play(now);
-    streaming_ = false;
-    force_watch_ = false;
+    sub = o.sub;
+    const bool arms = !endless && sub >= 0x0A, later = !endless && sub == 8 && motion_active();
+    if (!arms && !later) {
+        stop_play(now);
+        streaming_ = force_watch_ = false;
+    }
     if (endless) {
         last_ramps_ = o.ramps;
         vai_ever_ = true;
         profile_.run(now, demand_at(now), sub == 0x0E ? 1 : -1, o.ramps);
         return;
     }
-    sub = o.sub;
     if (sub == 8) {
-        if (profile_.over(now) && !play_.active)
-            o.sub = 0;
-        else {
+        o.sub = 0;
+        if (later) {
             after_ = o;
-            after_->sub = 0;
             return;
         }
     }
-    if (sub >= 0x0A) {
+    if (arms) {
         event_ = {};
         event_.header = header;
         event_.order = o;
@@ -362,15 +370,16 @@ void Drive::stop_motion(double deceleration, Instant now) {
 }
 
 void Drive::stop_play(Instant now) {
-    if (!play_.active) return;
+    if (!play_.active && follow_ == Follow::none) return;
     const Point p = demand_at(now);
     play_.active = false;
+    follow_ = Follow::none;
     profile_.rest(p.position, now);
 }
 
 /// Position indexing: the master encoder's counts are added to the target, one unit per count (choice E-23).
 void Drive::index(Instant now) {
-    target_ = index_base_ + static_cast<double>(outside_.encoder - index_zero_);
+    target_ = index_base_ + std::nearbyint(master_at(now));
     last_ramps_ = index_ramps_;
     vai_ever_ = true;
     profile_.move(now, demand_at(now), target_, index_ramps_);

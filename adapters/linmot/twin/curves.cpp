@@ -7,17 +7,8 @@
 
 namespace axisgate::linmot::twin {
 namespace {
-std::uint32_t read32(const std::vector<std::uint8_t>& b, std::size_t at) {
-    std::uint32_t v = 0;
-    for (std::size_t i = 0; i < 4 && at + i < b.size(); ++i)
-        v |= std::uint32_t{b[at + i]} << 8 * i;
-    return v;
-}
 constexpr std::size_t most_block = 64 * 1024;  ///< bytes of one curve's data block
 }  // namespace
-
-double Curve::point(std::size_t i) const noexcept { return static_cast<std::int32_t>(read32(data, i * 4)); }
-double Curve::seconds() const noexcept { return read32(info, 32) * 1e-5; }
 
 void Drive::curve_command(std::uint16_t header, const Bytes& b, Instant now) {
     const auto sub = static_cast<std::uint8_t>(header >> 4 & 0x0F);
@@ -43,7 +34,7 @@ void Drive::start_curve(std::uint8_t sub, const Bytes& b, Instant now) {
     p.active = true;
     p.curve = id;
     p.begun = now;
-    p.seconds = c.seconds();
+    p.seconds = c.x_length() * 1e-5;
     switch (sub) {
         case 0:
             break;
@@ -72,6 +63,7 @@ void Drive::start_curve(std::uint8_t sub, const Bytes& b, Instant now) {
             break;
     }
     p.seconds = std::max(p.seconds, 1e-4);
+    stop_play(now);
     streaming_ = false;
     play_ = p;
 }

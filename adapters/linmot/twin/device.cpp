@@ -250,7 +250,8 @@ std::vector<HandItem> Device::hand() const {
         {"trigger", flag((o.x4_inputs & 0x08) != 0), true, "input X4.6"},
         {"capture", flag((o.x4_inputs & 0x04) != 0), true, "input X4.5: a rising edge captures the position"},
         {"analog", whole(o.analog), true, "X4.4, as a position of 0.1 um"},
-        {"encoder", whole(o.encoder), true, "counts of the master encoder"},
+        {"encoder", whole(std::llround(drive_.encoder_edges())), true, "edges of the master encoder, four to a period"},
+        {"encoder_speed", whole(o.encoder_speed), true, "edges of the master encoder per second"},
         {"force", whole(o.force), true, "measured force, 0.1 N"},
         {"current", whole(o.current), true, "demand current, mA"},
         {"lag_ms", Value{o.lag_ms}, true, "the position follows the demand so late"},
@@ -324,6 +325,8 @@ std::string Device::set_hand(const std::string& name, const Value& value, Instan
         fault = number(o.analog, 1);
     else if (name == "encoder")
         fault = number(o.encoder, 1);
+    else if (name == "encoder_speed")
+        fault = number(o.encoder_speed, 1);
     else if (name == "force")
         fault = number(o.force, 1);
     else if (name == "current")

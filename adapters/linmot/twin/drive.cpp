@@ -24,6 +24,12 @@ void Drive::power_on(Instant now) {
     error_ = 0;
     offset_ = 0;
     x4_outputs_ = x6_outputs_ = 0;
+    cams_ = {};
+    count_offset_ = 0;
+    resistor_.settle(memory.number(0x102A) / 10);
+    motor_.settle(memory.number(0x102A) / 10);
+    warmed_ = now;
+    show_temperatures();
     start_software(now);
 }
 
@@ -66,6 +72,9 @@ void Drive::unpower(Instant now) {
     event_ = {};
     delayed_.clear();
     play_ = {};
+    follow_ = Follow::none;
+    memory.set_ram(0x1BA9, 0);
+    abort_over_ = never;
     indexing_ = streaming_ = force_watch_ = force_control_ = false;
     stream_points_.clear();
     end_table();
@@ -102,7 +111,8 @@ void Drive::compute_control_word(Instant now) {
     word = pick(outside_.x4_mask, outside_.x4_word, word);
     word = pick(outside_.panel_mask, outside_.panel_word, word);
     word = pick(setup_.force_mask, setup_.force_word, word);
-    if (!outside_.safe_voltage_enable) word = static_cast<std::uint16_t>(word & ~0x0002);  // X4.12 is always mapped to bit 1
+    // X4.12 is always mapped to bit 1; low for more than half a millisecond, it takes the power [L4398-4401].
+    if (sve_low_since_ != never && now >= sve_low_since_ + sve_time) word = static_cast<std::uint16_t>(word & ~0x0002);
     before_ = effective_;
     effective_ = word;
     evaluate(now);
@@ -148,14 +158,15 @@ std::uint16_t Drive::warn_word() const {
     const double behind = std::fabs(demand() - actual());
     const double moving_limit = memory.number(0x1473), standing_limit = memory.number(0x1475);
     set(0, outside_.motor_hot);
+    set(1, motor_.temperature[0] > 100);
     set(2, static_cast<double>(outside_.motor_supply) < memory.number(0x1018));
     set(3, static_cast<double>(outside_.motor_supply) > memory.number(0x1019));
     set(4, controlled() && moving_limit > 0 && behind > moving_limit / 2);
     set(5, setup_.series == Series::e1100 && controlled() && !motion_active() && standing_limit > 0 && behind > standing_limit / 2);
-    set(6, static_cast<double>(outside_.temperature) > memory.number(0x1040));
+    set(6, static_cast<double>(ram(0x1BCE)) > memory.number(0x1040));
     set(7, !homed_);
-    set(8, outside_.ptc1_hot);
-    set(9, outside_.ptc2_hot);
+    set(8, hot_for(ptc1_since_, ptc_warn));
+    set(9, hot_for(ptc2_since_, ptc_warn));
     set(10, memory.number(0x1C0D) > memory.number(0x1024));
     return w;
 }
@@ -180,14 +191,13 @@ std::uint32_t Drive::ram(std::uint16_t upid) const {
 // --- mechanics ------------------------------------------------------------------------------------------------------------
 Point Drive::demand_at(Instant now) const {
     if (play_.active) {
-        const auto it = curves.find(play_.curve);
-        if (it != curves.end() && it->second.points() > 1 && play_.seconds > 0) {
-            const double n = static_cast<double>(it->second.points() - 1);
-            const double x = std::clamp(seconds(now - play_.begun) / play_.seconds, 0.0, 1.0) * n;
-            const auto i = std::min(static_cast<std::size_t>(x), it->second.points() - 2);
-            const double a = it->second.point(i), b = it->second.point(i + 1);
-            return {play_.offset + play_.scale * (a + (b - a) * (x - static_cast<double>(i))), play_.scale * (b - a) * n / play_.seconds};
+        if (const Curve* c = curve_of(play_.curve); c && play_.seconds > 0) {
+            const Followed f = c->at(seconds(now - play_.begun) / play_.seconds);
+            return {play_.offset + play_.scale * f.position, play_.scale * f.slope / play_.seconds};
         }
+    }
+    if (follows()) {
+        if (const auto f = followed_at(master_at(now))) return {f->position, f->slope * master_speed()};
     }
     if (streaming_ && !stream_points_.empty()) {
         const auto& [at, p] = stream_points_.front();
@@ -210,7 +220,7 @@ Point Drive::actual_at(Instant now) const {
 
 bool Drive::motion_active() const {
     if (!controlled()) return false;
-    return play_.active || streaming_ || !profile_.over(now_);
+    return play_.active || streaming_ || follows() || !profile_.over(now_);
 }
 
 bool Drive::in_target() const {
@@ -230,6 +240,7 @@ void Drive::raise(std::uint16_t code, Instant now) {
         quick_by_error_ = true;
         const Point from = demand_at(now);
         play_ = {};
+        follow_ = Follow::none;
         streaming_ = indexing_ = false;
         end_table();
         after_.reset();
@@ -246,47 +257,6 @@ void Drive::inject(std::uint16_t code, Instant now) {
     advance(now);
     if (running_ && code != 0) raise(code, now);
     evaluate(now);
-}
-
-void Drive::check_outside(Instant now) {
-    if (!running_) return;
-    const auto value = [](std::int64_t v) { return static_cast<double>(v); };
-    if (value(outside_.logic_supply) < memory.number(0x100E)) raise(0x01, now);
-    if (value(outside_.logic_supply) > memory.number(0x1010)) raise(0x02, now);
-    if (value(outside_.motor_supply) < memory.number(0x101A)) raise(0x03, now);
-    if (value(outside_.motor_supply) > memory.number(0x101B)) raise(0x04, now);
-    if (value(outside_.temperature) > memory.number(0x1041)) raise(setup_.series == Series::b1100 ? 0x17 : 0x10, now);
-    if (outside_.motor_hot) raise(0x20, now);
-    if (outside_.ptc1_hot) raise(0x06, now);
-    if (outside_.ptc2_hot) raise(0x0F, now);
-    if (const auto f = value(outside_.force); force_watch_ && (force_higher_ ? f >= force_limit_ : f <= force_limit_)) {
-        force_watch_ = false;
-        force_control_ = true;
-        profile_.rest(demand_at(now).position, now);  // the force is held; the model moves no further
-    }
-    // Limit switches count only while the drive is powered and homed; the switch takes the home away (E-45).
-    if ((outside_.limit_in || outside_.limit_out) && controlled() && homed_ && memory.ram(0x121B) != 0) {
-        const std::uint16_t code = outside_.limit_in ? 0x87 : 0x88;
-        if (memory.ram(0x121B) == 1) {
-            error_ = code;
-            enter(error, now);
-        } else {
-            raise(code, now);
-        }
-        homed_ = false;
-    }
-}
-
-void Drive::set_outside(const Outside& outside, Instant now) {
-    advance(now);
-    if (outside.stall && !outside_.stall) stalled_at_ = actual_at(now).position;
-    outside_ = outside;
-    for (std::uint16_t u = 0x1BC6; u <= 0x1BCD; ++u)
-        memory.set_ram(u, static_cast<std::uint32_t>(outside_.temperature));
-    check_outside(now);
-    if (indexing_) index(now);
-    compute_control_word(now);
-    now_ = now;
 }
 
 void Drive::move_by_hand(double physical, Instant now) {
@@ -352,12 +322,14 @@ bool Drive::transit_enabled(Instant now) {
     if (!cw(0)) return enter(ready_to_switch_on, now), true;  // OFF1
     const auto brake_to = [&](std::uint8_t state) {
         const Point from = demand_at(now);
-        frozen_play_ = play_.active;
+        frozen_play_ = play_.active || follow_ != Follow::none;
         frozen_motion_ = motion_active();
         frozen_target_ = frozen_play_ ? (vai_ever_ ? target_ : 0.0) : profile_.target();
         frozen_endless_ = !frozen_play_ && profile_.endless();
         frozen_direction_ = from.velocity < 0 ? -1 : 1;
+        abort_over_ = never;
         play_ = {};
+        follow_ = Follow::none;
         streaming_ = indexing_ = false;
         end_table();
         after_.reset();
@@ -378,6 +350,8 @@ bool Drive::transit_enabled(Instant now) {
         since_ = now;
     };
     const auto go = [&](std::uint8_t state, double target, const Ramps& ramps) {
+        stop_play(now);
+        streaming_ = indexing_ = false;
         state_ = state;
         sub_ = 0;
         since_ = now;
@@ -406,6 +380,8 @@ bool Drive::transit_enabled(Instant now) {
             if (cw(6)) return go(to_position, 0, slow), true;
             if (cw(8) != cw(9)) {  // both together: no motion (choice O-07)
                 const bool plus = cw(8);
+                stop_play(now);
+                streaming_ = indexing_ = false;
                 state_ = plus ? jog_plus : jog_minus;
                 sub_ = 1;
                 since_ = now;
@@ -416,8 +392,16 @@ bool Drive::transit_enabled(Instant now) {
             if (cw(15)) return state_ = phase_search, sub_ = 0, since_ = now, true;
             return false;
         case aborting:
-            if (cw(4)) return back(), true;
-            return false;
+            if (!cw(4)) {
+                abort_over_ = never;
+                return false;
+            }
+            // With the brake on /Abort the motor goes on when its release has had its time [L4157-4206].
+            if (brakes_on_abort() && abort_over_ == never)
+                abort_over_ = now + Duration{static_cast<std::int64_t>(memory.number(0x171C) * 1e6)};
+            if (brakes_on_abort() && now < abort_over_) return false;
+            abort_over_ = never;
+            return back(), true;
         case freezing:
             if (!cw(5)) return false;
             back();

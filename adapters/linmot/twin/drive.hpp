@@ -1,8 +1,8 @@
 // A simulated drive without its wire: state machine, control and status words, motion command buffer, interpreter, mechanics.
 // In: control words, motion commands, inputs, time. Out: StateVar, status and warn word, position, parameters.
 // What happens inside happens at its own instant: advance() carries out, in order, all that was due since the last call.
-// Written in several files: drive.cpp states and words, events.cpp what becomes due, commands.cpp the interpreter, table.cpp the command
-// table, curves.cpp time curves.
+// Written in several files: drive.cpp states and words, events.cpp what becomes due, commands.cpp the interpreter, table.cpp the
+// command table, curves.cpp time curves, follow.cpp cams and winding, monitor.cpp supplies, temperatures, limits.
 #pragma once
 
 #include <array>
@@ -14,8 +14,10 @@
 #include <string>
 #include <vector>
 
+#include "adapters/linmot/twin/cams.hpp"
 #include "adapters/linmot/twin/memory.hpp"
 #include "adapters/linmot/twin/profile.hpp"
+#include "adapters/linmot/twin/thermal.hpp"
 
 namespace axisgate::linmot::twin {
 
@@ -49,23 +51,21 @@ struct DriveSetup {
     bool force_key = true;
     std::uint16_t force_mask = 0;  ///< control word bits that a parameter forces ...
     std::uint16_t force_word = 0;  ///< ... and to what
+    double trig_rise = 500'000;    ///< 0.1 um: target of the command that the run mode has configured for rising edges (0DExh) ...
+    double trig_fall = 0;          ///< ... and for falling ones (0DFxh); choices, their parameters have no numbers
+    Winding winding;
 };
 
 /// One entry of the command table: 64 bytes as the wire has them.
 using TableEntry = std::array<std::uint8_t, 64>;
-/// A curve: its info block as bytes, its points.
-struct Curve {
-    std::vector<std::uint8_t> info;
-    std::vector<std::uint8_t> data;
-    [[nodiscard]] std::size_t points() const noexcept { return data.size() / 4; }
-    [[nodiscard]] double point(std::size_t i) const noexcept;
-    [[nodiscard]] double seconds() const noexcept;  ///< x length, 10 us
-};
 
 class Drive {
 public:
     static constexpr Duration cycle = std::chrono::nanoseconds(312'500);   ///< of the interpreter and of conditions that are watched
     static constexpr Duration test_time = std::chrono::milliseconds(300);  ///< of the hardware tests [L128-130], exact by choice O-29
+
+    static constexpr Duration sve_time = std::chrono::microseconds(500);  ///< [L4398]
+    static constexpr Duration ptc_warn = std::chrono::milliseconds(100);  ///< a choice: the times of the PTC inputs have no UPID
 
     explicit Drive(const DriveSetup& setup) : setup_(setup) {}
 
@@ -91,7 +91,7 @@ public:
     [[nodiscard]] std::uint8_t state() const noexcept { return state_; }
     [[nodiscard]] std::uint16_t error_code() const noexcept { return error_; }
     [[nodiscard]] double actual() const { return actual_at(now_).position + offset_; }
-    [[nodiscard]] double demand() const { return controlled() ? profile_.at(now_).position : actual(); }
+    [[nodiscard]] double demand() const { return controlled() ? demand_at(now_).position : actual(); }
     [[nodiscard]] Point mechanics() const { return actual_at(now_); }
     [[nodiscard]] bool powered() const noexcept { return state_ >= operation_enabled; }
     [[nodiscard]] std::uint16_t control_word() const noexcept { return effective_; }
@@ -99,6 +99,9 @@ public:
     [[nodiscard]] std::uint16_t outputs_x4() const noexcept { return x4_outputs_; }
     [[nodiscard]] std::uint16_t outputs_x6() const noexcept { return x6_outputs_; }
     [[nodiscard]] std::uint64_t commands_done() const noexcept { return commands_done_; }
+    /// The master encoder's count as the drive has it [L4403-4470].
+    [[nodiscard]] double master() const { return master_at(now_); }
+    [[nodiscard]] double encoder_edges() const { return edges_at(now_); }
 
     // --- the tester's hand ----------------------------------------------------------------------------------------------
     struct Outside {
@@ -112,7 +115,8 @@ public:
         std::uint16_t panel_word = 0;
         std::uint16_t copy_mask = 0xFFFF;                       ///< control word bits that the interface may set
         std::int64_t analog = 0;                                ///< X4.4
-        std::int64_t encoder = 0;                               ///< counts of the master encoder
+        std::int64_t encoder = 0;                               ///< edges of the master encoder, four to a period
+        std::int64_t encoder_speed = 0;                         ///< edges/s
         std::int64_t force = 0;                                 ///< 0.1 N
         std::int64_t current = 0;                               ///< mA
         std::int64_t motor_supply = 7200, logic_supply = 2400;  ///< 10 mV
@@ -133,8 +137,6 @@ public:
 
     /// Whether this drive has the command; the header with count 0.
     [[nodiscard]] bool has(std::uint16_t header) const noexcept;
-    /// Whether the model carries it out; what it has and does not model answers 0081h.
-    [[nodiscard]] static bool modelled(std::uint16_t header) noexcept;
     [[nodiscard]] static bool listed(std::uint16_t header) noexcept;
     [[nodiscard]] static bool is_fatal(std::uint16_t code) noexcept;
 
@@ -147,7 +149,7 @@ private:
     };
     struct Event {
         enum class Kind : std::uint8_t { none, rising, falling, upwards, downwards };
-        enum class What : std::uint8_t { vai, table, curve, change };
+        enum class What : std::uint8_t { vai, table, curve, change, cam };
         Kind kind = Kind::none;
         What what = What::vai;
         Order order;
@@ -161,6 +163,8 @@ private:
         double offset = 0, scale = 1, seconds = 0;
         Instant begun{};
     };
+    enum class Follow : std::uint8_t { none, cams, shot, winding };
+    static constexpr std::size_t shot = 2;  ///< the cam that a trigger starts
 
     // drive.cpp
     void enter(std::uint8_t state, Instant now);
@@ -177,7 +181,36 @@ private:
     [[nodiscard]] bool motion_active() const;
     [[nodiscard]] bool in_target() const;
     void freeze_mechanics(Instant now);
+    // monitor.cpp
     void check_outside(Instant now);
+    void warm(Instant now);
+    void show_temperatures();
+    [[nodiscard]] Instant monitor_due() const;
+    [[nodiscard]] bool warms() const noexcept;
+    [[nodiscard]] bool monitors() const noexcept;
+    [[nodiscard]] bool hot_for(Instant since, Duration time) const noexcept { return since != never && now_ >= since + time; }
+    [[nodiscard]] bool brakes_on_abort() const noexcept { return memory.ram(0x1717) != 0 && memory.ram(0x1718) != 0; }
+
+    // follow.cpp
+    [[nodiscard]] double edges_at(Instant now) const noexcept;
+    [[nodiscard]] double master_at(Instant now) const noexcept;
+    [[nodiscard]] double master_speed() const noexcept;
+    [[nodiscard]] double edge_factor() const noexcept;
+    [[nodiscard]] bool follows() const noexcept;
+    [[nodiscard]] std::span<const Cam> cams() const noexcept;
+    [[nodiscard]] CamRange cam_range() const noexcept { return CamRange::of(cams(), memory.ram(0x1527) != 0); }
+    [[nodiscard]] std::optional<Followed> followed_at(double count) const;
+    [[nodiscard]] Instant follow_due() const;
+    void follow_step(Instant now);
+    void follow_begin(Follow what, Instant now);
+    void follow_end(Instant now);
+    void cam_command(std::uint16_t header, const Bytes& b, Instant now);
+    void define_cam(Cam& cam, std::uint8_t sub, const Bytes& b, Instant now);
+    void arm_cam(std::uint8_t sub, const Bytes& b, Instant now);
+    void start_shot(std::uint8_t sub, const Bytes& b, Instant now);
+    void winding_command(std::uint16_t header, const Bytes& b, Instant now);
+    [[nodiscard]] const Curve* curve_of(std::uint16_t id) const;
+    void lay(Cam& cam, const Curve& of, double from, double to, Instant now);
 
     // events.cpp
     [[nodiscard]] Instant due() const;
@@ -255,8 +288,25 @@ private:
     Play play_;
     bool indexing_ = false;
     double index_base_ = 0;
-    std::int64_t index_zero_ = 0;
     Ramps index_ramps_{};
+    // master encoder
+    double edges_ = 0;
+    Instant edges_since_{};
+    double count_offset_ = 0;  ///< by 104xh
+    Follow follow_ = Follow::none;
+    std::array<Cam, 3> cams_{};
+    double follow_count_ = 0;  ///< at the last look
+    double wound_from_ = 0;    ///< count at which winding begins
+    std::uint16_t wound_curve_ = 0;
+    double adaptation_lost_ = 0;  ///< counts in which adaptation stood still
+    std::optional<double> adaptation_held_;
+    // monitoring
+    Instant ptc1_since_ = never, ptc2_since_ = never, motor_hot_since_ = never, sve_low_since_ = never;
+    HeatChain<2> resistor_;
+    HeatChain<3> motor_;
+    Instant warmed_{};
+    bool regenerates_ = false;
+    Instant abort_over_ = never;  ///< after the brake's release
     // force
     bool force_watch_ = false, force_higher_ = true, force_control_ = false;
     double force_limit_ = 0, force_target_ = 0;

@@ -31,7 +31,7 @@ Instant Drive::lag_limit(Instant after) const {
     if (!controlled() || !outside_.stall || limit <= 0 || (state_ == quick_stop && quick_by_error_)) return never;
     const double here = stalled_at_ + offset_;
     if (std::fabs(demand_at(now_).position - here) > limit) return now_;
-    if (play_.active || streaming_) return now_ + watch_step;
+    if (play_.active || streaming_ || follows()) return now_ + watch_step;
     const auto up = profile_.crossing(here + limit, true, after);
     const auto down = profile_.crossing(here - limit, false, after);
     return std::min(up.value_or(never), down.value_or(never));
@@ -39,8 +39,8 @@ Instant Drive::lag_limit(Instant after) const {
 
 /// The position leaves the range of 146Eh and 146Fh; each is watched by its crossing.
 Instant Drive::range_limit(Instant after) const {
-    if (!controlled() || (state_ == quick_stop && quick_by_error_) || play_.active || streaming_ || outside_.stall || profile_.over(now_) ||
-        !homed_)
+    if (!controlled() || (state_ == quick_stop && quick_by_error_) || play_.active || streaming_ || follows() || outside_.stall ||
+        profile_.over(now_) || !homed_)
         return never;
     const auto up = profile_.crossing(memory.number(0x146F), true, after);
     const auto down = profile_.crossing(memory.number(0x146E), false, after);
@@ -53,11 +53,15 @@ Instant Drive::due() const {
     const auto take = [&](Instant t) { at = std::min(at, std::max(t, now_)); };
     if (state_ == hardware_tests) take(since_ + test_time);
     if (state_ == phase_search && sub_ == 0) take(since_ + std::chrono::seconds(1));
+    if (const Instant t = monitor_due(); t != never) take(t);
     if (controlled()) {
+        if (const Instant t = follow_due(); t != never) take(t);
+        if (indexing_ && outside_.encoder_speed != 0) take(now_ + watch_step);
         if (play_.active)
             take(play_.begun + ms(play_.seconds * 1000));
-        else if (!streaming_ && (after_ || (sub_ != 0x0F && state_ >= homing && state_ <= to_initial) ||
-                                 (state_ == to_position && sub_ != 0x0F) || state_ == quick_stop)) {
+        else if (!streaming_ && !follows() &&
+                 (after_ || (sub_ != 0x0F && state_ >= homing && state_ <= to_initial) || (state_ == to_position && sub_ != 0x0F) ||
+                  state_ == quick_stop)) {
             if (profile_.end() != never) {
                 const bool brake = state_ == quick_stop && memory.ram(0x1716) != 0 && memory.ram(0x1717) != 0;
                 take(std::max(profile_.end(), since_) + (brake ? ms(memory.number(0x171B)) : Duration{}));
@@ -77,7 +81,7 @@ Instant Drive::due() const {
             if (waiting_ == 0)
                 take(step_at_);
             else if (waiting_ == 0x2110)
-                take(play_.active || profile_.endless() ? never : profile_.end() + Duration{1});
+                take(play_.active || streaming_ || follows() || profile_.endless() ? never : profile_.end() + Duration{1});
             else if (wait_until_ != never)
                 take(wait_until_);
             else if (watches())
@@ -96,6 +100,11 @@ Instant Drive::next_event() const {
 }
 
 void Drive::handle(Instant now) {
+    if (monitors()) {
+        check_outside(now);
+        compute_control_word(now);
+    }
+    follow_step(now);
     if (state_ == hardware_tests && now >= since_ + test_time) {
         enter(ready_to_operate, now);
         evaluate(now);
@@ -108,7 +117,7 @@ void Drive::handle(Instant now) {
     }
     if (!controlled()) return;
     const Instant before = now - Duration{2};  // an instant is the first nanosecond after its event
-    if (lag_limit(before) <= now) return raise(motion_active() ? 0x0B : 0x0C, now);
+    if (lag_limit(before) <= now) return raise(motion_active() || setup_.series == Series::b1100 ? 0x0B : 0x0C, now);
     if (range_limit(before) <= now) {
         const double v = profile_.at(now).velocity;
         const bool up = v > 0;
@@ -127,6 +136,7 @@ void Drive::handle(Instant now) {
         fire_trigger(rising, now);
         return;
     }
+    if (indexing_ && outside_.encoder_speed != 0) index(now);
     if (streaming_) {
         if (stream_points_.size() > 1 && stream_points_[1].first <= now) {
             stream_points_.pop_front();
@@ -145,7 +155,7 @@ void Drive::handle(Instant now) {
         stop_play(now);
         return;
     }
-    if (!play_.active && !streaming_ && profile_.over(now)) {
+    if (!play_.active && !streaming_ && !follows() && profile_.over(now)) {
         const bool waits_for_it = after_ || state_ == quick_stop || (state_ >= homing && state_ <= to_initial) || state_ == to_position;
         const bool brake = state_ == quick_stop && memory.ram(0x1716) != 0 && memory.ram(0x1717) != 0;
         if (waits_for_it && sub_ != 0x0F && (!brake || now >= std::max(profile_.end(), since_) + ms(memory.number(0x171B)))) {
@@ -211,6 +221,9 @@ void Drive::fire(Instant now) {
         }
         case Event::What::table:
             start_entry(static_cast<std::uint16_t>(e.order.value), now);
+            break;
+        case Event::What::cam:
+            start_shot(e.order.sub, e.bytes, now);
             break;
         case Event::What::curve:
             start_curve(e.order.sub, e.bytes, now);

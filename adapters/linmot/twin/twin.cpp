@@ -3,6 +3,7 @@
 // Never fails: what it cannot read becomes the factory's value.
 #include "adapters/linmot/twin/twin.hpp"
 
+#include <algorithm>
 #include <charconv>
 
 #include "adapters/linmot/twin/device.hpp"
@@ -14,6 +15,23 @@ std::uint32_t number(std::string_view text, std::uint32_t most, std::uint32_t ot
     std::uint32_t n = 0;
     const auto [end, ec] = std::from_chars(text.data(), text.data() + text.size(), n, base);
     return ec == std::errc{} && end == text.data() + text.size() && n <= most ? n : otherwise;
+}
+double place(std::string_view text, double otherwise) {
+    double n = 0;
+    const auto [end, ec] = std::from_chars(text.data(), text.data() + text.size(), n);
+    return ec == std::errc{} && end == text.data() + text.size() && n >= -2e9 && n <= 2e9 ? n : otherwise;
+}
+/// "left,right,end left,end right,start ratio,end ratio,revolutions,disturbance length,disturbance stroke[,antiparallel]".
+Winding winding_of(std::string_view text) {
+    Winding w;
+    for (double* into : {&w.left, &w.right, &w.end_left, &w.end_right, &w.start_ratio, &w.end_ratio, &w.revolutions, &w.disturbance_length,
+                         &w.disturbance_stroke}) {
+        const auto word = text.substr(0, text.find(','));
+        *into = place(word, *into);
+        text.remove_prefix(std::min(text.size(), word.size() + 1));
+    }
+    w.antiparallel = text == "antiparallel";
+    return w;
 }
 }  // namespace
 
@@ -29,6 +47,9 @@ std::unique_ptr<Twin> make_twin(const Catalogue& catalogue, const TwinSetup& set
     d.drive.curve_key = keys == "both" || keys == "curve";
     d.drive.force_key = keys == "both" || keys == "force";
     d.drive.force_mask = d.drive.force_word = static_cast<std::uint16_t>(number(option(setup.options, "force", "0"), 0xFFFF, 0));
+    d.drive.trig_rise = place(option(setup.options, "trig_rise", ""), d.drive.trig_rise);
+    d.drive.trig_fall = place(option(setup.options, "trig_fall", ""), d.drive.trig_fall);
+    d.drive.winding = winding_of(option(setup.options, "winding", ""));
     for (const ErrorCode& e : catalogue.errors()) {
         std::string_view kind = "Err: ";
         if (e.kind == "fatal_error") kind = "Fatal Err: ";

@@ -515,7 +515,7 @@ TEST(StreamHub, StopsListeningWhenItEnds) {
 
 TEST_F(StreamHubTest, ASetPointIsHandedOnWithoutAnAnswer) {
     client->commander = [] {
-        return Origin{Door::http, std::make_shared<const std::string>("anna 10.0.0.7:4711"), std::make_shared<const std::string>("anna")};
+        return Origin{axisgate::Door::http, std::make_shared<const std::string>("anna 10.0.0.7:4711"), std::make_shared<const std::string>("anna")};
     };
     say(R"({"set_point":{"axis":"feeder","mode":"position","value":12.5,"velocity":2,"good_for_ms":100}})");
     say(R"({"set_point":{"axis":"slide","mode":"velocity","value":-7}})");
@@ -545,7 +545,7 @@ TEST_F(StreamHubTest, ASetPointThatCannotBeHandedOnIsToldWithTheReason) {
     EXPECT_NE(told(R"({"set_point":{"axis":"feeder","mode":"position","value":1}})").find("operator"), std::string::npos);
     client->commander = [] { return std::optional<Origin>(); };
     EXPECT_NE(told(R"({"set_point":{"axis":"feeder","mode":"position","value":1}})").find("operator"), std::string::npos);
-    client->commander = [] { return Origin{Door::http, {}, {}}; };
+    client->commander = [] { return Origin{axisgate::Door::http, {}, {}}; };
     EXPECT_NE(told(R"({"set_point":{"axis":"nobody","mode":"position","value":1}})").find("no axis nobody"), std::string::npos);
     EXPECT_NE(told(R"({"set_point":{"mode":"position","value":1}})").find("axis"), std::string::npos);
     EXPECT_NE(told(R"({"set_point":{"axis":"feeder","mode":"place","value":1}})").find("torque"), std::string::npos);
@@ -557,7 +557,7 @@ TEST_F(StreamHubTest, ASetPointThatCannotBeHandedOnIsToldWithTheReason) {
 }
 
 TEST_F(StreamHubTest, AThousandSetPointsASecondAreNotTooMany) {
-    client->commander = [] { return Origin{Door::http, {}, {}}; };
+    client->commander = [] { return Origin{axisgate::Door::http, {}, {}}; };
     for (int i = 0; i < 20'000; ++i) {
         now += milliseconds(1);
         say(R"({"set_point":{"axis":"slide","mode":"position","value":1}})");

@@ -1,6 +1,6 @@
 // Mock of what is configured: mappings, registers, the Modbus door, snapshots, scans, backup. In: requests. Out: documents of the HTTP door.
 // A stand-in for the page's author: the shapes of the answers and the refusals that the page must show, not a second gateway.
-import { families } from './families.mjs';
+import { commands, families } from './families.mjs';
 import { SiteDesk } from './site.mjs';
 import { Refusal } from './world.mjs';
 
@@ -62,6 +62,7 @@ export class Configuration {
     if (kind === 'registers') return { body: this.registers(ask.q) };
     if (kind === 'site') return this.site.answer(ask);
     if (kind === 'backup') return this.backup(ask);
+    if (kind === 'families' && what === 'commands') return { body: commands };
     if (kind === 'families' && !what) return { body: name ? families.find((f) => f.name === name) : families };
     if (kind === 'lines' && name && what === 'scan') return this.scan(ask, name);
     if (kind === 'axes' && name && what === 'snapshots') return this.snapshot(ask, name);

@@ -93,6 +93,11 @@ export class MockDoor {
       this.access.mayCommand(name, client, given);
       return world.command(name, body(), who);
     }
+    if (kind === 'axes' && name && what === 'actions') {
+      this.access.mayCommand(name, client, given);
+      const { name: action, arguments: by = {} } = body();
+      return { ticket: 1, axis: name, result: 'done', text: `${action}: ${JSON.stringify(by)}` };
+    }
     if (kind === 'axes' && name && what === 'parameters') {
       const axis = world.axisOf(name);
       if (!id) {

@@ -2,9 +2,11 @@
 // A browser opens at most six connections to one host. Ordinary requests use at most four at once and wait here for their turn;
 // urgent ones (stop, halt, disable) never wait behind them. At most 200 wait; beyond that a call is refused in words.
 // Never retries a command: a move that was perhaps taken must not be said twice. Only what is urgent and was refused for its token goes again, once.
+import type { CatalogueCommand } from '../words/action';
 import type { Family } from '../words/options';
 import { asProblem, Problem, problemOf } from './problem';
 import type {
+  Action,
   About, Alarm, AlarmList, Axis, AxisParameter, Command, CommandAnswer, Drive, GatewayEvent, HandItem, Line, ModbusDoor, NativeReply,
   RecipeCheck, RecipeEntry, RecipeReport, RecipeReportHead, ScanReport, Value,
 } from './types';
@@ -59,6 +61,9 @@ export class Client {
   about = () => this.call<About>('/about');
   /** What the catalogues say of whole families; beyond the name nothing is promised. */
   families = () => this.call<Family[]>('/families');
+  familyCommands = (family: string) => this.call<CatalogueCommand[]>(`/families/${part(family)}/commands`);
+  /** A function of the drive's family by its catalogue name; a motion is answered when it has begun. */
+  act = (axis: string, action: Action) => this.call<CommandAnswer>(`/axes/${part(axis)}/actions`, { method: 'POST', body: action });
   axes = (urgent = false) => this.call<Axis[]>('/axes', { urgent });
   drives = () => this.call<Drive[]>('/drives');
   lines = () => this.call<Line[]>('/lines');

@@ -25,6 +25,7 @@ export type Alarm = Schemas['Alarm'];
 export type AlarmList = Schemas['AlarmList'];
 export type Severity = Schemas['Severity'];
 export type About = Schemas['About'];
+export type Action = Schemas['Action'];
 export type Command = Schemas['Command'];
 export type CommandName = Command['command'];
 export type CommandAnswer = Schemas['CommandAnswer'];

@@ -1,8 +1,10 @@
-// Axis: one axis on its own page: readings, controls, scope, states, parameters, console, the twin's hand, its events.
+// Axis: one axis on its own page: readings, controls, scope, states, console, the twin's hand,
+// actions of its family, parameters, its events.
 // In: its name. Out: a page. Follows the axis at 50 ms while it is open.
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import type { Authority, Axis } from '../api/types';
+import { Actions } from '../components/actions';
 import { FullControls } from '../components/axis-controls';
 import { Notice, Readout, StatePills } from '../components/axis-tile';
 import { AuthorityBar } from '../components/authority';
@@ -85,6 +87,9 @@ export function AxisPage({ name }: { name: string }) {
           </Gate>
         </Section>
       </div>
+      <Section title="Actions of the family">
+        <Actions key={name} axis={name} family={axis.family} />
+      </Section>
       <Parameters axis={name} />
       <p class="more-link">
         <a href={parametersPath(name)}>Snapshots, comparison, export and import of the parameters</a>

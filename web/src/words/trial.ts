@@ -15,12 +15,14 @@ export function appliedWords(stage: Pick<Stage, 'by' | 'client'>, tab: string, b
   return barred ? `${first} ${barred}` : first;
 }
 
-/** Axes that are taken out are not disturbed for a moment: they are gone. */
+/** Axes that are taken out are not disturbed for a moment: they are gone. Either way the gateway brings to rest first what moves of them. */
 export function disturbedWords(disturbs: readonly string[], before: Site, after: Site): string {
   const there = new Set((after.axes ?? []).map((a) => a.name));
   const gone = (before.axes ?? []).map((a) => a.name).filter((n) => !there.has(n));
   const shaken = disturbs.filter((n) => !gone.includes(n));
-  return [gone.length > 0 ? `Applying removes ${gone.join(', ')}.` : '', shaken.length > 0 ? `Applying disturbs for a moment: ${shaken.join(', ')}.` : ''].filter(Boolean).join(' ');
+  const said = [gone.length > 0 ? `Applying removes ${gone.join(', ')}.` : '', shaken.length > 0 ? `Applying disturbs for a moment: ${shaken.join(', ')}.` : ''];
+  if (gone.length + shaken.length > 0) said.push('What of it moves is stopped first.');
+  return said.filter(Boolean).join(' ');
 }
 
 /** What to do before Apply can be pressed. */

@@ -1,0 +1,119 @@
+// Command table entries and curves on their way: read word by word, written word by word and read back.
+// In: a job that carries a transfer, answers. Out: telegrams one after the other; at the end the bytes, or why not.
+// Never repeats a single word: the drive counts them. After a silence the whole transfer begins anew.
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "adapters/linmot/drive.hpp"
+#include "adapters/linmot/parameters_tables.hpp"
+
+namespace axisgate::linmot {
+namespace {
+constexpr std::uint8_t done = 0x00, unfinished = 0x04, missing = 0xD4;
+std::uint32_t word_at(const std::vector<std::uint8_t>& b, std::size_t at) {
+    std::uint32_t v = 0;
+    for (std::size_t i = 0; i < 4 && at + i < b.size(); ++i)
+        v |= std::uint32_t{b[at + i]} << 8 * i;
+    return v;
+}
+}  // namespace
+
+void Drive::begin_transfer(bool curve, bool write, std::uint16_t id, std::vector<std::uint8_t> first, std::vector<std::uint8_t> second) {
+    job_.transfer = {.active = true, .curve = curve, .write = write, .id = id, .blocks = {std::move(first), std::move(second)}};
+}
+
+/// Steps: 0 clear or ask for sizes; 1 make room; 2 and 3 write the blocks; 4 and 5 read them.
+std::optional<Telegram> Drive::transfer_request() {
+    Transfer& x = job_.transfer;
+    const Main main = x.curve ? Main::curves : Main::table;
+    const auto ask = [&](std::uint8_t sub) { return request16(id_, main, sub, x.id); };
+    switch (x.step) {
+        case 0:
+            if (!x.write) return ask(x.curve ? 0x08 : 0x05);
+            return ask(0x02);
+        case 1:
+            if (!x.curve) return request48(id_, main, 0x03, x.id, static_cast<std::uint32_t>(entry_size));
+            return request48(id_, main, 0x04, x.id, static_cast<std::uint32_t>(x.blocks[0].size() | x.blocks[1].size() << 16));
+        case 2:
+        case 3:
+            return request48(id_, main, static_cast<std::uint8_t>((x.curve ? 0x05 : 0x04) + x.step - 2), x.id,
+                             word_at(x.blocks[static_cast<std::size_t>(x.step - 2)], x.at));
+        default:
+            return ask(static_cast<std::uint8_t>((x.curve ? 0x09 : 0x06) + x.step - 4));
+    }
+}
+
+/// True: it is over, and `job_.transfer` has what the drive has. An end with a fault is told here.
+bool Drive::transfer_answered(const Telegram& telegram, Turn& t) {
+    Transfer& x = job_.transfer;
+    const auto a = config_of(telegram);
+    const auto fail = [&](Outcome outcome, std::string why, std::int32_t code = 0) {
+        const std::string what = fmt::format("{} {} of drive {}", x.curve ? "curve" : "command table entry", x.id, title());
+        end_job(outcome, Reason::drive_refused, fmt::format("{}: {}", what, why), t, code);
+        return false;
+    };
+    if (!a) return fail(Outcome::failed, "the answer has another form");
+    const auto refused = [&] { return fail(Outcome::refused, communication_text(a->communication), a->communication); };
+    if (x.step == 0) {
+        const bool absent = a->communication == missing;
+        if (a->communication != done && !absent) return refused();
+        if (x.write) {
+            if (x.blocks[0].empty()) return true;
+            x.step = 1;
+            return false;
+        }
+        if (absent) return true;
+        x.sizes = {x.curve ? a->value & 0xFFFF : static_cast<std::uint32_t>(entry_size), x.curve ? a->value >> 16 : 0};
+        x.step = x.sizes[0] != 0 ? 4 : 5;
+        return x.sizes[0] == 0 && x.sizes[1] == 0;
+    }
+    if (a->communication != done && a->communication != unfinished) return refused();
+    if (x.step == 1) {
+        x.sizes = {static_cast<std::uint32_t>(x.blocks[0].size()), static_cast<std::uint32_t>(x.blocks[1].size())};
+        x.step = 2;
+        x.at = 0;
+        return false;
+    }
+    const std::size_t block = static_cast<std::size_t>(x.step) % 2;
+    if (x.step >= 4) {
+        for (int i = 0; i < 4 && x.seen[block].size() < x.sizes[block]; ++i)
+            x.seen[block].push_back(static_cast<std::uint8_t>(a->value >> 8 * i));
+    }
+    x.at += 4;
+    const bool full = x.at >= x.sizes[block];
+    // The drive and this side must agree on the end of a block: else a word was lost or is one too many.
+    if (full != (a->communication == done)) return fail(Outcome::failed, "the drive ends its block at another place");
+    if (!full) return false;
+    x.at = 0;
+    const bool more = block == 0 && x.sizes[1] != 0;
+    if (x.step < 4) {
+        x.step = more ? 3 : 4;
+        return false;
+    }
+    if (more) {
+        x.step = 5;
+        return false;
+    }
+    if (x.write && x.seen != x.blocks) return fail(Outcome::failed, "it reads back other than it was written");
+    return true;
+}
+
+/// What was read or written, as text.
+std::string Drive::transfer_text() const {
+    const Transfer& x = job_.transfer;
+    const auto& b = x.write ? x.blocks : x.seen;
+    return x.curve ? curve_text(x.id, b[0], b[1]) : entry_text(bus_.motions, b[0]);
+}
+
+/// After a silence: from the beginning, three times in all.
+bool Drive::transfer_again() {
+    Transfer& x = job_.transfer;
+    if (!x.active || ++x.tries >= 3) return false;
+    x.step = 0;
+    x.at = 0;
+    x.seen = {};
+    return true;
+}
+
+}  // namespace axisgate::linmot

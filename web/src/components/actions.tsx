@@ -1,0 +1,105 @@
+// Actions: every command of the axis' family by name, as a form with a field for each argument. In: axis and family. Out: one request when Run is
+// pressed; the answer in words. What was typed stays for the visit, whatever becomes of it. Never sends by itself, nor twice.
+import { useSignal } from '@preact/signals';
+import { asProblem } from '../api/problem';
+import { useGateway } from '../gateway';
+import { capital } from '../state/commander';
+import { kept } from '../state/kept';
+import { plain } from '../words/plain';
+import { bodyOf, faultsOf, found, hintOf, isFlag, labelOf, recipeText, type CatalogueCommand } from '../words/action';
+import { Choice, notOffered, quiet, Tell, TextField, type Told } from './form';
+import { Gate } from './gate';
+import { useLoaded } from './loaded';
+
+export function Actions({ axis, family }: { axis: string; family: string }) {
+  const { client } = useGateway();
+  const commands = useSignal<CatalogueCommand[] | null>(null);
+  const sought = kept(`typed.action.sought.${axis}`);
+  const chosen = kept(`typed.action.name.${axis}`);
+  const why = useLoaded(async () => void (commands.value = await client.familyCommands(family)), [client, family], (p) => (p.status === 404 ? notOffered('actions of this family') : p.words));
+  if (commands.value === null) return <p class="where">{why}</p>;
+  const offered = found(commands.value, sought.value);
+  const command = commands.value.find((c) => c.id === chosen.value);
+  const listed = command && !offered.includes(command) ? [command, ...offered] : offered;
+  return (
+    <Gate need="engineer">
+      <div class="form card" data-part="actions">
+        <div class="form-grid">
+          <TextField label="Find" value={sought.value} onText={(t) => (sought.value = t)} hint={`${offered.length} of ${commands.value.length}`} />
+          <Choice label="Action" value={chosen.value} onChoice={(id) => (chosen.value = id)} choices={listed.map((c) => ({ value: c.id, text: c.id === c.name ? c.name : `${c.name} (${c.id})` }))} />
+        </div>
+        {command && <ActionForm key={`${axis} ${command.id}`} axis={axis} command={command} />}
+      </div>
+    </Gate>
+  );
+}
+
+function ActionForm({ axis, command }: { axis: string; command: CatalogueCommand }) {
+  const { client } = useGateway();
+  const typed = kept(`typed.action.values.${axis}.${command.id}`, '{}');
+  const text = kept(`typed.action.text.${axis}.${command.id}`);
+  const told = useSignal<Told>(quiet);
+  const tried = useSignal(false);
+  const values: Record<string, string> = JSON.parse(typed.value);
+  const faults = faultsOf(command, values);
+  const change = (name: string, t: string) => (typed.value = JSON.stringify({ ...JSON.parse(typed.peek()), [name]: t }));
+  const run = async () => {
+    tried.value = true;
+    const now: Record<string, string> = JSON.parse(typed.peek());
+    if (Object.keys(faultsOf(command, now)).length > 0) {
+      told.value = { tone: 'refused', text: 'Not sent: see the fields.' };
+      return;
+    }
+    told.value = { tone: 'busy', text: 'Sent…' };
+    try {
+      const a = await client.act(axis, bodyOf(command, now, text.peek()));
+      told.value = { tone: 'good', text: capital(plain(a.text || `${command.name}: ${a.result}`)) };
+    } catch (error) {
+      told.value = { tone: 'refused', text: capital(asProblem(error).words) };
+    }
+  };
+  const asStep = Object.keys(faults).length === 0 ? recipeText(command, values) : '';
+  return (
+    <form
+      class="form"
+      onSubmit={(e) => {
+        e.preventDefault();
+        void run();
+      }}
+    >
+      <p class="where" data-field="action-description">
+        {command.description}
+      </p>
+      <div class="form-grid">
+        {command.arguments.length === 0 && <TextField label="Argument" value={text.value} onText={(t) => (text.value = t)} hint="Most take none." />}
+        {command.arguments.map((a) =>
+          isFlag(a) ? (
+            <Choice key={a.name} label={labelOf(a)} value={values[a.name] ?? ''} onChoice={(v) => change(a.name, v)} choices={[{ value: 'true', text: 'true' }, { value: 'false', text: 'false' }]} fault={tried.value ? faults[a.name] : undefined} hint={hintOf(a)} />
+          ) : (
+            <TextField
+              key={a.name}
+              label={labelOf(a)}
+              value={values[a.name] ?? ''}
+              onText={(t) => change(a.name, t)}
+              number={a.type !== 'text' && a.type !== 'bytes'}
+              placeholder={a.default === null || a.default === undefined ? 'needed' : String(a.default)}
+              fault={tried.value || (values[a.name] ?? '') !== '' ? faults[a.name] : undefined}
+              hint={hintOf(a)}
+            />
+          ),
+        )}
+      </div>
+      <div class="form-foot">
+        <button type="submit" class="button primary">
+          Run
+        </button>
+      </div>
+      {asStep && (
+        <p class="where">
+          In a recipe: <span class="mono" data-field="action-as-text">{`${command.name}: ${asStep}`}</span>
+        </p>
+      )}
+      <Tell told={told.value} field="action-result" />
+    </form>
+  );
+}

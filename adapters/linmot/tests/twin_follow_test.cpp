@@ -6,7 +6,7 @@
 
 namespace axisgate::linmot::test {
 namespace {
-constexpr std::int64_t v1 = 1'000'000, a1 = 10'000'000;  // 1 m/s, 100 m/s2
+constexpr std::int64_t speed = 1'000'000, rate = 10'000'000;  // 1 m/s, 100 m/s2
 
 /// A curve of straight pieces over so many counts.
 void curve(Bench& b, std::uint16_t id, std::initializer_list<int> points, int x_length = 1000) {
@@ -19,7 +19,7 @@ void curve(Bench& b, std::uint16_t id, std::initializer_list<int> points, int x_
 }
 void turn(Bench& b, std::int64_t to) { (void)b.hand("encoder", Value{to}); }
 void move(Bench& b, std::int64_t to) {
-    b.motion("010xh", {to, v1, a1, a1});
+    b.motion("010xh", {to, speed, rate, rate});
     b.run(2s);
     ASSERT_EQ(b.position(), static_cast<double>(to));
 }
@@ -272,8 +272,8 @@ TEST(LinmotFollow, WhatIsArmedOrComesLaterLeavesARunningCurve) {
     curve(b, 1, {0, 10'000}, 50'000);  // half a second
     b.motion("040xh", {1});
     b.run(100ms);
-    b.motion("01Axh", {50'000, v1, a1, a1});
-    b.motion("018xh", {20'000, v1, a1, a1});
+    b.motion("01Axh", {50'000, speed, rate, rate});
+    b.motion("018xh", {20'000, speed, rate, rate});
     b.run(100ms);
     EXPECT_NEAR(b.position(), 4000, 1) << "the curve goes on";
     b.run(1s);
@@ -382,7 +382,7 @@ TEST(LinmotMonitor, TheBrakeHasItsTime) {
     EXPECT_EQ(b.state(), 12) << "the brake is being released";
     b.run(1ms);
     EXPECT_EQ(b.state(), 8);
-    b.motion("010xh", {10'000'000, v1, a1, a1});
+    b.motion("010xh", {10'000'000, speed, rate, rate});
     b.run(500ms);
     b.control(0x3B);  // 1 m/s to 0 with 10 m/s2: 100 ms, then 40 ms for the brake
     b.run(139ms);

@@ -2,7 +2,7 @@
 
     tests/fuzz/seeds.py FOLDER      writes FOLDER/TARGET/NAME for every target that has some
 
-In: adapters/*/vectors.txt, schema/openapi.yaml, schema/families. Out: one small file per example: the frames of each family's vectors as bytes,
+In: adapters/*/vectors.txt, schema/openapi.yaml, schema/families, tests/unit/canopen/eds. Out: one small file per example: the frames of each family's vectors as bytes,
 one request per operation of the API. What no other file says (recipes, tables, program text) is kept in seeds/ beside the target.
 """
 import pathlib
@@ -62,6 +62,7 @@ def main():
             seeds[target.stem] = [b + bytes(8) for b in wire] + words
             if target.stem == f"{family}_program":
                 seeds[target.stem] = listings(text) + words
+    seeds["canopen_eds"] = [p.read_bytes() for p in sorted((TOP / "tests/unit/canopen/eds").iterdir())]
     written = 0
     for target, list_ in seeds.items():
         folder = out / target

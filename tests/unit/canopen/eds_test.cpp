@@ -1,0 +1,255 @@
+// EDS and DCF: three files of different style, everything that can be wrong in one, and a DCF that is read as it was written.
+#include "gateway/protocols/canopen/eds.hpp"
+
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+
+#include <array>
+#include <fstream>
+#include <iterator>
+
+#include "gateway/protocols/canopen/pdo.hpp"
+#include "tests/unit/canopen/bench.hpp"
+
+namespace axisgate::canopen::test {
+namespace {
+using testing::HasSubstr;
+
+std::string file(const std::string& name) {
+    std::ifstream in(AXISGATE_SOURCE_DIR "/tests/unit/canopen/eds/" + name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+struct Read {
+    std::vector<FileFault> faults, notes;
+    std::optional<Eds> eds;
+    explicit Read(std::string_view text) { eds = read_eds(text, faults, notes); }
+    [[nodiscard]] std::string all() const {
+        std::string t;
+        for (const auto& f : faults)
+            t += std::to_string(f.line) + ": " + f.text + "\n";
+        return t;
+    }
+    [[nodiscard]] std::string noted() const {
+        std::string t;
+        for (const auto& f : notes)
+            t += std::to_string(f.line) + ": " + f.text + "\n";
+        return t;
+    }
+};
+Value number(std::int64_t n) { return Value{n}; }
+
+TEST(EdsFiles, TheClassicStyle) {
+    const Read r(file("servo.eds"));
+    ASSERT_TRUE(r.eds) << r.all();
+    EXPECT_EQ(r.noted(), "");
+    const Eds& e = *r.eds;
+    EXPECT_EQ(e.vendor, "Example Motion");
+    EXPECT_EQ(e.vendor_number, 0x1ABu);
+    EXPECT_EQ(e.revision_number, 0x10002u);
+    EXPECT_EQ(e.kbits, (std::vector<std::uint32_t>{20, 50, 125, 250, 500, 1000}));
+    EXPECT_EQ(e.objects.size(), 22u);
+    EXPECT_EQ(e.objects.at(0x607D).shape, EdsShape::array);
+    const EdsEntry& mode = e.entries.at({0x6060, 0});
+    EXPECT_EQ(mode.type, DataType::integer8);
+    EXPECT_EQ(mode.access, EntryAccess::read_write_output);
+    EXPECT_TRUE(mode.mappable);
+    EXPECT_EQ(mode.low.value, number(-1));
+    EXPECT_EQ(mode.high.value, number(10));
+    EXPECT_EQ(mode.fallback.value, number(1));
+    EXPECT_EQ(e.entries.at({0x607D, 1}).fallback.value, number(INT32_MIN)) << "hex digits are the bits of the number";
+    EXPECT_EQ(e.entries.at({0x1008, 0}).fallback.value, Value{std::string("Servo One")});
+    EXPECT_EQ(e.entries.at({0x2000, 0}).fallback.value, Value{25.5});
+    EXPECT_EQ(e.entries.at({0x2001, 0}).fallback.value, Value{static_cast<double>(0.1f)}) << "bits of a REAL32";
+    EXPECT_FALSE(e.entries.at({0x6041, 0}).fallback.given());
+    EXPECT_EQ(e.entries.at({0x1200, 1}).fallback.of(5), number(0x605));
+}
+TEST(EdsFiles, TheShortStyle) {
+    const Read r(file("compact.eds"));
+    ASSERT_TRUE(r.eds) << r.all();
+    EXPECT_EQ(r.noted(), "");
+    const Eds& e = *r.eds;
+    EXPECT_EQ(e.vendor, "Müller Antriebe") << "Latin-1";
+    EXPECT_EQ(e.kbits, (std::vector<std::uint32_t>{125, 1000}));
+    EXPECT_EQ(e.entries.at({0x6099, 0}).fallback.value, number(2));
+    EXPECT_EQ(e.entries.at({0x6099, 2}).name, "speed to zero");
+    EXPECT_EQ(e.entries.at({0x6099, 2}).fallback.value, number(100)) << "octal";
+    EXPECT_EQ(e.entries.at({0x2010, 254}).name, "points254");
+    EXPECT_TRUE(e.entries.at({0x2010, 254}).mappable);
+    EXPECT_FALSE(e.entries.contains({0x2010, 255}));
+    EXPECT_EQ(e.entries.at({0x2011, 0}).fallback.value, number(-2));
+    EXPECT_EQ(e.entries.at({0x2012, 0}).type, DataType::domain);
+    EXPECT_EQ(e.entries.at({0x2012, 0}).access, EntryAccess::write_only);
+}
+TEST(EdsFiles, ADcfByHand) {
+    const Read r(file("by_hand.dcf"));
+    ASSERT_TRUE(r.eds) << r.all();
+    const Eds& e = *r.eds;
+    ASSERT_TRUE(e.commissioning);
+    EXPECT_EQ(*e.commissioning, (Commissioning{0x21, "feeder µm", 500}));
+    EXPECT_EQ(e.vendor, "\"Third & Sons\"");
+    EXPECT_FALSE(e.revision_number);
+    EXPECT_EQ(e.entries.at({0x1000, 0}).fallback.value, number(0x20192)) << "a comment behind a number";
+    EXPECT_EQ(e.entries.at({0x1014, 0}).fallback.of(0x21), number(0xA1));
+    EXPECT_EQ(e.entries.at({0x1014, 0}).configured.of(0x21), number(0x21));
+    EXPECT_EQ(e.entries.at({0x3000, 0}).configured.value, Value{false});
+    EXPECT_EQ(e.entries.at({0x3001, 0}).fallback.value, Value{std::string("0102FF")});
+    EXPECT_EQ(e.entries.at({0x3001, 0}).configured.value, Value{std::string("AABB")});
+    EXPECT_EQ(e.entries.at({0x3002, 0}).fallback.value, number(INT64_MIN));
+    EXPECT_EQ(e.entries.at({0x3002, 0}).configured.value, number(INT64_MAX));
+    EXPECT_EQ(e.entries.at({0x3003, 0}).fallback.value, Value{0.001});
+    EXPECT_EQ(e.entries.at({0x3004, 0}).configured.value, Value{std::string("line = 3; left")});
+    EXPECT_FALSE(e.entries.at({0x3005, 0}).high.given());
+    EXPECT_EQ(e.entries.at({0x3006, 0}).fallback.value, number(-1));
+    EXPECT_EQ(e.entries.at({0x3006, 0}).flags, 1u);
+    EXPECT_THAT(r.noted(), HasSubstr("1014h stands in no list"));
+    EXPECT_THAT(r.noted(), HasSubstr("HighLimit of 3005h:00 is above 2^63 - 1"));
+    EXPECT_THAT(r.noted(), HasSubstr("DefaultValue of 3007h:00 is outside its limits"));
+    EXPECT_THAT(r.noted(), HasSubstr("1018h tells 3 subindices and has 2"));
+    EXPECT_EQ(r.notes.size(), 4u) << r.noted();
+}
+
+// ---- faults -----------------------------------------------------------------------------------------------------------
+const std::string head = "[DeviceInfo]\nVendorName=x\n[MandatoryObjects]\n1=0x1000\n";  // four lines
+std::string object(std::string_view keys) { return head + "[1000]\nParameterName=a\n" + std::string(keys); }
+
+struct FaultCase {
+    std::string text;
+    std::size_t line;
+    std::string words;
+};
+TEST(EdsFaults, EachIsToldWithItsLine) {
+    const std::string good = "DataType=7\nAccessType=ro\n";
+    const FaultCase cases[] = {
+        {"", 0, "the section [DeviceInfo] is missing"},
+        {"just words\n", 1, "\"just words\" is neither a section nor a key"},
+        {"a=1\n", 1, "the key a stands before the first section"},
+        {head + "[1000\n", 5, "has no ]"},
+        {head + "=5\n", 5, "neither a section nor a key"},
+        {head + "[DEVICEINFO]\n", 5, "the section [deviceinfo] stands twice, first in line 1"},
+        {object(good + "datatype=6\n"), 9, "the key datatype stands twice in [1000]"},
+        {head, 4, "the object 1000h is listed and has no section"},
+        {"[DeviceInfo]\nVendorName=x\n[MandatoryObjects]\n1=soon\n", 4, "\"soon\" is no index of an object"},
+        {"[DeviceInfo]\nProductNumber=many\n[1000]\n" + good, 2, "productnumber of [deviceinfo] is \"many\""},
+        {object("AccessType=ro\n"), 5, "1000h:00 has no DataType"},
+        {object("DataType=0x23\nAccessType=ro\n"), 7, "DataType \"0x23\" of 1000h:00 is none of CiA 301's simple types"},
+        {object("DataType=INTEGER32\nAccessType=ro\n"), 7, "DataType \"INTEGER32\""},
+        {object("DataType=7\n"), 5, "1000h:00 has no AccessType"},
+        {object("DataType=7\nAccessType=always\n"), 8, "AccessType \"always\" of 1000h:00 is none"},
+        {object(good + "DefaultValue=five\n"), 9, "DefaultValue \"five\" of 1000h:00 is no UNSIGNED32"},
+        {object(good + "DefaultValue=-1\n"), 9, "is no UNSIGNED32"},
+        {object(good + "DefaultValue=0x1FFFFFFFF\n"), 9, "is no UNSIGNED32"},
+        {object(good + "DefaultValue=08\n"), 9, "is no UNSIGNED32"},
+        {object("DataType=3\nAccessType=ro\nDefaultValue=0x10000\n"), 9, "is no INTEGER16"},
+        {object("DataType=3\nAccessType=ro\nDefaultValue=32768\n"), 9, "is no INTEGER16"},
+        {object("DataType=8\nAccessType=ro\nDefaultValue=1e99\n"), 9, "is no REAL32"},
+        {object("DataType=8\nAccessType=ro\nDefaultValue=0x7F800000\n"), 9, "is no REAL32"},
+        {object("DataType=9\nAccessType=ro\nDefaultValue=$NODEID\n"), 9, "only whole numbers hang on the node number"},
+        {object(good + "LowLimit=5\nHighLimit=4\n"), 5, "LowLimit of 1000h:00 is above its HighLimit"},
+        {object(good + "PDOMapping=2\n"), 9, "pdomapping of [1000] is \"2\""},
+        {object(good + "ObjectType=3\n"), 5, "ObjectType 3 of 1000h is none"},
+        {object("ObjectType=8\nSubNumber=1\n"), 5, "1000h is an array or a record without subindices"},
+        {object("ObjectType=8\nCompactSubObj=255\n" + good), 8, "must be a whole number up to 254"},
+        {object(good) + "[1001sub0]\n" + good, 9, "[1001sub0] has no object [1001]"},
+        {object(good) + "[1000sub100]\n" + good, 9, "\"100\" is no subindex"},
+        {object(good) + "[1000sub1]\n" + good, 9, "[1000sub1]: 1000h is a variable and has no subindices"},
+        {object("ObjectType=8\nCompactSubObj=1\n" + good) + "[1000sub1]\n" + good, 11, "1000h:01 is described twice"},
+        {object(good) + "[DeviceComissioning]\nNodeID=0\n", 9, "NodeID of [DeviceComissioning] must be 1 to 127"},
+    };
+    for (const auto& c : cases) {
+        const Read r(c.text);
+        EXPECT_FALSE(r.eds) << c.words;
+        ASSERT_FALSE(r.faults.empty()) << c.words;
+        EXPECT_EQ(r.faults[0].line, c.line) << c.words << "\n" << r.all();
+        EXPECT_THAT(r.faults[0].text, HasSubstr(c.words)) << r.all();
+    }
+    EXPECT_TRUE(Read(object(good)).eds) << "what all of them are made of is good";
+}
+TEST(EdsFaults, AllAreToldAtOnceUpToABound) {
+    const Read two(object("DataType=99\nAccessType=x\n"));
+    EXPECT_EQ(two.faults.size(), 2u) << two.all();
+    std::string text = head + "[1000]\nDataType=7\nAccessType=ro\n";
+    for (int i = 0; i < 5000; ++i)
+        text += "words\n";
+    const Read many(text);
+    EXPECT_EQ(many.faults.size(), most_file_faults + 1);
+    EXPECT_EQ(many.faults.back().text, "there are more faults: mend these first");
+}
+TEST(EdsFaults, AMegabyteOfSectionsIsRefusedInWords) {
+    std::string text = head;
+    for (int i = 0; text.size() < 1'000'000; ++i)
+        text += "[s" + std::to_string(i) + "]\n";
+    const Read r(text);
+    EXPECT_FALSE(r.eds);
+    ASSERT_EQ(r.faults.size(), 1u);
+    EXPECT_THAT(r.faults[0].text, HasSubstr("more than 20000 sections: this is no description of a drive"));
+    EXPECT_EQ(r.faults[0].line, 4 + 20'000 - 2 + 1u);
+}
+TEST(EdsFaults, ATooLargeFileIsRefusedUnread) {
+    const Read r(std::string(Ini::most_bytes + 1, 'x'));
+    ASSERT_EQ(r.faults.size(), 1u);
+    EXPECT_EQ(r.faults[0].text, "the file has 4194305 bytes, and 4194304 are the most");
+}
+TEST(EdsFaults, CompactArraysDoNotGrowWithoutBound) {
+    std::string text = "[DeviceInfo]\n";
+    for (int i = 0; i < 300; ++i) {
+        text += fmt::format("[{:04X}]\nObjectType=8\nDataType=5\nAccessType=rw\nCompactSubObj=254\n", 0x2000 + i);
+    }
+    const Read r(text);
+    EXPECT_FALSE(r.eds);
+    ASSERT_EQ(r.faults.size(), 1u) << r.all();
+    EXPECT_THAT(r.faults[0].text, HasSubstr("more than 50000 entries"));
+}
+
+// ---- what is made of it -----------------------------------------------------------------------------------------------
+TEST(EdsDictionary, HasTypesBoundsAndTheNodesIdentifiers) {
+    const Read r(file("servo.eds"));
+    ASSERT_TRUE(r.eds);
+    Dictionary d = dictionary_of(*r.eds, 7);
+    EXPECT_EQ(d.integer({0x1800, 1}), 0x40000187);
+    EXPECT_EQ(d.write({0x6060, 0}, std::array<std::uint8_t, 1>{11}, true), Abort::too_high);
+    EXPECT_EQ(d.find({0x6041, 0})->mappable, Mappable::transmit);
+    EXPECT_EQ(d.find({0x6040, 0})->mappable, Mappable::receive);
+    EXPECT_EQ(d.find({0x6081, 0})->bytes.size(), 4u);
+    Abort fault{};
+    const auto pdo = pdo_of(d, PdoDirection::transmit, 1, fault);
+    ASSERT_TRUE(pdo) << to_text(fault);
+    EXPECT_EQ(pdo->settings.id, 0x187u);
+    EXPECT_EQ(fault_of(pdo->mapping, PdoDirection::transmit, d), Abort::none);
+}
+
+TEST(Dcf, IsReadAsItWasWritten) {
+    for (const char* name : {"servo.eds", "compact.eds", "by_hand.dcf"}) {
+        const Read r(file(name));
+        ASSERT_TRUE(r.eds) << name;
+        std::vector<std::string> left_out;
+        const Commissioning c{9, "x", 250};
+        const std::string text = write_dcf(*r.eds, c, {}, {"02:15PM", "11-22-2026"}, left_out);
+        EXPECT_TRUE(left_out.empty());
+        const Read again(text);
+        ASSERT_TRUE(again.eds) << name << "\n" << again.all();
+        Eds expected = *r.eds;
+        expected.commissioning = c;
+        EXPECT_TRUE(*again.eds == expected) << name;
+    }
+}
+TEST(Dcf, HoldsTheValuesOfOneDevice) {
+    const Read r(file("servo.eds"));
+    std::vector<std::string> left_out;
+    const std::map<Address, Value> values{{{0x6081, 0}, number(70'000)}, {{0x607D, 1}, number(-5)},
+                                          {{0x2001, 0}, Value{0.25}},    {{0x1008, 0}, Value{std::string("two\nlines")}},
+                                          {{0x6060, 0}, number(1000)},   {{0x9999, 0}, number(1)}};
+    const std::string text = write_dcf(*r.eds, {5, "feeder\n[x]", 0}, values, {}, left_out);
+    EXPECT_THAT(text, HasSubstr("[DeviceComissioning]\r\nNodeID=5\r\nNodeName=feeder [x]\r\n"));
+    EXPECT_THAT(left_out, testing::ElementsAre("1008h:00 (VISIBLE_STRING): a DCF cannot hold this value",
+                                               "6060h:00 (INTEGER8): a DCF cannot hold this value", "9999h:00 is not in the description"));
+    const Read again(text);
+    ASSERT_TRUE(again.eds) << again.all();
+    EXPECT_EQ(again.eds->entries.at({0x6081, 0}).configured.value, number(70'000));
+    EXPECT_EQ(again.eds->entries.at({0x607D, 1}).configured.value, number(-5));
+    EXPECT_EQ(again.eds->entries.at({0x2001, 0}).configured.value, Value{0.25});
+    EXPECT_FALSE(again.eds->entries.at({0x1008, 0}).configured.given());
+    EXPECT_EQ(dictionary_of(*again.eds, 5).integer({0x6081, 0}), 70'000);
+}
+
+}  // namespace
+}  // namespace axisgate::canopen::test

@@ -21,7 +21,13 @@ void Engine::on_set_point(const SetPoint& p, Instant now) {
     Axis::Stream& s = a->stream;
     const auto who = AuthorityClient::of(p.origin);
     const auto no = against(*a, p, who, now);
-    if (!s.on && s.ended_by == who) s.ended_heard = now;
+    if (!s.on && s.ended_by == who) {
+        s.ended_heard = now;
+        if (no && no->reason != s.ended_for) {  // a later refusal counts like an end
+            s.ended_for = no->reason;
+            s.ended_why = no->text;
+        }
+    }
     if (no) {
         ++s.refused;
         const bool news = std::exchange(s.refusal, no->reason) != no->reason;

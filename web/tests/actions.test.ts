@@ -6,7 +6,7 @@ import { argumentFault, bodyOf, faultsOf, found, hintOf, isFlag, isText, labelOf
 const folder = new URL('../../schema/families/', import.meta.url);
 /** As GET /families/{family}/commands gives them. */
 const served = (family: string): CatalogueCommand[] =>
-  JSON.parse(readFileSync(new URL(family, folder), 'utf8')).commands.map((c: Partial<CatalogueCommand>) => ({ description: null, completes: 'acknowledged', ...c, arguments: (c.arguments ?? []).map((a) => ({ unit: null, scale: 1, min: null, max: null, default: null, description: null, ...a })) }));
+  JSON.parse(readFileSync(new URL(family, folder), 'utf8')).commands.map((c: Partial<CatalogueCommand>) => ({ description: null, completes: 'acknowledged', ...c, arguments: (c.arguments ?? []).map((a: Partial<CommandArgument>) => ({ unit: null, scale: 1, min: null, max: null, default: null, description: null, ...a })) }));
 const families = readdirSync(folder).filter((f) => f.endsWith('.json'));
 const argument = (change: Partial<CommandArgument>): CommandArgument => ({ name: 'position', type: 'i32', unit: 'mm', scale: 0.0001, min: null, max: null, default: null, description: null, ...change });
 

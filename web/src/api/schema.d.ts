@@ -2262,6 +2262,21 @@ export interface components {
             /** @description empty for none */
             text: string;
         };
+        /** @description set-points that a client streams over `/stream` or another cyclic door */
+        StreamedSetPoints: {
+            streaming: boolean;
+            /**
+             * @description null while nobody streams
+             * @enum {string|null}
+             */
+            mode: "position" | "velocity" | "torque" | null;
+            /** @description handed to the drive since the start; counts up */
+            taken: number;
+            /** @description not handed to it; counts up */
+            refused: number;
+            /** @description why the newest one was not handed to the drive, or why the stream ended, as in a Result; null - it was, or none came yet */
+            reason: string | null;
+        };
         AxisState: {
             readonly line: string;
             readonly family: string;
@@ -2288,21 +2303,7 @@ export interface components {
             readonly mode_number: number;
             /** @description the CiA 402 modes of operation that the drive offers; 8, 9 and 10 by streamed set-points alone */
             readonly modes: number[];
-            /** @description set-points that a client streams over `/stream` or another cyclic door */
-            readonly set_points: {
-                streaming: boolean;
-                /**
-                 * @description null while nobody streams
-                 * @enum {string|null}
-                 */
-                mode: "position" | "velocity" | "torque" | null;
-                /** @description handed to the drive since the start; counts up */
-                taken: number;
-                /** @description not handed to it; counts up */
-                refused: number;
-                /** @description why the newest one was not handed to the drive, or why the stream ended, as in a Result; null - it was, or none came yet */
-                reason: string | null;
-            };
+            readonly set_points: components["schemas"]["StreamedSetPoints"];
             readonly moving: boolean;
             readonly target_reached: boolean;
             /** @description the position has a known zero */
@@ -2440,7 +2441,9 @@ export interface components {
              *       "velocity": 0.1
              *     }
              */
-            arguments?: Record<string, never>;
+            arguments?: {
+                [key: string]: string | number | boolean;
+            };
         };
         MovesStart: {
             axes: string[];

@@ -44,7 +44,7 @@ def telegram(sub, main, data=b""):
 
 def field(answer, name):
     status, state = struct.unpack_from("<HH", answer, 7) if len(answer) >= 11 else (0, 0)
-    return {"comm": answer[6], "status": status, "state": state >> 8, "sub": state & 0xFF, "count": state & 15}[name]
+    return {"length": answer[2], "comm": answer[6], "status": status, "state": state >> 8, "sub": state & 0xFF, "count": state & 15}[name]
 
 
 def curve_telegrams():

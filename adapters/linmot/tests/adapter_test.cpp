@@ -235,9 +235,8 @@ TEST(LinmotAdapter, ACommandTableIsWrittenReadAndRun) {
     row(7, "IF Cmd Table Var 1 Less Than", "value=3 entry_if_true=2 entry_if_false=8", 0);
     row(8, "No Operation", "", 0);
     EXPECT_EQ(b.act("table.presence").text, "1 2 3 4 5 6 7 8");
-    EXPECT_EQ(
-        b.act("table.read", {{"entry", 2}}).text,
-        "VAI Go To Pos: position=20 velocity=1 acceleration=50 deceleration=50; next=3; name=row");
+    EXPECT_EQ(b.act("table.read", {{"entry", 2}}).text,
+              "VAI Go To Pos: position=20 velocity=1 acceleration=50 deceleration=50; next=3; name=row");
     EXPECT_TRUE(good(b.act("Start Command Table Command", {{"entry", 1}})));
     b.run(2s);
     EXPECT_EQ(b.drive().ram(0x1E72), 3u);

@@ -280,6 +280,65 @@ TEST(LinmotFollow, WhatIsArmedOrComesLaterLeavesARunningCurve) {
     EXPECT_EQ(b.position(), 20'000) << "then what was to come after it";
 }
 
+TEST(LinmotFollow, AFrozenCurveEndsAtTheLastTarget) {
+    for (const bool moved : {true, false}) {
+        Bench b;
+        b.enable();
+        if (moved) move(b, 10'000);
+        curve(b, 1, {0, 100'000}, 50'000);
+        b.motion("040xh", {1});
+        b.run(250ms);
+        b.control(0x1F);
+        b.run(1s);
+        EXPECT_GT(b.position(), 40'000);
+        b.control(0x3F);
+        b.run(2s);
+        EXPECT_EQ(b.position(), moved ? 10'000 : 0) << "the last target, or the initial position if there never was one";
+    }
+}
+
+TEST(LinmotFollow, AForcedBitBeatsX4AndX4TheInterface) {
+    Bench b({{"force", "8"}});
+    b.enable();
+    auto o = b.drive().outside();
+    o.x4_mask = 0x08;  // enable operation from an input that is low: forced to 1 all the same
+    b.drive().set_outside(o, b.now);
+    EXPECT_EQ(b.state(), 8);
+    Bench x;
+    x.enable();
+    o = x.drive().outside();
+    o.x4_mask = 0x08;
+    x.drive().set_outside(o, x.now);
+    EXPECT_EQ(x.state(), 6);
+    x.control(0x3F);
+    EXPECT_EQ(x.state(), 6) << "the interface does not reach this bit";
+    o.x4_word = 0x08;
+    x.drive().set_outside(o, x.now);
+    EXPECT_EQ(x.state(), 8);
+}
+
+TEST(LinmotFollow, TheSmallerSeriesHas31EntriesFlashAndNoLagOfStanding) {
+    Bench b({{"series", "b1100"}});
+    b.enable();
+    EXPECT_TRUE(b.tell({7, 8, 0, 0}).empty()) << "no command table over a serial interface";
+    EXPECT_TRUE(b.tell({8, 4, 1, 0}).empty()) << "nor curves";
+    b.drive().table[31] = {};
+    b.motion("200xh", {31});
+    EXPECT_EQ(b.state(), 8);
+    b.drive().table[32] = {};
+    b.motion("200xh", {32});
+    b.run(1s);
+    EXPECT_EQ(b.drive().state_var(), 0x048A);
+    for (const bool small : {false, true}) {
+        Bench s(small ? std::map<std::string, std::string>{{"series", "b1100"}} : std::map<std::string, std::string>{});
+        s.enable();
+        (void)s.hand("stall", Value{true});
+        s.motion("010xh", {15'000, speed, rate, rate});
+        s.run(1s);
+        EXPECT_EQ(s.drive().warn_word() >> 5 & 1, small ? 0 : 1);
+    }
+}
+
 // --- monitoring -----------------------------------------------------------------------------------------------------------------
 TEST(LinmotMonitor, AWarningComesBeforeItsError) {
     struct Row {

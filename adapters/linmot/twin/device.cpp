@@ -115,10 +115,10 @@ void Device::look(Instant now, Out& out) {
             ++at;
             continue;
         }
-        const std::vector<std::uint8_t> body(rest.begin() + 4, rest.begin() + static_cast<std::ptrdiff_t>(n + 3));
-        const std::uint8_t id = rest[1];
         at += whole;
-        if (id == setup_.id && body.size() >= 2) heard(body, now, out);
+        if (rest[1] != setup_.id) continue;  // most of what a full line carries
+        const std::vector<std::uint8_t> body(rest.begin() + 4, rest.begin() + static_cast<std::ptrdiff_t>(n + 3));
+        if (body.size() >= 2) heard(body, now, out);
     }
     held_.erase(held_.begin(), held_.begin() + static_cast<std::ptrdiff_t>(std::min(at, held_.size())));
 }

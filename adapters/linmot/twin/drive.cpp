@@ -408,7 +408,7 @@ bool Drive::transit_enabled(Instant now) {
             if (frozen_motion_ && frozen_endless_)
                 profile_.run(now, demand_at(now), frozen_direction_, last_ramps_);
             else if (frozen_motion_)
-                profile_.move(now, demand_at(now), frozen_target_, last_ramps_);
+                profile_.move(now, demand_at(now), frozen_target_, vai_ever_ ? last_ramps_ : predefined());
             return true;
         case homing:
         case clearance:

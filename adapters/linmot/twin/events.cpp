@@ -27,8 +27,9 @@ bool Drive::watches() const noexcept { return waiting_ != 0 && (waiting_ >> 8 ==
 
 /// While the motor is held, the demand runs away until the lag is too big (error 000Bh) at its very instant.
 Instant Drive::lag_limit(Instant after) const {
+    if (!outside_.stall || !controlled() || (state_ == quick_stop && quick_by_error_)) return never;
     const double limit = memory.number(0x1473);
-    if (!controlled() || !outside_.stall || limit <= 0 || (state_ == quick_stop && quick_by_error_)) return never;
+    if (limit <= 0) return never;
     const double here = stalled_at_ + offset_;
     if (std::fabs(demand_at(now_).position - here) > limit) return now_;
     if (play_.active || streaming_ || follows()) return now_ + watch_step;
@@ -92,11 +93,10 @@ Instant Drive::due() const {
 }
 
 Instant Drive::next_event() const {
-    if (!running_) return never;
+    // What only moves on inside needs no wake-up but to keep the catching up short. Asked after every telegram of the line: cheap.
+    if (!running_ || (entry_ == 0 && !streaming_)) return never;
     const Instant at = due();
-    // What only moves on inside needs no wake-up but to keep the catching up short.
-    if (at == never || (entry_ == 0 && !streaming_)) return never;
-    return std::max(at, now_ + std::chrono::milliseconds(50));
+    return at == never ? never : std::max(at, now_ + std::chrono::milliseconds(50));
 }
 
 void Drive::handle(Instant now) {

@@ -9,7 +9,7 @@ namespace axisgate::linmot::twin {
 /// Offsets in an entry: 0 version, 2 linked entry (FFFFh: none), 4 header, 6 parameters.
 void Drive::start_entry(std::uint16_t id, Instant now) {
     const auto it = table.find(id);
-    if (it == table.end()) {
+    if (it == table.end() || (setup_.series == Series::b1100 && id > 31)) {
         end_table();
         return raise(0x8A, now);
     }

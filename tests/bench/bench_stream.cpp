@@ -11,6 +11,7 @@
 #include <memory>
 #include <string>
 
+#include "tests/bench/modbus_load.hpp"
 #include "tests/bench/report.hpp"
 #include "tests/bench/stream_crowd.hpp"
 

@@ -64,7 +64,9 @@ void Drive::submit(const Command& c, Turn& t) {
     if (is_urgent(c.body) || drive::is_motion(c.body)) set_points_.forget(c.axis);
     if (drive::admit(c, setup_.name, presence_, queue_, tickets_, t) != drive::Admission::urgent) return;
     const bool off = std::holds_alternative<Disable>(c.body);
-    const auto ends = [&](const Command& w) { return w.axis == c.axis && (drive::is_motion(w.body) || (off && std::holds_alternative<Enable>(w.body))); };
+    const auto ends = [&](const Command& w) {
+        return w.axis == c.axis && (drive::is_motion(w.body) || (off && std::holds_alternative<Enable>(w.body)));
+    };
     (void)queue_.interrupt(ends, name_of(c.body), tickets_, t);
     if (job_ && ends(job_->command)) {
         tickets_.failed(job_->command.ticket, Reason::interrupted, drive::CommandQueue::interrupted_by(name_of(c.body)), t.out);

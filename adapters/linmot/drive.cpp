@@ -76,8 +76,7 @@ void Drive::end_job(Outcome outcome, Reason reason, std::string text, Turn& t, s
     if (outcome == Outcome::refused && reason == Reason::drive_refused) ++bus_.counters.refused;
     const bool streamed = ticket == no_ticket && std::holds_alternative<Move>(job_.command.body);
     job_ = {};
-    if (streamed && outcome != Outcome::accepted && reason != Reason::interrupted)
-        t.out.stream_ends.push_back({axis_, reason, text});
+    if (streamed && outcome != Outcome::accepted && reason != Reason::interrupted) t.out.stream_ends.push_back({axis_, reason, text});
     tickets_.answer(ticket, outcome, reason, std::move(text), t.out, code, std::move(value), std::move(bytes));
 }
 

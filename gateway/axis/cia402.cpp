@@ -18,8 +18,8 @@ constexpr Duration reaction_again = std::chrono::seconds(1);
 }  // namespace
 
 std::string_view name_of(PowerState state) noexcept {
-    constexpr std::array<std::string_view, 8> names{"not_ready_to_switch_on", "switch_on_disabled", "ready_to_switch_on", "switched_on",
-                                                    "operation_enabled", "quick_stop_active", "fault_reaction_active", "fault"};
+    constexpr std::array<std::string_view, 8> names{"not_ready_to_switch_on", "switch_on_disabled", "ready_to_switch_on",    "switched_on",
+                                                    "operation_enabled",      "quick_stop_active",  "fault_reaction_active", "fault"};
     return names[static_cast<std::size_t>(state)];
 }
 
@@ -157,7 +157,8 @@ bool AxisProfile::change_unheard(State& s, std::uint16_t before, std::uint16_t c
         s.halted = true;
         d.orders.emplace_back(Halt{});
     } else {
-        d = refuse(Reason::no_answer, s.presence == Presence::offline ? "the drive does not answer" : "the drive has not said yet where it is");
+        d = refuse(Reason::no_answer,
+                   s.presence == Presence::offline ? "the drive does not answer" : "the drive has not said yet where it is");
         return false;
     }
     return true;
@@ -175,7 +176,8 @@ void AxisProfile::change_power(State& s, std::uint16_t before, std::uint16_t cw,
     switch (s.state) {
         case PowerState::not_ready_to_switch_on:
         case PowerState::fault_reaction_active:
-        case PowerState::fault: return;  // left by the drive, or by the fault reset's edge
+        case PowerState::fault:
+            return;  // left by the drive, or by the fault reset's edge
         case PowerState::switch_on_disabled:
             if (ev && qs && !so) s.virtual_step = 1;  // transition 2: shutdown
             return settle(s);
@@ -230,7 +232,8 @@ void AxisProfile::change_power(State& s, std::uint16_t before, std::uint16_t cw,
 }
 
 /// Halt, new set-points, homing start. False: refused, and `d` says why.
-bool AxisProfile::change_motion(State& s, std::uint16_t before, std::uint16_t cw, const ProcessData& data, Written& own, Decision& d) const {
+bool AxisProfile::change_motion(State& s, std::uint16_t before, std::uint16_t cw, const ProcessData& data, Written& own,
+                                Decision& d) const {
     const std::uint16_t rising = cw & static_cast<std::uint16_t>(~before), falling = before & static_cast<std::uint16_t>(~cw);
     const bool enabled = s.state == PowerState::operation_enabled && s.power_pending != 0;
     const auto ends = [](const CommandBody& o) { return is_urgent(o) || std::holds_alternative<ResetFault>(o); };
@@ -238,7 +241,8 @@ bool AxisProfile::change_motion(State& s, std::uint16_t before, std::uint16_t cw
     if (!enabled || d.orders.size() > 0) {
         // Not enabled, or the power state changes with this very word: an edge for a motion has nothing to act on. A word that stops or
         // resets is not refused for it: what ends a motion never depends on the bits that would begin one.
-        if ((rising & cw_new_setpoint) && std::ranges::none_of(d.orders, ends) && (s.mode == mode_profile_position || s.mode == mode_homing)) {
+        if ((rising & cw_new_setpoint) && std::ranges::none_of(d.orders, ends) &&
+            (s.mode == mode_profile_position || s.mode == mode_homing)) {
             d = refuse(Reason::wrong_state, fmt::format("a new set-point needs operation enabled; the axis is {}", name_of(s_.state)));
             return false;
         }
@@ -262,7 +266,8 @@ bool AxisProfile::change_motion(State& s, std::uint16_t before, std::uint16_t cw
             return false;
         }
         if (own.velocity == 0) {
-            d = refuse(Reason::out_of_range, "the profile velocity (registers 36 and 37) is 0 or was never written by this door: write it before the set-point");
+            d = refuse(Reason::out_of_range,
+                       "the profile velocity (registers 36 and 37) is 0 or was never written by this door: write it before the set-point");
             return false;
         }
         Move m;
@@ -311,8 +316,11 @@ AxisProfile::Decision AxisProfile::on_process_data(const ProcessData& data, cons
     Decision d;
     const AuthorityClient who = AuthorityClient::of(by);
     Written& own = s.written[std::min(static_cast<std::size_t>(by.door), doors - 1)];
-    if (data.mode && *data.mode != mode_none && *data.mode != mode_profile_position && *data.mode != mode_profile_velocity && *data.mode != mode_homing) {
-        return refuse(Reason::out_of_range, fmt::format("mode of operation {} is not offered; use 1 (profile position), 3 (profile velocity) or 6 (homing)", *data.mode));
+    if (data.mode && *data.mode != mode_none && *data.mode != mode_profile_position && *data.mode != mode_profile_velocity &&
+        *data.mode != mode_homing) {
+        return refuse(
+            Reason::out_of_range,
+            fmt::format("mode of operation {} is not offered; use 1 (profile position), 3 (profile velocity) or 6 (homing)", *data.mode));
     }
     if (data.target_position) {
         s.target_position = own.target_position = *data.target_position;
@@ -342,7 +350,8 @@ AxisProfile::Decision AxisProfile::on_process_data(const ProcessData& data, cons
     if (data.controlword) {
         if (s.state == PowerState::not_ready_to_switch_on) {
             if (!change_unheard(s, before, cw, power)) return power;
-            for (auto& o : power.orders) d.orders.push_back(std::move(o));
+            for (auto& o : power.orders)
+                d.orders.push_back(std::move(o));
             s_ = std::move(s);
             return d;
         }
@@ -354,7 +363,8 @@ AxisProfile::Decision AxisProfile::on_process_data(const ProcessData& data, cons
         s_.homing_refused = s_.homing_refused || homes;
         return power;
     }
-    for (auto& o : power.orders) d.orders.push_back(std::move(o));
+    for (auto& o : power.orders)
+        d.orders.push_back(std::move(o));
     d.waits = power.waits;
     s_ = std::move(s);
     return d;
@@ -365,9 +375,12 @@ AxisProfile::Decision AxisProfile::on_command(const CommandBody& body, const Ori
     Decision d;
     const bool present = s.presence != Presence::offline && s.seen;
     const auto faulty = [&] {
-        return refuse(Reason::wrong_state, fmt::format("the axis is in fault (drive's code {}): reset the fault first", s.feedback.error_code));
+        return refuse(Reason::wrong_state,
+                      fmt::format("the axis is in fault (drive's code {}): reset the fault first", s.feedback.error_code));
     };
-    if (!present && !is_urgent(body)) return refuse(Reason::no_answer, s.presence == Presence::offline ? "the drive does not answer" : "the drive has not said yet where it is");
+    if (!present && !is_urgent(body))
+        return refuse(Reason::no_answer,
+                      s.presence == Presence::offline ? "the drive does not answer" : "the drive has not said yet where it is");
     if (std::holds_alternative<Enable>(body)) {
         if (s.feedback.fault) return faulty();
         s.controlword = cw_switch_on | cw_enable_voltage | cw_quick_stop | cw_enable_operation;
@@ -402,7 +415,9 @@ AxisProfile::Decision AxisProfile::on_command(const CommandBody& body, const Ori
         s.homing_method = home->method;
         d.orders.emplace_back(*home);
     } else if (const auto* set = std::get_if<SetPosition>(&body)) {
-        if (s.buffered) return refuse(Reason::wrong_state, "a set-point waits behind the running one: set the position when it has ended, or halt first");
+        if (s.buffered)
+            return refuse(Reason::wrong_state,
+                          "a set-point waits behind the running one: set the position when it has ended, or halt first");
         d.orders.emplace_back(*set);
     } else if (const auto* move = std::get_if<Move>(&body)) {
         if (s.feedback.fault) return faulty();
@@ -570,7 +585,8 @@ void AxisProfile::on_presence(Presence presence) {
     s_.told_again = 0;
     s_.homing_refused = s_.reacting = false;
     s_.reaction_at = {};
-    for (Written& w : s_.written) w.target_known = w.target_pending = false;
+    for (Written& w : s_.written)
+        w.target_known = w.target_pending = false;
     forget_motion(s_);
     settle(s_);
 }
@@ -581,7 +597,8 @@ std::optional<std::int64_t> AxisProfile::active_target() const noexcept {
 }
 
 bool AxisProfile::commanded() const noexcept {
-    return s_.state == PowerState::operation_enabled || s_.state == PowerState::quick_stop_active || s_.power_pending == 1 || s_.feedback.moving;
+    return s_.state == PowerState::operation_enabled || s_.state == PowerState::quick_stop_active || s_.power_pending == 1 ||
+           s_.feedback.moving;
 }
 
 void AxisProfile::fill(AxisPicture& p) const noexcept {
@@ -589,14 +606,30 @@ void AxisProfile::fill(AxisPicture& p) const noexcept {
     const AxisFeedback& f = s.feedback;
     std::uint16_t sw = 0;
     switch (s.state) {
-        case PowerState::not_ready_to_switch_on: sw = 0; break;
-        case PowerState::switch_on_disabled: sw = sw_switch_on_disabled; break;
-        case PowerState::ready_to_switch_on: sw = 0x21; break;
-        case PowerState::switched_on: sw = 0x23; break;
-        case PowerState::operation_enabled: sw = 0x27; break;
-        case PowerState::quick_stop_active: sw = 0x07; break;
-        case PowerState::fault_reaction_active: sw = 0x0F; break;
-        case PowerState::fault: sw = 0x08; break;
+        case PowerState::not_ready_to_switch_on:
+            sw = 0;
+            break;
+        case PowerState::switch_on_disabled:
+            sw = sw_switch_on_disabled;
+            break;
+        case PowerState::ready_to_switch_on:
+            sw = 0x21;
+            break;
+        case PowerState::switched_on:
+            sw = 0x23;
+            break;
+        case PowerState::operation_enabled:
+            sw = 0x27;
+            break;
+        case PowerState::quick_stop_active:
+            sw = 0x07;
+            break;
+        case PowerState::fault_reaction_active:
+            sw = 0x0F;
+            break;
+        case PowerState::fault:
+            sw = 0x08;
+            break;
     }
     const bool present = s.presence != Presence::offline;
     if (present && s.seen) sw |= sw_voltage | sw_remote;

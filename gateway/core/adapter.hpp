@@ -50,12 +50,12 @@ struct Out {
 
 /// What an adapter counted on its line since it was made.
 struct AdapterCounters {
-    std::uint64_t exchanges = 0;         ///< requests that got their answer
+    std::uint64_t exchanges = 0;  ///< requests that got their answer
     std::uint64_t timeouts = 0;
     std::uint64_t retries = 0;
-    std::uint64_t refused = 0;           ///< answers in which the drive said no
-    std::uint64_t garbled = 0;           ///< bytes or frames that were not the protocol (bad CRC, bad length, unknown word)
-    std::uint64_t unexpected = 0;        ///< well formed but nobody had asked
+    std::uint64_t refused = 0;     ///< answers in which the drive said no
+    std::uint64_t garbled = 0;     ///< bytes or frames that were not the protocol (bad CRC, bad length, unknown word)
+    std::uint64_t unexpected = 0;  ///< well formed but nobody had asked
 };
 
 /// Laws (tests/conformance checks them for every family):

@@ -26,12 +26,12 @@ struct Parameter {
     std::string name;  ///< snake_case, unique in the family
     std::string group;
     ValueType type = ValueType::i32;
-    std::string unit;                 ///< empty: none
-    std::optional<double> min;        ///< absent: the manual is silent; the type's range holds
+    std::string unit;           ///< empty: none
+    std::optional<double> min;  ///< absent: the manual is silent; the type's range holds
     std::optional<double> max;
-    Value factory_default;            ///< unknown: the manual is silent
+    Value factory_default;  ///< unknown: the manual is silent
     Access access = Access::read;
-    std::string storage;              ///< "eeprom", "ram", ...
+    std::string storage;  ///< "eeprom", "ram", ...
     /// By it the drive is reached: its address, name or group, or the speed and form of its line. Snapshots and tables are written back
     /// without it, unless it is asked for: a copied address leaves two drives that cannot be told apart, or one that nobody finds.
     bool addressing = false;
@@ -40,9 +40,9 @@ struct Parameter {
     bool live = false;
     std::string description;
     std::vector<std::pair<std::int64_t, std::string>> allowed;  ///< the only values, with their meaning; empty: min..max decides
-    std::uint16_t first = 0;          ///< arrays: number of the first element ...
-    std::uint16_t count = 0;          ///< ... and how many; 0: not an array
-    boost::json::object wire;         ///< the family's own keys ("cw", "index"): read by its adapter once at start
+    std::uint16_t first = 0;                                    ///< arrays: number of the first element ...
+    std::uint16_t count = 0;                                    ///< ... and how many; 0: not an array
+    boost::json::object wire;  ///< the family's own keys ("cw", "index"): read by its adapter once at start
 
     [[nodiscard]] bool readable() const noexcept { return access != Access::write; }
     [[nodiscard]] bool writable() const noexcept { return access != Access::read; }
@@ -62,13 +62,13 @@ enum class Completion : std::uint8_t {
 
 /// What a command takes by name; see command_arguments.hpp for the check and the form that adapters get.
 struct CommandArgument {
-    std::string name;  ///< snake_case, unique in the command
+    std::string name;                 ///< snake_case, unique in the command
     ValueType type = ValueType::i32;  ///< of the drive's count
     std::string unit;                 ///< of what a client gives, and of min, max and default; empty: none
     double scale = 1;                 ///< units per count: 0.0001 where the drive counts 0.1 um and clients give mm
     std::optional<double> min;        ///< absent: the type's range, scaled, holds
     std::optional<double> max;
-    Value fallback;                   ///< the default; unknown: it must be given
+    Value fallback;  ///< the default; unknown: it must be given
     std::string description;
 };
 
@@ -125,8 +125,8 @@ public:
     /// stands before what only answers a command by the same number.
     [[nodiscard]] const ErrorCode* error(std::int32_t code, std::string_view kind = {}) const noexcept;
 
-    /// The value in the parameter's own type, or why it cannot be written, with the range ("AC: 0 is below 1; allowed 1..65000000 pulse/s^2").
-    /// `alternate ranges` of a family are its adapter's business: this check uses min, max and allowed.
+    /// The value in the parameter's own type, or why it cannot be written, with the range ("AC: 0 is below 1; allowed 1..65000000
+    /// pulse/s^2"). `alternate ranges` of a family are its adapter's business: this check uses min, max and allowed.
     struct Checked {
         Value value;
         std::string fault;  ///< empty: good

@@ -31,10 +31,10 @@ struct Origin {
 
 // --- what can be asked ------------------------------------------------------------------------------------------------
 
-struct Enable {};      ///< to CiA 402 operation enabled; the actual position becomes the first target, the target velocity 0
-struct Disable {};     ///< power off
-struct QuickStop {};   ///< stop on the quick-stop ramp, then CiA 402 quick stop active
-struct Halt {};        ///< stop on the profile ramp, stay enabled
+struct Enable {};     ///< to CiA 402 operation enabled; the actual position becomes the first target, the target velocity 0
+struct Disable {};    ///< power off
+struct QuickStop {};  ///< stop on the quick-stop ramp, then CiA 402 quick stop active
+struct Halt {};       ///< stop on the profile ramp, stay enabled
 struct ResetFault {};
 struct Home {
     std::int16_t method = 0;  ///< CiA 402 homing method; 0: the drive's own
@@ -46,11 +46,11 @@ struct SetPosition {
 struct Move {
     enum class Kind : std::uint8_t { absolute, relative, velocity };
     Kind kind = Kind::absolute;
-    std::int64_t target = 0;                    ///< increments, or increments/s (signed) for `velocity`
-    std::optional<std::int64_t> velocity;       ///< increments/s, > 0; not used by Kind::velocity
-    std::optional<std::int64_t> acceleration;   ///< increments/s^2, > 0
-    std::optional<std::int64_t> deceleration;   ///< increments/s^2, > 0
-    bool prepare_only = false;                  ///< load, but start only with StartTogether
+    std::int64_t target = 0;                   ///< increments, or increments/s (signed) for `velocity`
+    std::optional<std::int64_t> velocity;      ///< increments/s, > 0; not used by Kind::velocity
+    std::optional<std::int64_t> acceleration;  ///< increments/s^2, > 0
+    std::optional<std::int64_t> deceleration;  ///< increments/s^2, > 0
+    bool prepare_only = false;                 ///< load, but start only with StartTogether
     /// Dead-man time-out of a velocity move, ms (100..10000): the axis is halted when this has passed without the same command again.
     /// The same command again costs no exchange with the drive.
     std::optional<std::int64_t> hold_ms;
@@ -79,7 +79,8 @@ struct Native {
 struct Action {
     std::string name;
     std::string argument;
-    /// Of a command with typed arguments: one per argument of the catalogue, in its order, in the drive's counts; checked before it gets here.
+    /// Of a command with typed arguments: one per argument of the catalogue, in its order, in the drive's counts; checked before it gets
+    /// here.
     std::vector<Value> values{};
 };
 /// Sets one of the twin's outside conditions ("stall", "power", "inputs"): the tester's hand. Only for simulated drives.
@@ -114,8 +115,8 @@ struct Command {
     Ticket ticket = no_ticket;
     AxisId axis = no_axis;
     CommandBody body;
-    /// false: the one Result comes when the drive has acknowledged. true: when it is done (target reached, homed, powered). To an adapter it
-    /// is said of actions alone, and counts for those that the catalogue says are complete when the drive `reported` it.
+    /// false: the one Result comes when the drive has acknowledged. true: when it is done (target reached, homed, powered). To an adapter
+    /// it is said of actions alone, and counts for those that the catalogue says are complete when the drive `reported` it.
     bool until_done = false;
     Origin origin;
 };
@@ -172,19 +173,19 @@ enum class Outcome : std::uint8_t {
 /// Why it was refused or failed. Doors map these to Modbus exceptions and HTTP status codes.
 enum class Reason : std::uint8_t {
     none,
-    out_of_range,     ///< a value outside its type or range: Modbus exception 3, HTTP 422
-    unknown_point,    ///< no such parameter, element or function: 2, 404
-    not_writable,     ///< read only: 2, 409
-    wrong_state,      ///< the axis is not in a state for it (not enabled, fault, moving): 4, 409
-    not_supported,    ///< this drive cannot do that: 4, 409
-    drive_refused,    ///< the drive answered with an error; `code` holds it: 4, 409
-    busy,             ///< a queue or the parameter channel is full: 6, 503
-    line_down,        ///< the line is down, or the axis is not configured: 0x0A, 503
-    no_answer,        ///< the drive did not answer: 0x0B, 504
-    interrupted,      ///< another command, a stop or a fault ended it: 4, 409
-    authority,        ///< another client holds the axis: 6, 409
-    not_stored,       ///< the drive took it but the database could not: 4, 507
-    internal          ///< a fault of the gateway itself: 4, 500
+    out_of_range,   ///< a value outside its type or range: Modbus exception 3, HTTP 422
+    unknown_point,  ///< no such parameter, element or function: 2, 404
+    not_writable,   ///< read only: 2, 409
+    wrong_state,    ///< the axis is not in a state for it (not enabled, fault, moving): 4, 409
+    not_supported,  ///< this drive cannot do that: 4, 409
+    drive_refused,  ///< the drive answered with an error; `code` holds it: 4, 409
+    busy,           ///< a queue or the parameter channel is full: 6, 503
+    line_down,      ///< the line is down, or the axis is not configured: 0x0A, 503
+    no_answer,      ///< the drive did not answer: 0x0B, 504
+    interrupted,    ///< another command, a stop or a fault ended it: 4, 409
+    authority,      ///< another client holds the axis: 6, 409
+    not_stored,     ///< the drive took it but the database could not: 4, 507
+    internal        ///< a fault of the gateway itself: 4, 500
 };
 [[nodiscard]] std::string_view name_of(Reason reason) noexcept;
 
@@ -193,10 +194,10 @@ struct Result {
     AxisId axis = no_axis;
     Outcome outcome = Outcome::done;
     Reason reason = Reason::none;
-    std::int32_t code = 0;             ///< the drive's own error code, 0 if it has none
-    std::string text;                  ///< for people: what happened, why, what to do; or a Native command's answer
-    Value value;                       ///< ReadParameter: what was read; WriteParameter: what the drive took
-    std::vector<std::uint8_t> bytes;   ///< Native: the raw answer
+    std::int32_t code = 0;            ///< the drive's own error code, 0 if it has none
+    std::string text;                 ///< for people: what happened, why, what to do; or a Native command's answer
+    Value value;                      ///< ReadParameter: what was read; WriteParameter: what the drive took
+    std::vector<std::uint8_t> bytes;  ///< Native: the raw answer
 };
 
 [[nodiscard]] inline bool good(const Result& r) noexcept { return r.outcome == Outcome::accepted || r.outcome == Outcome::done; }

@@ -14,12 +14,18 @@ namespace axisgate {
 
 std::string_view name_of(Door door) noexcept {
     switch (door) {
-        case Door::none: return "none";
-        case Door::modbus: return "modbus";
-        case Door::ethernet_ip: return "ethernet_ip";
-        case Door::http: return "http";
-        case Door::dds: return "dds";
-        case Door::internal: return "internal";
+        case Door::none:
+            return "none";
+        case Door::modbus:
+            return "modbus";
+        case Door::ethernet_ip:
+            return "ethernet_ip";
+        case Door::http:
+            return "http";
+        case Door::dds:
+            return "dds";
+        case Door::internal:
+            return "internal";
     }
     return "none";
 }
@@ -38,49 +44,74 @@ std::optional<SetPoint::Mode> set_point_mode_of(std::string_view name) noexcept 
 
 std::string_view name_of(Outcome outcome) noexcept {
     switch (outcome) {
-        case Outcome::accepted: return "accepted";
-        case Outcome::done: return "done";
-        case Outcome::refused: return "refused";
-        case Outcome::failed: return "failed";
+        case Outcome::accepted:
+            return "accepted";
+        case Outcome::done:
+            return "done";
+        case Outcome::refused:
+            return "refused";
+        case Outcome::failed:
+            return "failed";
     }
     return "failed";
 }
 
 std::string_view name_of(Reason reason) noexcept {
     switch (reason) {
-        case Reason::none: return "none";
-        case Reason::out_of_range: return "out_of_range";
-        case Reason::unknown_point: return "unknown_point";
-        case Reason::not_writable: return "not_writable";
-        case Reason::wrong_state: return "wrong_state";
-        case Reason::not_supported: return "not_supported";
-        case Reason::drive_refused: return "drive_refused";
-        case Reason::busy: return "busy";
-        case Reason::line_down: return "line_down";
-        case Reason::no_answer: return "no_answer";
-        case Reason::interrupted: return "interrupted";
-        case Reason::authority: return "authority";
-        case Reason::not_stored: return "not_stored";
-        case Reason::internal: return "internal";
+        case Reason::none:
+            return "none";
+        case Reason::out_of_range:
+            return "out_of_range";
+        case Reason::unknown_point:
+            return "unknown_point";
+        case Reason::not_writable:
+            return "not_writable";
+        case Reason::wrong_state:
+            return "wrong_state";
+        case Reason::not_supported:
+            return "not_supported";
+        case Reason::drive_refused:
+            return "drive_refused";
+        case Reason::busy:
+            return "busy";
+        case Reason::line_down:
+            return "line_down";
+        case Reason::no_answer:
+            return "no_answer";
+        case Reason::interrupted:
+            return "interrupted";
+        case Reason::authority:
+            return "authority";
+        case Reason::not_stored:
+            return "not_stored";
+        case Reason::internal:
+            return "internal";
     }
     return "internal";
 }
 
 std::string_view name_of(DemandSource source) noexcept {
     switch (source) {
-        case DemandSource::none: return "none";
-        case DemandSource::drive: return "drive";
-        case DemandSource::computed: return "computed";
-        case DemandSource::open_loop: return "open_loop";
+        case DemandSource::none:
+            return "none";
+        case DemandSource::drive:
+            return "drive";
+        case DemandSource::computed:
+            return "computed";
+        case DemandSource::open_loop:
+            return "open_loop";
     }
     return "none";
 }
 
 std::string_view name_of(Severity severity) noexcept {
     switch (severity) {
-        case Severity::info: return "info";
-        case Severity::warning: return "warning";
-        case Severity::alarm: return "alarm";
+        case Severity::info:
+            return "info";
+        case Severity::warning:
+            return "warning";
+        case Severity::alarm:
+            return "alarm";
     }
     return "info";
 }
@@ -105,7 +136,9 @@ std::string_view name_of(const CommandBody& body) noexcept {
         std::string_view operator()(const Hand&) const { return "hand"; }
         std::string_view operator()(const ProcessData&) const { return "process_data"; }
         std::string_view operator()(const HoldAxis& h) const {
-            return h.kind == HoldAxis::Kind::take ? "take_authority" : h.kind == HoldAxis::Kind::release ? "release_authority" : "hand_over_authority";
+            return h.kind == HoldAxis::Kind::take      ? "take_authority"
+                   : h.kind == HoldAxis::Kind::release ? "release_authority"
+                                                       : "hand_over_authority";
         }
     };
     return std::visit(Names{}, body);
@@ -114,7 +147,8 @@ std::string_view name_of(const CommandBody& body) noexcept {
 std::string to_text(const Frame& frame) {
     std::string s;
     if (frame.kind == Frame::Kind::bytes) {
-        for (const auto b : frame.data()) s += fmt::format("{}{:02X}", s.empty() ? "" : " ", b);
+        for (const auto b : frame.data())
+            s += fmt::format("{}{:02X}", s.empty() ? "" : " ", b);
         return s;
     }
     if (frame.kind == Frame::Kind::can_error) {
@@ -123,7 +157,8 @@ std::string to_text(const Frame& frame) {
         s = frame.extended ? fmt::format("{:08X}#", frame.id) : fmt::format("{:03X}#", frame.id);
         if (frame.remote) return s + "R";
     }
-    for (const auto b : frame.data()) s += fmt::format("{:02X}", b);
+    for (const auto b : frame.data())
+        s += fmt::format("{:02X}", b);
     return s;
 }
 

@@ -46,22 +46,22 @@ enum class DemandSource : std::uint8_t {
 struct AxisFeedback {
     enum class Power : std::uint8_t { unknown, off, on };
     Power power = Power::unknown;
-    bool moving = false;           ///< speed is not zero, or a motion is under way
-    bool target_reached = false;   ///< the last commanded motion ended at its target
-    bool referenced = false;       ///< the position has a known zero
-    bool fault = false;            ///< the drive is in an error that must be reset before it moves again
+    bool moving = false;          ///< speed is not zero, or a motion is under way
+    bool target_reached = false;  ///< the last commanded motion ended at its target
+    bool referenced = false;      ///< the position has a known zero
+    bool fault = false;           ///< the drive is in an error that must be reset before it moves again
     bool warning = false;
-    bool internal_limit = false;   ///< a limit (switch, software, torque) is active
-    bool quick_stopping = false;   ///< the quick-stop ramp runs, or the drive is locked after it
-    bool homing = false;           ///< a search for the zero is under way, also while the axis stands between its parts
+    bool internal_limit = false;  ///< a limit (switch, software, torque) is active
+    bool quick_stopping = false;  ///< the quick-stop ramp runs, or the drive is locked after it
+    bool homing = false;          ///< a search for the zero is under way, also while the axis stands between its parts
     bool homing_attained = false;
     bool homing_error = false;
     std::int64_t position = 0;         ///< actual position, increments
     std::int64_t position_demand = 0;  ///< where the axis should be at the instant of `position`, increments; drive and computed only
     DemandSource demand_source = DemandSource::none;
-    std::int64_t velocity = 0;         ///< actual velocity, increments/s
-    std::uint16_t error_code = 0;      ///< the drive's own, 0 = none
-    std::uint32_t native_status = 0;   ///< the drive's own status word(s), as its README says
+    std::int64_t velocity = 0;        ///< actual velocity, increments/s
+    std::uint16_t error_code = 0;     ///< the drive's own, 0 = none
+    std::uint32_t native_status = 0;  ///< the drive's own status word(s), as its README says
     /// The state of a drive that has CiA 402's state machine itself, as the bits 0..6 of a status word (0x27: operation enabled); absent:
     /// it knows on and off alone. Other bits are not looked at: they are members of their own here.
     std::optional<std::uint16_t> statusword{};

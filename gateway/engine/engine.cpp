@@ -62,9 +62,12 @@ void Engine::drain(Side& side, Out& out, Instant now) {
     for (const auto& n : out.notices) {  // why a search failed is known before the feedback says that it has
         if (Axis* a = n.kind == "homing" ? axis(n.axis) : nullptr) a->homing_why = n.text;
     }
-    for (const auto& tx : out.frames) (void)side.line->send(tx.frame, tx.priority, now);  // a full queue is counted there
-    for (const auto& l : out.links) link(side, l, now);
-    for (const auto& f : out.feedback) feedback(side, f.axis, f.value, now);
+    for (const auto& tx : out.frames)
+        (void)side.line->send(tx.frame, tx.priority, now);  // a full queue is counted there
+    for (const auto& l : out.links)
+        link(side, l, now);
+    for (const auto& f : out.feedback)
+        feedback(side, f.axis, f.value, now);
     const Presence mine = side.twin ? Presence::twin : Presence::device;
     for (auto& s : out.samples) {
         Axis* a = axis(s.axis);
@@ -88,7 +91,8 @@ void Engine::drain(Side& side, Out& out, Instant now) {
         e.line = side.unit.spec.name;
         event(std::move(e), now);
     }
-    for (const auto& r : out.results) order_result(r, now);
+    for (const auto& r : out.results)
+        order_result(r, now);
     for (const auto& end : out.stream_ends)
         stream_refused(side, end, now);
 }
@@ -163,7 +167,8 @@ void Engine::publish(Axis& a, Instant) {
     write(p.authority_holder, a.authority.holder().name);
     write(p.authority_commander, a.authority.commander().door == Door::none ? std::string() : a.authority.commander().text());
     // An axis is online when it can be commanded: its drive answers, and has said where it is.
-    const bool answers = (a.drive->serving == Presence::device && a.drive->device_online) || (a.drive->serving == Presence::twin && a.drive->twin_online);
+    const bool answers =
+        (a.drive->serving == Presence::device && a.drive->device_online) || (a.drive->serving == Presence::twin && a.drive->twin_online);
     const bool online = answers && p.current;
     p.presence = answers ? a.drive->serving : Presence::offline;  // as the drive's own status says it
     const auto put = [](std::uint16_t& word, std::uint16_t bit, bool on) {
@@ -207,7 +212,9 @@ void Engine::give_order(Axis& a, Client* client, CommandBody body, Origin origin
         a.held = {};  // another motion, or a stop: nobody's finger holds this one
         a.run = {};
         a.at_limit = false;
-        if (const auto* m = std::get_if<Move>(&body); m && m->kind == Move::Kind::velocity) a.run = {m->target, m->acceleration.value_or(0), m->deceleration.value_or(a.last_deceleration), a.profile.feedback().position, now};
+        if (const auto* m = std::get_if<Move>(&body); m && m->kind == Move::Kind::velocity)
+            a.run = {m->target, m->acceleration.value_or(0), m->deceleration.value_or(a.last_deceleration), a.profile.feedback().position,
+                     now};
         a.homing_why.clear();
         const auto* move = client ? std::get_if<Move>(&client->body) : nullptr;
         if (move && move->hold_ms) begin_hold(a, *move, client->origin);
@@ -239,7 +246,8 @@ void Engine::give_order(Axis& a, Client* client, CommandBody body, Origin origin
         r.axis = a.id;
         r.outcome = Outcome::refused;
         r.reason = side ? Reason::line_down : Reason::no_answer;
-        r.text = side ? fmt::format("line {} is down: {}", side->unit.spec.name, side->why) : fmt::format("drive {} does not answer", a.drive->spec.name);
+        r.text = side ? fmt::format("line {} is down: {}", side->unit.spec.name, side->why)
+                      : fmt::format("drive {} does not answer", a.drive->spec.name);
         return order_result(r, now);
     }
     Command order;
@@ -283,7 +291,8 @@ void Engine::order_result(const Result& given, Instant now) {
         record.kept = r;
         for (auto& [ticket, other] : orders_) {  // those given behind it find what it left
             const auto* later = std::get_if<WriteParameter>(&other.body);
-            if (later && ticket != given.ticket && other.axis == record.axis && later->point == write->point && !known(other.kept.value)) other.before = order.value;
+            if (later && ticket != given.ticket && other.axis == record.axis && later->point == write->point && !known(other.kept.value))
+                other.before = order.value;
         }
         // The drive has it, whether the disk takes it or not.
         Sample s;
@@ -353,7 +362,9 @@ void Engine::order_result(const Result& given, Instant now) {
     if (client.lets_go && (client.result.reason == Reason::line_down || client.result.reason == Reason::no_answer)) {
         client.result = {};
         client.result.outcome = Outcome::accepted;
-        client.result.text = fmt::format("axis {}: nobody answers; it is taken as disabled and its twin takes over, but whether the real drive is off is not known", a->spec.name);
+        client.result.text = fmt::format(
+            "axis {}: nobody answers; it is taken as disabled and its twin takes over, but whether the real drive is off is not known",
+            a->spec.name);
         return finish(number, client.result, now);
     }
     if (!good(client.result)) return finish(number, client.result, now);
@@ -366,7 +377,8 @@ void Engine::order_result(const Result& given, Instant now) {
 void Engine::remember_ramp(Axis& a, const CommandBody& body) {
     const auto* m = std::get_if<Move>(&body);
     if (m && m->deceleration) a.last_deceleration = *m->deceleration;
-    if (std::holds_alternative<WriteParameter>(body) || std::holds_alternative<Native>(body) || std::holds_alternative<Action>(body)) a.last_deceleration = 0;
+    if (std::holds_alternative<WriteParameter>(body) || std::holds_alternative<Native>(body) || std::holds_alternative<Action>(body))
+        a.last_deceleration = 0;
 }
 
 /// A move that was prepared counts until the axis is moved or stopped.

@@ -1,6 +1,6 @@
-// Engine, loss of command: an axis whose commander is gone, or silent for too long, is halted, stopped or switched off as its site entry says.
-// In: doors' word that a client is gone, and the instant at which a client was heard last. Out: the action, an event, register 22, a count.
-// Never touches an axis that somebody else has commanded since.
+// Engine, loss of command: an axis whose commander is gone, or silent for too long, is halted, stopped or switched off as its site entry
+// says. In: doors' word that a client is gone, and the instant at which a client was heard last. Out: the action, an event, register 22, a
+// count. Never touches an axis that somebody else has commanded since.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -44,7 +44,8 @@ void Engine::fail_safe(Axis& a, LossCause cause, Instant now) {
                          a.stream.on ? a.stream.who.text() : a.authority.commander().text(), what);
     event(std::move(e), now);
     auto decision = a.profile.on_command(body);
-    for (auto& o : decision.orders) give_order(a, nullptr, std::move(o), {}, now);
+    for (auto& o : decision.orders)
+        give_order(a, nullptr, std::move(o), {}, now);
     publish(a, now);
 }
 

@@ -19,7 +19,7 @@ struct Engine::Side final : LineEvents {
     std::unique_ptr<Adapter> adapter;
     std::unique_ptr<Line> line;
     std::vector<DriveSetup> probes;  ///< addresses that a scan asks now
-    TwinBus* bus = nullptr;  ///< `line` seen as what it is, on the twin's side
+    TwinBus* bus = nullptr;          ///< `line` seen as what it is, on the twin's side
     AdapterCounters counters_shown;
     /// The earlier deadline of adapter and line, kept so that a turn of the engine need not ask all lines. Whoever calls one of the two
     /// says touched(); drain() does it for most.
@@ -61,8 +61,8 @@ struct Engine::LineUnit {
     LineId id = no_line;
     FamilyEntry family;
     LineKind kind = LineKind::bytes;
-    std::unique_ptr<Side> real;  ///< null on a line with the URI "twin"
-    std::unique_ptr<Side> twins; ///< null while no drive is simulated
+    std::unique_ptr<Side> real;   ///< null on a line with the URI "twin"
+    std::unique_ptr<Side> twins;  ///< null while no drive is simulated
     std::shared_ptr<FrameLog> log;
     std::vector<DriveId> drives;
     std::unique_ptr<Scan> scan;  ///< null: never scanned
@@ -78,12 +78,12 @@ struct Engine::Drive {
     Presence serving = Presence::offline;  ///< whose word counts: the device's, the twin's, nobody's
     bool device_online = false, twin_online = false;
     bool device_lost_while_commanded = false;
-    Instant waiting_since{};               ///< when we began to wait for the device
+    Instant waiting_since{};  ///< when we began to wait for the device
     DriveLink device_link, twin_link;
     std::string why = "not seen yet";
     int twin_axes = 1;  ///< that the running twin was built with
     std::uint64_t memory_revision = 0;
-    NonVolatile memory;                    ///< what the twin starts from
+    NonVolatile memory;  ///< what the twin starts from
     /// The device is back: its parameters are read and compared before it gets its axes again.
     struct Handback {
         std::size_t waiting = 0;
@@ -114,11 +114,11 @@ struct Engine::Axis {
         std::int64_t deceleration = 0;  ///< increments/s^2; 0: the drive's own, not known here
         std::int64_t position = 0;      ///< as last told, and when it became that
         Instant since{};
-        bool found = false;             ///< it moved when it was first heard, and who ordered it is gone: watched until it rests
-        double round_s = 0;             ///< between the last two positions: how late the next may be, and a halt on the same line
+        bool found = false;  ///< it moved when it was first heard, and who ordered it is gone: watched until it rests
+        double round_s = 0;  ///< between the last two positions: how late the next may be, and a halt on the same line
     } run;
     std::int64_t last_deceleration = 0;  ///< of the last move that named one and was taken: a drive keeps it; 0: none since it came
-    std::optional<Move> prepared;  ///< taken by the drive, starts with StartTogether
+    std::optional<Move> prepared;        ///< taken by the drive, starts with StartTogether
     /// Set-points that one client renews.
     struct Stream {
         bool on = false;
@@ -135,9 +135,10 @@ struct Engine::Axis {
         Reason ended_for = Reason::none;
         std::string ended_why;
     } stream;
-    Ticket setpoint_ticket = no_ticket;  ///< the set-point that came last by a control word: it may wait and begin later, without its client
+    Ticket setpoint_ticket =
+        no_ticket;            ///< the set-point that came last by a control word: it may wait and begin later, without its client
     Instant leaving_until{};  ///< a site change takes it away: until then nothing begins here any more
-    bool at_limit = false;  ///< a velocity move was ended at a limit, and no motion has begun since
+    bool at_limit = false;    ///< a velocity move was ended at a limit, and no motion has begun since
     AxisAuthority authority;
     LossCause loss = LossCause::none;  ///< why it was stopped without a command, until the next command to it
     bool stale = true;
@@ -158,12 +159,12 @@ struct Engine::Client {
     CommandBody body;
     Origin origin;
     bool until_done = false;
-    bool lets_go = false;      ///< a disable whose device is silent: nobody need hear it for the twin to take over
-    bool was_moving = false;   ///< its axis has moved since
-    bool was_silent = false;   ///< its drive has been silent since: the first half of a restart
-    std::size_t waiting = 0;   ///< orders without an answer
-    bool accepted = false;     ///< all orders were taken; the end of the motion is being watched
-    Result result;             ///< the first bad answer, or the last good one
+    bool lets_go = false;     ///< a disable whose device is silent: nobody need hear it for the twin to take over
+    bool was_moving = false;  ///< its axis has moved since
+    bool was_silent = false;  ///< its drive has been silent since: the first half of a restart
+    std::size_t waiting = 0;  ///< orders without an answer
+    bool accepted = false;    ///< all orders were taken; the end of the motion is being watched
+    Result result;            ///< the first bad answer, or the last good one
     Instant accepted_at{};
 };
 
@@ -172,8 +173,8 @@ struct Engine::OrderRecord {
     AxisId axis = no_axis;
     CommandBody body;
     DriveId handback = no_drive;
-    Result kept;               ///< what the drive said, while the store works
-    Value before;              ///< of a write: what was there, as far as it is known
+    Result kept;   ///< what the drive said, while the store works
+    Value before;  ///< of a write: what was there, as far as it is known
     Instant given_at{};
 };
 

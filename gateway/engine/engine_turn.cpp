@@ -67,10 +67,12 @@ void Engine::housekeeping(Instant now) {
         decide_presence(d, now);
         if (d.handback && d.handback->waiting == 0 && d.device_online) {
             bool rest = true;
-            for (const AxisId id : d.axes) rest = rest && axes_[index_of(id)]->profile.at_rest();
+            for (const AxisId id : d.axes)
+                rest = rest && axes_[index_of(id)]->profile.at_rest();
             if (rest) {
                 auto h = std::move(d.handback);
-                serve(d, Presence::device, fmt::format("the drive is back; {} parameters compared, {} differ", h->compared, h->differences.size()), now);
+                serve(d, Presence::device,
+                      fmt::format("the drive is back; {} parameters compared, {} differ", h->compared, h->differences.size()), now);
                 for (const auto& text : h->differences) {
                     Event e;
                     e.severity = Severity::warning;

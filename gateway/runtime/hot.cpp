@@ -86,7 +86,8 @@ void Hot::run() {
                 engine_.shut_down(now());
             }
             bool moving = false;
-            for (std::size_t i = 0; i < image_.size(); ++i) moving = moving || (image_.picture(AxisId{static_cast<std::uint16_t>(i)}).flags & flag_moving);
+            for (std::size_t i = 0; i < image_.size(); ++i)
+                moving = moving || (image_.picture(AxisId{static_cast<std::uint16_t>(i)}).flags & flag_moving);
             arm(now() + std::chrono::milliseconds(5));
             finished_ = !moving || now() >= stop_by;
         }
@@ -108,7 +109,8 @@ void Hot::end_turn() {
         if (engine_.deadline() <= t) engine_.on_deadline(t);
         turn_commands_.clear();
         turn_commands_.swap(submitted_);
-        for (auto& c : turn_commands_) engine_.on_command(std::move(c), t);
+        for (auto& c : turn_commands_)
+            engine_.on_command(std::move(c), t);
         turn_results_.clear();
         turn_results_.swap(results_);
         for (auto& r : turn_results_) {
@@ -140,7 +142,8 @@ void Hot::arm(Instant deadline) {
         timer_.cancel();
         return;
     }
-    timer_.expires_at(std::chrono::steady_clock::time_point(std::chrono::duration_cast<std::chrono::steady_clock::duration>(deadline.time_since_epoch())));
+    timer_.expires_at(std::chrono::steady_clock::time_point(
+        std::chrono::duration_cast<std::chrono::steady_clock::duration>(deadline.time_since_epoch())));
     timer_.async_wait([this](const boost::system::error_code& ec) {
         if (!ec) armed_ = never;
     });
@@ -165,7 +168,8 @@ DoorNumber Hot::attach(HotDoor& door) {
 
 bool Hot::serve_doors() {
     bool served = false;
-    for (HotDoor* door : doors_) served = (door && door->serve_now()) || served;
+    for (HotDoor* door : doors_)
+        served = (door && door->serve_now()) || served;
     return served;
 }
 
@@ -195,7 +199,8 @@ void Hot::on_store(StoreOrder order) {
     const Ticket ticket = order.ticket;
     if (!out_.cold || !out_.cold->push(std::move(order))) {
         // Told in the next turn, not from inside the engine's own call.
-        boost::asio::post(io_, [this, ticket] { engine_.on_stored(ticket, "the database cannot keep up: too many writes wait for the disk", now()); });
+        boost::asio::post(
+            io_, [this, ticket] { engine_.on_stored(ticket, "the database cannot keep up: too many writes wait for the disk", now()); });
     }
 }
 
@@ -226,7 +231,8 @@ void Hot::publish_reports(Instant now) {
     }
     r->complaints = engine_.complaints();
     r->settled = engine_.settled();
-    for (const LossCause cause : loss_causes) r->losses[static_cast<std::size_t>(cause)] = engine_.losses(cause);
+    for (const LossCause cause : loss_causes)
+        r->losses[static_cast<std::size_t>(cause)] = engine_.losses(cause);
     reports_.store(std::move(r), std::memory_order_release);
 }
 

@@ -1,5 +1,6 @@
 // Fail-safe: what is done with an axis when whoever commands it is lost: causes, actions, and one axis' choice among them.
-// In: names from the site's document. Out: values, and what the axis does for a cause. Never decides that somebody is lost: doors tell that.
+// In: names from the site's document. Out: values, and what the axis does for a cause. Never decides that somebody is lost: doors tell
+// that.
 #pragma once
 
 #include <array>
@@ -26,8 +27,8 @@ enum class FailSafeAction : std::uint8_t { nothing, halt, quick_stop, disable };
 [[nodiscard]] std::string_view name_of(FailSafeAction action) noexcept;
 [[nodiscard]] std::optional<FailSafeAction> fail_safe_action_of(std::string_view name) noexcept;
 
-/// One axis' choice. What the site does not name has the default: a motion without an end of its own (a velocity move) is halted; a motion to a
-/// target goes on to its target, since a client may connect for each of its requests. What the site names holds for every motion, and
+/// One axis' choice. What the site does not name has the default: a motion without an end of its own (a velocity move) is halted; a motion
+/// to a target goes on to its target, since a client may connect for each of its requests. What the site names holds for every motion, and
 /// `disable` for an enabled axis at rest as well.
 struct FailSafe {
     std::array<std::optional<FailSafeAction>, loss_causes.size()> chosen;

@@ -47,7 +47,8 @@ inline std::vector<std::string> addresses(const FamilyEntry& e, std::size_t n) {
             if (out.size() < n) out.push_back(v.is_string() ? std::string(v.get_string()) : boost::json::serialize(v));
         }
     } else if (const auto* low = o.if_contains("min"); low && low->is_int64()) {
-        for (std::int64_t i = low->get_int64(); out.size() < n && i <= o.at("max").get_int64(); ++i) out.push_back(std::to_string(i));
+        for (std::int64_t i = low->get_int64(); out.size() < n && i <= o.at("max").get_int64(); ++i)
+            out.push_back(std::to_string(i));
     } else {
         out.emplace_back(e.family->factory_address);
     }
@@ -84,7 +85,8 @@ inline std::vector<Subject> wires_of(const FamilyEntry& e) {
 inline const std::vector<Subject>& subjects() {
     static const std::vector<Subject> all = [] {
         std::vector<Subject> list;
-        for (const auto& e : families().entries) std::ranges::copy(wires_of(e), std::back_inserter(list));
+        for (const auto& e : families().entries)
+            std::ranges::copy(wires_of(e), std::back_inserter(list));
         return list;
     }();
     return all;
@@ -156,11 +158,14 @@ public:
     void on_event(Event event, Instant) override { events.push_back(std::move(event)); }
     void on_sample(const Sample& sample) override { samples.push_back(sample); }
     std::optional<Instant> heard(const AuthorityClient&) const override { return heard_at; }
-    void on_store(StoreOrder order) override { to_store.emplace_back(std::max(now + store_delay, to_store.empty() ? now : to_store.back().first), order.ticket); }
+    void on_store(StoreOrder order) override {
+        to_store.emplace_back(std::max(now + store_delay, to_store.empty() ? now : to_store.back().first), order.ticket);
+    }
     void on_twin_memory(const std::string& drive, NonVolatile memory) override { twin_memories[drive] = std::move(memory); }
 
     // --- what a test does
-    /// One line "line" of this URI with so many drives, as far as there are addresses, and an axis "a1", "a2"... for each of their channels.
+    /// One line "line" of this URI with so many drives, as far as there are addresses, and an axis "a1", "a2"... for each of their
+    /// channels.
     Site make_site(const FamilyEntry& e, std::string_view uri, std::size_t drives, std::string_view presence = "auto", int channels = 1,
                    const boost::json::object& line_options = {}) {
         namespace json = boost::json;
@@ -171,7 +176,12 @@ public:
             ds.push_back({{"name", drive}, {"line", "line"}, {"address", list[i]}, {"presence", presence}});
             for (int c = 1; c <= channels; ++c) {
                 const std::size_t n = as.size() + 1;
-                as.push_back({{"name", "a" + std::to_string(n)}, {"drive", drive}, {"channel", c}, {"number", n}, {"unit", "u"}, {"increments_per_unit", 100}});
+                as.push_back({{"name", "a" + std::to_string(n)},
+                              {"drive", drive},
+                              {"channel", c},
+                              {"number", n},
+                              {"unit", "u"},
+                              {"increments_per_unit", 100}});
             }
         }
         json::object line{{"name", "line"}, {"uri", uri}, {"family", e.family->name}};
@@ -180,7 +190,8 @@ public:
         std::vector<SiteFault> faults;
         auto site = parse_site(doc, families(), faults);
         if (!site) {
-            for (const auto& f : faults) fprintf(stderr, "%s: %s\n", f.pointer.c_str(), f.text.c_str());
+            for (const auto& f : faults)
+                fprintf(stderr, "%s: %s\n", f.pointer.c_str(), f.text.c_str());
             std::abort();
         }
         return std::move(*site);
@@ -203,7 +214,8 @@ public:
         return state;
     }
     /// Puts a drive behind a simulated cable.
-    void plug_in(const std::string& line, DriveId key, const FamilyEntry& e, const std::string& address, LineKind kind, const NonVolatile& memory = {}, int channels = 1) {
+    void plug_in(const std::string& line, DriveId key, const FamilyEntry& e, const std::string& address, LineKind kind,
+                 const NonVolatile& memory = {}, int channels = 1) {
         TwinSetup t;
         t.address = address;
         t.kind = kind;

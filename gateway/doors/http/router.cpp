@@ -55,7 +55,10 @@ constexpr std::array routes{
     Route{"/api/v1/axes/{axis}", Method::put, replace_axis, Takes::json},
     Route{"/api/v1/axes/{axis}", Method::patch, change_axis, Takes::patch},
     Route{"/api/v1/axes/{axis}", Method::remove, remove_axis, Takes::nothing, Gives::nothing}.asks("cascade"),
-    Route{"/api/v1/axes/{axis}/commands", Method::post, command_axis, Takes::json}.asks("wait").needs(Role::viewer).moves(),  // stops; all others: operator
+    Route{"/api/v1/axes/{axis}/commands", Method::post, command_axis, Takes::json}
+        .asks("wait")
+        .needs(Role::viewer)
+        .moves(),  // stops; all others: operator
     Route{"/api/v1/axes/{axis}/actions", Method::post, act_on_axis, Takes::json}.asks("wait").moves(),
     Route{"/api/v1/authority", Method::get, list_authority},
     Route{"/api/v1/axes/{axis}/authority", Method::get, get_authority},
@@ -89,7 +92,8 @@ constexpr std::array routes{
     Route{"/api/v1/axes/{axis}/snapshots/{snapshot}/restore", Method::post, restore_snapshot, Takes::json},
     Route{"/api/v1/axes/{axis}/parameters/{parameter}/history", Method::get, get_parameter_history}.asks("limit"),
     Route{"/api/v1/axes/{axis}/parameters.csv", Method::get, get_parameters_csv, Takes::nothing, Gives::own},
-    Route{"/api/v1/axes/{axis}/parameters.csv", Method::put, put_parameters_csv, Takes::csv}.asks("dry_run include_addressing include_live"),
+    Route{"/api/v1/axes/{axis}/parameters.csv", Method::put, put_parameters_csv, Takes::csv}.asks(
+        "dry_run include_addressing include_live"),
     Route{"/api/v1/site/stage", Method::get, get_stage},
     Route{"/api/v1/site/stage", Method::post, stage_site, Takes::json}.asks("replace"),
     Route{"/api/v1/site/stage", Method::remove, discard_stage, Takes::nothing, Gives::nothing},
@@ -109,7 +113,8 @@ constexpr std::array routes{
     Route{"/api/v1/mappings/units", Method::get, list_mapping_units},
     Route{"/api/v1/mappings/units/{unit}", Method::put, change_mapping_unit, Takes::json},
     Route{"/api/v1/mappings/template", Method::post, add_mapping_template, Takes::json},
-    Route{"/api/v1/events", Method::get, list_events, Takes::nothing, Gives::own}.asks("since axis severity kind state before limit order format"),
+    Route{"/api/v1/events", Method::get, list_events, Takes::nothing, Gives::own}.asks(
+        "since axis severity kind state before limit order format"),
     Route{"/api/v1/alarms", Method::get, list_alarms}.asks("state"),
     Route{"/api/v1/alarms/acknowledge", Method::post, acknowledge_alarms, Takes::json}.needs(Role::operating),
     Route{"/api/v1/alarms/{alarm}/acknowledge", Method::post, acknowledge_alarm, Takes::json}.needs(Role::operating),
@@ -253,10 +258,12 @@ std::optional<Response> Router::check_host(const Request& request) const {
     if (named && named->empty()) return problem(400, "bad_request", "the request target names no host");
     if (count == 0 && !named) return std::nullopt;
     const auto host = host_meant(request);
-    if (!host_is_written_right(host)) return problem(400, "bad_request", "the Host header is not a name or an address with or without a port");
+    if (!host_is_written_right(host))
+        return problem(400, "bad_request", "the Host header is not a name or an address with or without a port");
     if (host_allowed(host, context_.settings)) return std::nullopt;
-    return problem(421, "misdirected",
-                   fmt::format("this gateway is not called {}: use its IP address or localhost, or add the name to [http] allowed_hosts", host));
+    return problem(
+        421, "misdirected",
+        fmt::format("this gateway is not called {}: use its IP address or localhost, or add the name to [http] allowed_hosts", host));
 }
 
 std::optional<Response> Router::check_origin(const Request& request) {

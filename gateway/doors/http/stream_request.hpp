@@ -15,7 +15,7 @@ namespace axisgate::http {
 struct StreamRequest {
     std::vector<std::string> subscribe, unsubscribe;
     boost::json::object set_point{};  ///< as it was written; empty: none (see read_set_point)
-    std::int64_t period_ms = 100;  ///< 10..10000, a multiple of 10 (rounded up), so that clients share their scans
+    std::int64_t period_ms = 100;     ///< 10..10000, a multiple of 10 (rounded up), so that clients share their scans
 };
 
 inline constexpr std::size_t most_topics_per_request = 1100;

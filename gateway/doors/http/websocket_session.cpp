@@ -16,7 +16,12 @@ constexpr int send_buffer_bytes = 128 * 1024;
 }  // namespace
 
 WebSocketSession::WebSocketSession(Transport socket, std::shared_ptr<SessionHost> host, Request opened_by, PlaceHolder holder)
-    : socket_(std::move(socket)), host_(std::move(host)), opened_by_(std::move(opened_by)), holder_(holder), timer_(socket_.get_executor()), parser_(host_->settings.max_message_bytes) {}
+    : socket_(std::move(socket)),
+      host_(std::move(host)),
+      opened_by_(std::move(opened_by)),
+      holder_(holder),
+      timer_(socket_.get_executor()),
+      parser_(host_->settings.max_message_bytes) {}
 
 WebSocketSession::~WebSocketSession() = default;
 
@@ -136,7 +141,9 @@ void WebSocketSession::finish() {
 }
 
 /// A client that has stopped reading finds the reason behind the batch in its way if it goes on within half the write limit.
-SteadyTime WebSocketSession::close_due() const { return close_began_ + (writing_ ? host_->settings.write_limit / 2 : host_->settings.linger_limit); }
+SteadyTime WebSocketSession::close_due() const {
+    return close_began_ + (writing_ ? host_->settings.write_limit / 2 : host_->settings.linger_limit);
+}
 
 void WebSocketSession::arm() {
     if (closed_) return;

@@ -18,7 +18,8 @@ namespace axisgate::http {
 
 class WebSocketSession final : public Session, public std::enable_shared_from_this<WebSocketSession> {
 public:
-    /// `opened_by`: the handshake; when its session or token no longer holds, the feed is closed with 1008 (looked at every `right_period`).
+    /// `opened_by`: the handshake; when its session or token no longer holds, the feed is closed with 1008 (looked at every
+    /// `right_period`).
     WebSocketSession(Transport socket, std::shared_ptr<SessionHost> host, Request opened_by, PlaceHolder holder);
     ~WebSocketSession() override;
 

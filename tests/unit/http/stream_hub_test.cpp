@@ -449,7 +449,8 @@ TEST_F(StreamHubTest, FramesComeInListsWithACountOfTheMissed) {
     got = taken();
     ASSERT_EQ(got.size(), 1u);
     EXPECT_EQ(got[0].data.at("frames").get_array().size(), 3u);
-    EXPECT_EQ(got[0].data.at("frames").get_array()[0].at("decoded").get_array()[0], "from the drive, frame 201 of 1 bytes") << "the reader goes on where it was";
+    EXPECT_EQ(got[0].data.at("frames").get_array()[0].at("decoded").get_array()[0], "from the drive, frame 201 of 1 bytes")
+        << "the reader goes on where it was";
 
     // The client does not read: one list waits, the place in the recording is kept, and what is overwritten meanwhile is counted.
     trace.push_back(entry(304));
@@ -468,7 +469,8 @@ TEST_F(StreamHubTest, FramesComeInListsWithACountOfTheMissed) {
     EXPECT_EQ(got[0].data.at("missed").to_number<int>(), 95) << "305 to 399";
     EXPECT_EQ(got[0].data.at("frames").get_array().size(), 2u);
     EXPECT_EQ(got[0].data.at("frames").get_array()[0].at("text"), "04280095#01");
-    EXPECT_EQ(got[0].data.at("frames").get_array()[0].at("decoded").get_array()[0], "from the drive, frame 1 of 1 bytes") << "after a gap the reader begins anew";
+    EXPECT_EQ(got[0].data.at("frames").get_array()[0].at("decoded").get_array()[0], "from the drive, frame 1 of 1 bytes")
+        << "after a gap the reader begins anew";
 }
 
 TEST_F(StreamHubTest, ALateScanDoesNotMakeUpForPeriods) {
@@ -515,7 +517,8 @@ TEST(StreamHub, StopsListeningWhenItEnds) {
 
 TEST_F(StreamHubTest, ASetPointIsHandedOnWithoutAnAnswer) {
     client->commander = [] {
-        return Origin{axisgate::Door::http, std::make_shared<const std::string>("anna 10.0.0.7:4711"), std::make_shared<const std::string>("anna")};
+        return Origin{axisgate::Door::http, std::make_shared<const std::string>("anna 10.0.0.7:4711"),
+                      std::make_shared<const std::string>("anna")};
     };
     say(R"({"set_point":{"axis":"feeder","mode":"position","value":12.5,"velocity":2,"good_for_ms":100}})");
     say(R"({"set_point":{"axis":"slide","mode":"velocity","value":-7}})");

@@ -8,7 +8,7 @@
 #include "gateway/wire/frame_export.hpp"
 #include "gateway/services/alarms/alarm_service.hpp"
 #include "gateway/services/documents.hpp"
-#include "gateway/doors/http/frame_decoder.hpp"
+#include "gateway/services/frame_decoder.hpp"
 #include "gateway/doors/http/handlers.hpp"
 
 namespace axisgate::http {

@@ -18,7 +18,7 @@
 #include "gateway/services/gateway.hpp"
 #include "gateway/services/services.hpp"
 #include "gateway/doors/http/counters.hpp"
-#include "gateway/doors/http/frame_decoder.hpp"
+#include "gateway/services/frame_decoder.hpp"
 #include "gateway/doors/http/settings.hpp"
 #include "gateway/doors/http/stream_queue.hpp"
 #include "gateway/doors/http/stream_request.hpp"

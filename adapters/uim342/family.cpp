@@ -25,7 +25,9 @@ const Family& family_uim342() {
         uim342::scan,
         nullptr,
         // All of the extended ones: nodes that the site does not name are heard as well, and told of.
-        [](std::span<const std::string>) { return std::vector<CanIdentifiers>{{true, 0, 0}}; },
+        [](std::span<const std::string>) {
+            return std::vector<CanIdentifiers>{{true, 0, 0}};
+        },
     };
     return family;
 }

@@ -1,6 +1,6 @@
 // CiA 402, requests: a change is tried on a copy of the state and kept only if nothing refused it.
-// In: words, commands, streamed set-points. Out: orders. States that a drive with mere on and off has not (ready, switched on) are kept here.
-// Never sends by itself: every order is a return value. What the drive says of it is cia402_feedback.cpp.
+// In: words, commands, streamed set-points. Out: orders. States that a drive with mere on and off has not (ready, switched on) are kept
+// here. Never sends by itself: every order is a return value. What the drive says of it is cia402_feedback.cpp.
 #include "gateway/axis/cia402.hpp"
 
 #include <fmt/core.h>
@@ -165,8 +165,7 @@ void Cia402Axis::change_power(State& s, std::uint16_t before, std::uint16_t cw, 
 }
 
 /// Halt, new set-points, homing start. False: refused, and `d` says why.
-bool Cia402Axis::change_motion(State& s, std::uint16_t before, std::uint16_t cw, const ProcessData& data, Written& own,
-                                Decision& d) const {
+bool Cia402Axis::change_motion(State& s, std::uint16_t before, std::uint16_t cw, const ProcessData& data, Written& own, Decision& d) const {
     const std::uint16_t rising = cw & static_cast<std::uint16_t>(~before), falling = before & static_cast<std::uint16_t>(~cw);
     const bool enabled = s.state == PowerState::operation_enabled && s.power_pending != 0;
     const auto ends = [](const CommandBody& o) { return is_urgent(o) || std::holds_alternative<ResetFault>(o); };
@@ -399,7 +398,5 @@ void Cia402Axis::follow(const SetPoint& p) {
 }
 
 void Cia402Axis::end_following() { leave_stream(s_); }
-
-
 
 }  // namespace axisgate

@@ -89,9 +89,11 @@ std::optional<Refusal> guard_mode(std::int16_t mode, std::span<const std::int16_
         chosen += fmt::format("{}{} ({})", chosen.empty() ? "" : ", ", m, cia402::text_of_mode(m));
     }
     if (std::ranges::find(offered, mode) == offered.end())
-        return Refusal{Reason::out_of_range, fmt::format("mode of operation {} ({}) is not offered by this drive; use {}", mode, cia402::text_of_mode(mode), chosen)};
-    return Refusal{Reason::out_of_range, fmt::format("mode of operation {} ({}) begins with the first streamed set-point and is not written; use {}", mode,
-                                                     cia402::text_of_mode(mode), chosen)};
+        return Refusal{Reason::out_of_range, fmt::format("mode of operation {} ({}) is not offered by this drive; use {}", mode,
+                                                         cia402::text_of_mode(mode), chosen)};
+    return Refusal{Reason::out_of_range,
+                   fmt::format("mode of operation {} ({}) begins with the first streamed set-point and is not written; use {}", mode,
+                               cia402::text_of_mode(mode), chosen)};
 }
 
 std::optional<Refusal> guard_process_data(const ProcessData& d, const AxisLimits& l) {

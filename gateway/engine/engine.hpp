@@ -82,7 +82,8 @@ public:
     void set_lease(Duration lease) noexcept { lease_ = lease; }
     /// How long a Modbus client that commands an axis may be silent, where the axis' site entry does not say it; 0: for ever.
     void set_watchdog(Duration limit) noexcept { watchdog_ = limit; }
-    /// A client is gone: what it commanded last is treated as the axes' site entries say.
+    /// A client is gone: what it commanded last is treated as the axes' site entries say. With set_points_silent, the connection by which
+    /// it streamed: only what it streams is.
     void on_client_lost(const AuthorityClient& who, LossCause cause, Instant now);
     /// How often axes were stopped since the start because of this cause.
     [[nodiscard]] std::uint64_t losses(LossCause cause) const noexcept { return losses_[static_cast<std::size_t>(cause)]; }

@@ -34,8 +34,8 @@ struct Engine::Side final : LineEvents {
     std::string why = "not opened yet";
     std::vector<std::unique_ptr<Speaker>> speakers;  ///< by family; most_families_on_a_line at most, and those of a scan
     std::unique_ptr<Line> line;
-    std::uint64_t unclaimed = 0;     ///< CAN frames that none of them hears
-    TwinBus* bus = nullptr;          ///< `line` seen as what it is, on the twin's side
+    std::uint64_t unclaimed = 0;  ///< CAN frames that none of them hears
+    TwinBus* bus = nullptr;       ///< `line` seen as what it is, on the twin's side
     /// The earlier deadline of adapter and line, kept so that a turn of the engine need not ask all lines. Whoever calls one of the two
     /// says touched(); drain() does it for most.
     Instant due = never;
@@ -87,8 +87,8 @@ struct Engine::Scan {
 struct Engine::LineUnit {
     LineSpec spec;
     LineId id = no_line;
-    FamilyEntry family;                  ///< of those of its drives that name none; nullptrs if all do
-    std::vector<FamilyEntry> families;   ///< of all that the site has on it
+    FamilyEntry family;                 ///< of those of its drives that name none; nullptrs if all do
+    std::vector<FamilyEntry> families;  ///< of all that the site has on it
     LineKind kind = LineKind::bytes;
     std::unique_ptr<Side> real;   ///< null on a line with the URI "twin"
     std::unique_ptr<Side> twins;  ///< null while no drive is simulated

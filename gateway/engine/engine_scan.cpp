@@ -71,7 +71,8 @@ std::string Engine::start_scan(LineId id, ScanWish wish, Instant now) {
     if (side && !side->up) return fmt::format("line {} is down: {}", unit->spec.name, side->why);
     for (const DriveId d : unit->drives) {
         const Drive& drive = *drives_[index_of(d)];
-        if (std::ranges::find(scan->parts, drive.family.family, [](const Scan::Part& p) { return p.family.family; }) == scan->parts.end()) continue;
+        if (std::ranges::find(scan->parts, drive.family.family, [](const Scan::Part& p) { return p.family.family; }) == scan->parts.end())
+            continue;
         if (side && !side->twin && !drive.device_online) continue;
         if (side && side->twin && !drive.twin_online) continue;
         scan->report.found.push_back({drive.spec.address, std::string(drive.family.family->name),

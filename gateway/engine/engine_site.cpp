@@ -33,14 +33,18 @@ LineSetup Engine::setup_for(const LineUnit& unit) const {
     s.options = unit.spec.options;
     s.bit_rate = unit.spec.bitrate;
     const Family* family = unit.family.family;
-    const auto uri = family ? parse_line_uri(unit.spec.uri, family->default_bit_rate, family->default_format) : parse_line_uri(unit.spec.uri);
+    const auto uri =
+        family ? parse_line_uri(unit.spec.uri, family->default_bit_rate, family->default_format) : parse_line_uri(unit.spec.uri);
     if (!uri.good()) return s;
     if (uri.uri.kind == LineUri::Kind::serial || (uri.uri.kind == LineUri::Kind::pty && uri.uri.serial.baud != 0)) {
         s.bit_rate = uri.uri.serial.baud;
         s.bits_per_byte = static_cast<std::uint8_t>(uri.uri.serial.format.bits_per_byte());
     } else if (uri.uri.kind == LineUri::Kind::twin) {
         if (const auto format = parse_serial_format(family ? family->default_format : "8N1")) s.bits_per_byte = format->bits_per_byte();
-        if (s.bit_rate == 0) s.bit_rate = !family ? can_bit_rate_of_no_family : unit.kind == LineKind::can ? family->default_can_bit_rate : family->default_bit_rate;
+        if (s.bit_rate == 0)
+            s.bit_rate = !family                      ? can_bit_rate_of_no_family
+                         : unit.kind == LineKind::can ? family->default_can_bit_rate
+                                                      : family->default_bit_rate;
     }
     return s;
 }

@@ -58,6 +58,7 @@ std::optional<Refusal> Engine::on_set_point(const SetPoint& p, Instant now) {
     publish(*a, now);
     Speaker& by = speaker_of(*side_of(*a->drive), *a->drive);
     ask(by, now, [&](Out& out) { by.adapter->on_set_point(p, now, out); });
+    if (!s.on) return Refusal{s.ended_for, s.ended_why};  // not even begun
     return std::nullopt;
 }
 
@@ -110,8 +111,9 @@ std::optional<Refusal> Engine::too_far(const Axis& a, const SetPoint& p) const {
     if (step <= std::max(most, 1.0)) return std::nullopt;
     return Refusal{Reason::out_of_range,
                    fmt::format("a step of {} is more than the {} that {} allows in the drive's interpolation time of {} us",
-                               in_unit(std::llround(step), a.limits, position ? "" : "/s"), in_unit(std::llround(most), a.limits, position ? "" : "/s"),
-                               position ? "velocity_max" : "acceleration_max", std::chrono::duration_cast<std::chrono::microseconds>(period).count())};
+                               in_unit(std::llround(step), a.limits, position ? "" : "/s"),
+                               in_unit(std::llround(most), a.limits, position ? "" : "/s"), position ? "velocity_max" : "acceleration_max",
+                               std::chrono::duration_cast<std::chrono::microseconds>(period).count())};
 }
 
 /// What a motion of a command would end ends here, too.

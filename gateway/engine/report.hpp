@@ -31,7 +31,7 @@ struct LineReport {
         AdapterCounters counters;
     };
     std::vector<OfFamily> families;
-    std::uint64_t unclaimed = 0;       ///< CAN frames with identifiers that are no family's of the line
+    std::uint64_t unclaimed = 0;  ///< CAN frames with identifiers that are no family's of the line
 };
 
 }  // namespace axisgate

@@ -37,13 +37,15 @@ std::vector<std::string> FrameDecoder::read(const TraceEntry& e) {
     std::vector<std::string> out;
     const auto add = [&](Reader& reader, bool known_alone) {
         for (auto& line : read_as(reader, e)) {
-            if (!known_alone || line.find("unknown") == std::string::npos) out.push_back(std::string(reader.family.family->name) + ": " + line);
+            if (!known_alone || line.find("unknown") == std::string::npos)
+                out.push_back(std::string(reader.family.family->name) + ": " + line);
         }
     };
     for (auto& reader : readers_) {
         if (reader.hears_all || any_holds(reader.identifiers, e.frame)) add(reader, false);
     }
-    if (!out.empty() || std::ranges::any_of(readers_, [&](const Reader& r) { return r.hears_all || any_holds(r.identifiers, e.frame); })) return out;
+    if (!out.empty() || std::ranges::any_of(readers_, [&](const Reader& r) { return r.hears_all || any_holds(r.identifiers, e.frame); }))
+        return out;
     for (auto& reader : readers_)
         add(reader, true);
     if (out.empty()) out.push_back(to_text(e.frame) + "  unknown: its identifier belongs to no family of this line");

@@ -19,8 +19,8 @@ class FrameDecoder {
 public:
     /// For the line of that name in the site; reads nothing if there is none, or if its families have no readers.
     FrameDecoder(const Families& families, const Site& site, std::string_view line);
-    /// On a line of several families each sentence begins with the family that claims the frame. What none claims (a broadcast of the gateway)
-    /// is read by those that know it.
+    /// On a line of several families each sentence begins with the family that claims the frame. What none claims (a broadcast of the
+    /// gateway) is read by those that know it.
     [[nodiscard]] std::vector<std::string> read(const TraceEntry& entry);
 
 private:

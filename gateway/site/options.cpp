@@ -99,7 +99,8 @@ std::vector<OptionFault> check_options(const Site& site, const Families& familie
             for (const Catalogue* c : catalogues) {
                 if (known && !told(*c)) continue;
                 if (auto wrong = check_option(*c, {OptionOf::line, OptionOf::twin}, name, value); !wrong.empty()) {
-                    out.push_back({l.name, "", fmt::format("line {}: option {}", l.name, wrong), find(*c, {OptionOf::line}, name) != nullptr});
+                    out.push_back(
+                        {l.name, "", fmt::format("line {}: option {}", l.name, wrong), find(*c, {OptionOf::line}, name) != nullptr});
                     break;
                 }
             }

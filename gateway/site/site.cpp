@@ -97,7 +97,8 @@ std::vector<std::string> Site::families_on(const LineSpec& line) const {
 
 LineKind kind_of(const LineSpec& line, const Families& families) {
     const auto uri = parse_line_uri(line.uri);
-    if (!uri.good() || uri.uri.kind != LineUri::Kind::twin) return uri.good() && uri.uri.kind == LineUri::Kind::can ? LineKind::can : LineKind::bytes;
+    if (!uri.good() || uri.uri.kind != LineUri::Kind::twin)
+        return uri.good() && uri.uri.kind == LineUri::Kind::can ? LineKind::can : LineKind::bytes;
     const Family* family = families.find(line.family).family;
     if (!family) return LineKind::can;
     const bool wants_bytes = option(line.options, "kind", "") == "bytes" && family->uses_bytes;

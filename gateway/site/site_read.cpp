@@ -199,7 +199,9 @@ void check_families(const Site& site, const Families& families, std::vector<Site
     for (std::size_t i = 0; i < site.lines.size(); ++i) {
         const auto& l = site.lines[i];
         if (l.family.empty() && kind_of(l, families) == LineKind::bytes && parse_line_uri(l.uri).good()) {
-            faults.push_back({fmt::format("/lines/{}/family", i), fmt::format("line {}: family is missing: a line of bytes carries one, by which it is set up", l.name), "use one of: " + families.names()});
+            faults.push_back({fmt::format("/lines/{}/family", i),
+                              fmt::format("line {}: family is missing: a line of bytes carries one, by which it is set up", l.name),
+                              "use one of: " + families.names()});
         }
     }
     struct Known {
@@ -211,23 +213,29 @@ void check_families(const Site& site, const Families& families, std::vector<Site
     for (std::size_t i = 0; i < site.drives.size(); ++i) {
         const auto& d = site.drives[i];
         const LineSpec* line = site.line(d.line);
-        const auto fault = [&](std::string text, std::string remedy) { faults.push_back({fmt::format("/drives/{}/family", i), std::move(text), std::move(remedy)}); };
+        const auto fault = [&](std::string text, std::string remedy) {
+            faults.push_back({fmt::format("/drives/{}/family", i), std::move(text), std::move(remedy)});
+        };
         if (!line) continue;
         const LineKind kind = kind_of(*line, families);
         if (d.family.empty() && line->family.empty() && kind == LineKind::can) {
-            fault(fmt::format("drive {}: family is missing, and its line {} names none", d.name, line->name), "name it here, or at the line for each of its drives that names none; use one of: " + families.names());
+            fault(fmt::format("drive {}: family is missing, and its line {} names none", d.name, line->name),
+                  "name it here, or at the line for each of its drives that names none; use one of: " + families.names());
         }
         const FamilyEntry entry = families.find(site.family_of(d));
         if (!d.family.empty()) {
             if (!entry.family) {
                 fault(fmt::format("drive {}: there is no family {}", d.name, d.family), "use one of: " + families.names());
             } else if (kind == LineKind::bytes) {
-                fault(fmt::format("drive {}: line {} carries bytes, and those of {} alone", d.name, line->name, line->family), "leave family out, or put the drive on a line of its own family");
+                fault(fmt::format("drive {}: line {} carries bytes, and those of {} alone", d.name, line->name, line->family),
+                      "leave family out, or put the drive on a line of its own family");
             } else if (!entry.family->uses_can) {
                 fault(fmt::format("drive {}: {} does not speak on CAN", d.name, d.family), "put it on a line of bytes whose family it is");
             }
         }
-        if (!entry.family || kind != LineKind::can || !entry.family->uses_can || d.address.empty() || !entry.family->check_address(d.address).empty()) continue;
+        if (!entry.family || kind != LineKind::can || !entry.family->uses_can || d.address.empty() ||
+            !entry.family->check_address(d.address).empty())
+            continue;
         Known mine{&d, entry, {}};
         if (entry.family->can_identifiers) mine.identifiers = entry.family->can_identifiers({&d.address, 1});
         auto& others = on[line->name];
@@ -235,11 +243,18 @@ void check_families(const Site& site, const Families& families, std::vector<Site
             if (o.entry.family == entry.family) continue;
             const auto anything = [](const Known& k) { return !k.entry.family->can_identifiers; };
             if (anything(mine) || anything(o)) {
-                fault(fmt::format("drive {}: {} cannot share a CAN line with other families", d.name, (anything(mine) ? entry : o.entry).family->name), "put the drives on lines of their own");
+                fault(fmt::format("drive {}: {} cannot share a CAN line with other families", d.name,
+                                  (anything(mine) ? entry : o.entry).family->name),
+                      "put the drives on lines of their own");
                 break;
             }
-            if (std::ranges::any_of(mine.identifiers, [&](const CanIdentifiers& x) { return std::ranges::any_of(o.identifiers, [&](const CanIdentifiers& y) { return x.meets(y); }); })) {
-                faults.push_back({fmt::format("/drives/{}/address", i), fmt::format("drive {} ({}) and drive {} ({}) use the same CAN identifiers", d.name, entry.family->name, o.drive->name, o.entry.family->name), "give one of them another address, or another line"});
+            if (std::ranges::any_of(mine.identifiers, [&](const CanIdentifiers& x) {
+                    return std::ranges::any_of(o.identifiers, [&](const CanIdentifiers& y) { return x.meets(y); });
+                })) {
+                faults.push_back({fmt::format("/drives/{}/address", i),
+                                  fmt::format("drive {} ({}) and drive {} ({}) use the same CAN identifiers", d.name, entry.family->name,
+                                              o.drive->name, o.entry.family->name),
+                                  "give one of them another address, or another line"});
                 break;
             }
         }
@@ -247,7 +262,9 @@ void check_families(const Site& site, const Families& families, std::vector<Site
     }
     for (std::size_t i = 0; i < site.lines.size(); ++i) {
         if (site.families_on(site.lines[i]).size() > most_families_on_a_line)
-            faults.push_back({fmt::format("/lines/{}", i), fmt::format("line {} has drives of more than {} families", site.lines[i].name, most_families_on_a_line), "put some of them on another line"});
+            faults.push_back({fmt::format("/lines/{}", i),
+                              fmt::format("line {} has drives of more than {} families", site.lines[i].name, most_families_on_a_line),
+                              "put some of them on another line"});
     }
 }
 

@@ -137,8 +137,6 @@ std::size_t SendQueue::drop_older_than(Instant t) noexcept {
     return n;
 }
 
-void SendQueue::clear() noexcept {
-    (void)drop_older_than(never);
-}
+void SendQueue::clear() noexcept { (void)drop_older_than(never); }
 
 }  // namespace axisgate

@@ -1,6 +1,6 @@
 // Mixed lines: two families on one CAN line: uim342 with its 29-bit identifiers, and the example drive's text in frames of 11 bits.
-// In: sites with both, twins behind a cable or embedded. Out: laws: both are homed, moved and found, and what befalls one is not felt by the
-// other. Never waits in real time.
+// In: sites with both, twins behind a cable or embedded. Out: laws: both are homed, moved and found, and what befalls one is not felt by
+// the other. Never waits in real time.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +24,8 @@ void in_frames(Out& out, std::size_t begin, std::uint32_t base, int address) {
         const auto bytes = tx.frame.data();
         const int number = address ? address : (bytes[1] - '0') * 10 + bytes[2] - '0';
         for (std::size_t at = 0; at < bytes.size(); at += 8) {
-            Frame f = Frame::can_extended(base + static_cast<std::uint32_t>(number), bytes.subspan(at, std::min<std::size_t>(8, bytes.size() - at)));
+            Frame f = Frame::can_extended(base + static_cast<std::uint32_t>(number),
+                                          bytes.subspan(at, std::min<std::size_t>(8, bytes.size() - at)));
             f.extended = false;
             made.push_back({f, tx.priority});
         }
@@ -166,7 +167,8 @@ struct MixedLine : testing::Test {
             drives.push_back({{"name", "text"}, {"line", "line"}, {"family", "text_on_can"}, {"address", 5}, {"presence", presence}});
             axes.push_back({{"name", "text"}, {"drive", "text"}, {"number", 2}, {"unit", "u"}, {"increments_per_unit", 100}});
         }
-        const json::value doc{{"lines", {{{"name", "line"}, {"uri", uri}}}}, {"drives", drives}, {"axes", axes}, {"mappings", json::array{}}};
+        const json::value doc{
+            {"lines", {{{"name", "line"}, {"uri", uri}}}}, {"drives", drives}, {"axes", axes}, {"mappings", json::array{}}};
         std::vector<SiteFault> faults;
         auto parsed = parse_site(doc, all, faults);
         for (const auto& f : faults)
@@ -276,9 +278,11 @@ TEST_F(MixedLine, SilenceAndPowerOfOneDoNotTouchTheOther) {
             world.run_for(5s);  // well into its back-off
             const auto status = world.engine.drive_status(site->drive_ids[c.key == 1 ? 0 : 1]);
             EXPECT_GT(status.retry_pause_ms, 0) << "its own pauses grow";
-            const auto told_of = std::ranges::count_if(world.events, [&](const Event& e) { return e.drive == c.stays_name && e.kind == "drive"; });
+            const auto told_of =
+                std::ranges::count_if(world.events, [&](const Event& e) { return e.drive == c.stays_name && e.kind == "drive"; });
             goes_there_and_back(c.stays);
-            EXPECT_EQ(std::ranges::count_if(world.events, [&](const Event& e) { return e.drive == c.stays_name && e.kind == "drive"; }), told_of);
+            EXPECT_EQ(std::ranges::count_if(world.events, [&](const Event& e) { return e.drive == c.stays_name && e.kind == "drive"; }),
+                      told_of);
             hand(c.key, what, !off);
             ASSERT_TRUE(world.run_until_true([&] { return online(c.gone); }, 30s)) << what;
             world.run_for(1s);
@@ -317,7 +321,8 @@ TEST_F(MixedLine, AScanFindsBothFamiliesEachByItsOwnCount) {
     std::map<std::string, std::string> found;
     for (const auto& f : scan().found)
         EXPECT_TRUE(found.emplace(f.family + " " + f.address, f.known_as).second) << f.family << " " << f.address << " is found twice";
-    EXPECT_EQ(found, (std::map<std::string, std::string>{{"uim342 5", "uim"}, {"text_on_can 5", "text"}, {"uim342 9", ""}, {"text_on_can 12", ""}}));
+    EXPECT_EQ(found, (std::map<std::string, std::string>{
+                         {"uim342 5", "uim"}, {"text_on_can 5", "text"}, {"uim342 9", ""}, {"text_on_can 12", ""}}));
     ASSERT_EQ(scan().parts.size(), 2u);
     for (const auto& part : scan().parts) {
         EXPECT_GT(part.of, 10u) << part.family;
@@ -424,12 +429,18 @@ TEST_F(MixedLine, TheSiteSaysWhatCannotShareALine) {
               "/drives/0/family: drive a: family is missing, and its line c names none\n");
     EXPECT_EQ(faults_of(R"({"lines":[{"name":"c","uri":"tcp:127.0.0.1:9"}]})"),
               "/lines/0/family: line c: family is missing: a line of bytes carries one, by which it is set up\n");
-    EXPECT_EQ(faults_of(R"({"lines":[{"name":"c","uri":"twin","family":"mcode"}],"drives":[{"name":"a","line":"c","family":"uim342","address":5}]})"),
-              "/drives/0/family: drive a: line c carries bytes, and those of mcode alone\n");
-    EXPECT_EQ(faults_of(R"({"lines":[{"name":"c","uri":"can:can0","family":"uim342"}],"drives":[{"name":"a","line":"c","family":"mcode","address":"A"}]})"),
-              "/drives/0/family: drive a: mcode does not speak on CAN\n");
-    EXPECT_EQ(faults_of(R"({"lines":[{"name":"c","uri":"can:can0","family":"uim342"}],"drives":[{"name":"a","line":"c","family":"nobody","address":"A"}]})"),
-              "/drives/0/family: drive a: there is no family nobody\n");
+    EXPECT_EQ(
+        faults_of(
+            R"({"lines":[{"name":"c","uri":"twin","family":"mcode"}],"drives":[{"name":"a","line":"c","family":"uim342","address":5}]})"),
+        "/drives/0/family: drive a: line c carries bytes, and those of mcode alone\n");
+    EXPECT_EQ(
+        faults_of(
+            R"({"lines":[{"name":"c","uri":"can:can0","family":"uim342"}],"drives":[{"name":"a","line":"c","family":"mcode","address":"A"}]})"),
+        "/drives/0/family: drive a: mcode does not speak on CAN\n");
+    EXPECT_EQ(
+        faults_of(
+            R"({"lines":[{"name":"c","uri":"can:can0","family":"uim342"}],"drives":[{"name":"a","line":"c","family":"nobody","address":"A"}]})"),
+        "/drives/0/family: drive a: there is no family nobody\n");
     EXPECT_EQ(faults_of(R"({"lines":[{"name":"c","uri":"twin","family":"uim342"}],"drives":[{"name":"a","line":"c","address":5},
                             {"name":"b","line":"c","family":"text_on_can","address":5},{"name":"d","line":"c","family":"text_on_can","address":5}]})"),
               "/drives/2/address: two drives on c have the address 5\n");
@@ -464,7 +475,10 @@ TEST_F(MixedLine, ADrivesFamilyIsKeptInTheDocumentAndTheLinesIsNotRepeated) {
     const std::string plain =
         R"({"lines":[{"name":"c","uri":"twin","family":"uim342"}],"drives":[{"name":"a","line":"c","presence":"auto","address":5}],"axes":[],"mappings":[]})";
     EXPECT_EQ(text_of(plain), plain);
-    EXPECT_EQ(text_of(R"({"lines":[{"name":"c","uri":"twin","family":"uim342"}],"drives":[{"name":"a","line":"c","family":"uim342","address":5}]})"), plain)
+    EXPECT_EQ(
+        text_of(
+            R"({"lines":[{"name":"c","uri":"twin","family":"uim342"}],"drives":[{"name":"a","line":"c","family":"uim342","address":5}]})"),
+        plain)
         << "a drive of the line's family follows it";
     const std::string bare = R"({"lines":[{"name":"c","uri":"twin"}],"drives":[],"axes":[],"mappings":[]})";
     EXPECT_EQ(text_of(bare), bare) << "a line may wait for its drives";

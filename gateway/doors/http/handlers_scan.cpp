@@ -76,7 +76,8 @@ Handled start_scan(Call& c) {
                 faults.push_back({"/limit_s", fmt::format("limit_s must be a number from 1 to {}", most_limit_s),
                                   "write the seconds that the search may take"});
         } else {
-            faults.push_back({"/" + std::string(k), fmt::format("{} is not known here", std::string_view(k)), "use from, to, family, limit_s"});
+            faults.push_back(
+                {"/" + std::string(k), fmt::format("{} is not known here", std::string_view(k)), "use from, to, family, limit_s"});
         }
     }
     if (!faults.empty()) return invalid(std::move(faults));

@@ -39,7 +39,7 @@ void Hot::start() {
     last_turn_ns_.store(ns_of(now()), std::memory_order_relaxed);
     thread_ = std::thread([this] {
         enter_thread("axisgate-hot", hot_stands_back);
-        take_short_turns();
+        if (settings_.spin_us > 0 || !go_first()) take_short_turns();
         if (settings_.cpu >= 0) {
             cpu_set_t set;
             CPU_ZERO(&set);

@@ -15,7 +15,7 @@ constexpr Duration refusal_told_again = std::chrono::seconds(1);
 }  // namespace
 
 void Engine::on_set_point(const SetPoint& p, Instant now) {
-    now_ = std::max(now_, now);
+    now_ = last_stir_ = std::max(now_, now);
     Axis* a = axis(p.axis);
     if (!a || closing_) return;  // as with any state: who looks at the axis sees that it is not there
     Axis::Stream& s = a->stream;

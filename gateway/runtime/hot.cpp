@@ -212,7 +212,8 @@ void Hot::on_twin_memory(const std::string& drive, NonVolatile memory) {
 }
 
 std::unique_ptr<Line> Hot::make_line(const LineSpec& spec, const LineSetup& setup) {
-    return make_real_line(spec.uri, setup, io_, find_family(spec.family)->default_format, settings_.ptys);
+    const Family* family = find_family(spec.family);  // none: a CAN line of several
+    return make_real_line(spec.uri, setup, io_, family ? family->default_format : "8N1", settings_.ptys);
 }
 
 void Hot::publish_reports(Instant now) {

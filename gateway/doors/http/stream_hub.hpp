@@ -15,14 +15,14 @@
 #include <string_view>
 #include <vector>
 
-#include "gateway/services/gateway.hpp"
-#include "gateway/services/services.hpp"
 #include "gateway/doors/http/counters.hpp"
-#include "gateway/doors/http/frame_decoder.hpp"
 #include "gateway/doors/http/settings.hpp"
 #include "gateway/doors/http/stream_queue.hpp"
 #include "gateway/doors/http/stream_request.hpp"
 #include "gateway/doors/http/stream_sources.hpp"
+#include "gateway/services/frame_decoder.hpp"
+#include "gateway/services/gateway.hpp"
+#include "gateway/services/services.hpp"
 
 namespace axisgate::http {
 
@@ -60,6 +60,7 @@ private:
     std::map<std::string, std::int64_t, std::less<>> topics_;  ///< as subscribed, with the period in ms
     std::map<std::int64_t, std::vector<Watch>> watches_;       ///< by period
     std::vector<FrameWatch> frames_;
+    std::optional<AuthorityClient> gives_set_points_;  ///< who has, over this feed
     bool events_ = false;
     bool site_ = false;
     bool recipes_ = false;

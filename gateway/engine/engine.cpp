@@ -163,7 +163,7 @@ void Engine::feedback(Side& side, AxisId id, const AxisFeedback& value, Instant 
     track(*a, now);
 }
 
-void Engine::publish(Axis& a, Instant) {
+void Engine::publish(Axis& a, Instant now) {
     AxisPicture& p = image_.picture(a.id);
     a.profile.fill(p);
     p.number = static_cast<std::uint16_t>(a.spec.number);
@@ -200,6 +200,7 @@ void Engine::publish(Axis& a, Instant) {
     put(p.flags, flag_stale, stale);
     put(p.statusword, cia402::sw_simulated, simulated);
     put(p.statusword, cia402::sw_stale, stale);
+    if (p.flags & flag_moving) last_stir_ = now;
     image_.publish(a.id);
 }
 

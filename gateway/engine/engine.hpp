@@ -92,6 +92,9 @@ public:
 
     [[nodiscard]] Instant deadline() const;
     void on_deadline(Instant now);
+    /// Nothing moves, nobody waits for an answer, and for a second nothing was commanded, found or lost: what is due may be met together with
+    /// what is due a little later.
+    [[nodiscard]] bool at_rest(Instant now) const noexcept;
 
     [[nodiscard]] const Catalogue* catalogue(AxisId axis) const;
     /// Looks for drives on a line. Empty: it has begun; else why not.
@@ -239,6 +242,7 @@ private:
     std::uint64_t next_ = 1;
     Instant now_{};
     Instant next_housekeeping_{};
+    Instant last_stir_{};  ///< when something moved, was commanded, found or lost
     std::size_t trace_frames_;
     std::uint32_t sources_ = 0;
     Duration lease_ = std::chrono::seconds(30);

@@ -32,7 +32,7 @@ void Engine::refuse(const Command& c, Reason reason, std::string text) {
 }
 
 void Engine::on_command(Command c, Instant now) {
-    now_ = std::max(now_, now);
+    now_ = last_stir_ = std::max(now_, now);
     Axis* a = axis(c.axis);
     if (!a || closing_) return refuse(c, Reason::line_down, a ? "the gateway is stopping" : "there is no such axis");
     if (const auto no = turned_away(*a, c, now)) return refuse(c, no->reason, no->text);

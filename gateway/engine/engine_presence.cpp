@@ -18,6 +18,7 @@ void Engine::line_state(Side& side, bool up, const std::string& why, Instant now
     side.tried = true;
     side.why = why;
     if (!changed) return;
+    last_stir_ = now;
     if (!side.twin) {
         Event e;
         e.severity = up ? Severity::info : Severity::warning;
@@ -44,6 +45,7 @@ void Engine::link(Side& side, const DriveLink& l, Instant now) {
     if (!d) return;
     bool& online = side.twin ? d->twin_online : d->device_online;
     const bool changed = online != l.online;
+    if (changed) last_stir_ = now;
     const bool mine = d->serving == (side.twin ? Presence::twin : Presence::device);
     (side.twin ? d->twin_link : d->device_link) = l;
     if (changed && !l.online && mine) {

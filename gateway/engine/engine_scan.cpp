@@ -123,6 +123,7 @@ void Engine::end_scan(LineUnit& unit, ScanReport::State state, std::string why, 
 void Engine::scan_turn(LineUnit& unit, Instant now) {
     if (!unit.scan || unit.scan->report.state != ScanReport::State::running) return;
     Scan& scan = *unit.scan;
+    last_stir_ = now;
     Side* side = unit.real ? unit.real.get() : unit.twins.get();
     if (side && !side->up)
         return end_scan(unit, ScanReport::State::failed, fmt::format("line {} is down: {}", unit.spec.name, side->why), now);

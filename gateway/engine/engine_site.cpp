@@ -152,7 +152,7 @@ void Engine::new_source(Axis& a) {
 }
 
 std::shared_ptr<const SiteState> Engine::apply_site(Site site, SiteMemory memory, std::uint64_t revision, Instant now) {
-    now_ = std::max(now_, now);
+    now_ = last_stir_ = std::max(now_, now);
     for (const auto& unit : lines_) {
         if (unit) end_scan(*unit, ScanReport::State::cancelled, "the site has changed: scan again", now);
     }

@@ -16,7 +16,7 @@ constexpr Duration refusal_told_again = std::chrono::seconds(1);
 }  // namespace
 
 std::optional<Refusal> Engine::on_set_point(const SetPoint& p, Instant now) {
-    now_ = std::max(now_, now);
+    now_ = last_stir_ = std::max(now_, now);
     Axis* a = axis(p.axis);
     if (!a || closing_) return Refusal{Reason::line_down, a ? "the gateway is stopping" : "there is no such axis"};
     Axis::Stream& s = a->stream;

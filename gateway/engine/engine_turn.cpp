@@ -12,6 +12,10 @@ namespace axisgate {
 
 // --- time -----------------------------------------------------------------------------------------------------------
 
+bool Engine::at_rest(Instant now) const noexcept {
+    return clients_.empty() && orders_.empty() && !change_ && now - last_stir_ >= std::chrono::seconds(1);
+}
+
 Instant Engine::deadline() const {
     Instant t = lines_.empty() ? never : next_housekeeping_;
     for (Side* s : sides_)

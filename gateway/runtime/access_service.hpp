@@ -11,8 +11,8 @@
 #include <optional>
 #include <string>
 
-#include "gateway/services/access/access_port.hpp"
 #include "gateway/runtime/cold.hpp"
+#include "gateway/services/access/access_port.hpp"
 #include "gateway/store/store.hpp"
 
 namespace axisgate {
@@ -35,7 +35,7 @@ public:
     /// come so far leaves the next one to make and show another.
     [[nodiscard]] bool code_is_kept();
 
-    [[nodiscard]] AccessRegister& desk() override { return desk_; }
+    [[nodiscard]] AccessRegister& accounts() override { return accounts_; }
     [[nodiscard]] bool derive(std::string password, std::function<void(std::string)> then) override;
     [[nodiscard]] bool compare(std::string password, std::string hash, std::function<void(bool)> then) override;
     void keep(std::vector<AccessRecord> records, std::string who, std::function<void(std::string)> then) override;
@@ -49,7 +49,7 @@ private:
 
     boost::asio::io_context& warm_;
     Cold& cold_;
-    AccessRegister desk_;
+    AccessRegister accounts_;
     Tell tell_;
     std::unique_ptr<boost::asio::thread_pool> pool_;
     std::size_t waiting_ = 0;

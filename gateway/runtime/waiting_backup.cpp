@@ -47,24 +47,31 @@ bool write_durably(const std::string& file, std::string_view bytes) {
 /// The store's own words name files of this machine; who sends a backup over the network needs only to know what is wrong with it.
 std::string words_for(const StoreError& e) {
     switch (e.kind) {
-        case StoreError::Kind::corrupt: return "the file is damaged, cut short, or its tables were altered";
-        case StoreError::Kind::not_ours: return "it is a database, but not one of axisgate";
-        case StoreError::Kind::newer: return "it was written by a newer axisgate than this one";
-        case StoreError::Kind::disk_full: return "there is no room for it on the gateway's disk: free some and send it again";
-        case StoreError::Kind::read_only: return "the gateway's data directory cannot be written";
-        default: return fmt::format("it could not be checked ({})", name_of(e.kind));
+        case StoreError::Kind::corrupt:
+            return "the file is damaged, cut short, or its tables were altered";
+        case StoreError::Kind::not_ours:
+            return "it is a database, but not one of axisgate";
+        case StoreError::Kind::newer:
+            return "it was written by a newer axisgate than this one";
+        case StoreError::Kind::disk_full:
+            return "there is no room for it on the gateway's disk: free some and send it again";
+        case StoreError::Kind::read_only:
+            return "the gateway's data directory cannot be written";
+        default:
+            return fmt::format("it could not be checked ({})", name_of(e.kind));
     }
 }
 }  // namespace
 
-Gateway::RestoreFault lay_down_backup(const std::string& bytes, const std::string& who, std::int64_t at_unix_ns, const StoreOptions& options) {
+RestoreFault lay_down_backup(const std::string& bytes, const std::string& who, std::int64_t at_unix_ns, const StoreOptions& options) {
     // Tried in a folder of its own first: what is laid down is a database that this program opens.
     const std::string folder = check_folder_in(options.directory), part = options.directory + "/restore-at-start.part";
     std::error_code ec;
     fs::remove_all(folder, ec);
-    Gateway::RestoreFault fault;
+    RestoreFault fault;
     json::object told{{"at_unix_ns", at_unix_ns}, {"who", who}};
-    if (!write_durably(part, bytes)) fault = {"there is no room for it on the gateway's disk, or its data directory cannot be written", true};
+    if (!write_durably(part, bytes))
+        fault = {"there is no room for it on the gateway's disk, or its data directory cannot be written", true};
     if (fault.text.empty()) {
         StoreOptions tried = options;
         tried.directory = folder;
@@ -73,7 +80,8 @@ Gateway::RestoreFault lay_down_backup(const std::string& bytes, const std::strin
             told["site_revision"] = good->site_revision;
         } else {
             const auto kind = good.error().kind;
-            fault = {words_for(good.error()), kind != StoreError::Kind::corrupt && kind != StoreError::Kind::not_ours && kind != StoreError::Kind::newer};
+            fault = {words_for(good.error()),
+                     kind != StoreError::Kind::corrupt && kind != StoreError::Kind::not_ours && kind != StoreError::Kind::newer};
         }
     }
     fs::remove_all(folder, ec);
@@ -83,17 +91,18 @@ Gateway::RestoreFault lay_down_backup(const std::string& bytes, const std::strin
         (void)write_durably(told_in(options.directory), json::serialize(told));
         fs::rename(part, file_in(options.directory), ec);
         if (ec) fault = {"it could not be laid down: " + ec.message(), true};
-        if (fault.text.empty() && !files::sync_directory(options.directory)) fault = {"it could not be laid down durably: the disk failed", true};
+        if (fault.text.empty() && !files::sync_directory(options.directory))
+            fault = {"it could not be laid down durably: the disk failed", true};
     }
     if (!fault.text.empty()) fs::remove(part, ec);
     return fault;
 }
 
-std::optional<Gateway::WaitingBackup> waiting_backup(const std::string& directory) {
+std::optional<WaitingBackup> waiting_backup(const std::string& directory) {
     std::error_code ec;
     const auto bytes = fs::file_size(file_in(directory), ec);
     if (ec) return std::nullopt;
-    Gateway::WaitingBackup w;
+    WaitingBackup w;
     w.bytes = bytes;
     const auto written = fs::last_write_time(file_in(directory), ec);
     if (!ec) {

@@ -10,7 +10,8 @@
 #include <vector>
 
 #include "gateway/core/family.hpp"
-#include "gateway/services/gateway.hpp"
+#include "gateway/core/frame.hpp"
+#include "gateway/site/site.hpp"
 
 namespace axisgate::http {
 

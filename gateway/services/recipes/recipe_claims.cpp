@@ -18,9 +18,9 @@ using Whose = RecipeWorld::Claim::Whose;
 bool has(const std::vector<Ticket>& list, Ticket t) { return std::ranges::find(list, t) != list.end(); }
 
 /// Somebody else who holds the axis at this moment; empty: nobody else does.
-std::string other_holder(const AxisPicture& p, const Origin& run, const Gateway& gateway) {
+std::string other_holder(const AxisPicture& p, const Origin& run, const ClockPort& clock) {
     const std::string_view holder = p.authority_holder.data();
-    if (holder.empty() || gateway.to_unix_ns(p.authority_until) <= gateway.now_unix_ns()) return {};
+    if (holder.empty() || clock.to_unix_ns(p.authority_until) <= clock.now_unix_ns()) return {};
     const auto me = AuthorityClient::of(run);
     // Handed over to a user by name, any client of that user may command.
     const bool mine = p.authority == me.door && (me.name == holder || me.name.starts_with(std::string(holder) + " "));
@@ -78,8 +78,8 @@ Motion RecipeClaims::answered(const RecipeStep& step, const CommandBody& body, c
     return Motion::told;
 }
 
-RecipeWorld::Claim RecipeClaims::claim(const std::string& axis, const AxisPicture& now, const Origin& run, const Gateway& gateway) const {
-    if (const auto holder = other_holder(now, run, gateway); !holder.empty())
+RecipeWorld::Claim RecipeClaims::claim(const std::string& axis, const AxisPicture& now, const Origin& run, const ClockPort& clock) const {
+    if (const auto holder = other_holder(now, run, clock); !holder.empty())
         return {Whose::others, fmt::format("{} holds the axis now", holder)};
     const auto it = claims_.find(axis);
     if (it == claims_.end()) return {};

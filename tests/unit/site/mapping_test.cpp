@@ -75,6 +75,17 @@ TEST(Mapping, FillsInWhatIsLeftOut) {
         EXPECT_EQ(to_json((*same)[i]), to_json((*m)[i]));
 }
 
+TEST(Mapping, AreParsedOnceWithTheirSiteAndSharedByItsCopies) {
+    Plant p;
+    json::object document = to_json(p.site);
+    document["mappings"] = json::parse(R"([{"unit": 2, "address": 0, "axis": "x", "point": "position"}])");
+    const auto site = parse_site(document, p.families, p.faults);
+    ASSERT_TRUE(site);
+    ASSERT_EQ(site->map().size(), 1u);
+    const Site copy = *site;  // as the site in force, a stage, and every door's look at it
+    EXPECT_EQ(&copy.map(), &site->map());
+}
+
 TEST(Mapping, SaysWhatIsWrongAndWhatIsRight) {
     Plant p;
     const std::pair<const char*, const char*> rows[] = {

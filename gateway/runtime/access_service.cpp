@@ -30,8 +30,8 @@ std::string session_cookie_of(const std::string& data_dir) {
     return "axisgate_session_" + digest_of(fmt::format("{} {}", host.data(), bad ? data_dir : place.string())).substr(0, 8);
 }
 
-AccessService::AccessService(asio::io_context& warm, Cold& cold, AccessSettings settings, Tell tell)
-    : warm_(warm), cold_(cold), accounts_(settings), tell_(std::move(tell)) {}
+AccessService::AccessService(asio::io_context& warm, Cold& cold, AccessSettings settings, Note note)
+    : warm_(warm), cold_(cold), accounts_(settings), note_(std::move(note)) {}
 
 AccessService::~AccessService() { stop(); }
 
@@ -88,7 +88,7 @@ bool AccessService::code_is_kept() {
                     e.kind = "access";
                     e.severity = Severity::warning;
                     e.text = "the code of the first sign-in is not stored, the next start shows another: " + fault;
-                    tell(std::move(e));
+                    note(std::move(e));
                 }
                 new_code_.reset();
                 done();

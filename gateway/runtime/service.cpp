@@ -120,7 +120,7 @@ struct Service {
     boost::asio::signal_set signals{warm};
     boost::asio::steady_timer tick{warm};
     Instant started = monotonic_now();
-    bool ready_said = false;
+    bool ready_reported = false;
     std::string first_code;  ///< to be shown
     int code = exit_good;
 
@@ -134,7 +134,7 @@ struct Service {
     void arm_services();
     int open_doors();
     void watch();
-    void say_ready();
+    void report_ready();
     void take_down();
 };
 
@@ -354,11 +354,11 @@ int Service::open_doors() {
     return exit_good;
 }
 
-void Service::say_ready() {
+void Service::report_ready() {
     const auto reports = hot->reports();
     if (!reports->settled && monotonic_now() - started < ready_limit) return;
     if (access && !access->code_is_kept()) return;  // on the disk first: after `ready` it is this one, also for the next start
-    ready_said = true;
+    ready_reported = true;
     std::string text = "ready";
     for (const auto& d : ports->status.doors())
         text += fmt::format(" {}={}", d.name, d.address);
@@ -373,10 +373,10 @@ void Service::say_ready() {
 
 /// The warm thread's own clock: says `ready` when all is up, and feeds the watchdog as long as the hot loop turns.
 void Service::watch() {
-    if (!ready_said) say_ready();
+    if (!ready_reported) report_ready();
     const auto interval = watchdog_interval();
     if (interval && monotonic_now() - hot->last_turn() < std::chrono::seconds(1)) notify_manager("WATCHDOG=1");
-    auto next = ready_said ? std::chrono::milliseconds(500) : std::chrono::milliseconds(2);
+    auto next = ready_reported ? std::chrono::milliseconds(500) : std::chrono::milliseconds(2);
     if (interval) next = std::min(next, std::chrono::duration_cast<std::chrono::milliseconds>(*interval));
     tick.expires_after(next);
     tick.async_wait([this](const boost::system::error_code& ec) {
@@ -432,7 +432,7 @@ int command_serve(const ServeOptions& options) {
     s.begin_services();
     if (const int code = s.open_doors(); code != exit_good) return code;
     s.show_code();
-    s.hot->tell_site(*state);
+    s.hot->publish_site(*state);
 
     s.signals.add(SIGINT);
     s.signals.add(SIGTERM);

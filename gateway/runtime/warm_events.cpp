@@ -5,7 +5,7 @@
 namespace axisgate {
 
 void WarmEvents::note(Event event) {
-    outlet_.tell(std::move(event), monotonic_now());
+    outlet_.send(std::move(event), monotonic_now());
     threads_.cold.from_service().announce();
 }
 

@@ -76,7 +76,7 @@ void WarmSite::start(Change c) {
                                                                                                                     Instant now) mutable {
         engine.change_site(std::move(site), std::move(memory), revision, now,
                            [this, then = std::move(then)](std::shared_ptr<const SiteState> state) mutable {
-                               threads_.hot.tell_site(*state);
+                               threads_.hot.publish_site(*state);
                                threads_.answer([this, state = std::move(state), then = std::move(then)]() mutable {
                                    finish({true, {}, std::move(state)}, then);
                                });

@@ -13,13 +13,13 @@ Services::Services(const Ports& ports, std::function<Instant()> clock, std::shar
     recipes->rearm = [this] {
         if (rearm) rearm();
     };
-    recipes->tell = [this](const std::string& recipe, const boost::json::object& report) {
+    recipes->publish = [this](const std::string& recipe, const boost::json::object& report) {
         const auto listeners = listeners_;
         for (auto* l : listeners)
             l->on_recipe(recipe, report);
     };
     alarms->rearm = recipes->rearm;
-    alarms->tell = [this](const boost::json::object& list) {
+    alarms->publish = [this](const boost::json::object& list) {
         const auto listeners = listeners_;
         for (auto* l : listeners)
             l->on_alarms(list);
@@ -30,7 +30,7 @@ Services::Services(const Ports& ports, std::function<Instant()> clock, std::shar
 
 Services::~Services() {
     recipes->rearm = nullptr;
-    recipes->tell = nullptr;
+    recipes->publish = nullptr;
     alarms->detach();
 }
 

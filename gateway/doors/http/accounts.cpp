@@ -115,14 +115,14 @@ json::object document_of(const Token& t) {
             {"last_used_at", time_or_null(t.last_used_ns)}};
 }
 
-void tell_access(AccessPort& port, std::string by, std::string text, Severity severity) {
+void note_access(AccessPort& port, std::string by, std::string text, Severity severity) {
     Event e;
     e.kind = "access";
     e.severity = severity;
     e.text = std::move(text);
     e.who = std::move(by);
     e.door = std::string(name_of(Door::http));
-    port.tell(std::move(e));
+    port.note(std::move(e));
 }
 
 void keep_uses(const std::shared_ptr<AccessPort>& port) {

@@ -9,7 +9,7 @@ namespace axisgate::http {
 namespace json = boost::json;
 
 Handled get_backup(Call& c, BackupPort& backups, EventPort& events) {
-    auto told = [&events, who = c.who(), sent = c.request.method == Method::get](std::size_t bytes) {
+    auto note_sent = [&events, who = c.who(), sent = c.request.method == Method::get](std::size_t bytes) {
         if (!sent) return;  // HEAD: nothing leaves
         Event e;
         e.kind = "site";  // as of a backup that is laid down
@@ -18,9 +18,9 @@ Handled get_backup(Call& c, BackupPort& backups, EventPort& events) {
         e.door = std::string(axisgate::name_of(Door::http));
         events.note(std::move(e));
     };
-    backups.backup([respond = c.respond, told = std::move(told)](std::optional<std::string> bytes, const std::string& fault) {
+    backups.backup([respond = c.respond, note_sent = std::move(note_sent)](std::optional<std::string> bytes, const std::string& fault) {
         if (!bytes) return respond(problem(507, "not_stored", fault));
-        told(bytes->size());
+        note_sent(bytes->size());
         Response r;
         r.headers.set("Content-Type", "application/octet-stream");
         r.headers.set("Content-Disposition", "attachment; filename=\"axisgate-backup.db\"");

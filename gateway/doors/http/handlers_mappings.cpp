@@ -97,7 +97,7 @@ Handled import_csv(Call& c, SitePort& sites, const StagePort& staging, bool whol
         std::vector<SiteFault> faults;
         auto site = parse_site(document, sites.families(), faults);
         if (!site || !csv.empty()) {
-            std::vector<CsvFault> told = csv;
+            std::vector<CsvFault> wrong = csv;
             // Said again with the rows by their lines: an id that a row would get is known to nobody.
             const auto row = [&](std::size_t i) {
                 return i < line_of.size() && line_of[i] != 0 ? fmt::format("row {}", line_of[i]) : std::string();
@@ -108,10 +108,10 @@ Handled import_csv(Call& c, SitePort& sites, const StagePort& staging, bool whol
                 std::size_t index = line_of.size();
                 if (constexpr std::string_view head = "/mappings/"; f.pointer.starts_with(head))
                     std::from_chars(f.pointer.data() + head.size(), f.pointer.data() + f.pointer.size(), index);
-                told.push_back({index < line_of.size() ? line_of[index] : 0, fmt::format("{}; {}", f.text, f.remedy)});
+                wrong.push_back({index < line_of.size() ? line_of[index] : 0, fmt::format("{}; {}", f.text, f.remedy)});
             }
-            std::ranges::stable_sort(told, {}, &CsvFault::line);
-            return csv_faults(told);
+            std::ranges::stable_sort(wrong, {}, &CsvFault::line);
+            return csv_faults(wrong);
         }
         const auto changes = differences(before.site, *site);
         return Plan{

@@ -83,7 +83,7 @@ struct Wanted {
     }
 };
 
-Event told_of(const std::string& by, std::string text) {
+Event recipe_event(const std::string& by, std::string text) {
     Event e;
     e.kind = "recipe";
     e.who = by;
@@ -168,7 +168,7 @@ Handled put_recipe(Call& c, const ClockPort& clock, DocumentPort& documents, Eve
             const Document d{name, json_text(document), who, clock.now_unix_ns()};
             documents.save_document(kind, d, [respond, &events, d, document, created, done](const std::string& why) {
                 if (why.empty()) {
-                    events.note(told_of(d.who, fmt::format("recipe {} {}", d.name, created ? "made" : "changed")));
+                    events.note(recipe_event(d.who, fmt::format("recipe {} {}", d.name, created ? "made" : "changed")));
                     Response r = with_tag(json_response(shown(d, document), created ? 201 : 200), recipe_tag(d));
                     if (created) r.headers.set("Location", "/api/v1/recipes/" + percent_encode(d.name));
                     respond(std::move(r));
@@ -202,7 +202,7 @@ Handled remove_recipe(Call& c, DocumentPort& documents, EventPort& events) {
             }
             documents.delete_document(kind, name, [respond, &events, service, name, who, done](const std::string& why) {
                 if (why.empty()) {
-                    events.note(told_of(who, fmt::format("recipe {} deleted", name)));
+                    events.note(recipe_event(who, fmt::format("recipe {} deleted", name)));
                     service->forget(name);
                     Response r;
                     r.status = 204;

@@ -65,7 +65,7 @@ void refuse_unknown(const json::object& body, std::initializer_list<std::string_
 }
 
 /// A snapshot that was taken or removed, for the list of events.
-void tell(EventPort& events, const SnapshotInfo& s, const std::string& axis, const std::string& who, std::string_view what) {
+void note_snapshot(EventPort& events, const SnapshotInfo& s, const std::string& axis, const std::string& who, std::string_view what) {
     Event e;
     e.kind = "snapshot";
     e.axis = axis;
@@ -249,22 +249,21 @@ Handled take_snapshot(Call& c, AxisPort& axes, const ClockPort& clock, EventPort
                                                                                  json::array not_read) {
         if (!find_axis(sites, axis.spec().name)) return respond(nothing_named("axis", axis.spec().name));  // removed while it was read
         taken.values = taken.parameters.size();
-        snapshots.save_snapshot(taken, axis.spec().name,
-                                [&events, &sites, respond, axis, taken, left_out = std::move(left_out), not_read = std::move(not_read)](
-                                    std::uint32_t n, const std::string& fault) mutable {
-                                    if (!fault.empty() && !find_axis(sites, axis.spec().name))
-                                        return respond(nothing_named("axis", axis.spec().name));
-                                    if (!fault.empty()) return respond(problem(507, "not_stored", fault));
-                                    taken.n = n;
-                                    tell(events, taken, axis.spec().name, taken.who, fmt::format("taken: {} values", taken.values));
-                                    json::object o = snapshot_document(sites, taken, axis);
-                                    o["left_out"] = std::move(left_out);
-                                    o["not_read"] = std::move(not_read);
-                                    Response r = json_response(o, 201);
-                                    r.headers.set("Location",
-                                                  fmt::format("/api/v1/axes/{}/snapshots/{}", percent_encode(axis.spec().name), n));
-                                    respond(std::move(r));
-                                });
+        snapshots.save_snapshot(
+            taken, axis.spec().name,
+            [&events, &sites, respond, axis, taken, left_out = std::move(left_out), not_read = std::move(not_read)](
+                std::uint32_t n, const std::string& fault) mutable {
+                if (!fault.empty() && !find_axis(sites, axis.spec().name)) return respond(nothing_named("axis", axis.spec().name));
+                if (!fault.empty()) return respond(problem(507, "not_stored", fault));
+                taken.n = n;
+                note_snapshot(events, taken, axis.spec().name, taken.who, fmt::format("taken: {} values", taken.values));
+                json::object o = snapshot_document(sites, taken, axis);
+                o["left_out"] = std::move(left_out);
+                o["not_read"] = std::move(not_read);
+                Response r = json_response(o, 201);
+                r.headers.set("Location", fmt::format("/api/v1/axes/{}/snapshots/{}", percent_encode(axis.spec().name), n));
+                respond(std::move(r));
+            });
     };
     if (stored) {
         for (const auto& v : parameters.stored(c.names[0]))
@@ -300,7 +299,7 @@ Handled remove_snapshot(Call& c, EventPort& events, const SitePort& sites, Snaps
         c.names[0], found->snapshot.n,
         [&events, info = SnapshotInfo(found->snapshot), axis = c.names[0], who = c.who(), respond = c.respond](const std::string& wrong) {
             if (!wrong.empty()) return respond(problem(507, "not_stored", wrong));
-            tell(events, info, axis, who, "removed");
+            note_snapshot(events, info, axis, who, "removed");
             Response r;
             r.status = 204;
             respond(std::move(r));

@@ -71,7 +71,7 @@ Handled add_token(Call& c, const ClockPort& clock) {
                     return done();
                 }
                 port->accounts().put(t);
-                tell_access(*port, by, fmt::format("token {} made for {} as {}", t.name, t.owner, name_of(t.role)));
+                note_access(*port, by, fmt::format("token {} made for {} as {}", t.name, t.owner, name_of(t.role)));
                 auto document = document_of(t);
                 document["token"] = t.id + "." + secret;
                 Response r = json_response(document, 201);
@@ -100,7 +100,7 @@ Handled remove_token(Call& c, AxisPort& axes, const SitePort& sites) {
                            }
                            port->accounts().remove_token(t.id);
                            end_leases_of(axes, sites, t.owner + ' ' + t.name, by);
-                           tell_access(*port, by, fmt::format("token {} of {} removed", t.name, t.owner));
+                           note_access(*port, by, fmt::format("token {} of {} removed", t.name, t.owner));
                            Response r;
                            r.status = 204;
                            respond(std::move(r));

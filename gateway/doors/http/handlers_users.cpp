@@ -59,7 +59,7 @@ void change(const std::shared_ptr<AccessPort>& port, std::string name, std::stri
                 } else {
                     (void)port->accounts().remove_user(name);
                 }
-                tell_access(*port, by, text);
+                note_access(*port, by, text);
                 Response r;
                 r.status = status;
                 if (body && user) r = with_tag(json_response(document_of(*user), status), tag_of(*user));
@@ -233,7 +233,7 @@ Handled change_password(Call& c, const ClockPort& clock) {
     const bool taken = port->compare(
         *old, attempt.hash, [port, name, peer, fresh = *fresh, by = c.who(), hash = attempt.hash, respond = c.respond](bool fits) {
             if (!fits) {
-                tell_access(*port, by, fmt::format("change of the password of {} refused: the old one is wrong", name), Severity::warning);
+                note_access(*port, by, fmt::format("change of the password of {} refused: the old one is wrong", name), Severity::warning);
                 return respond(problem(403, "wrong_password", "the old password is wrong"));
             }
             port->accounts().attempt_was_good(name, peer);

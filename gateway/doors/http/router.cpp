@@ -144,7 +144,7 @@ constexpr std::array routes{
     Route{"/api/v1/stream", Method::get, take<open_stream>, Takes::nothing, Gives::own, true},
 };
 
-constexpr std::array<Method, 5> told_methods{Method::get, Method::post, Method::put, Method::patch, Method::remove};
+constexpr std::array<Method, 5> listed_methods{Method::get, Method::post, Method::put, Method::patch, Method::remove};
 
 /// One path of the table with all its routes, taken apart once.
 struct Shape {
@@ -218,9 +218,9 @@ const Route* route_for(const Shape& shape, Method method) {
 /// "GET, HEAD, PUT"
 std::string allowed_by(const Shape& shape) {
     std::string allow;
-    for (const auto told : told_methods) {
-        if (!route_for(shape, told)) continue;
-        allow += fmt::format("{}{}", allow.empty() ? "" : ", ", told == Method::get ? "GET, HEAD" : name_of(told));
+    for (const auto method : listed_methods) {
+        if (!route_for(shape, method)) continue;
+        allow += fmt::format("{}{}", allow.empty() ? "" : ", ", method == Method::get ? "GET, HEAD" : name_of(method));
     }
     return allow;
 }

@@ -76,6 +76,11 @@ std::shared_ptr<StreamClient> StreamHub::add(std::function<void()> wake) {
 
 void StreamHub::remove(const std::shared_ptr<StreamClient>& client) {
     clients_.remove(client);
+    // Not waited for until its set-points have run out; unless the same client gives some over another feed, which this one cannot tell
+    // apart.
+    const auto& who = client->gives_set_points_;
+    if (attached_ && who && std::ranges::none_of(clients_, [&](const auto& c) { return c->gives_set_points_ == who; }))
+        axes_.client_lost(*who, LossCause::set_points_silent);
     counters_.stream_clients = clients_.size();
     const auto used = periods();
     std::erase_if(groups_, [&](const auto& g) { return !used.contains(g.first); });
@@ -95,7 +100,7 @@ void StreamHub::on_text(StreamClient& c, std::string_view text, Instant now) {
     std::string fault;
     const auto request = read_stream_request(text, fault);
     if (!request) {
-        tell_error(c, fault);
+        send_error(c, fault);
         if (++c.wrong_in_a_row_ >= wrong_requests) c.close(close_unsupported, "three messages in a row were not a request");
         wake(c);
         return;
@@ -130,28 +135,29 @@ bool StreamHub::may_ask(StreamClient& c, const StreamRequest& request, Instant n
 /// Handed on without an answer; only what could not be handed on is told to the client.
 void StreamHub::give_set_point(StreamClient& c, const json::object& body, Instant now) {
     auto origin = c.commander ? c.commander() : std::nullopt;
-    if (!origin) return tell_error(c, "set-points need the role operator or a higher one");
+    if (!origin) return send_error(c, "set-points need the role operator or a higher one");
     const auto* name = body.if_contains("axis");
     const auto place = name && name->is_string() ? find_axis(sites_, std::string_view(name->get_string())) : std::nullopt;
     if (!place)
-        return tell_error(c, name && name->is_string() ? fmt::format("there is no axis {}", std::string_view(name->get_string()))
+        return send_error(c, name && name->is_string() ? fmt::format("there is no axis {}", std::string_view(name->get_string()))
                                                        : "a set-point needs \"axis\", its name");
     auto read = read_set_point(body, place->spec().increments_per_unit, place->spec().unit);
-    if (!read.set_point) return tell_error(c, fmt::format("set_point: {}: {}", read.faults.front().text, read.faults.front().remedy));
+    if (!read.set_point) return send_error(c, fmt::format("set_point: {}: {}", read.faults.front().text, read.faults.front().remedy));
     read.set_point->axis = place->id();
     read.set_point->at = now;
+    c.gives_set_points_ = AuthorityClient::of(*origin);
     read.set_point->origin = std::move(*origin);
     axes_.set_point(std::move(*read.set_point));
 }
 
 void StreamHub::subscribe(StreamClient& c, const std::string& topic, std::int64_t period_ms) {
     if (c.topics_.size() >= most_topics && !c.topics_.contains(topic))
-        return tell_error(c, fmt::format("at most {} topics", most_topics), topic);
+        return send_error(c, fmt::format("at most {} topics", most_topics), topic);
     if (topic == "events") {
         c.events_ = true;
     } else if (topic == "site") {
         c.site_ = true;
-        tell_site(c);
+        send_site(c);
     } else if (topic == "recipes") {
         c.recipes_ = true;
         for (const auto& report : recipes_now ? recipes_now() : std::vector<json::object>())
@@ -170,7 +176,7 @@ void StreamHub::subscribe(StreamClient& c, const std::string& topic, std::int64_
         it->period_ms = period_ms;
         begin_frames(c, *it);
     } else if (topic != "axes/*" && topic != "drives/*" && topic != "lines/*" && !sources_.find(topic)) {
-        return tell_error(c,
+        return send_error(c,
                           "there is no such topic: use axes/*, axes/NAME, drives/*, drives/NAME, lines/*, lines/NAME, lines/NAME/frames, "
                           "events, alarms, recipes, site",
                           topic);
@@ -179,7 +185,7 @@ void StreamHub::subscribe(StreamClient& c, const std::string& topic, std::int64_
 }
 
 void StreamHub::unsubscribe(StreamClient& c, const std::string& topic) {
-    if (c.topics_.erase(topic) == 0) return tell_error(c, "this topic is not subscribed", topic);
+    if (c.topics_.erase(topic) == 0) return send_error(c, "this topic is not subscribed", topic);
     if (topic == "events") c.events_ = false;
     if (topic == "site") c.site_ = false;
     if (topic == "recipes") c.recipes_ = false;
@@ -261,19 +267,19 @@ void StreamHub::on_deadline(Instant now) {
     for (int n = 0; n < clients_per_slice && !due_.empty(); ++n) {
         const Due d = std::move(due_.front());
         due_.pop_front();
-        if (const auto c = d.client.lock(); c && !c->closing_) tell(*c, d.period_ms, d.at);
+        if (const auto c = d.client.lock(); c && !c->closing_) send(*c, d.period_ms, d.at);
     }
 }
 
-void StreamHub::tell(StreamClient& c, std::int64_t period_ms, Instant at) {
-    if (const auto list = c.watches_.find(period_ms); list != c.watches_.end()) tell_states(c, list->second, at);
+void StreamHub::send(StreamClient& c, std::int64_t period_ms, Instant at) {
+    if (const auto list = c.watches_.find(period_ms); list != c.watches_.end()) send_states(c, list->second, at);
     for (auto& f : c.frames_) {
-        if (f.period_ms == period_ms) tell_frames(c, f, at);
+        if (f.period_ms == period_ms) send_frames(c, f, at);
     }
     wake(c);
 }
 
-void StreamHub::tell_states(StreamClient& c, std::vector<StreamClient::Watch>& list, Instant at) {
+void StreamHub::send_states(StreamClient& c, std::vector<StreamClient::Watch>& list, Instant at) {
     const bool together = c.takes_at_once && c.queue.empty() && list.size() <= most_joined;
     changed_.clear();
     for (auto& w : list) {
@@ -332,7 +338,7 @@ FrameDecoder& StreamHub::decoder_for(const std::string& line, std::uint64_t sinc
     return *kept.decoder;
 }
 
-void StreamHub::tell_frames(StreamClient& c, StreamClient::FrameWatch& watch, Instant now) {
+void StreamHub::send_frames(StreamClient& c, StreamClient::FrameWatch& watch, Instant now) {
     // The list before is still waiting: this client is slow. Its place in the recording is kept; what is overwritten meanwhile is counted.
     if (c.queue.state_waits(watch.number)) return;
     const LineId id = line_id(watch.line);
@@ -356,11 +362,11 @@ void StreamHub::tell_frames(StreamClient& c, StreamClient::FrameWatch& watch, In
     if (last.frames > 0 || last.missed > 0) put_state(c, watch.number, last.message);
 }
 
-void StreamHub::tell_site(StreamClient& c) {
+void StreamHub::send_site(StreamClient& c) {
     put_event(c, stream_message("site", clock_.now_unix_ns(), json::object{{"revision", sources_.site().revision}}));
 }
 
-void StreamHub::tell_error(StreamClient& c, std::string_view text, std::string_view topic) {
+void StreamHub::send_error(StreamClient& c, std::string_view text, std::string_view topic) {
     ++counters_.stream_requests_wrong;
     json::object data{{"text", text}};
     if (!topic.empty()) data["topic"] = topic.substr(0, 256);
@@ -451,7 +457,7 @@ void StreamHub::take_site(Instant now) {
             }
         }
         resolve(*c, now, nullptr);
-        if (c->site_) tell_site(*c);
+        if (c->site_) send_site(*c);
         wake(*c);
     }
     keep_groups(now);

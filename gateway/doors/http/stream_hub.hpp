@@ -16,11 +16,11 @@
 #include <vector>
 
 #include "gateway/doors/http/counters.hpp"
-#include "gateway/doors/http/frame_decoder.hpp"
 #include "gateway/doors/http/settings.hpp"
 #include "gateway/doors/http/stream_queue.hpp"
 #include "gateway/doors/http/stream_request.hpp"
 #include "gateway/doors/http/stream_sources.hpp"
+#include "gateway/services/frame_decoder.hpp"
 #include "gateway/services/ports/events.hpp"
 #include "gateway/services/services.hpp"
 
@@ -60,6 +60,7 @@ private:
     std::map<std::string, std::int64_t, std::less<>> topics_;  ///< as subscribed, with the period in ms
     std::map<std::int64_t, std::vector<Watch>> watches_;       ///< by period
     std::vector<FrameWatch> frames_;
+    std::optional<AuthorityClient> gives_set_points_;  ///< who has, over this feed
     bool events_ = false;
     bool site_ = false;
     bool recipes_ = false;
@@ -114,7 +115,7 @@ private:
     static constexpr std::size_t most_frames = 4096;  ///< in one message
     static constexpr int wrong_requests = 3;          ///< in a row, then the client is closed
     /// Told in one call: sending to a hundred clients takes milliseconds, in which nobody else would be answered.
-    static constexpr int clients_per_slice = 4;
+    static constexpr int clients_per_slice = 2;
     static constexpr std::size_t most_joined = 128;  ///< states in one write, some 64 KiB
     /// Every subscription tells the whole state anew: a client may ask for so much at once, and for so much more a second. A request costs
     /// 1, with 1 more for each 50 topics, a set-point alone 1/50 (1000 a second), and 4 for each line's frames. Beyond, the client is
@@ -129,14 +130,14 @@ private:
     void resolve(StreamClient& c, Instant now, const std::vector<std::string>* snapshots_of);
     void begin_frames(StreamClient& c, StreamClient::FrameWatch& watch);
     [[nodiscard]] FrameDecoder& decoder_for(const std::string& line, std::uint64_t since, std::uint64_t next);
-    void tell_frames(StreamClient& c, StreamClient::FrameWatch& watch, Instant now);
-    void tell_site(StreamClient& c);
-    void tell_error(StreamClient& c, std::string_view text, std::string_view topic = {});
+    void send_frames(StreamClient& c, StreamClient::FrameWatch& watch, Instant now);
+    void send_site(StreamClient& c);
+    void send_error(StreamClient& c, std::string_view text, std::string_view topic = {});
     void put_event(StreamClient& c, SharedFrame frame);
     void put_state(StreamClient& c, std::uint32_t number, SharedFrame frame);
     void wake(StreamClient& c);
-    void tell(StreamClient& c, std::int64_t period_ms, Instant at);
-    void tell_states(StreamClient& c, std::vector<StreamClient::Watch>& list, Instant at);
+    void send(StreamClient& c, std::int64_t period_ms, Instant at);
+    void send_states(StreamClient& c, std::vector<StreamClient::Watch>& list, Instant at);
     [[nodiscard]] SharedFrame joined();
     void take_site(Instant now);
     void keep_groups(Instant now);

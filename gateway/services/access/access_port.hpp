@@ -25,7 +25,7 @@ public:
     /// Stores all of them, in order; `fault` empty: they are on the disk.
     virtual void keep(std::vector<AccessRecord> records, std::string who, std::function<void(std::string fault)> then) = 0;
     /// An event of kind "access".
-    virtual void tell(Event event) = 0;
+    virtual void note(Event event) = 0;
     /// All that is stored of users and tokens goes through here, one after the other: what was put in the store later is later in force.
     std::shared_ptr<ChangeQueue> changes = std::make_shared<ChangeQueue>();
     bool uses_wait = false;  ///< in that queue: one job for all that came since the last

@@ -154,7 +154,7 @@ void AlarmService::detach() {
     }
     attached_ = false;
     rearm = nullptr;
-    tell = nullptr;
+    publish = nullptr;
     waiting_.clear();
 }
 
@@ -244,7 +244,7 @@ void AlarmService::on_site(const std::shared_ptr<const SiteState>& site) {
 
 void AlarmService::changed() {
     unsaved_.merge(list_.take_changed());
-    untold_ = true;
+    unpublished_ = true;
     keep();
     if (rearm) rearm();
 }
@@ -294,7 +294,7 @@ void AlarmService::keep() {
 }
 
 Instant AlarmService::deadline() const {
-    Instant next = untold_ ? std::max(told_ + tell_period, time_zero) : never;
+    Instant next = unpublished_ ? std::max(published_ + publish_period, time_zero) : never;
     if (const auto due = list_.deadline()) {
         // At most a minute: the wall clock may be set meanwhile.
         const auto rest = std::clamp<std::int64_t>(*due - wall_.now_unix_ns(), 0, 60'000'000'000);
@@ -305,10 +305,10 @@ Instant AlarmService::deadline() const {
 
 void AlarmService::on_deadline(Instant now) {
     if (list_.on_time(wall_.now_unix_ns())) changed();
-    if (!untold_ || now < told_ + tell_period) return;
-    untold_ = false;
-    told_ = now;
-    if (tell) tell(document());
+    if (!unpublished_ || now < published_ + publish_period) return;
+    unpublished_ = false;
+    published_ = now;
+    if (publish) publish(document());
 }
 
 }  // namespace axisgate

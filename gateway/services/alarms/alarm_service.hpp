@@ -23,7 +23,7 @@ namespace axisgate {
 
 class AlarmService final : public EventListener, public SiteListener, public std::enable_shared_from_this<AlarmService> {
 public:
-    static constexpr Duration tell_period = std::chrono::milliseconds(200);  ///< of the list, at most
+    static constexpr Duration publish_period = std::chrono::milliseconds(200);  ///< of the list, at most
     static constexpr std::size_t most_waiting = 64;
 
     using Needs = PortSet<ClockPort, DocumentPort, EventPort, SitePort>;
@@ -39,7 +39,7 @@ public:
     /// Called when deadline() may have changed by another cause than on_deadline.
     std::function<void()> rearm;
     /// The list, when it has changed.
-    std::function<void(const boost::json::object& list)> tell;
+    std::function<void(const boost::json::object& list)> publish;
 
     [[nodiscard]] const AlarmList& list() const noexcept { return list_; }
     /// {"unacknowledged", "dropped", "alarms"}: active ones first, then newest first. The counts are of all, whatever is asked for.
@@ -78,8 +78,8 @@ private:
     std::set<std::uint64_t> unsaved_;
     std::vector<Then> waiting_;
     std::uint64_t seen_ = 0;  ///< newest event that the list knows of
-    bool untold_ = false;
-    Instant told_{};
+    bool unpublished_ = false;
+    Instant published_{};
 };
 
 [[nodiscard]] boost::json::object alarm_document(const Alarm& alarm);

@@ -28,8 +28,8 @@ struct AxisJob : std::enable_shared_from_this<AxisJob> {
         progress->text = end.broken_off;
         if (end.broken_off.empty() && !end.failed.empty())
             progress->text = fmt::format("{} of {} were refused", end.failed.size(), points.size());
-        auto tell = std::move(then);
-        tell(std::move(end));
+        auto done = std::move(then);
+        done(std::move(end));
     }
     void take(const JobPoint& p, const Result& r) {
         if (good(r)) {

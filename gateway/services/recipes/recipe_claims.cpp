@@ -47,7 +47,7 @@ Motion RecipeClaims::answered(const RecipeStep& step, const CommandBody& body, c
     c.waiting = false;
     if (r.outcome == Outcome::refused) {  // nothing has reached the drive, or it said no: whose motion it is has not changed
         std::erase(c.own, r.ticket);
-        return Motion::told;
+        return Motion::by_result;
     }
     sent(step.axis, r.ticket);
     const auto take = [&](bool sure) {
@@ -63,19 +63,19 @@ Motion RecipeClaims::answered(const RecipeStep& step, const CommandBody& body, c
         // What an action does is the family's; an axis that moved already by another command goes on as before, for all that is known.
         if (c.moved_before && !has(c.own, c.waiting_before)) return Motion::nothing;
         take(false);
-        return Motion::told;
+        return Motion::by_result;
     }
     if (const auto* data = std::get_if<ProcessData>(&body)) {
         const bool begun = now.motion_ticket == r.ticket;
         const bool may_wait = data->controlword && (*data->controlword & cia402::cw_new_setpoint) != 0;
         if (!begun && !may_wait) return Motion::nothing;
         if (begun || !c.sure) take(begun);
-        return Motion::told;
+        return Motion::by_result;
     }
     const auto* move = std::get_if<Move>(&body);
     if (!move && !std::holds_alternative<Home>(body)) return Motion::nothing;  // a register that is a parameter
     take(!move || !move->prepare_only);
-    return Motion::told;
+    return Motion::by_result;
 }
 
 RecipeWorld::Claim RecipeClaims::claim(const std::string& axis, const AxisPicture& now, const Origin& run, const ClockPort& clock) const {

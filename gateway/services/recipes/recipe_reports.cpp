@@ -121,14 +121,14 @@ void RecipeReports::end(const std::string& name, std::uint64_t n, const std::str
     Document d{name_of(n), text_of(report), who, clock_.now_unix_ns()};
     unsaved_[{name, n}] = std::move(report);
     documents_.save_document(kind_of(name), std::move(d), [self = weak_from_this(), name, n](const std::string& fault) {
-        if (const auto me = self.lock()) me->told(name, n, fault);
+        if (const auto me = self.lock()) me->saved(name, n, fault);
     });
     // Behind it, in the same order on the disk: whatever ends the program between the two leaves both, and the next start knows which
     // counts.
     documents_.delete_document(under_way, name, [](const std::string&) {});
 }
 
-void RecipeReports::told(const std::string& name, std::uint64_t n, const std::string& fault) {
+void RecipeReports::saved(const std::string& name, std::uint64_t n, const std::string& fault) {
     unsaved_.erase({name, n});  // what cannot be stored is not kept in memory either: the event has said how it ended
     if (fault.empty()) return;
     Event e;

@@ -47,7 +47,7 @@ public:
 private:
     [[nodiscard]] bool too_old(const std::string& name, std::uint64_t n) const;
     void remove(const std::string& name, std::uint64_t n);
-    void told(const std::string& name, std::uint64_t n, const std::string& fault);
+    void saved(const std::string& name, std::uint64_t n, const std::string& fault);
 
     ClockPort& clock_;
     DocumentPort& documents_;

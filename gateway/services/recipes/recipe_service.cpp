@@ -127,7 +127,7 @@ Instant RecipeService::deadline() const {
     Instant next = never;
     for (const auto& a : active_) {
         next = std::min(next, a->run->deadline());
-        if (a->run->revision() != a->told_revision) next = std::min(next, a->told + tell_period);
+        if (a->run->revision() != a->published_revision) next = std::min(next, a->published + publish_period);
         if (a->run->revision() != a->kept_revision) next = std::min(next, a->kept + keep_period);
     }
     return next;
@@ -139,10 +139,10 @@ void RecipeService::on_deadline(Instant now) {
     for (const auto& a : list) {
         if (a->run->deadline() <= now) pump(a, now);
         const bool over = a->run->ended();
-        if (a->run->revision() != a->told_revision && (over || a->told_revision == 0 || now - a->told >= tell_period)) {
-            a->told = now;
-            a->told_revision = a->run->revision();
-            if (tell) tell(a->name, document(*a));
+        if (a->run->revision() != a->published_revision && (over || a->published_revision == 0 || now - a->published >= publish_period)) {
+            a->published = now;
+            a->published_revision = a->run->revision();
+            if (publish) publish(a->name, document(*a));
         }
         if (over) {
             ended(a);

@@ -37,7 +37,7 @@ public:
     static constexpr std::size_t most_runs = 4;
     static constexpr std::size_t kept_reports = RecipeReports::kept;
     static constexpr std::size_t most_recipes = 200;
-    static constexpr Duration tell_period = std::chrono::milliseconds(100);  ///< of the progress of one run
+    static constexpr Duration publish_period = std::chrono::milliseconds(100);  ///< of the progress of one run
 
     static constexpr Duration keep_period = std::chrono::seconds(1);  ///< between two writes of a run that goes on
 
@@ -58,8 +58,8 @@ public:
 
     /// Called when deadline() may have changed by another cause than on_deadline.
     std::function<void()> rearm;
-    /// The report of a run whenever it has changed, at most every tell_period, and at its end.
-    std::function<void(const std::string& recipe, const boost::json::object& report)> tell;
+    /// The report of a run whenever it has changed, at most every publish_period, and at its end.
+    std::function<void(const std::string& recipe, const boost::json::object& report)> publish;
 
     /// A checked recipe begins; its report as it is then, or why it cannot begin.
     [[nodiscard]] std::variant<boost::json::object, RunRefusal> start(const std::string& name, Recipe recipe, boost::json::object arguments,
@@ -87,8 +87,8 @@ private:
         boost::json::object arguments;
         Origin origin;    ///< of its commands
         std::string who;  ///< who has started it
-        Instant told{}, kept{};
-        std::uint64_t told_revision = 0, kept_revision = 0;
+        Instant published{}, kept{};
+        std::uint64_t published_revision = 0, kept_revision = 0;
         RecipeClaims claims;
     };
     struct World;

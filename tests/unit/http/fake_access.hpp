@@ -39,7 +39,7 @@ public:
         writing.pop_front();
         write();
     }
-    void tell(Event event) override { told.push_back(std::move(event)); }
+    void note(Event event) override { told.push_back(std::move(event)); }
 
     AccessRegister own_accounts;
     bool full = false;

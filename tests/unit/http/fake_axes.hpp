@@ -70,7 +70,8 @@ public:
         }
         return command.ticket;
     }
-    void client_lost(const AuthorityClient&, LossCause) override {}
+    std::vector<std::pair<AuthorityClient, LossCause>> lost;
+    void client_lost(const AuthorityClient& who, LossCause cause) override { lost.emplace_back(who, cause); }
 
 private:
     FakeSite& sites_;

@@ -40,7 +40,8 @@ TEST_F(ServicesAlone, RunRecipesOfWhoeverComes) {
     std::vector<SiteFault> faults;
     auto recipe = read_recipe(json::parse(R"({"steps":[{"enable":{"axis":"feeder"}}]})").get_object(), nullptr, faults);
     ASSERT_TRUE(recipe);
-    const auto begun = services->recipes->start("go", std::move(*recipe), {}, {Door::dds, std::make_shared<const std::string>("a panel"), {}});
+    const auto begun =
+        services->recipes->start("go", std::move(*recipe), {}, {Door::dds, std::make_shared<const std::string>("a panel"), {}});
     ASSERT_TRUE(std::holds_alternative<json::object>(begun));
     EXPECT_LE(services->deadline(), now) << "the services have one deadline, and it is the recipe's";
     services->on_deadline(now);

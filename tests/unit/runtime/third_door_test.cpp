@@ -89,7 +89,7 @@ struct House {
         ASSERT_TRUE(site) << (wrong.empty() ? "" : wrong[0].text);
         const auto state = hot.engine().apply_site(std::move(*site), {}, 1, monotonic_now());
         ports.site.set_site(state);
-        hot.tell_site(*state);
+        hot.publish_site(*state);
         cold.start();
         hot.start();
     }

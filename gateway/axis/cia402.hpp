@@ -57,7 +57,8 @@ public:
     /// What is to be done about a request. `orders` go to the adapter in this order; with none and no refusal it is done already.
     struct Decision {
         std::vector<CommandBody> orders;
-        std::optional<Move> waits;  ///< a set-point that was buffered behind the running one: on_feedback gives it back when its turn has come
+        /// A set-point that was buffered behind the running one: on_feedback gives it back when its turn has come.
+        std::optional<Move> waits;
         bool refused = false;
         Reason reason = Reason::none;
         std::string text;

@@ -34,8 +34,10 @@ struct AxisPicture {
     // CiA 402
     std::uint16_t statusword = 0;     ///< with 8 simulated, 14 stale, 15 referenced
     std::int16_t mode_display = 0;    ///< modes of operation display
-    std::uint16_t flags = 0;          ///< register 9: 0 online, 1 simulated, 2 stale, 3 referenced, 4 moving, 5 target reached, 6 fault, 7 warning, 8 fail-safe
-    std::uint16_t fail_safe_cause = 0;  ///< register 22: the LossCause for which the axis was stopped without a command, until the next command
+    /// Register 9: 0 online, 1 simulated, 2 stale, 3 referenced, 4 moving, 5 target reached, 6 fault, 7 warning, 8 fail-safe.
+    std::uint16_t flags = 0;
+    /// Register 22: the LossCause for which the axis was stopped without a command, until the next command.
+    std::uint16_t fail_safe_cause = 0;
     // set-points as last accepted (registers 32..47 read back)
     std::uint16_t controlword = 0;
     std::int16_t mode = 0;            ///< modes of operation
@@ -56,7 +58,8 @@ struct AxisPicture {
     DemandSource demand_source = DemandSource::none;  ///< whose word position_demand is
     bool current = false;                  ///< it has, since who serves the axis has answered again
     Instant at{};                          ///< when the drive said it
-    std::uint32_t source = 0;              ///< another number when another drive, channel or twin speaks for the axis: what was said before is not its word
+    /// Another number when another drive, channel or twin speaks for the axis: what was said before is not its word.
+    std::uint32_t source = 0;
     /// The command whose motion the drive took last; no_ticket: none yet, or a stop after it.
     Ticket motion_ticket = no_ticket;
 

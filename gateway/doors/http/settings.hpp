@@ -27,12 +27,14 @@ struct Settings {
     bool low_word_first = false;    ///< of the standard map, as `[modbus] word_order` has it: for what shows and describes its registers
     bool require_if_match = false;  ///< true: PUT /site without If-Match is refused with 428
 
-    std::size_t max_connections = 512;  ///< an eighth more for who has signed in; beyond: who gives way is told in gateway/core/places.hpp; if nobody may, 503
+    /// An eighth more for who has signed in; beyond: who gives way is told in gateway/core/places.hpp; if nobody may, 503.
+    std::size_t max_connections = 512;
     std::size_t max_header_bytes = 8 * 1024;          ///< request line and headers with the empty line behind them; beyond: 431
     std::size_t max_stranger_bytes = 8 * 1024;        ///< body of a request without credentials, such as a sign-in; beyond: 413
     std::size_t max_body_bytes = 1024 * 1024;         ///< beyond: 413
     std::size_t max_backup_bytes = 64 * 1024 * 1024;  ///< PUT /backup alone
-    std::size_t max_held_bytes = 128 * 1024 * 1024;   ///< of all answers and bodies above 64 KiB together that are in the gateway's memory; beyond: 503
+    /// Of all answers and bodies above 64 KiB together that are in the gateway's memory; beyond: 503.
+    std::size_t max_held_bytes = 128 * 1024 * 1024;
     std::chrono::milliseconds header_limit{10'000};   ///< from the first byte (or the connection) to the end of the headers; then 408
     std::chrono::milliseconds body_limit{30'000};     ///< for the whole body; then 408
     std::chrono::milliseconds idle_limit{60'000};     ///< between two requests of a connection; then it is closed

@@ -115,7 +115,7 @@ private:
     static constexpr std::size_t most_frames = 4096;  ///< in one message
     static constexpr int wrong_requests = 3;          ///< in a row, then the client is closed
     /// Told in one call: sending to a hundred clients takes milliseconds, in which nobody else would be answered.
-    static constexpr int clients_per_slice = 2;
+    static constexpr int clients_per_slice = 4;
     static constexpr std::size_t most_joined = 128;  ///< states in one write, some 64 KiB
     /// Every subscription tells the whole state anew: a client may ask for so much at once, and for so much more a second. A request costs
     /// 1, with 1 more for each 50 topics, a set-point alone 1/50 (1000 a second), and 4 for each line's frames. Beyond, the client is

@@ -390,15 +390,19 @@ TEST_F(Recipes, AnAxisThatIsGoneEndsTheRun) {
 
 TEST_F(Recipes, ALineIsScanned) {
     EXPECT_EQ(call("GET", "/api/v1/lines/can0/scan").at("state"), "none");
-    const auto a = call("POST", "/api/v1/lines/can0/scan", R"({"from":5,"to":"9","limit_s":3})");
+    const auto a = call("POST", "/api/v1/lines/can0/scan", R"({"from":5,"to":"9","family":"demo","limit_s":3})");
     EXPECT_EQ(a.status, 202u);
     EXPECT_EQ(a.headers.get("Location"), "/api/v1/lines/can0/scan");
     ASSERT_EQ(gateway.scan_wishes.size(), 1u);
     EXPECT_EQ(gateway.scan_wishes[0].from, "5");
     EXPECT_EQ(gateway.scan_wishes[0].to, "9");
+    EXPECT_EQ(gateway.scan_wishes[0].family, "demo");
     EXPECT_EQ(gateway.scan_wishes[0].limit, std::chrono::seconds(3));
+    gateway.scans[gateway.line("can0")].parts = {{"demo", 3, 9, ""}, {"other", 0, 0, "it cannot be searched for"}};
+    EXPECT_EQ(call("GET", "/api/v1/lines/can0/scan").at("families"),
+              R"([{"family":"demo","asked":3,"of":9,"text":""},{"family":"other","asked":0,"of":0,"text":"it cannot be searched for"}])");
     EXPECT_EQ(call("DELETE", "/api/v1/lines/can0/scan").at("state"), "cancelled");
-    for (const auto* bad : {R"({"limit_s":0})", R"({"limit_s":601})", R"({"from":true})", R"({"x":1})"})
+    for (const auto* bad : {R"({"limit_s":0})", R"({"limit_s":601})", R"({"from":true})", R"({"family":1})", R"({"x":1})"})
         EXPECT_EQ(call("POST", "/api/v1/lines/can0/scan", bad).status, 422u) << bad;
     gateway.scan_fault = "line can0 is down";
     EXPECT_EQ(call("POST", "/api/v1/lines/can0/scan", "{}").status, 409u);

@@ -81,7 +81,8 @@ TEST_F(AccessTest, EachRoleAgainstEachRoute) {
             ++checked;
             if (may) {
                 // What a handler refines by its body or by whose it is stands in its own tests.
-                const bool refines = route.handler == take<change_password> || route.handler == take<add_token> || route.handler == take<command_axis>;
+                const bool refines =
+                    route.handler == take<change_password> || route.handler == take<add_token> || route.handler == take<command_axis>;
                 if (!refines) EXPECT_TRUE(a.status != 401 && a.status != 403) << what;
                 EXPECT_NE(a.at("reason"), "sign_in") << what;
                 EXPECT_NE(a.at("reason"), "csrf") << what;
@@ -176,7 +177,8 @@ TEST_F(AccessTest, OpenRoutesAreTheseAlone) {
     for (const auto& r : all_routes()) {
         if (r.needed() == Role::none) open.insert(std::string(name_of(r.method)) + " " + std::string(r.path));
         if (r.method != Method::get && r.needed() == Role::viewer) {
-            EXPECT_TRUE(r.handler == take<command_axis> || r.handler == take<change_password> || r.handler == take<add_token> || r.handler == take<remove_token>)
+            EXPECT_TRUE(r.handler == take<command_axis> || r.handler == take<change_password> || r.handler == take<add_token> ||
+                        r.handler == take<remove_token>)
                 << r.path;
         }
     }

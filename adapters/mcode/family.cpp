@@ -5,7 +5,7 @@
 
 #include "adapters/mcode/adapter.hpp"
 #include "adapters/mcode/decoder.hpp"
-#include "adapters/mcode/twin.hpp"
+#include "adapters/mcode/twin/twin.hpp"
 #include "adapters/mcode/parameters_variables.hpp"
 
 namespace axisgate {

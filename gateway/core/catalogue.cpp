@@ -157,6 +157,8 @@ std::optional<Catalogue> Catalogue::parse(std::string_view text, std::vector<std
                 const auto& o = v.get_object();
                 CatalogueCommand command{text_or_empty(o, "id"), text_or_empty(o, "name"), text_or_empty(o, "description"), Completion::acknowledged, {}};
                 Reader{faults}.arguments(o, "commands: " + command.id, command.arguments);
+                if (const auto* ask = o.if_contains("confirm"); ask && !(ask->is_string() && ask->get_string().ends_with('.')))
+                    faults.push_back(fmt::format("commands: {}: confirm: sentences that say what is lost, or leave it out", command.id));
                 if (const std::string word = text_or_empty(o, "completes"); !word.empty()) {
                     const auto found = std::ranges::find(completion_names, word);
                     if (found == completion_names.end()) faults.push_back(fmt::format("commands: {}: completes: {} is not known", command.id, word));

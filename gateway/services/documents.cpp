@@ -305,7 +305,14 @@ json::object parameter_document(const Catalogue& catalogue, Point point, std::st
     return o;
 }
 
-json::object command_document(const CatalogueCommand& c) {
+json::object command_document(const Catalogue& catalogue, const CatalogueCommand& c) {
+    json::value confirm;
+    for (const auto& v : catalogue.document().at("commands").as_array()) {
+        const auto* o = v.if_object();
+        const auto* id = o ? o->if_contains("id") : nullptr;
+        const auto* ask = id && *id == json::value(c.id) ? o->if_contains("confirm") : nullptr;
+        if (ask) confirm = *ask;
+    }
     const auto or_null = [](const std::optional<double>& d) { return d ? json::value(*d) : json::value(nullptr); };
     json::array arguments;
     for (const auto& a : c.arguments) {
@@ -322,6 +329,7 @@ json::object command_document(const CatalogueCommand& c) {
             {"name", c.name},
             {"description", text_or_null(c.description)},
             {"completes", name_of(c.completes)},
+            {"confirm", std::move(confirm)},
             {"arguments", std::move(arguments)}};
 }
 

@@ -59,8 +59,8 @@ TEST_F(HttpTest, Catalogue) {
     EXPECT_EQ(json_text(p[3].at("allowed")), R"([{"value":1,"meaning":"full"},{"value":16,"meaning":"sixteenth"}])");
     EXPECT_EQ(json_text(p[4].at("first")) + json_text(p[4].at("count")), "18");
     EXPECT_EQ(json_text(p[4].at("selector")), std::to_string(65536 + 4)) << "of its first element";
-    EXPECT_EQ(call("GET", "/api/v1/families/demo/commands").text, R"([{"id":"BG","name":"begin","description":"Starts.","completes":"acknowledged","arguments":[]},)"
-              R"({"id":"GO","name":"go","description":null,"completes":"acknowledged","arguments":[)"
+    EXPECT_EQ(call("GET", "/api/v1/families/demo/commands").text, R"([{"id":"BG","name":"begin","description":"Starts.","completes":"acknowledged","confirm":"The axis moves.","arguments":[]},)"
+              R"({"id":"GO","name":"go","description":null,"completes":"acknowledged","confirm":null,"arguments":[)"
               R"({"name":"position","type":"i32","unit":"mm","scale":0.0001,"min":null,"max":null,"default":null,"description":null},)"
               R"({"name":"speed","type":"u16","unit":null,"scale":1,"min":null,"max":null,"default":5,"description":null}]}])");
     EXPECT_EQ(call("GET", "/api/v1/families/demo/errors").text,

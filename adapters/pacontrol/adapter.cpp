@@ -1,6 +1,6 @@
 // Adapter of the PA-CONTROL: the line and its manners.
-// In: setup, bytes. Out: calls of the one Control, and its frames. Manners that the site does not give are chosen here.
-// Never decides about the control: that is Control's.
+// In: setup, bytes. Out: calls of the one Drive, and its frames. Manners that the site does not give are chosen here.
+// Never decides about the control: that is Drive's.
 #include "adapters/pacontrol/adapter.hpp"
 
 #include <fmt/core.h>
@@ -60,21 +60,21 @@ void LineAdapter::configure(const LineSetup& setup, Instant now, Out& out) {
              wrong.empty() ? fmt::format("the line belongs to drive {} already: a PA-CONTROL has a serial port of its own", mine->name)
                            : wrong});
     }
-    if (control_) {
-        const DriveSetup& was = control_->setup();
+    if (drive_) {
+        const DriveSetup& was = drive_->setup();
         if (mine && mine->id == was.id && mine->name == was.name && mine->options == was.options) {
-            control_->set_axes(*mine, t);
-            control_->pump(t);
+            drive_->set_axes(*mine, t);
+            drive_->pump(t);
             return;
         }
-        if (up_) control_->line_down(t, fmt::format("drive {} was removed or changed", was.name));
+        if (up_) drive_->line_down(t, fmt::format("drive {} was removed or changed", was.name));
         std::erase_if(out.links, [&](const DriveLink& l) { return l.drive == was.id && !mine; });
-        control_.reset();
+        drive_.reset();
     }
     if (!mine) return;
-    control_ = std::make_unique<Control>(catalogue_, elements_, counters_, manners_, *mine);
-    if (up_) control_->line_up(t);
-    control_->pump(t);
+    drive_ = std::make_unique<Drive>(catalogue_, elements_, counters_, manners_, *mine);
+    if (up_) drive_->line_up(t);
+    drive_->pump(t);
 }
 
 void LineAdapter::on_line(bool up, Instant now, Out& out) {
@@ -82,23 +82,23 @@ void LineAdapter::on_line(bool up, Instant now, Out& out) {
     last_ = now;
     if (up == up_) return;
     up_ = up;
-    if (!control_) return;
-    up ? control_->line_up(t) : control_->line_down(t, "the line is down");
-    control_->pump(t);
+    if (!drive_) return;
+    up ? drive_->line_up(t) : drive_->line_down(t, "the line is down");
+    drive_->pump(t);
 }
 
 void LineAdapter::on_command(const Command& command, Instant now, Out& out) {
     Turn t{now, out};
     last_ = now;
-    if (!control_) {
+    if (!drive_) {
         if (command.ticket != no_ticket) {
             out.results.push_back(
                 {command.ticket, command.axis, Outcome::refused, Reason::line_down, 0, "this axis is not on the line", {}, {}});
         }
         return;
     }
-    control_->submit(command, t);
-    control_->pump(t);
+    drive_->submit(command, t);
+    drive_->pump(t);
 }
 
 void LineAdapter::on_frame(const Frame& frame, Instant now, Out& out) {
@@ -109,19 +109,19 @@ void LineAdapter::on_frame(const Frame& frame, Instant now, Out& out) {
         ++counters_.garbled;
         return;
     }
-    if (!control_) return;
-    control_->on_bytes(frame.data(), t);
-    control_->pump(t);
+    if (!drive_) return;
+    drive_->on_bytes(frame.data(), t);
+    drive_->pump(t);
 }
 
 void LineAdapter::on_deadline(Instant now, Out& out) {
     Turn t{now, out};
     last_ = now;
-    if (!control_) return;
-    control_->on_deadline(t);
-    control_->pump(t);
+    if (!drive_) return;
+    drive_->on_deadline(t);
+    drive_->pump(t);
 }
 
-Instant LineAdapter::deadline() const { return control_ ? std::max(control_->deadline(last_), last_) : never; }
+Instant LineAdapter::deadline() const { return drive_ ? std::max(drive_->deadline(last_), last_) : never; }
 
 }  // namespace axisgate::pacontrol

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "adapters/pacontrol/control.hpp"
+#include "adapters/pacontrol/drive.hpp"
 #include "gateway/core/adapter.hpp"
 
 namespace axisgate::pacontrol {
@@ -34,7 +34,7 @@ private:
     const Elements elements_;
     AdapterCounters counters_;
     Manners manners_;
-    std::unique_ptr<Control> control_;
+    std::unique_ptr<Drive> drive_;
     bool up_ = false;
     Instant last_{};
 };

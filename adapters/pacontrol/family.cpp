@@ -5,7 +5,7 @@
 
 #include "adapters/pacontrol/adapter.hpp"
 #include "adapters/pacontrol/decoder.hpp"
-#include "adapters/pacontrol/twin.hpp"
+#include "adapters/pacontrol/twin/twin.hpp"
 
 namespace axisgate {
 

@@ -28,12 +28,12 @@ public:
     [[nodiscard]] AdapterCounters counters() const override { return counters_; }
 
 private:
-    void take_manners(const LineSetup& setup, Turn& t);
+    void read_form(const LineSetup& setup, Turn& t);
 
     const Catalogue& catalogue_;
     const Elements elements_;
     AdapterCounters counters_;
-    Manners manners_;
+    LineForm line_;
     std::unique_ptr<Drive> drive_;
     bool up_ = false;
     Instant last_{};

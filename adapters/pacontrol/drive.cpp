@@ -10,6 +10,8 @@
 #include <charconv>
 
 #include "adapters/pacontrol/wire_number.hpp"
+#include "gateway/drive/option_reader.hpp"
+#include "gateway/drive/tickets.hpp"
 
 namespace axisgate::pacontrol {
 namespace {
@@ -17,68 +19,51 @@ constexpr std::size_t channels = 16;
 constexpr std::uint8_t commands_per_poll = 4;
 constexpr Duration renew_period = std::chrono::milliseconds(400);  // the control wants it within 1 s [L3606]; a lost one may be repeated
 constexpr Duration processing_period = std::chrono::milliseconds(20);
-
-bool read_switch(const DriveSetup& d, const char* name, std::string_view yes, std::string_view no, bool otherwise, DriveOptions& o) {
-    const std::string v = option(d.options, name, "");
-    if (v == yes) return true;
-    if (v == no) return false;
-    if (!v.empty()) o.faults.push_back(fmt::format("option {} = {}: write {} or {}; {} is used", name, v, yes, no, otherwise ? yes : no));
-    return otherwise;
-}
-
-Duration read_duration(const DriveSetup& d, const char* name, Duration otherwise, DriveOptions& o) {
-    const std::string v = option(d.options, name, "");
-    if (v.empty()) return otherwise;
-    int ms = 0;
-    const auto [p, ec] = std::from_chars(v.data(), v.data() + v.size(), ms);
-    if (ec != std::errc{} || p != v.data() + v.size() || ms < 100 || ms > 3'600'000) {
-        o.faults.push_back(fmt::format("option {} = {}: write 100 to 3600000 ms; {} is used", name, v, milliseconds_of(otherwise)));
-        return otherwise;
-    }
-    return std::chrono::milliseconds(ms);
-}
 }  // namespace
 
 DriveOptions drive_options(const DriveSetup& d) {
     DriveOptions o;
-    o.online_auto = read_switch(d, "online", "auto", "manual", true, o);
-    o.give_back_auto = read_switch(d, "give_back", "auto", "never", true, o);
-    o.parameters_wait = read_switch(d, "when", "wait", "refuse", false, o);
-    o.set_by_g26 = read_switch(d, "set_position", "g26", "g29", false, o);
-    o.release = read_switch(d, "reference", "release", "keep", false, o);
-    o.wait_limit = read_duration(d, "when_timeout_ms", o.wait_limit, o);
-    o.processing_limit = read_duration(d, "processing_timeout_ms", o.processing_limit, o);
-    std::string_view order = d.options.contains("reference_order") ? std::string_view(d.options.at("reference_order")) : std::string_view();
+    drive::OptionReader read(d.options);
+    o.online_auto = read.flag("online", true, "auto", "manual");
+    o.give_back_auto = read.flag("give_back", true, "auto", "never");
+    o.parameters_wait = read.flag("when", false, "wait", "refuse");
+    o.set_by_g26 = read.flag("set_position", false, "g26", "g29");
+    o.release = read.flag("reference", false, "release", "keep");
+    o.wait_limit = read.milliseconds("when_timeout_ms", 100, 3'600'000, o.wait_limit);
+    o.processing_limit = read.milliseconds("processing_timeout_ms", 100, 3'600'000, o.processing_limit);
+    std::string_view order = read.text("reference_order");
     while (!order.empty()) {
         int n = 0;
         const auto [p, ec] = std::from_chars(order.data(), order.data() + order.size(), n);
         const auto used = static_cast<std::size_t>(p - order.data());
         if (ec != std::errc{} || n < 1 || n > 16 || (used < order.size() && order[used] != ',')) {
-            o.faults.push_back("option reference_order: write channels 1 to 16 with commas, as in 3,1,2; the channels' own order is used");
+            read.fault("option reference_order: write channels 1 to 16 with commas, as in 3,1,2; the channels' own order is used");
             o.reference_order.clear();
             break;
         }
         o.reference_order.push_back(n);
         order.remove_prefix(std::min(order.size(), used + 1));
     }
+    o.faults = read.take_faults();
     return o;
 }
 
-Drive::Drive(const Catalogue& catalogue, const Elements& elements, AdapterCounters& counters, const Manners& manners,
-             const DriveSetup& setup)
+Drive::Drive(const Catalogue& catalogue, const Elements& elements, AdapterCounters& counters, const LineForm& line, const DriveSetup& setup)
     : catalogue_(catalogue),
       elements_(elements),
       counters_(counters),
-      manners_(manners),
+      line_(line),
       setup_(setup),
       options_(drive_options(setup)),
-      axes_(channels) {
+      axes_(channels),
+      presence_(setup.id, line.timing),
+      notices_(setup.id) {
     for (std::size_t i = 0; i < channels; ++i)
         axes_[i].channel = static_cast<int>(i) + 1;
     for (const AxisSetup& a : setup.axes) {
         if (a.channel >= 1 && a.channel <= static_cast<int>(channels)) axes_[static_cast<std::size_t>(a.channel) - 1].id = a.id;
     }
-    if (manners_.check == CheckMode::zero) form_ = CheckForm::zero;
+    if (line_.check == CheckMode::zero) form_ = CheckForm::zero;
 }
 
 void Drive::set_axes(const DriveSetup& setup, Turn& t) {
@@ -94,7 +79,7 @@ void Drive::set_axes(const DriveSetup& setup, Turn& t) {
         a.channel = channel;
         a.id = id;
         first_cycle_ = true;
-        if (!moves || phase_ != Phase::ready || stops_.size() >= stop_limit) continue;
+        if (!moves || !presence_.is(Phase::ready) || stops_.size() >= stop_limit) continue;
         Stop s;  // nobody could stop it any more
         s.axis = place(a);
         stops_.push_back(s);
@@ -110,13 +95,11 @@ Axis* Drive::axis_of(AxisId id) noexcept {
 
 void Drive::submit(const Command& c, Turn& t) {
     Axis* a = axis_of(c.axis);
-    const auto answer = [&](Reason reason, std::string text) {
-        if (c.ticket != no_ticket) t.out.results.push_back({c.ticket, c.axis, Outcome::refused, reason, 0, std::move(text), {}, {}});
-    };
+    const auto answer = [&](Reason reason, std::string text) { drive::Tickets::refuse(c, reason, std::move(text), t.out); };
     if (!a) return answer(Reason::line_down, "this axis is not on the line, or its channel is not 1 to 16");
-    if (phase_ == Phase::down) return answer(Reason::line_down, "the line is down");
+    if (presence_.is(Phase::down)) return answer(Reason::line_down, "the line is down");
     if (is_urgent(c.body)) return submit_stop(*a, c, t);
-    if (phase_ == Phase::absent) return answer(Reason::no_answer, fmt::format("the PA-CONTROL {} does not answer", setup_.name));
+    if (presence_.is(Phase::absent)) return answer(Reason::no_answer, fmt::format("the PA-CONTROL {} does not answer", setup_.name));
     if (a->queue.size() >= Axis::queue_limit) {
         return answer(Reason::busy, fmt::format("{} commands of this axis wait already: wait for their answers", Axis::queue_limit));
     }
@@ -126,17 +109,17 @@ void Drive::submit(const Command& c, Turn& t) {
 // --- turns -----------------------------------------------------------------------------------------------------------------------
 
 void Drive::pump(Turn& t) {
-    if (phase_ == Phase::down) return;
-    if (phase_ == Phase::ready) {
+    if (presence_.is(Phase::down)) return;
+    if (presence_.is(Phase::ready)) {
         if (wake_) run_waiting(t);
         for (Axis& a : axes_)
             take_next(a, t);
     }
     if (exchange_.active() || t.now < quiet_until_) return;
     if (stop_ready()) return send_stop(t);
-    if (phase_ != Phase::ready) {
-        if (next_probe_ > t.now) return;
-        next_probe_ = never;
+    if (!presence_.is(Phase::ready)) {
+        if (!presence_.probe_due(t.now)) return;
+        presence_.probe_sent();
         return send(Purpose::probe, {code::get_state, 0, false, "0"}, 0, Priority::poll, t);
     }
     if (processing_.active) {
@@ -168,7 +151,7 @@ void Drive::pump(Turn& t) {
 }
 
 Instant Drive::deadline(Instant now) const noexcept {
-    if (phase_ == Phase::down) return never;
+    if (presence_.is(Phase::down)) return never;
     Instant d = supervise_at_;
     for (const Axis& a : axes_) {
         if (a.job.want == Job::Want::wait) d = std::min(d, a.job.limit);
@@ -176,7 +159,7 @@ Instant Drive::deadline(Instant now) const noexcept {
     if (processing_.active) d = std::min(d, processing_.limit);
     if (exchange_.active()) return std::min(d, exchange_.deadline);
     if (now < quiet_until_) return std::min(d, quiet_until_);
-    if (phase_ != Phase::ready) return std::min(d, next_probe_);
+    if (!presence_.is(Phase::ready)) return std::min(d, presence_.deadline());
     if (processing_.active) return std::min(d, processing_.next_poll);
     for (const Axis& a : axes_)
         d = std::min(d, a.renew_at);
@@ -184,7 +167,7 @@ Instant Drive::deadline(Instant now) const noexcept {
 }
 
 void Drive::on_deadline(Turn& t) {
-    if (phase_ == Phase::down) return;
+    if (presence_.is(Phase::down)) return;
     if (exchange_.active() && exchange_.deadline <= t.now) silent(t);
     if (supervise_at_ <= t.now) supervise(t);
     for (Axis& a : axes_) {
@@ -397,14 +380,14 @@ void Drive::job_silent(Axis& a, Turn& t) {
     j.in_flight = false;
     const CommandInfo* c = command_info(j.request.code);
     const bool repeatable = c && c->repeatable && j.kind != Job::Kind::native;
-    if (repeatable && j.tries <= manners_.retries) {
+    if (repeatable && j.tries <= line_.timing.retries) {
         ++counters_.retries;
         j.want = Job::Want::send;
         return;
     }
     if (j.kind == Job::Kind::enable || j.kind == Job::Kind::reset || j.kind == Job::Kind::mode) {
         // What became of a change of mode is told by the status: it decides anew.
-        if (++j.rounds <= manners_.retries) return wait(a, t.now + std::chrono::seconds(2));
+        if (++j.rounds <= line_.timing.retries) return wait(a, t.now + std::chrono::seconds(2));
     }
     const std::string what = j.poll ? "the poll" : describe(j.request);
     if (j.unknown) return job_over(a, Outcome::failed, Reason::no_answer, j.text + "; the position could not be read back", t);

@@ -13,18 +13,15 @@
 #include <vector>
 
 #include "adapters/pacontrol/drive_axis.hpp"
+#include "gateway/drive/notices.hpp"
+#include "gateway/drive/presence.hpp"
+#include "gateway/drive/timing.hpp"
 
 namespace axisgate::pacontrol {
 
-/// LineManners and the line's options, with this family's own defaults filled in.
-struct Manners {
-    Duration reply_timeout = std::chrono::milliseconds(200);  ///< besides the time that the bytes take
-    Duration poll_period = std::chrono::milliseconds(50);
-    Duration pause{};
-    int retries = 2;
-    int silent_limit = 3;
-    Duration pause_min = std::chrono::milliseconds(200);
-    Duration pause_max = std::chrono::seconds(5);
+/// What all of a line have in common.
+struct LineForm {
+    drive::Timing timing;  ///< its reply_timeout counts besides the time that the bytes take
     std::uint32_t bit_rate = 0;
     std::uint8_t bits_per_byte = 9;  ///< 7N1
     CheckMode check = CheckMode::learn;
@@ -49,7 +46,7 @@ class Drive {
 public:
     static constexpr std::size_t stop_limit = 32;  ///< urgent commands that wait; one more is refused as busy
 
-    Drive(const Catalogue& catalogue, const Elements& elements, AdapterCounters& counters, const Manners& manners, const DriveSetup& setup);
+    Drive(const Catalogue& catalogue, const Elements& elements, AdapterCounters& counters, const LineForm& line, const DriveSetup& setup);
     Drive(const Drive&) = delete;
     Drive& operator=(const Drive&) = delete;
 
@@ -67,7 +64,7 @@ public:
     [[nodiscard]] const DriveSetup& setup() const noexcept { return setup_; }
 
 private:
-    enum class Phase : std::uint8_t { down, probing, absent, ready };
+    using Phase = drive::Presence::Phase;
     enum class Purpose : std::uint8_t { none, probe, barrier, look, job, processing, stop, renew, give_back, poll };
     enum class PollKind : std::uint8_t { running, position, speed, status, extended, referenced, following, parameter };
     struct Poll {
@@ -128,8 +125,6 @@ private:
     // start.cpp
     void found(Turn& t);
     void count_silence(Turn& t);
-    void go_absent(Turn& t, std::string why);
-    void link(bool online, std::string text, Turn& t);
     void fail_all(Reason reason, const std::string& text, Turn& t);
     void fail_axis(Axis& a, Reason reason, const std::string& text, Turn& t);
     void forget();
@@ -271,18 +266,13 @@ private:
     const Catalogue& catalogue_;
     const Elements& elements_;
     AdapterCounters& counters_;
-    const Manners& manners_;
+    const LineForm& line_;
     DriveSetup setup_;
     DriveOptions options_;
     std::vector<Axis> axes_;  ///< by channel - 1; those that the site does not have carry no_axis
 
-    // presence
-    Phase phase_ = Phase::down;
-    bool ever_seen_ = false;
-    bool online_link_ = false;
-    std::uint32_t silent_ = 0;
-    Duration retry_pause_{};
-    Instant next_probe_ = never;
+    drive::Presence presence_;
+    drive::Notices notices_;
 
     // the exchange
     Framer framer_;

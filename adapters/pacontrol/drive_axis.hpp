@@ -12,14 +12,11 @@
 #include "adapters/pacontrol/parameters_elements.hpp"
 #include "gateway/axis/demand.hpp"
 #include "gateway/core/adapter.hpp"
+#include "gateway/drive/turn.hpp"
 
 namespace axisgate::pacontrol {
 
-/// One call of the adapter from outside.
-struct Turn {
-    Instant now;
-    Out& out;
-};
+using drive::Turn;
 
 /// A command on its way, taken apart into exchanges: at each step it either wants to send `request` or waits for something.
 struct Job {

@@ -19,10 +19,10 @@ bool could_not_read(std::uint16_t q) { return q == quit::check_wrong || q == qui
 bool asks_input(const Request& r) { return r.code == 0x1900 || r.code == 0x1901; }
 }  // namespace
 
-CheckForm Drive::request_form() const noexcept { return manners_.check == CheckMode::zero ? CheckForm::zero : form_; }
+CheckForm Drive::request_form() const noexcept { return line_.check == CheckMode::zero ? CheckForm::zero : form_; }
 
 Duration Drive::reply_limit(std::size_t bytes) const noexcept {
-    return manners_.reply_timeout + wire_time((bytes + reply_bytes) * manners_.bits_per_byte, manners_.bit_rate);
+    return line_.timing.reply_timeout + wire_time((bytes + reply_bytes) * line_.bits_per_byte, line_.bit_rate);
 }
 
 void Drive::begin_exchange(Purpose purpose, std::size_t axis, std::size_t bytes, Turn& t) {
@@ -77,7 +77,7 @@ void Drive::on_text(std::string_view text, std::string_view digits, Turn& t) {
     if (!form) {
         fault = fmt::format("check {} is wrong, {} would be right: {}", digits.empty() ? "(none)" : digits,
                             check_of(text, CheckForm::with_etx), text);
-    } else if (manners_.strict && *form == CheckForm::text) {
+    } else if (line_.strict && *form == CheckForm::text) {
         fault = fmt::format("check {} leaves the ETX out, {} would be right (strict = off takes both): {}", digits,
                             check_of(text, CheckForm::with_etx), text);
     } else if (*form == CheckForm::zero && reply_form_) {
@@ -91,7 +91,7 @@ void Drive::on_text(std::string_view text, std::string_view digits, Turn& t) {
         if (exchange_.active()) silent(t);
         return;
     }
-    if (*form != CheckForm::zero) reply_form_ = manners_.strict ? CheckForm::with_etx : *form;
+    if (*form != CheckForm::zero) reply_form_ = line_.strict ? CheckForm::with_etx : *form;
     raw_reply_ = framed(text, *form);
     answered(*reply, t);
 }
@@ -104,7 +104,7 @@ void Drive::answered(const Reply& reply, Turn& t) {
             next_protocol_notice_ = t.now + protocol_notice_period;
             notice(Severity::info, "protocol", reply.quit, fmt::format("an acknowledgement that nobody waits for: {}", describe(reply)), t);
         }
-        if (phase_ == Phase::ready) learn(reply, t);
+        if (presence_.is(Phase::ready)) learn(reply, t);
         return;
     }
     const bool barrier_late = reply.quit == quit::input_unknown && exchange_.purpose != Purpose::barrier &&
@@ -126,7 +126,7 @@ void Drive::answered(const Reply& reply, Turn& t) {
             return;
         }
     }
-    silent_ = 0;
+    presence_.answered();
     if (could_not_read(reply.quit) && !exchange_.eot) return answered_with_frame_error(reply, t);
     check_refusals_ = 0;
     form_proved_ = true;
@@ -137,9 +137,9 @@ void Drive::answered(const Reply& reply, Turn& t) {
         return;
     }
     const Exchange x = std::exchange(exchange_, Exchange{});
-    quiet_until_ = t.now + manners_.pause;
+    quiet_until_ = t.now + line_.timing.pause;
     ++counters_.exchanges;
-    if (phase_ != Phase::ready) found(t);
+    if (!presence_.is(Phase::ready)) found(t);
     exchange_.request = x.request;  // read by what follows; not active
     exchange_.eot = x.eot;
     learn(reply, t);
@@ -208,9 +208,9 @@ void Drive::answered(const Reply& reply, Turn& t) {
 void Drive::answered_with_frame_error(const Reply& reply, Turn& t) {
     const Exchange x = std::exchange(exchange_, Exchange{});
     ++counters_.retries;
-    if (phase_ != Phase::ready) found(t);
+    if (!presence_.is(Phase::ready)) found(t);
     learn(reply, t);
-    if (reply.quit == quit::check_wrong && manners_.check == CheckMode::learn && ++check_refusals_ >= (form_proved_ ? 3 : 2)) {
+    if (reply.quit == quit::check_wrong && line_.check == CheckMode::learn && ++check_refusals_ >= (form_proved_ ? 3 : 2)) {
         check_refusals_ = 0;
         form_ = form_ == CheckForm::text ? CheckForm::with_etx : form_ == CheckForm::with_etx ? CheckForm::zero : CheckForm::text;
         notice(Severity::warning, "protocol", reply.quit,
@@ -254,19 +254,17 @@ void Drive::silent(Turn& t) {
     if (!x.eot && (x.purpose == Purpose::job || x.purpose == Purpose::stop)) not_acknowledged(x.request);
     switch (x.purpose) {
         case Purpose::none:
+        case Purpose::probe:
         case Purpose::poll:
         case Purpose::give_back:
             break;
         case Purpose::renew:
             axes_[x.axis].renew_at = t.now;
             break;
-        case Purpose::probe:
-            next_probe_ = t.now;
-            break;
         case Purpose::barrier:
             if (heard_in_barrier_) {
                 in_step();  // answers came, then silence for a whole time-out: nothing is on its way any more
-                silent_ = 0;
+                presence_.answered();
                 return;
             }
             break;

@@ -21,7 +21,7 @@ void Drive::result(Axis& a, Ticket ticket, Outcome outcome, Reason reason, std::
 }
 
 void Drive::notice(Severity severity, std::string_view kind, std::int32_t code, std::string text, Turn& t, AxisId axis) {
-    t.out.notices.push_back({severity, setup_.id, axis, std::string(kind), code, std::move(text), t.now});
+    notices_.tell(severity, axis, kind, code, std::move(text), t.now, t.out);
 }
 
 void Drive::sample(const Axis& a, Point point, const Value& value, Turn& t) {
@@ -38,7 +38,7 @@ void Drive::sample(const Axis& a, Point point, const Value& value, Turn& t) {
 
 /// Where an axis is shown, its fault is the alarm; the control's own word is one only where there is none to say it.
 bool Drive::shown_by_axes() const {
-    return phase_ == Phase::ready && std::ranges::any_of(axes_, [](const Axis& a) { return a.id != no_axis && a.position_known; });
+    return presence_.is(Phase::ready) && std::ranges::any_of(axes_, [](const Axis& a) { return a.id != no_axis && a.position_known; });
 }
 
 bool Drive::in_trouble() const noexcept { return error_ != 0 || is_malfunction(mode_); }
@@ -181,7 +181,7 @@ void Drive::derive(Axis& a, Instant now) {
 }
 
 void Drive::emit(Axis& a, Turn& t) {
-    if (a.id == no_axis || !a.position_known || phase_ != Phase::ready) return;
+    if (a.id == no_axis || !a.position_known || !presence_.is(Phase::ready)) return;
     derive(a, t.now);
     t.out.feedback.push_back({a.id, a.fb});
     check_waits(a, t);

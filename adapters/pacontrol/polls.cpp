@@ -21,9 +21,9 @@ constexpr std::size_t axes_per_running = 16;                        // that move
 bool Drive::poll_wanted(Instant now) const noexcept { return !polls_.empty() || cycle_at_ <= now; }
 
 void Drive::plan_cycle(Turn& t) {
-    cycle_time_ = std::clamp<Duration>(t.now - cycle_began_, manners_.poll_period, longest_cycle);
+    cycle_time_ = std::clamp<Duration>(t.now - cycle_began_, line_.timing.poll_period, longest_cycle);
     cycle_began_ = t.now;
-    cycle_at_ = t.now + manners_.poll_period;
+    cycle_at_ = t.now + line_.timing.poll_period;
     std::size_t moving = 0;
     polls_.push_back({PollKind::running, 0});
     for (std::size_t i = 0; i < axes_.size(); ++i) {

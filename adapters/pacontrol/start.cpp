@@ -10,11 +10,6 @@
 
 namespace axisgate::pacontrol {
 
-void Drive::link(bool online, std::string text, Turn& t) {
-    online_link_ = online;
-    t.out.links.push_back({setup_.id, online, silent_, online ? Duration::zero() : retry_pause_, std::move(text)});
-}
-
 /// Everything that may have changed while nobody listened.
 void Drive::forget() {
     exchange_ = {};
@@ -45,10 +40,7 @@ void Drive::forget() {
 
 void Drive::line_up(Turn& t) {
     forget();
-    phase_ = Phase::probing;
-    silent_ = 0;
-    retry_pause_ = manners_.pause_min;
-    next_probe_ = t.now;
+    presence_.begin(t.now);
     quiet_until_ = t.now;
     for (const auto& f : options_.faults)
         notice(Severity::warning, "setup", 0, f, t);
@@ -57,49 +49,36 @@ void Drive::line_up(Turn& t) {
 void Drive::line_down(Turn& t, std::string_view why) {
     fail_all(Reason::line_down, std::string(why), t);
     forget();
-    phase_ = Phase::down;
-    next_probe_ = never;
-    link(false, std::string(why), t);
+    presence_.close();
+    presence_.report(std::string(why), t.out);
 }
 
 void Drive::found(Turn& t) {
-    phase_ = Phase::ready;
-    next_probe_ = never;
-    silent_ = 0;
+    const bool again = presence_.ever_found();
+    presence_.found();
+    presence_.made_ready();  // nothing has to be read before commands are taken
     mode_ = -1;
     out_of_step_ = true;  // answers to older probes may still be on their way
     cycle_at_ = t.now;
-    link(true, ever_seen_ ? "the PA-CONTROL answers again" : "the PA-CONTROL answers", t);
-    ever_seen_ = true;
+    presence_.report(again ? "the PA-CONTROL answers again" : "the PA-CONTROL answers", t.out);
 }
 
 void Drive::count_silence(Turn& t) {
-    ++silent_;
-    const auto limit = static_cast<std::uint32_t>(manners_.silent_limit);
-    switch (phase_) {
-        case Phase::down:
+    const bool was_ready = presence_.is(Phase::ready);
+    std::string why = "no answer";
+    switch (presence_.silent(t.now)) {
+        case drive::Presence::Silence::counted:
+            if (presence_.is(Phase::probing)) presence_.report("no answer yet", t.out);
             return;
-        case Phase::ready:
-            if (silent_ >= limit) go_absent(t, fmt::format("{} requests in a row were not answered", silent_));
-            return;
-        case Phase::probing:
-            if (silent_ >= limit) return go_absent(t, "no answer");
-            return link(false, "no answer yet", t);
-        case Phase::absent:
-            retry_pause_ = std::min(retry_pause_ * 2, manners_.pause_max);
-            next_probe_ = t.now + retry_pause_;
-            return link(false, "no answer", t);
+        case drive::Presence::Silence::still_absent:
+            return presence_.report(std::move(why), t.out);
+        case drive::Presence::Silence::lost:
+            break;
     }
-}
-
-void Drive::go_absent(Turn& t, std::string why) {
-    const std::string text = fmt::format("the PA-CONTROL {} does not answer: {}", setup_.name, why);
-    fail_all(Reason::no_answer, text, t);
+    if (was_ready) why = fmt::format("{} requests in a row were not answered", presence_.silences());
+    fail_all(Reason::no_answer, fmt::format("the PA-CONTROL {} does not answer: {}", setup_.name, why), t);
     forget();
-    phase_ = Phase::absent;
-    retry_pause_ = manners_.pause_min;
-    next_probe_ = t.now + retry_pause_;
-    link(false, std::move(why), t);
+    presence_.report(std::move(why), t.out);
 }
 
 void Drive::fail_axis(Axis& a, Reason reason, const std::string& text, Turn& t) {

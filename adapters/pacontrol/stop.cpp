@@ -249,7 +249,7 @@ void Drive::stop_answered(const Reply& reply, Turn& t) {
 void Drive::stop_silent(Turn& t) {
     if (stops_.empty()) return;
     Stop& s = stops_.front();
-    const int limit = phase_ == Phase::ready ? manners_.retries + 1 : 1;
+    const int limit = presence_.is(Phase::ready) ? line_.timing.retries + 1 : 1;
     if (s.tries < limit) {
         ++counters_.retries;
         return;
@@ -264,7 +264,7 @@ void Drive::stop_silent(Turn& t) {
 void Drive::supervise(Turn& t) {
     supervise_at_ = never;
     Axis& a = axes_[supervised_];
-    if (!a.running || a.motion.active() || phase_ != Phase::ready || stops_.size() >= stop_limit) return;
+    if (!a.running || a.motion.active() || !presence_.is(Phase::ready) || stops_.size() >= stop_limit) return;
     notice(Severity::warning, "stop", 0,
            fmt::format("axis {} still runs {} s after it was stopped: all axes are stopped (0600)", a.channel,
                        milliseconds_of(supervise_after) / 1000),

@@ -45,8 +45,6 @@ ROLE_FOLDERS = {"twin", "tests", "fuzz"}
 BEFORE_ROLES = {
     "mcode": "aim.cpp aim.hpp framing.cpp framing.hpp jobs.cpp language.cpp language.hpp leaving.cpp node.cpp node.hpp node_next.cpp program.cpp "
              "program.hpp program_end.cpp rate.cpp scan.cpp state.cpp statement.cpp statement.hpp stops.cpp trouble.cpp trouble.hpp",
-    "pacontrol": "axis.hpp check.cpp check.hpp commands.cpp commands.hpp control.cpp control.hpp elements.cpp elements.hpp exchange.cpp mode.cpp "
-                 "number.cpp number.hpp presence.cpp scan.cpp status.cpp values.cpp twin*",
 }
 
 

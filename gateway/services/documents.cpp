@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 
-#include "gateway/core/axis_members.hpp"
 #include "gateway/axis/cia402.hpp"
+#include "gateway/core/axis_members.hpp"
 #include "gateway/core/parameter_form.hpp"
 #include "gateway/core/text.hpp"
 
@@ -159,7 +159,8 @@ json::object axis_document(const AxisView& v) {
     o["native"] = p.native_status;
     o["authority"] = name_of(p.authority);
     o["authority_holder"] = p.authority_holder.data();
-    o["authority_until"] = p.authority_holder[0] != 0 ? json::value(format_time(v.at_unix_ns + ns_of(p.authority_until) - ns_of(p.at))) : json::value(nullptr);
+    o["authority_until"] =
+        p.authority_holder[0] != 0 ? json::value(format_time(v.at_unix_ns + ns_of(p.authority_until) - ns_of(p.at))) : json::value(nullptr);
     o["setpoints_accepted"] = p.setpoints_accepted;
     o["at"] = p.ever_seen ? json::value(format_time(v.at_unix_ns)) : json::value(nullptr);
     if (v.now_unix_ns) {
@@ -263,7 +264,8 @@ json::value allowed_document(const std::vector<std::pair<std::int64_t, std::stri
 void put_forms(json::object& o, const Catalogue& catalogue, Point point) {
     json::array fields, meanings;
     for (const auto& f : fields_of(catalogue, point))
-        fields.push_back(json::object{{"name", f.name}, {"low_bit", f.low_bit}, {"bits", f.bits}, {"allowed", allowed_document(f.allowed)}});
+        fields.push_back(
+            json::object{{"name", f.name}, {"low_bit", f.low_bit}, {"bits", f.bits}, {"allowed", allowed_document(f.allowed)}});
     for (const auto& m : meanings_of(catalogue, point))
         meanings.push_back(json::object{{"from", m.from}, {"through", m.through}, {"meaning", m.text}});
     o["fields"] = fields.empty() ? json::value(nullptr) : json::value(std::move(fields));

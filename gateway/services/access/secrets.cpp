@@ -30,8 +30,7 @@ constexpr std::array<std::string_view, 24> common{
 // clang-format on
 }  // namespace
 
-const std::string_view hash_of_nobody =
-    "$argon2id$v=19$m=65536,t=2,p=1$AAAAAAAAAAAAAAAAAAAAAA$AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA";
+const std::string_view hash_of_nobody = "$argon2id$v=19$m=65536,t=2,p=1$AAAAAAAAAAAAAAAAAAAAAA$AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA";
 
 std::string random_secret() {
     (void)ready();

@@ -104,7 +104,8 @@ TEST(Catalogue, ASelectorIsThePositionAndTheElementAndNothingForTexts) {
 
 TEST(Catalogue, WhatIsAskedBeforeACommandIsSentences) {
     const auto with = [](std::string_view confirm) {
-        return fmt::format(R"({{"family": "x", "number": 1, "parameters": [], "errors": [], "commands": [{{"id": "FD", "name": "f"{}}}]}})", confirm);
+        return fmt::format(R"({{"family": "x", "number": 1, "parameters": [], "errors": [], "commands": [{{"id": "FD", "name": "f"{}}}]}})",
+                           confirm);
     };
     for (const auto* good : {"", R"(, "confirm": "All settings are lost.")"}) {
         std::vector<std::string> faults;

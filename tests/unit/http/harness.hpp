@@ -7,9 +7,9 @@
 
 #include <string>
 
+#include "gateway/doors/http/router.hpp"
 #include "gateway/services/alarms/alarm_service.hpp"
 #include "gateway/services/recipes/recipe_service.hpp"
-#include "gateway/doors/http/router.hpp"
 #include "tests/unit/http/fake_gateway.hpp"
 
 namespace axisgate::http::test {

@@ -128,6 +128,14 @@ std::string read_name(Fields& f, std::string_view example) {
     return name;
 }
 
+/// Empty: left out. An empty text names no family.
+std::string read_family(Fields& f, std::string_view example) {
+    std::string name = f.text("family", false, example);
+    if (const auto* v = f.get("family"); v && v->is_string() && name.empty())
+        f.fault("family", "family is an empty text", fmt::format("write the name of a family, as {}, or leave it out", example));
+    return name;
+}
+
 LineManners read_manners(const json::value* v, const std::string& pointer, std::vector<SiteFault>& faults) {
     LineManners m;
     if (!v) return m;
@@ -397,7 +405,7 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
         LineSpec l;
         l.name = read_name(f, "can0");
         l.uri = f.text("uri", true, "twin");
-        l.family = f.text("family", false, families.entries.empty() ? "uim342" : families.entries.front().family->name);
+        l.family = read_family(f, families.entries.empty() ? "uim342" : families.entries.front().family->name);
         l.bitrate = static_cast<std::uint32_t>(f.integer("bitrate", 0, 100'000'000).value_or(0));
         l.options = f.options("options");
         l.manners = read_manners(f.get("manners"), pointer + "/manners", faults);
@@ -408,7 +416,7 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
         d.name = read_name(f, "feeder");
         d.line = f.text("line", true, "can0");
         const LineSpec* line = site.line(d.line);
-        d.family = f.text("family", false, line && !line->family.empty() ? line->family : "uim342");
+        d.family = read_family(f, line && !line->family.empty() ? line->family : "uim342");
         if (line && d.family == line->family) d.family.clear();  // the line's: it follows when the line's changes
         const FamilyEntry family = families.find(site.family_of(d));
         if (const auto* a = f.get("address")) {

@@ -282,7 +282,8 @@ TEST(LinmotAdapter, ChecksumsWorkAndSayThatTheyAreNotProven) {
 }
 
 TEST(LinmotAdapter, StreamedSetPointsAreMovesAndNeverTheDrivesOwnStream) {
-    // 0: a line without a bit rate, as over TCP. However fast set-points come, nothing pretends the period of 2 to 5 ms that a stream needs.
+    // 0: a line without a bit rate, as over TCP. However fast set-points come, nothing pretends the period of 2 to 5 ms that a stream
+    // needs.
     for (const std::uint32_t bit_rate : {115'200u, 0u}) {
         SCOPED_TRACE(bit_rate);
         LineBench b(1, bit_rate);

@@ -24,7 +24,7 @@ import { Section } from './section';
 const rowsAtOnce = 100;
 const idle_ms = 400;
 /** Whether what is on the screen is read again. */
-const keep = kept('parameters.keep', 'yes', 'browser');
+const keep = kept('parameters.keep', 'no', 'browser');
 
 interface Row {
   data: Signal<AxisParameter>;

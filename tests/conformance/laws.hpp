@@ -20,6 +20,24 @@ inline std::string told(const Result* r) {
     return r ? std::string(name_of(r->outcome)) + " " + std::string(name_of(r->reason)) + ": " + r->text : "no result";
 }
 
+/// Another adapter with every call passed on: what a test wants otherwise, it overrides.
+class PassingAdapter : public Adapter {
+public:
+    explicit PassingAdapter(std::unique_ptr<Adapter> inner) : inner_(std::move(inner)) {}
+    void configure(const LineSetup& setup, Instant now, Out& out) override { inner_->configure(setup, now, out); }
+    void on_line(bool up, Instant now, Out& out) override { inner_->on_line(up, now, out); }
+    void on_command(const Command& command, Instant now, Out& out) override { inner_->on_command(command, now, out); }
+    void on_set_point(const SetPoint& p, Instant now, Out& out) override { inner_->on_set_point(p, now, out); }
+    [[nodiscard]] Duration interpolation_time(AxisId axis) const override { return inner_->interpolation_time(axis); }
+    void on_frame(const Frame& frame, Instant now, Out& out) override { inner_->on_frame(frame, now, out); }
+    void on_deadline(Instant now, Out& out) override { inner_->on_deadline(now, out); }
+    [[nodiscard]] Instant deadline() const override { return inner_->deadline(); }
+    [[nodiscard]] AdapterCounters counters() const override { return inner_->counters(); }
+
+private:
+    std::unique_ptr<Adapter> inner_;
+};
+
 class Laws : public testing::TestWithParam<Subject> {
 protected:
     const Subject& e = GetParam();

@@ -59,6 +59,8 @@ struct Harness {
     Answer send(const Request& r);
     /// What came through the callback after a promise.
     Answer answered();
+    /// Another router at the same gateway, with users and without a page.
+    [[nodiscard]] Router with_users(std::shared_ptr<AccessPort> access);
 };
 
 class HttpTest : public ::testing::Test, public Harness {

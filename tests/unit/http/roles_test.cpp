@@ -14,15 +14,7 @@ using Fields = std::vector<std::pair<std::string, std::string>>;
 class AccessTest : public ::testing::Test, public Harness {
 protected:
     std::shared_ptr<FakeAccess> access = std::make_shared<FakeAccess>();
-    Router door{Context{gateway,
-                        settings,
-                        [](std::string_view) { return std::string_view(); },
-                        {},
-                        std::make_shared<ChangeQueue>(),
-                        recipes,
-                        std::make_shared<AxisJobs>(),
-                        access,
-                        alarms}};
+    Router door = with_users(access);
     AccessTest() {
         for (const auto* role : {"viewer", "operator", "engineer", "administrator"})
             access->own_accounts.load(User{role, *role_named(role), true, std::string("hash of secret ") + role, 1, 0});

@@ -2260,6 +2260,12 @@ export interface components {
             modbus_closed?: components["schemas"]["FailSafeAction"];
             modbus_silent?: components["schemas"]["FailSafeAction"];
             set_points_silent?: components["schemas"]["FailSafeAction"];
+            lease_ended?: components["schemas"]["FailSafeAction"];
+            enip_closed?: components["schemas"]["FailSafeAction"];
+            enip_timed_out?: components["schemas"]["FailSafeAction"];
+            enip_idle?: components["schemas"]["FailSafeAction"];
+            line_lost?: components["schemas"]["FailSafeAction"];
+            gateway_ends?: components["schemas"]["FailSafeAction"];
             /** @description how long a connected Modbus client may ask nothing; 0: for ever; left out: [modbus] watchdog_ms */
             watchdog_ms?: number;
         };
@@ -2330,7 +2336,7 @@ export interface components {
              * @description why the gateway stopped the axis without a command, until the next command to it; null - it did not
              * @enum {string|null}
              */
-            readonly fail_safe_cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | null;
+            readonly fail_safe_cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | "lease_ended" | "enip_closed" | "enip_timed_out" | "enip_idle" | "line_lost" | "gateway_ends" | null;
             /** @description in `unit`; null until the drive has said it */
             readonly position: number | null;
             /** @description whether somebody says where the axis should be now; if not, position_demand and following_error are null */

@@ -45,7 +45,7 @@ def test_a_drive_that_could_not_be_reached_is_stopped_when_it_answers_again(fold
 
 def test_a_lease_that_expires_ends_a_velocity_move(folder):
     site = dict(SITE, axes=[dict(a, authority_mode="lease") for a in SITE["axes"]])
-    with Gateway(folder, site) as g:
+    with Gateway(folder, site, "--set", "authority.lease_s=2") as g:
         until(lambda: g.axis("table")["online"], 10, "online")
         status, answer, _ = g.request("PUT", "/api/v1/axes/table/authority", {"ttl_s": 2})
         assert status == 200, answer

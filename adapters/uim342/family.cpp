@@ -23,6 +23,11 @@ const Family& family_uim342() {
         true,
         500'000,  // what the twin's factory setting says; the manual is silent
         uim342::scan,
+        nullptr,
+        // All of the extended ones: nodes that the site does not name are heard as well, and told of.
+        [](std::span<const std::string>) {
+            return std::vector<CanIdentifiers>{{true, 0, 0}};
+        },
     };
     return family;
 }

@@ -46,9 +46,13 @@ inline constexpr std::int16_t mode_none = 0, mode_profile_position = 1, mode_pro
 [[nodiscard]] constexpr std::int16_t mode_of(SetPoint::Mode m) noexcept {
     return m == SetPoint::Mode::position ? mode_cyclic_position : m == SetPoint::Mode::velocity ? mode_cyclic_velocity : mode_cyclic_torque;
 }
+/// Modes that follow streamed set-points: entered by the first one, left with the last.
+[[nodiscard]] constexpr bool is_streamed(std::int16_t mode) noexcept { return mode >= mode_cyclic_position && mode <= mode_cyclic_torque; }
+/// "profile position"; "of the maker" for negative ones.
+[[nodiscard]] std::string_view text_of_mode(std::int16_t mode) noexcept;
 }  // namespace cia402
 
-class AxisProfile {
+class Cia402Axis {
 public:
     /// What is to be done about a request. `orders` go to the adapter in this order; with none and no refusal it is done already.
     struct Decision {

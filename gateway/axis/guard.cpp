@@ -4,8 +4,11 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "gateway/axis/cia402.hpp"
 
 namespace axisgate {
 namespace {
@@ -75,6 +78,22 @@ std::optional<Refusal> guard_move(const Move& m, const AxisLimits& l, std::int64
     if (auto r = check_rate("velocity", m.velocity, l.velocity_max, l, "/s")) return r;
     if (auto r = check_rate("acceleration", m.acceleration, l.acceleration_max, l, "/s^2")) return r;
     return check_rate("deceleration", m.deceleration, l.acceleration_max, l, "/s^2");
+}
+
+std::optional<Refusal> guard_mode(std::int16_t mode, std::span<const std::int16_t> offered) {
+    if (mode == cia402::mode_none) return std::nullopt;
+    std::string chosen;  // what may be written instead
+    for (const std::int16_t m : offered) {
+        if (cia402::is_streamed(m)) continue;
+        if (m == mode) return std::nullopt;
+        chosen += fmt::format("{}{} ({})", chosen.empty() ? "" : ", ", m, cia402::text_of_mode(m));
+    }
+    if (std::ranges::find(offered, mode) == offered.end())
+        return Refusal{Reason::out_of_range, fmt::format("mode of operation {} ({}) is not offered by this drive; use {}", mode,
+                                                         cia402::text_of_mode(mode), chosen)};
+    return Refusal{Reason::out_of_range,
+                   fmt::format("mode of operation {} ({}) begins with the first streamed set-point and is not written; use {}", mode,
+                               cia402::text_of_mode(mode), chosen)};
 }
 
 std::optional<Refusal> guard_process_data(const ProcessData& d, const AxisLimits& l) {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "gateway/core/command.hpp"
@@ -31,6 +32,8 @@ struct Refusal {
 
 /// `position`: the axis' actual position in increments, for relative moves and for velocity moves that would lead out of the limits.
 [[nodiscard]] std::optional<Refusal> guard_move(const Move& move, const AxisLimits& limits, std::int64_t position);
+/// The mode of operation of register 33: one that the drive offers, and that is not entered by streaming set-points. 0 changes nothing.
+[[nodiscard]] std::optional<Refusal> guard_mode(std::int16_t mode, std::span<const std::int16_t> offered);
 /// Registers 32..47 before they are latched: speeds, accelerations and the absolute target when a set-point starts with this word.
 [[nodiscard]] std::optional<Refusal> guard_process_data(const ProcessData& data, const AxisLimits& limits);
 

@@ -56,6 +56,16 @@ struct AdapterCounters {
     std::uint64_t refused = 0;     ///< answers in which the drive said no
     std::uint64_t garbled = 0;     ///< bytes or frames that were not the protocol (bad CRC, bad length, unknown word)
     std::uint64_t unexpected = 0;  ///< well formed but nobody had asked
+
+    AdapterCounters& operator+=(const AdapterCounters& o) noexcept {
+        exchanges += o.exchanges;
+        timeouts += o.timeouts;
+        retries += o.retries;
+        refused += o.refused;
+        garbled += o.garbled;
+        unexpected += o.unexpected;
+        return *this;
+    }
 };
 
 /// Laws (tests/conformance checks them for every family):
@@ -77,7 +87,12 @@ struct Adapter {
     /// The newest set-point of an axis, of a mode (8, 9 or 10) that the drive's catalogue offers. It waits for the line like a command,
     /// and a newer one takes its place; a command that moves or stops its axis takes it away. Without an answer: if the drive refuses it or
     /// does not answer, Out::stream_ends says so.
-    virtual void on_set_point(const SetPoint& /*set_point*/, Instant /*now*/, Out& /*out*/) {}
+    virtual void on_set_point(const SetPoint& set_point, Instant /*now*/, Out& out) {
+        out.stream_ends.push_back({set_point.axis, Reason::not_supported, "its adapter takes no streamed set-points"});
+    }
+    /// Of an axis whose drive follows each set-point within a time of its own (CiA 402's interpolation time period, 60C2): that time. What it is
+    /// given next is bound by it and the site's limits: no further than the fastest allowed motion comes in it. 0: the drive makes its own ramps.
+    [[nodiscard]] virtual Duration interpolation_time(AxisId /*axis*/) const { return {}; }
     virtual void on_frame(const Frame& frame, Instant now, Out& out) = 0;
     virtual void on_deadline(Instant now, Out& out) = 0;
     /// When on_deadline wants to be called; `never` if nothing is waited for.

@@ -1,4 +1,4 @@
-// Family: what adapters/<family> gives to the rest: its makers of adapters and twins, its decoder, its manners.
+// Family: what adapters/<family> gives to the rest: its makers of adapters and twins, its decoder, what its lines are like.
 // In: one `const Family& family_<name>()` per folder, collected by the generated list. Out: looked up by name.
 // Never holds data about parameters: that is the catalogue's (schema/families/<name>.json).
 #pragma once
@@ -9,8 +9,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "gateway/core/adapter.hpp"
+#include "gateway/core/can_identifiers.hpp"
 #include "gateway/core/scan.hpp"
 #include "gateway/core/twin.hpp"
 
@@ -62,6 +64,10 @@ struct Family {
     /// Makes the catalogue of one drive where the site's options say that it has more, or other, than the family's page; nullptr: the page
     /// is every drive's. The same wish gives the same catalogue: mappings are checked against it before the site is in force.
     OwnCatalogue (*own_catalogue)(const CatalogueWish&) = nullptr;
+    /// The identifiers of the frames that drives at these addresses send, and of those sent to one of them. Its adapter is given these
+    /// frames and no others (reports of the controller apart), and by them a recorded frame finds its decoder. nullptr: every frame of the
+    /// line; such a family cannot share a CAN line with another one.
+    std::vector<CanIdentifiers> (*can_identifiers)(std::span<const std::string> addresses) = nullptr;
 };
 
 /// Every family that was found at configure time, in order of name. (Generated.)

@@ -28,6 +28,8 @@ struct Frame {
     Kind kind = Kind::bytes;
     bool extended = false;
     bool remote = false;
+    /// Which of the gateway's adapters on its line sends it: those that wait leave in turn by sender. Not on the wire; 0 if there is one.
+    std::uint8_t sender = 0;
     std::uint16_t size = 0;
     std::uint32_t id = 0;  ///< 11 or 29 bits; 0 for bytes
     std::array<std::uint8_t, capacity> storage;  // deliberately not cleared: `size` says what is valid
@@ -39,6 +41,7 @@ struct Frame {
         kind = o.kind;
         extended = o.extended;
         remote = o.remote;
+        sender = o.sender;
         size = o.size;
         id = o.id;
         std::memmove(storage.data(), o.storage.data(), o.size);

@@ -16,6 +16,7 @@ namespace axisgate {
 
 struct ScanWish {
     LineKind kind = LineKind::bytes;
+    std::string family;              ///< to be searched for; empty: each family of the line
     std::string from, to;            ///< first and last address, in the family's form; empty: all
     std::vector<std::string> known;  ///< addresses of the site's drives on this line
     Duration limit{};                ///< of the whole scan
@@ -35,8 +36,15 @@ struct ScanReport {
         std::string text;      ///< what it said it is
         std::string known_as;  ///< name of the site's drive at that address; empty: none yet
     };
+    /// How far the search for one family is.
+    struct Part {
+        std::string family;
+        std::size_t asked = 0, of = 0;
+        std::string text;  ///< why it is not searched for; empty: it is
+    };
     State state = State::none;
     std::size_t asked = 0, of = 0;
+    std::vector<Part> parts;   ///< by family, in the order of the line; `asked` and `of` are their sums
     std::vector<Found> found;  ///< in order of discovery; the site's own drives that answer come first
     std::string text;          ///< why it failed or ended early
 };

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gateway/axis/authority.hpp"
+#include "gateway/axis/guard.hpp"
 #include "gateway/axis/image.hpp"
 #include "gateway/core/catalogue.hpp"
 #include "gateway/core/command.hpp"
@@ -61,8 +62,9 @@ struct DoorPort {
     /// Takes a command whose ticket was made with the door's number. The result comes to the door: never from inside this call (so that a
     /// door need not be re-entrant), at the end of the same turn at the earliest.
     virtual void submit(Command command) = 0;
-    /// Hands on a streamed set-point (SetPoint): no ticket, no result; what came of it is in the image.
-    virtual void set_point(const SetPoint& /*set_point*/) {}
+    /// Hands on a streamed set-point (SetPoint): no ticket. Nothing: it is on its way to the drive; what becomes of it is in the image.
+    /// Else why it is refused, which is in the image as well.
+    virtual std::optional<Refusal> set_point(const SetPoint& set_point) = 0;
     /// Puts a door into the list; it gets all that HotDoor has until it is detached, which it must be before it ends.
     [[nodiscard]] virtual DoorNumber attach(HotDoor& door) = 0;
     virtual void detach(HotDoor& door) = 0;

@@ -41,15 +41,24 @@ Engine::Side* Engine::side_of(const Drive& d) const {
     return d.line->real.get();  // also while offline: a stop is tried all the same
 }
 
+Engine::Speaker& Engine::speaker_of(const Side& side, const Drive& d) { return *side.speaker_of(d.family); }
+
 // --- up -------------------------------------------------------------------------------------------------------------
 
 void Engine::Side::on_frame(const Frame& frame) {
     engine.now_ = std::max(engine.now_, frame.at);
     unit.log->record(frame, false, twin);
-    Out out = engine.take_out();
-    adapter->on_frame(frame, engine.now_, out);
-    engine.drain(*this, out, engine.now_);
-    engine.give_back(std::move(out));
+    bool heard = false;
+    for (std::size_t i = 0; i < speakers.size(); ++i) {
+        Speaker& s = *speakers[i];
+        if (!s.hears(frame)) continue;
+        heard = true;
+        engine.ask(s, engine.now_, [&](Out& out) { s.adapter->on_frame(frame, engine.now_, out); });
+    }
+    if (!heard) {
+        ++unclaimed;
+        touched();
+    }
 }
 
 void Engine::Side::on_sent(const Frame& frame) { unit.log->record(frame, true, twin); }
@@ -57,13 +66,16 @@ void Engine::Side::on_sent(const Frame& frame) { unit.log->record(frame, true, t
 void Engine::Side::on_line_state(bool now_up, const std::string& text) { engine.line_state(*this, now_up, text, engine.now_); }
 
 /// Hands on what one call to an adapter gave back. Feedback goes before results: a client that hears "accepted" finds the image ready.
-void Engine::drain(Side& side, Out& out, Instant now) {
+void Engine::drain(Speaker& by, Out& out, Instant now) {
+    Side& side = by.side;
     side.touched();
     for (const auto& n : out.notices) {  // why a search failed is known before the feedback says that it has
         if (Axis* a = n.kind == "homing" ? axis(n.axis) : nullptr) a->homing_why = n.text;
     }
-    for (const auto& tx : out.frames)
+    for (auto& tx : out.frames) {
+        tx.frame.sender = by.number;
         (void)side.line->send(tx.frame, tx.priority, now);  // a full queue is counted there
+    }
     for (const auto& l : out.links)
         link(side, l, now);
     for (const auto& f : out.feedback)
@@ -151,7 +163,7 @@ void Engine::feedback(Side& side, AxisId id, const AxisFeedback& value, Instant 
     track(*a, now);
 }
 
-void Engine::publish(Axis& a, Instant) {
+void Engine::publish(Axis& a, Instant now) {
     AxisPicture& p = image_.picture(a.id);
     a.profile.fill(p);
     p.number = static_cast<std::uint16_t>(a.spec.number);
@@ -188,6 +200,7 @@ void Engine::publish(Axis& a, Instant) {
     put(p.flags, flag_stale, stale);
     put(p.statusword, cia402::sw_simulated, simulated);
     put(p.statusword, cia402::sw_stale, stale);
+    if (p.flags & flag_moving) last_stir_ = now;
     image_.publish(a.id);
 }
 
@@ -257,10 +270,8 @@ void Engine::give_order(Axis& a, Client* client, CommandBody body, Origin origin
     order.until_done = client && client->until_done && std::holds_alternative<Action>(body);
     order.body = std::move(body);
     order.origin = std::move(origin);
-    Out out = take_out();
-    side->adapter->on_command(order, now, out);
-    drain(*side, out, now);
-    give_back(std::move(out));
+    Speaker& by = speaker_of(*side, *a.drive);
+    ask(by, now, [&](Out& out) { by.adapter->on_command(order, now, out); });
 }
 
 void Engine::order_result(const Result& given, Instant now) {

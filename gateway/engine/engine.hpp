@@ -76,13 +76,14 @@ public:
     [[nodiscard]] const std::shared_ptr<const SiteState>& site() const noexcept { return site_; }
 
     void on_command(Command command, Instant now);
-    /// Without an answer: whether it was handed on, and why not, is told by the axis' picture (streaming, set_points, set_point_refusal).
-    void on_set_point(const SetPoint& set_point, Instant now);
+    /// Nothing: it was handed on; else why not. The axis' picture tells both as well (streaming, set_points, set_point_refusal).
+    std::optional<Refusal> on_set_point(const SetPoint& set_point, Instant now);
     /// How long a command holds an axis of mode "lease".
     void set_lease(Duration lease) noexcept { lease_ = lease; }
     /// How long a Modbus client that commands an axis may be silent, where the axis' site entry does not say it; 0: for ever.
     void set_watchdog(Duration limit) noexcept { watchdog_ = limit; }
-    /// A client is gone: what it commanded last is treated as the axes' site entries say.
+    /// A client is gone: what it commanded last is treated as the axes' site entries say. With set_points_silent, the connection by which
+    /// it streamed: only what it streams is.
     void on_client_lost(const AuthorityClient& who, LossCause cause, Instant now);
     /// How often axes were stopped since the start because of this cause.
     [[nodiscard]] std::uint64_t losses(LossCause cause) const noexcept { return losses_[static_cast<std::size_t>(cause)]; }
@@ -91,6 +92,9 @@ public:
 
     [[nodiscard]] Instant deadline() const;
     void on_deadline(Instant now);
+    /// Nothing moves, nobody waits for an answer, and for a second nothing was commanded, found or lost: what is due may be met together with
+    /// what is due a little later.
+    [[nodiscard]] bool at_rest(Instant now) const noexcept;
 
     [[nodiscard]] const Catalogue* catalogue(AxisId axis) const;
     /// Looks for drives on a line. Empty: it has begun; else why not.
@@ -116,13 +120,17 @@ private:
     struct Drive;
     struct LineUnit;
     struct Side;
+    struct Speaker;
     struct Client;
     struct OrderRecord;
     struct Scan;
     struct Change;
 
     // routing (engine.cpp)
-    void drain(Side& side, Out& out, Instant now);
+    void drain(Speaker& by, Out& out, Instant now);
+    /// One call of an adapter, and what it gave back handed on.
+    template <class F>
+    void ask(Speaker& by, Instant now, F&& call);
     // from a command to its orders (engine_command.cpp)
     struct Plan;
     [[nodiscard]] std::optional<Refusal> turned_away(const Axis& axis, const Command& command, Instant now) const;
@@ -147,6 +155,7 @@ private:
     void publish(Axis& axis, Instant now);
     void event(Event e, Instant now) { host_.on_event(std::move(e), now); }
     [[nodiscard]] Side* side_of(const Drive& drive) const;
+    [[nodiscard]] static Speaker& speaker_of(const Side& side, const Drive& drive);
     // authority (engine_authority.cpp)
     [[nodiscard]] AxisAuthority::Verdict may_command(const Axis& axis, const Command& command, Instant now) const;
     /// Ends motion and nothing else: not asked for a lease.
@@ -165,6 +174,7 @@ private:
     // streamed set-points (engine_stream.cpp)
     [[nodiscard]] std::optional<Refusal> against(const Axis& axis, const SetPoint& set_point, const AuthorityClient& who,
                                                  Instant now) const;
+    [[nodiscard]] std::optional<Refusal> too_far(const Axis& axis, const SetPoint& set_point) const;
     void begin_stream(Axis& axis, const SetPoint& set_point, const AuthorityClient& who, Instant now);
     void end_stream(Axis& axis, Reason reason, const std::string& why, Instant now);
     void tell_stream(const Axis& axis, const Origin& by, Severity severity, std::string text, Instant now);
@@ -179,7 +189,11 @@ private:
     void build_line(LineUnit& unit, Instant now);
     void tell_options(std::span<LineUnit* const> lines, std::span<Drive* const> drives, Instant now);
     void configure_side(Side& side, Instant now);
-    [[nodiscard]] LineSetup setup_for(const LineUnit& unit, const Side& side) const;
+    void configure(Speaker& speaker, Instant now);
+    Speaker& bring_in(Side& side, const FamilyEntry& family, Instant now);
+    void fit_speakers(Side& side, Instant now);
+    [[nodiscard]] LineSetup setup_for(const LineUnit& unit) const;
+    [[nodiscard]] LineSetup setup_for(const Speaker& speaker) const;
     void line_state(Side& side, bool up, const std::string& why, Instant now);
     void link(Side& side, const DriveLink& link, Instant now);
     void decide_presence(Drive& drive, Instant now);
@@ -202,6 +216,7 @@ private:
 
     // scans (engine_scan.cpp)
     [[nodiscard]] static bool is_probe(DriveId id) noexcept;
+    [[nodiscard]] std::string not_to_be_searched(const LineUnit& unit, const FamilyEntry& wanted, std::string_view name) const;
     void scan_turn(LineUnit& unit, Instant now);
     void scan_link(Side& side, const DriveLink& link);
     void end_scan(LineUnit& unit, ScanReport::State state, std::string why, Instant now);
@@ -227,6 +242,7 @@ private:
     std::uint64_t next_ = 1;
     Instant now_{};
     Instant next_housekeeping_{};
+    Instant last_stir_{};  ///< when something moved, was commanded, found or lost
     std::size_t trace_frames_;
     std::uint32_t sources_ = 0;
     Duration lease_ = std::chrono::seconds(30);

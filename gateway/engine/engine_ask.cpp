@@ -17,21 +17,21 @@ LineReport Engine::line_report(LineId id, Instant now) const {
     const LineUnit* u = index_of(id) < lines_.size() ? lines_[index_of(id)].get() : nullptr;
     if (!u) return r;
     const Side* main = u->real ? u->real.get() : u->twins.get();
-    if (main) {
-        r.status = main->line->status(now);
-        r.counters = main->adapter->counters();
-    }
+    if (main) r.status = main->line->status(now);
     if (u->twins) {
         r.has_twin_bus = true;
         r.twin_status = u->twins->line->status(now);
-        if (u->real) {
-            const AdapterCounters t = u->twins->adapter->counters();
-            r.counters.exchanges += t.exchanges;
-            r.counters.timeouts += t.timeouts;
-            r.counters.retries += t.retries;
-            r.counters.refused += t.refused;
-            r.counters.garbled += t.garbled;
-            r.counters.unexpected += t.unexpected;
+    }
+    for (const FamilyEntry& f : u->families)
+        r.families.push_back({std::string(f.family->name), {}});
+    for (const Side* side : {u->real.get(), u->twins.get()}) {
+        if (!side) continue;
+        r.unclaimed += side->unclaimed;
+        for (const auto& s : side->speakers) {
+            const AdapterCounters counted = s->adapter->counters();
+            r.counters += counted;
+            const auto of = std::ranges::find(r.families, s->family.family->name, &LineReport::OfFamily::family);
+            if (of != r.families.end()) of->counters += counted;
         }
     }
     return r;

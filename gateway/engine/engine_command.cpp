@@ -32,7 +32,7 @@ void Engine::refuse(const Command& c, Reason reason, std::string text) {
 }
 
 void Engine::on_command(Command c, Instant now) {
-    now_ = std::max(now_, now);
+    now_ = last_stir_ = std::max(now_, now);
     Axis* a = axis(c.axis);
     if (!a || closing_) return refuse(c, Reason::line_down, a ? "the gateway is stopping" : "there is no such axis");
     if (const auto no = turned_away(*a, c, now)) return refuse(c, no->reason, no->text);
@@ -218,10 +218,8 @@ void Engine::carry_out(Axis& a, Command&& c, Plan&& plan, Instant now) {
 /// set-points come here as the motion that they ask for.
 std::optional<Refusal> Engine::beyond_limits(const Axis& a, const CommandBody& body) const {
     if (const auto* data = std::get_if<ProcessData>(&body)) {
-        const Catalogue& catalogue = *a.drive->catalogue;
-        if (data->mode && *data->mode != cia402::mode_none && !catalogue.offers_mode(*data->mode)) {
-            return Refusal{Reason::out_of_range, fmt::format("mode of operation {} is not offered; the drive has {}", *data->mode,
-                                                             fmt::join(catalogue.modes(), ", "))};
+        if (data->mode) {
+            if (auto no = guard_mode(*data->mode, a.drive->catalogue->modes())) return no;
         }
         return guard_process_data(*data, a.limits);
     }

@@ -13,7 +13,10 @@ namespace axisgate {
 void Engine::on_client_lost(const AuthorityClient& who, LossCause cause, Instant now) {
     now_ = std::max(now_, now);
     for (const auto& a : axes_) {
-        if (!a || a->authority.commander() != who) continue;
+        // A feed that is closed was one of perhaps several connections of its client: what it commanded otherwise goes on.
+        const bool meant =
+            a && (cause == LossCause::set_points_silent ? a->stream.on && a->stream.who == who : a->authority.commander() == who);
+        if (!meant) continue;
         fail_safe(*a, cause, now);
         if (a->stream.who == who) end_stream(*a, Reason::interrupted, who.text() + " is gone", now);
     }
@@ -38,7 +41,9 @@ void Engine::fail_safe(Axis& a, LossCause cause, Instant now) {
     const auto ms = [](Duration d) { return milliseconds_of(d); };
     const std::string what =
         cause == LossCause::modbus_silent       ? fmt::format("has been silent for {} ms", ms(a.spec.fail_safe.watchdog(watchdog_)))
-        : cause == LossCause::set_points_silent ? fmt::format("has not renewed its set-points for {} ms", ms(a.stream.good_for))
+        : cause == LossCause::set_points_silent ? now - a.stream.renewed > a.stream.good_for
+                                                      ? fmt::format("has not renewed its set-points for {} ms", ms(a.stream.good_for))
+                                                      : "has closed the connection by which it gave set-points"
                                                 : "has closed its last connection";
     e.text = fmt::format("{}: {} commanded the axis and {}", name_of(body),
                          a.stream.on ? a.stream.who.text() : a.authority.commander().text(), what);

@@ -2,12 +2,28 @@
 // In and out: nothing; these are plain records with the one event handler that a line needs. Never used outside the engine.
 #pragma once
 
+#include <algorithm>
+
 #include "gateway/axis/authority.hpp"
 #include "gateway/engine/engine.hpp"
 
 namespace axisgate {
 
-/// One adapter with the line that it talks on: the real one, or the twin bus beside it.
+/// One family's adapter on a side: several share a CAN line, each with the frames that its identifiers hold.
+struct Engine::Speaker {
+    Speaker(Side& s, FamilyEntry f, std::uint8_t n) : side(s), family(f), number(n) {}
+    Side& side;
+    FamilyEntry family;
+    std::uint8_t number;  ///< Frame::sender of what it sends
+    std::unique_ptr<Adapter> adapter;
+    std::vector<CanIdentifiers> identifiers;
+    bool hears_all = true;
+    std::vector<DriveSetup> probes;  ///< addresses that a scan asks now
+
+    [[nodiscard]] bool hears(const Frame& f) const noexcept { return hears_all || f.kind != Frame::Kind::can || any_holds(identifiers, f); }
+};
+
+/// The adapters of one line with what they talk on: the real line, or the twin bus beside it.
 struct Engine::Side final : LineEvents {
     Side(Engine& e, LineUnit& u, bool is_twin) : engine(e), unit(u), twin(is_twin) {}
     Engine& engine;
@@ -16,11 +32,10 @@ struct Engine::Side final : LineEvents {
     bool up = false;
     bool tried = false;  ///< has reported its state at least once
     std::string why = "not opened yet";
-    std::unique_ptr<Adapter> adapter;
+    std::vector<std::unique_ptr<Speaker>> speakers;  ///< by family; most_families_on_a_line at most, and those of a scan
     std::unique_ptr<Line> line;
-    std::vector<DriveSetup> probes;  ///< addresses that a scan asks now
-    TwinBus* bus = nullptr;          ///< `line` seen as what it is, on the twin's side
-    AdapterCounters counters_shown;
+    std::uint64_t unclaimed = 0;  ///< CAN frames that none of them hears
+    TwinBus* bus = nullptr;       ///< `line` seen as what it is, on the twin's side
     /// The earlier deadline of adapter and line, kept so that a turn of the engine need not ask all lines. Whoever calls one of the two
     /// says touched(); drain() does it for most.
     Instant due = never;
@@ -29,9 +44,15 @@ struct Engine::Side final : LineEvents {
     [[nodiscard]] Instant deadline() {
         if (!asked) {
             asked = true;
-            due = std::min(adapter->deadline(), line->deadline());
+            due = line->deadline();
+            for (const auto& s : speakers)
+                due = std::min(due, s->adapter->deadline());
         }
         return due;
+    }
+    [[nodiscard]] Speaker* speaker_of(const FamilyEntry& family) const noexcept {
+        const auto it = std::ranges::find_if(speakers, [&](const auto& s) { return s->family.family == family.family; });
+        return it == speakers.end() ? nullptr : it->get();
     }
 
     void on_frame(const Frame& frame) override;
@@ -39,7 +60,7 @@ struct Engine::Side final : LineEvents {
     void on_sent(const Frame& frame) override;
 };
 
-/// One search for drives on a line; kept for its report until the next.
+/// One search for drives on a line; kept for its report until the next. Its families are searched for side by side.
 struct Engine::Scan {
     struct Asking {
         DriveId id = no_drive;
@@ -48,9 +69,16 @@ struct Engine::Scan {
         bool over = false, online = false;
         std::string text;
     };
-    std::vector<std::string> waiting;  ///< the next one at the back
-    std::vector<Asking> asking;
-    std::size_t at_once = 1;
+    struct Part {
+        FamilyEntry family;
+        std::size_t report = 0;            ///< its place in ScanReport::parts
+        std::vector<std::string> waiting;  ///< the next one at the back
+        std::vector<Asking> asking;
+        std::size_t at_once = 1;
+        [[nodiscard]] bool over() const noexcept { return waiting.empty() && asking.empty(); }
+    };
+    std::vector<Part> parts;
+    [[nodiscard]] bool over() const noexcept { return std::ranges::all_of(parts, &Part::over); }
     std::uint32_t next_id = 0;
     Instant ends_at{};
     ScanReport report;
@@ -59,7 +87,8 @@ struct Engine::Scan {
 struct Engine::LineUnit {
     LineSpec spec;
     LineId id = no_line;
-    FamilyEntry family;
+    FamilyEntry family;                 ///< of those of its drives that name none; nullptrs if all do
+    std::vector<FamilyEntry> families;  ///< of all that the site has on it
     LineKind kind = LineKind::bytes;
     std::unique_ptr<Side> real;   ///< null on a line with the URI "twin"
     std::unique_ptr<Side> twins;  ///< null while no drive is simulated
@@ -73,6 +102,7 @@ struct Engine::Drive {
     DriveSpec spec;
     DriveId id = no_drive;
     LineUnit* line = nullptr;
+    FamilyEntry family;
     std::shared_ptr<const Catalogue> catalogue;  ///< its own, or its family's page
     std::vector<AxisId> axes;
     Presence serving = Presence::offline;  ///< whose word counts: the device's, the twin's, nobody's
@@ -99,7 +129,7 @@ struct Engine::Axis {
     AxisId id = no_axis;
     Drive* drive = nullptr;
     AxisLimits limits;
-    AxisProfile profile;
+    Cia402Axis profile;
     /// The dead-man time-out of a velocity move under way; `until` is `never` if there is none.
     struct Held {
         Instant until = never;      ///< runs from the drive's acknowledgement on
@@ -125,6 +155,7 @@ struct Engine::Axis {
         SetPoint::Mode mode = SetPoint::Mode::position;
         AuthorityClient who;
         Origin origin;
+        std::int64_t value = 0;  ///< of the newest one that was handed to the drive
         Instant renewed{};  ///< by one that was handed to the drive: a refused one keeps nothing alive
         Duration good_for{};
         std::uint32_t taken = 0, refused = 0;
@@ -191,6 +222,14 @@ struct Engine::Change {
     Instant until{};
     std::vector<Stopped> stopped;
 };
+
+template <class F>
+void Engine::ask(Speaker& by, Instant now, F&& call) {
+    Out out = take_out();
+    call(out);
+    drain(by, out, now);
+    give_back(std::move(out));
+}
 
 /// Commands of one axis that may be on their way at the same time; beyond it: busy.
 inline constexpr std::size_t max_clients_per_axis = 64;

@@ -18,6 +18,7 @@ void Engine::line_state(Side& side, bool up, const std::string& why, Instant now
     side.tried = true;
     side.why = why;
     if (!changed) return;
+    last_stir_ = now;
     if (!side.twin) {
         Event e;
         e.severity = up ? Severity::info : Severity::warning;
@@ -26,10 +27,8 @@ void Engine::line_state(Side& side, bool up, const std::string& why, Instant now
         e.text = up ? fmt::format("line {} is up: {}", side.unit.spec.name, why) : fmt::format("line {} is down: {}", side.unit.spec.name, why);
         event(std::move(e), now);
     }
-    Out out = take_out();
-    side.adapter->on_line(up, now, out);
-    drain(side, out, now);
-    give_back(std::move(out));
+    for (const auto& s : side.speakers)
+        ask(*s, now, [&](Out& out) { s->adapter->on_line(up, now, out); });
     if (!up) {
         for (const DriveId id : side.unit.drives) {
             DriveLink gone;
@@ -46,6 +45,7 @@ void Engine::link(Side& side, const DriveLink& l, Instant now) {
     if (!d) return;
     bool& online = side.twin ? d->twin_online : d->device_online;
     const bool changed = online != l.online;
+    if (changed) last_stir_ = now;
     const bool mine = d->serving == (side.twin ? Presence::twin : Presence::device);
     (side.twin ? d->twin_link : d->device_link) = l;
     if (changed && !l.online && mine) {
@@ -127,19 +127,18 @@ void Engine::serve(Drive& d, Presence by, std::string why, Instant now) {
     if (by == Presence::twin) {
         if (!unit.twins) {
             unit.twins = std::make_unique<Side>(*this, unit, true);
-            unit.twins->adapter = unit.family.family->make_adapter(*unit.family.catalogue, unit.kind);
-            const LineSetup setup = setup_for(unit, *unit.twins);
+            const LineSetup setup = setup_for(unit);
             TwinBusOptions bus_options;
             bus_options.kind = unit.kind;
             bus_options.bit_rate = setup.bit_rate;
             bus_options.bits_per_byte = setup.bits_per_byte;
             bus_options.full_duplex = option(unit.spec.options, "full_duplex", "false") == "true";
-            bus_options.converter = unit.kind == LineKind::bytes && unit.family.family->uses_can;
+            bus_options.converter = unit.kind == LineKind::bytes && unit.family.family->uses_can;  // a byte line names its family
             auto bus = std::make_unique<TwinBus>(bus_options);
             unit.twins->bus = bus.get();
             unit.twins->line = std::move(bus);
             sides_.push_back(unit.twins.get());
-            configure_side(*unit.twins, now);
+            fit_speakers(*unit.twins, now);
             unit.twins->line->open(*unit.twins, now);
         }
         plug_in_twin(d, now);
@@ -181,7 +180,7 @@ void Engine::plug_in_twin(Drive& d, Instant now) {
     t.options = d.spec.options;
     for (const auto& [k, v] : unit.spec.options) t.options.emplace(k, v);
     unit.twins->touched();
-    unit.twins->bus->add(d.id, unit.family.family->make_twin(*d.catalogue, t), d.memory, now);
+    unit.twins->bus->add(d.id, d.family.family->make_twin(*d.catalogue, t), d.memory, now);
     d.memory_revision = unit.twins->bus->twin(d.id)->non_volatile_revision();
     d.twin_axes = t.axes;
 }
@@ -212,7 +211,7 @@ void Engine::refit_twin(Drive& d, Instant now) {
 
 void Engine::begin_handback(Drive& d, Instant now) {
     d.handback = std::make_unique<Drive::Handback>();
-    Side& real = *d.line->real;
+    Speaker& by = speaker_of(*d.line->real, d);
     struct Wanted {
         AxisId axis;
         Point point;
@@ -238,10 +237,7 @@ void Engine::begin_handback(Drive& d, Instant now) {
         c.ticket = ticket;
         c.axis = w.axis;
         c.body = ReadParameter{w.point};
-        Out out = take_out();
-        real.adapter->on_command(c, now, out);
-        drain(real, out, now);
-        give_back(std::move(out));
+        ask(by, now, [&](Out& out) { by.adapter->on_command(c, now, out); });
         if (!d.handback) return;
     }
 }

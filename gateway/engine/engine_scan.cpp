@@ -1,7 +1,7 @@
 // Engine, scans. Addresses that the site does not name are given to the line's adapter as drives without axes, a few at a time;
 // its own search for a drive is the question, its DriveLink the answer.
-// In: wishes, links, the passing of time. Out: reports. Bounds: one scan per line, 16 addresses at once, 2 s per address, the wish's own
-// limit. Never asks an address that the site has given to a drive, and ends when the site changes.
+// In: wishes, links, the passing of time. Out: reports. Bounds: one scan per line, 16 addresses of a family at once, 2 s per address, the
+// wish's own limit. Never asks an address that the site has given to a drive, and ends when the site changes.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -22,35 +22,78 @@ std::string Engine::start_scan(LineId id, ScanWish wish, Instant now) {
     if (!unit) return "there is no such line";
     if (unit->scan && unit->scan->report.state == ScanReport::State::running)
         return fmt::format("line {} is being scanned already", unit->spec.name);
-    const Family& family = *unit->family.family;
-    if (!family.scan) return fmt::format("{} cannot be searched for: it has no question that every drive answers", family.name);
-    wish.kind = unit->kind;
-    for (const DriveId d : unit->drives)
-        wish.known.push_back(drives_[index_of(d)]->spec.address);
-    ScanPlan plan = family.scan(wish);
-    if (!plan.fault.empty()) return plan.fault;
+    std::vector<FamilyEntry> families = unit->families;
+    if (!wish.family.empty()) {
+        const FamilyEntry wanted = families_.find(wish.family);
+        if (auto wrong = not_to_be_searched(*unit, wanted, wish.family); !wrong.empty()) return wrong;
+        families = {wanted};
+    }
+    if (families.empty()) return fmt::format("line {} names no family and has no drives: say which family to search for", unit->spec.name);
     Side* side = unit->real ? unit->real.get() : unit->twins.get();
-    if (side && !side->up) return fmt::format("line {} is down: {}", unit->spec.name, side->why);
     auto scan = std::make_unique<Scan>();
     scan->ends_at = now + wish.limit;
-    scan->at_once = std::clamp<std::size_t>(plan.at_once, 1, most_at_once);
-    for (auto& a : plan.addresses) {
-        if (std::ranges::find(wish.known, a) == wish.known.end()) scan->waiting.push_back(std::move(a));
+    wish.kind = unit->kind;
+    for (const FamilyEntry& family : families) {
+        auto& told = scan->report.parts.emplace_back();
+        told.family = family.family->name;
+        if (!family.family->scan) {
+            told.text = fmt::format("{} cannot be searched for: it has no question that every drive answers", told.family);
+            continue;
+        }
+        wish.family = told.family;
+        wish.known.clear();
+        for (const DriveId d : unit->drives) {
+            const Drive& drive = *drives_[index_of(d)];
+            if (drive.family.family == family.family) wish.known.push_back(drive.spec.address);
+        }
+        ScanPlan plan = family.family->scan(wish);
+        if (!plan.fault.empty()) {
+            told.text = std::move(plan.fault);
+            continue;
+        }
+        auto& part = scan->parts.emplace_back();
+        part.family = family;
+        part.report = scan->report.parts.size() - 1;
+        part.at_once = std::clamp<std::size_t>(plan.at_once, 1, most_at_once);
+        for (auto& a : plan.addresses) {
+            if (std::ranges::find(wish.known, a) == wish.known.end()) part.waiting.push_back(std::move(a));
+        }
+        std::ranges::reverse(part.waiting);  // taken from the back
+        told.of = part.waiting.size();
+        if (!side) {  // a line of twins alone that has none
+            part.waiting.clear();
+            told.asked = told.of;
+        }
+        scan->report.of += told.of;
+        scan->report.asked += told.asked;
     }
-    std::ranges::reverse(scan->waiting);  // taken from the back
+    if (scan->parts.empty()) return scan->report.parts.front().text;
+    if (side && !side->up) return fmt::format("line {} is down: {}", unit->spec.name, side->why);
     for (const DriveId d : unit->drives) {
         const Drive& drive = *drives_[index_of(d)];
+        if (std::ranges::find(scan->parts, drive.family.family, [](const Scan::Part& p) { return p.family.family; }) == scan->parts.end())
+            continue;
         if (side && !side->twin && !drive.device_online) continue;
         if (side && side->twin && !drive.twin_online) continue;
-        scan->report.found.push_back(
-            {drive.spec.address, std::string(family.name), side && !side->twin ? drive.device_link.text : drive.why, drive.spec.name});
+        scan->report.found.push_back({drive.spec.address, std::string(drive.family.family->name),
+                                      side && !side->twin ? drive.device_link.text : drive.why, drive.spec.name});
     }
     scan->report.state = ScanReport::State::running;
-    scan->report.of = scan->waiting.size();
-    if (!side) scan->waiting.clear();  // a line of twins alone that has none
-    if (!side) scan->report.asked = scan->report.of;
     unit->scan = std::move(scan);
     scan_turn(*unit, now);
+    return {};
+}
+
+/// Why a family cannot be searched for on this line; empty: it can.
+std::string Engine::not_to_be_searched(const LineUnit& unit, const FamilyEntry& wanted, std::string_view name) const {
+    if (!wanted.family) return fmt::format("there is no family {}; use one of: {}", name, families_.names());
+    const auto on_line = [&](const FamilyEntry& f) { return f.family == wanted.family; };
+    if (std::ranges::any_of(unit.families, on_line)) return {};
+    if (unit.kind == LineKind::bytes) return fmt::format("line {} carries bytes, and those of {} alone", unit.spec.name, unit.spec.family);
+    if (!wanted.family->uses_can) return fmt::format("{} does not speak on CAN", name);
+    const auto alone = [](const FamilyEntry& f) { return !f.family->can_identifiers; };
+    if (!unit.families.empty() && (alone(wanted) || std::ranges::any_of(unit.families, alone)))
+        return fmt::format("{} cannot be searched for on line {}: they cannot share a CAN line", name, unit.spec.name);
     return {};
 }
 
@@ -68,57 +111,68 @@ void Engine::end_scan(LineUnit& unit, ScanReport::State state, std::string why, 
     if (!unit.scan || unit.scan->report.state != ScanReport::State::running) return;
     unit.scan->report.state = state;
     unit.scan->report.text = std::move(why);
-    unit.scan->waiting.clear();
+    unit.scan->parts.clear();
     Side* side = unit.real ? unit.real.get() : unit.twins.get();
-    if (!side || unit.scan->asking.empty()) return;
-    unit.scan->asking.clear();
-    side->probes.clear();
-    configure_side(*side, now);
+    if (!side) return;
+    for (const auto& s : side->speakers)
+        s->probes.clear();
+    fit_speakers(*side, now);
 }
 
 /// From housekeeping: what was answered or waited for long enough makes room for the next addresses.
 void Engine::scan_turn(LineUnit& unit, Instant now) {
     if (!unit.scan || unit.scan->report.state != ScanReport::State::running) return;
     Scan& scan = *unit.scan;
+    last_stir_ = now;
     Side* side = unit.real ? unit.real.get() : unit.twins.get();
     if (side && !side->up)
         return end_scan(unit, ScanReport::State::failed, fmt::format("line {} is down: {}", unit.spec.name, side->why), now);
-    bool changed = false;
-    std::erase_if(scan.asking, [&](const Scan::Asking& a) {
-        if (!a.over && now - a.since < address_limit) return false;
-        ++scan.report.asked;
-        changed = true;
-        if (a.online) scan.report.found.push_back({a.address, std::string(unit.family.family->name), a.text, ""});
-        return true;
-    });
-    if (now >= scan.ends_at && !(scan.asking.empty() && scan.waiting.empty()))
+    std::vector<Scan::Part*> changed;
+    for (auto& part : scan.parts) {
+        const auto over = std::erase_if(part.asking, [&](const Scan::Asking& a) {
+            if (!a.over && now - a.since < address_limit) return false;
+            if (a.online) scan.report.found.push_back({a.address, std::string(part.family.family->name), a.text, ""});
+            return true;
+        });
+        scan.report.asked += over;
+        scan.report.parts[part.report].asked += over;
+        if (over > 0) changed.push_back(&part);
+    }
+    if (now >= scan.ends_at && !scan.over())
         return end_scan(unit, ScanReport::State::failed, "its limit_s was over before every address was asked", now);
-    while (scan.asking.size() < scan.at_once && !scan.waiting.empty()) {
-        scan.asking.push_back({DriveId{static_cast<std::uint16_t>(first_probe + scan.next_id++ % 0xF0)},
-                               std::move(scan.waiting.back()),
-                               now,
-                               false,
-                               false,
-                               {}});
-        scan.waiting.pop_back();
-        changed = true;
+    for (auto& part : scan.parts) {
+        if (part.asking.size() < part.at_once && !part.waiting.empty() && std::ranges::find(changed, &part) == changed.end())
+            changed.push_back(&part);
+        while (part.asking.size() < part.at_once && !part.waiting.empty()) {
+            part.asking.push_back({DriveId{static_cast<std::uint16_t>(first_probe + scan.next_id++ % 0xF0)},
+                                   std::move(part.waiting.back()),
+                                   now,
+                                   false,
+                                   false,
+                                   {}});
+            part.waiting.pop_back();
+        }
     }
-    if (changed && side) {
-        side->probes.clear();
-        for (const auto& a : scan.asking)
-            side->probes.push_back({a.id, "scan " + a.address, a.address, {}, {}});
-        configure_side(*side, now);
+    for (const Scan::Part* part : changed) {
+        if (!side) break;
+        Speaker& speaker = bring_in(*side, part->family, now);
+        speaker.probes.clear();
+        for (const auto& a : part->asking)
+            speaker.probes.push_back({a.id, "scan " + a.address, a.address, {}, {}});
+        configure(speaker, now);
     }
-    if (scan.asking.empty() && scan.waiting.empty()) scan.report.state = ScanReport::State::done;
+    if (scan.over()) end_scan(unit, ScanReport::State::done, "", now);
 }
 
 void Engine::scan_link(Side& side, const DriveLink& l) {
     if (!side.unit.scan) return;
-    for (auto& a : side.unit.scan->asking) {
-        if (a.id != l.drive || a.over) continue;
-        a.online = l.online;
-        a.over = l.online || l.retry_pause > Duration::zero();  // given up for now: nobody is there
-        a.text = l.text;
+    for (auto& part : side.unit.scan->parts) {
+        for (auto& a : part.asking) {
+            if (a.id != l.drive || a.over) continue;
+            a.online = l.online;
+            a.over = l.online || l.retry_pause > Duration::zero();  // given up for now: nobody is there
+            a.text = l.text;
+        }
     }
 }
 

@@ -17,11 +17,14 @@ Duration stale_limit(const LineSpec& spec, LineKind kind) {
     if (spec.manners.stale_after > Duration::zero()) return spec.manners.stale_after;
     return kind == LineKind::can ? std::chrono::seconds(1) : std::chrono::seconds(3);
 }
+/// Of embedded drives on a line that names neither a rate nor a family: CiA 301's highest.
+constexpr std::uint32_t can_bit_rate_of_no_family = 1'000'000;
 }  // namespace
 
 // --- the site -------------------------------------------------------------------------------------------------------
 
-LineSetup Engine::setup_for(const LineUnit& unit, const Side& side) const {
+/// Of the line alone.
+LineSetup Engine::setup_for(const LineUnit& unit) const {
     LineSetup s;
     s.id = unit.id;
     s.name = unit.spec.name;
@@ -29,20 +32,31 @@ LineSetup Engine::setup_for(const LineUnit& unit, const Side& side) const {
     s.manners = unit.spec.manners;
     s.options = unit.spec.options;
     s.bit_rate = unit.spec.bitrate;
-    const Family& family = *unit.family.family;
-    if (const auto uri = parse_line_uri(unit.spec.uri, family.default_bit_rate, family.default_format); uri.good()) {
-        if (uri.uri.kind == LineUri::Kind::serial || (uri.uri.kind == LineUri::Kind::pty && uri.uri.serial.baud != 0)) {
-            s.bit_rate = uri.uri.serial.baud;
-            s.bits_per_byte = static_cast<std::uint8_t>(uri.uri.serial.format.bits_per_byte());
-        } else if (uri.uri.kind == LineUri::Kind::twin) {
-            if (const auto format = parse_serial_format(family.default_format)) s.bits_per_byte = format->bits_per_byte();
-            if (s.bit_rate == 0) s.bit_rate = unit.kind == LineKind::can ? family.default_can_bit_rate : family.default_bit_rate;
-        }
+    const Family* family = unit.family.family;
+    const auto uri =
+        family ? parse_line_uri(unit.spec.uri, family->default_bit_rate, family->default_format) : parse_line_uri(unit.spec.uri);
+    if (!uri.good()) return s;
+    if (uri.uri.kind == LineUri::Kind::serial || (uri.uri.kind == LineUri::Kind::pty && uri.uri.serial.baud != 0)) {
+        s.bit_rate = uri.uri.serial.baud;
+        s.bits_per_byte = static_cast<std::uint8_t>(uri.uri.serial.format.bits_per_byte());
+    } else if (uri.uri.kind == LineUri::Kind::twin) {
+        if (const auto format = parse_serial_format(family ? family->default_format : "8N1")) s.bits_per_byte = format->bits_per_byte();
+        if (s.bit_rate == 0)
+            s.bit_rate = !family                      ? can_bit_rate_of_no_family
+                         : unit.kind == LineKind::can ? family->default_can_bit_rate
+                                                      : family->default_bit_rate;
     }
-    for (const DriveId id : unit.drives) {
+    return s;
+}
+
+/// The line with the drives of one family that this side serves.
+LineSetup Engine::setup_for(const Speaker& speaker) const {
+    const Side& side = speaker.side;
+    LineSetup s = setup_for(side.unit);
+    for (const DriveId id : side.unit.drives) {
         const Drive& d = *drives_[index_of(id)];
         const bool here = side.twin ? d.serving == Presence::twin : d.spec.presence != PresenceRule::twin;
-        if (!here) continue;
+        if (!here || d.family.family != speaker.family.family) continue;
         DriveSetup ds;
         ds.id = id;
         ds.name = d.spec.name;
@@ -52,33 +66,65 @@ LineSetup Engine::setup_for(const LineUnit& unit, const Side& side) const {
         for (const AxisId a : d.axes) ds.axes.push_back({a, axes_[index_of(a)]->spec.channel});
         s.drives.push_back(std::move(ds));
     }
-    s.drives.insert(s.drives.end(), side.probes.begin(), side.probes.end());
+    s.drives.insert(s.drives.end(), speaker.probes.begin(), speaker.probes.end());
     return s;
 }
 
+/// Tells an adapter its drives; the frames that it is given follow from their addresses.
+void Engine::configure(Speaker& speaker, Instant now) {
+    const LineSetup setup = setup_for(speaker);
+    const auto identifiers = speaker.side.unit.kind == LineKind::can ? speaker.family.family->can_identifiers : nullptr;
+    speaker.hears_all = identifiers == nullptr;
+    if (identifiers) {
+        std::vector<std::string> addresses;
+        for (const auto& d : setup.drives)
+            addresses.push_back(d.address);
+        speaker.identifiers = identifiers(addresses);
+    }
+    ask(speaker, now, [&](Out& out) { speaker.adapter->configure(setup, now, out); });
+}
+
 void Engine::configure_side(Side& side, Instant now) {
-    Out out = take_out();
-    side.adapter->configure(setup_for(side.unit, side), now, out);
-    drain(side, out, now);
-    give_back(std::move(out));
+    for (const auto& s : side.speakers)
+        configure(*s, now);
+}
+
+/// The adapter of a family on this side, made where there is none.
+Engine::Speaker& Engine::bring_in(Side& side, const FamilyEntry& family, Instant now) {
+    if (Speaker* known = side.speaker_of(family)) return *known;
+    std::uint8_t number = 0;
+    while (std::ranges::any_of(side.speakers, [&](const auto& s) { return s->number == number; }))
+        ++number;
+    Speaker& fresh = *side.speakers.emplace_back(std::make_unique<Speaker>(side, family, number));
+    fresh.adapter = family.family->make_adapter(*family.catalogue, side.unit.kind);
+    configure(fresh, now);
+    if (side.up) ask(fresh, now, [&](Out& out) { fresh.adapter->on_line(true, now, out); });
+    return fresh;
+}
+
+/// Adapters for the line's families, each with its drives; those of families that have left it end with what they had in hand.
+void Engine::fit_speakers(Side& side, Instant now) {
+    const auto& families = side.unit.families;
+    configure_side(side, now);
+    std::erase_if(side.speakers, [&](const auto& s) {
+        return s->probes.empty() && std::ranges::find(families, s->family.family, &FamilyEntry::family) == families.end();
+    });
+    for (const FamilyEntry& f : families)
+        (void)bring_in(side, f, now);
+    side.touched();
 }
 
 /// Makes the sides that a new line needs and opens the real one. The twins' side is made when the first drive is simulated.
 void Engine::build_line(LineUnit& unit, Instant now) {
-    const Family& family = *unit.family.family;
-    const auto uri = parse_line_uri(unit.spec.uri, family.default_bit_rate, family.default_format);
-    const bool only_twins = uri.good() && uri.uri.kind == LineUri::Kind::twin;
-    unit.kind = only_twins ? (family.uses_can ? LineKind::can : LineKind::bytes)
-                           : (uri.uri.kind == LineUri::Kind::can ? LineKind::can : LineKind::bytes);
-    if (only_twins && option(unit.spec.options, "kind", "") == "bytes" && family.uses_bytes) unit.kind = LineKind::bytes;
+    const auto uri = parse_line_uri(unit.spec.uri);
+    unit.kind = kind_of(unit.spec, families_);
     unit.stale_after = stale_limit(unit.spec, unit.kind);
     unit.log = std::make_shared<FrameLog>(trace_frames_);
-    if (only_twins) return;
+    if (uri.good() && uri.uri.kind == LineUri::Kind::twin) return;
     unit.real = std::make_unique<Side>(*this, unit, false);
-    unit.real->adapter = family.make_adapter(*unit.family.catalogue, unit.kind);
-    unit.real->line = host_.make_line(unit.spec, setup_for(unit, *unit.real));
+    unit.real->line = host_.make_line(unit.spec, setup_for(unit));
     sides_.push_back(unit.real.get());
-    configure_side(*unit.real, now);
+    fit_speakers(*unit.real, now);
     unit.real->line->open(*unit.real, now);
     unit.real->touched();
 }
@@ -106,7 +152,7 @@ void Engine::new_source(Axis& a) {
 }
 
 std::shared_ptr<const SiteState> Engine::apply_site(Site site, SiteMemory memory, std::uint64_t revision, Instant now) {
-    now_ = std::max(now_, now);
+    now_ = last_stir_ = std::max(now_, now);
     for (const auto& unit : lines_) {
         if (unit) end_scan(*unit, ScanReport::State::cancelled, "the site has changed: scan again", now);
     }
@@ -164,6 +210,9 @@ std::shared_ptr<const SiteState> Engine::apply_site(Site site, SiteMemory memory
             slot->family = families_.find(l.family);
             fresh_lines.push_back(slot.get());
         }
+        slot->families.clear();
+        for (const auto& name : site.families_on(l))
+            slot->families.push_back(families_.find(name));
         state->line_ids.push_back(id);
     }
     std::vector<Drive*> fresh_drives;
@@ -182,6 +231,7 @@ std::shared_ptr<const SiteState> Engine::apply_site(Site site, SiteMemory memory
                 if (unit && unit->spec.name == d.line) slot->line = unit.get();
             }
             slot->line->drives.push_back(id);
+            slot->family = families_.find(site.family_of(d));
             slot->catalogue = catalogue_of(site, d, families_);
             if (const auto m = memory.twins.find(d.name); m != memory.twins.end()) slot->memory = m->second;
             fresh_drives.push_back(slot.get());
@@ -230,8 +280,8 @@ std::shared_ptr<const SiteState> Engine::apply_site(Site site, SiteMemory memory
     }
     for (const auto& unit : lines_) {
         if (!unit || std::ranges::find(fresh_lines, unit.get()) != fresh_lines.end()) continue;
-        if (unit->real) configure_side(*unit->real, now);
-        if (unit->twins) configure_side(*unit->twins, now);
+        if (unit->real) fit_speakers(*unit->real, now);
+        if (unit->twins) fit_speakers(*unit->twins, now);
     }
     for (LineUnit* unit : fresh_lines) build_line(*unit, now);
     for (Drive* d : fresh_drives) decide_presence(*d, now);

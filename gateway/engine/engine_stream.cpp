@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "gateway/engine/engine.hpp"
@@ -14,13 +15,13 @@ namespace {
 constexpr Duration refusal_told_again = std::chrono::seconds(1);
 }  // namespace
 
-void Engine::on_set_point(const SetPoint& p, Instant now) {
-    now_ = std::max(now_, now);
+std::optional<Refusal> Engine::on_set_point(const SetPoint& p, Instant now) {
+    now_ = last_stir_ = std::max(now_, now);
     Axis* a = axis(p.axis);
-    if (!a || closing_) return;  // as with any state: who looks at the axis sees that it is not there
+    if (!a || closing_) return Refusal{Reason::line_down, a ? "the gateway is stopping" : "there is no such axis"};
     Axis::Stream& s = a->stream;
     const auto who = AuthorityClient::of(p.origin);
-    const auto no = against(*a, p, who, now);
+    auto no = against(*a, p, who, now);
     if (!s.on && s.ended_by == who) {
         s.ended_heard = now;
         if (no && no->reason != s.ended_for) {  // a later refusal counts like an end
@@ -35,12 +36,14 @@ void Engine::on_set_point(const SetPoint& p, Instant now) {
             s.tell_again_at = now + refusal_told_again;
             tell_stream(*a, p.origin, Severity::warning, fmt::format("a set-point of {} is refused: {}", who.text(), no->text), now);
         }
-        return publish(*a, now);
+        publish(*a, now);
+        return no;
     }
     if (!s.on) begin_stream(*a, p, who, now);
     s.mode = p.mode;
     s.good_for = p.good_for;
     s.renewed = now;
+    s.value = p.value;
     s.refusal = Reason::none;
     ++s.taken;
     a->profile.follow(p);
@@ -53,11 +56,10 @@ void Engine::on_set_point(const SetPoint& p, Instant now) {
         a->run.velocity = 0;
     }
     publish(*a, now);
-    Side& side = *side_of(*a->drive);
-    Out out = take_out();
-    side.adapter->on_set_point(p, now, out);
-    drain(side, out, now);
-    give_back(std::move(out));
+    Speaker& by = speaker_of(*side_of(*a->drive), *a->drive);
+    ask(by, now, [&](Out& out) { by.adapter->on_set_point(p, now, out); });
+    if (!s.on) return Refusal{s.ended_for, s.ended_why};  // not even begun
+    return std::nullopt;
 }
 
 /// Why this one is not handed on; nothing: it is.
@@ -92,7 +94,26 @@ std::optional<Refusal> Engine::against(const Axis& a, const SetPoint& p, const A
     if (auto d = a.profile.may_follow(); d.refused) return Refusal{d.reason, std::move(d.text)};
     const Side* side = side_of(*a.drive);
     if (!side || !side->up) return Refusal{Reason::line_down, "its line is down"};
-    return std::nullopt;
+    return too_far(a, p);
+}
+
+/// A drive that follows each set-point within its interpolation time would exceed the site's limits, whatever the period of the client: the
+/// step from the one before it (from where the axis is, if it is the first) is no greater than the limit allows in that time.
+std::optional<Refusal> Engine::too_far(const Axis& a, const SetPoint& p) const {
+    const Duration period = speaker_of(*side_of(*a.drive), *a.drive).adapter->interpolation_time(a.id);
+    const bool position = p.mode == SetPoint::Mode::position;
+    const auto limit = position ? a.limits.velocity_max : a.limits.acceleration_max;
+    if (period <= Duration::zero() || !limit || p.mode == SetPoint::Mode::torque) return std::nullopt;
+    const AxisFeedback& f = a.profile.feedback();
+    const std::int64_t from = a.stream.on && a.stream.mode == p.mode ? a.stream.value : position ? f.position : f.velocity;
+    const double most = static_cast<double>(*limit) * seconds(period);
+    const double step = std::fabs(static_cast<double>(p.value) - static_cast<double>(from));
+    if (step <= std::max(most, 1.0)) return std::nullopt;
+    return Refusal{Reason::out_of_range,
+                   fmt::format("a step of {} is more than the {} that {} allows in the drive's interpolation time of {} us",
+                               in_unit(std::llround(step), a.limits, position ? "" : "/s"),
+                               in_unit(std::llround(most), a.limits, position ? "" : "/s"), position ? "velocity_max" : "acceleration_max",
+                               std::chrono::duration_cast<std::chrono::microseconds>(period).count())};
 }
 
 /// What a motion of a command would end ends here, too.

@@ -12,6 +12,10 @@ namespace axisgate {
 
 // --- time -----------------------------------------------------------------------------------------------------------
 
+bool Engine::at_rest(Instant now) const noexcept {
+    return clients_.empty() && orders_.empty() && !change_ && now - last_stir_ >= std::chrono::seconds(1);
+}
+
 Instant Engine::deadline() const {
     Instant t = lines_.empty() ? never : next_housekeeping_;
     for (Side* s : sides_)
@@ -27,11 +31,9 @@ void Engine::on_deadline(Instant now) {
         if (s.deadline() > now) continue;
         s.touched();
         if (s.line->deadline() <= now) s.line->on_deadline(now);
-        if (s.adapter->deadline() <= now) {
-            Out out = take_out();
-            s.adapter->on_deadline(now, out);
-            drain(s, out, now);
-            give_back(std::move(out));
+        for (std::size_t k = 0; k < s.speakers.size(); ++k) {
+            Speaker& by = *s.speakers[k];
+            if (by.adapter->deadline() <= now) ask(by, now, [&](Out& out) { by.adapter->on_deadline(now, out); });
         }
     }
     if (now >= next_housekeeping_) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "gateway/axis/image.hpp"
 #include "gateway/core/adapter.hpp"
@@ -24,6 +25,13 @@ struct LineReport {
     AdapterCounters counters;
     bool has_twin_bus = false;         ///< some drives of it are simulated now
     LineStatus twin_status;
+    /// What each family's adapter counted; `counters` is their sum.
+    struct OfFamily {
+        std::string family;
+        AdapterCounters counters;
+    };
+    std::vector<OfFamily> families;
+    std::uint64_t unclaimed = 0;  ///< CAN frames with identifiers that are no family's of the line
 };
 
 }  // namespace axisgate

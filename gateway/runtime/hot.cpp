@@ -20,6 +20,8 @@ constexpr std::size_t stored_ring = 8192;
 constexpr int handlers_per_turn = 128;
 constexpr int turns_unannounced_limit = 8;
 constexpr Duration reports_period = std::chrono::milliseconds(100);
+/// At rest nobody waits for what is due: it is done together with what is due a little later, because a wake-up costs more than the work.
+constexpr Duration rest_gathers = std::chrono::milliseconds(5);
 constexpr Duration stop_limit = std::chrono::milliseconds(1500);
 }  // namespace
 
@@ -39,7 +41,7 @@ void Hot::start() {
     last_turn_ns_.store(ns_of(now()), std::memory_order_relaxed);
     thread_ = std::thread([this] {
         enter_thread("axisgate-hot", hot_stands_back);
-        take_short_turns();
+        if (settings_.spin_us > 0 || !go_first()) take_short_turns();
         if (settings_.cpu >= 0) {
             cpu_set_t set;
             CPU_ZERO(&set);
@@ -130,7 +132,8 @@ void Hot::end_turn() {
     if (t >= next_reports_) publish_reports(t);
     turns_.fetch_add(1, std::memory_order_relaxed);
     last_turn_ns_.store(ns_of(t), std::memory_order_relaxed);
-    const Instant next = std::min(engine_.deadline(), next_reports_);
+    Instant next = std::min(engine_.deadline(), next_reports_);
+    if (engine_.at_rest(t)) next = std::max(next, t + rest_gathers);
     arm(submitted_.empty() && results_.empty() ? next : t);
 }
 
@@ -209,7 +212,8 @@ void Hot::on_twin_memory(const std::string& drive, NonVolatile memory) {
 }
 
 std::unique_ptr<Line> Hot::make_line(const LineSpec& spec, const LineSetup& setup) {
-    return make_real_line(spec.uri, setup, io_, find_family(spec.family)->default_format, settings_.ptys);
+    const Family* family = find_family(spec.family);  // none: a CAN line of several
+    return make_real_line(spec.uri, setup, io_, family ? family->default_format : "8N1", settings_.ptys);
 }
 
 void Hot::publish_reports(Instant now) {

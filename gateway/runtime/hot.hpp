@@ -86,7 +86,7 @@ public:
     [[nodiscard]] const Image& image() const override { return image_; }
     [[nodiscard]] const Catalogue* catalogue(AxisId axis) const override { return engine_.catalogue(axis); }
     void submit(Command command) override;
-    void set_point(const SetPoint& set_point) override { engine_.on_set_point(set_point, now()); }
+    std::optional<Refusal> set_point(const SetPoint& set_point) override { return engine_.on_set_point(set_point, now()); }
     void client_lost(const AuthorityClient& who, LossCause cause) override { engine_.on_client_lost(who, cause, now()); }
     void note(Event&& event, AxisId axis) override;
     [[nodiscard]] DoorNumber attach(HotDoor& door) override;

@@ -36,9 +36,9 @@ Names names_in(const json::value& document, const std::map<std::string, std::str
     std::map<std::string, std::string> family_of_line, family_of_drive;
     each(document, "lines", [&](const json::value& l) { family_of_line[member(l, "name")] = member(l, "family"); });
     each(document, "drives", [&](const json::value& d) {
-        const std::string family = family_of_line[member(d, "line")];
+        const std::string own = member(d, "family"), family = own.empty() ? family_of_line[member(d, "line")] : own;
         family_of_drive[member(d, "name")] = family;
-        out.drives.push_back({member(d, "name"), member(d, "line") + '\n' + member(d, "address"), family});
+        out.drives.push_back({member(d, "name"), member(d, "line") + '\n' + member(d, "address") + '\n' + own, family});
     });
     each(document, "axes", [&](const json::value& a) {
         const std::string drive = member(a, "drive");

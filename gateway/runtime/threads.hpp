@@ -12,11 +12,20 @@
 
 namespace axisgate {
 
-/// Name of the calling thread (15 characters at most), and its nice value: the hot thread keeps what the process was started with, the
-/// others stand back, so that on a busy machine a page or a database never makes a machine wait.
+/// Name of the calling thread (15 characters at most), and what is added to the nice value that the process was started with: those that
+/// stand back do so for the hot thread, so that on a busy machine a page or a database never makes a machine wait.
 inline void enter_thread(const char* name, int nice_by) noexcept {
     pthread_setname_np(pthread_self(), name);
     if (nice_by > 0) (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), getpriority(PRIO_PROCESS, static_cast<id_t>(gettid())) + nice_by);
+}
+/// Asks to go before every thread of the normal policy (the lowest real-time rank, in turn with others of it), where the system grants that
+/// (RLIMIT_RTPRIO, systemd's LimitRTPRIO=1). Only for a thread that sleeps: one that spins would keep its processor for itself. False: not
+/// granted; a policy that was given from outside stays, too.
+inline bool go_first() noexcept {
+    if (sched_getscheduler(0) != SCHED_OTHER) return true;
+    sched_param p{};
+    p.sched_priority = 1;
+    return sched_setscheduler(0, SCHED_RR | SCHED_RESET_ON_FORK, &p) == 0;
 }
 /// Asks for short turns on the processor. Linux since 6.12 lets a waking thread with a shorter slice in before one with a longer one; without
 /// it a thread that only stands back by nice may still end its own slice of some milliseconds first. Earlier kernels ignore it; it needs no

@@ -16,8 +16,8 @@ AxisPlace axis_at(const Gateway& gateway, std::shared_ptr<const SiteState> site,
     place.index = index;
     if (const DriveSpec* drive = place.site->site.drive(place.spec().drive)) {
         place.line = drive->line;
-        if (const LineSpec* line = place.site->site.line(drive->line)) {
-            place.family = line->family;
+        if (place.site->site.line(drive->line)) {
+            place.family = place.site->site.family_of(*drive);
             place.catalogue = catalogue_of(place.site->site, *drive, gateway.families()).get();  // lives as long as the site
         }
     }

@@ -17,7 +17,7 @@ namespace {
 /// Beside those that tell the state in one value.
 constexpr std::array<std::string_view, 8> other_axis_live_members{"at",    "authority_holder", "authority_until", "error", "family", "line",
                                                                   "modes", "set_points"};
-constexpr std::array<std::string_view, 3> drive_live_members{"family", "axes", "status"};
+constexpr std::array<std::string_view, 2> drive_live_members{"axes", "status"};
 constexpr std::array<std::string_view, 2> line_live_members{"drives", "status"};
 
 json::object status_document(const LineStatus& s) {
@@ -172,8 +172,7 @@ json::object axis_document(const AxisView& v) {
 json::object drive_document(const SiteState& site, std::size_t index, const DriveStatus& status) {
     const DriveSpec& d = site.site.drives[index];
     json::object o = to_json(d);
-    const LineSpec* line = site.site.line(d.line);
-    o["family"] = line ? line->family : std::string();
+    o["family"] = site.site.family_of(d);
     json::array axes;
     for (const auto& a : site.site.axes) {
         if (a.drive == d.name) axes.emplace_back(a.name);
@@ -189,6 +188,11 @@ json::object drive_document(const SiteState& site, std::size_t index, const Driv
     return o;
 }
 
+static json::object counters_document(const AdapterCounters& c) {
+    return {{"exchanges", c.exchanges}, {"timeouts", c.timeouts}, {"retries", c.retries},
+            {"refused", c.refused},     {"garbled", c.garbled},   {"unexpected", c.unexpected}};
+}
+
 json::object line_document(const SiteState& site, std::size_t index, const LineReport& report) {
     const LineSpec& l = site.site.lines[index];
     json::object o = to_json(l);
@@ -199,8 +203,12 @@ json::object line_document(const SiteState& site, std::size_t index, const LineR
     o["drives"] = std::move(drives);
     json::object s = status_document(report.status);
     const AdapterCounters& c = report.counters;
-    s["counters"] = json::object{{"exchanges", c.exchanges}, {"timeouts", c.timeouts}, {"retries", c.retries},
-                                 {"refused", c.refused},     {"garbled", c.garbled},   {"unexpected", c.unexpected}};
+    s["counters"] = counters_document(c);
+    json::array families;
+    for (const auto& f : report.families)
+        families.push_back(json::object{{"family", f.family}, {"counters", counters_document(f.counters)}});
+    s["families"] = std::move(families);
+    s["unclaimed"] = report.unclaimed;
     s["has_twin_bus"] = report.has_twin_bus;
     s["twin"] = report.has_twin_bus ? json::value(status_document(report.twin_status)) : json::value(nullptr);
     o["status"] = std::move(s);

@@ -84,17 +84,30 @@ std::string check_option(const Catalogue& catalogue, std::initializer_list<Optio
 std::vector<OptionFault> check_options(const Site& site, const Families& families) {
     std::vector<OptionFault> out;
     for (const LineSpec& l : site.lines) {
-        const auto* catalogue = families.find(l.family).catalogue;
-        if (!catalogue) continue;
-        for (const auto& [name, value] : l.options) {
+        std::vector<const Catalogue*> catalogues;  // of the families on the line
+        for (const auto& name : site.families_on(l)) {
+            if (const auto* c = families.find(name).catalogue) catalogues.push_back(c);
+        }
+        for (const auto& given : l.options) {
+            const auto& name = given.first;
+            const auto& value = given.second;
             // The gateway's own, of any line with twins: a byte bus of a family that has CAN too, and separate wires for each direction.
             if (name == "kind" || name == "full_duplex") continue;
-            if (auto wrong = check_option(*catalogue, {OptionOf::line, OptionOf::twin}, name, value); !wrong.empty()) {
-                out.push_back({l.name, "", fmt::format("line {}: option {}", l.name, wrong), find(*catalogue, {OptionOf::line}, name) != nullptr});
+            // Each family that knows it must take it; where none does, the first one says what it has.
+            const auto told = [&](const Catalogue& c) { return find(c, {OptionOf::line, OptionOf::twin}, name) != nullptr; };
+            const bool known = std::ranges::any_of(catalogues, [&](const Catalogue* c) { return told(*c); });
+            for (const Catalogue* c : catalogues) {
+                if (known && !told(*c)) continue;
+                if (auto wrong = check_option(*c, {OptionOf::line, OptionOf::twin}, name, value); !wrong.empty()) {
+                    out.push_back(
+                        {l.name, "", fmt::format("line {}: option {}", l.name, wrong), find(*c, {OptionOf::line}, name) != nullptr});
+                    break;
+                }
             }
         }
         for (const DriveSpec& d : site.drives) {
-            if (d.line != l.name) continue;
+            const auto* catalogue = d.line == l.name ? families.find(site.family_of(d)).catalogue : nullptr;
+            if (!catalogue) continue;
             for (const auto& [name, value] : d.options) {
                 if (auto wrong = check_option(*catalogue, {OptionOf::drive, OptionOf::twin}, name, value); !wrong.empty()) {
                     out.push_back({l.name, d.name, fmt::format("drive {}: option {}", d.name, wrong), find(*catalogue, {OptionOf::drive}, name) != nullptr});

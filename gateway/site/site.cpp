@@ -9,6 +9,8 @@
 #include <cmath>
 #include <map>
 
+#include "gateway/core/line_uri.hpp"
+
 namespace axisgate {
 
 std::string_view name_of(AuthorityMode mode) noexcept { return mode == AuthorityMode::lease ? "lease" : "free"; }
@@ -78,6 +80,31 @@ const LineSpec* Site::line(std::string_view name) const noexcept { return by_nam
 const DriveSpec* Site::drive(std::string_view name) const noexcept { return by_name(drives, name); }
 const AxisSpec* Site::axis(std::string_view name) const noexcept { return by_name(axes, name); }
 
+std::string_view Site::family_of(const DriveSpec& drive) const noexcept {
+    if (!drive.family.empty()) return drive.family;
+    const LineSpec* l = line(drive.line);
+    return l ? std::string_view(l->family) : std::string_view();
+}
+
+std::vector<std::string> Site::families_on(const LineSpec& line) const {
+    std::vector<std::string> list;
+    if (!line.family.empty()) list.push_back(line.family);
+    for (const auto& d : drives) {
+        if (d.line == line.name && !d.family.empty() && std::ranges::find(list, d.family) == list.end()) list.push_back(d.family);
+    }
+    return list;
+}
+
+LineKind kind_of(const LineSpec& line, const Families& families) {
+    const auto uri = parse_line_uri(line.uri);
+    if (!uri.good() || uri.uri.kind != LineUri::Kind::twin)
+        return uri.good() && uri.uri.kind == LineUri::Kind::can ? LineKind::can : LineKind::bytes;
+    const Family* family = families.find(line.family).family;
+    if (!family) return LineKind::can;
+    const bool wants_bytes = option(line.options, "kind", "") == "bytes" && family->uses_bytes;
+    return family->uses_can && !wants_bytes ? LineKind::can : LineKind::bytes;
+}
+
 FamilyEntry Families::find(std::string_view name) const noexcept {
     for (const auto& e : entries) {
         if (e.family->name == name) return e;
@@ -87,8 +114,7 @@ FamilyEntry Families::find(std::string_view name) const noexcept {
 
 std::shared_ptr<const Catalogue> catalogue_of(const Site& site, const DriveSpec& drive, const Families& families) {
     if (const auto own = site.own_catalogues.find(drive.name); own != site.own_catalogues.end()) return own->second;
-    const LineSpec* line = site.line(drive.line);
-    return {std::shared_ptr<const Catalogue>(), line ? families.find(line->family).catalogue : nullptr};
+    return {std::shared_ptr<const Catalogue>(), families.find(site.family_of(drive)).catalogue};
 }
 
 std::string Families::names() const {
@@ -98,7 +124,8 @@ std::string Families::names() const {
 }
 
 json::object to_json(const LineSpec& l) {
-    json::object o{{"name", l.name}, {"uri", l.uri}, {"family", l.family}};
+    json::object o{{"name", l.name}, {"uri", l.uri}};
+    if (!l.family.empty()) o["family"] = l.family;
     if (l.bitrate) o["bitrate"] = l.bitrate;
     put_options(o, "options", l.options);
     if (auto m = manners_json(l.manners); !m.empty()) o["manners"] = std::move(m);
@@ -107,6 +134,7 @@ json::object to_json(const LineSpec& l) {
 
 json::object to_json(const DriveSpec& d) {
     json::object o{{"name", d.name}, {"line", d.line}, {"presence", std::string(name_of(d.presence))}};
+    if (!d.family.empty()) o["family"] = d.family;
     if (!d.address.empty() && std::ranges::all_of(d.address, [](char c) { return c >= '0' && c <= '9'; }) && d.address.size() < 10) {
         o["address"] = std::stoll(d.address);
     } else {
@@ -247,7 +275,7 @@ std::uint32_t mapping_revision(const Site& site) noexcept {
         mix(a.unit);
         mix(std::to_string(a.increments_per_unit));
         if (const auto* d = site.drive(a.drive)) {
-            if (const auto* l = site.line(d->line)) mix(l->family);
+            if (const auto family = site.family_of(*d); site.line(d->line)) mix(family);
         }
     }
     // The parameter channel names a parameter by its place in the catalogue.

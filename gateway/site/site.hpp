@@ -32,7 +32,7 @@ enum class PresenceRule : std::uint8_t {
 struct LineSpec {
     std::string name;
     std::string uri;              ///< CONTRACT's line URIs; "twin": a bus with embedded drives alone
-    std::string family;
+    std::string family;           ///< of its drives that name none; empty on a CAN line whose drives all name theirs
     std::uint32_t bitrate = 0;    ///< bit/s; 0: from the URI or the family's default
     std::map<std::string, std::string> options;
     LineManners manners;          ///< "manners": {"reply_timeout_ms": ..., "poll_period_ms": ..., ...}
@@ -42,6 +42,7 @@ struct LineSpec {
 struct DriveSpec {
     std::string name;
     std::string line;
+    std::string family;           ///< empty: the line's
     std::string address;          ///< number or text in the document; text here
     PresenceRule presence = PresenceRule::automatic;
     std::map<std::string, std::string> options;
@@ -90,6 +91,10 @@ struct Site {
     [[nodiscard]] const LineSpec* line(std::string_view name) const noexcept;
     [[nodiscard]] const DriveSpec* drive(std::string_view name) const noexcept;
     [[nodiscard]] const AxisSpec* axis(std::string_view name) const noexcept;
+    /// A drive's own family, or its line's; empty if neither names one.
+    [[nodiscard]] std::string_view family_of(const DriveSpec& drive) const noexcept;
+    /// Families of a line without repeats: its own first, then its drives' in the order of the document.
+    [[nodiscard]] std::vector<std::string> families_on(const LineSpec& line) const;
 };
 
 struct SiteFault {
@@ -109,6 +114,12 @@ struct Families {
     [[nodiscard]] FamilyEntry find(std::string_view name) const noexcept;
     [[nodiscard]] std::string names() const;
 };
+
+/// Families that may share a CAN line.
+inline constexpr std::size_t most_families_on_a_line = 4;
+
+/// What crosses a line: by its URI, and where that is "twin", by its family and its option "kind". A line without a family is CAN there.
+[[nodiscard]] LineKind kind_of(const LineSpec& line, const Families& families);
 
 /// The catalogue of a drive of the site: its own, or its family's page, which outlives every site; null: there is no such family.
 [[nodiscard]] std::shared_ptr<const Catalogue> catalogue_of(const Site& site, const DriveSpec& drive, const Families& families);

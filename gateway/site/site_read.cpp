@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "gateway/core/line_uri.hpp"
 #include "gateway/site/mapping.hpp"
@@ -193,6 +194,80 @@ std::string names_of(const std::vector<T>& list) {
     return s.empty() ? "none" : s;
 }
 
+/// A byte line carries one family, which it names; a CAN line several, if each says by which identifiers its frames are known.
+void check_families(const Site& site, const Families& families, std::vector<SiteFault>& faults) {
+    for (std::size_t i = 0; i < site.lines.size(); ++i) {
+        const auto& l = site.lines[i];
+        if (l.family.empty() && kind_of(l, families) == LineKind::bytes && parse_line_uri(l.uri).good()) {
+            faults.push_back({fmt::format("/lines/{}/family", i),
+                              fmt::format("line {}: family is missing: a line of bytes carries one, by which it is set up", l.name),
+                              "use one of: " + families.names()});
+        }
+    }
+    struct Known {
+        const DriveSpec* drive;
+        FamilyEntry entry;
+        std::vector<CanIdentifiers> identifiers;  // none: every frame
+    };
+    std::map<std::string, std::vector<Known>> on;
+    for (std::size_t i = 0; i < site.drives.size(); ++i) {
+        const auto& d = site.drives[i];
+        const LineSpec* line = site.line(d.line);
+        const auto fault = [&](std::string text, std::string remedy) {
+            faults.push_back({fmt::format("/drives/{}/family", i), std::move(text), std::move(remedy)});
+        };
+        if (!line) continue;
+        const LineKind kind = kind_of(*line, families);
+        if (d.family.empty() && line->family.empty() && kind == LineKind::can) {
+            fault(fmt::format("drive {}: family is missing, and its line {} names none", d.name, line->name),
+                  "name it here, or at the line for each of its drives that names none; use one of: " + families.names());
+        }
+        const FamilyEntry entry = families.find(site.family_of(d));
+        if (!d.family.empty()) {
+            if (!entry.family) {
+                fault(fmt::format("drive {}: there is no family {}", d.name, d.family), "use one of: " + families.names());
+            } else if (kind == LineKind::bytes) {
+                fault(fmt::format("drive {}: line {} carries bytes, and those of {} alone", d.name, line->name, line->family),
+                      "leave family out, or put the drive on a line of its own family");
+            } else if (!entry.family->uses_can) {
+                fault(fmt::format("drive {}: {} does not speak on CAN", d.name, d.family), "put it on a line of bytes whose family it is");
+            }
+        }
+        if (!entry.family || kind != LineKind::can || !entry.family->uses_can || d.address.empty() ||
+            !entry.family->check_address(d.address).empty())
+            continue;
+        Known mine{&d, entry, {}};
+        if (entry.family->can_identifiers) mine.identifiers = entry.family->can_identifiers({&d.address, 1});
+        auto& others = on[line->name];
+        for (const auto& o : others) {
+            if (o.entry.family == entry.family) continue;
+            const auto anything = [](const Known& k) { return !k.entry.family->can_identifiers; };
+            if (anything(mine) || anything(o)) {
+                fault(fmt::format("drive {}: {} cannot share a CAN line with other families", d.name,
+                                  (anything(mine) ? entry : o.entry).family->name),
+                      "put the drives on lines of their own");
+                break;
+            }
+            if (std::ranges::any_of(mine.identifiers, [&](const CanIdentifiers& x) {
+                    return std::ranges::any_of(o.identifiers, [&](const CanIdentifiers& y) { return x.meets(y); });
+                })) {
+                faults.push_back({fmt::format("/drives/{}/address", i),
+                                  fmt::format("drive {} ({}) and drive {} ({}) use the same CAN identifiers", d.name, entry.family->name,
+                                              o.drive->name, o.entry.family->name),
+                                  "give one of them another address, or another line"});
+                break;
+            }
+        }
+        others.push_back(std::move(mine));
+    }
+    for (std::size_t i = 0; i < site.lines.size(); ++i) {
+        if (site.families_on(site.lines[i]).size() > most_families_on_a_line)
+            faults.push_back({fmt::format("/lines/{}", i),
+                              fmt::format("line {} has drives of more than {} families", site.lines[i].name, most_families_on_a_line),
+                              "put some of them on another line"});
+    }
+}
+
 void check_relations(const Site& site, const Families& families, std::vector<SiteFault>& faults) {
     const auto at = [](std::string_view list, std::size_t i, std::string_view key) { return fmt::format("/{}/{}/{}", list, i, key); };
     std::set<std::string> uris;
@@ -220,7 +295,8 @@ void check_relations(const Site& site, const Families& families, std::vector<Sit
             faults.push_back({at("lines", i, "uri"), fmt::format("{} is used by two lines", l.uri), "put their drives on one line"});
         }
     }
-    std::set<std::pair<std::string, std::string>> addresses;
+    check_families(site, families, faults);
+    std::set<std::tuple<std::string, std::string_view, std::string>> addresses;
     for (std::size_t i = 0; i < site.drives.size(); ++i) {
         const auto& d = site.drives[i];
         const LineSpec* line = site.line(d.line);
@@ -228,12 +304,12 @@ void check_relations(const Site& site, const Families& families, std::vector<Sit
             faults.push_back({at("drives", i, "line"), fmt::format("drive {}: there is no line {}", d.name, d.line), "lines: " + names_of(site.lines)});
         }
         if (!line) continue;
-        if (const auto family = families.find(line->family); family.family && !d.address.empty()) {
+        if (const auto family = families.find(site.family_of(d)); family.family && !d.address.empty()) {
             if (std::string wrong = family.family->check_address(d.address); !wrong.empty()) {
                 faults.push_back({at("drives", i, "address"), fmt::format("drive {}: {}", d.name, wrong), "the factory address is " + std::string(family.family->factory_address)});
             }
         }
-        if (!addresses.emplace(d.line, d.address).second) {
+        if (!addresses.emplace(d.line, site.family_of(d), d.address).second) {
             faults.push_back({at("drives", i, "address"), fmt::format("two drives on {} have the address {}", d.line, d.address), "give each drive an address of its own"});
         }
         if (line->uri == "twin" && d.presence == PresenceRule::device) {
@@ -301,7 +377,7 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
         LineSpec l;
         l.name = read_name(f, "can0");
         l.uri = f.text("uri", true, "twin");
-        l.family = f.text("family", true, families.entries.empty() ? "uim342" : families.entries.front().family->name);
+        l.family = f.text("family", false, families.entries.empty() ? "uim342" : families.entries.front().family->name);
         l.bitrate = static_cast<std::uint32_t>(f.integer("bitrate", 0, 100'000'000).value_or(0));
         l.options = f.options("options");
         l.manners = read_manners(f.get("manners"), pointer + "/manners", faults);
@@ -311,6 +387,10 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
         DriveSpec d;
         d.name = read_name(f, "feeder");
         d.line = f.text("line", true, "can0");
+        const LineSpec* line = site.line(d.line);
+        d.family = f.text("family", false, line && !line->family.empty() ? line->family : "uim342");
+        if (line && d.family == line->family) d.family.clear();  // the line's: it follows when the line's changes
+        const FamilyEntry family = families.find(site.family_of(d));
         if (const auto* a = f.get("address")) {
             if (a->is_string()) {
                 d.address = std::string(a->get_string());
@@ -320,8 +400,8 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
             } else {
                 f.fault("address", "an address is a number or a text", "write \"address\": 5");
             }
-        } else if (const LineSpec* l = site.line(d.line)) {
-            if (const auto e = families.find(l->family); e.family) d.address = std::string(e.family->factory_address);
+        } else if (family.family) {
+            d.address = std::string(family.family->factory_address);
         }
         const std::string presence = f.get("presence") ? f.text("presence", false, "auto") : "auto";
         if (presence == "device") {
@@ -334,9 +414,8 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
             f.fault("presence", fmt::format("\"{}\" is not a presence", presence), "use device, twin or auto");
         }
         d.options = f.options("options");
-        const LineSpec* line = site.line(d.line);
-        if (const auto e = families.find(line ? line->family : std::string()); e.family && e.family->own_catalogue) {
-            auto own = e.family->own_catalogue({*e.catalogue, d.options});
+        if (family.family && family.family->own_catalogue) {
+            auto own = family.family->own_catalogue({*family.catalogue, d.options});
             if (!own.fault.empty()) f.fault("options", fmt::format("drive {}: {}", d.name, own.fault), "mend the option, or leave it out");
             if (own.catalogue) site.own_catalogues[d.name] = std::move(own.catalogue);
         }

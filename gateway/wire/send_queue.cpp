@@ -1,4 +1,4 @@
-// SendQueue: see send_queue.hpp. Slots in one vector, chained into one list per priority and one of free slots.
+// SendQueue: slots in one vector, chained into one list per priority and sender, and one of free slots.
 // In and out: frames. Never moves a waiting frame.
 #include "gateway/wire/send_queue.hpp"
 
@@ -7,7 +7,9 @@
 namespace axisgate {
 
 bool SendQueue::push(const Frame& frame, Priority priority, Instant now) {
-    if (size_ >= capacity_ && !make_room(priority)) return false;
+    const std::size_t sender = sender_of(frame);
+    senders_ = std::max(senders_, sender + 1);
+    if (size_ >= capacity_ && !make_room(priority, sender)) return false;
     Index i = free_;
     if (i != none) {
         free_ = slots_[i].next;
@@ -16,7 +18,7 @@ bool SendQueue::push(const Frame& frame, Priority priority, Instant now) {
         i = static_cast<Index>(slots_.size());
         slots_.emplace_back();
     }
-    List& list = lists_[static_cast<std::size_t>(priority)];
+    List& list = lists_[static_cast<std::size_t>(priority)][sender];
     Slot& s = slots_[i];
     s.entry.frame = frame;
     s.entry.priority = priority;
@@ -30,14 +32,28 @@ bool SendQueue::push(const Frame& frame, Priority priority, Instant now) {
     }
     list.tail = i;
     ++size_;
+    ++waiting_[sender];
     return true;
 }
 
-/// A stop must not be refused because polls wait: it costs the youngest of the least urgent frames its place.
-bool SendQueue::make_room(Priority priority) noexcept {
+std::size_t SendQueue::sender_of(const Frame& frame) noexcept { return std::min<std::size_t>(frame.sender, most_senders - 1); }
+
+/// A stop must not be refused because polls wait, nor one sender because another has filled the queue.
+bool SendQueue::make_room(Priority priority, std::size_t sender) noexcept {
+    const std::size_t most = static_cast<std::size_t>(std::ranges::max_element(waiting_) - waiting_.begin());
+    if (most != sender && waiting_[sender] < capacity_ / senders_ && push_out(most)) return true;
     if (priority != Priority::urgent) return false;
+    if (push_out(sender)) return true;
+    for (std::size_t other = 0; other < senders_; ++other) {
+        if (push_out(other)) return true;
+    }
+    return false;
+}
+
+/// The youngest of a sender's least urgent frames; none of its stops.
+bool SendQueue::push_out(std::size_t sender) noexcept {
     for (const Priority p : {Priority::poll, Priority::command}) {
-        const Index victim = lists_[static_cast<std::size_t>(p)].tail;
+        const Index victim = lists_[static_cast<std::size_t>(p)][sender].tail;
         if (victim == none) continue;
         unlink(victim);
         ++displaced_;
@@ -48,17 +64,22 @@ bool SendQueue::make_room(Priority priority) noexcept {
 
 void SendQueue::unlink(Index i) noexcept {
     Slot& s = slots_[i];
-    List& list = lists_[static_cast<std::size_t>(s.entry.priority)];
+    const std::size_t sender = sender_of(s.entry.frame);
+    List& list = lists_[static_cast<std::size_t>(s.entry.priority)][sender];
     (s.previous != none ? slots_[s.previous].next : list.head) = s.next;
     (s.next != none ? slots_[s.next].previous : list.tail) = s.previous;
     s.next = free_;
     free_ = i;
     --size_;
+    --waiting_[sender];
 }
 
 SendQueue::Index SendQueue::best(Instant t) const noexcept {
-    for (const List& list : lists_) {
-        if (list.head != none && slots_[list.head].entry.queued_at <= t) return list.head;
+    for (std::size_t p = 0; p < priorities; ++p) {
+        for (std::size_t k = 0; k < senders_; ++k) {
+            const List& list = lists_[p][in_turn(p, k)];
+            if (list.head != none && slots_[list.head].entry.queued_at <= t) return list.head;
+        }
     }
     return none;
 }
@@ -70,40 +91,52 @@ const SendQueue::Entry* SendQueue::front(Instant t) const noexcept {
 
 void SendQueue::pop(Instant t) noexcept {
     const Index i = best(t);
-    if (i != none) unlink(i);
+    if (i == none) return;
+    const Entry& e = slots_[i].entry;
+    turn_[static_cast<std::size_t>(e.priority)] = (sender_of(e.frame) + 1) % senders_;
+    unlink(i);
 }
 
 std::size_t SendQueue::collect(std::span<const Entry*> to) const noexcept {
     std::size_t n = 0;
-    for (const List& list : lists_) {
-        for (Index i = list.head; i != none && n < to.size(); i = slots_[i].next)
-            to[n++] = &slots_[i].entry;
+    for (std::size_t p = 0; p < priorities; ++p) {
+        std::array<Index, most_senders> at{};
+        for (std::size_t k = 0; k < senders_; ++k)
+            at[k] = lists_[p][in_turn(p, k)].head;
+        for (bool more = true; more && n < to.size();) {
+            more = false;
+            for (std::size_t k = 0; k < senders_ && n < to.size(); ++k) {
+                if (at[k] == none) continue;
+                to[n++] = &slots_[at[k]].entry;
+                at[k] = slots_[at[k]].next;
+                more = true;
+            }
+        }
     }
     return n;
 }
 
 Instant SendQueue::earliest() const noexcept {
     Instant t = never;
-    for (const List& list : lists_) {
-        if (list.head != none) t = std::min(t, slots_[list.head].entry.queued_at);
+    for (const auto& by_sender : lists_) {
+        for (const List& list : by_sender) {
+            if (list.head != none) t = std::min(t, slots_[list.head].entry.queued_at);
+        }
     }
     return t;
 }
 
 std::size_t SendQueue::drop_older_than(Instant t) noexcept {
     std::size_t n = 0;
-    for (List& list : lists_) {
-        for (; list.head != none && slots_[list.head].entry.queued_at < t; ++n)
-            unlink(list.head);
+    for (auto& by_sender : lists_) {
+        for (List& list : by_sender) {
+            for (; list.head != none && slots_[list.head].entry.queued_at < t; ++n)
+                unlink(list.head);
+        }
     }
     return n;
 }
 
-void SendQueue::clear() noexcept {
-    for (List& list : lists_) {
-        while (list.head != none)
-            unlink(list.head);
-    }
-}
+void SendQueue::clear() noexcept { (void)drop_older_than(never); }
 
 }  // namespace axisgate

@@ -1,6 +1,7 @@
 // SendQueue: the bounded queue of frames that wait for their line.
-// In: frames with a priority and the instant at which they came. Out: the next one to send, urgent before command before poll.
-// Never grows past its bound: a full queue refuses, except that an urgent frame pushes out the youngest of the least urgent ones.
+// In: frames with a priority, a sender and the instant at which they came. Out: the next one to send: urgent before command before poll,
+// the senders' in turn. Never grows past its bound: a full queue refuses, except that an urgent frame pushes out the youngest of the least
+// urgent ones, and a sender with less than its share the youngest of who has most.
 #pragma once
 
 #include <array>
@@ -17,6 +18,8 @@ class SendQueue {
 public:
     /// 256 frames of at most 256 bytes: 64 KiB.
     static constexpr std::size_t default_capacity = 256;
+    /// Frame::sender beyond it counts as the last one.
+    static constexpr std::size_t most_senders = 8;
 
     struct Entry {
         Frame frame;
@@ -42,7 +45,7 @@ public:
 
     [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
-    /// Frames pushed out by urgent ones, ever.
+    /// Frames pushed out by urgent ones, or by other senders', ever.
     [[nodiscard]] std::uint64_t displaced() const noexcept { return displaced_; }
 
 private:
@@ -59,13 +62,20 @@ private:
         Index tail = none;
     };
 
+    [[nodiscard]] static std::size_t sender_of(const Frame& frame) noexcept;
+    /// The list of a priority from which to take at this turn of the senders.
+    [[nodiscard]] std::size_t in_turn(std::size_t priority, std::size_t k) const noexcept { return (turn_[priority] + k) % senders_; }
     [[nodiscard]] Index best(Instant t) const noexcept;
     void unlink(Index i) noexcept;
-    [[nodiscard]] bool make_room(Priority priority) noexcept;
+    [[nodiscard]] bool make_room(Priority priority, std::size_t sender) noexcept;
+    [[nodiscard]] bool push_out(std::size_t sender) noexcept;
 
     std::size_t capacity_;
     std::vector<Slot> slots_;
-    std::array<List, priorities> lists_;
+    std::array<std::array<List, most_senders>, priorities> lists_;
+    std::array<std::size_t, most_senders> waiting_{};  // by sender
+    std::array<std::size_t, priorities> turn_{};       // whose turn it is
+    std::size_t senders_ = 1;                          // seen so far
     Index free_ = none;
     std::size_t size_ = 0;
     std::uint64_t displaced_ = 0;

@@ -195,7 +195,7 @@ int run(const std::string& path, int count) {
     cpu_set_t all;
     ::sched_getaffinity(0, sizeof all, &all);
     Program program(path, folder, site(drive.port()), all, {"http.bind=127.0.0.1:0", "modbus.bind=127.0.0.1:0"});
-    take_short_turns();
+    if (!go_first()) take_short_turns();  // it stands for a client and a drive that are machines of their own
     std::bitset<128> polls;
     polls.set();
     std::int64_t frame_at = 0;
@@ -217,17 +217,17 @@ int run(const std::string& path, int count) {
     rest(1.0);
 
     const Address address{0x7F000001, program.port("http")};
-    HttpClient http(address);
-    const auto post = [&](const std::string& axis, const std::string& body) {
-        http.post("/api/v1/axes/" + axis + "/commands?wait=5", body);
-        std::int64_t at = 0;
-        until([&] { return (at = http.answered()) != 0; }, {http.fd()}, 10, "a command over HTTP");
-        return at;
-    };
-    for (int i = 0; i < moving_axes; ++i) {
-        const std::string axis = "m" + std::to_string(i + 1);
-        post(axis, R"({"command":"enable"})");
-        post(axis, R"({"command":"move_velocity","velocity":)" + std::to_string(100 + i) + "}");
+    {
+        HttpClient http(address);
+        const auto post = [&](const std::string& axis, const std::string& body) {
+            http.post("/api/v1/axes/" + axis + "/commands?wait=5", body);
+            until([&] { return http.answered() != 0; }, {http.fd()}, 10, "a command over HTTP");
+        };
+        for (int i = 0; i < moving_axes; ++i) {
+            const std::string axis = "m" + std::to_string(i + 1);
+            post(axis, R"({"command":"enable"})");
+            post(axis, R"({"command":"move_velocity","velocity":)" + std::to_string(100 + i) + "}");
+        }
     }
     ModbusClient modbus(program.port("modbus"));
     const auto write = [&](std::uint16_t at, std::initializer_list<std::uint16_t> values) {
@@ -275,6 +275,7 @@ int run(const std::string& path, int count) {
         },
         [&] { return modbus.answered(); }, modbus.fd(), true);
     Distribution reads = measure([&](int) { modbus.read(0, 20); }, [&] { return modbus.answered(); }, modbus.fd(), false);
+    HttpClient http(address);  // opened now: the gateway closes a connection that is silent for as long as the ways before take
     Distribution commands = measure(
         [&](int i) {
             http.post("/api/v1/axes/a/commands?wait=5", R"({"command":"move_velocity","velocity":)" + std::to_string(velocity(i)) + "}");

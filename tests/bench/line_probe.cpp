@@ -26,6 +26,8 @@
 #include <fstream>
 #include <random>
 
+#include "gateway/runtime/threads.hpp"
+
 namespace axisgate::bench {
 namespace {
 std::int64_t read_clock(clockid_t which) {
@@ -288,6 +290,7 @@ Distribution relay(int count, int cpu, std::int64_t pause_ns, bool sleeping) {
     const pid_t pid = ::fork();
     if (pid == 0) {
         ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+        if (sleeping) (void)go_first();  // as the program's hot thread does
         if (cpu >= 0) {
             cpu_set_t set;
             CPU_ZERO(&set);

@@ -73,6 +73,7 @@ struct MovingPort final : DoorPort {
     const Image& image() const override { return image_; }
     const Catalogue* catalogue(AxisId) const override { return nullptr; }
     void submit(Command) override {}
+    std::optional<Refusal> set_point(const SetPoint&) override { return std::nullopt; }
     DoorNumber attach(HotDoor&) override { return 1; }
     void detach(HotDoor&) override {}
     Image image_;

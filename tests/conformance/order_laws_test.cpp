@@ -133,6 +133,22 @@ TEST_P(OrderLaws, ASetPositionRenamesThePlaceAndMovesNothing) {
     }
 }
 
+TEST_P(OrderLaws, AtRestNothingMovesAndNobodyWaits) {
+    const auto at_rest = [&] { return world->engine.at_rest(world->now); };
+    ASSERT_NO_FATAL_FAILURE(start());
+    EXPECT_TRUE(world->run_until_true(at_rest, 10s));
+    ASSERT_NO_FATAL_FAILURE(order(a1, Enable{}));
+    EXPECT_FALSE(at_rest()) << "right after a command";
+    ASSERT_NO_FATAL_FAILURE(turn(a1));
+    for (int i = 0; i < 50; ++i) {
+        world->run_for(100ms);
+        ASSERT_FALSE(at_rest()) << "it turns, nobody commands";
+    }
+    ASSERT_NO_FATAL_FAILURE(order(a1, Halt{}));
+    EXPECT_TRUE(world->run_until_true(at_rest, 10s));
+    EXPECT_FALSE(moving(a1));
+}
+
 TEST_P(OrderLaws, EveryActionIsAnsweredOnce) {
     for (const auto& action : e.catalogue->commands()) {
         for (const char* argument : {"", "1", "x y z"}) {

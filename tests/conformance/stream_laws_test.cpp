@@ -189,6 +189,48 @@ TEST_P(StreamLaws, AClientThatIsGoneEndsItsStream) {
     EXPECT_LT(now().position, begin + 30000);
 }
 
+TEST_P(StreamLaws, AClosedFeedEndsItsStreamAtOnceAndNothingElse) {
+    begin_with();
+    if (does_not_follow(Mode::position)) return;
+    stream(begin + 40000, Mode::position, 1s);
+    ASSERT_TRUE(now().streaming);
+    world->engine.on_client_lost(AuthorityClient::of(other), LossCause::set_points_silent, world->now);
+    EXPECT_TRUE(now().streaming);
+    world->engine.on_client_lost(AuthorityClient::of(plc), LossCause::set_points_silent, world->now);
+    EXPECT_FALSE(now().streaming) << "without waiting for good_for";
+    EXPECT_EQ(events("fail_safe"), 1);
+    EXPECT_EQ(now().fail_safe_cause, static_cast<std::uint16_t>(LossCause::set_points_silent));
+    ASSERT_TRUE(world->run_until_true([&] { return !moving(a1); }, 5s));
+    Command move;
+    move.ticket = make_ticket(first_service_door, 1'000'000);
+    move.axis = a1;
+    move.body = move_to(begin);
+    move.origin = plc;
+    world->engine.on_command(move, world->now);
+    ASSERT_TRUE(world->run_until_true([&] { return moving(a1); }, 5s));
+    world->engine.on_client_lost(AuthorityClient::of(plc), LossCause::set_points_silent, world->now);
+    world->run_for(60s);
+    EXPECT_EQ(now().position, begin) << "a motion that it commanded otherwise goes on";
+}
+
+TEST_P(StreamLaws, ARefusedSetPointIsAnsweredWithItsReason) {
+    begin_with();
+    SetPoint p;
+    p.axis = a1;
+    p.value = begin;
+    p.at = world->now;
+    p.good_for = 1ms;
+    p.origin = plc;
+    const auto no = world->engine.on_set_point(p, world->now);
+    ASSERT_TRUE(no);
+    EXPECT_EQ(no->reason, Reason::out_of_range) << no->text;
+    p.axis = AxisId{999};
+    ASSERT_TRUE(world->engine.on_set_point(p, world->now)) << "there is no such axis";
+    p.axis = a1;
+    p.good_for = good_for;
+    EXPECT_EQ(world->engine.on_set_point(p, world->now).has_value(), !follows(Mode::position));
+}
+
 TEST_P(StreamLaws, AnotherClientDoesNotStreamIntoAHeldAxis) {
     begin_with();
     if (does_not_follow(Mode::position)) return;
@@ -307,6 +349,136 @@ TEST_P(StreamLaws, AModeThatTheDriveHasNotIsRefusedByWord) {
         EXPECT_EQ(r->reason, Reason::out_of_range) << told(r);
         EXPECT_NE(r->text.find("1, 3, 6"), std::string::npos) << r->text;
     }
+}
+
+/// An adapter whose drive reaches each set-point within 20 ms, whatever speed that takes.
+class InItsPeriod final : public Adapter {
+public:
+    explicit InItsPeriod(std::unique_ptr<Adapter> inner) : inner_(std::move(inner)) {}
+    void configure(const LineSetup& setup, Instant now, Out& out) override { inner_->configure(setup, now, out); }
+    void on_line(bool up, Instant now, Out& out) override { inner_->on_line(up, now, out); }
+    void on_command(const Command& command, Instant now, Out& out) override { inner_->on_command(command, now, out); }
+    void on_set_point(const SetPoint& p, Instant now, Out& out) override { inner_->on_set_point(p, now, out); }
+    [[nodiscard]] Duration interpolation_time(AxisId) const override { return 20ms; }
+    void on_frame(const Frame& frame, Instant now, Out& out) override { inner_->on_frame(frame, now, out); }
+    void on_deadline(Instant now, Out& out) override { inner_->on_deadline(now, out); }
+    [[nodiscard]] Instant deadline() const override { return inner_->deadline(); }
+    [[nodiscard]] AdapterCounters counters() const override { return inner_->counters(); }
+
+private:
+    std::unique_ptr<Adapter> inner_;
+};
+
+/// And one that has never heard of set-points, whatever its page says.
+class WithoutSetPoints final : public Adapter {
+public:
+    explicit WithoutSetPoints(std::unique_ptr<Adapter> inner) : inner_(std::move(inner)) {}
+    void configure(const LineSetup& setup, Instant now, Out& out) override { inner_->configure(setup, now, out); }
+    void on_line(bool up, Instant now, Out& out) override { inner_->on_line(up, now, out); }
+    void on_command(const Command& command, Instant now, Out& out) override { inner_->on_command(command, now, out); }
+    void on_frame(const Frame& frame, Instant now, Out& out) override { inner_->on_frame(frame, now, out); }
+    void on_deadline(Instant now, Out& out) override { inner_->on_deadline(now, out); }
+    [[nodiscard]] Instant deadline() const override { return inner_->deadline(); }
+    [[nodiscard]] AdapterCounters counters() const override { return inner_->counters(); }
+
+private:
+    std::unique_ptr<Adapter> inner_;
+};
+
+/// The family that follows positions and speeds, with another adapter around its own.
+struct StreamAdapters : testing::Test {
+    static const FamilyEntry& base() {
+        static const FamilyEntry& found = *std::ranges::find_if(
+            families().entries, [](const FamilyEntry& f) { return f.catalogue->offers_mode(8) && f.catalogue->offers_mode(9); });
+        return found;
+    }
+    std::unique_ptr<World> world;
+    std::shared_ptr<const SiteState> site;
+    AxisId axis = no_axis;
+
+    void start(const Family& changed) {
+        Families all = families();
+        for (auto& f : all.entries) {
+            if (f.family == base().family) f.family = &changed;
+        }
+        world = std::make_unique<World>(1, std::make_shared<Plant>(), all);
+        Site s = world->make_site(base(), "twin", 1);
+        s.axes.at(0).velocity_max = 50;       // 5000 increments/s
+        s.axes.at(0).acceleration_max = 200;  // 20000 increments/s2
+        site = world->apply(std::move(s));
+        axis = site->axis_ids.at(0);
+        ASSERT_TRUE(world->run_until_true([&] { return (picture().flags & flag_online) != 0; }, 20s));
+        const Result* r = world->wait(world->command(axis, Enable{}, true), 20s);
+        ASSERT_TRUE(r && good(*r)) << told(r);
+        world->run_for(500ms);
+        world->events.clear();
+    }
+    [[nodiscard]] AxisPicture picture() const { return world->picture(axis); }
+    std::optional<Refusal> say(std::int64_t value, SetPoint::Mode mode = SetPoint::Mode::position) {
+        SetPoint p;
+        p.axis = axis;
+        p.mode = mode;
+        p.value = value;
+        p.good_for = 500ms;
+        p.at = world->now;
+        p.origin = {Door::ethernet_ip, std::make_shared<const std::string>("192.0.2.9:50000"), {}};
+        return world->engine.on_set_point(p, world->now);
+    }
+    [[nodiscard]] std::ptrdiff_t events() const {
+        return std::ranges::count_if(world->events, [&](const Event& v) { return v.kind == "set_points"; });
+    }
+};
+
+TEST_F(StreamAdapters, AStepIsNoGreaterThanTheSitesSpeedInTheInterpolationTime) {
+    static const Family changed = [] {
+        Family f = *base().family;
+        f.make_adapter = [](const Catalogue& c, LineKind kind) -> std::unique_ptr<Adapter> {
+            return std::make_unique<InItsPeriod>(base().family->make_adapter(c, kind));
+        };
+        return f;
+    }();
+    start(changed);
+    const std::int64_t here = picture().position;
+    const auto jump = say(here + 101);
+    ASSERT_TRUE(jump) << "the first one counts from where the axis is";
+    EXPECT_EQ(jump->reason, Reason::out_of_range);
+    EXPECT_NE(jump->text.find("velocity_max"), std::string::npos) << jump->text;
+    EXPECT_FALSE(picture().streaming);
+    for (std::int64_t i = 1; i <= 20; ++i) {
+        EXPECT_FALSE(say(here + i * 100)) << "5000 increments/s for 20 ms";
+        world->run_for(20ms);
+    }
+    const auto taken = picture().set_points;
+    world->events.clear();
+    for (int i = 0; i < 5; ++i) {
+        EXPECT_TRUE(say(here + 2101));
+        EXPECT_TRUE(say(here + 1899));
+        world->run_for(20ms);
+    }
+    EXPECT_EQ(picture().set_points, taken);
+    EXPECT_EQ(events(), 1) << "told once";
+    EXPECT_FALSE(say(here + 1900)) << "from the last one that was taken";
+    world->run_for(2s);  // its end
+
+    EXPECT_TRUE(say(401, SetPoint::Mode::velocity)) << "20000 increments/s2 for 20 ms";
+    EXPECT_FALSE(say(400, SetPoint::Mode::velocity));
+    EXPECT_FALSE(say(800, SetPoint::Mode::velocity));
+    EXPECT_TRUE(say(1201, SetPoint::Mode::velocity));
+}
+
+TEST_F(StreamAdapters, AnAdapterThatTakesNoSetPointsSaysSo) {
+    static const Family changed = [] {
+        Family f = *base().family;
+        f.make_adapter = [](const Catalogue& c, LineKind kind) -> std::unique_ptr<Adapter> {
+            return std::make_unique<WithoutSetPoints>(base().family->make_adapter(c, kind));
+        };
+        return f;
+    }();
+    start(changed);
+    (void)say(picture().position + 100);
+    EXPECT_FALSE(picture().streaming);
+    EXPECT_EQ(picture().set_point_refusal, Reason::not_supported);
+    EXPECT_TRUE(say(picture().position + 100)) << "and whoever goes on is told";
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, StreamLaws, testing::ValuesIn(law_subjects()), name_of_subject);

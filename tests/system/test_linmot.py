@@ -9,7 +9,7 @@ import struct
 import time
 import urllib.parse
 
-from harness import Gateway, Port, Process, until
+from harness import Gateway, Port, Process, run, until
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 
@@ -161,3 +161,24 @@ def test_a_command_table_and_a_curve_are_uploaded_run_kept_and_restored(folder):
         assert g.send("PUT", parameter("table[2]"), {"value": ""})["result"] == "done"
         restored = g.send("POST", f"/axes/shuttle/snapshots/{taken['n']}/restore", {"parameters": ["table[2]"]})
         assert g.get(parameter("table[2]"))["value"] == LOOP[1], restored
+
+
+def test_a_backup_brings_command_table_and_curve_to_another_gateway(folder):
+    copy, curve = folder / "copy.db", "name=up; x=time; length=0.5; points=0 1 4 10"
+    with Gateway(folder, demo()) as g:
+        for n, text in enumerate(LOOP[:2], 1):
+            assert g.send("PUT", parameter(f"table[{n}]"), {"value": text})["result"] == "done", text
+        assert g.send("PUT", parameter("curve[3]"), {"value": curve})["result"] == "done"
+        n = g.send("POST", "/axes/shuttle/snapshots", {"name": "with its table"}, 201)["n"]
+        run("backup", str(copy), "--data", str(folder / "data"), check=0)
+    other = folder / "other"
+    other.mkdir()
+    run("restore", str(copy), "--data", str(other / "data"), check=0)
+    with Gateway(other, None) as g:
+        assert g.get(parameter("table[2]"))["stored"] == LOOP[1] and g.get(parameter("curve[3]"))["stored"] == curve
+        # The drive itself is changed behind the gateway's back; what was kept goes down to it again.
+        for name in ("table[2]", "curve[3]"):
+            assert g.send("PUT", parameter(name), {"value": ""})["result"] == "done"
+            assert g.get(parameter(name))["value"] == ""
+        g.send("POST", f"/axes/shuttle/snapshots/{n}/restore", {"parameters": ["table[2]", "curve[3]"]})
+        assert g.get(parameter("table[2]"))["value"] == LOOP[1] and g.get(parameter("curve[3]"))["value"] == curve

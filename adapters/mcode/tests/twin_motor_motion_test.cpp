@@ -299,7 +299,8 @@ TEST(McodeMotion, EveryRefusalHasItsCode) {
     EXPECT_EQ(b.start("SC", 1), 89);
     b.pass_ms(500);
     EXPECT_EQ(b.start("SL", 0), 0);
-    EXPECT_EQ(b.start("MR", 100), 85);  // motion has to come to a stop first
+    for (const char* move : {"MR", "MA"})
+        EXPECT_EQ(b.start(move, 100), 85) << move;  // motion has to come to a stop first
     b.rest();
     b.set("MS", 256);
     b.set("VI", 1);

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 
-#include "gateway/wire/frame_export.hpp"
+#include "gateway/doors/http/handlers.hpp"
 #include "gateway/services/alarms/alarm_service.hpp"
 #include "gateway/services/documents.hpp"
-#include "gateway/doors/http/frame_decoder.hpp"
-#include "gateway/doors/http/handlers.hpp"
+#include "gateway/services/frame_decoder.hpp"
+#include "gateway/wire/frame_export.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;

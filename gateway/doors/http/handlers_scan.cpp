@@ -15,6 +15,9 @@ json::object document(const ScanReport& r, std::string_view line) {
     json::array found;
     for (const auto& f : r.found)
         found.push_back({{"address", f.address}, {"family", f.family}, {"text", f.text}, {"known_as", text_or_null(f.known_as)}});
+    json::array families;
+    for (const auto& p : r.parts)
+        families.push_back({{"family", p.family}, {"asked", p.asked}, {"of", p.of}, {"text", p.text}});
     const bool over = r.state != ScanReport::State::running;
     const double progress = r.state == ScanReport::State::none ? 0
                             : r.of == 0                        ? 1
@@ -24,6 +27,7 @@ json::object document(const ScanReport& r, std::string_view line) {
             {"progress", number(over && r.state == ScanReport::State::done ? 1 : progress)},
             {"asked", r.asked},
             {"of", r.of},
+            {"families", std::move(families)},
             {"found", std::move(found)},
             {"text", r.text}};
 }
@@ -61,13 +65,19 @@ Handled start_scan(Call& c) {
             wish.from = address_in(v, k, faults);
         } else if (k == "to") {
             wish.to = address_in(v, k, faults);
+        } else if (k == "family") {
+            if (v.is_string() && v.get_string().size() <= 64)
+                wish.family = std::string(v.get_string());
+            else
+                faults.push_back({"/family", "family must be a text", "write the name of a family, or leave it out for all of the line"});
         } else if (k == "limit_s") {
             limit_s = v.is_number() ? v.to_number<double>() : 0;
             if (!(limit_s >= 1 && limit_s <= most_limit_s))
                 faults.push_back({"/limit_s", fmt::format("limit_s must be a number from 1 to {}", most_limit_s),
                                   "write the seconds that the search may take"});
         } else {
-            faults.push_back({"/" + std::string(k), fmt::format("{} is not known here", std::string_view(k)), "use from, to, limit_s"});
+            faults.push_back(
+                {"/" + std::string(k), fmt::format("{} is not known here", std::string_view(k)), "use from, to, family, limit_s"});
         }
     }
     if (!faults.empty()) return invalid(std::move(faults));

@@ -64,6 +64,11 @@ std::shared_ptr<StreamClient> StreamHub::add(std::function<void()> wake) {
 
 void StreamHub::remove(const std::shared_ptr<StreamClient>& client) {
     clients_.remove(client);
+    // Not waited for until its set-points have run out; unless the same client gives some over another feed, which this one cannot tell
+    // apart.
+    const auto& who = client->gives_set_points_;
+    if (attached_ && who && std::ranges::none_of(clients_, [&](const auto& c) { return c->gives_set_points_ == who; }))
+        gateway_.client_lost(*who, LossCause::set_points_silent);
     counters_.stream_clients = clients_.size();
     const auto used = periods();
     std::erase_if(groups_, [&](const auto& g) { return !used.contains(g.first); });
@@ -128,6 +133,7 @@ void StreamHub::give_set_point(StreamClient& c, const json::object& body, Instan
     if (!read.set_point) return tell_error(c, fmt::format("set_point: {}: {}", read.faults.front().text, read.faults.front().remedy));
     read.set_point->axis = place->id();
     read.set_point->at = now;
+    c.gives_set_points_ = AuthorityClient::of(*origin);
     read.set_point->origin = std::move(*origin);
     gateway_.set_point(std::move(*read.set_point));
 }

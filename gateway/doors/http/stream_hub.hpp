@@ -15,14 +15,14 @@
 #include <string_view>
 #include <vector>
 
-#include "gateway/services/gateway.hpp"
-#include "gateway/services/services.hpp"
 #include "gateway/doors/http/counters.hpp"
-#include "gateway/doors/http/frame_decoder.hpp"
 #include "gateway/doors/http/settings.hpp"
 #include "gateway/doors/http/stream_queue.hpp"
 #include "gateway/doors/http/stream_request.hpp"
 #include "gateway/doors/http/stream_sources.hpp"
+#include "gateway/services/frame_decoder.hpp"
+#include "gateway/services/gateway.hpp"
+#include "gateway/services/services.hpp"
 
 namespace axisgate::http {
 
@@ -60,6 +60,7 @@ private:
     std::map<std::string, std::int64_t, std::less<>> topics_;  ///< as subscribed, with the period in ms
     std::map<std::int64_t, std::vector<Watch>> watches_;       ///< by period
     std::vector<FrameWatch> frames_;
+    std::optional<AuthorityClient> gives_set_points_;  ///< who has, over this feed
     bool events_ = false;
     bool site_ = false;
     bool recipes_ = false;
@@ -113,7 +114,7 @@ private:
     static constexpr std::size_t most_frames = 4096;  ///< in one message
     static constexpr int wrong_requests = 3;          ///< in a row, then the client is closed
     /// Told in one call: sending to a hundred clients takes milliseconds, in which nobody else would be answered.
-    static constexpr int clients_per_slice = 4;
+    static constexpr int clients_per_slice = 2;
     static constexpr std::size_t most_joined = 128;  ///< states in one write, some 64 KiB
     /// Every subscription tells the whole state anew: a client may ask for so much at once, and for so much more a second. A request costs
     /// 1, with 1 more for each 50 topics, a set-point alone 1/50 (1000 a second), and 4 for each line's frames. Beyond, the client is

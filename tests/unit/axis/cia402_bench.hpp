@@ -12,7 +12,7 @@ using Power = AxisFeedback::Power;
 
 /// A drive that does what it is told at once; time goes on by one millisecond with each thing said.
 struct Bench {
-    AxisProfile profile;
+    Cia402Axis profile;
     AxisFeedback drive;
     Instant now = at_ns(1'000'000);
 
@@ -28,7 +28,7 @@ struct Bench {
         return profile.on_feedback(drive, now);
     }
     /// Carries out orders as a willing drive would and answers them.
-    void obey(const AxisProfile::Decision& d) {
+    void obey(const Cia402Axis::Decision& d) {
         for (const auto& o : d.orders) {
             if (std::holds_alternative<Enable>(o)) drive.power = Power::on;
             if (std::holds_alternative<Disable>(o)) drive.power = Power::off;
@@ -46,7 +46,7 @@ struct Bench {
         }
         say();
     }
-    AxisProfile::Decision word(std::uint16_t cw) {
+    Cia402Axis::Decision word(std::uint16_t cw) {
         ProcessData d;
         d.controlword = cw;
         auto r = profile.on_process_data(d);
@@ -78,7 +78,7 @@ struct Bench {
         obey(profile.on_process_data(d));
         to(PowerState::operation_enabled);
     }
-    AxisProfile::Decision data(const ProcessData& d) {
+    Cia402Axis::Decision data(const ProcessData& d) {
         auto r = profile.on_process_data(d);
         obey(r);
         return r;

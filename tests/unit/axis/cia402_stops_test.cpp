@@ -18,7 +18,7 @@ std::vector<std::uint16_t> words(std::initializer_list<int> list) {
 }
 
 template <class T>
-bool has(const AxisProfile::Decision& d) {
+bool has(const Cia402Axis::Decision& d) {
     return std::ranges::any_of(d.orders, [](const CommandBody& o) { return std::holds_alternative<T>(o); });
 }
 

@@ -1,5 +1,8 @@
 // CiA 402 profile: every transition of the power state machine, every rule of the control word, from a table.
 // In: control words and what a drive says. Out: orders and status words. Never uses a family.
+#include <array>
+
+#include "gateway/axis/guard.hpp"
 #include "tests/unit/axis/cia402_bench.hpp"
 
 namespace axisgate {
@@ -491,18 +494,21 @@ TEST(Cia402, HomingByTheEdgeOfBit4) {
     EXPECT_TRUE(std::holds_alternative<Halt>(off.orders[0]));
 }
 
-TEST(Cia402, UnknownModeIsRefusedWithTheChoices) {
-    Bench b;
-    for (const int number : {-1, 2, 4, 7, 8, 9, 10}) {
-        const auto mode = static_cast<std::int16_t>(number);
-        ProcessData d;
-        d.mode = mode;
-        const auto r = b.profile.on_process_data(d);
-        EXPECT_TRUE(r.refused);
-        EXPECT_EQ(r.reason, Reason::out_of_range);
-        EXPECT_NE(r.text.find("homing"), std::string::npos);
+TEST(Cia402, AModeIsOneOfTheDrivesAndTheRefusalNamesThem) {
+    constexpr std::array<std::int16_t, 4> offered{1, 6, 7, 8};
+    for (const int number : {0, 1, 6, 7})
+        EXPECT_FALSE(guard_mode(static_cast<std::int16_t>(number), offered)) << number;
+    for (const int number : {-1, 2, 3, 4, 9, 10}) {
+        const auto no = guard_mode(static_cast<std::int16_t>(number), offered);
+        ASSERT_TRUE(no) << number;
+        EXPECT_EQ(no->reason, Reason::out_of_range);
+        EXPECT_NE(no->text.find("is not offered by this drive; use 1 (profile position), 6 (homing), 7 (interpolated position)"),
+                  std::string::npos)
+            << no->text;
     }
-    EXPECT_EQ(b.picture().mode, 0);
+    const auto streamed = guard_mode(8, offered);
+    ASSERT_TRUE(streamed);
+    EXPECT_NE(streamed->text.find("streamed set-point"), std::string::npos) << "offered, and still not written to a register";
 }
 
 TEST(Cia402, CommandsOfPeopleGoTheSameWay) {

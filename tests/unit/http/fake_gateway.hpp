@@ -106,6 +106,7 @@ public:
     mutable std::vector<EventQuery> event_queries;
     std::uint64_t last_event = 0;
     std::vector<SetPoint> set_points;
+    std::vector<std::pair<AuthorityClient, LossCause>> lost;
     std::set<GatewayListener*> listeners;
     mutable int pictures_read = 0;
 
@@ -163,6 +164,7 @@ public:
         return it == revisions.end() ? 0 : it->second;
     }
     void set_point(SetPoint p) override { set_points.push_back(std::move(p)); }
+    void client_lost(const AuthorityClient& who, LossCause cause) override { lost.emplace_back(who, cause); }
     Ticket submit(Command command, std::function<void(const Result&)> then) override {
         command.ticket = ++last_ticket;
         submitted.push_back(command);

@@ -538,6 +538,25 @@ TEST_F(StreamHubTest, ASetPointIsHandedOnWithoutAnAnswer) {
     EXPECT_EQ(hub.deadline(), never) << "nobody watches anything";
 }
 
+TEST_F(StreamHubTest, AFeedThatClosesEndsItsStreamUnlessItsClientGivesSetPointsElsewhere) {
+    const auto anna = [] {
+        return Origin{axisgate::Door::http, std::make_shared<const std::string>("anna 10.0.0.7:4711"),
+                      std::make_shared<const std::string>("anna")};
+    };
+    const auto other = hub.add({});
+    client->commander = other->commander = anna;
+    hub.remove(hub.add({}));
+    EXPECT_TRUE(gateway.lost.empty()) << "it has given none";
+    say(R"({"set_point":{"axis":"feeder","mode":"position","value":1}})");
+    hub.on_text(*other, R"({"set_point":{"axis":"slide","mode":"velocity","value":1}})", now);
+    hub.remove(other);
+    EXPECT_TRUE(gateway.lost.empty()) << "the same client streams by the first feed";
+    hub.remove(client);
+    ASSERT_EQ(gateway.lost.size(), 1u);
+    EXPECT_EQ(gateway.lost[0].first.name, "anna");
+    EXPECT_EQ(gateway.lost[0].second, LossCause::set_points_silent);
+}
+
 TEST_F(StreamHubTest, ASetPointThatCannotBeHandedOnIsToldWithTheReason) {
     const auto told = [&](std::string_view text) {
         say(text);

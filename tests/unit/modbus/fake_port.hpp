@@ -73,6 +73,7 @@ public:
         ++submitted;
         commands.push_back(std::move(command));
     }
+    std::optional<Refusal> set_point(const SetPoint&) override { return std::nullopt; }
     void note(Event&& event, AxisId axis) override { notes.emplace_back(std::move(event), axis); }
     DoorNumber attach(HotDoor& door) override {
         doors.push_back(&door);

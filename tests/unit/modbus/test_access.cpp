@@ -14,7 +14,7 @@ std::vector<std::uint8_t> write1(std::uint16_t address, std::uint16_t word) {
 }
 
 struct Drive {
-    AxisProfile profile;
+    Cia402Axis profile;
     AxisFeedback feedback;
     Instant now = at_ns(1'000'000);
     Drive() {
@@ -28,7 +28,7 @@ struct Drive {
         feedback.at = now;
         (void)profile.on_feedback(feedback, now);
     }
-    AxisProfile::Decision word(std::uint16_t cw, std::optional<std::int32_t> target = std::nullopt) {
+    Cia402Axis::Decision word(std::uint16_t cw, std::optional<std::int32_t> target = std::nullopt) {
         ProcessData d;
         d.controlword = cw;
         if (target) {

@@ -51,6 +51,60 @@ TEST(Migrations, FromTheFirstFormNothingIsLost) {
     EXPECT_EQ(must(store->save_site("next", "me", 3)), 13u) << "numbers go on";
 }
 
+/// A file as each program since the first has left it: with rows in every table that it had then.
+TEST(Migrations, EveryFormThatWasReleasedOpensWithAllItsRows) {
+    const std::size_t newest = program_migrations().size();
+    ASSERT_EQ(newest, 3u) << "a new step: give the file of the form before it rows of its own below";
+    for (std::size_t form = 1; form <= newest; ++form) {
+        SCOPED_TRACE(form);
+        const TempDir dir;
+        auto then = options_for(dir.path());
+        then.migrations.resize(form);
+        { const auto store = open_store(then); }
+        const bool families = form >= 2;  // since then a row tells of which family it is
+        const std::string site = R"({"lines":[{"name":"c","uri":"twin","family":"uim342"}],"drives":[],"axes":[],"mappings":[]})";
+        meddle(
+            dir / "axisgate.db",
+            "INSERT INTO axis (id, name, last_snapshot) VALUES (3, 'feeder', 4);"
+            "INSERT INTO parameter_write (id, axis_id, parameter, value_type, value, old_type, old_value, storage, door, who, at_unix_ns)"
+            " VALUES (7, 3, 'AC', 'i', 5, 'f', 1.5, 'ram', 'http', 'me', 9);"
+            "INSERT INTO parameter_stored (axis_id, " +
+                std::string(families ? "family, " : "") +
+                "parameter, value_type, value, old_type, old_value, storage, door, who, at_unix_ns) VALUES (3, " +
+                (families ? "'', " : "") +
+                "'AC', 'i', 5, 'f', 1.5, 'ram', 'http', 'me', 9);"
+                "INSERT INTO snapshot (axis_id, n, name, comment, who, at_unix_ns) VALUES (3, 4, 'good', '', 'me', 8);"
+                "INSERT INTO snapshot_value VALUES (3, 4, 'AC', 'i', 5);"
+                "INSERT INTO twin_memory VALUES ('feeder', 'node', 'i', 9);"
+                "INSERT INTO event (at_unix_ns, severity, kind, axis, drive, line, code, text, who, door, parameter, old_value, new_value)"
+                " VALUES (5, 2, 'fault', 'feeder', '', '', 0, 'it was hot', '', '', '', '', '');"
+                "INSERT INTO document VALUES ('recipe', 'warm-up', '{}', 'me', 3);"
+                "INSERT INTO document VALUES ('" +
+                (form < 3 ? "recipe_run', 'warm-up/0000000001" : "recipe_run warm-up', '0000000001") +
+                "', '{}', 'me', 4);"
+                "INSERT INTO site_revision (id, at_unix_ns, " +
+                (families ? "bytes, " : "") + "who, text) VALUES (12, 2, " + (families ? std::to_string(site.size()) + ", " : "") +
+                "'me', '" + site + "')");
+        const auto store = open_store(dir);
+        ASSERT_NE(store, nullptr);
+        must(store->check());
+        EXPECT_EQ(must(store->facts()).version, static_cast<int>(newest));
+        EXPECT_EQ(std::filesystem::exists(dir / ("axisgate.db.before-" + std::to_string(newest))), form < newest) << "a copy from before";
+        EXPECT_EQ(must(store->load_site())->text, site);
+        EXPECT_EQ(must(store->stored("feeder", "AC"))->value, Value{std::int64_t{5}});
+        EXPECT_EQ(must(store->stored("feeder", "AC"))->previous, Value{1.5});
+        EXPECT_EQ(must(store->history("feeder", "AC", 9)).at(0).id, 7u);
+        EXPECT_EQ(must(store->snapshot("feeder", 4))->parameters.at(0).value, Value{std::int64_t{5}});
+        must(commit_one(*store, a_write("feeder", "AC", std::int64_t{7})));
+        EXPECT_EQ(must(store->stored("feeder", "AC"))->value, Value{std::int64_t{7}}) << "and it goes on";
+        const auto file = must(Db::open(dir / "axisgate.db", Db::Mode::read_only));
+        EXPECT_EQ(must(file->integer("SELECT value FROM twin_memory WHERE drive = 'feeder'")), 9);
+        EXPECT_EQ(must(file->text("SELECT text FROM event WHERE kind = 'fault'")), "it was hot");
+        EXPECT_EQ(must(file->text("SELECT text FROM document WHERE name = 'warm-up'")), "{}");
+        EXPECT_EQ(must(file->text("SELECT name FROM document WHERE kind = 'recipe_run warm-up'")), "0000000001");
+    }
+}
+
 class Upgrade : public testing::Test {
 protected:
     Upgrade() {

@@ -104,6 +104,44 @@ TEST(SendQueue, usesItsRoomAgain) {
     EXPECT_EQ(q.front(), nullptr);
 }
 
+Frame of(std::uint8_t sender, std::uint32_t id) {
+    Frame f = can(id);
+    f.sender = sender;
+    return f;
+}
+
+TEST(SendQueue, letsSendersLeaveInTurn) {
+    SendQueue q;
+    for (std::uint32_t i = 0; i < 4; ++i)
+        (void)q.push(of(0, i), Priority::command, at_ns(i));
+    (void)q.push(of(1, 10), Priority::command, at_ns(5));
+    (void)q.push(of(1, 11), Priority::command, at_ns(5));
+    (void)q.push(of(1, 12), Priority::urgent, at_ns(6));
+    std::array<const SendQueue::Entry*, 7> all{};
+    ASSERT_EQ(q.collect(all), 7u);
+    const std::vector<std::uint32_t> order{12, 0, 10, 1, 11, 2, 3};
+    for (std::size_t i = 0; i < order.size(); ++i)
+        EXPECT_EQ(all[i]->frame.id, order[i]) << i;
+    EXPECT_EQ(drain(q), order);
+    (void)q.push(of(0, 1), Priority::poll, at_ns(7));
+    (void)q.push(of(1, 2), Priority::poll, at_ns(9));
+    EXPECT_EQ(q.front(at_ns(8))->frame.id, 1u) << "whose turn it is has nothing yet";
+}
+
+TEST(SendQueue, givesASenderItsShareOfAFullQueue) {
+    SendQueue q(8);
+    for (std::uint32_t i = 0; i < 8; ++i)
+        ASSERT_TRUE(q.push(of(0, i), i < 4 ? Priority::poll : Priority::command, at_ns(i)));
+    EXPECT_FALSE(q.push(of(0, 8), Priority::command, at_ns(8))) << "its own frames cost nobody a place";
+    for (std::uint32_t i = 0; i < 4; ++i)
+        EXPECT_TRUE(q.push(of(1, 20 + i), Priority::poll, at_ns(9))) << i;
+    EXPECT_FALSE(q.push(of(1, 24), Priority::poll, at_ns(9))) << "half of it is its share";
+    EXPECT_EQ(q.displaced(), 4u);
+    EXPECT_EQ(q.size(), 8u);
+    EXPECT_TRUE(q.push(of(1, 30), Priority::urgent, at_ns(10))) << "a stop costs the same sender a poll";
+    EXPECT_EQ(drain(q), (std::vector<std::uint32_t>{30, 4, 5, 6, 7, 20, 21, 22})) << "the youngest of the least urgent ones went";
+}
+
 TEST(LoadMeter, tellsTheShareOfTheLastSecond) {
     LoadMeter m;
     EXPECT_EQ(m.share(time_zero + ms(5000)), 0.0);

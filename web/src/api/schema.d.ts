@@ -2119,6 +2119,7 @@ export interface components {
             name?: components["schemas"]["Name"];
             /** @description can:can0, serial:/dev/ttyUSB0?baud=9600&format=7N1&rs485=1, tcp:HOST:PORT, tcp-listen:HOST:PORT, udp:HOST:PORT, udp-listen:HOST:PORT, pty:PATH, pty:PATH?baud=9600&format=7N1, twin */
             uri?: string;
+            /** @description of the drives that name none; may be left out on a CAN line */
             family?: string;
             /** @description bit/s; left out or 0 - from the URI or the family's default */
             bitrate?: number;
@@ -2159,6 +2160,13 @@ export interface components {
             readonly drives: string[];
             readonly status: components["schemas"]["LineStatus"] & {
                 counters: components["schemas"]["LineCounters"];
+                /** @description what each family's protocol counted; `counters` is their sum */
+                families: {
+                    family: string;
+                    counters: components["schemas"]["LineCounters"];
+                }[];
+                /** @description CAN frames that arrived with identifiers of none of the line's families */
+                unclaimed: number;
                 /** @description some drives of the line are simulated now */
                 has_twin_bus: boolean;
                 /** @description the bus of the simulated drives; null if there is none */
@@ -2177,6 +2185,8 @@ export interface components {
         DriveFields: {
             name?: components["schemas"]["Name"];
             line?: string;
+            /** @description left out in a request, or its line's: the line's, also when that changes. Several families can share a CAN line */
+            family?: string;
             /** @description number or text, in the family's own form; left out in a request - the factory address */
             address?: number | string;
             /**
@@ -2187,7 +2197,7 @@ export interface components {
             options?: components["schemas"]["FamilyOptions"];
         };
         DriveSpec: components["schemas"]["DriveFields"] & Record<string, never>;
-        /** @description a whole drive; `name` may be left out, and `family`, `axes` and `status` are ignored */
+        /** @description a whole drive; `name` may be left out, and `axes` and `status` are ignored */
         DriveChange: components["schemas"]["DriveFields"] & Record<string, never>;
         /** @description the members of `DriveFields` that change; null removes one */
         DrivePatch: Record<string, never>;
@@ -2208,7 +2218,6 @@ export interface components {
             retry_pause_ms: number;
         };
         Drive: components["schemas"]["DriveFields"] & {
-            readonly family: string;
             readonly axes: string[];
             readonly status: components["schemas"]["DriveStatus"];
         };
@@ -2895,6 +2904,14 @@ export interface components {
             asked: number;
             /** @description addresses to ask */
             of: number;
+            /** @description how far the search for each family is; `asked` and `of` are their sums */
+            families: {
+                family: string;
+                asked: number;
+                of: number;
+                /** @description why this family is not searched for; empty - it is */
+                text: string;
+            }[];
             found: {
                 address: string;
                 family: string;
@@ -4169,6 +4186,11 @@ export interface operations {
                      * @example 20
                      */
                     to?: string | number;
+                    /**
+                     * @description to be searched for; all of the line if it is not given. On a CAN line also one that is not on it yet
+                     * @example uim342
+                     */
+                    family?: string;
                     /** @default 120 */
                     limit_s?: number;
                 };

@@ -12,10 +12,12 @@ export type Drive = Always<Schemas['DriveFields'], 'name' | 'line' | 'address' |
   readonly axes: string[];
   readonly status: Schemas['DriveStatus'];
 };
-export type Line = Always<Schemas['LineFields'], 'name' | 'uri' | 'family'> & {
+export type Line = Always<Schemas['LineFields'], 'name' | 'uri'> & {
   readonly drives: string[];
   readonly status: Schemas['LineStatus'] & {
     counters: Schemas['LineCounters'];
+    families?: { family: string; counters: Schemas['LineCounters'] }[];
+    unclaimed?: number;
     has_twin_bus: boolean;
     twin: Schemas['LineStatus'] | null;
   };

@@ -65,7 +65,7 @@ export function LineCard({ name }: { name: string }) {
         <Load share={s.load} />
       </div>
       <p class="where">
-        {line.family} · <span class="mono">{line.uri}</span>
+        {s.families?.length ? s.families.map((f) => f.family).join(', ') : line.family} · <span class="mono">{line.uri}</span>
         {s.text && s.text !== 'up' ? ` · ${s.text}` : ''}
       </p>
       <dl class="counts">

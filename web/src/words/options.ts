@@ -14,11 +14,11 @@ export const optionPrefix = 'options.';
 const label = (o: OptionSpec) => (o.unit ? `${words(o.name.replace(new RegExp(`_${o.unit.replace(/[^a-z]/gi, '.')}$`), ''))}, ${o.unit}` : words(o.name));
 const words = (name: string) => (name.charAt(0).toUpperCase() + name.slice(1)).replaceAll('_', ' ');
 
-/** The family that an entry is of, as it is typed: of a line its own, of a drive its line's, of an axis its drive's line's. */
+/** The family that an entry is of, as it is typed: of a line its own, of a drive its own or its line's, of an axis its drive's. */
 export function familyOf(room: Room, texts: Texts, site: Site): string {
   if (room === 'lines') return texts.family ?? '';
-  const drive = room === 'drives' ? texts.line : (site.drives ?? []).find((d) => d.name === texts.drive)?.line;
-  return String((site.lines ?? []).find((l) => l.name === drive)?.family ?? '');
+  const drive = room === 'drives' ? texts : (site.drives ?? []).find((d) => d.name === texts.drive);
+  return String(drive?.family || ((site.lines ?? []).find((l) => l.name === drive?.line)?.family ?? ''));
 }
 
 /** What may be said at a line or a drive. A twin's options stand beside those of its drive, or of its line for all twins of that. */

@@ -52,7 +52,7 @@ const failSafeActions = [
 export const fieldsOf: Record<Room, readonly FieldSpec[]> = {
   lines: [
     { key: 'name', label: 'Name', kind: 'name', required: true },
-    { key: 'family', label: 'Family', kind: 'family', required: true },
+    { key: 'family', label: 'Family', kind: 'family', hint: 'of its drives; may be empty on a CAN line whose drives each name theirs' },
     { key: 'uri', label: 'URI', kind: 'text', required: true, placeholder: 'twin, can:can0, serial:/dev/ttyUSB0?baud=9600, tcp:HOST:PORT', hint: 'where the line is; “twin”: embedded drives alone' },
     { key: 'bitrate', label: 'Bit rate', kind: 'integer', min: 0, max: 100000000, hint: 'bit/s; empty: from the URI, or the family’s' },
     manner('reply_timeout_ms', 'Reply time-out, ms', 0, 60000),
@@ -67,6 +67,7 @@ export const fieldsOf: Record<Room, readonly FieldSpec[]> = {
   drives: [
     { key: 'name', label: 'Name', kind: 'name', required: true },
     { key: 'line', label: 'Line', kind: 'line', required: true },
+    { key: 'family', label: 'Family', kind: 'family', hint: 'empty: the line’s; several can share a CAN line', more: true },
     { key: 'address', label: 'Address', kind: 'address', hint: 'empty: the factory address' },
     { key: 'presence', label: 'Presence', kind: 'choice', choices: presences },
   ],
@@ -162,7 +163,7 @@ export function checkEntry(room: Room, texts: Texts, site: Site, own: Entry | nu
   };
   taken('name', `There is already ${room === 'axes' ? 'an' : 'a'} ${oneOf[room]}`, (e) => e.name === entry.name);
   if (room === 'drives' && entry.line !== undefined && !(site.lines ?? []).some((l) => l.name === entry.line)) faults.line ??= `There is no line ${String(entry.line)}.`;
-  if (room === 'drives' && entry.address !== undefined) taken('address', 'The same address on this line has', (e) => e.line === entry.line && String(e.address) === String(entry.address));
+  if (room === 'drives' && entry.address !== undefined) taken('address', 'The same address on this line has', (e) => e.line === entry.line && (e.family ?? '') === (entry.family ?? '') && String(e.address) === String(entry.address));
   if (room === 'axes') {
     if (entry.drive !== undefined && !(site.drives ?? []).some((d) => d.name === entry.drive)) faults.drive ??= `There is no drive ${String(entry.drive)}.`;
     taken('number', 'This number has', (e) => e.number === entry.number);

@@ -1,0 +1,313 @@
+// CiA 402, what the drive says: the power state, what became of orders, who answers, and the picture of it all.
+// In: feedback, results of orders, presence. Out: the state, the picture, and the one order that follows from feedback itself.
+// Never judges a request: those are cia402.cpp.
+#include "gateway/axis/cia402.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+
+namespace axisgate {
+using namespace cia402;
+
+namespace {
+constexpr Duration reaction_again = std::chrono::seconds(1);
+}  // namespace
+
+std::string_view name_of(PowerState state) noexcept {
+    constexpr std::array<std::string_view, 8> names{"not_ready_to_switch_on", "switch_on_disabled", "ready_to_switch_on",    "switched_on",
+                                                    "operation_enabled",      "quick_stop_active",  "fault_reaction_active", "fault"};
+    return names[static_cast<std::size_t>(state)];
+}
+
+std::string_view cia402::text_of_mode(std::int16_t mode) noexcept {
+    constexpr std::array<std::string_view, 12> names{"none",
+                                                     "profile position",
+                                                     "velocity",
+                                                     "profile velocity",
+                                                     "profile torque",
+                                                     "reserved",
+                                                     "homing",
+                                                     "interpolated position",
+                                                     "cyclic synchronous position",
+                                                     "cyclic synchronous velocity",
+                                                     "cyclic synchronous torque",
+                                                     "cyclic synchronous torque with commutation angle"};
+    if (mode < 0) return "of the maker";
+    return static_cast<std::size_t>(mode) < names.size() ? names[static_cast<std::size_t>(mode)] : "reserved";
+}
+
+PowerState power_state_of(std::uint16_t sw) noexcept {
+    if ((sw & 0x4F) == 0x00) return PowerState::not_ready_to_switch_on;
+    if ((sw & 0x4F) == 0x40) return PowerState::switch_on_disabled;
+    if ((sw & 0x6F) == 0x21) return PowerState::ready_to_switch_on;
+    if ((sw & 0x6F) == 0x23) return PowerState::switched_on;
+    if ((sw & 0x6F) == 0x27) return PowerState::operation_enabled;
+    if ((sw & 0x6F) == 0x07) return PowerState::quick_stop_active;
+    if ((sw & 0x4F) == 0x0F) return PowerState::fault_reaction_active;
+    return PowerState::fault;
+}
+
+/// Sets the power state from what the drive says and what this class keeps for it.
+void Cia402Axis::settle(State& s) const {
+    if (s.presence == Presence::offline || !s.seen) {
+        s.state = PowerState::not_ready_to_switch_on;
+        return;
+    }
+    const auto own = s.feedback.statusword ? std::optional(power_state_of(*s.feedback.statusword)) : std::nullopt;
+    if (s.feedback.fault) {
+        const bool told = own == PowerState::fault || own == PowerState::fault_reaction_active;
+        s.state = told ? *own : s.feedback.moving ? PowerState::fault_reaction_active : PowerState::fault;
+        s.virtual_step = 0;
+        s.quick_stopped = false;
+        s.active.reset();
+        s.buffered.reset();
+        return;
+    }
+    if (s.feedback.power == AxisFeedback::Power::on) {
+        if (s.power_pending == 0) return;  // it will be off soon; the answer decides
+        // The drive may have been stopped at itself: by its own panel, an input, or another master. It is left like any quick stop.
+        const bool stopping = s.feedback.quick_stopping || own == PowerState::quick_stop_active;
+        const bool stopped = s.quick_stopped || (stopping && s.power_pending != 1);
+        if (stopped && s.state == PowerState::operation_enabled) forget_motion(s);
+        s.state = stopped ? PowerState::quick_stop_active : PowerState::operation_enabled;
+        return;
+    }
+    if (s.power_pending == 1) return;
+    if (s.virtual_step == 3) {  // it was on by our order and went off by itself: back to the first step
+        s.virtual_step = 0;
+        forget_motion(s);
+    }
+    s.quick_stopped = false;
+    s.state = state_when_off(s);
+}
+
+/// Without power: the steps that a control word has gone where the drive knows on and off alone. A drive's own state is never shown lower
+/// than it is; a step that it does not know, and that a control word waits for, is shown above it.
+PowerState Cia402Axis::state_when_off(const State& s) noexcept {
+    const PowerState step = s.virtual_step == 1   ? PowerState::ready_to_switch_on
+                            : s.virtual_step == 2 ? PowerState::switched_on
+                                                  : PowerState::switch_on_disabled;
+    const auto own = s.feedback.statusword ? power_state_of(*s.feedback.statusword) : step;
+    return own <= PowerState::switched_on ? std::max(own, step) : step;
+}
+
+void Cia402Axis::on_order_result(const CommandBody& order, bool good, Instant now) {
+    State& s = s_;
+    if (std::holds_alternative<Enable>(order)) {
+        s.power_pending = -1;
+        if (good) {
+            s.quick_stopped = s.feedback.quick_stopping = false;
+            s.feedback.power = AxisFeedback::Power::on;
+            s.power_known_at = now;
+        } else {
+            s.virtual_step = 0;
+            s.controlword &= static_cast<std::uint16_t>(~cw_enable_operation);
+        }
+        settle(s);
+    } else if (std::holds_alternative<Disable>(order)) {
+        s.power_pending = -1;
+        if (good) {
+            s.feedback.power = AxisFeedback::Power::off;
+            s.power_known_at = now;
+        }
+        settle(s);
+    } else if (std::holds_alternative<QuickStop>(order)) {
+        if (good && s.feedback.power == AxisFeedback::Power::on) s.quick_stopped = true;
+        if (!good) s.reacting = false;
+        settle(s);
+    } else if (std::holds_alternative<Home>(order)) {
+        s.homing_refused = !good;
+    } else if (std::holds_alternative<SetPosition>(order)) {
+        if (good) s.active.reset();  // its target was a place by the old count
+    } else if (const auto* m = std::get_if<Move>(&order)) {
+        const bool again = s.told_again > 0;
+        if (again) --s.told_again;
+        if (!good) return;
+        if (!again) ++s.setpoints_accepted;
+        const auto shown = [](std::uint32_t& into, const std::optional<std::int64_t>& v) {
+            if (v) into = static_cast<std::uint32_t>(*v);
+        };
+        shown(s.profile_velocity, m->velocity);
+        shown(s.profile_acceleration, m->acceleration);
+        shown(s.profile_deceleration, m->deceleration);
+        // Bit 12 answers bit 4: whoever has not set it does not wait for it to fall.
+        s.setpoint_acknowledged = (s.controlword & cw_new_setpoint) != 0;
+        if (m->kind == Move::Kind::velocity) {
+            s.ordered_velocity = m->target;
+            s.active.reset();
+        } else {
+            s.ordered_velocity = 0;
+            s.active = *m;
+            if (m->kind == Move::Kind::relative) {
+                s.active->kind = Move::Kind::absolute;
+                s.active->target += s.feedback.position;
+            }
+        }
+    }
+}
+
+std::optional<CommandBody> Cia402Axis::on_feedback(const AxisFeedback& feedback, Instant now) {
+    State& s = s_;
+    AxisFeedback f = feedback;
+    // Read before the drive acknowledged a power order: that part is already known better.
+    if (s.seen && f.at <= s.power_known_at) {
+        f.power = s.feedback.power;
+        f.quick_stopping = s.feedback.quick_stopping;
+    }
+    s.feedback = f;
+    s.seen = true;
+    s.heard = s.presence;
+    settle(s);
+    if (s.state == PowerState::fault_reaction_active && s.feedback.moving) {
+        if (s.reacting || (s.reaction_at != Instant{} && now - s.reaction_at < reaction_again)) return std::nullopt;
+        s.reacting = true;
+        s.reaction_at = now;
+        return CommandBody{QuickStop{}};
+    }
+    s.reacting = false;
+    s.reaction_at = {};
+    if (s.state != PowerState::operation_enabled) return std::nullopt;
+    if (f.target_reached && !f.moving) {
+        if (s.buffered && !s.halted) {
+            Move next = *s.buffered;
+            s.buffered.reset();
+            ++s.told_again;  // counted when it was buffered
+            return CommandBody{next};
+        }
+        if (!s.halted) s.active.reset();
+    }
+    return std::nullopt;
+}
+
+void Cia402Axis::on_presence(Presence presence) {
+    if (presence == s_.presence) return;
+    s_.presence = presence;
+    s_.seen = false;
+    // Of a drive that is silent the last values are kept, with their age; what it is doing now is not known. Another drive begins anew.
+    AxisFeedback last;
+    if (presence == Presence::offline || presence == s_.heard) {
+        last.position = s_.feedback.position;
+        last.velocity = s_.feedback.velocity;
+        last.error_code = s_.feedback.error_code;
+        last.native_status = s_.feedback.native_status;
+        last.at = s_.feedback.at;
+    } else {
+        s_.heard = Presence::offline;
+    }
+    s_.feedback = last;
+    s_.power_pending = -1;
+    s_.power_known_at = {};
+    s_.virtual_step = 0;
+    s_.quick_stopped = false;
+    s_.controlword = 0;
+    s_.told_again = 0;
+    s_.homing_refused = s_.reacting = false;
+    s_.reaction_at = {};
+    for (Written& w : s_.written)
+        w.target_known = w.target_pending = false;
+    forget_motion(s_);
+    settle(s_);
+}
+
+std::optional<std::int64_t> Cia402Axis::active_target() const noexcept {
+    if (!s_.active || s_.feedback.target_reached) return std::nullopt;
+    return s_.active->target;
+}
+
+bool Cia402Axis::commanded() const noexcept {
+    return s_.state == PowerState::operation_enabled || s_.state == PowerState::quick_stop_active || s_.power_pending == 1 ||
+           s_.feedback.moving;
+}
+
+void Cia402Axis::fill(AxisPicture& p) const noexcept {
+    const State& s = s_;
+    const AxisFeedback& f = s.feedback;
+    std::uint16_t sw = 0;
+    switch (s.state) {
+        case PowerState::not_ready_to_switch_on:
+            sw = 0;
+            break;
+        case PowerState::switch_on_disabled:
+            sw = sw_switch_on_disabled;
+            break;
+        case PowerState::ready_to_switch_on:
+            sw = 0x21;
+            break;
+        case PowerState::switched_on:
+            sw = 0x23;
+            break;
+        case PowerState::operation_enabled:
+            sw = 0x27;
+            break;
+        case PowerState::quick_stop_active:
+            sw = 0x07;
+            break;
+        case PowerState::fault_reaction_active:
+            sw = 0x0F;
+            break;
+        case PowerState::fault:
+            sw = 0x08;
+            break;
+    }
+    const bool present = s.presence != Presence::offline;
+    if (present && s.seen) sw |= sw_voltage | sw_remote;
+    if (f.warning) sw |= sw_warning;
+    if (s.presence == Presence::twin) sw |= sw_simulated;
+    if (f.internal_limit) sw |= sw_internal_limit;
+    if (f.referenced) sw |= sw_referenced;
+    bool reached = f.target_reached && !f.moving;
+    switch (s.mode) {
+        case mode_profile_velocity:
+            reached = s.halted ? !f.moving : std::llabs(f.velocity - s.ordered_velocity) * 100 <= std::llabs(s.ordered_velocity);
+            if (f.velocity == 0) sw |= sw_mode_12;
+            break;
+        case mode_homing:
+            reached = !f.moving && !f.homing;
+            if (f.homing_attained && !s.homing_refused) sw |= sw_mode_12;
+            if (f.homing_error || s.homing_refused) sw |= sw_mode_13;
+            break;
+        case mode_cyclic_position:
+        case mode_cyclic_velocity:
+        case mode_cyclic_torque:
+            if (s.following) sw |= sw_mode_12;  // the drive follows the command value
+            break;
+        default:
+            if (s.halted) reached = !f.moving;
+            if (s.setpoint_acknowledged || s.buffered) sw |= sw_mode_12;
+            break;
+    }
+    if (present && s.seen && reached) sw |= sw_target_reached;
+    p.statusword = sw;
+    p.mode_display = s.mode;
+    p.position = f.position;
+    p.demand_source = f.demand_source;
+    p.position_demand = p.following_error_known() ? f.position_demand : f.position;
+    p.velocity = f.velocity;
+    p.native_status = f.native_status;
+    p.error_code = f.error_code;
+    p.controlword = s.controlword;
+    p.mode = s.mode;
+    p.target_position = s.target_position;
+    p.profile_velocity = s.profile_velocity;
+    p.profile_acceleration = s.profile_acceleration;
+    p.profile_deceleration = s.profile_deceleration;
+    p.target_velocity = s.target_velocity;
+    p.homing_method = s.homing_method;
+    p.setpoints_accepted = s.setpoints_accepted;
+    p.presence = s.presence;
+    p.ever_seen = s.heard != Presence::offline;
+    p.current = s.seen;
+    p.at = f.at;
+    std::uint16_t flags = 0;
+    if (present) flags |= flag_online;
+    if (s.presence == Presence::twin) flags |= flag_simulated;
+    if (f.referenced) flags |= flag_referenced;
+    if (f.moving) flags |= flag_moving;
+    if (present && s.seen && reached) flags |= flag_target_reached;
+    if (f.fault) flags |= flag_fault;
+    if (f.warning) flags |= flag_warning;
+    p.flags = flags;
+}
+
+}  // namespace axisgate

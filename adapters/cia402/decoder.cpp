@@ -82,7 +82,7 @@ std::string CanDecoder::pdo(const Frame& f, const canopen::Role& role) {
 
 std::vector<std::string> CanDecoder::on_frame(const Frame& f, std::optional<bool>) {
     if (f.kind != Frame::Kind::can) return {"a report of the CAN controller"};
-    if (f.extended) return {fmt::format("{:08X}: 29 bits, no message of CANopen's connection set", f.id)};
+    if (f.extended) return {fmt::format("{:08X} unknown: 29 bits are no message of CANopen's connection set", f.id)};
     const auto role = canopen::role_of(f.id);
     if (f.remote) return {fmt::format("node {}: {} is asked for by a remote frame", role.node, canopen::name_of(role.service))};
     switch (role.service) {
@@ -106,7 +106,7 @@ std::vector<std::string> CanDecoder::on_frame(const Frame& f, std::optional<bool
         case canopen::Service::receive_pdo: return {pdo(f, role)};
         case canopen::Service::other: break;
     }
-    return {fmt::format("{:03X}: {} (no message of CANopen's connection set)", f.id, hex_of(f.data()))};
+    return {fmt::format("{:03X} unknown: {} is no message of CANopen's connection set", f.id, hex_of(f.data()))};
 }
 
 }  // namespace axisgate::cia402_drive

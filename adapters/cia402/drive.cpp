@@ -80,13 +80,14 @@ drive::Want Drive::wants(Instant now) const noexcept {
     if (presence_.is(Phase::starting)) return drive::Want::command;
     if (need_code_) return drive::Want::quick_poll;
     if (job_ ? now >= job_->wait_until : !queue_.empty() || (newest_ && stream_ == Stream::none)) return drive::Want::command;
-    return now >= check_at_ ? drive::Want::poll : drive::Want::nothing;
+    return !job_ && now >= check_at_ ? drive::Want::poll : drive::Want::nothing;
 }
+/// Of what wants() looks at, and of nothing that waits behind it.
 Instant Drive::wish() const noexcept {
-    Instant next = std::min(presence_.deadline(), check_at_);
-    if (const Stop* stop = stops_.first(); stop && stop->job) next = std::min(next, stop->job->wait_until);
-    if (job_) next = std::min(next, job_->wait_until);
-    return next;
+    if (const Stop* stop = stops_.first()) return stop->job ? stop->job->wait_until : never;
+    if (!presence_.online() || presence_.is(Phase::restarting)) return presence_.deadline();
+    if (presence_.is(Phase::starting)) return never;
+    return job_ ? job_->wait_until : check_at_;
 }
 
 void Drive::go(Turn& t) {

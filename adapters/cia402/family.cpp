@@ -18,6 +18,13 @@ ScanPlan scan_nodes(const ScanWish& wish) {
     plan.at_once = 8;
     return plan;
 }
+/// The lower seven bits of what a node sends and is sent are its number. NMT and SYNC are nobody's: other CANopen families send them, too.
+std::vector<CanIdentifiers> identifiers(std::span<const std::string> addresses) {
+    std::vector<CanIdentifiers> list;
+    for (const std::string& a : addresses)
+        if (const int n = node_of(a); n != 0) list.push_back({false, 0x7F, static_cast<std::uint32_t>(n)});
+    return list;
+}
 }  // namespace
 }  // namespace cia402_drive
 
@@ -35,6 +42,8 @@ const Family& family_cia402() {
         false,
         1'000'000,
         cia402_drive::scan_nodes,
+        nullptr,
+        cia402_drive::identifiers,
     };
     return family;
 }

@@ -21,16 +21,17 @@ void Drive::on_emergency(const canopen::Emergency& e, Turn& t) {
 
 void Drive::on_heartbeat(const Frame& f, Turn& t) {
     const auto news = heartbeat_.on_frame(f, t.now);
-    if (news == canopen::NodeNews::started && presence_.online() && !presence_.is(Presence::Phase::restarting)) {
-        // Whatever was set up in it is gone, and so is what was ordered.
-        forget(Reason::interrupted, "the drive has restarted", t);
-        const auto keep = fb_.position;
+    if (news == canopen::NodeNews::started) {
+        // Whatever was set up in it is gone, and so are its zero and what was ordered.
+        const auto place = fb_.position;
         fb_ = {};
-        fb_.position = keep;
+        fb_.position = place;
         order_ = Order::none;
         cw_ = 0;
-        presence_.begin(t.now);
-        return;
+        if (presence_.online() && !presence_.is(Presence::Phase::restarting)) {
+            forget(Reason::interrupted, "the drive has restarted", t);
+            return presence_.begin(t.now);
+        }
     }
     presence_.heard(t.now);
 }

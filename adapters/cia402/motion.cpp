@@ -42,14 +42,16 @@ std::string Drive::plan(Job& job, Reason& reason) const {
         if (!on && state != 0x07) {
             word(job, 0x06), until(0x6F, 0x21);
             word(job, 0x07), until(0x6F, 0x23);
+        } else if (!on) {  // out of a quick stop, when it has ended
+            job.steps.push_back({Step::Kind::until, object::velocity, {}, 0xFFFFFFFFu, 0, true});
         }
         word(job, on_word), until(0x6F, 0x27);
         return {};
     }
     if (std::holds_alternative<ResetFault>(body)) {
         if (!fb_.fault) return job.steps.push_back({Step::Kind::read, object::error_code, {}}), "";
-        for (const std::uint16_t cw : {0x00, 0x80, 0x00})
-            word(job, cw);
+        for (const int cw : {0x00, 0x80, 0x00})
+            word(job, static_cast<std::uint16_t>(cw));
         return {};
     }
     if (const auto* home = std::get_if<Home>(&body)) {

@@ -161,6 +161,7 @@ struct Engine::Axis {
         std::uint32_t taken = 0, refused = 0;
         Reason refusal = Reason::none;  ///< of the newest one, or of the stream
         Instant tell_again_at{};
+        bool untold = false;  ///< the present refusal has not been told in words
         AuthorityClient ended_by;  ///< whose stream was the last; it must pause before its next one
         Instant ended_heard{};     ///< when it sent one last, since then
         Reason ended_for = Reason::none;

@@ -31,8 +31,9 @@ std::optional<Refusal> Engine::on_set_point(const SetPoint& p, Instant now) {
     }
     if (no) {
         ++s.refused;
-        const bool news = std::exchange(s.refusal, no->reason) != no->reason;
-        if (news && now >= s.tell_again_at) {
+        s.untold = std::exchange(s.refusal, no->reason) != no->reason || s.untold;
+        if (s.untold && now >= s.tell_again_at) {
+            s.untold = false;
             s.tell_again_at = now + refusal_told_again;
             tell_stream(*a, p.origin, Severity::warning, fmt::format("a set-point of {} is refused: {}", who.text(), no->text), now);
         }
@@ -45,6 +46,7 @@ std::optional<Refusal> Engine::on_set_point(const SetPoint& p, Instant now) {
     s.renewed = now;
     s.value = p.value;
     s.refusal = Reason::none;
+    s.untold = false;
     ++s.taken;
     a->profile.follow(p);
     if (p.mode == SetPoint::Mode::velocity) {  // watched at the limits of position like any velocity move

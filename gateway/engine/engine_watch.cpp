@@ -164,7 +164,8 @@ void Engine::track(Axis& a, Instant now) {
         } else {
             const bool is_motion = std::holds_alternative<Move>(c.body) || std::holds_alternative<Home>(c.body) || std::holds_alternative<Halt>(c.body) ||
                                    std::holds_alternative<QuickStop>(c.body) || std::holds_alternative<StartTogether>(c.body);
-            if (c.until_done || !is_motion) r.outcome = Outcome::done;
+            // Whatever its adapter calls it: what was merely taken is not done.
+            r.outcome = c.until_done || !is_motion ? Outcome::done : Outcome::accepted;
         }
         finish(number, std::move(r), now);
     }

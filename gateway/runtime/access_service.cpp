@@ -12,9 +12,9 @@
 
 #include <boost/asio/post.hpp>
 
-#include "gateway/services/access/secrets.hpp"
 #include "gateway/runtime/clock.hpp"
 #include "gateway/runtime/threads.hpp"
+#include "gateway/services/access/secrets.hpp"
 
 namespace axisgate {
 namespace asio = boost::asio;
@@ -30,8 +30,8 @@ std::string session_cookie_of(const std::string& data_dir) {
     return "axisgate_session_" + digest_of(fmt::format("{} {}", host.data(), bad ? data_dir : place.string())).substr(0, 8);
 }
 
-AccessService::AccessService(asio::io_context& warm, Cold& cold, AccessSettings settings, Tell tell)
-    : warm_(warm), cold_(cold), desk_(settings), tell_(std::move(tell)) {}
+AccessService::AccessService(asio::io_context& warm, Cold& cold, AccessSettings settings, Note note)
+    : warm_(warm), cold_(cold), accounts_(settings), note_(std::move(note)) {}
 
 AccessService::~AccessService() { stop(); }
 
@@ -55,21 +55,21 @@ std::string AccessService::load(Store& store, bool new_code, std::string& code) 
         auto u = user_of(d.text);
         // A user who cannot be read must not make room for a first sign-in.
         if (!u) return fmt::format("the record of the user {} cannot be read: restore a backup", d.name);
-        desk_.load(std::move(*u));
+        accounts_.load(std::move(*u));
     }
     for (const auto& d : *tokens) {
-        if (auto t = token_of(d.text)) desk_.load(std::move(*t));
+        if (auto t = token_of(d.text)) accounts_.load(std::move(*t));
     }
     for (const auto& d : *uses)
-        desk_.load_use(d.name, d.text);
-    if (desk_.has_users()) return {};
+        accounts_.load_use(d.name, d.text);
+    if (accounts_.has_users()) return {};
     if (*first && !new_code) {
-        desk_.load_code(code_of((*first)->text));
+        accounts_.load_code(code_of((*first)->text));
         return {};
     }
     code = random_code();
     new_code_ = record_of_code(digest_of(plain_code(code)));
-    desk_.load_code(code_of(*new_code_->text));
+    accounts_.load_code(code_of(*new_code_->text));
     return {};
 }
 
@@ -78,7 +78,7 @@ bool AccessService::code_is_kept() {
     if (std::exchange(keeping_code_, true)) return false;
     const bool queued = changes->run(
         [this](std::function<void()> done) {
-            if (desk_.has_users()) {  // it was used already
+            if (accounts_.has_users()) {  // it was used already
                 new_code_.reset();
                 return done();
             }
@@ -88,7 +88,7 @@ bool AccessService::code_is_kept() {
                     e.kind = "access";
                     e.severity = Severity::warning;
                     e.text = "the code of the first sign-in is not stored, the next start shows another: " + fault;
-                    tell(std::move(e));
+                    note(std::move(e));
                 }
                 new_code_.reset();
                 done();

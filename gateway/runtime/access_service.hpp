@@ -11,8 +11,8 @@
 #include <optional>
 #include <string>
 
-#include "gateway/services/access/access_port.hpp"
 #include "gateway/runtime/cold.hpp"
+#include "gateway/services/access/access_port.hpp"
 #include "gateway/store/store.hpp"
 
 namespace axisgate {
@@ -23,8 +23,8 @@ namespace axisgate {
 
 class AccessService final : public AccessPort {
 public:
-    using Tell = std::function<void(Event)>;
-    AccessService(boost::asio::io_context& warm, Cold& cold, AccessSettings settings, Tell tell);
+    using Note = std::function<void(Event)>;
+    AccessService(boost::asio::io_context& warm, Cold& cold, AccessSettings settings, Note note);
     ~AccessService() override;
 
     /// Reads what the store has; called before the threads run. Without users: makes the code of the first sign-in, if there is none yet
@@ -35,11 +35,11 @@ public:
     /// come so far leaves the next one to make and show another.
     [[nodiscard]] bool code_is_kept();
 
-    [[nodiscard]] AccessRegister& desk() override { return desk_; }
+    [[nodiscard]] AccessRegister& accounts() override { return accounts_; }
     [[nodiscard]] bool derive(std::string password, std::function<void(std::string)> then) override;
     [[nodiscard]] bool compare(std::string password, std::string hash, std::function<void(bool)> then) override;
     void keep(std::vector<AccessRecord> records, std::string who, std::function<void(std::string)> then) override;
-    void tell(Event event) override { tell_(std::move(event)); }
+    void note(Event event) override { note_(std::move(event)); }
     /// Waits for the hash that is being computed; the others are not begun.
     void stop();
 
@@ -49,8 +49,8 @@ private:
 
     boost::asio::io_context& warm_;
     Cold& cold_;
-    AccessRegister desk_;
-    Tell tell_;
+    AccessRegister accounts_;
+    Note note_;
     std::unique_ptr<boost::asio::thread_pool> pool_;
     std::size_t waiting_ = 0;
     std::optional<AccessRecord> new_code_;  ///< made by this start, and not on the disk yet

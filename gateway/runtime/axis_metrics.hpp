@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 
-#include "gateway/services/gateway.hpp"
 #include "gateway/axis/image.hpp"
+#include "gateway/site/site_state.hpp"
 
 namespace axisgate {
 

@@ -6,15 +6,15 @@
 
 namespace axisgate {
 
-void EventOutlet::tell(Event event, Instant at) {
+void EventOutlet::send(Event event, Instant at) {
     if (!ring_) return;
     const auto lost = lost_.load(std::memory_order_relaxed);
-    if (lost > told_) {
+    if (lost > reported_) {
         Event gap;
         gap.severity = Severity::warning;
         gap.kind = "gap";
-        gap.text = fmt::format("{} events could not be taken: more came than can be written", lost - told_);
-        if (ring_->push(EventAt{std::move(gap), at})) told_ = lost;
+        gap.text = fmt::format("{} events could not be taken: more came than can be written", lost - reported_);
+        if (ring_->push(EventAt{std::move(gap), at})) reported_ = lost;
     }
     if (!ring_->push(EventAt{std::move(event), at})) lost_.fetch_add(1, std::memory_order_relaxed);
 }

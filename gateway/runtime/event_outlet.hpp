@@ -11,17 +11,17 @@ namespace axisgate {
 
 class EventOutlet {
 public:
-    /// Before the first tell(); without a ring events go nowhere.
+    /// Before the first send(); without a ring events go nowhere.
     void connect(Mailbox<ColdJob>* ring) noexcept { ring_ = ring; }
     /// The one thread that this outlet is of. The caller announces the ring.
-    void tell(Event event, Instant at);
+    void send(Event event, Instant at);
     /// Any thread: events that found the ring full, since the start.
     [[nodiscard]] std::uint64_t lost() const noexcept { return lost_.load(std::memory_order_relaxed); }
 
 private:
     Mailbox<ColdJob>* ring_ = nullptr;
     std::atomic<std::uint64_t> lost_{0};
-    std::uint64_t told_ = 0;
+    std::uint64_t reported_ = 0;
 };
 
 }  // namespace axisgate

@@ -162,7 +162,7 @@ void Hot::note(Event&& event, AxisId axis) {
     on_event(std::move(event), now());
 }
 
-void Hot::on_event(Event event, Instant at) { events_.tell(std::move(event), at); }
+void Hot::on_event(Event event, Instant at) { events_.send(std::move(event), at); }
 
 DoorNumber Hot::attach(HotDoor& door) {
     doors_.push_back(&door);  // a number is never given twice: late results of a detached door find nobody
@@ -176,7 +176,7 @@ bool Hot::serve_doors() {
     return served;
 }
 
-void Hot::tell_site(const SiteState& site) {
+void Hot::publish_site(const SiteState& site) {
     for (HotDoor* door : doors_) {
         if (door) door->on_site(site);
     }

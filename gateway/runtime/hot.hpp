@@ -3,11 +3,11 @@
 // Never waits for a disk, a lock or another thread.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/steady_timer.hpp>
-#include <algorithm>
 #include <functional>
 #include <memory>
 #include <thread>
@@ -26,8 +26,8 @@ namespace axisgate {
 
 /// What the warm thread may read at any time: the newest reports of lines and drives, at most 200 ms old.
 struct Reports {
-    std::vector<LineReport> lines;    ///< by LineId
-    std::vector<DriveStatus> drives;  ///< by DriveId
+    std::vector<LineReport> lines;                      ///< by LineId
+    std::vector<DriveStatus> drives;                    ///< by DriveId
     std::vector<std::shared_ptr<const FrameLog>> logs;  ///< by LineId
     std::vector<std::string> complaints;
     bool settled = false;
@@ -39,15 +39,15 @@ struct HotSettings {
     int cpu = -1;
     std::size_t trace_frames = 4096;
     Instant (*clock)() noexcept = monotonic_now;  ///< never goes backwards; a test has its own
-    PtyPlaces ptys{};  ///< where lines of the site may link pseudo-terminals
+    PtyPlaces ptys{};                             ///< where lines of the site may link pseudo-terminals
 };
 
 class Hot final : public EngineHost, public DoorPort {
 public:
     using Job = std::function<void(Engine&, Instant)>;
     struct Outlets {
-        Mailbox<Result>* results = nullptr;    ///< to the warm thread: results of its own commands
-        Mailbox<Sample>* samples = nullptr;    ///< to the warm thread
+        Mailbox<Result>* results = nullptr;  ///< to the warm thread: results of its own commands
+        Mailbox<Sample>* samples = nullptr;  ///< to the warm thread
         Mailbox<ColdJob>* cold = nullptr;
     };
 
@@ -69,7 +69,7 @@ public:
     [[nodiscard]] Engine& engine() noexcept { return engine_; }  ///< before start(), or on the hot thread
 
     /// A site is in force: all doors look it up anew. Hot thread, or before start().
-    void tell_site(const SiteState& site);
+    void publish_site(const SiteState& site);
     /// The doors of this thread; before start(), or on the hot thread.
     [[nodiscard]] const std::vector<HotDoor*>& doors() const noexcept { return doors_; }
 

@@ -32,7 +32,7 @@
 #include "gateway/runtime/threads.hpp"
 #include "gateway/runtime/tls_files.hpp"
 #include "gateway/runtime/waiting_backup.hpp"
-#include "gateway/runtime/warm_gateway.hpp"
+#include "gateway/runtime/warm_ports.hpp"
 
 namespace axisgate {
 namespace {
@@ -53,13 +53,16 @@ bool open_log(const Config& c) {
         spdlog::set_default_logger(std::move(log));
         return true;
     } catch (const spdlog::spdlog_ex& e) {
-        complain(fmt::format("cannot open the log file {}: {}; check the folder and its rights, or leave log.file empty", c.log_file, e.what()));
+        complain(
+            fmt::format("cannot open the log file {}: {}; check the folder and its rights, or leave log.file empty", c.log_file, e.what()));
         return false;
     }
 }
 
 void log_event(const Event& e) {
-    const auto level = e.severity == Severity::alarm ? spdlog::level::err : e.severity == Severity::warning ? spdlog::level::warn : spdlog::level::info;
+    const auto level = e.severity == Severity::alarm     ? spdlog::level::err
+                       : e.severity == Severity::warning ? spdlog::level::warn
+                                                         : spdlog::level::info;
     std::string where;
     if (!e.line.empty()) where += " line=" + e.line;
     if (!e.drive.empty()) where += " drive=" + e.drive;
@@ -68,13 +71,12 @@ void log_event(const Event& e) {
     spdlog::log(level, "{}{}: {}", e.kind, where, e.text);
 }
 
-struct LogListener final : GatewayListener {
+struct LogListener final : EventListener {
     void on_event(const Event& event) override { log_event(event); }
-    void on_site(const std::shared_ptr<const SiteState>&) override {}
 };
 
-Gateway::ModbusReport modbus_report(modbus::Server& server, Hot& hot, const Config& config) {
-    Gateway::ModbusReport r;
+ModbusReport modbus_report(modbus::Server& server, Hot& hot, const Config& config) {
+    ModbusReport r;
     const auto addresses = server.addresses();
     if (!addresses.empty()) r.bind = addresses.front();
     r.allow = config.modbus_allow;
@@ -82,7 +84,7 @@ Gateway::ModbusReport modbus_report(modbus::Server& server, Hot& hot, const Conf
     r.read_only = server.responder().access().read_only;
     const auto& site = *hot.engine().site();
     for (auto& c : server.connections()) {
-        Gateway::ModbusConnection x;
+        ModbusConnection x;
         x.requests = c.requests;
         x.writes = c.writes;
         x.exceptions = c.exceptions;
@@ -90,7 +92,8 @@ Gateway::ModbusReport modbus_report(modbus::Server& server, Hot& hot, const Conf
         const auto host = std::string_view(c.peer).substr(0, c.peer.rfind(':'));
         for (std::size_t i = 0; i < site.axis_ids.size(); ++i) {
             const AxisPicture& p = hot.image().picture(site.axis_ids[i]);
-            if (p.authority == Door::modbus && p.authority_holder[0] != 0 && host == p.authority_holder.data()) x.holds.push_back(site.site.axes[i].name);
+            if (p.authority == Door::modbus && p.authority_holder[0] != 0 && host == p.authority_holder.data())
+                x.holds.push_back(site.site.axes[i].name);
         }
         x.peer = std::move(c.peer);
         r.connections.push_back(std::move(x));
@@ -106,7 +109,7 @@ struct Service {
     boost::asio::io_context warm{1};
     std::unique_ptr<Hot> hot;
     std::unique_ptr<Cold> cold;
-    std::unique_ptr<WarmGateway> gateway;
+    std::unique_ptr<WarmPorts> ports;
     std::unique_ptr<registers::RegisterImage> image;
     std::unique_ptr<modbus::Server> modbus;
     std::shared_ptr<AccessService> access;
@@ -117,7 +120,7 @@ struct Service {
     boost::asio::signal_set signals{warm};
     boost::asio::steady_timer tick{warm};
     Instant started = monotonic_now();
-    bool ready_said = false;
+    bool ready_reported = false;
     std::string first_code;  ///< to be shown
     int code = exit_good;
 
@@ -131,7 +134,7 @@ struct Service {
     void arm_services();
     int open_doors();
     void watch();
-    void say_ready();
+    void report_ready();
     void take_down();
 };
 
@@ -176,23 +179,25 @@ int Service::open_store() {
     answers.stored = [this](std::vector<Stored> list) {
         for (auto& s : list) {
             // The hot thread empties this ring in every turn; it has more places than orders can be on the way.
-            while (!hot->stored().push(std::move(s))) std::this_thread::yield();
+            while (!hot->stored().push(std::move(s)))
+                std::this_thread::yield();
         }
         hot->stored().announce();
     };
-    answers.events = [this](std::vector<Event> list) { gateway->events_written(std::move(list)); };
+    answers.events = [this](std::vector<Event> list) { ports->events.written(std::move(list)); };
     answers.fault = [](std::string text) { spdlog::error("store: {}", text); };
     cold = std::make_unique<Cold>(*store, std::move(answers));
-    gateway = std::make_unique<WarmGateway>(warm, *hot, *cold, families, std::move(*reader));
-    gateway->listen(&log);
-    hot->connect({&gateway->results(), &gateway->samples(), &cold->from_hot()});
+    ports = std::make_unique<WarmPorts>(warm, *hot, *cold, families, std::move(*reader));
+    ports->events.listen(&log);
+    hot->connect(ports->outlets());
     return exit_good;
 }
 
 int Service::load_site(Site& site, std::uint64_t& revision) {
     if (!options.site_file.empty()) {
         auto read = read_site_file(options.site_file, families);
-        for (const auto& f : read.faults) complain(f);
+        for (const auto& f : read.faults)
+            complain(f);
         if (!read.site) return exit_usage;
         site = std::move(*read.site);
         boost::system::error_code ec;
@@ -219,7 +224,8 @@ int Service::load_site(Site& site, std::uint64_t& revision) {
     const auto document = boost::json::parse((*stored)->text, ec);
     auto parsed = ec ? std::nullopt : parse_site(document, families, faults);
     if (!parsed) {
-        for (const auto& f : faults) complain(fmt::format("stored site, {}: {}; {}", f.pointer, f.text, f.remedy));
+        for (const auto& f : faults)
+            complain(fmt::format("stored site, {}: {}; {}", f.pointer, f.text, f.remedy));
         complain("the stored site does not fit this program; start with --site FILE.json to replace it");
         return exit_failed;
     }
@@ -238,9 +244,7 @@ int Service::open_access() {
     as.local_role = role_named(options.config.users_local_role).value_or(Role::none);
     as.idle_ns = options.config.users_session_idle_min * minute_ns;
     as.max_ns = options.config.users_session_max_h * 60 * minute_ns;
-    access = std::make_shared<AccessService>(warm, *cold, as, [this](Event e) {
-        gateway->note(std::move(e));
-    });
+    access = std::make_shared<AccessService>(warm, *cold, as, [this](Event e) { ports->events.note(std::move(e)); });
     if (const std::string fault = access->load(*store, options.config.users_new_code, first_code); !fault.empty()) {
         complain(fault);
         return exit_failed;
@@ -253,7 +257,7 @@ void Service::show_code() {
     if (!access) return;
     if (!first_code.empty()) {
         fmt::print("first sign-in: code {} (on the page, or POST /api/v1/session/first; shown this once)\n", first_code);
-    } else if (!access->desk().has_users()) {
+    } else if (!access->accounts().has_users()) {
         fmt::print("first sign-in: with the code that was shown at the first start; --set users.new_code=true makes another one\n");
     }
     std::fflush(stdout);
@@ -261,7 +265,7 @@ void Service::show_code() {
 
 /// Alarms are raised and kept, and recipes can be run, whatever doors there are.
 void Service::begin_services() {
-    services = std::make_unique<Services>(*gateway, monotonic_now, access);
+    services = std::make_unique<Services>(ports->all(), monotonic_now, access);
     services->rearm = [this] { arm_services(); };
     arm_services();
 }
@@ -272,7 +276,8 @@ void Service::arm_services() {
         services_timer.cancel();
         return;
     }
-    services_timer.expires_at(std::chrono::steady_clock::time_point(std::chrono::duration_cast<std::chrono::steady_clock::duration>(due.time_since_epoch())));
+    services_timer.expires_at(
+        std::chrono::steady_clock::time_point(std::chrono::duration_cast<std::chrono::steady_clock::duration>(due.time_since_epoch())));
     services_timer.async_wait([this](const boost::system::error_code& moved) {
         if (moved) return;
         services->on_deadline(monotonic_now());
@@ -285,17 +290,19 @@ int Service::open_doors() {
     rs.word_order = options.config.modbus_low_word_first ? MapWordOrder::low_first : MapWordOrder::high_first;
     rs.gaps = options.config.modbus_gaps;
     image = std::make_unique<registers::RegisterImage>(*hot, rs);
-    gateway->use_registers(*image);
+    ports->registers.use(*image);
     if (!options.config.modbus_bind.empty()) {
         modbus::ServerSettings ms;
         ms.responder.version = AXISGATE_VERSION;
         for (const auto& text : options.config.modbus_allow) {
             if (const auto network = modbus::parse_network(text)) ms.responder.access.allow.push_back(*network);
         }
-        for (const auto& text : options.config.modbus_functions) ms.responder.access.functions.set(static_cast<std::size_t>(std::stoi(text)));
+        for (const auto& text : options.config.modbus_functions)
+            ms.responder.access.functions.set(static_cast<std::size_t>(std::stoi(text)));
         ms.responder.access.read_only = options.config.modbus_read_only;
         // What was switched while it ran is newer than the file.
-        if (const auto kept = store->document("setting", "modbus.read_only"); kept && *kept) ms.responder.access.read_only = (*kept)->text == "true";
+        if (const auto kept = store->document("setting", "modbus.read_only"); kept && *kept)
+            ms.responder.access.read_only = (*kept)->text == "true";
         ms.max_connections = static_cast<std::size_t>(options.config.modbus_max_connections);
         ms.idle_timeout = std::chrono::seconds(options.config.modbus_idle_timeout_s);
         modbus = std::make_unique<modbus::Server>(hot->context(), *hot, *image, ms);
@@ -304,8 +311,8 @@ int Service::open_doors() {
             complain(fault);
             return exit_failed;
         }
-        gateway->modbus_read_only_on_hot = [this](bool on) { modbus->responder().set_read_only(on); };
-        gateway->modbus_on_hot = [this] { return modbus_report(*modbus, *hot, options.config); };
+        ports->modbus.use(
+            {[this] { return modbus_report(*modbus, *hot, options.config); }, [this](bool on) { modbus->responder().set_read_only(on); }});
     }
     if (!options.config.http_bind.empty()) {
         http::Settings hs;
@@ -315,10 +322,11 @@ int Service::open_doors() {
         hs.low_word_first = options.config.modbus_low_word_first;
         hs.allowed_hosts = options.config.http_allowed_hosts;
         hs.max_connections = static_cast<std::size_t>(options.config.max_http_connections);
-        auto http = std::make_unique<http::Server>(warm, *gateway, *services, hs, [](std::string_view path) { return asset(path); });
+        auto http = std::make_unique<http::Server>(warm, ports->all(), *services, hs, [](std::string_view path) { return asset(path); });
         std::vector<ConfigFault> faults;
         const auto identity = open_tls(options.config, unix_now_ns() / 1'000'000'000, faults);
-        for (const auto& f : faults) complain(fmt::format("{}: {}; {}", f.place, f.text, f.remedy));
+        for (const auto& f : faults)
+            complain(fmt::format("{}: {}; {}", f.place, f.text, f.remedy));
         if (!faults.empty()) return exit_usage;  // never plain text where somebody asked for TLS
         http->use_tls(identity);
         doors.push_back(std::move(http));
@@ -329,29 +337,34 @@ int Service::open_doors() {
             return exit_failed;
         }
     }
-    std::vector<Gateway::DoorInfo> open;
+    std::vector<DoorInfo> open;
     for (const HotDoor* door : hot->doors()) {
-        for (auto& address : door->addresses()) open.push_back({std::string(door->name()), std::move(address)});
+        for (auto& address : door->addresses())
+            open.push_back({std::string(door->name()), std::move(address)});
     }
-    for (const auto& door : doors) open.push_back({std::string(door->name()), door->address()});
-    gateway->set_doors(std::move(open));
-    gateway->more_metrics = [this] {
+    for (const auto& door : doors)
+        open.push_back({std::string(door->name()), door->address()});
+    ports->status.set_doors(std::move(open));
+    ports->status.door_metrics = [this] {
         std::string text;
-        for (const HotDoor* door : hot->doors()) text += door->metrics();
+        for (const HotDoor* door : hot->doors())
+            text += door->metrics();
         return text;
     };
     return exit_good;
 }
 
-void Service::say_ready() {
+void Service::report_ready() {
     const auto reports = hot->reports();
     if (!reports->settled && monotonic_now() - started < ready_limit) return;
     if (access && !access->code_is_kept()) return;  // on the disk first: after `ready` it is this one, also for the next start
-    ready_said = true;
+    ready_reported = true;
     std::string text = "ready";
-    for (const auto& d : gateway->doors()) text += fmt::format(" {}={}", d.name, d.address);
-    text += fmt::format(" axes={}", gateway->site()->site.axes.size());
-    for (const auto& c : reports->complaints) text += "; " + c;
+    for (const auto& d : ports->status.doors())
+        text += fmt::format(" {}={}", d.name, d.address);
+    text += fmt::format(" axes={}", ports->site.site()->site.axes.size());
+    for (const auto& c : reports->complaints)
+        text += "; " + c;
     fmt::print("{}\n", text);
     std::fflush(stdout);
     notify_manager("READY=1\nSTATUS=serving");
@@ -360,10 +373,10 @@ void Service::say_ready() {
 
 /// The warm thread's own clock: says `ready` when all is up, and feeds the watchdog as long as the hot loop turns.
 void Service::watch() {
-    if (!ready_said) say_ready();
+    if (!ready_reported) report_ready();
     const auto interval = watchdog_interval();
     if (interval && monotonic_now() - hot->last_turn() < std::chrono::seconds(1)) notify_manager("WATCHDOG=1");
-    auto next = ready_said ? std::chrono::milliseconds(500) : std::chrono::milliseconds(2);
+    auto next = ready_reported ? std::chrono::milliseconds(500) : std::chrono::milliseconds(2);
     if (interval) next = std::min(next, std::chrono::duration_cast<std::chrono::milliseconds>(*interval));
     tick.expires_after(next);
     tick.async_wait([this](const boost::system::error_code& ec) {
@@ -375,9 +388,11 @@ void Service::take_down() {
     notify_manager("STOPPING=1");
     hot->stop();  // brings moving axes to rest first
     std::size_t open = doors.size();
-    for (const auto& door : doors) door->stop([&open] { --open; });
+    for (const auto& door : doors)
+        door->stop([&open] { --open; });
     const Instant limit = monotonic_now() + std::chrono::seconds(3);
-    while (open > 0 && monotonic_now() < limit) (void)warm.run_one_for(std::chrono::milliseconds(50));
+    while (open > 0 && monotonic_now() < limit)
+        (void)warm.run_one_for(std::chrono::milliseconds(50));
     if (access) access->stop();
     cold->stop();
 }
@@ -386,12 +401,14 @@ void Service::take_down() {
 int command_serve(const ServeOptions& options) {
     // The same words and the same exit code as `axisgate check`.
     const auto wrong_here = check_host(options.config);
-    for (const auto& f : wrong_here) complain(f);
+    for (const auto& f : wrong_here)
+        complain(f);
     if (std::ranges::count(wrong_here, false, &ConfigFault::warning) > 0) return exit_usage;
     if (!open_log(options.config)) return exit_failed;
     // Before anything is opened: a certificate that does not hold is a fault of the configuration, as in `axisgate check`.
     if (const auto wrong = check_tls(options.config, unix_now_ns() / 1'000'000'000); !wrong.empty()) {
-        for (const auto& f : wrong) complain(fmt::format("{}: {}; {}", f.place, f.text, f.remedy));
+        for (const auto& f : wrong)
+            complain(fmt::format("{}: {}; {}", f.place, f.text, f.remedy));
         return exit_usage;
     }
     (void)std::signal(SIGPIPE, SIG_IGN);
@@ -399,7 +416,8 @@ int command_serve(const ServeOptions& options) {
     std::vector<std::string> faults;
     Service s(options);
     s.families = load_families(faults);
-    for (const auto& f : faults) complain(f);
+    for (const auto& f : faults)
+        complain(f);
     if (!faults.empty()) return exit_failed;
     if (const int code = s.open_store(); code != exit_good) return code;
     Site site;
@@ -407,14 +425,14 @@ int command_serve(const ServeOptions& options) {
     if (const int code = s.load_site(site, revision); code != exit_good) return code;
     auto memory = read_site_memory(*s.store, site);
     auto state = s.hot->engine().apply_site(std::move(site), std::move(memory), revision, monotonic_now());
-    s.gateway->set_site(state);
+    s.ports->site.set_site(state);
     if (!options.config.http_bind.empty()) {
         if (const int code = s.open_access(); code != exit_good) return code;
     }
     s.begin_services();
     if (const int code = s.open_doors(); code != exit_good) return code;
     s.show_code();
-    s.hot->tell_site(*state);
+    s.hot->publish_site(*state);
 
     s.signals.add(SIGINT);
     s.signals.add(SIGTERM);

@@ -62,14 +62,15 @@ std::string end_trial(Store& store, bool roll_back) {
             e.text = fmt::format("revision {} was applied by {} and not confirmed, but revision {} is not kept any more: it stays in force",
                                  (*now)->revision, (*mark)->who, to);
         } else {
-            const auto saved = store.save_site(text, "rolled back at start", unix_now_ns(), names_between(json::parse((*now)->text, ec), json::parse(text, ec)));
+            const auto saved = store.save_site(text, "rolled back at start", unix_now_ns(),
+                                               names_between(json::parse((*now)->text, ec), json::parse(text, ec)));
             if (!saved) return saved.error().text;
             e.text = fmt::format(
                 "revision {} was applied by {} and not confirmed before the gateway ended: rolled back to revision {}, which is {} now",
                 (*now)->revision, (*mark)->who, to, *saved);
         }
         const Event events[] = {e};
-        if (const auto told = store.append_events(events); !told) return told.error().text;
+        if (const auto kept = store.append_events(events); !kept) return kept.error().text;
     }
     const auto gone = unmark_trial(store);
     return gone ? std::string() : gone.error().text;

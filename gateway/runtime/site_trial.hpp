@@ -1,6 +1,6 @@
 // Site trial: the stored mark of a site that is applied but not confirmed, and what a start does about it.
 // In: the store, at start. Out: the site before the trial in force again, with an event.
-// Never decides while the gateway runs: that is WarmGateway's.
+// Never decides while the gateway runs: that is WarmStage's.
 #pragma once
 
 #include <cstdint>

@@ -13,7 +13,6 @@
 #include <memory>
 
 #include "gateway/core/line_uri.hpp"
-#include "gateway/site/options.hpp"
 #include "gateway/doors/http/hand_server.hpp"
 #include "gateway/lines/make_line.hpp"
 #include "gateway/runtime/catalogues.hpp"
@@ -21,6 +20,7 @@
 #include "gateway/runtime/commands.hpp"
 #include "gateway/runtime/files.hpp"
 #include "gateway/runtime/memory_file.hpp"
+#include "gateway/site/options.hpp"
 
 namespace axisgate {
 namespace {
@@ -30,7 +30,8 @@ public:
     explicit ScaledClock(double scale) : scale_(scale), begun_(monotonic_now()) {}
     [[nodiscard]] Instant now() const { return at(monotonic_now()); }
     [[nodiscard]] Instant at(Instant real) const {
-        return time_zero + std::chrono::seconds(1) + Duration(static_cast<std::int64_t>(static_cast<double>((real - begun_).count()) * scale_));
+        return time_zero + std::chrono::seconds(1) +
+               Duration(static_cast<std::int64_t>(static_cast<double>((real - begun_).count()) * scale_));
     }
     [[nodiscard]] Instant real(Instant scaled) const {
         if (scaled == never) return never;
@@ -46,7 +47,8 @@ private:
 
 class TwinHost final : public LineEvents {
 public:
-    TwinHost(boost::asio::io_context& io, double scale, std::string state_file) : clock_(scale), timer_(io), state_file_(std::move(state_file)) {}
+    TwinHost(boost::asio::io_context& io, double scale, std::string state_file)
+        : clock_(scale), timer_(io), state_file_(std::move(state_file)) {}
 
     struct Drive {
         std::string address;
@@ -114,7 +116,8 @@ public:
 private:
     /// Deadlines that one late turn meets, each at its own instant; what is left is met at the next.
     static constexpr int events_per_turn = 10'000;
-    /// Real time that one turn of the timer passes: bytes that have crossed meanwhile, and are read by a timer of the line, come in between.
+    /// Real time that one turn of the timer passes: bytes that have crossed meanwhile, and are read by a timer of the line, come in
+    /// between.
     static constexpr Duration slice = std::chrono::milliseconds(1);
 
     /// However late this process runs, a drive reacts at the instant of the cause.
@@ -129,7 +132,8 @@ private:
         }
     }
     void send(const Out& out) {
-        for (const auto& tx : out.frames) (void)line->send(tx.frame, tx.priority, monotonic_now());
+        for (const auto& tx : out.frames)
+            (void)line->send(tx.frame, tx.priority, monotonic_now());
     }
     void after() {
         save();
@@ -144,18 +148,21 @@ private:
         }
         if (!changed || state_file_.empty()) return;
         std::map<std::string, NonVolatile> memories;
-        for (auto& d : drives) memories[d.address] = d.twin->non_volatile();
+        for (auto& d : drives)
+            memories[d.address] = d.twin->non_volatile();
         if (const std::string fault = write_file(state_file_, memories_to_json(memories)); !fault.empty()) complain(fault);
     }
     void arm() {
         Instant next = never;
-        for (auto& d : drives) next = std::min(next, d.twin->deadline());
+        for (auto& d : drives)
+            next = std::min(next, d.twin->deadline());
         const Instant real = clock_.real(next);
         if (real == armed_) return;
         armed_ = real;
         timer_.cancel();
         if (real == never) return;
-        timer_.expires_at(std::chrono::steady_clock::time_point(std::chrono::duration_cast<std::chrono::steady_clock::duration>(real.time_since_epoch())));
+        timer_.expires_at(std::chrono::steady_clock::time_point(
+            std::chrono::duration_cast<std::chrono::steady_clock::duration>(real.time_since_epoch())));
         timer_.async_wait([this, real](const boost::system::error_code& ec) {
             // One whose time had come when it was cancelled arrives all the same, without an error: another is armed, or none.
             if (ec || real != armed_) return;
@@ -179,7 +186,8 @@ private:
 int command_twin(const TwinOptions& o) {
     std::vector<std::string> faults;
     const auto families = load_families(faults);
-    for (const auto& f : faults) complain(f);
+    for (const auto& f : faults)
+        complain(f);
     if (!faults.empty()) return exit_failed;
     const auto entry = families.find(o.family);
     if (!entry.family) {
@@ -194,7 +202,8 @@ int command_twin(const TwinOptions& o) {
         usable = false;
     };
     if (!uri.good()) refuse("--line: " + uri.fault);
-    if (uri.good() && uri.uri.kind == LineUri::Kind::twin) refuse("--line: twin is a line of `serve` alone; use tcp-listen:HOST:PORT, pty:PATH, serial: or can:");
+    if (uri.good() && uri.uri.kind == LineUri::Kind::twin)
+        refuse("--line: twin is a line of `serve` alone; use tcp-listen:HOST:PORT, pty:PATH, serial: or can:");
     if (!(o.time_scale >= 0.001 && o.time_scale <= 10000)) refuse("--time-scale: write a number from 0.001 to 10000");
     auto addresses = o.addresses;
     if (addresses.empty()) addresses.emplace_back(family.factory_address);
@@ -209,7 +218,8 @@ int command_twin(const TwinOptions& o) {
             refuse("--option: write NAME=VALUE");
         } else {
             const std::string name = x.substr(0, equals), value = x.substr(equals + 1);
-            if (const std::string wrong = check_option(*entry.catalogue, {OptionOf::twin}, name, value); !wrong.empty()) refuse("--option: " + wrong);
+            if (const std::string wrong = check_option(*entry.catalogue, {OptionOf::twin}, name, value); !wrong.empty())
+                refuse("--option: " + wrong);
             options[name] = value;
         }
     }
@@ -265,18 +275,20 @@ int command_twin(const TwinOptions& o) {
         if (!ec) io.stop();
     });
     boost::asio::steady_timer wait(io);
-    std::string told;
+    std::string reported;
     std::function<void()> look = [&] {
         if (host.up) {
             std::string list;
-            for (const auto& a : addresses) list += (list.empty() ? "" : ",") + a;
-            fmt::print("ready {} addresses={} line={}{}\n", o.family, list, host.line->status(monotonic_now()).text, hand ? " hand=" + hand->address() : "");
+            for (const auto& a : addresses)
+                list += (list.empty() ? "" : ",") + a;
+            fmt::print("ready {} addresses={} line={}{}\n", o.family, list, host.line->status(monotonic_now()).text,
+                       hand ? " hand=" + hand->address() : "");
             std::fflush(stdout);
             return;
         }
-        if (!host.why.empty() && host.why != told) {
-            told = host.why;
-            complain(fmt::format("{}: {}; trying again", o.line_uri, told));
+        if (!host.why.empty() && host.why != reported) {
+            reported = host.why;
+            complain(fmt::format("{}: {}; trying again", o.line_uri, reported));
         }
         wait.expires_after(std::chrono::milliseconds(5));
         wait.async_wait([&look](const boost::system::error_code& ec) {

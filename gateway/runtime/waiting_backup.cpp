@@ -23,11 +23,11 @@ namespace axisgate {
 namespace {
 namespace fs = std::filesystem;
 namespace json = boost::json;
-constexpr std::size_t most_told_bytes = 65536;
+constexpr std::size_t most_note_bytes = 65536;
 
 std::string file_in(const std::string& directory) { return directory + "/restore-at-start.db"; }
 std::string check_folder_in(const std::string& directory) { return directory + "/restore-check"; }
-std::string told_in(const std::string& directory) { return directory + "/restore-at-start.json"; }
+std::string note_in(const std::string& directory) { return directory + "/restore-at-start.json"; }
 
 /// With rights for this user alone from its first moment: a backup has the users and their hashes in it.
 bool write_durably(const std::string& file, std::string_view bytes) {
@@ -47,53 +47,62 @@ bool write_durably(const std::string& file, std::string_view bytes) {
 /// The store's own words name files of this machine; who sends a backup over the network needs only to know what is wrong with it.
 std::string words_for(const StoreError& e) {
     switch (e.kind) {
-        case StoreError::Kind::corrupt: return "the file is damaged, cut short, or its tables were altered";
-        case StoreError::Kind::not_ours: return "it is a database, but not one of axisgate";
-        case StoreError::Kind::newer: return "it was written by a newer axisgate than this one";
-        case StoreError::Kind::disk_full: return "there is no room for it on the gateway's disk: free some and send it again";
-        case StoreError::Kind::read_only: return "the gateway's data directory cannot be written";
-        default: return fmt::format("it could not be checked ({})", name_of(e.kind));
+        case StoreError::Kind::corrupt:
+            return "the file is damaged, cut short, or its tables were altered";
+        case StoreError::Kind::not_ours:
+            return "it is a database, but not one of axisgate";
+        case StoreError::Kind::newer:
+            return "it was written by a newer axisgate than this one";
+        case StoreError::Kind::disk_full:
+            return "there is no room for it on the gateway's disk: free some and send it again";
+        case StoreError::Kind::read_only:
+            return "the gateway's data directory cannot be written";
+        default:
+            return fmt::format("it could not be checked ({})", name_of(e.kind));
     }
 }
 }  // namespace
 
-Gateway::RestoreFault lay_down_backup(const std::string& bytes, const std::string& who, std::int64_t at_unix_ns, const StoreOptions& options) {
+RestoreFault lay_down_backup(const std::string& bytes, const std::string& who, std::int64_t at_unix_ns, const StoreOptions& options) {
     // Tried in a folder of its own first: what is laid down is a database that this program opens.
     const std::string folder = check_folder_in(options.directory), part = options.directory + "/restore-at-start.part";
     std::error_code ec;
     fs::remove_all(folder, ec);
-    Gateway::RestoreFault fault;
-    json::object told{{"at_unix_ns", at_unix_ns}, {"who", who}};
-    if (!write_durably(part, bytes)) fault = {"there is no room for it on the gateway's disk, or its data directory cannot be written", true};
+    RestoreFault fault;
+    json::object note{{"at_unix_ns", at_unix_ns}, {"who", who}};
+    if (!write_durably(part, bytes))
+        fault = {"there is no room for it on the gateway's disk, or its data directory cannot be written", true};
     if (fault.text.empty()) {
         StoreOptions tried = options;
         tried.directory = folder;
         if (const auto good = restore_database(part, tried)) {
-            told["version"] = good->version;
-            told["site_revision"] = good->site_revision;
+            note["version"] = good->version;
+            note["site_revision"] = good->site_revision;
         } else {
             const auto kind = good.error().kind;
-            fault = {words_for(good.error()), kind != StoreError::Kind::corrupt && kind != StoreError::Kind::not_ours && kind != StoreError::Kind::newer};
+            fault = {words_for(good.error()),
+                     kind != StoreError::Kind::corrupt && kind != StoreError::Kind::not_ours && kind != StoreError::Kind::newer};
         }
     }
     fs::remove_all(folder, ec);
     if (fault.text.empty()) {
         // The text first: beside a backup of before it would tell of the wrong one, so that one goes before.
         fs::remove(file_in(options.directory), ec);
-        (void)write_durably(told_in(options.directory), json::serialize(told));
+        (void)write_durably(note_in(options.directory), json::serialize(note));
         fs::rename(part, file_in(options.directory), ec);
         if (ec) fault = {"it could not be laid down: " + ec.message(), true};
-        if (fault.text.empty() && !files::sync_directory(options.directory)) fault = {"it could not be laid down durably: the disk failed", true};
+        if (fault.text.empty() && !files::sync_directory(options.directory))
+            fault = {"it could not be laid down durably: the disk failed", true};
     }
     if (!fault.text.empty()) fs::remove(part, ec);
     return fault;
 }
 
-std::optional<Gateway::WaitingBackup> waiting_backup(const std::string& directory) {
+std::optional<WaitingBackup> waiting_backup(const std::string& directory) {
     std::error_code ec;
     const auto bytes = fs::file_size(file_in(directory), ec);
     if (ec) return std::nullopt;
-    Gateway::WaitingBackup w;
+    WaitingBackup w;
     w.bytes = bytes;
     const auto written = fs::last_write_time(file_in(directory), ec);
     if (!ec) {
@@ -101,19 +110,19 @@ std::optional<Gateway::WaitingBackup> waiting_backup(const std::string& director
         w.at_unix_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(at).count();
     }
     std::string none;
-    const auto text = read_file(told_in(directory), none, most_told_bytes);
+    const auto text = read_file(note_in(directory), none, most_note_bytes);
     if (!text) return w;
     boost::system::error_code wrong;
-    const auto told = json::parse(*text, wrong);
-    if (wrong || !told.is_object()) return w;
+    const auto note = json::parse(*text, wrong);
+    if (wrong || !note.is_object()) return w;
     const auto number = [&](const char* key) -> std::int64_t {
-        const auto* v = told.get_object().if_contains(key);
+        const auto* v = note.get_object().if_contains(key);
         return v && v->is_int64() ? v->get_int64() : 0;
     };
     if (const auto at = number("at_unix_ns"); at != 0) w.at_unix_ns = at;
     w.version = static_cast<int>(number("version"));
     w.site_revision = static_cast<std::uint64_t>(number("site_revision"));
-    if (const auto* who = told.get_object().if_contains("who"); who && who->is_string()) w.who = who->get_string();
+    if (const auto* who = note.get_object().if_contains("who"); who && who->is_string()) w.who = who->get_string();
     return w;
 }
 
@@ -121,7 +130,7 @@ std::string cancel_waiting_backup(const std::string& directory) {
     std::error_code ec;
     const bool was = fs::remove(file_in(directory), ec);
     if (ec) return "it could not be taken away: " + ec.message();
-    fs::remove(told_in(directory), ec);
+    fs::remove(note_in(directory), ec);
     return was ? std::string() : std::string("none");
 }
 
@@ -142,7 +151,7 @@ std::string take_waiting_backup(const StoreOptions& options) {
     std::error_code ec;
     if (!fs::exists(file, ec)) return {};
     const auto done = restore_database(file, options);
-    fs::remove(told_in(options.directory), ec);
+    fs::remove(note_in(options.directory), ec);
     if (!done) {
         fs::rename(file, file + ".refused", ec);
         return fmt::format("the backup that was laid down cannot be taken: {}; it is kept as {}.refused, start again to go on without it",

@@ -7,14 +7,15 @@
 #include <string>
 #include <string_view>
 
-#include "gateway/services/gateway.hpp"
+#include "gateway/services/ports/backup.hpp"
 #include "gateway/store/records.hpp"
 
 namespace axisgate {
 
 /// Checks the bytes and lays them down in `options.directory`, in the place of what waited there. Empty, or a fault.
-[[nodiscard]] Gateway::RestoreFault lay_down_backup(const std::string& bytes, const std::string& who, std::int64_t at_unix_ns, const StoreOptions& options);
-[[nodiscard]] std::optional<Gateway::WaitingBackup> waiting_backup(const std::string& directory);
+[[nodiscard]] RestoreFault lay_down_backup(const std::string& bytes, const std::string& who, std::int64_t at_unix_ns,
+                                           const StoreOptions& options);
+[[nodiscard]] std::optional<WaitingBackup> waiting_backup(const std::string& directory);
 /// Empty, or a fault; "none" if nothing waits.
 [[nodiscard]] std::string cancel_waiting_backup(const std::string& directory);
 /// At start, before the database is opened. Empty, or a fault; the file is then kept aside, so that the next start goes on without it.

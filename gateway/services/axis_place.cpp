@@ -10,7 +10,7 @@
 
 namespace axisgate {
 
-AxisPlace axis_at(const Gateway& gateway, std::shared_ptr<const SiteState> site, std::size_t index) {
+AxisPlace axis_at(const SitePort& sites, std::shared_ptr<const SiteState> site, std::size_t index) {
     AxisPlace place;
     place.site = std::move(site);
     place.index = index;
@@ -18,24 +18,26 @@ AxisPlace axis_at(const Gateway& gateway, std::shared_ptr<const SiteState> site,
         place.line = drive->line;
         if (place.site->site.line(drive->line)) {
             place.family = place.site->site.family_of(*drive);
-            place.catalogue = catalogue_of(place.site->site, *drive, gateway.families()).get();  // lives as long as the site
+            place.catalogue = catalogue_of(place.site->site, *drive, sites.families()).get();  // lives as long as the site
         }
     }
     return place;
 }
 
-std::optional<AxisPlace> find_axis(const Gateway& gateway, std::string_view name) {
-    auto site = gateway.site();
+std::optional<AxisPlace> find_axis(const SitePort& sites, std::string_view name) {
+    auto site = sites.site();
     const auto index = index_of_name(site->site.axes, name);
     if (!index) return std::nullopt;
-    return axis_at(gateway, std::move(site), *index);
+    return axis_at(sites, std::move(site), *index);
 }
 
-void read_arguments(const AxisPlace& place, Action& action, const boost::json::object* by_name, const std::string& pointer, std::vector<Fault>& faults) {
+void read_arguments(const AxisPlace& place, Action& action, const boost::json::object* by_name, const std::string& pointer,
+                    std::vector<Fault>& faults) {
     const CatalogueCommand* command = place.catalogue ? place.catalogue->command(action.name) : nullptr;
     if (!command) {  // the adapter says what it knows; without an entry nothing can be given by name
         if (by_name && !by_name->empty())
-            faults.push_back({pointer + std::string(by_name->begin()->key()), fmt::format("a {} lists no command {}", place.family, action.name),
+            faults.push_back({pointer + std::string(by_name->begin()->key()),
+                              fmt::format("a {} lists no command {}", place.family, action.name),
                               fmt::format("see /api/v1/families/{}/commands", place.family)});
         return;
     }

@@ -1,5 +1,5 @@
 // Axis place: an axis of the site in force, with what it hangs on.
-// In: a Gateway, a name or an index. Out: names, id, catalogue. Keeps the site alive that it was found in. Never asks a drive.
+// In: the site port, a name or an index. Out: names, id, catalogue. Keeps the site alive that it was found in. Never asks a drive.
 #pragma once
 
 #include <boost/json/object.hpp>
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "gateway/services/fault.hpp"
-#include "gateway/services/gateway.hpp"
+#include "gateway/services/ports/site.hpp"
 
 namespace axisgate {
 
@@ -23,11 +23,12 @@ struct AxisPlace {
     [[nodiscard]] const AxisSpec& spec() const { return site->site.axes[index]; }
     [[nodiscard]] AxisId id() const { return index < site->axis_ids.size() ? site->axis_ids[index] : no_axis; }
 };
-[[nodiscard]] std::optional<AxisPlace> find_axis(const Gateway& gateway, std::string_view name);
-[[nodiscard]] AxisPlace axis_at(const Gateway& gateway, std::shared_ptr<const SiteState> site, std::size_t index);
+[[nodiscard]] std::optional<AxisPlace> find_axis(const SitePort& sites, std::string_view name);
+[[nodiscard]] AxisPlace axis_at(const SitePort& sites, std::shared_ptr<const SiteState> site, std::size_t index);
 /// Brings the arguments of a family's action into Action::values: `by_name`, or else the action's text as "name=value ...". A command
 /// without typed arguments keeps its text. Faults: one per argument, with `pointer` before its name.
-void read_arguments(const AxisPlace& place, Action& action, const boost::json::object* by_name, const std::string& pointer, std::vector<Fault>& faults);
+void read_arguments(const AxisPlace& place, Action& action, const boost::json::object* by_name, const std::string& pointer,
+                    std::vector<Fault>& faults);
 /// Index by name in one of the site's lists.
 template <class Spec>
 [[nodiscard]] std::optional<std::size_t> index_of_name(const std::vector<Spec>& list, std::string_view name) {

@@ -8,9 +8,9 @@
 #include <cstdlib>
 #include <iterator>
 
-#include "gateway/services/documents.hpp"
-#include "gateway/services/axis_place.hpp"
 #include "gateway/core/text.hpp"
+#include "gateway/services/axis_place.hpp"
+#include "gateway/services/documents.hpp"
 
 namespace axisgate {
 namespace {
@@ -26,31 +26,34 @@ void put_age(bool ever_seen, std::int64_t at_unix_ns, std::int64_t now_unix_ns, 
     }
 }
 
-std::string AxisTexts::text(const Gateway& gateway, const std::shared_ptr<const SiteState>& site, std::size_t index) {
+std::string AxisTexts::text(const Needs& ports, const std::shared_ptr<const SiteState>& site, std::size_t index) {
+    const auto& axes = ports.get<AxisPort>();
+    const auto& clock = ports.get<ClockPort>();
     if (site != site_) {
         site_ = site;
         kept_.assign(site->site.axes.size(), {});
     }
     Kept& k = kept_[index];
     const AxisId id = index < site->axis_ids.size() ? site->axis_ids[index] : no_axis;
-    const bool current = !k.text.empty() && id != no_axis && gateway.picture_revision(id) == k.revision &&
-                         std::llabs(gateway.to_unix_ns(k.at) - k.at_unix_ns) < clock_step_ns;
-    if (!current) make(k, gateway, site, index, id);
+    const bool current = !k.text.empty() && id != no_axis && axes.picture_revision(id) == k.revision &&
+                         std::llabs(clock.to_unix_ns(k.at) - k.at_unix_ns) < clock_step_ns;
+    if (!current) make(k, ports, site, index, id);
     std::string out;
     out.reserve(k.text.size() + 32);
     out = k.text;
-    put_age(k.ever_seen, k.at_unix_ns, gateway.now_unix_ns(), out);
+    put_age(k.ever_seen, k.at_unix_ns, clock.now_unix_ns(), out);
     return out;
 }
 
-void AxisTexts::make(Kept& k, const Gateway& gateway, const std::shared_ptr<const SiteState>& site, std::size_t index, AxisId id) {
+void AxisTexts::make(Kept& k, const Needs& ports, const std::shared_ptr<const SiteState>& site, std::size_t index, AxisId id) {
+    const auto& axes = ports.get<AxisPort>();
     // The revision first: a picture that comes in between is then taken for a new one next time, and not the other way round.
-    k.revision = id == no_axis ? 0 : gateway.picture_revision(id);
-    const AxisPicture picture = id == no_axis ? AxisPicture{} : gateway.picture(id);
+    k.revision = id == no_axis ? 0 : axes.picture_revision(id);
+    const AxisPicture picture = id == no_axis ? AxisPicture{} : axes.picture(id);
     k.at = picture.at;
     k.ever_seen = picture.ever_seen;
-    k.at_unix_ns = gateway.to_unix_ns(picture.at);
-    const AxisPlace place = axis_at(gateway, site, index);
+    k.at_unix_ns = ports.get<ClockPort>().to_unix_ns(picture.at);
+    const AxisPlace place = axis_at(ports.get<SitePort>(), site, index);
     k.text = json_text(axis_document({place.spec(), place.line, place.family, place.catalogue, picture, k.at_unix_ns}));
     k.text.pop_back();
     ++made_;

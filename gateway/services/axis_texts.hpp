@@ -1,5 +1,5 @@
 // Axis texts: the documents of axes as JSON text, made once per picture and not once per request.
-// In: the Gateway's pictures. Out: what GET /axes/{name} answers. Warm thread only.
+// In: pictures. Out: what GET /axes/{name} answers. Warm thread only.
 // Bound: one text per axis of the site in force; another site empties all.
 #pragma once
 
@@ -8,7 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "gateway/services/gateway.hpp"
+#include "gateway/services/ports/axes.hpp"
+#include "gateway/services/ports/clock.hpp"
+#include "gateway/services/ports/port_set.hpp"
+#include "gateway/services/ports/site.hpp"
 
 namespace axisgate {
 
@@ -17,8 +20,9 @@ void put_age(bool ever_seen, std::int64_t at_unix_ns, std::int64_t now_unix_ns, 
 
 class AxisTexts {
 public:
+    using Needs = PortSet<AxisPort, ClockPort, SitePort>;
     /// The axis with this index in `site`, with its age now.
-    [[nodiscard]] std::string text(const Gateway& gateway, const std::shared_ptr<const SiteState>& site, std::size_t index);
+    [[nodiscard]] std::string text(const Needs& ports, const std::shared_ptr<const SiteState>& site, std::size_t index);
     /// How many texts were made anew so far.
     [[nodiscard]] std::uint64_t made() const noexcept { return made_; }
 
@@ -30,7 +34,7 @@ private:
         Instant at{};
         std::string text;  ///< without the last brace; empty: not made yet
     };
-    void make(Kept& kept, const Gateway& gateway, const std::shared_ptr<const SiteState>& site, std::size_t index, AxisId id);
+    void make(Kept& kept, const Needs& ports, const std::shared_ptr<const SiteState>& site, std::size_t index, AxisId id);
 
     std::shared_ptr<const SiteState> site_;
     std::vector<Kept> kept_;

@@ -1,6 +1,7 @@
-// Change queue: changes of one thing (the site, the recipes, the users) one after the other, so that two clients who change it at once do not hinder one another.
-// In: jobs, each with its own end. Out: they are run in order, the next when the one before has ended: has said so, has thrown, or has been let go without a word.
-// Bound: 64 wait; one more is refused. Never runs two at a time, and never recurses however many end at once.
+// Change queue: changes of one thing (the site, the recipes, the users) one after the other, so that two clients who change it at once do
+// not hinder one another. In: jobs, each with its own end. Out: they are run in order, the next when the one before has ended: has said so,
+// has thrown, or has been let go without a word. Bound: 64 wait; one more is refused. Never runs two at a time, and never recurses however
+// many end at once.
 #pragma once
 
 #include <cstddef>
@@ -57,15 +58,15 @@ private:
                 job([turn] { turn->end(); });
             } catch (const std::exception& e) {
                 turn->end();
-                tell(failed, e.what());
+                report(failed, e.what());
             } catch (...) {
                 turn->end();
-                tell(failed, "unknown");
+                report(failed, "unknown");
             }
         }
         pumping_ = false;
     }
-    static void tell(const Failed& failed, const std::string& what) noexcept {
+    static void report(const Failed& failed, const std::string& what) noexcept {
         try {
             if (failed) failed(what);
         } catch (...) {  // nobody is left to be told

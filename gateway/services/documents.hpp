@@ -10,10 +10,15 @@
 #include <string>
 #include <string_view>
 
-#include "gateway/core/catalogue.hpp"
-#include "gateway/services/gateway.hpp"
 #include "gateway/axis/image.hpp"
+#include "gateway/core/catalogue.hpp"
+#include "gateway/core/event.hpp"
+#include "gateway/core/family.hpp"
+#include "gateway/core/line.hpp"
+#include "gateway/core/records.hpp"
+#include "gateway/engine/report.hpp"
 #include "gateway/site/site.hpp"
+#include "gateway/site/site_state.hpp"
 
 namespace axisgate {
 

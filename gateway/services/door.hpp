@@ -1,5 +1,5 @@
 // Service door: a protocol server on the service thread, one among several.
-// In: what the gateway and the services tell. Out: an open door at an address. Commands go through the Gateway, with the door's name as
+// In: what the gateway and the services tell. Out: an open door at an address. Commands go through the axis port, with the door's name as
 // origin; each gets its one result by the function that was given along.
 // Never used on the hot thread: doors there are HotDoor.
 #pragma once
@@ -7,8 +7,6 @@
 #include <functional>
 #include <string>
 #include <string_view>
-
-#include "gateway/services/gateway.hpp"
 
 namespace axisgate {
 

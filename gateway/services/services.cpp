@@ -6,19 +6,23 @@
 
 namespace axisgate {
 
-Services::Services(Gateway& gateway, std::function<Instant()> clock, std::shared_ptr<AccessPort> access_port)
-    : access(std::move(access_port)), recipes(std::make_shared<RecipeService>(gateway, clock)), alarms(std::make_shared<AlarmService>(gateway, clock)) {
+Services::Services(const Ports& ports, std::function<Instant()> clock, std::shared_ptr<AccessPort> access_port)
+    : access(std::move(access_port)),
+      recipes(std::make_shared<RecipeService>(ports, clock)),
+      alarms(std::make_shared<AlarmService>(ports, clock)) {
     recipes->rearm = [this] {
         if (rearm) rearm();
     };
-    recipes->tell = [this](const std::string& recipe, const boost::json::object& report) {
+    recipes->publish = [this](const std::string& recipe, const boost::json::object& report) {
         const auto listeners = listeners_;
-        for (auto* l : listeners) l->on_recipe(recipe, report);
+        for (auto* l : listeners)
+            l->on_recipe(recipe, report);
     };
     alarms->rearm = recipes->rearm;
-    alarms->tell = [this](const boost::json::object& list) {
+    alarms->publish = [this](const boost::json::object& list) {
         const auto listeners = listeners_;
-        for (auto* l : listeners) l->on_alarms(list);
+        for (auto* l : listeners)
+            l->on_alarms(list);
     };
     alarms->begin();
     recipes->begin();
@@ -26,7 +30,7 @@ Services::Services(Gateway& gateway, std::function<Instant()> clock, std::shared
 
 Services::~Services() {
     recipes->rearm = nullptr;
-    recipes->tell = nullptr;
+    recipes->publish = nullptr;
     alarms->detach();
 }
 

@@ -1,5 +1,5 @@
 // Services: what outlives a request and belongs to no door: alarms, recipes, jobs on parameters, whose the staged site is, who may come in.
-// In: a Gateway, the clock it is given, time. Out: the services, and what they tell to whoever listens.
+// In: the ports, the clock it is given, time. Out: the services, and what they tell to whoever listens.
 // Never used off the service thread, and never sleeps: whoever owns it calls on_deadline. They are there with any doors, or with none.
 #pragma once
 
@@ -15,6 +15,7 @@
 #include "gateway/services/alarms/alarm_service.hpp"
 #include "gateway/services/change_queue.hpp"
 #include "gateway/services/parameters/axis_jobs.hpp"
+#include "gateway/services/ports.hpp"
 #include "gateway/services/recipes/recipe_service.hpp"
 #include "gateway/services/site/stage_owner.hpp"
 
@@ -35,7 +36,7 @@ using WritesUnderWay = std::map<std::pair<std::string, std::string>, int>;
 class Services {
 public:
     /// `access`: users; without it only local access is known.
-    Services(Gateway& gateway, std::function<Instant()> clock, std::shared_ptr<AccessPort> access = nullptr);
+    Services(const Ports& ports, std::function<Instant()> clock, std::shared_ptr<AccessPort> access = nullptr);
     ~Services();
     Services(const Services&) = delete;
     Services& operator=(const Services&) = delete;
@@ -43,10 +44,11 @@ public:
     const std::shared_ptr<AccessPort> access;
     const std::shared_ptr<RecipeService> recipes;
     const std::shared_ptr<AlarmService> alarms;
-    const std::shared_ptr<AxisJobs> jobs = std::make_shared<AxisJobs>();               ///< many parameters of one axis, one after the other
+    const std::shared_ptr<AxisJobs> jobs = std::make_shared<AxisJobs>();  ///< many parameters of one axis, one after the other
     const std::shared_ptr<ChangeQueue> site_changes = std::make_shared<ChangeQueue>();
-    const std::shared_ptr<StageOwner> stages = std::make_shared<StageOwner>();         ///< whose the staged site is
-    const std::shared_ptr<WritesUnderWay> writes = std::make_shared<WritesUnderWay>(); ///< of parameters, each until the drive has answered
+    const std::shared_ptr<StageOwner> stages = std::make_shared<StageOwner>();  ///< whose the staged site is
+    const std::shared_ptr<WritesUnderWay> writes =
+        std::make_shared<WritesUnderWay>();  ///< of parameters, each until the drive has answered
 
     void listen(ServiceListener& listener) { listeners_.push_back(&listener); }
     void unlisten(ServiceListener& listener) { std::erase(listeners_, &listener); }

@@ -167,8 +167,10 @@ struct MixedLine : testing::Test {
             drives.push_back({{"name", "text"}, {"line", "line"}, {"family", "text_on_can"}, {"address", 5}, {"presence", presence}});
             axes.push_back({{"name", "text"}, {"drive", "text"}, {"number", 2}, {"unit", "u"}, {"increments_per_unit", 100}});
         }
-        const json::value doc{
-            {"lines", {{{"name", "line"}, {"uri", uri}}}}, {"drives", drives}, {"axes", axes}, {"mappings", json::array{}}};
+        const json::value doc{{"lines", {{{"name", "line"}, {"uri", uri}, {"bitrate", 500000}}}},
+                              {"drives", drives},
+                              {"axes", axes},
+                              {"mappings", json::array{}}};
         std::vector<SiteFault> faults;
         auto parsed = parse_site(doc, all, faults);
         for (const auto& f : faults)

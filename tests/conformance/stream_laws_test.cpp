@@ -347,7 +347,7 @@ TEST_P(StreamLaws, AModeThatTheDriveHasNotIsRefusedByWord) {
         const Result* r = ask(a1, d, false);
         ASSERT_TRUE(r);
         EXPECT_EQ(r->reason, Reason::out_of_range) << told(r);
-        EXPECT_NE(r->text.find("1, 3, 6"), std::string::npos) << r->text;
+        EXPECT_NE(r->text.find("1 (profile position)"), std::string::npos) << r->text;
     }
 }
 
@@ -395,6 +395,7 @@ struct StreamAdapters : testing::Test {
     std::unique_ptr<World> world;
     std::shared_ptr<const SiteState> site;
     AxisId axis = no_axis;
+    Duration good_for = 500ms;
 
     void start(const Family& changed) {
         Families all = families();
@@ -419,7 +420,7 @@ struct StreamAdapters : testing::Test {
         p.axis = axis;
         p.mode = mode;
         p.value = value;
-        p.good_for = 500ms;
+        p.good_for = good_for;
         p.at = world->now;
         p.origin = {Door::ethernet_ip, std::make_shared<const std::string>("192.0.2.9:50000"), {}};
         return world->engine.on_set_point(p, world->now);
@@ -429,38 +430,58 @@ struct StreamAdapters : testing::Test {
     }
 };
 
-TEST_F(StreamAdapters, AStepIsNoGreaterThanTheSitesSpeedInTheInterpolationTime) {
+const Family& in_its_period() {
     static const Family changed = [] {
-        Family f = *base().family;
+        Family f = *StreamAdapters::base().family;
         f.make_adapter = [](const Catalogue& c, LineKind kind) -> std::unique_ptr<Adapter> {
-            return std::make_unique<InItsPeriod>(base().family->make_adapter(c, kind));
+            return std::make_unique<InItsPeriod>(StreamAdapters::base().family->make_adapter(c, kind));
         };
         return f;
     }();
-    start(changed);
+    return changed;
+}
+
+TEST_F(StreamAdapters, ARefusalSoonAfterAnotherIsToldAsSoonAsItMay) {
+    start(in_its_period());
+    good_for = 5s;
+    const std::int64_t here = picture().position;
+    EXPECT_TRUE(say(here + 101));
+    EXPECT_FALSE(say(here + 100));
+    world->events.clear();
+    for (int i = 0; i < 60; ++i) {
+        EXPECT_TRUE(say(here + 5000));
+        if (i == 40) EXPECT_EQ(events(), 0) << "not twice in a second";
+        world->run_for(20ms);
+    }
+    EXPECT_EQ(events(), 1) << "and not forgotten for it";
+}
+
+TEST_F(StreamAdapters, AStepIsNoGreaterThanTheSitesSpeedInTheInterpolationTime) {
+    start(in_its_period());
     const std::int64_t here = picture().position;
     const auto jump = say(here + 101);
     ASSERT_TRUE(jump) << "the first one counts from where the axis is";
     EXPECT_EQ(jump->reason, Reason::out_of_range);
     EXPECT_NE(jump->text.find("velocity_max"), std::string::npos) << jump->text;
     EXPECT_FALSE(picture().streaming);
-    for (std::int64_t i = 1; i <= 20; ++i) {
+    for (std::int64_t i = 1; i <= 60; ++i) {
         EXPECT_FALSE(say(here + i * 100)) << "5000 increments/s for 20 ms";
         world->run_for(20ms);
     }
     const auto taken = picture().set_points;
     world->events.clear();
     for (int i = 0; i < 5; ++i) {
-        EXPECT_TRUE(say(here + 2101));
-        EXPECT_TRUE(say(here + 1899));
+        EXPECT_TRUE(say(here + 6101));
+        EXPECT_TRUE(say(here + 5899));
         world->run_for(20ms);
     }
     EXPECT_EQ(picture().set_points, taken);
     EXPECT_EQ(events(), 1) << "told once";
-    EXPECT_FALSE(say(here + 1900)) << "from the last one that was taken";
+    EXPECT_FALSE(say(here + 5900)) << "from the last one that was taken";
     world->run_for(2s);  // its end
 
     EXPECT_TRUE(say(401, SetPoint::Mode::velocity)) << "20000 increments/s2 for 20 ms";
+    world->run_for(600ms);  // after a refusal, the pause of a new stream
     EXPECT_FALSE(say(400, SetPoint::Mode::velocity));
     EXPECT_FALSE(say(800, SetPoint::Mode::velocity));
     EXPECT_TRUE(say(1201, SetPoint::Mode::velocity));

@@ -86,3 +86,16 @@ def test_the_lines_of_the_readme_work_in_their_order(folder):
         text = text.replace("-p 1502", f"-p {g.modbus_port}").replace("build/release/axisgate", str(harness.PROGRAM)).replace("K7QF-2M9D-XW3E-8HTR", g.code)
         run_lines(text, folder, 150)
         assert g.request("GET", "/healthz")[0] == 200
+
+
+def test_the_papers_say_what_the_first_target_is_and_why_a_twin_waits():
+    def says(name, *sentences):
+        text = " ".join((TOP / name).read_text().split())
+        missing = [s for s in sentences if s not in text]
+        assert not missing, f"{name} does not say: {missing}"
+    says("README.md", "Enabling takes the actual position as the first target, unless the same client has just written one",
+         "A real drive that falls silent while it is powered is not replaced: it may still hold or turn, so its twin waits",
+         "Mend the line or the drive, or disable the axis: then its twin takes over")
+    says("docs/handbook/commanding.md", "A target that the same Modbus client wrote before it enabled, and has not used yet, stays: it is the target of its next set-point")
+    says("docs/handbook/drives-and-twins.md", "With `auto` the twin of a real drive that falls silent while it is powered waits",
+         "the drive's `status.text` and the page say so", "disable the axis (`disable`, or control word 0)")

@@ -142,3 +142,30 @@ def test_a_refusal_leaves_its_sentence_and_a_number_in_the_axis_block(folder):
             assert reason != 0 and count == before + 1
             event = until(lambda: [e for e in gateway.get("/events?kind=refused&axis=feeder") if "register 33 = 9" in e["text"]], 5, "the event")[-1]
             assert event["door"] == "modbus" and event["who"].startswith("127.0.0.1:") and event["severity"] == "warning", event
+
+
+def test_a_number_beyond_single_precision_is_no_value_of_an_f32_parameter(folder):
+    """By a user mapping, as an f64 that the register holds; and by the parameter channel's float form, where infinity is the nearest to it."""
+    site = {"lines": [{"name": "com1", "uri": "twin", "family": "pacontrol"}], "drives": [{"name": "portal", "line": "com1", "address": "com1", "presence": "twin"}],
+            "axes": [{"name": "x", "drive": "portal", "number": 1, "unit": "mm", "increments_per_unit": 1000}], "mappings": []}
+    with Gateway(folder, site) as gateway:
+        until(lambda: gateway.axis("x")["online"], 10, "the twin serves")
+        add(gateway, unit=9, address=0, axis="x", point="R[1]", type="f64", access="read_write")
+        selector = gateway.get("/axes/x/parameters/R%5B1%5D")["selector"]
+        assert next(p for p in gateway.get("/families/pacontrol/parameters") if p["id"] == "R")["type"] == "f32"
+        with gateway.modbus() as m:
+            def channel(request, single):
+                m.write32(48, selector | 1 << 31)
+                m.write(52, registers(struct.pack(">f", single)))
+                m.write1(50, request)
+                until(lambda: m.read(51, 1)[0] in (2, 3), 10, "the channel's answer")
+                return m.read(51, 1)[0], struct.unpack(">f", struct.pack(">HH", *m.read(52, 2)))[0], m.read(54, 1)[0]
+            m.write(0, registers(struct.pack(">d", 2.5)), unit=9)
+            assert gateway.get("/axes/x/parameters/R%5B1%5D")["value"] == 2.5
+            for beyond in (1e300, -1e300, 3.5e38):
+                assert exception_of(lambda v=beyond: m.write(0, registers(struct.pack(">d", v)), unit=9)) == 3, beyond
+            assert channel(1, 0.0)[:2] == (2, 2.5), "nothing of it has reached the drive"
+            assert channel(2, 7.25)[:2] == (2, 7.25)
+            state, _, reason = channel(2, float("inf"))
+            assert (state, reason) == (3, 1), "refused as out of range, with the drive untouched"
+            assert gateway.get("/axes/x/parameters/R%5B1%5D")["value"] == 7.25

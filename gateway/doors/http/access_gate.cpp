@@ -9,8 +9,8 @@
 
 #include "gateway/doors/http/hosts.hpp"
 #include "gateway/doors/http/problem.hpp"
-#include "gateway/services/access/secrets.hpp"
 #include "gateway/doors/http/text.hpp"
+#include "gateway/services/access/secrets.hpp"
 
 namespace axisgate::http {
 namespace {
@@ -33,9 +33,13 @@ std::vector<std::string_view> cookies_of(const Request& request, std::string_vie
 }
 
 /// What proxies, balancers and content networks write when they speak for somebody else.
-constexpr std::array<std::string_view, 14> forwarding{"forwarded",        "via",              "x-real-ip",       "x-client-ip",   "x-cluster-client-ip",
-                                                      "x-originating-ip", "x-remote-ip",      "x-remote-addr",   "x-proxyuser-ip", "true-client-ip",
-                                                      "client-ip",        "cf-connecting-ip", "fastly-client-ip", "proxy-connection"};
+constexpr std::array<std::string_view, 14> forwarding{"forwarded",           "via",
+                                                      "x-real-ip",           "x-client-ip",
+                                                      "x-cluster-client-ip", "x-originating-ip",
+                                                      "x-remote-ip",         "x-remote-addr",
+                                                      "x-proxyuser-ip",      "true-client-ip",
+                                                      "client-ip",           "cf-connecting-ip",
+                                                      "fastly-client-ip",    "proxy-connection"};
 constexpr std::array<std::string_view, 4> forwarding_begins{"x-forwarded", "x-original-", "x-envoy-", "cdn-"};
 
 bool was_forwarded(const Request& request) {
@@ -55,7 +59,7 @@ Identity identify(AccessPort* port, const Request& request, std::int64_t now_ns,
     Credentials c;
     c.peer = request.peer;
     c.forwarded = was_forwarded(request);
-    if (port) c.cookies = cookies_of(request, port->desk().settings().cookie);
+    if (port) c.cookies = cookies_of(request, port->accounts().settings().cookie);
     if (request.headers.count("Authorization") > 0) {
         // Any other scheme is a credential that we do not know: it is not taken for nothing.
         const auto value = trimmed(request.headers.get("Authorization"));
@@ -67,11 +71,12 @@ Identity identify(AccessPort* port, const Request& request, std::int64_t now_ns,
         nobody.wrong_token = true;
         return nobody;
     }
-    return port->desk().identify(c, now_ns, touch);
+    return port->accounts().identify(c, now_ns, touch);
 }
 
 std::string set_cookie(AccessPort& port, std::string_view value, bool secure, bool ends) {
-    return fmt::format("{}={}; HttpOnly; SameSite=Strict; Path=/{}{}", port.desk().settings().cookie, value, secure ? "; Secure" : "", ends ? "; Max-Age=0" : "");
+    return fmt::format("{}={}; HttpOnly; SameSite=Strict; Path=/{}{}", port.accounts().settings().cookie, value, secure ? "; Secure" : "",
+                       ends ? "; Max-Age=0" : "");
 }
 
 std::optional<Response> refuse_below(const Identity& identity, Role needed) {
@@ -82,14 +87,17 @@ std::optional<Response> refuse_below(const Identity& identity, Role needed) {
         return r;
     }
     if (identity.role == Role::none) {
-        Response r = problem(401, identity.wrong_token ? "wrong_token" : "sign_in",
-                             identity.wrong_token ? "this token is not known, has expired, or its user is disabled: make a new one on the page Users"
-                                                  : fmt::format("sign in first: this needs the role {}", name_of(needed)));
-        r.headers.set("WWW-Authenticate", identity.wrong_token ? R"(Bearer realm="axisgate", error="invalid_token")" : R"(Bearer realm="axisgate")");
+        Response r =
+            problem(401, identity.wrong_token ? "wrong_token" : "sign_in",
+                    identity.wrong_token ? "this token is not known, has expired, or its user is disabled: make a new one on the page Users"
+                                         : fmt::format("sign in first: this needs the role {}", name_of(needed)));
+        r.headers.set("WWW-Authenticate",
+                      identity.wrong_token ? R"(Bearer realm="axisgate", error="invalid_token")" : R"(Bearer realm="axisgate")");
         return r;
     }
-    return problem(403, "role", fmt::format("this needs the role {}; {} has the role {}", name_of(needed),
-                                            identity.user.empty() ? "this machine without a sign-in" : identity.user, name_of(identity.role)));
+    return problem(403, "role",
+                   fmt::format("this needs the role {}; {} has the role {}", name_of(needed),
+                               identity.user.empty() ? "this machine without a sign-in" : identity.user, name_of(identity.role)));
 }
 
 std::optional<Response> check_csrf(const Identity& identity, const Request& request) {

@@ -1,13 +1,13 @@
 // Access gate: from a request's headers to an identity, and from a route to the role that it needs. The one place that refuses for a role.
-// In: requests, the desk. Out: an Identity; 401 or 403 with what is needed. Never looks at a body.
+// In: requests, the accounts. Out: an Identity; 401 or 403 with what is needed. Never looks at a body.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <string_view>
 
-#include "gateway/services/access/access_port.hpp"
 #include "gateway/doors/http/message.hpp"
+#include "gateway/services/access/access_port.hpp"
 
 namespace axisgate::http {
 

@@ -87,7 +87,7 @@ json::object session_document(AccessPort* port, const Identity& i) {
             {"csrf", text_or_null(i.csrf)},
             {"expires_at", time_or_null(i.expires_ns)},
             {"ended", i.session_ended ? json::value(session_ended_text) : json::value(nullptr)},
-            {"first_sign_in", port && !port->desk().has_users()},
+            {"first_sign_in", port && !port->accounts().has_users()},
             {"roles", json::array{"viewer", "operator", "engineer", "administrator"}}};
 }
 
@@ -115,25 +115,27 @@ json::object document_of(const Token& t) {
             {"last_used_at", time_or_null(t.last_used_ns)}};
 }
 
-void tell_access(AccessPort& port, std::string by, std::string text, Severity severity) {
+void note_access(AccessPort& port, std::string by, std::string text, Severity severity) {
     Event e;
     e.kind = "access";
     e.severity = severity;
     e.text = std::move(text);
     e.who = std::move(by);
     e.door = std::string(name_of(Door::http));
-    port.tell(std::move(e));
+    port.note(std::move(e));
 }
 
 void keep_uses(const std::shared_ptr<AccessPort>& port) {
-    if (port->uses_wait || !port->desk().has_uses()) return;
+    if (port->uses_wait || !port->accounts().has_uses()) return;
     port->uses_wait = true;
-    const bool queued = port->changes->run([port](std::function<void()> done) {
-        port->uses_wait = false;
-        auto records = port->desk().take_uses();
-        if (records.empty()) return done();
-        port->keep(std::move(records), "axisgate", [done](const std::string&) { done(); });
-    }, nullptr);
+    const bool queued = port->changes->run(
+        [port](std::function<void()> done) {
+            port->uses_wait = false;
+            auto records = port->accounts().take_uses();
+            if (records.empty()) return done();
+            port->keep(std::move(records), "axisgate", [done](const std::string&) { done(); });
+        },
+        nullptr);
     if (!queued) port->uses_wait = false;  // the next use tries again
 }
 

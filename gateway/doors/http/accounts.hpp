@@ -42,7 +42,7 @@ private:
 [[nodiscard]] boost::json::object document_of(const Token& token);
 
 /// An event of kind "access".
-void tell_access(AccessPort& port, std::string who, std::string text, Severity severity = Severity::info);
+void note_access(AccessPort& port, std::string who, std::string text, Severity severity = Severity::info);
 
 /// Stores who was here last, in its turn behind the changes that wait. Nobody waits for it, and it may be lost.
 void keep_uses(const std::shared_ptr<AccessPort>& port);

@@ -1,5 +1,5 @@
-// Handlers: one function per route: a call in, an answer out, now or later.
-// In: the taken-apart request and the Gateway. Out: Handled. Callbacks of the Gateway keep copies only, never the Call or the Context.
+// Handlers: one function per route: a call in, an answer out, now or later. Beside the call each takes the ports that it uses, by their
+// types. In: the taken-apart request, ports. Out: Handled. Callbacks of ports keep copies and ports only, never the Call or the Context.
 // Never touches a socket, and never waits.
 #pragma once
 
@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "gateway/doors/http/access_gate.hpp"
@@ -23,8 +24,8 @@
 #include "gateway/services/axis_place.hpp"
 #include "gateway/services/axis_texts.hpp"
 #include "gateway/services/change_queue.hpp"
-#include "gateway/services/gateway.hpp"
 #include "gateway/services/parameters/axis_jobs.hpp"
+#include "gateway/services/ports.hpp"
 #include "gateway/services/services.hpp"
 #include "gateway/services/site/stage_owner.hpp"
 
@@ -39,7 +40,7 @@ namespace axisgate::http {
 
 /// What all handlers share; outlives every call.
 struct Context {
-    Gateway& gateway;
+    Ports ports;  ///< handlers do not look here: take<> gives each its own
     const Settings& settings;
     AssetLookup asset;
     std::function<std::string()> own_metrics;                                ///< the door's own counters as Prometheus text
@@ -66,7 +67,6 @@ struct Call {
 
     /// Who and from where, for events and the history: as API says it; the peer alone where there are no users.
     [[nodiscard]] std::string who() const { return context.access ? axisgate::who(identity, request.peer) : request.peer; }
-    [[nodiscard]] Gateway& gateway() const noexcept { return context.gateway; }
     [[nodiscard]] Origin origin() const;  ///< in handlers_authority.cpp
 };
 
@@ -75,79 +75,101 @@ struct Call {
 
 using Handler = Handled (*)(Call&);
 
+/// One parameter of a handler out of all ports: a port, or a set of some.
+template <class Part>
+struct Picked {
+    static Part from(const Ports& ports) { return ports.get<std::remove_cvref_t<Part>>(); }
+};
+template <class... Port>
+struct Picked<const PortSet<Port...>&> {
+    static PortSet<Port...> from(const Ports& ports) { return ports; }
+};
+template <class... Parts>
+Handled call_with_ports(Handled (*handler)(Call&, Parts...), Call& call) {
+    return handler(call, Picked<Parts>::from(call.context.ports)...);
+}
+/// A function with the ports that it takes, as the router calls it.
+template <auto handler>
+Handled take(Call& call) {
+    return call_with_ports(handler, call);
+}
+
+/// What the document of a line, a drive or an axis is made from.
+using EntryPorts = PortSet<AxisPort, ClockPort, DrivePort, LinePort, SitePort>;
+
 // --- handlers_gateway.cpp ---------------------------------------------------------------------------------------------
-Handled get_health(Call&);
-Handled get_ready(Call&);
-Handled get_metrics(Call&);
+Handled get_health(Call&, const StatusPort&);
+Handled get_ready(Call&, const StatusPort&);
+Handled get_metrics(Call&, const StatusPort&);
 Handled get_description(Call&);
-Handled get_about(Call&);
+Handled get_about(Call&, const ClockPort&, const SitePort&, const StatusPort&);
 Handled open_stream(Call&);
 // --- handlers_catalogue.cpp -------------------------------------------------------------------------------------------
-Handled list_families(Call&);
-Handled get_family(Call&);
-Handled list_family_parameters(Call&);
-Handled list_family_commands(Call&);
-Handled list_family_errors(Call&);
+Handled list_families(Call&, const SitePort&);
+Handled get_family(Call&, const SitePort&);
+Handled list_family_parameters(Call&, const SitePort&);
+Handled list_family_commands(Call&, const SitePort&);
+Handled list_family_errors(Call&, const SitePort&);
 // --- handlers_site.cpp ------------------------------------------------------------------------------------------------
-Handled list_lines(Call&);
-Handled list_drives(Call&);
-Handled list_axes(Call&);
-Handled get_line(Call&);
-Handled get_drive(Call&);
-Handled get_axis(Call&);
-Handled add_line(Call&);
-Handled add_drive(Call&);
-Handled add_axis(Call&);
-Handled replace_line(Call&);
-Handled replace_drive(Call&);
-Handled replace_axis(Call&);
-Handled change_line(Call&);
-Handled change_drive(Call&);
-Handled change_axis(Call&);
-Handled remove_line(Call&);
-Handled remove_drive(Call&);
-Handled remove_axis(Call&);
-Handled get_site(Call&);
-Handled replace_site(Call&);
+Handled list_lines(Call&, const EntryPorts&);
+Handled list_drives(Call&, const EntryPorts&);
+Handled list_axes(Call&, const EntryPorts&);
+Handled get_line(Call&, const EntryPorts&);
+Handled get_drive(Call&, const EntryPorts&);
+Handled get_axis(Call&, const EntryPorts&);
+Handled add_line(Call&, const EntryPorts&, const StagePort&);
+Handled add_drive(Call&, const EntryPorts&, const StagePort&);
+Handled add_axis(Call&, const EntryPorts&, const StagePort&);
+Handled replace_line(Call&, const EntryPorts&, const StagePort&);
+Handled replace_drive(Call&, const EntryPorts&, const StagePort&);
+Handled replace_axis(Call&, const EntryPorts&, const StagePort&);
+Handled change_line(Call&, const EntryPorts&, const StagePort&);
+Handled change_drive(Call&, const EntryPorts&, const StagePort&);
+Handled change_axis(Call&, const EntryPorts&, const StagePort&);
+Handled remove_line(Call&, SitePort&, const StagePort&);
+Handled remove_drive(Call&, SitePort&, const StagePort&);
+Handled remove_axis(Call&, SitePort&, const StagePort&);
+Handled get_site(Call&, const SitePort&);
+Handled replace_site(Call&, SitePort&, const StagePort&);
 // --- handlers_mappings.cpp --------------------------------------------------------------------------------------------
-Handled list_mappings(Call&);
-Handled get_mapping(Call&);
-Handled add_mapping(Call&);
-Handled replace_mapping(Call&);
-Handled remove_mapping(Call&);
-Handled remove_mappings(Call&);
-Handled list_mapping_units(Call&);
-Handled change_mapping_unit(Call&);
-Handled get_mappings_csv(Call&);
-Handled replace_mappings_csv(Call&);
-Handled add_mappings_csv(Call&);
+Handled list_mappings(Call&, const SitePort&);
+Handled get_mapping(Call&, const SitePort&);
+Handled add_mapping(Call&, SitePort&, const StagePort&);
+Handled replace_mapping(Call&, SitePort&, const StagePort&);
+Handled remove_mapping(Call&, SitePort&, const StagePort&);
+Handled remove_mappings(Call&, SitePort&, const StagePort&);
+Handled list_mapping_units(Call&, const SitePort&);
+Handled change_mapping_unit(Call&, SitePort&, const StagePort&);
+Handled get_mappings_csv(Call&, const SitePort&);
+Handled replace_mappings_csv(Call&, SitePort&, const StagePort&);
+Handled add_mappings_csv(Call&, SitePort&, const StagePort&);
 Handled list_mapping_points(Call&);
 // --- handlers_commands.cpp --------------------------------------------------------------------------------------------
-Handled command_axis(Call&);
-Handled act_on_axis(Call&);
-Handled start_moves(Call&);
+Handled command_axis(Call&, AxisPort&, const SitePort&);
+Handled act_on_axis(Call&, AxisPort&, const SitePort&);
+Handled start_moves(Call&, AxisPort&, const SitePort&);
 // --- handlers_modbus.cpp ----------------------------------------------------------------------------------------------
-Handled get_modbus_door(Call&);
-Handled change_modbus_door(Call&);
+Handled get_modbus_door(Call&, ModbusPort&);
+Handled change_modbus_door(Call&, ModbusPort&);
 // --- handlers_authority.cpp -------------------------------------------------------------------------------------------
-Handled list_authority(Call&);
-Handled get_authority(Call&);
-Handled take_authority(Call&);
+Handled list_authority(Call&, const AxisPort&, const ClockPort&, ModbusPort&, const SitePort&);
+Handled get_authority(Call&, const AxisPort&, const ClockPort&, ModbusPort&, const SitePort&);
+Handled take_authority(Call&, AxisPort&, const ClockPort&, const SitePort&);
 /// Gives up what this user, or this user's token ("anna line3"), holds: he may not command any more. `by`: who did that.
-void end_leases_of(Gateway& gateway, std::string_view client, const std::string& by);
-Handled release_authority(Call&);
-Handled hand_over_authority(Call&);
+void end_leases_of(AxisPort& axes, const SitePort& sites, std::string_view client, const std::string& by);
+Handled release_authority(Call&, AxisPort&, const ClockPort&, const SitePort&);
+Handled hand_over_authority(Call&, AxisPort&, const ClockPort&, const SitePort&);
 // --- handlers_parameters.cpp ------------------------------------------------------------------------------------------
-Handled list_parameters(Call&);
-Handled read_parameter(Call&);
-Handled write_parameter(Call&);
+Handled list_parameters(Call&, const ParameterPort&, const SitePort&);
+Handled read_parameter(Call&, AxisPort&, const ClockPort&, const ParameterPort&, const SitePort&);
+Handled write_parameter(Call&, AxisPort&, const ParameterPort&, const SitePort&);
 // --- handlers_drives.cpp ----------------------------------------------------------------------------------------------
-Handled exchange_native(Call&);
-Handled get_hand(Call&);
-Handled set_hand(Call&);
+Handled exchange_native(Call&, AxisPort&, const ClockPort&, const SitePort&);
+Handled get_hand(Call&, DrivePort&, const SitePort&);
+Handled set_hand(Call&, DrivePort&, const SitePort&);
 // --- handlers_records.cpp ---------------------------------------------------------------------------------------------
-Handled get_trace(Call&);
-Handled list_events(Call&);
+Handled get_trace(Call&, const LinePort&, const SitePort&);
+Handled list_events(Call&, EventPort&);
 
 // --- handlers_alarms.cpp ----------------------------------------------------------------------------------------------
 Handled list_alarms(Call&);
@@ -156,65 +178,65 @@ Handled acknowledge_alarms(Call&);
 Handled shelve_alarm(Call&);
 Handled unshelve_alarm(Call&);
 // --- handlers_scan.cpp ------------------------------------------------------------------------------------------------
-Handled start_scan(Call&);
-Handled get_scan(Call&);
-Handled cancel_scan(Call&);
+Handled start_scan(Call&, LinePort&, const SitePort&);
+Handled get_scan(Call&, LinePort&, const SitePort&);
+Handled cancel_scan(Call&, LinePort&, const SitePort&);
 // --- handlers_recipes.cpp ---------------------------------------------------------------------------------------------
-Handled list_recipes(Call&);
-Handled get_recipe(Call&);
-Handled put_recipe(Call&);
-Handled remove_recipe(Call&);
-Handled run_recipe(Call&);
-Handled list_recipe_runs(Call&);
+Handled list_recipes(Call&, const DocumentPort&);
+Handled get_recipe(Call&, const DocumentPort&);
+Handled put_recipe(Call&, const ClockPort&, DocumentPort&, EventPort&);
+Handled remove_recipe(Call&, DocumentPort&, EventPort&);
+Handled run_recipe(Call&, const DocumentPort&, const SitePort&);
+Handled list_recipe_runs(Call&, const DocumentPort&);
 Handled get_recipe_run(Call&);
 Handled cancel_recipe_run(Call&);
 // --- handlers_snapshots.cpp -------------------------------------------------------------------------------------------
-Handled list_snapshots(Call&);
-Handled take_snapshot(Call&);
-Handled get_snapshot_progress(Call&);
-Handled get_snapshot(Call&);
-Handled remove_snapshot(Call&);
-Handled diff_snapshot(Call&);
-Handled restore_snapshot(Call&);
+Handled list_snapshots(Call&, const SitePort&, const SnapshotPort&);
+Handled take_snapshot(Call&, AxisPort&, const ClockPort&, EventPort&, const ParameterPort&, const SitePort&, SnapshotPort&);
+Handled get_snapshot_progress(Call&, const SitePort&);
+Handled get_snapshot(Call&, const SitePort&, const SnapshotPort&);
+Handled remove_snapshot(Call&, EventPort&, const SitePort&, SnapshotPort&);
+Handled diff_snapshot(Call&, AxisPort&, const ParameterPort&, const SitePort&, const SnapshotPort&);
+Handled restore_snapshot(Call&, AxisPort&, const ParameterPort&, const SitePort&, const SnapshotPort&);
 // --- handlers_parameter_table.cpp -------------------------------------------------------------------------------------
-Handled get_parameter_history(Call&);
-Handled get_parameters_csv(Call&);
-Handled put_parameters_csv(Call&);
+Handled get_parameter_history(Call&, const ParameterPort&, const SitePort&);
+Handled get_parameters_csv(Call&, const ParameterPort&, const SitePort&);
+Handled put_parameters_csv(Call&, AxisPort&, const ParameterPort&, const SitePort&);
 // --- handlers_stage.cpp -----------------------------------------------------------------------------------------------
-Handled stage_site(Call&);
-Handled get_stage(Call&);
-Handled discard_stage(Call&);
-Handled apply_stage(Call&);
-Handled confirm_stage(Call&);
-Handled roll_back_stage(Call&);
-Handled list_site_history(Call&);
-Handled get_site_revision(Call&);
-Handled restore_site_revision(Call&);
-Handled get_backup(Call&);
-Handled put_backup(Call&);
-Handled get_waiting_backup(Call&);
-Handled cancel_waiting_backup(Call&);
+Handled stage_site(Call&, const ClockPort&, const SitePort&, StagePort&);
+Handled get_stage(Call&, const SitePort&, const StagePort&);
+Handled discard_stage(Call&, StagePort&);
+Handled apply_stage(Call&, const SitePort&, StagePort&);
+Handled confirm_stage(Call&, const ClockPort&, const SitePort&, StagePort&);
+Handled roll_back_stage(Call&, const SitePort&, StagePort&);
+Handled list_site_history(Call&, const SitePort&);
+Handled get_site_revision(Call&, const SitePort&);
+Handled restore_site_revision(Call&, const ClockPort&, const SitePort&, StagePort&);
+Handled get_backup(Call&, BackupPort&, EventPort&);
+Handled put_backup(Call&, BackupPort&);
+Handled get_waiting_backup(Call&, BackupPort&);
+Handled cancel_waiting_backup(Call&, BackupPort&);
 // --- handlers_registers.cpp -------------------------------------------------------------------------------------------
-Handled get_registers(Call&);
-Handled get_mapping_list(Call&);
-Handled get_next_free(Call&);
-Handled add_mapping_template(Call&);
+Handled get_registers(Call&, RegisterPort&, const SitePort&);
+Handled get_mapping_list(Call&, const SitePort&);
+Handled get_next_free(Call&, const SitePort&);
+Handled add_mapping_template(Call&, SitePort&, const StagePort&);
 // --- handlers_session.cpp ---------------------------------------------------------------------------------------------
 Handled get_session(Call&);
-Handled sign_in(Call&);
+Handled sign_in(Call&, const ClockPort&);
 Handled sign_out(Call&);
-Handled first_sign_in(Call&);
+Handled first_sign_in(Call&, const ClockPort&);
 // --- handlers_users.cpp -----------------------------------------------------------------------------------------------
 Handled list_users(Call&);
-Handled add_user(Call&);
+Handled add_user(Call&, const ClockPort&);
 Handled get_user(Call&);
-Handled change_user(Call&);
-Handled remove_user(Call&);
-Handled change_password(Call&);
+Handled change_user(Call&, AxisPort&, const SitePort&);
+Handled remove_user(Call&, AxisPort&, const SitePort&);
+Handled change_password(Call&, const ClockPort&);
 // --- handlers_tokens.cpp ----------------------------------------------------------------------------------------------
 Handled list_tokens(Call&);
-Handled add_token(Call&);
-Handled remove_token(Call&);
+Handled add_token(Call&, const ClockPort&);
+Handled remove_token(Call&, AxisPort&, const SitePort&);
 
 // --- shared -----------------------------------------------------------------------------------------------------------
 
@@ -233,19 +255,10 @@ Handled remove_token(Call&);
                                                  std::string_view command);
 /// Hands a command to the gateway; a good result goes through `show`, another becomes a problem. `wait_s` > 0: until it is done, or for
 /// that long, whichever is sooner.
-[[nodiscard]] Handled submit_command(Call& call, Command command, std::string axis, std::string name, double wait_s,
+[[nodiscard]] Handled submit_command(Call& call, AxisPort& axes, Command command, std::string axis, std::string name, double wait_s,
                                      std::function<Response(const Result&)> show);
 /// The result of a command as a 200.
 [[nodiscard]] Response answer_of(const Result& result, std::string_view axis, std::string_view command);
-/// Writes checked values one after the other (handlers_snapshots.cpp); `more`: further members of the answer.
-[[nodiscard]] Handled write_parameters(Call& call, const AxisPlace& axis, std::vector<JobPoint> points, boost::json::object more);
-/// What is written back only if it is asked for by name.
-struct WriteBack {
-    bool addressing = false;  ///< include_addressing
-    bool live = false;        ///< include_live
-};
-/// Why a parameter of the catalogue's `addressing` or `live` is left out when many are written back; empty: it is not.
-[[nodiscard]] std::string why_left_out(const Parameter& parameter, WriteBack wanted);
 /// `?state=` of alarms; nothing if it is not given (handlers_alarms.cpp).
 [[nodiscard]] std::optional<AlarmFilter> query_alarm_state(const Call& call, std::optional<Response>& fault);
 /// `?wait=`: 0 if it is not given.

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <boost/json/array.hpp>
 
-#include "gateway/services/alarms/alarm_service.hpp"
 #include "gateway/doors/http/handlers.hpp"
+#include "gateway/services/alarms/alarm_service.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
@@ -47,9 +47,9 @@ Handled later() { return {gateway_limit, problem(504, "no_answer", "the store ha
 AlarmService::Then answer_with(Call& c, std::uint64_t id) {
     const auto* a = c.context.alarms->list().find(id);
     auto before = a ? alarm_document(*a) : json::object();
-    return [respond = c.respond, desk = std::weak_ptr(c.context.alarms), id, before](const std::string& fault) mutable {
+    return [respond = c.respond, service = std::weak_ptr(c.context.alarms), id, before](const std::string& fault) mutable {
         if (!fault.empty()) return respond(problem(507, "not_stored", "done, but it could not be stored: " + fault));
-        const auto d = desk.lock();
+        const auto d = service.lock();
         if (const auto* now = d ? d->list().find(id) : nullptr) return respond(json_response(alarm_document(*now)));
         before["state"] = "normal";
         respond(json_response(before));
@@ -114,9 +114,9 @@ Handled acknowledge_alarms(Call& c) {
     if (!faults.empty()) return invalid(std::move(faults));
     if (!list) ids = c.context.alarms->open();
     const auto fault = c.context.alarms->acknowledge(
-        ids, comment, c.origin(), [respond = c.respond, desk = std::weak_ptr(c.context.alarms), n = ids.size()](const std::string& why) {
+        ids, comment, c.origin(), [respond = c.respond, service = std::weak_ptr(c.context.alarms), n = ids.size()](const std::string& why) {
             if (!why.empty()) return respond(problem(507, "not_stored", "done, but it could not be stored: " + why));
-            const auto d = desk.lock();
+            const auto d = service.lock();
             respond(json_response(json::object{{"acknowledged", n}, {"unacknowledged", d ? d->list().unacknowledged() : 0}}));
         });
     if (!fault.empty()) return problem(409, "wrong_state", fault);

@@ -12,23 +12,23 @@ namespace axisgate::http {
 namespace json = boost::json;
 namespace {
 
-json::object authority_document(const Gateway& gateway, const AxisSpec& spec, AxisId id) {
-    const AxisPicture p = gateway.picture(id);
-    const std::int64_t now = gateway.now_unix_ns();
-    const std::int64_t until = p.authority_holder[0] != 0 ? gateway.to_unix_ns(p.authority_until) : 0;
+json::object authority_document(const AxisPort& axes, const ClockPort& clock, const AxisSpec& spec, AxisId id) {
+    const AxisPicture p = axes.picture(id);
+    const std::int64_t now = clock.now_unix_ns();
+    const std::int64_t until = p.authority_holder[0] != 0 ? clock.to_unix_ns(p.authority_until) : 0;
     const bool held = until > now;
     json::object o{{"axis", spec.name},
                    {"door", axisgate::name_of(held ? p.authority : Door::none)},
                    {"holder", held ? p.authority_holder.data() : ""},
                    {"mode", axisgate::name_of(spec.authority_mode)}};
     o["expires_in_s"] = held ? number(static_cast<double>((until - now) / 1'000'000) / 1000.0) : json::value(nullptr);
-    o["since"] = held ? json::value(format_time(gateway.to_unix_ns(p.authority_since))) : json::value(nullptr);
+    o["since"] = held ? json::value(format_time(clock.to_unix_ns(p.authority_since))) : json::value(nullptr);
     o["last_commander"] = p.authority_commander.data();
     return o;
 }
 
 /// The connections behind a holder that came by Modbus: all of its host, since one client is one address.
-void add_connections(json::object& document, const std::optional<Gateway::ModbusReport>& report) {
+void add_connections(json::object& document, const std::optional<ModbusReport>& report) {
     const std::string axis(document.at("axis").get_string()), holder(document.at("holder").get_string());
     json::array peers;
     std::string list;
@@ -49,9 +49,9 @@ void add_connections(json::object& document, const std::optional<Gateway::Modbus
 }
 /// Who could be named as the next holder: clients of this door that gave themselves a name or signed in, and hosts that are connected by
 /// Modbus.
-json::array clients_document(const Context& context, const std::optional<Gateway::ModbusReport>& report) {
+json::array clients_document(const Context& context, const ClockPort& clock, const std::optional<ModbusReport>& report) {
     json::array out;
-    for (const auto& x : context.clients->list(context.gateway.now_unix_ns())) {
+    for (const auto& x : context.clients->list(clock.now_unix_ns())) {
         out.push_back(json::object{{"client", "http " + x.name}, {"door", "http"}, {"at", format_time(x.at_unix_ns)}});
     }
     std::set<std::string> hosts;
@@ -68,18 +68,17 @@ bool held_by_modbus(const json::object& document) {
 }
 
 /// Hands a wish to the hot thread and answers with what holds then.
-Handled submit_hold(Call& c, HoldAxis wish, bool empty_answer) {
-    const auto place = find_axis(c.gateway(), c.names[0]);
+Handled submit_hold(Call& c, AxisPort& axes, const ClockPort& clock, const SitePort& sites, HoldAxis wish, bool empty_answer) {
+    const auto place = find_axis(sites, c.names[0]);
     if (!place) return nothing_named("axis", c.names[0]);
     Command command;
     command.axis = place->id();
     command.body = std::move(wish);
     const std::string word(name_of(command.body));
-    Gateway* const gateway = &c.gateway();
-    return submit_command(c, std::move(command), c.names[0], word, 0,
-                          [gateway, spec = place->spec(), id = place->id(), empty_answer](const Result&) {
+    return submit_command(c, axes, std::move(command), c.names[0], word, 0,
+                          [&axes, &clock, spec = place->spec(), id = place->id(), empty_answer](const Result&) {
                               if (!empty_answer) {
-                                  auto o = authority_document(*gateway, spec, id);
+                                  auto o = authority_document(axes, clock, spec, id);
                                   add_connections(o, std::nullopt);
                                   return json_response(o);
                               }
@@ -116,10 +115,10 @@ Origin origin_of(const Request& request, const Identity& identity, std::string w
     return o;
 }
 
-void end_leases_of(Gateway& gateway, std::string_view client, const std::string& by) {
+void end_leases_of(AxisPort& axes, const SitePort& sites, std::string_view client, const std::string& by) {
     const std::string prefix = std::string(client) + ' ';
-    for (const AxisId id : gateway.site()->axis_ids) {
-        const AxisPicture p = gateway.picture(id);
+    for (const AxisId id : sites.site()->axis_ids) {
+        const AxisPicture p = axes.picture(id);
         const std::string holder = p.authority_holder.data();
         if (p.authority != Door::http || (holder != client && !holder.starts_with(prefix))) continue;
         Command command;
@@ -128,44 +127,44 @@ void end_leases_of(Gateway& gateway, std::string_view client, const std::string&
         HoldAxis wish;
         wish.kind = HoldAxis::Kind::release;
         command.body = wish;
-        (void)gateway.submit(std::move(command), [](const Result&) {});
+        (void)axes.submit(std::move(command), [](const Result&) {});
     }
 }
 
-Handled list_authority(Call& c) {
-    const auto site = c.gateway().site();
-    auto axes = std::make_shared<std::vector<json::object>>();
+Handled list_authority(Call& c, const AxisPort& axes, const ClockPort& clock, ModbusPort& modbus, const SitePort& sites) {
+    const auto site = sites.site();
+    auto list = std::make_shared<std::vector<json::object>>();
     for (std::size_t i = 0; i < site->site.axes.size() && i < site->axis_ids.size(); ++i)
-        axes->push_back(authority_document(c.gateway(), site->site.axes[i], site->axis_ids[i]));
+        list->push_back(authority_document(axes, clock, site->site.axes[i], site->axis_ids[i]));
     // The context outlives every call.
-    const auto answer = [axes, &context = c.context](const std::optional<Gateway::ModbusReport>& report) {
+    const auto answer = [list, &clock, &context = c.context](const std::optional<ModbusReport>& report) {
         json::array out;
-        for (auto& o : *axes) {
+        for (auto& o : *list) {
             add_connections(o, report);
             out.push_back(std::move(o));
         }
-        return json_response(json::object{{"axes", std::move(out)}, {"clients", clients_document(context, report)}});
+        return json_response(json::object{{"axes", std::move(out)}, {"clients", clients_document(context, clock, report)}});
     };
-    c.gateway().modbus_report([answer, respond = c.respond](const std::optional<Gateway::ModbusReport>& r) { respond(answer(r)); });
+    modbus.modbus_report([answer, respond = c.respond](const std::optional<ModbusReport>& r) { respond(answer(r)); });
     return {gateway_limit, late_modbus()};
 }
 
-Handled get_authority(Call& c) {
-    const auto place = find_axis(c.gateway(), c.names[0]);
+Handled get_authority(Call& c, const AxisPort& axes, const ClockPort& clock, ModbusPort& modbus, const SitePort& sites) {
+    const auto place = find_axis(sites, c.names[0]);
     if (!place) return nothing_named("axis", c.names[0]);
-    auto document = authority_document(c.gateway(), place->spec(), place->id());
+    auto document = authority_document(axes, clock, place->spec(), place->id());
     if (!held_by_modbus(document)) {
         add_connections(document, std::nullopt);
         return json_response(document);
     }
-    c.gateway().modbus_report([document = std::move(document), respond = c.respond](const std::optional<Gateway::ModbusReport>& r) mutable {
+    modbus.modbus_report([document = std::move(document), respond = c.respond](const std::optional<ModbusReport>& r) mutable {
         add_connections(document, r);
         respond(json_response(document));
     });
     return {gateway_limit, late_modbus()};
 }
 
-Handled take_authority(Call& c) {
+Handled take_authority(Call& c, AxisPort& axes, const ClockPort& clock, const SitePort& sites) {
     const json::object& body = c.body.get_object();
     std::vector<Fault> faults;
     check_members(body, {"ttl_s", "take_over"}, faults);
@@ -187,16 +186,16 @@ Handled take_authority(Call& c) {
     if (wish.take_over) {
         if (auto refusal = refuse_below(c.identity, Role::engineer)) return *refusal;
     }
-    return submit_hold(c, std::move(wish), false);
+    return submit_hold(c, axes, clock, sites, std::move(wish), false);
 }
 
-Handled release_authority(Call& c) {
+Handled release_authority(Call& c, AxisPort& axes, const ClockPort& clock, const SitePort& sites) {
     HoldAxis wish;
     wish.kind = HoldAxis::Kind::release;
-    return submit_hold(c, std::move(wish), true);
+    return submit_hold(c, axes, clock, sites, std::move(wish), true);
 }
 
-Handled hand_over_authority(Call& c) {
+Handled hand_over_authority(Call& c, AxisPort& axes, const ClockPort& clock, const SitePort& sites) {
     const json::object& body = c.body.get_object();
     std::vector<Fault> faults;
     check_members(body, {"to"}, faults);
@@ -209,7 +208,7 @@ Handled hand_over_authority(Call& c) {
             {"/to", "to must name the next holder in 1 to 80 bytes", "write \"modbus 192.0.2.7\", or a holder as GET shows it"});
     }
     if (!faults.empty()) return invalid(std::move(faults), c.names[0]);
-    return submit_hold(c, std::move(wish), false);
+    return submit_hold(c, axes, clock, sites, std::move(wish), false);
 }
 
 }  // namespace axisgate::http

@@ -1,15 +1,15 @@
 // Handlers of the catalogue: families, their parameters, commands and error codes.
 // In: calls. Out: answers at once; constant while the program runs.
-#include "gateway/services/documents.hpp"
 #include "gateway/doors/http/handlers.hpp"
+#include "gateway/services/documents.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
 namespace {
 /// The list of a family's things, each through `show`.
 template <class List, class Show>
-Handled list_of(Call& c, List list, Show show) {
-    const auto entry = c.gateway().families().find(c.names[0]);
+Handled list_of(Call& c, const SitePort& sites, List list, Show show) {
+    const auto entry = sites.families().find(c.names[0]);
     if (!entry.family || !entry.catalogue) return nothing_named("family", c.names[0]);
     json::array out;
     for (const auto& x : list(*entry.catalogue))
@@ -18,21 +18,21 @@ Handled list_of(Call& c, List list, Show show) {
 }
 }  // namespace
 
-Handled list_families(Call& c) {
+Handled list_families(Call&, const SitePort& sites) {
     json::array out;
-    for (const auto& e : c.gateway().families().entries)
+    for (const auto& e : sites.families().entries)
         out.push_back(family_document(e));
     return json_response(out);
 }
 
-Handled get_family(Call& c) {
-    const auto entry = c.gateway().families().find(c.names[0]);
+Handled get_family(Call& c, const SitePort& sites) {
+    const auto entry = sites.families().find(c.names[0]);
     if (!entry.family || !entry.catalogue) return nothing_named("family", c.names[0]);
     return json_response(family_document(entry));
 }
 
-Handled list_family_parameters(Call& c) {
-    const auto entry = c.gateway().families().find(c.names[0]);
+Handled list_family_parameters(Call& c, const SitePort& sites) {
+    const auto entry = sites.families().find(c.names[0]);
     if (!entry.family || !entry.catalogue) return nothing_named("family", c.names[0]);
     json::array out;
     for (const auto& p : entry.catalogue->parameters()) {
@@ -42,14 +42,14 @@ Handled list_family_parameters(Call& c) {
     return json_response(out);
 }
 
-Handled list_family_commands(Call& c) {
+Handled list_family_commands(Call& c, const SitePort& sites) {
     return list_of(
-        c, [](const Catalogue& k) { return k.commands(); }, [](const CatalogueCommand& x) { return command_document(x); });
+        c, sites, [](const Catalogue& k) { return k.commands(); }, [](const CatalogueCommand& x) { return command_document(x); });
 }
 
-Handled list_family_errors(Call& c) {
+Handled list_family_errors(Call& c, const SitePort& sites) {
     return list_of(
-        c, [](const Catalogue& k) { return k.errors(); }, [](const ErrorCode& e) { return error_document(e); });
+        c, sites, [](const Catalogue& k) { return k.errors(); }, [](const ErrorCode& e) { return error_document(e); });
 }
 
 }  // namespace axisgate::http

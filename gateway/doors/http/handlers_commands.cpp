@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "gateway/doors/http/handlers.hpp"
 #include "gateway/services/command_reader.hpp"
 #include "gateway/services/documents.hpp"
-#include "gateway/doors/http/handlers.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
@@ -48,8 +48,8 @@ Response answer_of(const Result& r, std::string_view axis, std::string_view comm
     return json_response(o);
 }
 
-Handled command_axis(Call& c) {
-    const auto place = find_axis(c.gateway(), c.names[0]);
+Handled command_axis(Call& c, AxisPort& axes, const SitePort& sites) {
+    const auto place = find_axis(sites, c.names[0]);
     if (!place) return nothing_named("axis", c.names[0]);
     std::optional<Response> fault;
     const double wait_s = query_wait(c, fault);
@@ -65,12 +65,12 @@ Handled command_axis(Call& c) {
     Command command;
     command.axis = place->id();
     command.body = std::move(*read.body);
-    return submit_command(c, std::move(command), c.names[0], read.name, wait_s,
+    return submit_command(c, axes, std::move(command), c.names[0], read.name, wait_s,
                           [axis = c.names[0], name = read.name](const Result& r) { return answer_of(r, axis, name); });
 }
 
-Handled act_on_axis(Call& c) {
-    const auto place = find_axis(c.gateway(), c.names[0]);
+Handled act_on_axis(Call& c, AxisPort& axes, const SitePort& sites) {
+    const auto place = find_axis(sites, c.names[0]);
     if (!place) return nothing_named("axis", c.names[0]);
     std::optional<Response> fault;
     const double wait_s = query_wait(c, fault);
@@ -105,11 +105,11 @@ Handled act_on_axis(Call& c) {
     command.axis = place->id();
     const std::string word = action.name;
     command.body = std::move(action);
-    return submit_command(c, std::move(command), c.names[0], word, wait_s,
+    return submit_command(c, axes, std::move(command), c.names[0], word, wait_s,
                           [axis = c.names[0], word](const Result& r) { return answer_of(r, axis, word); });
 }
 
-Handled start_moves(Call& c) {
+Handled start_moves(Call& c, AxisPort& axes, const SitePort& sites) {
     static constexpr std::string_view word = "start_together";
     std::optional<Response> fault;
     const double wait_s = query_wait(c, fault);
@@ -119,20 +119,20 @@ Handled start_moves(Call& c) {
     unknown_members(body, {"axes"}, faults);
     StartTogether start;
     std::string first, line;
-    const auto* axes = body.if_contains("axes");
-    if (!axes || !axes->is_array() || axes->get_array().empty() || axes->get_array().size() > most_axes_together) {
+    const auto* listed = body.if_contains("axes");
+    if (!listed || !listed->is_array() || listed->get_array().empty() || listed->get_array().size() > most_axes_together) {
         faults.push_back(
             {"/axes", fmt::format("axes must be a list of 1 to {} names", most_axes_together), "write \"axes\": [\"left\", \"right\"]"});
     } else {
-        for (std::size_t i = 0; i < axes->get_array().size(); ++i) {
-            const auto& v = axes->get_array()[i];
+        for (std::size_t i = 0; i < listed->get_array().size(); ++i) {
+            const auto& v = listed->get_array()[i];
             const std::string pointer = fmt::format("/axes/{}", i);
             if (!v.is_string()) {
                 faults.push_back({pointer, "the name of an axis is a text", "write it in quotes"});
                 continue;
             }
             const std::string_view name = v.get_string();
-            const auto place = find_axis(c.gateway(), name);
+            const auto place = find_axis(sites, name);
             if (!place) {
                 faults.push_back({pointer, fmt::format("there is no axis {}", name), "see /api/v1/axes"});
                 continue;
@@ -155,7 +155,7 @@ Handled start_moves(Call& c) {
     Command command;
     command.axis = start.axes.front();
     command.body = std::move(start);
-    return submit_command(c, std::move(command), first, std::string(word), wait_s,
+    return submit_command(c, axes, std::move(command), first, std::string(word), wait_s,
                           [first](const Result& r) { return answer_of(r, first, word); });
 }
 

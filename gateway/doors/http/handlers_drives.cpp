@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cctype>
 
-#include "gateway/services/documents.hpp"
 #include "gateway/doors/http/handlers.hpp"
+#include "gateway/services/documents.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
@@ -20,15 +20,15 @@ struct DrivePlace {
     [[nodiscard]] DriveId id() const { return index < site->drive_ids.size() ? site->drive_ids[index] : no_drive; }
 };
 
-std::optional<DrivePlace> find_drive(const Gateway& gateway, std::string_view name) {
-    auto site = gateway.site();
+std::optional<DrivePlace> find_drive(const SitePort& sites, std::string_view name) {
+    auto site = sites.site();
     const auto index = index_of_name(site->site.drives, name);
     if (!index) return std::nullopt;
     return DrivePlace{std::move(site), *index};
 }
 
-Response not_simulated(Gateway& gateway, DriveId id, std::string_view name) {
-    const DriveStatus status = gateway.drive_status(id);
+Response not_simulated(const DrivePort& drives, DriveId id, std::string_view name) {
+    const DriveStatus status = drives.drive_status(id);
     std::string why = status.presence == Presence::device ? "the real drive serves it" : "it is offline";
     if (!status.text.empty()) why += " (" + status.text + ")";
     return problem(409, "not_simulated", fmt::format("drive {} is not simulated now: {}", name, why));
@@ -82,17 +82,17 @@ std::optional<Native> read_native(const json::object& body, std::vector<Fault>& 
 }
 }  // namespace
 
-Handled exchange_native(Call& c) {
-    const auto drive = find_drive(c.gateway(), c.names[0]);
+Handled exchange_native(Call& c, AxisPort& axes, const ClockPort& clock, const SitePort& sites) {
+    const auto drive = find_drive(sites, c.names[0]);
     if (!drive) return nothing_named("drive", c.names[0]);
     std::vector<Fault> faults;
     auto native = read_native(c.body.get_object(), faults);
     if (!faults.empty()) return invalid(std::move(faults));
     // The exchange belongs to the drive, but every command names an axis: the lowest channel stands for the drive.
-    const auto& axes = drive->site->site.axes;
+    const auto& on_site = drive->site->site.axes;
     std::optional<std::size_t> lowest;
-    for (std::size_t i = 0; i < axes.size(); ++i) {
-        if (axes[i].drive == c.names[0] && (!lowest || axes[i].channel < axes[*lowest].channel)) lowest = i;
+    for (std::size_t i = 0; i < on_site.size(); ++i) {
+        if (on_site[i].drive == c.names[0] && (!lowest || on_site[i].channel < on_site[*lowest].channel)) lowest = i;
     }
     if (!lowest || *lowest >= drive->site->axis_ids.size()) {
         return problem(409, "conflict", fmt::format("drive {} has no axis: add one, so that commands can name it", c.names[0]));
@@ -100,15 +100,14 @@ Handled exchange_native(Call& c) {
     Command command;
     command.axis = drive->site->axis_ids[*lowest];
     command.body = std::move(*native);
-    Gateway& gateway = c.gateway();
-    const std::int64_t begun_ns = gateway.now_unix_ns();
+    const std::int64_t begun_ns = clock.now_unix_ns();
     // To the microsecond: on a fast line an exchange is over within one millisecond.
-    const auto took_ms = [&gateway, begun_ns] {
-        return number(static_cast<double>(std::max<std::int64_t>(0, (gateway.now_unix_ns() - begun_ns) / 1'000)) / 1000.0);
+    const auto took_ms = [&clock, begun_ns] {
+        return number(static_cast<double>(std::max<std::int64_t>(0, (clock.now_unix_ns() - begun_ns) / 1'000)) / 1000.0);
     };
-    const std::string axis = axes[*lowest].name;
+    const std::string axis = on_site[*lowest].name;
     command.origin = c.origin();
-    const Ticket ticket = gateway.submit(std::move(command), [took_ms, axis, respond = c.respond](const Result& r) {
+    const Ticket ticket = axes.submit(std::move(command), [took_ms, axis, respond = c.respond](const Result& r) {
         if (good(r)) return respond(json_response(json::object{{"reply", r.text}, {"reply_hex", to_hex(r.bytes)}, {"took_ms", took_ms()}}));
         if (r.reason != Reason::drive_refused || r.bytes.empty()) return respond(problem_of(r, axis, "native"));
         // The drive has answered, if with its error: what it said belongs to the answer.
@@ -149,29 +148,28 @@ Fault hand_fault(const std::vector<std::string>& asked, std::string text) {
 }
 }  // namespace
 
-Handled get_hand(Call& c) {
-    const auto drive = find_drive(c.gateway(), c.names[0]);
+Handled get_hand(Call& c, DrivePort& drives, const SitePort& sites) {
+    const auto drive = find_drive(sites, c.names[0]);
     if (!drive) return nothing_named("drive", c.names[0]);
     std::optional<Response> fault;
     const bool describe = query_flag(c, "describe", fault);
     if (fault) return *fault;
-    Gateway& gateway = c.gateway();
-    gateway.hand(drive->id(), [&gateway, id = drive->id(), name = c.names[0], describe,
-                               respond = c.respond](std::optional<std::vector<HandItem>> items) {
-        if (!items) return respond(not_simulated(gateway, id, name));
-        if (!describe) return respond(json_response(flat(*items)));
-        json::array list;
-        for (const auto& i : *items) {
-            list.push_back(
-                json::object{{"name", i.name}, {"value", to_json(i.value)}, {"writable", i.writable}, {"description", i.description}});
-        }
-        respond(json_response(list));
-    });
+    drives.hand(drive->id(),
+                [&drives, id = drive->id(), name = c.names[0], describe, respond = c.respond](std::optional<std::vector<HandItem>> items) {
+                    if (!items) return respond(not_simulated(drives, id, name));
+                    if (!describe) return respond(json_response(flat(*items)));
+                    json::array list;
+                    for (const auto& i : *items) {
+                        list.push_back(json::object{
+                            {"name", i.name}, {"value", to_json(i.value)}, {"writable", i.writable}, {"description", i.description}});
+                    }
+                    respond(json_response(list));
+                });
     return {gateway_limit, problem(504, "time_out", fmt::format("the hand of {} was not told in time", c.names[0]))};
 }
 
-Handled set_hand(Call& c) {
-    const auto drive = find_drive(c.gateway(), c.names[0]);
+Handled set_hand(Call& c, DrivePort& drives, const SitePort& sites) {
+    const auto drive = find_drive(sites, c.names[0]);
     if (!drive) return nothing_named("drive", c.names[0]);
     std::vector<std::pair<std::string, Value>> wanted;
     std::vector<Fault> faults;
@@ -188,11 +186,10 @@ Handled set_hand(Call& c) {
         wanted.emplace_back(std::string(k), std::move(value));
     }
     if (!faults.empty()) return invalid(std::move(faults));
-    Gateway& gateway = c.gateway();
     // Asked first: whether the drive is simulated, and which names there are, is told better before anything is set.
-    gateway.hand(drive->id(), [&gateway, id = drive->id(), name = c.names[0], wanted = std::move(wanted), origin = c.origin(),
-                               respond = c.respond](std::optional<std::vector<HandItem>> items) mutable {
-        if (!items) return respond(not_simulated(gateway, id, name));
+    drives.hand(drive->id(), [&drives, id = drive->id(), name = c.names[0], wanted = std::move(wanted), origin = c.origin(),
+                              respond = c.respond](std::optional<std::vector<HandItem>> items) mutable {
+        if (!items) return respond(not_simulated(drives, id, name));
         std::vector<Fault> wrong;
         std::string names;
         for (const auto& i : *items) {
@@ -209,13 +206,15 @@ Handled set_hand(Call& c) {
         if (!wrong.empty()) return respond(invalid(std::move(wrong)));
         if (wanted.empty()) return respond(json_response(flat(*items)));
         std::vector<std::string> asked;
-        for (const auto& [k, v] : wanted) asked.push_back(k);
-        gateway.set_hand(id, std::move(wanted), std::move(origin), [&gateway, id, name, asked = std::move(asked), respond](std::string wrong_text) {
-            if (!wrong_text.empty()) return respond(invalid({hand_fault(asked, std::move(wrong_text))}));
-            gateway.hand(id, [&gateway, id, name, respond](std::optional<std::vector<HandItem>> now) {
-                respond(now ? json_response(flat(*now)) : not_simulated(gateway, id, name));
-            });
-        });
+        for (const auto& [k, v] : wanted)
+            asked.push_back(k);
+        drives.set_hand(id, std::move(wanted), std::move(origin),
+                        [&drives, id, name, asked = std::move(asked), respond](std::string wrong_text) {
+                            if (!wrong_text.empty()) return respond(invalid({hand_fault(asked, std::move(wrong_text))}));
+                            drives.hand(id, [&drives, id, name, respond](std::optional<std::vector<HandItem>> now) {
+                                respond(now ? json_response(flat(*now)) : not_simulated(drives, id, name));
+                            });
+                        });
     });
     return {gateway_limit,
             problem(504, "time_out", fmt::format("the hand of {} did not answer in time; look again whether it was set", c.names[0]))};

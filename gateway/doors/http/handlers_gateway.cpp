@@ -10,10 +10,12 @@
 namespace axisgate::http {
 namespace json = boost::json;
 
-Handled get_health(Call& c) { return json_response(json::object{{"status", "ok"}, {"uptime_s", number(c.gateway().uptime_s())}}); }
+Handled get_health(Call&, const StatusPort& status) {
+    return json_response(json::object{{"status", "ok"}, {"uptime_s", number(status.uptime_s())}});
+}
 
-Handled get_ready(Call& c) {
-    const auto missing = c.gateway().not_ready();
+Handled get_ready(Call&, const StatusPort& status) {
+    const auto missing = status.not_ready();
     json::array list;
     std::string all;
     for (const auto& m : missing) {
@@ -27,10 +29,10 @@ Handled get_ready(Call& c) {
     return to_response(p);
 }
 
-Handled get_metrics(Call& c) {
+Handled get_metrics(Call& c, const StatusPort& status) {
     Response r;
     r.headers.set("Content-Type", "text/plain; version=0.0.4; charset=utf-8");
-    r.body = c.gateway().metrics();
+    r.body = status.metrics();
     if (!r.body.empty() && r.body.back() != '\n') r.body += '\n';
     if (c.context.own_metrics) r.body += c.context.own_metrics();
     return r;
@@ -45,18 +47,18 @@ Handled get_description(Call& c) {
     return r;
 }
 
-Handled get_about(Call& c) {
-    const auto site = c.gateway().site();
+Handled get_about(Call& c, const ClockPort& clock, const SitePort& sites, const StatusPort& status) {
+    const auto site = sites.site();
     json::array families, doors;
-    for (const auto& e : c.gateway().families().entries)
+    for (const auto& e : sites.families().entries)
         families.emplace_back(e.family->name);
-    for (const auto& d : c.gateway().doors())
+    for (const auto& d : status.doors())
         doors.push_back(json::object{{"name", d.name}, {"address", d.address}});
     return json_response(json::object{{"name", "axisgate"},
                                       {"version", c.context.settings.version},
                                       {"api", "/api/v1"},
-                                      {"uptime_s", number(c.gateway().uptime_s())},
-                                      {"now", format_time(c.gateway().now_unix_ns())},
+                                      {"uptime_s", number(status.uptime_s())},
+                                      {"now", format_time(clock.now_unix_ns())},
                                       {"site_revision", site->revision},
                                       {"families", std::move(families)},
                                       {"doors", std::move(doors)},
@@ -141,14 +143,13 @@ json::object command_answer(Ticket ticket, std::string_view result, std::string_
             {"command", command},      {"code", nullptr},  {"text", ""},       {"value", nullptr}};
 }
 
-Handled submit_command(Call& call, Command command, std::string axis, std::string name, double wait_s,
+Handled submit_command(Call& call, AxisPort& axes, Command command, std::string axis, std::string name, double wait_s,
                        std::function<Response(const Result&)> show) {
     command.origin = call.origin();
     command.until_done = wait_s > 0;
-    const Ticket ticket =
-        call.gateway().submit(std::move(command), [respond = call.respond, axis, name, show = std::move(show)](const Result& r) {
-            respond(good(r) ? show(r) : problem_of(r, axis, name));
-        });
+    const Ticket ticket = axes.submit(std::move(command), [respond = call.respond, axis, name, show = std::move(show)](const Result& r) {
+        respond(good(r) ? show(r) : problem_of(r, axis, name));
+    });
     if (wait_s > 0) {
         const auto limit = std::chrono::nanoseconds(std::llround(wait_s * 1e9));
         return {limit, json_response(command_answer(ticket, "accepted", fmt::format("not done after {} s", wait_s), axis, name))};

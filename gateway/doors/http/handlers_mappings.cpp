@@ -31,15 +31,15 @@ Response shown(const SiteState& now, const json::value& body, unsigned status = 
 
 using MappingEdit = std::function<std::optional<Response>(json::array& mappings, std::string& id, std::size_t& place)>;
 /// Changes the list, checks the site as a whole, and shows the entry `id`, or nothing if `id` is left empty.
-Handled change_mappings(Call& c, MappingEdit edit, bool created) {
-    return change_site(c, false, [&gateway = c.gateway(), edit = std::move(edit), created](const SiteState& before) -> Planned {
+Handled change_mappings(Call& c, SitePort& sites, const StagePort& staging, MappingEdit edit, bool created) {
+    return change_site(c, sites, staging, false, [&sites, edit = std::move(edit), created](const SiteState& before) -> Planned {
         json::object document = to_json(before.site);
         json::array& list = document["mappings"].get_array();
         std::string id;
         std::size_t place = list.size();
         if (auto refusal = edit(list, id, place)) return std::move(*refusal);
         std::vector<SiteFault> faults;
-        auto site = parse_site(document, gateway.families(), faults);
+        auto site = parse_site(document, sites.families(), faults);
         if (!site) return refusal_for(faults, pointer_of(place), false);
         if (id.empty() && place < site->mappings.size() && created) id = std::string(mapping_id_of(site->mappings[place]));
         return Plan{std::move(*site), [id, created](const std::shared_ptr<const SiteState>& now) {
@@ -69,7 +69,7 @@ Response csv_faults(const std::vector<CsvFault>& faults) {
 }
 
 /// Rows as entries of the site: the whole list, or added to what is there, where a row with a known id takes that entry's place.
-Handled import_csv(Call& c, bool whole) {
+Handled import_csv(Call& c, SitePort& sites, const StagePort& staging, bool whole) {
     std::optional<Response> fault;
     const bool dry_run = query_flag(c, "dry_run", fault);
     if (fault) return *fault;
@@ -78,7 +78,7 @@ Handled import_csv(Call& c, bool whole) {
     auto rows = mappings_from_csv(c.request.body, lines, csv);
     if (!rows) return csv_faults(csv);
     const auto count = rows->size();
-    auto plan = [&gateway = c.gateway(), rows = std::move(*rows), lines = std::move(lines), csv = std::move(csv),
+    auto plan = [&sites, rows = std::move(*rows), lines = std::move(lines), csv = std::move(csv),
                  whole](const SiteState& before) -> Planned {
         json::object document = to_json(before.site);
         json::array& list = document["mappings"].get_array();
@@ -95,23 +95,23 @@ Handled import_csv(Call& c, bool whole) {
             }
         }
         std::vector<SiteFault> faults;
-        auto site = parse_site(document, gateway.families(), faults);
+        auto site = parse_site(document, sites.families(), faults);
         if (!site || !csv.empty()) {
-            std::vector<CsvFault> told = csv;
+            std::vector<CsvFault> wrong = csv;
             // Said again with the rows by their lines: an id that a row would get is known to nobody.
             const auto row = [&](std::size_t i) {
                 return i < line_of.size() && line_of[i] != 0 ? fmt::format("row {}", line_of[i]) : std::string();
             };
             std::erase_if(faults, [](const SiteFault& f) { return f.pointer == "/mappings" || f.pointer.starts_with("/mappings/"); });
-            (void)parse_mappings(list, before.site, gateway.families(), faults, row);
+            (void)parse_mappings(list, before.site, sites.families(), faults, row);
             for (const auto& f : faults) {
                 std::size_t index = line_of.size();
                 if (constexpr std::string_view head = "/mappings/"; f.pointer.starts_with(head))
                     std::from_chars(f.pointer.data() + head.size(), f.pointer.data() + f.pointer.size(), index);
-                told.push_back({index < line_of.size() ? line_of[index] : 0, fmt::format("{}; {}", f.text, f.remedy)});
+                wrong.push_back({index < line_of.size() ? line_of[index] : 0, fmt::format("{}; {}", f.text, f.remedy)});
             }
-            std::ranges::stable_sort(told, {}, &CsvFault::line);
-            return csv_faults(told);
+            std::ranges::stable_sort(wrong, {}, &CsvFault::line);
+            return csv_faults(wrong);
         }
         const auto changes = differences(before.site, *site);
         return Plan{
@@ -124,9 +124,9 @@ Handled import_csv(Call& c, bool whole) {
                               {"dry_run", false}, {"rows", count}, {"mappings", now->site.mappings.size()}, {"differences", std::move(d)}});
             }};
     };
-    if (!dry_run) return change_site(c, false, std::move(plan));
-    const auto now = c.gateway().site();
-    if (auto refusal = precondition(c, *now, false)) return *std::move(refusal);
+    if (!dry_run) return change_site(c, sites, staging, false, std::move(plan));
+    const auto now = sites.site();
+    if (auto refusal = precondition(c, sites, *now, false)) return *std::move(refusal);
     auto planned = plan(*now);
     if (auto* refusal = std::get_if<Response>(&planned)) return std::move(*refusal);
     json::array d;
@@ -140,12 +140,12 @@ Handled import_csv(Call& c, bool whole) {
 
 }  // namespace
 
-Handled list_mappings(Call& c) {
+Handled list_mappings(Call& c, const SitePort& sites) {
     std::optional<Response> fault;
     const std::int64_t unit = query_whole(c, "unit", 2, 254, 0, fault);
     if (fault) return *fault;
     const auto axis = c.target.query.get("axis");
-    const auto site = c.gateway().site();
+    const auto site = sites.site();
     json::array out;
     for (const auto& m : site->site.mappings) {
         const auto& o = m.get_object();
@@ -158,16 +158,16 @@ Handled list_mappings(Call& c) {
     return r;
 }
 
-Handled get_mapping(Call& c) {
-    const auto site = c.gateway().site();
+Handled get_mapping(Call& c, const SitePort& sites) {
+    const auto site = sites.site();
     const auto i = place_of(site->site.mappings, c.names[0]);
     if (!i) return nothing_named("mapping", c.names[0]);
     return shown(*site, site->site.mappings[*i]);
 }
 
-Handled add_mapping(Call& c) {
+Handled add_mapping(Call& c, SitePort& sites, const StagePort& staging) {
     return change_mappings(
-        c,
+        c, sites, staging,
         [entry = c.body.get_object()](json::array& list, std::string&, std::size_t& place) -> std::optional<Response> {
             place = list.size();
             list.push_back(entry);
@@ -176,9 +176,9 @@ Handled add_mapping(Call& c) {
         true);
 }
 
-Handled replace_mapping(Call& c) {
+Handled replace_mapping(Call& c, SitePort& sites, const StagePort& staging) {
     return change_mappings(
-        c,
+        c, sites, staging,
         [name = c.names[0], entry = c.body.get_object()](json::array& list, std::string& id,
                                                          std::size_t& place) -> std::optional<Response> {
             const auto i = place_of(list, name);
@@ -193,9 +193,9 @@ Handled replace_mapping(Call& c) {
         false);
 }
 
-Handled remove_mapping(Call& c) {
+Handled remove_mapping(Call& c, SitePort& sites, const StagePort& staging) {
     return change_mappings(
-        c,
+        c, sites, staging,
         [name = c.names[0]](json::array& list, std::string&, std::size_t&) -> std::optional<Response> {
             const auto i = place_of(list, name);
             if (!i) return nothing_named("mapping", name);
@@ -205,7 +205,7 @@ Handled remove_mapping(Call& c) {
         false);
 }
 
-Handled remove_mappings(Call& c) {
+Handled remove_mappings(Call& c, SitePort& sites, const StagePort& staging) {
     std::optional<Response> fault;
     const std::int64_t unit = query_whole(c, "unit", 2, 254, 0, fault);
     const bool all = query_flag(c, "all", fault), dry_run = query_flag(c, "dry_run", fault);
@@ -220,7 +220,7 @@ Handled remove_mappings(Call& c) {
         rest.remove_prefix(std::min(end + 1, rest.size()));
     }
     if (ids && wanted.empty()) return bad_query("ids", "ids of mappings with commas between them");
-    auto plan = [&gateway = c.gateway(), unit, wanted, by_id = ids.has_value(),
+    auto plan = [&sites, unit, wanted, by_id = ids.has_value(),
                  axis = axis ? std::optional<std::string>(*axis) : std::nullopt](const SiteState& before) -> Planned {
         for (const auto& id : wanted) {
             if (!place_of(before.site.mappings, id)) return nothing_named("mapping", id);
@@ -236,15 +236,15 @@ Handled remove_mappings(Call& c) {
         }
         list = std::move(kept);
         std::vector<SiteFault> faults;
-        auto site = parse_site(document, gateway.families(), faults);
+        auto site = parse_site(document, sites.families(), faults);
         if (!site) return refusal_for(faults, "", false);
         return Plan{std::move(*site), [removed](const std::shared_ptr<const SiteState>& now) {
                         return shown(*now, json::object{{"dry_run", false}, {"removed", removed}, {"mappings", now->site.mappings.size()}});
                     }};
     };
-    if (!dry_run) return change_site(c, false, std::move(plan));
-    const auto now = c.gateway().site();
-    if (auto refusal = precondition(c, *now, false)) return *std::move(refusal);
+    if (!dry_run) return change_site(c, sites, staging, false, std::move(plan));
+    const auto now = sites.site();
+    if (auto refusal = precondition(c, sites, *now, false)) return *std::move(refusal);
     auto planned = plan(*now);
     if (auto* refusal = std::get_if<Response>(&planned)) return std::move(*refusal);
     const auto& left = std::get<Plan>(planned).site.mappings;
@@ -268,8 +268,8 @@ json::object unit_document(const SiteState& site, std::uint8_t unit, MapGaps of_
 }
 }  // namespace
 
-Handled list_mapping_units(Call& c) {
-    const auto site = c.gateway().site();
+Handled list_mapping_units(Call& c, const SitePort& sites) {
+    const auto site = sites.site();
     json::array out;
     for (std::uint8_t unit = 2; unit <= 254; ++unit) {
         auto o = unit_document(*site, unit, c.context.settings.map_gaps);
@@ -278,7 +278,7 @@ Handled list_mapping_units(Call& c) {
     return shown(*site, out);
 }
 
-Handled change_mapping_unit(Call& c) {
+Handled change_mapping_unit(Call& c, SitePort& sites, const StagePort& staging) {
     const auto number = parse_whole(c.names[0], 2, 254);
     if (!number) return nothing_named("unit", c.names[0]);
     std::vector<Fault> faults;
@@ -294,7 +294,7 @@ Handled change_mapping_unit(Call& c) {
         faults.push_back({"/gaps", "gaps must be zero, refuse or null", "null: as the host's [modbus] gaps says"});
     if (!faults.empty()) return invalid(std::move(faults));
     return change_site(
-        c, false,
+        c, sites, staging, false,
         [unit = static_cast<std::uint8_t>(*number), gaps, of_host = c.context.settings.map_gaps](const SiteState& before) -> Planned {
             Site site = before.site;
             if (gaps)
@@ -307,8 +307,8 @@ Handled change_mapping_unit(Call& c) {
         });
 }
 
-Handled get_mappings_csv(Call& c) {
-    const auto site = c.gateway().site();
+Handled get_mappings_csv(Call&, const SitePort& sites) {
+    const auto site = sites.site();
     const auto& mappings = site->site.map();
     Response r;
     r.headers.set("Content-Type", "text/csv; charset=utf-8");
@@ -318,8 +318,8 @@ Handled get_mappings_csv(Call& c) {
     return r;
 }
 
-Handled replace_mappings_csv(Call& c) { return import_csv(c, true); }
-Handled add_mappings_csv(Call& c) { return import_csv(c, false); }
+Handled replace_mappings_csv(Call& c, SitePort& sites, const StagePort& staging) { return import_csv(c, sites, staging, true); }
+Handled add_mappings_csv(Call& c, SitePort& sites, const StagePort& staging) { return import_csv(c, sites, staging, false); }
 
 Handled list_mapping_points(Call&) {
     json::array out;

@@ -7,10 +7,10 @@
 namespace axisgate::http {
 namespace json = boost::json;
 namespace {
-using Report = std::optional<Gateway::ModbusReport>;
+using Report = std::optional<ModbusReport>;
 
 /// Over what can be set, not over who is connected: a client that comes does not make a change of the locks another one.
-std::string modbus_tag(const Gateway::ModbusReport& r) {
+std::string modbus_tag(const ModbusReport& r) {
     std::string allow, functions;
     for (const auto& a : r.allow)
         allow += a + ",";
@@ -19,7 +19,7 @@ std::string modbus_tag(const Gateway::ModbusReport& r) {
     return tag_over({r.bind, allow, functions, r.read_only ? "read-only" : ""});
 }
 
-json::object modbus_document(const Gateway::ModbusReport& report) {
+json::object modbus_document(const ModbusReport& report) {
     json::array allow, functions, connections;
     for (const auto& a : report.allow)
         allow.emplace_back(a);
@@ -50,12 +50,12 @@ Response shown(const Report& report) {
 }
 }  // namespace
 
-Handled get_modbus_door(Call& c) {
-    c.gateway().modbus_report([respond = c.respond](const Report& r) { respond(shown(r)); });
+Handled get_modbus_door(Call& c, ModbusPort& modbus) {
+    modbus.modbus_report([respond = c.respond](const Report& r) { respond(shown(r)); });
     return {gateway_limit, late_modbus()};
 }
 
-Handled change_modbus_door(Call& c) {
+Handled change_modbus_door(Call& c, ModbusPort& modbus) {
     const json::object& body = c.body.get_object();
     std::vector<Fault> faults;
     for (const auto& [k, v] : body) {
@@ -65,14 +65,13 @@ Handled change_modbus_door(Call& c) {
     const auto* value = body.if_contains("read_only");
     if (!value || !value->is_bool()) faults.push_back({"/read_only", "read_only must be true or false", "write one of them"});
     if (!faults.empty()) return invalid(std::move(faults));
-    Gateway* const gateway = &c.gateway();
-    auto set = [gateway, on = value->get_bool(), origin = c.origin(), respond = c.respond](std::function<void()> done) {
-        gateway->set_modbus_read_only(on, origin, [gateway, respond, done = std::move(done)](const std::string& fault, bool not_stored) {
+    auto set = [&modbus, on = value->get_bool(), origin = c.origin(), respond = c.respond](std::function<void()> done) {
+        modbus.set_modbus_read_only(on, origin, [&modbus, respond, done = std::move(done)](const std::string& fault, bool not_stored) {
             if (!fault.empty()) {
                 respond(not_stored ? problem(507, "not_stored", fault) : problem(503, "busy", fault));
                 return done();
             }
-            gateway->modbus_report([respond, done](const Report& r) {
+            modbus.modbus_report([respond, done](const Report& r) {
                 respond(shown(r));
                 done();
             });
@@ -81,9 +80,9 @@ Handled change_modbus_door(Call& c) {
     const std::string if_match(c.request.headers.get("If-Match"));
     // In the queue of the site's changes: of two that mean the same state one comes first, and the other is told so.
     const bool taken = c.context.changes->run(
-        [gateway, set, if_match, respond = c.respond](std::function<void()> done) {
+        [&modbus, set, if_match, respond = c.respond](std::function<void()> done) {
             if (if_match.empty()) return set(std::move(done));
-            gateway->modbus_report([set, if_match, respond, done = std::move(done)](const Report& now) {
+            modbus.modbus_report([set, if_match, respond, done = std::move(done)](const Report& now) {
                 if (now && !means_another(if_match, modbus_tag(*now))) return set(done);
                 respond(now ? overtaken("the locks of the Modbus door were changed by another client meanwhile: read them again",
                                         modbus_tag(*now), modbus_document(*now))

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "gateway/core/parameter_form.hpp"
-#include "gateway/doors/http/handlers.hpp"
+#include "gateway/doors/http/parameter_jobs.hpp"
 #include "gateway/services/documents.hpp"
 #include "gateway/services/parameters/axis_jobs.hpp"
 
@@ -57,8 +57,8 @@ std::vector<std::pair<std::size_t, std::vector<std::string>>> rows_of(std::strin
 }  // namespace
 
 /// A cell that a spreadsheet takes as text and not as a formula or as several cells.
-Handled get_parameter_history(Call& c) {
-    const auto axis = find_axis(c.gateway(), c.names[0]);
+Handled get_parameter_history(Call& c, const ParameterPort& parameters, const SitePort& sites) {
+    const auto axis = find_axis(sites, c.names[0]);
     if (!axis) return nothing_named("axis", c.names[0]);
     const auto point = axis->catalogue ? axis->catalogue->find(c.names[1]) : std::nullopt;
     if (!point)
@@ -70,7 +70,7 @@ Handled get_parameter_history(Call& c) {
     const auto limit = query_whole(c, "limit", 1, 1000, 100, fault);
     if (fault) return *fault;
     json::array out;
-    for (const auto& h : c.gateway().history(c.names[0], axis->catalogue->id_of(*point), static_cast<std::size_t>(limit)))
+    for (const auto& h : parameters.history(c.names[0], axis->catalogue->id_of(*point), static_cast<std::size_t>(limit)))
         out.push_back(json::object{{"at", format_time(h.at_unix_ns)},
                                    {"who", text_or_null(h.who)},
                                    {"door", text_or_null(h.door)},
@@ -79,12 +79,12 @@ Handled get_parameter_history(Call& c) {
     return json_response(out);
 }
 
-Handled get_parameters_csv(Call& c) {
-    const auto axis = find_axis(c.gateway(), c.names[0]);
+Handled get_parameters_csv(Call& c, const ParameterPort& parameters, const SitePort& sites) {
+    const auto axis = find_axis(sites, c.names[0]);
     if (!axis) return nothing_named("axis", c.names[0]);
     std::string text = "parameter,name,group,access,unit,value,source\r\n";
     std::map<std::string, Value> stored;
-    for (const auto& s : c.gateway().stored(c.names[0]))
+    for (const auto& s : parameters.stored(c.names[0]))
         stored[s.parameter] = s.value;
     const auto all = axis->catalogue ? axis->catalogue->parameters() : std::span<const Parameter>();
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -94,7 +94,7 @@ Handled get_parameters_csv(Call& c) {
         for (std::uint32_t e = first; e < end; ++e) {
             const Point point{static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(e)};
             const std::string id = axis->catalogue->id_of(point);
-            const auto live = c.gateway().live(axis->id(), point);
+            const auto live = parameters.live(axis->id(), point);
             const auto it = stored.find(id);
             const Value value = known(live.value) ? live.value : it == stored.end() ? Value{} : it->second;
             text += fmt::format("{},{},{},{},{},{},{}\r\n", csv_cell(id), csv_cell(p.name), csv_cell(p.group), name_of(p.access),
@@ -111,8 +111,8 @@ Handled get_parameters_csv(Call& c) {
     return r;
 }
 
-Handled put_parameters_csv(Call& c) {
-    const auto axis = find_axis(c.gateway(), c.names[0]);
+Handled put_parameters_csv(Call& c, AxisPort& axes, const ParameterPort& parameters, const SitePort& sites) {
+    const auto axis = find_axis(sites, c.names[0]);
     if (!axis) return nothing_named("axis", c.names[0]);
     std::optional<Response> fault;
     const bool dry_run = query_flag(c, "dry_run", fault);
@@ -140,7 +140,7 @@ Handled put_parameters_csv(Call& c) {
         return invalid(std::move(faults), c.names[0]);
     }
     std::map<std::string, Value> stored;
-    for (const auto& s : c.gateway().stored(c.names[0]))
+    for (const auto& s : parameters.stored(c.names[0]))
         stored[s.parameter] = s.value;
     std::map<std::string, Value> given;
     for (std::size_t i = 1; i < rows.size(); ++i) {
@@ -189,13 +189,13 @@ Handled put_parameters_csv(Call& c) {
         // What the table itself gives another parameter counts before what that has now: it will have been written.
         auto checked = check_write_now(*axis->catalogue, *point, *value, [&](Point other) {
             const auto it = given.find(axis->catalogue->id_of(other));
-            return it == given.end() ? c.gateway().live(axis->id(), other).value : it->second;
+            return it == given.end() ? parameters.live(axis->id(), other).value : it->second;
         });
         if (!checked.fault.empty()) {
             wrong(line, checked.fault);
             continue;
         }
-        const auto live = c.gateway().live(axis->id(), *point);
+        const auto live = parameters.live(axis->id(), *point);
         const auto it = stored.find(id);
         const Value now = known(live.value) ? live.value : it == stored.end() ? Value{} : it->second;
         if (now == checked.value) {
@@ -212,7 +212,7 @@ Handled put_parameters_csv(Call& c) {
     if (points.size() > most_points) wrong(1, fmt::format("at most {} parameters at a time", most_points));
     if (!faults.empty()) return invalid(std::move(faults), c.names[0]);
     if (dry_run) return json_response(json::object{{"dry_run", true}, {"changes", std::move(changes)}, {"skipped", std::move(skipped)}});
-    return write_parameters(c, *axis, std::move(points), {{"skipped", std::move(skipped)}});
+    return write_parameters(c, axes, *axis, std::move(points), {{"skipped", std::move(skipped)}});
 }
 
 }  // namespace axisgate::http

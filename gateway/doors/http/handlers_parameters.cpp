@@ -26,8 +26,8 @@ struct ParameterPlace {
 };
 
 /// The axis and the parameter of a path, or the 404 that says which is missing.
-std::optional<ParameterPlace> find_parameter(const Call& c, std::optional<Response>& fault) {
-    auto axis = find_axis(c.gateway(), c.names[0]);
+std::optional<ParameterPlace> find_parameter(const Call& c, const SitePort& sites, std::optional<Response>& fault) {
+    auto axis = find_axis(sites, c.names[0]);
     if (!axis) {
         fault = nothing_named("axis", c.names[0]);
         return std::nullopt;
@@ -60,15 +60,15 @@ std::string parameter_tag(const StoredParameter* s) {
     return tag_over({json_text(to_json(s->value)), s->who, s->door, std::to_string(s->at_unix_ns)});
 }
 
-KnownValue known_now(Gateway& gateway, AxisId axis) {
-    return [&gateway, axis](Point p) { return gateway.live(axis, p).value; };
+KnownValue known_now(const ParameterPort& parameters, AxisId axis) {
+    return [&parameters, axis](Point p) { return parameters.live(axis, p).value; };
 }
 
 /// Unit and range are those that hold now, where they hang on another parameter's value.
-json::object document_now(Gateway& gateway, const AxisPlace& axis, Point point, std::string_view id, const LiveParameter& live,
-                          const StoredParameter* stored, std::string_view text) {
+json::object document_now(const ParameterPort& parameters, const AxisPlace& axis, Point point, std::string_view id,
+                          const LiveParameter& live, const StoredParameter* stored, std::string_view text) {
     json::object o = axis_parameter_document(*axis.catalogue, point, id, live, stored, text);
-    const ParameterForm now = form_now(*axis.catalogue, point, known_now(gateway, axis.id()));
+    const ParameterForm now = form_now(*axis.catalogue, point, known_now(parameters, axis.id()));
     o["unit"] = text_or_null(now.unit);
     o["min"] = now.min ? number(*now.min) : json::value(nullptr);
     o["max"] = now.max ? number(*now.max) : json::value(nullptr);
@@ -76,12 +76,13 @@ json::object document_now(Gateway& gateway, const AxisPlace& axis, Point point, 
 }
 
 /// What is answered for one parameter, from copies, so that it can be made after the exchange.
-Response whole(Gateway& gateway, const ParameterPlace& place, const LiveParameter& live, std::string_view text, std::int64_t history) {
-    const auto stored = gateway.stored(place.axis.spec().name);
-    json::object o = document_now(gateway, place.axis, place.point, place.id, live, stored_of(stored, place.id), text);
+Response whole(const ParameterPort& parameters, const ParameterPlace& place, const LiveParameter& live, std::string_view text,
+               std::int64_t history) {
+    const auto stored = parameters.stored(place.axis.spec().name);
+    json::object o = document_now(parameters, place.axis, place.point, place.id, live, stored_of(stored, place.id), text);
     if (history > 0) {
         json::array list;
-        for (const auto& h : gateway.history(place.axis.spec().name, place.id, static_cast<std::size_t>(history))) {
+        for (const auto& h : parameters.history(place.axis.spec().name, place.id, static_cast<std::size_t>(history))) {
             list.push_back(json::object{{"value", to_json(h.value)},
                                         {"previous", to_json(h.previous)},
                                         {"written_at", format_time(h.at_unix_ns)},
@@ -94,7 +95,7 @@ Response whole(Gateway& gateway, const ParameterPlace& place, const LiveParamete
 }
 
 /// 412 with the last write, if If-Match means another one: nothing goes to the drive.
-std::optional<Response> refuse_other(const Call& c, const ParameterPlace& place) {
+std::optional<Response> refuse_other(const Call& c, const ParameterPort& parameters, const ParameterPlace& place) {
     const std::string if_match(c.request.headers.get("If-Match"));
     if (if_match.empty()) return std::nullopt;
     if (c.context.writes->contains({c.names[0], place.id})) {
@@ -104,7 +105,7 @@ std::optional<Response> refuse_other(const Call& c, const ParameterPlace& place)
             .detail = fmt::format("{} of {} is being written by another client just now: read it again in a moment", place.id, c.names[0]),
             .axis = c.names[0]});
     }
-    const auto stored = c.gateway().stored(c.names[0]);
+    const auto stored = parameters.stored(c.names[0]);
     const auto* now = stored_of(stored, place.id);
     if (!means_another(if_match, parameter_tag(now))) return std::nullopt;
     if (!now)
@@ -129,8 +130,8 @@ std::optional<Value> value_from(const json::value& v) {
 }
 }  // namespace
 
-Handled list_parameters(Call& c) {
-    const auto axis = find_axis(c.gateway(), c.names[0]);
+Handled list_parameters(Call& c, const ParameterPort& parameters, const SitePort& sites) {
+    const auto axis = find_axis(sites, c.names[0]);
     if (!axis) return nothing_named("axis", c.names[0]);
     json::array out;
     if (!axis->catalogue) return json_response(out);
@@ -139,7 +140,7 @@ Handled list_parameters(Call& c) {
     const auto array = c.target.query.get("array");
     const std::int64_t first = query_whole(c, "first", 0, 65535, 0, fault);
     if (fault) return *fault;
-    const auto stored = c.gateway().stored(c.names[0]);
+    const auto stored = parameters.stored(c.names[0]);
     std::unordered_map<std::string_view, const StoredParameter*> by_id;
     for (const auto& s : stored)
         by_id.emplace(s.parameter, &s);
@@ -151,7 +152,7 @@ Handled list_parameters(Call& c) {
         const std::string id = axis->catalogue->id_of(point);
         const auto it = by_id.find(id);
         out.push_back(
-            document_now(c.gateway(), *axis, point, id, c.gateway().live(axis->id(), point), it == by_id.end() ? nullptr : it->second, ""));
+            document_now(parameters, *axis, point, id, parameters.live(axis->id(), point), it == by_id.end() ? nullptr : it->second, ""));
     };
     bool array_found = false;
     const auto all = axis->catalogue->parameters();
@@ -184,42 +185,41 @@ Handled list_parameters(Call& c) {
     return json_response(out);
 }
 
-Handled read_parameter(Call& c) {
+Handled read_parameter(Call& c, AxisPort& axes, const ClockPort& clock, const ParameterPort& parameters, const SitePort& sites) {
     std::optional<Response> fault;
-    auto place = find_parameter(c, fault);
+    auto place = find_parameter(c, sites, fault);
     if (fault) return *fault;
     const bool cached = query_flag(c, "cached", fault);
     const std::int64_t history = query_whole(c, "history", 0, 1000, 0, fault);
     if (fault) return *fault;
-    Gateway& gateway = c.gateway();
     if (cached || !place->parameter().readable()) {
-        return whole(gateway, *place, gateway.live(place->axis.id(), place->point),
+        return whole(parameters, *place, parameters.live(place->axis.id(), place->point),
                      place->parameter().readable() ? "" : "can only be written", history);
     }
     Command command;
     command.axis = place->axis.id();
     command.body = ReadParameter{place->point};
     command.origin = c.origin();
-    auto show = [&gateway, place = *place, history, respond = c.respond, axis = c.names[0]](const Result& r) {
-        LiveParameter live = gateway.live(place.axis.id(), place.point);
+    auto show = [&clock, &parameters, place = *place, history, respond = c.respond, axis = c.names[0]](const Result& r) {
+        LiveParameter live = parameters.live(place.axis.id(), place.point);
         if (good(r)) {
             if (known(r.value) && live.value != r.value) {  // the sample has not come this far yet
                 live.value = r.value;
-                live.at_unix_ns = gateway.now_unix_ns();
+                live.at_unix_ns = clock.now_unix_ns();
             }
             live.quality = Quality::good;
-            respond(whole(gateway, place, live, r.text, history));
+            respond(whole(parameters, place, live, r.text, history));
             return;
         }
         const bool silent = r.reason == Reason::no_answer || r.reason == Reason::line_down || r.reason == Reason::busy;
         if (silent && known(live.value)) {
             live.quality = Quality::stale;
-            respond(whole(gateway, place, live, r.text.empty() ? name_of(r.reason) : std::string_view(r.text), history));
+            respond(whole(parameters, place, live, r.text.empty() ? name_of(r.reason) : std::string_view(r.text), history));
             return;
         }
         respond(problem_of(r, axis, "read_parameter"));
     };
-    const Ticket ticket = gateway.submit(std::move(command), std::move(show));
+    const Ticket ticket = axes.submit(std::move(command), std::move(show));
     Result none;
     none.ticket = ticket;
     none.outcome = Outcome::failed;
@@ -228,9 +228,9 @@ Handled read_parameter(Call& c) {
     return {gateway_limit, problem_of(none, c.names[0], "read_parameter")};
 }
 
-Handled write_parameter(Call& c) {
+Handled write_parameter(Call& c, AxisPort& axes, const ParameterPort& parameters, const SitePort& sites) {
     std::optional<Response> fault;
-    auto place = find_parameter(c, fault);
+    auto place = find_parameter(c, sites, fault);
     if (fault) return *fault;
     const json::object& body = c.body.get_object();
     std::vector<Fault> faults;
@@ -252,11 +252,11 @@ Handled write_parameter(Call& c) {
         return to_response(
             Problem{.status = 409, .reason = "not_writable", .detail = fmt::format("{} can only be read", id), .axis = c.names[0]});
     }
-    auto checked = check_write_now(*place->axis.catalogue, place->point, *value, known_now(c.gateway(), place->axis.id()));
+    auto checked = check_write_now(*place->axis.catalogue, place->point, *value, known_now(parameters, place->axis.id()));
     if (!checked.fault.empty()) {
         return invalid({{"/value", checked.fault, "write a value that the catalogue allows"}}, c.names[0], "out_of_range");
     }
-    if (auto refusal = refuse_other(c, *place)) return *std::move(refusal);
+    if (auto refusal = refuse_other(c, parameters, *place)) return *std::move(refusal);
     // Until the drive has answered and it is stored, nobody knows what If-Match of another client would be compared with.
     const std::pair key(c.names[0], id);
     ++(*c.context.writes)[key];
@@ -267,7 +267,7 @@ Handled write_parameter(Call& c) {
     Command command;
     command.axis = place->axis.id();
     command.body = WriteParameter{place->point, std::move(checked.value)};
-    return submit_command(c, std::move(command), c.names[0], "write_parameter", 0,
+    return submit_command(c, axes, std::move(command), c.names[0], "write_parameter", 0,
                           [axis = c.names[0]](const Result& r) { return answer_of(r, axis, "write_parameter"); });
 }
 

@@ -1,6 +1,6 @@
 // Handlers of recipes: the stored documents, their runs, and the reports of those.
-// In: calls. Out: documents as they were put, reports as the recipe desk keeps them.
-// Never carries out a step: that is the desk's.
+// In: calls. Out: documents as they were put, reports as the recipe service keeps them.
+// Never carries out a step: that is the service's.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -31,21 +31,21 @@ std::vector<Fault> in_body(const std::vector<SiteFault>& faults) {
     return out;
 }
 
-std::optional<json::object> parsed(const Gateway::Document& d) {
+std::optional<json::object> parsed(const Document& d) {
     boost::system::error_code ec;
     auto v = json::parse(d.text, ec);
     if (ec || !v.is_object()) return std::nullopt;
     return std::move(v.get_object());
 }
 
-std::optional<std::pair<Gateway::Document, json::object>> find_recipe(const Call& c) {
-    auto d = good_name(c.names[0]) ? c.gateway().document(kind, c.names[0]) : std::nullopt;
+std::optional<std::pair<Document, json::object>> find_recipe(const Call& c, const DocumentPort& documents) {
+    auto d = good_name(c.names[0]) ? documents.document(kind, c.names[0]) : std::nullopt;
     auto o = d ? parsed(*d) : std::nullopt;
     if (!o) return std::nullopt;
     return std::pair(std::move(*d), std::move(*o));
 }
 
-json::object shown(const Gateway::Document& d, json::object o) {
+json::object shown(const Document& d, json::object o) {
     o["name"] = d.name;
     o["changed_at"] = format_time(d.at_unix_ns);
     o["changed_by"] = text_or_null(d.who);
@@ -58,7 +58,7 @@ std::optional<std::uint64_t> number_of(const Call& c) {
 }
 
 /// Names one state of one document: another text, time or author is another tag.
-std::string recipe_tag(const Gateway::Document& d) { return tag_over({d.text, d.who, std::to_string(d.at_unix_ns)}); }
+std::string recipe_tag(const Document& d) { return tag_over({d.text, d.who, std::to_string(d.at_unix_ns)}); }
 
 /// If-Match and If-None-Match of a request that changes a recipe, kept until its turn comes.
 struct Wanted {
@@ -66,7 +66,7 @@ struct Wanted {
     explicit Wanted(const Call& c) : if_match(c.request.headers.get("If-Match")), if_none_match(c.request.headers.get("If-None-Match")) {}
 
     /// 412 with what is there now, if it is not what was asked for.
-    [[nodiscard]] std::optional<Response> refuse(const std::string& name, const std::optional<Gateway::Document>& now) const {
+    [[nodiscard]] std::optional<Response> refuse(const std::string& name, const std::optional<Document>& now) const {
         const auto refused = [&](std::string text) {
             const auto o = now ? parsed(*now) : std::nullopt;
             return overtaken(std::move(text), now ? std::optional(recipe_tag(*now)) : std::nullopt,
@@ -83,7 +83,7 @@ struct Wanted {
     }
 };
 
-Event told_of(const std::string& by, std::string text) {
+Event recipe_event(const std::string& by, std::string text) {
     Event e;
     e.kind = "recipe";
     e.who = by;
@@ -98,9 +98,9 @@ Response no_run(const Call& c) { return problem(404, "not_found", fmt::format("r
 Response store_fault(const std::string& fault) { return problem(507, "not_stored", fault); }
 }  // namespace
 
-Handled list_recipes(Call& c) {
+Handled list_recipes(Call& c, const DocumentPort& documents) {
     json::array out;
-    for (const auto& d : c.gateway().documents(kind)) {
+    for (const auto& d : documents.documents(kind)) {
         const auto o = parsed(d);
         if (!o) continue;
         const auto* description = o->if_contains("description");
@@ -120,13 +120,13 @@ Handled list_recipes(Call& c) {
     return json_response(out);
 }
 
-Handled get_recipe(Call& c) {
-    auto found = find_recipe(c);
+Handled get_recipe(Call& c, const DocumentPort& documents) {
+    auto found = find_recipe(c, documents);
     if (!found) return nothing_named("recipe", c.names[0]);
     return with_tag(json_response(shown(found->first, std::move(found->second))), recipe_tag(found->first));
 }
 
-Handled put_recipe(Call& c) {
+Handled put_recipe(Call& c, const ClockPort& clock, DocumentPort& documents, EventPort& events) {
     std::vector<SiteFault> faults;
     const std::string name = c.names[0];
     if (!good_name(name)) faults.push_back({"", "a recipe's name has 1 to 64 letters, digits, - _ .", "choose another name", false});
@@ -144,11 +144,11 @@ Handled put_recipe(Call& c) {
     std::optional<Response> fault;
     const bool dry_run = query_flag(c, "dry_run", fault);
     if (fault) return *fault;
-    const auto refused = [name, wanted = Wanted(c), &gateway = c.gateway()](bool& created) -> std::optional<Response> {
-        const auto now = gateway.document(kind, name);
+    const auto refused = [name, wanted = Wanted(c), &documents](bool& created) -> std::optional<Response> {
+        const auto now = documents.document(kind, name);
         created = !now;
         if (auto refusal = wanted.refuse(name, now)) return refusal;
-        if (created && gateway.documents(kind).size() >= RecipeService::most_recipes)
+        if (created && documents.documents(kind).size() >= RecipeService::most_recipes)
             return problem(409, "too_many",
                            fmt::format("there are {} recipes: delete those that are no longer needed", RecipeService::most_recipes));
         return std::nullopt;
@@ -159,16 +159,16 @@ Handled put_recipe(Call& c) {
         return json_response(json::object{{"dry_run", true}, {"steps", recipe->count}});
     }
     const bool taken = c.context.recipes->changes->run(
-        [refused, name, document, respond = c.respond, who = c.who(), &gateway = c.gateway()](std::function<void()> done) {
+        [refused, name, document, respond = c.respond, who = c.who(), &clock, &documents, &events](std::function<void()> done) {
             bool created = false;
             if (auto refusal = refused(created)) {
                 respond(*std::move(refusal));
                 return done();
             }
-            const Gateway::Document d{name, json_text(document), who, gateway.now_unix_ns()};
-            gateway.save_document(kind, d, [respond, &gateway, d, document, created, done](const std::string& why) {
+            const Document d{name, json_text(document), who, clock.now_unix_ns()};
+            documents.save_document(kind, d, [respond, &events, d, document, created, done](const std::string& why) {
                 if (why.empty()) {
-                    gateway.note(told_of(d.who, fmt::format("recipe {} {}", d.name, created ? "made" : "changed")));
+                    events.note(recipe_event(d.who, fmt::format("recipe {} {}", d.name, created ? "made" : "changed")));
                     Response r = with_tag(json_response(shown(d, document), created ? 201 : 200), recipe_tag(d));
                     if (created) r.headers.set("Location", "/api/v1/recipes/" + percent_encode(d.name));
                     respond(std::move(r));
@@ -183,16 +183,16 @@ Handled put_recipe(Call& c) {
     return {gateway_limit, problem(504, "no_answer", "the store has not answered")};
 }
 
-Handled remove_recipe(Call& c) {
-    if (!find_recipe(c)) return nothing_named("recipe", c.names[0]);
+Handled remove_recipe(Call& c, DocumentPort& documents, EventPort& events) {
+    if (!find_recipe(c, documents)) return nothing_named("recipe", c.names[0]);
     const bool taken = c.context.recipes->changes->run(
-        [name = c.names[0], wanted = Wanted(c), desk = c.context.recipes, respond = c.respond, who = c.who(),
-         &gateway = c.gateway()](std::function<void()> done) {
+        [name = c.names[0], wanted = Wanted(c), service = c.context.recipes, respond = c.respond, who = c.who(), &documents,
+         &events](std::function<void()> done) {
             const auto refusal = [&]() -> std::optional<Response> {
-                const auto now = gateway.document(kind, name);
+                const auto now = documents.document(kind, name);
                 if (!now) return nothing_named("recipe", name);
                 if (auto r = wanted.refuse(name, now)) return r;
-                if (const auto n = desk->running(name); n != 0)
+                if (const auto n = service->running(name); n != 0)
                     return problem(409, "running", fmt::format("recipe {} is running (run {}): cancel it first", name, n));
                 return std::nullopt;
             }();
@@ -200,10 +200,10 @@ Handled remove_recipe(Call& c) {
                 respond(*refusal);
                 return done();
             }
-            gateway.delete_document(kind, name, [respond, &gateway, desk, name, who, done](const std::string& why) {
+            documents.delete_document(kind, name, [respond, &events, service, name, who, done](const std::string& why) {
                 if (why.empty()) {
-                    gateway.note(told_of(who, fmt::format("recipe {} deleted", name)));
-                    desk->forget(name);
+                    events.note(recipe_event(who, fmt::format("recipe {} deleted", name)));
+                    service->forget(name);
                     Response r;
                     r.status = 204;
                     respond(std::move(r));
@@ -218,8 +218,8 @@ Handled remove_recipe(Call& c) {
     return {gateway_limit, problem(504, "no_answer", "the store has not answered")};
 }
 
-Handled run_recipe(Call& c) {
-    auto found = find_recipe(c);
+Handled run_recipe(Call& c, const DocumentPort& documents, const SitePort& sites) {
+    auto found = find_recipe(c, documents);
     if (!found) return nothing_named("recipe", c.names[0]);
     std::vector<SiteFault> faults;
     json::object arguments;
@@ -237,7 +237,7 @@ Handled run_recipe(Call& c) {
         }
     }
     auto recipe = read_recipe(found->second, &arguments, faults);
-    if (recipe) check_recipe(*recipe, c.gateway(), faults);
+    if (recipe) check_recipe(*recipe, sites, faults);
     if (!faults.empty()) {
         std::vector<Fault> list;
         for (const auto& f : faults)
@@ -260,8 +260,8 @@ Handled run_recipe(Call& c) {
     return r;
 }
 
-Handled list_recipe_runs(Call& c) {
-    if (!find_recipe(c)) return nothing_named("recipe", c.names[0]);
+Handled list_recipe_runs(Call& c, const DocumentPort& documents) {
+    if (!find_recipe(c, documents)) return nothing_named("recipe", c.names[0]);
     json::array out;
     for (auto& r : c.context.recipes->reports(c.names[0]))
         out.push_back(std::move(r));

@@ -69,17 +69,17 @@ std::optional<EventForm> event_form(const Call& c, std::optional<Response>& faul
 std::string events_csv(const std::vector<Event>& events) {
     std::string out = "id,at,severity,kind,axis,drive,line,code,text,who,door,parameter,old,new\r\n";
     for (const auto& e : events) {
-        out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", e.id, format_time(e.at_unix_ns), name_of(e.severity), csv_cell(e.kind),
-                           csv_cell(e.axis), csv_cell(e.drive), csv_cell(e.line), e.code == 0 ? std::string() : std::to_string(e.code),
-                           csv_cell(e.text), csv_cell(e.who), csv_cell(e.door), csv_cell(e.parameter), csv_cell(e.old_value),
-                           csv_cell(e.new_value));
+        out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", e.id, format_time(e.at_unix_ns), name_of(e.severity),
+                           csv_cell(e.kind), csv_cell(e.axis), csv_cell(e.drive), csv_cell(e.line),
+                           e.code == 0 ? std::string() : std::to_string(e.code), csv_cell(e.text), csv_cell(e.who), csv_cell(e.door),
+                           csv_cell(e.parameter), csv_cell(e.old_value), csv_cell(e.new_value));
     }
     return out;
 }
 
 /// The events that raised the alarms of the list which are in that state now, the newest ones: an alarm has the id of its event. Bounded
 /// by the length of the list.
-std::vector<Event> events_of_alarms(const Context& context, const EventQuery& wanted, AlarmFilter state) {
+std::vector<Event> events_of_alarms(const Context& context, const EventPort& events, const EventQuery& wanted, AlarmFilter state) {
     std::vector<Event> out;
     std::vector<std::uint64_t> ids;
     for (const auto& [id, alarm] : context.alarms->list().all()) {
@@ -92,7 +92,7 @@ std::vector<Event> events_of_alarms(const Context& context, const EventQuery& wa
         one.since_id = id - 1;
         one.before_id = id + 1;
         one.limit = 1;
-        for (auto& e : context.gateway.events(one))
+        for (auto& e : events.events(one))
             out.push_back(std::move(e));
     }
     return out;
@@ -103,7 +103,8 @@ std::string events_text(const std::vector<Event>& events) {
     std::string out;
     for (const auto& e : events) {
         const std::string& about = !e.axis.empty() ? e.axis : !e.drive.empty() ? e.drive : e.line;
-        std::string line = fmt::format("{} {:7} {:12} {:16} {}", format_time(e.at_unix_ns), name_of(e.severity), e.kind, about.empty() ? "-" : about, e.text);
+        std::string line = fmt::format("{} {:7} {:12} {:16} {}", format_time(e.at_unix_ns), name_of(e.severity), e.kind,
+                                       about.empty() ? "-" : about, e.text);
         if (!e.parameter.empty()) line += fmt::format(" [{}: {} -> {}]", e.parameter, e.old_value, e.new_value);
         if (e.code != 0) line += fmt::format(" (code {})", e.code);
         if (!e.who.empty()) line += fmt::format(" by {}", e.who);
@@ -125,8 +126,8 @@ Response events_answer(const std::vector<Event>& events, EventForm form) {
 }
 }  // namespace
 
-Handled get_trace(Call& c) {
-    const auto site = c.gateway().site();
+Handled get_trace(Call& c, const LinePort& lines, const SitePort& sites) {
+    const auto site = sites.site();
     const auto index = index_of_name(site->site.lines, c.names[0]);
     if (!index || *index >= site->line_ids.size()) return nothing_named("line", c.names[0]);
     std::optional<Response> fault;
@@ -137,8 +138,8 @@ Handled get_trace(Call& c) {
     if (fault) return *fault;
 
     // Without `since` the newest ones are wanted; the gateway counts from the oldest.
-    Gateway::Trace trace = c.gateway().trace(site->line_ids[*index], static_cast<std::uint64_t>(std::max<std::int64_t>(0, since)),
-                                             static_cast<std::size_t>(since < 0 ? most_frames : limit));
+    Trace trace = lines.trace(site->line_ids[*index], static_cast<std::uint64_t>(std::max<std::int64_t>(0, since)),
+                              static_cast<std::size_t>(since < 0 ? most_frames : limit));
     if (since < 0) {
         trace.missed = 0;
         if (trace.entries.size() > static_cast<std::size_t>(limit)) {
@@ -160,13 +161,13 @@ Handled get_trace(Call& c) {
             return file("text/plain; charset=utf-8", c.names[0] + ".txt", trace_text(trace.entries, c.names[0]));
     }
     json::array frames;
-    FrameDecoder decoder(c.gateway().families(), site->site, c.names[0]);
+    FrameDecoder decoder(sites.families(), site->site, c.names[0]);
     for (const auto& e : trace.entries)
         frames.push_back(frame_document(e, decoder.read(e)));
     return json_response(json::object{{"line", c.names[0]}, {"missed", trace.missed}, {"next", trace.next}, {"frames", std::move(frames)}});
 }
 
-Handled list_events(Call& c) {
+Handled list_events(Call& c, EventPort& events) {
     EventQuery query;
     if (const auto since = c.target.query.get("since")) {
         if (const auto id = parse_whole(*since, 0, INT64_MAX)) {
@@ -196,12 +197,13 @@ Handled list_events(Call& c) {
     const auto form = event_form(c, fault);
     if (fault) return *fault;
     // Who has just done something finds it here, even though events share their way to the disk.
-    c.gateway().events_settled([&context = c.context, query, state, form = *form, respond = c.respond] {
-        auto events = state ? events_of_alarms(context, query, *state) : context.gateway.events(query);
-        std::ranges::sort(events, {}, &Event::id);
-        respond(events_answer(events, form));
+    events.events_settled([&context = c.context, &events, query, state, form = *form, respond = c.respond] {
+        auto list = state ? events_of_alarms(context, events, query, *state) : events.events(query);
+        std::ranges::sort(list, {}, &Event::id);
+        respond(events_answer(list, form));
     });
-    return {gateway_limit, problem(504, "no_answer", "the gateway did not say in time what has happened; ask again, and look at GET /health")};
+    return {gateway_limit,
+            problem(504, "no_answer", "the gateway did not say in time what has happened; ask again, and look at GET /health")};
 }
 
 }  // namespace axisgate::http

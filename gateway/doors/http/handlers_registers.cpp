@@ -9,11 +9,11 @@
 #include <span>
 #include <tuple>
 
-#include "gateway/registers/register_map.hpp"
-#include "gateway/site/mapping.hpp"
-#include "gateway/services/documents.hpp"
-#include "gateway/registers/register_lists.hpp"
 #include "gateway/doors/http/site_change.hpp"
+#include "gateway/registers/register_lists.hpp"
+#include "gateway/registers/register_map.hpp"
+#include "gateway/services/documents.hpp"
+#include "gateway/site/mapping.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
@@ -51,10 +51,11 @@ std::string_view exception_text(unsigned code) {
 std::string revision_text(const SiteState& site) { return fmt::format("{:08x}", mapping_revision(site.site)); }
 
 /// What the point of a mapping is measured in, before scale and offset; empty: nothing.
-std::string unit_of_value(const Mapping& m, const SiteState& site, const Gateway& gateway) {
+std::string unit_of_value(const Mapping& m, const SiteState& site, const SitePort& sites) {
     const auto* axis = site.site.axis(m.axis);
-    if (const auto* point = std::get_if<AxisPoint>(&m.what)) return std::string(unit_of(*point, axis ? std::string_view(axis->unit) : std::string_view()));
-    const auto place = find_axis(gateway, m.axis);
+    if (const auto* point = std::get_if<AxisPoint>(&m.what))
+        return std::string(unit_of(*point, axis ? std::string_view(axis->unit) : std::string_view()));
+    const auto place = find_axis(sites, m.axis);
     const auto* p = place && place->catalogue ? place->catalogue->parameter(std::get<Point>(m.what)) : nullptr;
     return p ? p->unit : std::string();
 }
@@ -67,15 +68,17 @@ std::span<const registers::RegisterRow> standard_points() {
 using registers::is_standard_unit, registers::registers_per_axis;
 
 /// Of 32-bit values of the standard map.
-MapWordOrder standard_order(const Call& c) { return c.context.settings.low_word_first ? MapWordOrder::low_first : MapWordOrder::high_first; }
+MapWordOrder standard_order(const Call& c) {
+    return c.context.settings.low_word_first ? MapWordOrder::low_first : MapWordOrder::high_first;
+}
 
 std::string reason_text(const Value& v) {
     const auto n = as_integer(v).value_or(-1);
     return n >= 0 && n <= static_cast<int>(Reason::internal) ? std::string(axisgate::name_of(static_cast<Reason>(n))) : to_text(v);
 }
 
-json::array decoded(const SiteState& site, std::int64_t unit, MapTable table, std::uint32_t address,
-                    std::uint32_t count, const std::vector<std::uint8_t>& data, MapWordOrder standard_order) {
+json::array decoded(const SiteState& site, std::int64_t unit, MapTable table, std::uint32_t address, std::uint32_t count,
+                    const std::vector<std::uint8_t>& data, MapWordOrder standard_order) {
     json::array out;
     const auto put = [&](std::uint32_t at, const char* what, std::string_view name, const Mapping& m, std::string_view unit_text) {
         Value v;
@@ -116,7 +119,7 @@ json::array decoded(const SiteState& site, std::int64_t unit, MapTable table, st
 
 }  // namespace
 
-Handled get_registers(Call& c) {
+Handled get_registers(Call& c, RegisterPort& image, const SitePort& sites) {
     std::optional<Response> fault;
     const auto unit = query_whole(c, "unit", 0, 255, 1, fault);
     const auto address = query_whole(c, "address", 0, 65535, 0, fault);
@@ -125,41 +128,40 @@ Handled get_registers(Call& c) {
     const auto table = table_named(c.target.query.get("table").value_or("holding_registers"));
     if (!table) return bad_query("table", "holding_registers, input_registers, coils or discrete_inputs");
     if (address + count > 65536) return bad_query("count", "such that address + count is at most 65536");
-    Gateway& gateway = c.gateway();
     const auto a = static_cast<std::uint16_t>(address), n = static_cast<std::uint16_t>(count);
-    gateway.read_registers(
-        static_cast<std::uint8_t>(unit), *table, a, n,
-        [&gateway, unit, table = *table, a, n, order = standard_order(c), respond = c.respond](const std::optional<registers::RegisterRead>& answer) {
-            if (!answer) return respond(problem(503, "busy", "the gateway has too much to do: come again in a moment"));
-            json::object o{{"unit", unit},
-                           {"table", name_of(table)},
-                           {"address", a},
-                           {"count", n},
-                           {is_bits(table) ? "bits" : "words", json::array()},
-                           {"exception", json::value()},
-                           {"decoded", json::array()}};
-            if (answer->verdict != registers::Verdict::good) {
-                const auto code = static_cast<unsigned>(answer->verdict);
-                o["exception"] = json::object{{"code", code}, {"text", exception_text(code)}};
-                return respond(json_response(o));
-            }
-            const auto& data = answer->bytes;
-            json::array list;
-            for (std::uint32_t i = 0; i < n; ++i) {
-                if (is_bits(table))
-                    list.emplace_back((data[i / 8] >> (i % 8) & 1) != 0);
-                else
-                    list.emplace_back(data[2 * i] << 8 | data[2 * i + 1]);
-            }
-            o[is_bits(table) ? "bits" : "words"] = std::move(list);
-            o["decoded"] = decoded(*gateway.site(), unit, table, a, n, data, order);
-            respond(json_response(o));
-        });
+    image.read_registers(static_cast<std::uint8_t>(unit), *table, a, n,
+                         [&sites, unit, table = *table, a, n, order = standard_order(c),
+                          respond = c.respond](const std::optional<registers::RegisterRead>& answer) {
+                             if (!answer) return respond(problem(503, "busy", "the gateway has too much to do: come again in a moment"));
+                             json::object o{{"unit", unit},
+                                            {"table", name_of(table)},
+                                            {"address", a},
+                                            {"count", n},
+                                            {is_bits(table) ? "bits" : "words", json::array()},
+                                            {"exception", json::value()},
+                                            {"decoded", json::array()}};
+                             if (answer->verdict != registers::Verdict::good) {
+                                 const auto code = static_cast<unsigned>(answer->verdict);
+                                 o["exception"] = json::object{{"code", code}, {"text", exception_text(code)}};
+                                 return respond(json_response(o));
+                             }
+                             const auto& data = answer->bytes;
+                             json::array list;
+                             for (std::uint32_t i = 0; i < n; ++i) {
+                                 if (is_bits(table))
+                                     list.emplace_back((data[i / 8] >> (i % 8) & 1) != 0);
+                                 else
+                                     list.emplace_back(data[2 * i] << 8 | data[2 * i + 1]);
+                             }
+                             o[is_bits(table) ? "bits" : "words"] = std::move(list);
+                             o["decoded"] = decoded(*sites.site(), unit, table, a, n, data, order);
+                             respond(json_response(o));
+                         });
     return {gateway_limit, problem(504, "time_out", "the gateway did not answer in time")};
 }
 
-Handled get_mapping_list(Call& c) {
-    const auto site = c.gateway().site();
+Handled get_mapping_list(Call& c, const SitePort& sites) {
+    const auto site = sites.site();
     auto list = site->site.map();
     std::ranges::sort(list, [](const Mapping& a, const Mapping& b) {
         return std::tuple(a.unit, a.table, a.address) < std::tuple(b.unit, b.table, b.address);
@@ -172,7 +174,7 @@ Handled get_mapping_list(Call& c) {
     const auto revision = revision_text(*site);
     std::vector<ListedMapping> rows;
     for (auto& m : list) {
-        std::string unit = unit_of_value(m, *site, c.gateway());
+        std::string unit = unit_of_value(m, *site, sites);
         rows.push_back({std::move(m), std::move(unit)});
     }
     Response r;
@@ -196,8 +198,8 @@ Handled get_mapping_list(Call& c) {
 
 namespace {
 /// The first place with so many free registers, or bits, in a row, at a multiple of `align`.
-std::optional<std::uint32_t> next_free(const Gateway& gateway, std::int64_t unit, MapTable table, std::uint32_t words, std::uint32_t align) {
-    auto list = gateway.site()->site.map();
+std::optional<std::uint32_t> next_free(const SitePort& sites, std::int64_t unit, MapTable table, std::uint32_t words, std::uint32_t align) {
+    auto list = sites.site()->site.map();
     std::ranges::sort(list, {}, &Mapping::address);
     std::uint32_t at = 0;
     for (const auto& m : list) {
@@ -212,7 +214,7 @@ Response none_free(std::int64_t unit, std::int64_t words) {
 }
 }  // namespace
 
-Handled get_next_free(Call& c) {
+Handled get_next_free(Call& c, const SitePort& sites) {
     std::optional<Response> fault;
     const auto unit = query_whole(c, "unit", 2, 254, 2, fault);
     const auto words = query_whole(c, "words", 1, 1024, 1, fault);
@@ -221,11 +223,11 @@ Handled get_next_free(Call& c) {
     if (fault) return *fault;
     const auto table = table_named(c.target.query.get("table").value_or("holding_registers"));
     if (!table) return bad_query("table", "holding_registers, input_registers, coils or discrete_inputs");
-    const auto at = next_free(c.gateway(), unit, *table, static_cast<std::uint32_t>(words), static_cast<std::uint32_t>(align));
+    const auto at = next_free(sites, unit, *table, static_cast<std::uint32_t>(words), static_cast<std::uint32_t>(align));
     return at ? json_response(json::object{{"address", *at}}) : none_free(unit, words);
 }
 
-Handled add_mapping_template(Call& c) {
+Handled add_mapping_template(Call& c, SitePort& sites, const StagePort& staging) {
     std::vector<Fault> faults;
     const auto& body = c.body.get_object();
     for (const auto& [k, v] : body) {
@@ -251,7 +253,7 @@ Handled add_mapping_template(Call& c) {
     if (dry && !dry->is_bool()) faults.push_back({"/dry_run", "dry_run must be true or false", "write true or false"});
     if (!faults.empty()) return invalid(std::move(faults));
     if (anywhere) {
-        const auto at = next_free(c.gateway(), unit, MapTable::holding_registers, registers_per_axis, registers_per_axis);
+        const auto at = next_free(sites, unit, MapTable::holding_registers, registers_per_axis, registers_per_axis);
         if (!at) return none_free(unit, registers_per_axis);
         address = *at;
     }
@@ -268,14 +270,14 @@ Handled add_mapping_template(Call& c) {
                                        {"word_order", name_of(standard_order(c))},
                                        {"access", s.writable ? name_of(MapAccess::read_write) : name_of(MapAccess::read)}});
     }
-    auto plan = [&gateway = c.gateway(), entries](const SiteState& before) -> Planned {
+    auto plan = [&sites, entries](const SiteState& before) -> Planned {
         json::object document = to_json(before.site);
         auto& list = document["mappings"].get_array();
         const auto had = list.size();
         for (const auto& e : entries)
             list.push_back(e);
         std::vector<SiteFault> wrong;
-        auto site = parse_site(document, gateway.families(), wrong);
+        auto site = parse_site(document, sites.families(), wrong);
         if (!site) return refusal_for(wrong, "", false);
         json::array added(site->mappings.begin() + static_cast<std::ptrdiff_t>(had), site->mappings.end());
         return Plan{std::move(*site), [added](const std::shared_ptr<const SiteState>& now) {
@@ -284,9 +286,9 @@ Handled add_mapping_template(Call& c) {
                         return r;
                     }};
     };
-    if (!dry || !dry->get_bool()) return change_site(c, false, std::move(plan));
-    const auto now = c.gateway().site();
-    if (auto refusal = precondition(c, *now, false)) return *std::move(refusal);
+    if (!dry || !dry->get_bool()) return change_site(c, sites, staging, false, std::move(plan));
+    const auto now = sites.site();
+    if (auto refusal = precondition(c, sites, *now, false)) return *std::move(refusal);
     auto planned = plan(*now);
     if (auto* refusal = std::get_if<Response>(&planned)) return std::move(*refusal);
     const auto& all = std::get<Plan>(planned).site.mappings;

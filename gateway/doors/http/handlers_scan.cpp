@@ -36,8 +36,8 @@ struct LinePlace {
     std::string name;
     LineId id = no_line;
 };
-std::optional<LinePlace> find_line(const Call& c) {
-    const auto site = c.gateway().site();
+std::optional<LinePlace> find_line(const Call& c, const SitePort& sites) {
+    const auto site = sites.site();
     const auto i = index_of_name(site->site.lines, c.names[0]);
     if (!i || *i >= site->line_ids.size()) return std::nullopt;
     return LinePlace{c.names[0], site->line_ids[*i]};
@@ -54,8 +54,8 @@ std::string address_in(const json::value& v, std::string_view key, std::vector<F
 }
 }  // namespace
 
-Handled start_scan(Call& c) {
-    const auto line = find_line(c);
+Handled start_scan(Call& c, LinePort& lines, const SitePort& sites) {
+    const auto line = find_line(c, sites);
     if (!line) return nothing_named("line", c.names[0]);
     ScanWish wish;
     std::vector<Fault> faults;
@@ -82,31 +82,30 @@ Handled start_scan(Call& c) {
     }
     if (!faults.empty()) return invalid(std::move(faults));
     wish.limit = Duration{static_cast<std::int64_t>(std::llround(limit_s * 1e9))};
-    c.gateway().start_scan(line->id, std::move(wish), c.origin(),
-                           [respond = c.respond, &gateway = c.gateway(), line = *line](const std::string& fault) {
-                               if (!fault.empty()) return respond(problem(409, "conflict", fault));
-                               gateway.scan_report(line.id, [respond, line](const ScanReport& r) {
-                                   Response answer = json_response(document(r, line.name), 202);
-                                   answer.headers.set("Location", fmt::format("/api/v1/lines/{}/scan", percent_encode(line.name)));
-                                   respond(std::move(answer));
-                               });
-                           });
+    lines.start_scan(line->id, std::move(wish), c.origin(), [respond = c.respond, &lines, line = *line](const std::string& fault) {
+        if (!fault.empty()) return respond(problem(409, "conflict", fault));
+        lines.scan_report(line.id, [respond, line](const ScanReport& r) {
+            Response answer = json_response(document(r, line.name), 202);
+            answer.headers.set("Location", fmt::format("/api/v1/lines/{}/scan", percent_encode(line.name)));
+            respond(std::move(answer));
+        });
+    });
     return {gateway_limit, no_answer()};
 }
 
-Handled get_scan(Call& c) {
-    const auto line = find_line(c);
+Handled get_scan(Call& c, LinePort& lines, const SitePort& sites) {
+    const auto line = find_line(c, sites);
     if (!line) return nothing_named("line", c.names[0]);
-    c.gateway().scan_report(line->id,
-                            [respond = c.respond, name = line->name](const ScanReport& r) { respond(json_response(document(r, name))); });
+    lines.scan_report(line->id,
+                      [respond = c.respond, name = line->name](const ScanReport& r) { respond(json_response(document(r, name))); });
     return {gateway_limit, no_answer()};
 }
 
-Handled cancel_scan(Call& c) {
-    const auto line = find_line(c);
+Handled cancel_scan(Call& c, LinePort& lines, const SitePort& sites) {
+    const auto line = find_line(c, sites);
     if (!line) return nothing_named("line", c.names[0]);
-    c.gateway().cancel_scan(line->id,
-                            [respond = c.respond, name = line->name](const ScanReport& r) { respond(json_response(document(r, name))); });
+    lines.cancel_scan(line->id,
+                      [respond = c.respond, name = line->name](const ScanReport& r) { respond(json_response(document(r, name))); });
     return {gateway_limit, no_answer()};
 }
 

@@ -31,7 +31,7 @@ Handled get_session(Call& c) {
     return r;
 }
 
-Handled sign_in(Call& c) {
+Handled sign_in(Call& c, const ClockPort& clock) {
     const auto port = c.context.access;
     if (!port) return no_accounts();
     BodyReader body(c.body.get_object(), {"user", "password"});
@@ -40,21 +40,22 @@ Handled sign_in(Call& c) {
     if (!body.good()) return body.refusal();
     const std::string peer = c.request.peer, name = lower(trimmed(*user));
     // Known names alone are told apart in events; the table of pauses treats all alike.
-    const auto attempt = port->desk().begin_sign_in(name, peer, c.gateway().now_unix_ns());
+    const auto attempt = port->accounts().begin_sign_in(name, peer, clock.now_unix_ns());
     if (attempt.pause_s > 0) return paused(attempt.pause_s);
-    const bool taken = port->compare(
-        *password, attempt.hash,
-        [port, name, peer, hash = attempt.hash, secure = c.request.secure, respond = c.respond, old = c.identity.session, &gateway = c.gateway()](bool fits) {
-            const auto session = port->desk().end_sign_in(name, hash, fits, peer, gateway.now_unix_ns());
-            if (!session) {
-                tell_access(*port, peer, fmt::format("sign-in refused: {}", shown_name(name)), Severity::warning);
-                return respond(problem(401, "wrong_sign_in", "the user or the password is wrong"));
-            }
-            if (!old.empty()) port->desk().sign_out(old);  // another cookie takes the old one's place
-            tell_access(*port, who(session->identity, peer), fmt::format("{} signed in", name));
-            keep_uses(port);
-            respond(signed_in(*port, *session, secure));
-        });
+    const bool taken =
+        port->compare(*password, attempt.hash,
+                      [port, name, peer, hash = attempt.hash, secure = c.request.secure, respond = c.respond, old = c.identity.session,
+                       &clock](bool fits) {
+                          const auto session = port->accounts().end_sign_in(name, hash, fits, peer, clock.now_unix_ns());
+                          if (!session) {
+                              note_access(*port, peer, fmt::format("sign-in refused: {}", shown_name(name)), Severity::warning);
+                              return respond(problem(401, "wrong_sign_in", "the user or the password is wrong"));
+                          }
+                          if (!old.empty()) port->accounts().sign_out(old);  // another cookie takes the old one's place
+                          note_access(*port, who(session->identity, peer), fmt::format("{} signed in", name));
+                          keep_uses(port);
+                          respond(signed_in(*port, *session, secure));
+                      });
     if (!taken) return too_many_passwords();
     return soon();
 }
@@ -63,8 +64,8 @@ Handled sign_out(Call& c) {
     Response r;
     r.status = 204;
     if (const auto port = c.context.access; port && c.identity.via == Identity::Via::cookie) {
-        port->desk().sign_out(c.identity.session);
-        tell_access(*port, c.who(), fmt::format("{} signed out", c.identity.user));
+        port->accounts().sign_out(c.identity.session);
+        note_access(*port, c.who(), fmt::format("{} signed out", c.identity.user));
         r.headers.set("Set-Cookie", set_cookie(*c.context.access, "", c.request.secure, true));
     } else if (c.identity.session_ended) {
         r.headers.set("Set-Cookie", set_cookie(*c.context.access, "", c.request.secure, true));
@@ -72,7 +73,7 @@ Handled sign_out(Call& c) {
     return r;
 }
 
-Handled first_sign_in(Call& c) {
+Handled first_sign_in(Call& c, const ClockPort& clock) {
     const auto port = c.context.access;
     if (!port) return no_accounts();
     BodyReader body(c.body.get_object(), {"code", "user", "password"});
@@ -80,43 +81,51 @@ Handled first_sign_in(Call& c) {
     const auto user = body.text("user", true, 256);
     const auto password = body.text("password", true);
     if (!body.good()) return body.refusal();
-    const auto exists = [] { return problem(409, "conflict", "there are users already: sign in, or let an administrator make a user for you"); };
-    if (port->desk().has_users()) return exists();
+    const auto exists = [] {
+        return problem(409, "conflict", "there are users already: sign in, or let an administrator make a user for you");
+    };
+    if (port->accounts().has_users()) return exists();
     const std::string peer = c.request.peer, name = lower(trimmed(*user));
     if (const auto fault = user_name_fault(name); !fault.empty()) body.fault("user", fault, "choose another name");
-    if (const auto fault = password_fault(*password, name); !fault.empty()) body.fault("password", fault, "choose a longer sentence that only you know");
-    const auto answer = port->desk().try_code(*code, peer, c.gateway().now_unix_ns());
+    if (const auto fault = password_fault(*password, name); !fault.empty())
+        body.fault("password", fault, "choose a longer sentence that only you know");
+    const auto answer = port->accounts().try_code(*code, peer, clock.now_unix_ns());
     if (answer.pause_s > 0) return paused(answer.pause_s);
     if (!answer.right) {
-        tell_access(*port, peer, "first sign-in refused: the code is wrong", Severity::warning);
+        note_access(*port, peer, "first sign-in refused: the code is wrong", Severity::warning);
         return problem(401, "wrong_sign_in", "the code is wrong: it was printed when the gateway started for the first time");
     }
     if (!body.good()) return body.refusal();
-    const bool taken = port->derive(*password, [port, name, peer, exists, secure = c.request.secure, respond = c.respond, &gateway = c.gateway()](std::string hash) {
-        if (hash.empty()) return respond(problem(503, "busy", "there is not enough memory to compute the password's hash: come again"));
-        const bool queued = port->changes->run([port, name, peer, exists, hash = std::move(hash), secure, respond, &gateway](std::function<void()> done) {
-            if (port->desk().has_users()) {
-                respond(exists());
-                return done();
-            }
-            User u{name, Role::administrator, true, hash, gateway.now_unix_ns(), 0};
-            port->keep({record_of(u), {"first_sign_in", std::string(code_record_name), std::nullopt}}, name,
-                       [port, u, name, peer, secure, respond, done, &gateway](const std::string& fault) {
-                           if (!fault.empty()) {
-                               respond(not_kept(fault));
-                               return done();
-                           }
-                           port->desk().put(u);
-                           port->desk().code_used();
-                           const auto session = port->desk().end_sign_in(name, u.hash, true, peer, gateway.now_unix_ns());
-                           keep_uses(port);
-                           tell_access(*port, session ? who(session->identity, peer) : peer, fmt::format("first sign-in: {} is administrator", name));
-                           respond(session ? signed_in(*port, *session, secure) : problem(500, "internal", "the user was made, but not signed in"));
-                           done();
-                       });
-        }, thrown(respond));
-        if (!queued) respond(too_many_passwords());
-    });
+    const bool taken =
+        port->derive(*password, [port, name, peer, exists, secure = c.request.secure, respond = c.respond, &clock](std::string hash) {
+            if (hash.empty()) return respond(problem(503, "busy", "there is not enough memory to compute the password's hash: come again"));
+            const bool queued = port->changes->run(
+                [port, name, peer, exists, hash = std::move(hash), secure, respond, &clock](std::function<void()> done) {
+                    if (port->accounts().has_users()) {
+                        respond(exists());
+                        return done();
+                    }
+                    User u{name, Role::administrator, true, hash, clock.now_unix_ns(), 0};
+                    port->keep({record_of(u), {"first_sign_in", std::string(code_record_name), std::nullopt}}, name,
+                               [port, u, name, peer, secure, respond, done, &clock](const std::string& fault) {
+                                   if (!fault.empty()) {
+                                       respond(not_kept(fault));
+                                       return done();
+                                   }
+                                   port->accounts().put(u);
+                                   port->accounts().code_used();
+                                   const auto session = port->accounts().end_sign_in(name, u.hash, true, peer, clock.now_unix_ns());
+                                   keep_uses(port);
+                                   note_access(*port, session ? who(session->identity, peer) : peer,
+                                               fmt::format("first sign-in: {} is administrator", name));
+                                   respond(session ? signed_in(*port, *session, secure)
+                                                   : problem(500, "internal", "the user was made, but not signed in"));
+                                   done();
+                               });
+                },
+                thrown(respond));
+            if (!queued) respond(too_many_passwords());
+        });
     if (!taken) return too_many_passwords();
     return soon();
 }

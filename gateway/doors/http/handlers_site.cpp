@@ -1,5 +1,5 @@
 // Handlers of the site: lines, drives and axes one by one, and the whole document.
-// In: calls. Out: documents with their live state; changes go through parse_site as a whole and through Gateway::apply_site.
+// In: calls. Out: documents with their live state; changes go through parse_site as a whole and through the site port.
 #include <fmt/core.h>
 
 #include "gateway/doors/http/handlers.hpp"
@@ -10,19 +10,21 @@
 namespace axisgate::http {
 namespace json = boost::json;
 namespace {
-json::object entry_document(Gateway& gateway, const std::shared_ptr<const SiteState>& site, Collection collection, std::size_t i) {
+json::object entry_document(const EntryPorts& ports, const std::shared_ptr<const SiteState>& site, Collection collection, std::size_t i) {
     switch (collection) {
         case Collection::lines:
-            return line_document(*site, i, i < site->line_ids.size() ? gateway.line_report(site->line_ids[i]) : LineReport{});
+            return line_document(*site, i, i < site->line_ids.size() ? ports.get<LinePort>().line_report(site->line_ids[i]) : LineReport{});
         case Collection::drives:
-            return drive_document(*site, i, i < site->drive_ids.size() ? gateway.drive_status(site->drive_ids[i]) : DriveStatus{});
+            return drive_document(*site, i,
+                                  i < site->drive_ids.size() ? ports.get<DrivePort>().drive_status(site->drive_ids[i]) : DriveStatus{});
         case Collection::axes:
             break;
     }
-    const AxisPlace place = axis_at(gateway, site, i);
-    const AxisPicture picture = place.id() == no_axis ? AxisPicture{} : gateway.picture(place.id());
+    const auto& clock = ports.get<ClockPort>();
+    const AxisPlace place = axis_at(ports.get<SitePort>(), site, i);
+    const AxisPicture picture = place.id() == no_axis ? AxisPicture{} : ports.get<AxisPort>().picture(place.id());
     return axis_document(
-        {place.spec(), place.line, place.family, place.catalogue, picture, gateway.to_unix_ns(picture.at), gateway.now_unix_ns()});
+        {place.spec(), place.line, place.family, place.catalogue, picture, clock.to_unix_ns(picture.at), clock.now_unix_ns()});
 }
 
 std::size_t size_of(const Site& site, Collection collection) {
@@ -49,43 +51,43 @@ std::optional<std::size_t> find_in(const Site& site, Collection collection, std:
     return std::nullopt;
 }
 
-Handled list(Call& c, Collection collection) {
-    const auto site = c.gateway().site();
+Handled list(const EntryPorts& ports, Collection collection) {
+    const auto site = ports.get<SitePort>().site();
     json::array out;
     for (std::size_t i = 0; i < size_of(site->site, collection); ++i)
-        out.push_back(entry_document(c.gateway(), site, collection, i));
+        out.push_back(entry_document(ports, site, collection, i));
     Response r = json_response(out);
     put_revision(r, *site);
     return r;
 }
 
-Handled get(Call& c, Collection collection) {
-    const auto site = c.gateway().site();
+Handled get(Call& c, const EntryPorts& ports, Collection collection) {
+    const auto site = ports.get<SitePort>().site();
     const auto i = find_in(site->site, collection, c.names[0]);
     if (!i) return nothing_named(item_name(collection), c.names[0]);
     if (collection == Collection::axes) {
         Response r;
         r.headers.fields.reserve(12);  // with what the router adds
         r.headers.set("Content-Type", "application/json");
-        r.body = c.context.axis_texts->text(c.gateway(), site, *i);
+        r.body = c.context.axis_texts->text(ports, site, *i);
         put_revision(r, *site);
         return r;
     }
-    Response r = json_response(entry_document(c.gateway(), site, collection, *i));
+    Response r = json_response(entry_document(ports, site, collection, *i));
     put_revision(r, *site);
     return r;
 }
 
 /// A change of one entry: made on the document, checked as a whole, shown by its entry.
-Handled change_entry(Call& c, std::function<Edited(json::object document)> make,
+Handled change_entry(Call& c, SitePort& sites, const StagePort& staging, std::function<Edited(json::object document)> make,
                      std::function<Response(const std::shared_ptr<const SiteState>& now, const Edit& edit)> show) {
     return change_site(
-        c, false, [&gateway = c.gateway(), make = std::move(make), show = std::move(show)](const SiteState& before) -> Planned {
+        c, sites, staging, false, [&sites, make = std::move(make), show = std::move(show)](const SiteState& before) -> Planned {
             auto edited = make(to_json(before.site));
             if (auto* refusal = std::get_if<Response>(&edited)) return std::move(*refusal);
             auto& edit = std::get<Edit>(edited);
             std::vector<SiteFault> faults;
-            auto site = parse_site(edit.document, gateway.families(), faults);
+            auto site = parse_site(edit.document, sites.families(), faults);
             if (!site) return refusal_for(faults, edit.pointer, false);
             return Plan{std::move(*site),
                         [show, edit = std::move(edit)](const std::shared_ptr<const SiteState>& now) { return show(now, edit); }};
@@ -93,45 +95,47 @@ Handled change_entry(Call& c, std::function<Edited(json::object document)> make,
 }
 
 /// 200, or 201 with its place, with the entry as it is now.
-auto show_entry(Gateway& gateway, Collection collection, bool created) {
-    return [&gateway, collection, created](const std::shared_ptr<const SiteState>& now, const Edit& edit) {
+auto show_entry(const EntryPorts& ports, Collection collection, bool created) {
+    return [ports, collection, created](const std::shared_ptr<const SiteState>& now, const Edit& edit) {
         const auto i = find_in(now->site, collection, edit.name);
         if (!i)
             return problem(409, "conflict", fmt::format("{} {} was removed by another client meanwhile", item_name(collection), edit.name));
-        Response r = json_response(entry_document(gateway, now, collection, *i), created ? 201 : 200);
+        Response r = json_response(entry_document(ports, now, collection, *i), created ? 201 : 200);
         if (created) r.headers.set("Location", fmt::format("/api/v1/{}/{}", list_name(collection), percent_encode(edit.name)));
         put_revision(r, *now);
         return r;
     };
 }
 
-Handled add(Call& c, Collection collection) {
+Handled add(Call& c, const EntryPorts& ports, const StagePort& staging, Collection collection) {
     return change_entry(
-        c, [collection, entry = c.body.get_object()](json::object d) { return add_entry(std::move(d), collection, entry); },
-        show_entry(c.gateway(), collection, true));
+        c, ports.get<SitePort>(), staging,
+        [collection, entry = c.body.get_object()](json::object d) { return add_entry(std::move(d), collection, entry); },
+        show_entry(ports, collection, true));
 }
-Handled replace(Call& c, Collection collection) {
+Handled replace(Call& c, const EntryPorts& ports, const StagePort& staging, Collection collection) {
     return change_entry(
-        c,
+        c, ports.get<SitePort>(), staging,
         [collection, name = c.names[0], entry = c.body.get_object()](json::object d) {
             return replace_entry(std::move(d), collection, name, entry);
         },
-        show_entry(c.gateway(), collection, false));
+        show_entry(ports, collection, false));
 }
-Handled patch(Call& c, Collection collection) {
+Handled patch(Call& c, const EntryPorts& ports, const StagePort& staging, Collection collection) {
     return change_entry(
-        c,
+        c, ports.get<SitePort>(), staging,
         [collection, name = c.names[0], entry = c.body.get_object()](json::object d) {
             return patch_entry(std::move(d), collection, name, entry);
         },
-        show_entry(c.gateway(), collection, false));
+        show_entry(ports, collection, false));
 }
-Handled remove(Call& c, Collection collection) {
+Handled remove(Call& c, SitePort& sites, const StagePort& staging, Collection collection) {
     std::optional<Response> fault;
     const bool cascade = query_flag(c, "cascade", fault);
     if (fault) return *fault;
     return change_entry(
-        c, [collection, name = c.names[0], cascade](json::object d) { return remove_entry(std::move(d), collection, name, cascade); },
+        c, sites, staging,
+        [collection, name = c.names[0], cascade](json::object d) { return remove_entry(std::move(d), collection, name, cascade); },
         [](const std::shared_ptr<const SiteState>& now, const Edit&) {
             Response r;
             r.status = 204;
@@ -157,27 +161,27 @@ Response site_change(const SiteState& now, bool dry_run, const std::vector<std::
 }
 }  // namespace
 
-Handled list_lines(Call& c) { return list(c, Collection::lines); }
-Handled list_drives(Call& c) { return list(c, Collection::drives); }
-Handled list_axes(Call& c) { return list(c, Collection::axes); }
-Handled get_line(Call& c) { return get(c, Collection::lines); }
-Handled get_drive(Call& c) { return get(c, Collection::drives); }
-Handled get_axis(Call& c) { return get(c, Collection::axes); }
-Handled add_line(Call& c) { return add(c, Collection::lines); }
-Handled add_drive(Call& c) { return add(c, Collection::drives); }
-Handled add_axis(Call& c) { return add(c, Collection::axes); }
-Handled replace_line(Call& c) { return replace(c, Collection::lines); }
-Handled replace_drive(Call& c) { return replace(c, Collection::drives); }
-Handled replace_axis(Call& c) { return replace(c, Collection::axes); }
-Handled change_line(Call& c) { return patch(c, Collection::lines); }
-Handled change_drive(Call& c) { return patch(c, Collection::drives); }
-Handled change_axis(Call& c) { return patch(c, Collection::axes); }
-Handled remove_line(Call& c) { return remove(c, Collection::lines); }
-Handled remove_drive(Call& c) { return remove(c, Collection::drives); }
-Handled remove_axis(Call& c) { return remove(c, Collection::axes); }
+Handled list_lines(Call&, const EntryPorts& ports) { return list(ports, Collection::lines); }
+Handled list_drives(Call&, const EntryPorts& ports) { return list(ports, Collection::drives); }
+Handled list_axes(Call&, const EntryPorts& ports) { return list(ports, Collection::axes); }
+Handled get_line(Call& c, const EntryPorts& ports) { return get(c, ports, Collection::lines); }
+Handled get_drive(Call& c, const EntryPorts& ports) { return get(c, ports, Collection::drives); }
+Handled get_axis(Call& c, const EntryPorts& ports) { return get(c, ports, Collection::axes); }
+Handled add_line(Call& c, const EntryPorts& ports, const StagePort& staging) { return add(c, ports, staging, Collection::lines); }
+Handled add_drive(Call& c, const EntryPorts& ports, const StagePort& staging) { return add(c, ports, staging, Collection::drives); }
+Handled add_axis(Call& c, const EntryPorts& ports, const StagePort& staging) { return add(c, ports, staging, Collection::axes); }
+Handled replace_line(Call& c, const EntryPorts& ports, const StagePort& staging) { return replace(c, ports, staging, Collection::lines); }
+Handled replace_drive(Call& c, const EntryPorts& ports, const StagePort& staging) { return replace(c, ports, staging, Collection::drives); }
+Handled replace_axis(Call& c, const EntryPorts& ports, const StagePort& staging) { return replace(c, ports, staging, Collection::axes); }
+Handled change_line(Call& c, const EntryPorts& ports, const StagePort& staging) { return patch(c, ports, staging, Collection::lines); }
+Handled change_drive(Call& c, const EntryPorts& ports, const StagePort& staging) { return patch(c, ports, staging, Collection::drives); }
+Handled change_axis(Call& c, const EntryPorts& ports, const StagePort& staging) { return patch(c, ports, staging, Collection::axes); }
+Handled remove_line(Call& c, SitePort& sites, const StagePort& staging) { return remove(c, sites, staging, Collection::lines); }
+Handled remove_drive(Call& c, SitePort& sites, const StagePort& staging) { return remove(c, sites, staging, Collection::drives); }
+Handled remove_axis(Call& c, SitePort& sites, const StagePort& staging) { return remove(c, sites, staging, Collection::axes); }
 
-Handled get_site(Call& c) {
-    const auto site = c.gateway().site();
+Handled get_site(Call& c, const SitePort& sites) {
+    const auto site = sites.site();
     Response r;
     if (tag_listed(c.request.headers.get("If-None-Match"), site_tag(site->revision), true)) {
         r.status = 304;
@@ -190,21 +194,21 @@ Handled get_site(Call& c) {
     return r;
 }
 
-Handled replace_site(Call& c) {
+Handled replace_site(Call& c, SitePort& sites, const StagePort& staging) {
     std::optional<Response> fault;
     const bool dry_run = query_flag(c, "dry_run", fault);
     if (fault) return *fault;
-    const auto before = c.gateway().site();
+    const auto before = sites.site();
     std::vector<SiteFault> site_faults;
-    auto site = parse_site(c.body, c.gateway().families(), site_faults);
+    auto site = parse_site(c.body, sites.families(), site_faults);
     const auto faults = faults_for(site_faults, "", true);
     const bool demanded = c.context.settings.require_if_match && !dry_run;
     if (dry_run || !site) {
-        if (auto refusal = precondition(c, *before, demanded)) return *refusal;
+        if (auto refusal = precondition(c, sites, *before, demanded)) return *refusal;
         if (!dry_run) return invalid(faults);
         return site_change(*before, true, site ? differences(before->site, *site) : std::vector<std::string>{}, faults);
     }
-    return change_site(c, demanded, [site = std::move(*site)](const SiteState& now) -> Planned {
+    return change_site(c, sites, staging, demanded, [site = std::move(*site)](const SiteState& now) -> Planned {
         return Plan{site, [changes = differences(now.site, site)](const std::shared_ptr<const SiteState>& after) {
                         return site_change(*after, false, changes, {});
                     }};

@@ -6,18 +6,16 @@
 #include <algorithm>
 #include <set>
 
-#include "gateway/services/parameters/axis_jobs.hpp"
 #include "gateway/core/parameter_form.hpp"
+#include "gateway/doors/http/parameter_jobs.hpp"
 #include "gateway/services/documents.hpp"
-#include "gateway/doors/http/handlers.hpp"
+#include "gateway/services/parameters/axis_jobs.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
 namespace {
 /// Arrays up to this length are part of a snapshot; longer ones (programs, tables) are named in `left_out`.
 constexpr std::uint16_t most_elements = 256;
-/// A job that takes longer goes on, and is asked after at .../snapshot-progress.
-constexpr std::chrono::seconds job_wait{20};
 
 json::object info_document(const SnapshotInfo& s, const std::string& axis) {
     return {{"n", s.n},
@@ -30,12 +28,12 @@ json::object info_document(const SnapshotInfo& s, const std::string& axis) {
             {"values", s.values}};
 }
 /// The catalogue by which its words are read: that of the family it was taken of, which may not be the axis' any more.
-const Catalogue* catalogue_of(Gateway& gateway, const SnapshotInfo& s, const AxisPlace& axis) {
-    return s.family.empty() || s.family == axis.family ? axis.catalogue : gateway.families().find(s.family).catalogue;
+const Catalogue* catalogue_of(const SitePort& sites, const SnapshotInfo& s, const AxisPlace& axis) {
+    return s.family.empty() || s.family == axis.family ? axis.catalogue : sites.families().find(s.family).catalogue;
 }
-json::object snapshot_document(Gateway& gateway, const AxisSnapshot& s, const AxisPlace& axis) {
+json::object snapshot_document(const SitePort& sites, const AxisSnapshot& s, const AxisPlace& axis) {
     json::object o = info_document(s, axis.spec().name);
-    const Catalogue* catalogue = catalogue_of(gateway, s, axis);
+    const Catalogue* catalogue = catalogue_of(sites, s, axis);
     json::array list;
     for (const auto& v : s.parameters) {
         const auto point = catalogue ? catalogue->find(v.parameter) : std::nullopt;
@@ -67,14 +65,14 @@ void refuse_unknown(const json::object& body, std::initializer_list<std::string_
 }
 
 /// A snapshot that was taken or removed, for the list of events.
-void tell(Gateway& gateway, const SnapshotInfo& s, const std::string& axis, const std::string& who, std::string_view what) {
+void note_snapshot(EventPort& events, const SnapshotInfo& s, const std::string& axis, const std::string& who, std::string_view what) {
     Event e;
     e.kind = "snapshot";
     e.axis = axis;
     e.text = fmt::format("snapshot {} \"{}\" {}", s.n, s.name, what);
     e.who = who;
     e.door = std::string(axisgate::name_of(Door::http));
-    gateway.note(std::move(e));
+    events.note(std::move(e));
 }
 
 /// Everything that can be read; what is too long, and what the catalogue says is no matter for a snapshot (`"snapshot": false`: what it is
@@ -88,7 +86,8 @@ std::vector<JobPoint> readable_points(const Catalogue& catalogue, json::array& l
         const Parameter& p = all[i];
         if (!p.readable()) continue;
         const auto index = static_cast<std::uint16_t>(i);
-        const auto* wanted = document && i < document->size() && (*document)[i].is_object() ? (*document)[i].as_object().if_contains("snapshot") : nullptr;
+        const auto* wanted =
+            document && i < document->size() && (*document)[i].is_object() ? (*document)[i].as_object().if_contains("snapshot") : nullptr;
         const bool kept = !wanted || !wanted->is_bool() || wanted->as_bool();
         if (!kept || p.count > most_elements || out.size() + std::max<std::size_t>(p.count, 1) > most_points) {
             left_out.emplace_back(p.id);
@@ -103,43 +102,18 @@ std::vector<JobPoint> readable_points(const Catalogue& catalogue, json::array& l
     return out;
 }
 
-json::array failures(const std::vector<JobFailure>& list) {
-    json::array out;
-    for (const auto& f : list)
-        out.push_back(json::object{{"parameter", f.parameter}, {"reason", f.reason}});
-    return out;
-}
-Response broken_off(const JobEnd& end, const std::string& axis, std::string_view consequence, json::object more = {}) {
-    return to_response(Problem{.status = end.silent ? 504u : 409u,
-                               .reason = end.silent ? "no_answer" : "wrong_state",
-                               .detail = fmt::format("{}; {}", end.broken_off, consequence),
-                               .axis = axis,
-                               .more = std::move(more)});
-}
-Response busy(const std::string& axis) {
-    return to_response(Problem{.status = 409,
-                               .reason = "busy",
-                               .detail = "parameters of this axis are being read or written already: see its snapshot-progress",
-                               .axis = axis});
-}
-Handled later(const std::string& axis) {
-    Response r = json_response(json::object{{"state", "running"}, {"text", "it goes on: ask for its progress"}}, 202);
-    r.headers.set("Location", fmt::format("/api/v1/axes/{}/snapshot-progress", percent_encode(axis)));
-    return {job_wait, std::move(r)};
-}
-
 struct Found {
     AxisPlace axis;
     AxisSnapshot snapshot;
 };
-std::optional<Found> find_snapshot(const Call& c, std::optional<Response>& fault) {
-    auto axis = find_axis(c.gateway(), c.names[0]);
+std::optional<Found> find_snapshot(const Call& c, const SitePort& sites, const SnapshotPort& snapshots, std::optional<Response>& fault) {
+    auto axis = find_axis(sites, c.names[0]);
     if (!axis) {
         fault = nothing_named("axis", c.names[0]);
         return std::nullopt;
     }
     const auto n = parse_whole(c.names[1], 1, 0xFFFFFFFF);
-    auto s = n ? c.gateway().snapshot(c.names[0], static_cast<std::uint32_t>(*n)) : std::nullopt;
+    auto s = n ? snapshots.snapshot(c.names[0], static_cast<std::uint32_t>(*n)) : std::nullopt;
     if (!s) {
         fault = nothing_named("snapshot", c.names[1]);
         return std::nullopt;
@@ -150,24 +124,26 @@ std::optional<Found> find_snapshot(const Call& c, std::optional<Response>& fault
 /// 409 where two sets of parameters are of different families: the same word is another parameter there. Unknown ("") fits all.
 std::optional<Response> refuse_foreign(const AxisSnapshot& s, std::string_view family, const std::string& what, const std::string& axis) {
     if (s.family.empty() || family.empty() || s.family == family) return std::nullopt;
-    return to_response(Problem{.status = 409,
-                               .reason = "conflict",
-                               .detail = fmt::format("snapshot {} was taken of a {} drive, {} is of a {}: the same words mean other parameters there", s.n, s.family,
-                                                     what, family),
-                               .axis = axis});
+    return to_response(
+        Problem{.status = 409,
+                .reason = "conflict",
+                .detail = fmt::format("snapshot {} was taken of a {} drive, {} is of a {}: the same words mean other parameters there", s.n,
+                                      s.family, what, family),
+                .axis = axis});
 }
 
 /// What a parameter of an axis is as far as it is known: said by the drive, else written through the gateway.
-std::map<std::string, Value> known_values(Gateway& gateway, const AxisPlace& axis) {
+std::map<std::string, Value> known_values(const ParameterPort& parameters, const AxisPlace& axis) {
     std::map<std::string, Value> out;
-    for (const auto& s : gateway.stored(axis.spec().name))
+    for (const auto& s : parameters.stored(axis.spec().name))
         out[s.parameter] = s.value;
     return out;
 }
-Value live_or(Gateway& gateway, const AxisPlace& axis, const std::string& id, const std::map<std::string, Value>& otherwise) {
+Value live_or(const ParameterPort& parameters, const AxisPlace& axis, const std::string& id,
+              const std::map<std::string, Value>& otherwise) {
     const auto point = axis.catalogue ? axis.catalogue->find(id) : std::nullopt;
     if (point) {
-        if (const auto live = gateway.live(axis.id(), *point); known(live.value)) return live.value;
+        if (const auto live = parameters.live(axis.id(), *point); known(live.value)) return live.value;
     }
     const auto it = otherwise.find(id);
     return it == otherwise.end() ? Value{} : it->second;
@@ -185,12 +161,13 @@ std::string unknown_text(std::string_view with, std::size_t unknown, std::size_t
     if (with == "device") return fmt::format("{} {} be read from the drive", how_many, unknown == all ? "could" : "could not");
     if (with == "stored") return fmt::format("{} {} kept here: only what was written through the gateway is", how_many, is_not);
     if (with.starts_with("axis:") && std::ranges::count(with, ':') == 1)
-        return fmt::format("{} {} known of {}: it was not read since the gateway's start; take a snapshot of it and compare with that", how_many, is_not, with.substr(5));
+        return fmt::format("{} {} known of {}: it was not read since the gateway's start; take a snapshot of it and compare with that",
+                           how_many, is_not, with.substr(5));
     return fmt::format("{} {} in {}", how_many, is_not, with);
 }
 
-json::object diff_document(Gateway& gateway, const Found& f, std::string_view with, const std::map<std::string, Value>& other) {
-    const Catalogue* catalogue = catalogue_of(gateway, f.snapshot, f.axis);
+json::object diff_document(const SitePort& sites, const Found& f, std::string_view with, const std::map<std::string, Value>& other) {
+    const Catalogue* catalogue = catalogue_of(sites, f.snapshot, f.axis);
     json::array rows, live;
     std::size_t unknown = 0;
     std::set<std::string> ids;
@@ -229,62 +206,28 @@ std::map<std::string, Value> as_map(const std::vector<SnapshotValue>& list) {
 }
 }  // namespace
 
-std::string why_left_out(const Parameter& p, WriteBack wanted) {
-    if (p.addressing && !wanted.addressing)
-        return fmt::format("the drive is reached by it ({}): it is written only with include_addressing", p.name);
-    if (p.live && !wanted.live) return fmt::format("it acts at once and is no setting ({}): it is written only with include_live", p.name);
-    return {};
-}
-
-Handled write_parameters(Call& c, const AxisPlace& axis, std::vector<JobPoint> points, json::object more) {
-    const std::string name = axis.spec().name;
-    // What decides over the form of others goes before them.
-    if (axis.catalogue) {
-        std::set<std::pair<std::uint16_t, std::uint16_t>> deciding;
-        for (const auto& p : points) {
-            if (const auto a = alternate_of(*axis.catalogue, p.point); a && a->of) deciding.emplace(a->of->parameter, a->of->element);
-        }
-        std::stable_partition(points.begin(), points.end(), [&](const JobPoint& p) { return deciding.contains({p.point.parameter, p.point.element}); });
-    }
-    if (const auto why = why_not_written(c.gateway().picture(axis.id())); !points.empty() && !why.empty())
-        return to_response(Problem{
-            .status = 409, .reason = "wrong_state", .detail = fmt::format("{} before its parameters are written", why), .axis = name});
-    const bool started =
-        AxisJobs::start(c.context.jobs, c.gateway(), name, axis.id(), std::move(points), true, c.origin(),
-                        [respond = c.respond, name, more = std::move(more)](JobEnd end) {
-                            json::array changed;
-                            for (const auto& v : end.values)
-                                changed.push_back(json::object{{"parameter", v.parameter}, {"value", to_json(v.value)}});
-                            json::object answer = more;
-                            answer["dry_run"] = false;
-                            answer["changed"] = std::move(changed);
-                            answer["failed"] = failures(end.failed);
-                            if (!end.broken_off.empty())
-                                return respond(broken_off(end, name, "what was written stays written, see `changed`", std::move(answer)));
-                            respond(json_response(answer));
-                        });
-    return started ? later(name) : Handled(busy(name));
-}
-
-Handled list_snapshots(Call& c) {
-    const auto axis = find_axis(c.gateway(), c.names[0]);
+Handled list_snapshots(Call& c, const SitePort& sites, const SnapshotPort& snapshots) {
+    const auto axis = find_axis(sites, c.names[0]);
     if (!axis) return nothing_named("axis", c.names[0]);
     json::array out;
-    for (const auto& s : c.gateway().snapshots(c.names[0]))
+    for (const auto& s : snapshots.snapshots(c.names[0]))
         out.push_back(info_document(s, c.names[0]));
     return json_response(out);
 }
 
-Handled get_snapshot_progress(Call& c) {
-    if (!find_axis(c.gateway(), c.names[0])) return nothing_named("axis", c.names[0]);
+Handled get_snapshot_progress(Call& c, const SitePort& sites) {
+    if (!find_axis(sites, c.names[0])) return nothing_named("axis", c.names[0]);
     const auto* p = c.context.jobs->of(c.names[0]);
-    if (!p) return json_response(json::object{{"state", "none"}, {"kind", json::value()}, {"done", std::uint64_t{0}}, {"of", std::uint64_t{0}}, {"text", ""}});
+    if (!p)
+        return json_response(
+            json::object{{"state", "none"}, {"kind", json::value()}, {"done", std::uint64_t{0}}, {"of", std::uint64_t{0}}, {"text", ""}});
     const auto state = p->state == AxisJobs::State::running ? "running" : p->state == AxisJobs::State::done ? "done" : "failed";
     return json_response(json::object{{"state", state}, {"kind", p->kind}, {"done", p->done}, {"of", p->of}, {"text", p->text}});
 }
 
-Handled take_snapshot(Call& c) {
-    const auto axis = find_axis(c.gateway(), c.names[0]);
+Handled take_snapshot(Call& c, AxisPort& axes, const ClockPort& clock, EventPort& events, const ParameterPort& parameters,
+                      const SitePort& sites, SnapshotPort& snapshots) {
+    const auto axis = find_axis(sites, c.names[0]);
     if (!axis) return nothing_named("axis", c.names[0]);
     const auto& body = c.body.get_object();
     std::vector<Fault> faults;
@@ -296,34 +239,34 @@ Handled take_snapshot(Call& c) {
     if (from && !stored && *from != json::value("device"))
         faults.push_back({"/from", "from must be device or stored", "write \"device\" or \"stored\""});
     if (!faults.empty()) return invalid(std::move(faults), c.names[0]);
-    Gateway& gateway = c.gateway();
     AxisSnapshot s;
     s.name = std::move(*name);
     s.comment = std::move(*comment);
     s.who = c.who();
     s.family = axis->family;
-    s.at_unix_ns = gateway.now_unix_ns();
-    auto save = [&gateway, axis = *axis, respond = c.respond](AxisSnapshot taken, json::array left_out, json::array not_read) {
-        if (!find_axis(gateway, axis.spec().name)) return respond(nothing_named("axis", axis.spec().name));  // removed while it was read
+    s.at_unix_ns = clock.now_unix_ns();
+    auto save = [&events, &sites, &snapshots, axis = *axis, respond = c.respond](AxisSnapshot taken, json::array left_out,
+                                                                                 json::array not_read) {
+        if (!find_axis(sites, axis.spec().name)) return respond(nothing_named("axis", axis.spec().name));  // removed while it was read
         taken.values = taken.parameters.size();
-        gateway.save_snapshot(taken, axis.spec().name,
-                              [&gateway, respond, axis, taken, left_out = std::move(left_out), not_read = std::move(not_read)](
-                                  std::uint32_t n, const std::string& fault) mutable {
-                                  if (!fault.empty() && !find_axis(gateway, axis.spec().name)) return respond(nothing_named("axis", axis.spec().name));
-                                  if (!fault.empty()) return respond(problem(507, "not_stored", fault));
-                                  taken.n = n;
-                                  tell(gateway, taken, axis.spec().name, taken.who, fmt::format("taken: {} values", taken.values));
-                                  json::object o = snapshot_document(gateway, taken, axis);
-                                  o["left_out"] = std::move(left_out);
-                                  o["not_read"] = std::move(not_read);
-                                  Response r = json_response(o, 201);
-                                  r.headers.set("Location",
-                                                fmt::format("/api/v1/axes/{}/snapshots/{}", percent_encode(axis.spec().name), n));
-                                  respond(std::move(r));
-                              });
+        snapshots.save_snapshot(
+            taken, axis.spec().name,
+            [&events, &sites, respond, axis, taken, left_out = std::move(left_out), not_read = std::move(not_read)](
+                std::uint32_t n, const std::string& fault) mutable {
+                if (!fault.empty() && !find_axis(sites, axis.spec().name)) return respond(nothing_named("axis", axis.spec().name));
+                if (!fault.empty()) return respond(problem(507, "not_stored", fault));
+                taken.n = n;
+                note_snapshot(events, taken, axis.spec().name, taken.who, fmt::format("taken: {} values", taken.values));
+                json::object o = snapshot_document(sites, taken, axis);
+                o["left_out"] = std::move(left_out);
+                o["not_read"] = std::move(not_read);
+                Response r = json_response(o, 201);
+                r.headers.set("Location", fmt::format("/api/v1/axes/{}/snapshots/{}", percent_encode(axis.spec().name), n));
+                respond(std::move(r));
+            });
     };
     if (stored) {
-        for (const auto& v : gateway.stored(c.names[0]))
+        for (const auto& v : parameters.stored(c.names[0]))
             s.parameters.push_back({v.parameter, v.value});
         save(std::move(s), {}, {});
         return {gateway_limit, problem(504, "time_out", "the snapshot was not stored in time: look at the list before trying again")};
@@ -331,45 +274,45 @@ Handled take_snapshot(Call& c) {
     json::array left_out;
     auto points = axis->catalogue ? readable_points(*axis->catalogue, left_out) : std::vector<JobPoint>();
     const bool started =
-        AxisJobs::start(c.context.jobs, gateway, c.names[0], axis->id(), std::move(points), false, c.origin(),
-                        [save, s, left_out, known = &gateway, respond = c.respond, name = c.names[0]](JobEnd end) mutable {
-                            if (!end.broken_off.empty() && !find_axis(*known, name)) return respond(nothing_named("axis", name));
+        AxisJobs::start(c.context.jobs, axes, c.names[0], axis->id(), std::move(points), false, c.origin(),
+                        [save, s, left_out, &sites, respond = c.respond, name = c.names[0]](JobEnd end) mutable {
+                            if (!end.broken_off.empty() && !find_axis(sites, name)) return respond(nothing_named("axis", name));
                             if (!end.broken_off.empty())
-                                return respond(broken_off(end, name, "no snapshot was stored", {{"read", end.values.size()}}));
+                                return respond(job_broken_off(end, name, "no snapshot was stored", {{"read", end.values.size()}}));
                             s.parameters = std::move(end.values);
-                            save(std::move(s), std::move(left_out), failures(end.failed));
+                            save(std::move(s), std::move(left_out), job_failures(end.failed));
                         });
-    return started ? later(c.names[0]) : Handled(busy(c.names[0]));
+    return started ? job_later(c.names[0]) : Handled(job_busy(c.names[0]));
 }
 
-Handled get_snapshot(Call& c) {
+Handled get_snapshot(Call& c, const SitePort& sites, const SnapshotPort& snapshots) {
     std::optional<Response> fault;
-    const auto found = find_snapshot(c, fault);
-    return fault ? *fault : json_response(snapshot_document(c.gateway(), found->snapshot, found->axis));
+    const auto found = find_snapshot(c, sites, snapshots, fault);
+    return fault ? *fault : json_response(snapshot_document(sites, found->snapshot, found->axis));
 }
 
-Handled remove_snapshot(Call& c) {
+Handled remove_snapshot(Call& c, EventPort& events, const SitePort& sites, SnapshotPort& snapshots) {
     std::optional<Response> fault;
-    const auto found = find_snapshot(c, fault);
+    const auto found = find_snapshot(c, sites, snapshots, fault);
     if (fault) return *fault;
-    c.gateway().delete_snapshot(c.names[0], found->snapshot.n, [&gateway = c.gateway(), info = SnapshotInfo(found->snapshot), axis = c.names[0], who = c.who(),
-                                                                respond = c.respond](const std::string& wrong) {
-        if (!wrong.empty()) return respond(problem(507, "not_stored", wrong));
-        tell(gateway, info, axis, who, "removed");
-        Response r;
-        r.status = 204;
-        respond(std::move(r));
-    });
+    snapshots.delete_snapshot(
+        c.names[0], found->snapshot.n,
+        [&events, info = SnapshotInfo(found->snapshot), axis = c.names[0], who = c.who(), respond = c.respond](const std::string& wrong) {
+            if (!wrong.empty()) return respond(problem(507, "not_stored", wrong));
+            note_snapshot(events, info, axis, who, "removed");
+            Response r;
+            r.status = 204;
+            respond(std::move(r));
+        });
     return {gateway_limit, problem(504, "time_out", "the snapshot was not removed in time")};
 }
 
-Handled diff_snapshot(Call& c) {
+Handled diff_snapshot(Call& c, AxisPort& axes, const ParameterPort& parameters, const SitePort& sites, const SnapshotPort& snapshots) {
     std::optional<Response> fault;
-    auto found = find_snapshot(c, fault);
+    auto found = find_snapshot(c, sites, snapshots, fault);
     if (fault) return *fault;
     const std::string with(c.target.query.get("with").value_or("device"));
-    Gateway& gateway = c.gateway();
-    const auto shown = [&](const std::map<std::string, Value>& other) { return json_response(diff_document(gateway, *found, with, other)); };
+    const auto shown = [&](const std::map<std::string, Value>& other) { return json_response(diff_document(sites, *found, with, other)); };
     const auto foreign = [&](std::string_view family, const std::string& what) {
         fault = refuse_foreign(found->snapshot, family, what, c.names[0]);
         return fault.has_value();
@@ -384,35 +327,35 @@ Handled diff_snapshot(Call& c) {
         }
         return shown(other);
     }
-    if (with == "stored") return shown(known_values(gateway, found->axis));
+    if (with == "stored") return shown(known_values(parameters, found->axis));
     if (with.starts_with("snapshot:")) {
         const auto n = parse_whole(std::string_view(with).substr(9), 1, 0xFFFFFFFF);
-        const auto other = n ? gateway.snapshot(c.names[0], static_cast<std::uint32_t>(*n)) : std::nullopt;
+        const auto other = n ? snapshots.snapshot(c.names[0], static_cast<std::uint32_t>(*n)) : std::nullopt;
         if (!other) return nothing_named("snapshot", with.substr(9));
         if (foreign(other->family, with)) return *fault;
         return shown(as_map(other->parameters));
     }
     if (with.starts_with("axis:")) {
         std::string name = with.substr(5), number;
-        auto other = find_axis(gateway, name);
+        auto other = find_axis(sites, name);
         if (const auto colon = name.rfind(':'); !other && colon != std::string::npos) {
             number = name.substr(colon + 1);
             name.resize(colon);
-            other = find_axis(gateway, name);
+            other = find_axis(sites, name);
         }
         if (!other) return nothing_named("axis", name);
         if (!number.empty()) {
             const auto n = parse_whole(number, 1, 0xFFFFFFFF);
-            const auto s = n ? gateway.snapshot(name, static_cast<std::uint32_t>(*n)) : std::nullopt;
+            const auto s = n ? snapshots.snapshot(name, static_cast<std::uint32_t>(*n)) : std::nullopt;
             if (!s) return nothing_named("snapshot", number);
             if (foreign(s->family.empty() ? other->family : s->family, with)) return *fault;
             return shown(as_map(s->parameters));
         }
         if (foreign(other->family, "axis " + name)) return *fault;
         std::map<std::string, Value> values;
-        const auto stored = known_values(gateway, *other);
+        const auto stored = known_values(parameters, *other);
         for (const auto& v : found->snapshot.parameters)
-            values[v.parameter] = live_or(gateway, *other, v.parameter, stored);
+            values[v.parameter] = live_or(parameters, *other, v.parameter, stored);
         return shown(values);
     }
     if (with != "device") return bad_query("with", "default, device, stored, snapshot:N, axis:NAME or axis:NAME:N");
@@ -421,19 +364,19 @@ Handled diff_snapshot(Call& c) {
         if (const auto point = found->axis.catalogue ? found->axis.catalogue->find(v.parameter) : std::nullopt)
             points.push_back({v.parameter, *point});
     }
-    const bool started = AxisJobs::start(c.context.jobs, gateway, c.names[0], found->axis.id(), std::move(points), false, c.origin(),
-                                         [&gateway, found = *found, with, respond = c.respond](const JobEnd& end) {
+    const bool started = AxisJobs::start(c.context.jobs, axes, c.names[0], found->axis.id(), std::move(points), false, c.origin(),
+                                         [&sites, found = *found, with, respond = c.respond](const JobEnd& end) {
                                              if (!end.broken_off.empty())
-                                                 return respond(broken_off(end, found.axis.spec().name, "nothing was compared"));
-                                             respond(json_response(diff_document(gateway, found, with, as_map(end.values))));
+                                                 return respond(job_broken_off(end, found.axis.spec().name, "nothing was compared"));
+                                             respond(json_response(diff_document(sites, found, with, as_map(end.values))));
                                          });
-    if (!started) return busy(c.names[0]);
+    if (!started) return job_busy(c.names[0]);
     return {gateway_limit, problem(504, "time_out", "the drive's parameters were not all read in time")};
 }
 
-Handled restore_snapshot(Call& c) {
+Handled restore_snapshot(Call& c, AxisPort& axes, const ParameterPort& parameters, const SitePort& sites, const SnapshotPort& snapshots) {
     std::optional<Response> fault;
-    const auto found = find_snapshot(c, fault);
+    const auto found = find_snapshot(c, sites, snapshots, fault);
     if (fault) return *fault;
     if (auto refused = refuse_foreign(found->snapshot, found->axis.family, "axis " + c.names[0], c.names[0])) return *refused;
     const auto& body = c.body.get_object();
@@ -441,7 +384,8 @@ Handled restore_snapshot(Call& c) {
     refuse_unknown(body, {"parameters", "dry_run", "include_addressing", "include_live"}, faults);
     const auto flag = [&](std::string_view key) {
         const auto* v = body.if_contains(key);
-        if (v && !v->is_bool()) faults.push_back({fmt::format("/{}", key), fmt::format("{} must be true or false", key), "write true or false"});
+        if (v && !v->is_bool())
+            faults.push_back({fmt::format("/{}", key), fmt::format("{} must be true or false", key), "write true or false"});
         return v && v->is_bool() && v->get_bool();
     };
     const bool dry_run = flag("dry_run");
@@ -466,16 +410,17 @@ Handled restore_snapshot(Call& c) {
     if (found->snapshot.family.empty()) {  // from before it was told: it fits as long as every word of it does
         for (const auto& v : found->snapshot.parameters) {
             if (!found->axis.catalogue || found->axis.catalogue->find(v.parameter)) continue;
-            return to_response(Problem{.status = 409,
-                                       .reason = "conflict",
-                                       .detail = fmt::format("snapshot {} does not tell of which family it is, and a {} has no {}: it is not written to it",
-                                                             found->snapshot.n, found->axis.family, v.parameter),
-                                       .axis = c.names[0]});
+            return to_response(Problem{
+                .status = 409,
+                .reason = "conflict",
+                .detail = fmt::format("snapshot {} does not tell of which family it is, and a {} has no {}: it is not written to it",
+                                      found->snapshot.n, found->axis.family, v.parameter),
+                .axis = c.names[0]});
         }
     }
     json::array changes, skipped;
     std::vector<JobPoint> points;
-    const auto stored = known_values(c.gateway(), found->axis);
+    const auto stored = known_values(parameters, found->axis);
     for (const auto& v : found->snapshot.parameters) {
         if (wanted && !wanted->contains(v.parameter)) continue;
         const auto skip = [&](std::string_view why) { skipped.push_back(json::object{{"parameter", v.parameter}, {"why", why}}); };
@@ -494,13 +439,13 @@ Handled restore_snapshot(Call& c) {
             const auto id = found->axis.catalogue->id_of(other);
             const auto it = std::ranges::find(found->snapshot.parameters, id, &SnapshotValue::parameter);
             const bool written = it != found->snapshot.parameters.end() && (!wanted || wanted->contains(id));
-            return written ? it->value : live_or(c.gateway(), found->axis, id, stored);
+            return written ? it->value : live_or(parameters, found->axis, id, stored);
         });
         if (!checked.fault.empty()) {
             skip(checked.fault);
             continue;
         }
-        const Value now = live_or(c.gateway(), found->axis, v.parameter, stored);
+        const Value now = live_or(parameters, found->axis, v.parameter, stored);
         if (known(now) && same(now, checked.value)) {
             skip("has this value already");
             continue;
@@ -512,9 +457,8 @@ Handled restore_snapshot(Call& c) {
         changes.push_back(json::object{{"parameter", v.parameter}, {"from", to_json(now)}, {"to", to_json(checked.value)}});
         points.push_back({v.parameter, *point, std::move(checked.value)});
     }
-    if (dry_run)
-        return json_response(json::object{{"dry_run", true}, {"changes", std::move(changes)}, {"skipped", std::move(skipped)}});
-    return write_parameters(c, found->axis, std::move(points), {{"skipped", std::move(skipped)}});
+    if (dry_run) return json_response(json::object{{"dry_run", true}, {"changes", std::move(changes)}, {"skipped", std::move(skipped)}});
+    return write_parameters(c, axes, found->axis, std::move(points), {{"skipped", std::move(skipped)}});
 }
 
 }  // namespace axisgate::http

@@ -12,12 +12,12 @@ namespace axisgate::http {
 namespace json = boost::json;
 
 namespace {
-constexpr std::size_t most_told_bytes = 1024;  // of one text: it may repeat what the client sent
+constexpr std::size_t most_text_bytes = 1024;  // of one text: it may repeat what the client sent
 
 /// The beginning of a text that is too long, cut between two letters.
-std::string told(const std::string& text) {
-    if (text.size() <= most_told_bytes) return text;
-    std::size_t end = most_told_bytes;
+std::string shortened(const std::string& text) {
+    if (text.size() <= most_text_bytes) return text;
+    std::size_t end = most_text_bytes;
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80)
         --end;
     return text.substr(0, end) + "...";
@@ -25,7 +25,10 @@ std::string told(const std::string& text) {
 }  // namespace
 
 json::object fault_document(const Fault& f) {
-    return {{"document", f.in_body ? "body" : "site"}, {"pointer", told(f.pointer)}, {"text", told(f.text)}, {"remedy", told(f.remedy)}};
+    return {{"document", f.in_body ? "body" : "site"},
+            {"pointer", shortened(f.pointer)},
+            {"text", shortened(f.text)},
+            {"remedy", shortened(f.remedy)}};
 }
 
 Response to_response(const Problem& p) {
@@ -33,7 +36,7 @@ Response to_response(const Problem& p) {
     for (auto& c : title)
         c = c == '_' ? ' ' : c;
     if (!title.empty() && title[0] >= 'a' && title[0] <= 'z') title[0] = static_cast<char>(title[0] - 'a' + 'A');
-    json::object o{{"type", "urn:axisgate:problem:" + p.reason}, {"title", title}, {"status", p.status}, {"detail", told(p.detail)}};
+    json::object o{{"type", "urn:axisgate:problem:" + p.reason}, {"title", title}, {"status", p.status}, {"detail", shortened(p.detail)}};
     o["code"] = p.code == 0 ? json::value(nullptr) : json::value(p.code);
     o["reason"] = p.reason;
     if (!p.axis.empty()) o["axis"] = p.axis;

@@ -19,132 +19,132 @@ using Takes = Route::Takes;
 using Gives = Route::Gives;
 
 constexpr std::array routes{
-    Route{"/healthz", Method::get, get_health}.needs(Role::none),
-    Route{"/readyz", Method::get, get_ready}.needs(Role::none),
-    Route{"/metrics", Method::get, get_metrics, Takes::nothing, Gives::text},
-    Route{"/api/v1/openapi.yaml", Method::get, get_description, Takes::nothing, Gives::yaml}.needs(Role::none),
-    Route{"/api/v1/about", Method::get, get_about},
-    Route{"/api/v1/families", Method::get, list_families},
-    Route{"/api/v1/families/{family}", Method::get, get_family},
-    Route{"/api/v1/families/{family}/parameters", Method::get, list_family_parameters},
-    Route{"/api/v1/families/{family}/commands", Method::get, list_family_commands},
-    Route{"/api/v1/families/{family}/errors", Method::get, list_family_errors},
-    Route{"/api/v1/lines", Method::get, list_lines},
-    Route{"/api/v1/lines", Method::post, add_line, Takes::json},
-    Route{"/api/v1/lines/{line}", Method::get, get_line},
-    Route{"/api/v1/lines/{line}", Method::put, replace_line, Takes::json},
-    Route{"/api/v1/lines/{line}", Method::patch, change_line, Takes::patch},
-    Route{"/api/v1/lines/{line}", Method::remove, remove_line, Takes::nothing, Gives::nothing}.asks("cascade"),
-    Route{"/api/v1/lines/{line}/trace", Method::get, get_trace, Takes::nothing, Gives::own}.asks("format since limit"),
-    Route{"/api/v1/lines/{line}/scan", Method::get, get_scan},
-    Route{"/api/v1/lines/{line}/scan", Method::post, start_scan, Takes::json},
-    Route{"/api/v1/lines/{line}/scan", Method::remove, cancel_scan},
-    Route{"/api/v1/drives", Method::get, list_drives},
-    Route{"/api/v1/drives", Method::post, add_drive, Takes::json},
-    Route{"/api/v1/drives/{drive}", Method::get, get_drive},
-    Route{"/api/v1/drives/{drive}", Method::put, replace_drive, Takes::json},
-    Route{"/api/v1/drives/{drive}", Method::patch, change_drive, Takes::patch},
-    Route{"/api/v1/drives/{drive}", Method::remove, remove_drive, Takes::nothing, Gives::nothing}.asks("cascade"),
-    Route{"/api/v1/drives/{drive}/native", Method::post, exchange_native, Takes::json},
-    Route{"/api/v1/drives/{drive}/hand", Method::get, get_hand}.asks("describe"),
-    Route{"/api/v1/drives/{drive}/hand", Method::put, set_hand, Takes::json},
-    Route{"/api/v1/drives/{drive}/hand", Method::patch, set_hand, Takes::patch},
-    Route{"/api/v1/axes", Method::get, list_axes},
-    Route{"/api/v1/axes", Method::post, add_axis, Takes::json},
-    Route{"/api/v1/axes/{axis}", Method::get, get_axis},
-    Route{"/api/v1/axes/{axis}", Method::put, replace_axis, Takes::json},
-    Route{"/api/v1/axes/{axis}", Method::patch, change_axis, Takes::patch},
-    Route{"/api/v1/axes/{axis}", Method::remove, remove_axis, Takes::nothing, Gives::nothing}.asks("cascade"),
-    Route{"/api/v1/axes/{axis}/commands", Method::post, command_axis, Takes::json}
+    Route{"/healthz", Method::get, take<get_health>}.needs(Role::none),
+    Route{"/readyz", Method::get, take<get_ready>}.needs(Role::none),
+    Route{"/metrics", Method::get, take<get_metrics>, Takes::nothing, Gives::text},
+    Route{"/api/v1/openapi.yaml", Method::get, take<get_description>, Takes::nothing, Gives::yaml}.needs(Role::none),
+    Route{"/api/v1/about", Method::get, take<get_about>},
+    Route{"/api/v1/families", Method::get, take<list_families>},
+    Route{"/api/v1/families/{family}", Method::get, take<get_family>},
+    Route{"/api/v1/families/{family}/parameters", Method::get, take<list_family_parameters>},
+    Route{"/api/v1/families/{family}/commands", Method::get, take<list_family_commands>},
+    Route{"/api/v1/families/{family}/errors", Method::get, take<list_family_errors>},
+    Route{"/api/v1/lines", Method::get, take<list_lines>},
+    Route{"/api/v1/lines", Method::post, take<add_line>, Takes::json},
+    Route{"/api/v1/lines/{line}", Method::get, take<get_line>},
+    Route{"/api/v1/lines/{line}", Method::put, take<replace_line>, Takes::json},
+    Route{"/api/v1/lines/{line}", Method::patch, take<change_line>, Takes::patch},
+    Route{"/api/v1/lines/{line}", Method::remove, take<remove_line>, Takes::nothing, Gives::nothing}.asks("cascade"),
+    Route{"/api/v1/lines/{line}/trace", Method::get, take<get_trace>, Takes::nothing, Gives::own}.asks("format since limit"),
+    Route{"/api/v1/lines/{line}/scan", Method::get, take<get_scan>},
+    Route{"/api/v1/lines/{line}/scan", Method::post, take<start_scan>, Takes::json},
+    Route{"/api/v1/lines/{line}/scan", Method::remove, take<cancel_scan>},
+    Route{"/api/v1/drives", Method::get, take<list_drives>},
+    Route{"/api/v1/drives", Method::post, take<add_drive>, Takes::json},
+    Route{"/api/v1/drives/{drive}", Method::get, take<get_drive>},
+    Route{"/api/v1/drives/{drive}", Method::put, take<replace_drive>, Takes::json},
+    Route{"/api/v1/drives/{drive}", Method::patch, take<change_drive>, Takes::patch},
+    Route{"/api/v1/drives/{drive}", Method::remove, take<remove_drive>, Takes::nothing, Gives::nothing}.asks("cascade"),
+    Route{"/api/v1/drives/{drive}/native", Method::post, take<exchange_native>, Takes::json},
+    Route{"/api/v1/drives/{drive}/hand", Method::get, take<get_hand>}.asks("describe"),
+    Route{"/api/v1/drives/{drive}/hand", Method::put, take<set_hand>, Takes::json},
+    Route{"/api/v1/drives/{drive}/hand", Method::patch, take<set_hand>, Takes::patch},
+    Route{"/api/v1/axes", Method::get, take<list_axes>},
+    Route{"/api/v1/axes", Method::post, take<add_axis>, Takes::json},
+    Route{"/api/v1/axes/{axis}", Method::get, take<get_axis>},
+    Route{"/api/v1/axes/{axis}", Method::put, take<replace_axis>, Takes::json},
+    Route{"/api/v1/axes/{axis}", Method::patch, take<change_axis>, Takes::patch},
+    Route{"/api/v1/axes/{axis}", Method::remove, take<remove_axis>, Takes::nothing, Gives::nothing}.asks("cascade"),
+    Route{"/api/v1/axes/{axis}/commands", Method::post, take<command_axis>, Takes::json}
         .asks("wait")
         .needs(Role::viewer)
         .moves(),  // stops; all others: operator
-    Route{"/api/v1/axes/{axis}/actions", Method::post, act_on_axis, Takes::json}.asks("wait").moves(),
-    Route{"/api/v1/authority", Method::get, list_authority},
-    Route{"/api/v1/axes/{axis}/authority", Method::get, get_authority},
-    Route{"/api/v1/axes/{axis}/authority", Method::put, take_authority, Takes::json}.needs(Role::operating),
-    Route{"/api/v1/axes/{axis}/authority", Method::remove, release_authority, Takes::nothing, Gives::nothing}.needs(Role::operating),
-    Route{"/api/v1/axes/{axis}/authority/hand-over", Method::post, hand_over_authority, Takes::json}.needs(Role::operating),
-    Route{"/api/v1/modbus", Method::get, get_modbus_door},
-    Route{"/api/v1/modbus", Method::patch, change_modbus_door, Takes::patch},
-    Route{"/api/v1/axes/{axis}/parameters", Method::get, list_parameters}.asks("group array first"),
-    Route{"/api/v1/axes/{axis}/parameters/{parameter}", Method::get, read_parameter}.asks("cached history"),
-    Route{"/api/v1/axes/{axis}/parameters/{parameter}", Method::put, write_parameter, Takes::json},
-    Route{"/api/v1/moves/start", Method::post, start_moves, Takes::json}.asks("wait").needs(Role::operating).moves(),
-    Route{"/api/v1/site", Method::get, get_site},
-    Route{"/api/v1/site", Method::put, replace_site, Takes::json}.asks("dry_run"),
-    Route{"/api/v1/mappings", Method::get, list_mappings}.asks("unit axis"),
-    Route{"/api/v1/mappings", Method::post, add_mapping, Takes::json},
-    Route{"/api/v1/mappings", Method::remove, remove_mappings}.asks("unit axis ids all dry_run"),
-    Route{"/api/v1/mappings.csv", Method::get, get_mappings_csv, Takes::nothing, Gives::own},
-    Route{"/api/v1/mappings.csv", Method::post, add_mappings_csv, Takes::csv}.asks("dry_run"),
-    Route{"/api/v1/mappings.csv", Method::put, replace_mappings_csv, Takes::csv}.asks("dry_run"),
-    Route{"/api/v1/mapping-points", Method::get, list_mapping_points},
-    Route{"/api/v1/mappings/{mapping}", Method::get, get_mapping},
-    Route{"/api/v1/mappings/{mapping}", Method::put, replace_mapping, Takes::json},
-    Route{"/api/v1/mappings/{mapping}", Method::remove, remove_mapping, Takes::nothing, Gives::nothing},
-    Route{"/api/v1/axes/{axis}/snapshots", Method::get, list_snapshots},
-    Route{"/api/v1/axes/{axis}/snapshots", Method::post, take_snapshot, Takes::json},
-    Route{"/api/v1/axes/{axis}/snapshot-progress", Method::get, get_snapshot_progress},
-    Route{"/api/v1/axes/{axis}/snapshots/{snapshot}", Method::get, get_snapshot},
-    Route{"/api/v1/axes/{axis}/snapshots/{snapshot}", Method::remove, remove_snapshot, Takes::nothing, Gives::nothing},
-    Route{"/api/v1/axes/{axis}/snapshots/{snapshot}/diff", Method::get, diff_snapshot}.asks("with"),
-    Route{"/api/v1/axes/{axis}/snapshots/{snapshot}/restore", Method::post, restore_snapshot, Takes::json},
-    Route{"/api/v1/axes/{axis}/parameters/{parameter}/history", Method::get, get_parameter_history}.asks("limit"),
-    Route{"/api/v1/axes/{axis}/parameters.csv", Method::get, get_parameters_csv, Takes::nothing, Gives::own},
-    Route{"/api/v1/axes/{axis}/parameters.csv", Method::put, put_parameters_csv, Takes::csv}.asks(
+    Route{"/api/v1/axes/{axis}/actions", Method::post, take<act_on_axis>, Takes::json}.asks("wait").moves(),
+    Route{"/api/v1/authority", Method::get, take<list_authority>},
+    Route{"/api/v1/axes/{axis}/authority", Method::get, take<get_authority>},
+    Route{"/api/v1/axes/{axis}/authority", Method::put, take<take_authority>, Takes::json}.needs(Role::operating),
+    Route{"/api/v1/axes/{axis}/authority", Method::remove, take<release_authority>, Takes::nothing, Gives::nothing}.needs(Role::operating),
+    Route{"/api/v1/axes/{axis}/authority/hand-over", Method::post, take<hand_over_authority>, Takes::json}.needs(Role::operating),
+    Route{"/api/v1/modbus", Method::get, take<get_modbus_door>},
+    Route{"/api/v1/modbus", Method::patch, take<change_modbus_door>, Takes::patch},
+    Route{"/api/v1/axes/{axis}/parameters", Method::get, take<list_parameters>}.asks("group array first"),
+    Route{"/api/v1/axes/{axis}/parameters/{parameter}", Method::get, take<read_parameter>}.asks("cached history"),
+    Route{"/api/v1/axes/{axis}/parameters/{parameter}", Method::put, take<write_parameter>, Takes::json},
+    Route{"/api/v1/moves/start", Method::post, take<start_moves>, Takes::json}.asks("wait").needs(Role::operating).moves(),
+    Route{"/api/v1/site", Method::get, take<get_site>},
+    Route{"/api/v1/site", Method::put, take<replace_site>, Takes::json}.asks("dry_run"),
+    Route{"/api/v1/mappings", Method::get, take<list_mappings>}.asks("unit axis"),
+    Route{"/api/v1/mappings", Method::post, take<add_mapping>, Takes::json},
+    Route{"/api/v1/mappings", Method::remove, take<remove_mappings>}.asks("unit axis ids all dry_run"),
+    Route{"/api/v1/mappings.csv", Method::get, take<get_mappings_csv>, Takes::nothing, Gives::own},
+    Route{"/api/v1/mappings.csv", Method::post, take<add_mappings_csv>, Takes::csv}.asks("dry_run"),
+    Route{"/api/v1/mappings.csv", Method::put, take<replace_mappings_csv>, Takes::csv}.asks("dry_run"),
+    Route{"/api/v1/mapping-points", Method::get, take<list_mapping_points>},
+    Route{"/api/v1/mappings/{mapping}", Method::get, take<get_mapping>},
+    Route{"/api/v1/mappings/{mapping}", Method::put, take<replace_mapping>, Takes::json},
+    Route{"/api/v1/mappings/{mapping}", Method::remove, take<remove_mapping>, Takes::nothing, Gives::nothing},
+    Route{"/api/v1/axes/{axis}/snapshots", Method::get, take<list_snapshots>},
+    Route{"/api/v1/axes/{axis}/snapshots", Method::post, take<take_snapshot>, Takes::json},
+    Route{"/api/v1/axes/{axis}/snapshot-progress", Method::get, take<get_snapshot_progress>},
+    Route{"/api/v1/axes/{axis}/snapshots/{snapshot}", Method::get, take<get_snapshot>},
+    Route{"/api/v1/axes/{axis}/snapshots/{snapshot}", Method::remove, take<remove_snapshot>, Takes::nothing, Gives::nothing},
+    Route{"/api/v1/axes/{axis}/snapshots/{snapshot}/diff", Method::get, take<diff_snapshot>}.asks("with"),
+    Route{"/api/v1/axes/{axis}/snapshots/{snapshot}/restore", Method::post, take<restore_snapshot>, Takes::json},
+    Route{"/api/v1/axes/{axis}/parameters/{parameter}/history", Method::get, take<get_parameter_history>}.asks("limit"),
+    Route{"/api/v1/axes/{axis}/parameters.csv", Method::get, take<get_parameters_csv>, Takes::nothing, Gives::own},
+    Route{"/api/v1/axes/{axis}/parameters.csv", Method::put, take<put_parameters_csv>, Takes::csv}.asks(
         "dry_run include_addressing include_live"),
-    Route{"/api/v1/site/stage", Method::get, get_stage},
-    Route{"/api/v1/site/stage", Method::post, stage_site, Takes::json}.asks("replace"),
-    Route{"/api/v1/site/stage", Method::remove, discard_stage, Takes::nothing, Gives::nothing},
-    Route{"/api/v1/site/stage/apply", Method::post, apply_stage, Takes::json},
-    Route{"/api/v1/site/stage/confirm", Method::post, confirm_stage},
-    Route{"/api/v1/site/stage/roll-back", Method::post, roll_back_stage},
-    Route{"/api/v1/site/history", Method::get, list_site_history}.asks("limit before"),
-    Route{"/api/v1/site/history/{revision}", Method::get, get_site_revision},
-    Route{"/api/v1/site/history/{revision}/restore", Method::post, restore_site_revision}.asks("replace"),
-    Route{"/api/v1/backup", Method::get, get_backup, Takes::nothing, Gives::own}.needs(Role::administrator),
-    Route{"/api/v1/backup", Method::put, put_backup, Takes::bytes}.needs(Role::administrator),
-    Route{"/api/v1/backup/pending", Method::get, get_waiting_backup}.needs(Role::administrator),
-    Route{"/api/v1/backup/pending", Method::remove, cancel_waiting_backup, Takes::nothing, Gives::nothing}.needs(Role::administrator),
-    Route{"/api/v1/registers", Method::get, get_registers}.asks("unit table address count"),
-    Route{"/api/v1/mappings/list", Method::get, get_mapping_list, Takes::nothing, Gives::own}.asks("format"),
-    Route{"/api/v1/mappings/next-free", Method::get, get_next_free}.asks("unit table words align"),
-    Route{"/api/v1/mappings/units", Method::get, list_mapping_units},
-    Route{"/api/v1/mappings/units/{unit}", Method::put, change_mapping_unit, Takes::json},
-    Route{"/api/v1/mappings/template", Method::post, add_mapping_template, Takes::json},
-    Route{"/api/v1/events", Method::get, list_events, Takes::nothing, Gives::own}.asks(
+    Route{"/api/v1/site/stage", Method::get, take<get_stage>},
+    Route{"/api/v1/site/stage", Method::post, take<stage_site>, Takes::json}.asks("replace"),
+    Route{"/api/v1/site/stage", Method::remove, take<discard_stage>, Takes::nothing, Gives::nothing},
+    Route{"/api/v1/site/stage/apply", Method::post, take<apply_stage>, Takes::json},
+    Route{"/api/v1/site/stage/confirm", Method::post, take<confirm_stage>},
+    Route{"/api/v1/site/stage/roll-back", Method::post, take<roll_back_stage>},
+    Route{"/api/v1/site/history", Method::get, take<list_site_history>}.asks("limit before"),
+    Route{"/api/v1/site/history/{revision}", Method::get, take<get_site_revision>},
+    Route{"/api/v1/site/history/{revision}/restore", Method::post, take<restore_site_revision>}.asks("replace"),
+    Route{"/api/v1/backup", Method::get, take<get_backup>, Takes::nothing, Gives::own}.needs(Role::administrator),
+    Route{"/api/v1/backup", Method::put, take<put_backup>, Takes::bytes}.needs(Role::administrator),
+    Route{"/api/v1/backup/pending", Method::get, take<get_waiting_backup>}.needs(Role::administrator),
+    Route{"/api/v1/backup/pending", Method::remove, take<cancel_waiting_backup>, Takes::nothing, Gives::nothing}.needs(Role::administrator),
+    Route{"/api/v1/registers", Method::get, take<get_registers>}.asks("unit table address count"),
+    Route{"/api/v1/mappings/list", Method::get, take<get_mapping_list>, Takes::nothing, Gives::own}.asks("format"),
+    Route{"/api/v1/mappings/next-free", Method::get, take<get_next_free>}.asks("unit table words align"),
+    Route{"/api/v1/mappings/units", Method::get, take<list_mapping_units>},
+    Route{"/api/v1/mappings/units/{unit}", Method::put, take<change_mapping_unit>, Takes::json},
+    Route{"/api/v1/mappings/template", Method::post, take<add_mapping_template>, Takes::json},
+    Route{"/api/v1/events", Method::get, take<list_events>, Takes::nothing, Gives::own}.asks(
         "since axis severity kind state before limit order format"),
-    Route{"/api/v1/alarms", Method::get, list_alarms}.asks("state"),
-    Route{"/api/v1/alarms/acknowledge", Method::post, acknowledge_alarms, Takes::json}.needs(Role::operating),
-    Route{"/api/v1/alarms/{alarm}/acknowledge", Method::post, acknowledge_alarm, Takes::json}.needs(Role::operating),
-    Route{"/api/v1/alarms/{alarm}/shelve", Method::post, shelve_alarm, Takes::json}.needs(Role::operating),
-    Route{"/api/v1/alarms/{alarm}/unshelve", Method::post, unshelve_alarm}.needs(Role::operating),
-    Route{"/api/v1/recipes", Method::get, list_recipes},
-    Route{"/api/v1/recipes/{recipe}", Method::get, get_recipe},
-    Route{"/api/v1/recipes/{recipe}", Method::put, put_recipe, Takes::json}.asks("dry_run"),
-    Route{"/api/v1/recipes/{recipe}", Method::remove, remove_recipe, Takes::nothing, Gives::nothing},
-    Route{"/api/v1/recipes/{recipe}/run", Method::post, run_recipe, Takes::json}.needs(Role::operating).moves(),
-    Route{"/api/v1/recipes/{recipe}/runs", Method::get, list_recipe_runs},
-    Route{"/api/v1/recipes/{recipe}/runs/{run}", Method::get, get_recipe_run},
-    Route{"/api/v1/recipes/{recipe}/runs/{run}/cancel", Method::post, cancel_recipe_run}.needs(Role::operating),
-    Route{"/api/v1/session", Method::get, get_session}.needs(Role::none),
-    Route{"/api/v1/session", Method::post, sign_in, Takes::json}.needs(Role::none),
-    Route{"/api/v1/session", Method::remove, sign_out, Takes::nothing, Gives::nothing}.needs(Role::none),
-    Route{"/api/v1/session/first", Method::post, first_sign_in, Takes::json}.needs(Role::none),
-    Route{"/api/v1/users", Method::get, list_users}.needs(Role::administrator),
-    Route{"/api/v1/users", Method::post, add_user, Takes::json}.needs(Role::administrator),
-    Route{"/api/v1/users/{user}", Method::get, get_user}.needs(Role::administrator),
-    Route{"/api/v1/users/{user}", Method::patch, change_user, Takes::patch}.needs(Role::administrator),
-    Route{"/api/v1/users/{user}", Method::remove, remove_user, Takes::nothing, Gives::nothing}.needs(Role::administrator),
-    Route{"/api/v1/users/{user}/password", Method::put, change_password, Takes::json, Gives::nothing}.needs(Role::viewer),
-    Route{"/api/v1/tokens", Method::get, list_tokens},
-    Route{"/api/v1/tokens", Method::post, add_token, Takes::json}.needs(Role::viewer),
-    Route{"/api/v1/tokens/{token}", Method::remove, remove_token, Takes::nothing, Gives::nothing}.needs(Role::viewer),
-    Route{"/api/v1/stream", Method::get, open_stream, Takes::nothing, Gives::own, true},
+    Route{"/api/v1/alarms", Method::get, take<list_alarms>}.asks("state"),
+    Route{"/api/v1/alarms/acknowledge", Method::post, take<acknowledge_alarms>, Takes::json}.needs(Role::operating),
+    Route{"/api/v1/alarms/{alarm}/acknowledge", Method::post, take<acknowledge_alarm>, Takes::json}.needs(Role::operating),
+    Route{"/api/v1/alarms/{alarm}/shelve", Method::post, take<shelve_alarm>, Takes::json}.needs(Role::operating),
+    Route{"/api/v1/alarms/{alarm}/unshelve", Method::post, take<unshelve_alarm>}.needs(Role::operating),
+    Route{"/api/v1/recipes", Method::get, take<list_recipes>},
+    Route{"/api/v1/recipes/{recipe}", Method::get, take<get_recipe>},
+    Route{"/api/v1/recipes/{recipe}", Method::put, take<put_recipe>, Takes::json}.asks("dry_run"),
+    Route{"/api/v1/recipes/{recipe}", Method::remove, take<remove_recipe>, Takes::nothing, Gives::nothing},
+    Route{"/api/v1/recipes/{recipe}/run", Method::post, take<run_recipe>, Takes::json}.needs(Role::operating).moves(),
+    Route{"/api/v1/recipes/{recipe}/runs", Method::get, take<list_recipe_runs>},
+    Route{"/api/v1/recipes/{recipe}/runs/{run}", Method::get, take<get_recipe_run>},
+    Route{"/api/v1/recipes/{recipe}/runs/{run}/cancel", Method::post, take<cancel_recipe_run>}.needs(Role::operating),
+    Route{"/api/v1/session", Method::get, take<get_session>}.needs(Role::none),
+    Route{"/api/v1/session", Method::post, take<sign_in>, Takes::json}.needs(Role::none),
+    Route{"/api/v1/session", Method::remove, take<sign_out>, Takes::nothing, Gives::nothing}.needs(Role::none),
+    Route{"/api/v1/session/first", Method::post, take<first_sign_in>, Takes::json}.needs(Role::none),
+    Route{"/api/v1/users", Method::get, take<list_users>}.needs(Role::administrator),
+    Route{"/api/v1/users", Method::post, take<add_user>, Takes::json}.needs(Role::administrator),
+    Route{"/api/v1/users/{user}", Method::get, take<get_user>}.needs(Role::administrator),
+    Route{"/api/v1/users/{user}", Method::patch, take<change_user>, Takes::patch}.needs(Role::administrator),
+    Route{"/api/v1/users/{user}", Method::remove, take<remove_user>, Takes::nothing, Gives::nothing}.needs(Role::administrator),
+    Route{"/api/v1/users/{user}/password", Method::put, take<change_password>, Takes::json, Gives::nothing}.needs(Role::viewer),
+    Route{"/api/v1/tokens", Method::get, take<list_tokens>},
+    Route{"/api/v1/tokens", Method::post, take<add_token>, Takes::json}.needs(Role::viewer),
+    Route{"/api/v1/tokens/{token}", Method::remove, take<remove_token>, Takes::nothing, Gives::nothing}.needs(Role::viewer),
+    Route{"/api/v1/stream", Method::get, take<open_stream>, Takes::nothing, Gives::own, true},
 };
 
-constexpr std::array<Method, 5> told_methods{Method::get, Method::post, Method::put, Method::patch, Method::remove};
+constexpr std::array<Method, 5> listed_methods{Method::get, Method::post, Method::put, Method::patch, Method::remove};
 
 /// One path of the table with all its routes, taken apart once.
 struct Shape {
@@ -218,9 +218,9 @@ const Route* route_for(const Shape& shape, Method method) {
 /// "GET, HEAD, PUT"
 std::string allowed_by(const Shape& shape) {
     std::string allow;
-    for (const auto told : told_methods) {
-        if (!route_for(shape, told)) continue;
-        allow += fmt::format("{}{}", allow.empty() ? "" : ", ", told == Method::get ? "GET, HEAD" : name_of(told));
+    for (const auto method : listed_methods) {
+        if (!route_for(shape, method)) continue;
+        allow += fmt::format("{}{}", allow.empty() ? "" : ", ", method == Method::get ? "GET, HEAD" : name_of(method));
     }
     return allow;
 }
@@ -324,14 +324,14 @@ Router::Entry Router::enter(const Request& request, std::optional<Target> target
     }
     e.names = names_in(*shape, e.target->segments);
     // Who it is, and whether he may: before anything of the request is looked at further.
-    e.identity = http::identify(context_.access.get(), request, context_.gateway.now_unix_ns(), touch);
+    e.identity = http::identify(context_.access.get(), request, context_.ports.get<ClockPort>().now_unix_ns(), touch);
     if (const Role needed = e.route->needed(); needed != Role::none) {
         if (auto refusal = refuse_below(e.identity, needed)) {
             if (e.identity.session_ended) refusal->headers.set("Set-Cookie", set_cookie(*context_.access, "", request.secure, true));
             return answer(*std::move(refusal));
         }
     }
-    if (e.route->handler != sign_in && e.route->handler != first_sign_in) {
+    if (e.route->handler != take<sign_in> && e.route->handler != take<first_sign_in>) {
         if (auto refusal = check_csrf(e.identity, request)) return answer(*std::move(refusal));
     }
     if (wanted != Method::get || e.route->same_origin_only) {
@@ -375,7 +375,7 @@ Handled Router::dispatch(const Request& request, std::optional<Target> target, c
     if (auto refusal = read_body(request, e.route->takes, call.body)) return *std::move(refusal);
     // Named clients that may command: to one of them an axis can be handed over.
     if (call.identity.role >= Role::operating && (!call.identity.user.empty() || request.headers.count("X-Client") != 0)) {
-        context_.clients->note(*call.origin().client, context_.gateway.now_unix_ns());
+        context_.clients->note(*call.origin().client, context_.ports.get<ClockPort>().now_unix_ns());
     }
     handled = e.route->handler(call);
     handled.known = known;
@@ -396,7 +396,7 @@ void Router::finish(Response& r, bool is_head) {
 }
 
 Handled Router::handle(const Request& request, Respond respond) const {
-    // A Gateway may answer from inside a call: then the promise is an answer at once.
+    // A command may be answered from inside a call: then the promise is an answer at once.
     struct Once {
         bool inside = true, answered = false;
         std::optional<Response> early;
@@ -439,13 +439,13 @@ Handled Router::handle(const Request& request, Respond respond) const {
 }
 
 std::string_view Router::why_not_watched_on(const Request& request) const {
-    const Identity now = http::identify(context_.access.get(), request, context_.gateway.now_unix_ns(), false);
+    const Identity now = http::identify(context_.access.get(), request, context_.ports.get<ClockPort>().now_unix_ns(), false);
     if (now.role >= Role::viewer) return {};
     return now.wrong_token ? "the token has expired or was removed" : "signed out";
 }
 
 std::optional<Origin> Router::commander_of(const Request& request) const {
-    const Identity now = http::identify(context_.access.get(), request, context_.gateway.now_unix_ns(), false);
+    const Identity now = http::identify(context_.access.get(), request, context_.ports.get<ClockPort>().now_unix_ns(), false);
     if (now.role < Role::operating) return std::nullopt;
     return origin_of(request, now, context_.access ? who(now, request.peer) : request.peer);
 }

@@ -38,18 +38,19 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
     std::unordered_map<const Session*, std::shared_ptr<Session>> sessions;
     std::function<void()> done;
 
-    Parts(asio::io_context& c, Gateway& gateway, Services& all, Settings s, AssetLookup asset)
+    Parts(asio::io_context& c, const Ports& ports, Services& all, Settings s, AssetLookup asset)
         : SessionHost(own_settings, own_router, own_counters, own_hub),
           own_settings(std::move(s)),
           context(c),
           services(all),
-          own_router(Context{gateway, own_settings, std::move(asset), [this] { return own_counters.text(); }, all.site_changes, all.recipes, all.jobs, all.access,
-                             all.alarms, std::make_shared<AxisTexts>(), all.stages, std::make_shared<ClientsSeen>(), all.writes}),
+          own_router(Context{ports, own_settings, std::move(asset), [this] { return own_counters.text(); }, all.site_changes, all.recipes,
+                             all.jobs, all.access, all.alarms, std::make_shared<AxisTexts>(), all.stages, std::make_shared<ClientsSeen>(),
+                             all.writes}),
           acceptor(c),
           hub_timer(c),
           pause_timer(c),
           stop_timer(c),
-          own_hub(gateway, own_settings, own_counters, [this] { rearm(); }) {
+          own_hub(ports, own_settings, own_counters, [this] { rearm(); }) {
         budget.most = own_settings.max_held_bytes;
         own_hub.recipes_now = [list = all.recipes] { return list->in_progress(); };
         own_hub.alarms_now = [list = all.alarms] { return list->document(); };
@@ -203,8 +204,8 @@ std::optional<tcp::endpoint> parse_bind(std::string_view bind, std::string& faul
     return tcp::endpoint(address, static_cast<std::uint16_t>(*port));
 }
 
-Server::Server(asio::io_context& context, Gateway& gateway, Services& services, Settings settings, AssetLookup asset)
-    : parts_(std::make_shared<Parts>(context, gateway, services, std::move(settings), std::move(asset))) {}
+Server::Server(asio::io_context& context, const Ports& ports, Services& services, Settings settings, AssetLookup asset)
+    : parts_(std::make_shared<Parts>(context, ports, services, std::move(settings), std::move(asset))) {}
 
 Server::~Server() {
     ErrorCode ignored;
@@ -216,7 +217,7 @@ Server::~Server() {
     parts_->hub_timer.cancel();
     parts_->services.unlisten(parts_->own_hub);
     parts_->abort_all();
-    parts_->own_hub.detach();  // handlers that still wait in the io_context may keep the parts longer than the Gateway lives
+    parts_->own_hub.detach();  // handlers that still wait in the io_context may keep the parts longer than the ports live
 }
 
 void Server::use_tls(std::shared_ptr<TlsIdentity> identity) { parts_->tls = std::move(identity); }

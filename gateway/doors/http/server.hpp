@@ -1,6 +1,6 @@
 // Server: the HTTP door as a whole: listens, keeps its connections within their number, feeds the live feed its time, stops in order.
-// In: a Gateway, Settings, the embedded files. Out: an open door at an address.
-// Runs on one io_context with one thread (the warm one), which also runs the Gateway's callbacks.
+// In: the ports, Settings, the embedded files. Out: an open door at an address.
+// Runs on one io_context with one thread (the warm one), which also runs the ports' callbacks.
 #pragma once
 
 #include <boost/asio/io_context.hpp>
@@ -10,11 +10,11 @@
 #include <memory>
 #include <string>
 
-#include "gateway/services/gateway.hpp"
-#include "gateway/services/door.hpp"
-#include "gateway/services/services.hpp"
 #include "gateway/doors/http/counters.hpp"
 #include "gateway/doors/http/settings.hpp"
+#include "gateway/services/door.hpp"
+#include "gateway/services/ports.hpp"
+#include "gateway/services/services.hpp"
 
 namespace axisgate::http {
 
@@ -22,8 +22,8 @@ struct TlsIdentity;
 
 class Server final : public ServiceDoor {
 public:
-    /// Gateway and services outlive the server. Without users among the services this machine alone is let in.
-    Server(boost::asio::io_context& context, Gateway& gateway, Services& services, Settings settings, AssetLookup asset);
+    /// The owners of the ports, and the services, outlive the server. Without users among the services this machine alone is let in.
+    Server(boost::asio::io_context& context, const Ports& ports, Services& services, Settings settings, AssetLookup asset);
     ~Server() override;
     [[nodiscard]] std::string_view name() const override { return secure() ? "https" : "http"; }
     Server(const Server&) = delete;

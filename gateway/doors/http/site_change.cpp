@@ -1,5 +1,5 @@
 // Site change: a change that lost a race against another one is planned anew on the newer site, three times at most.
-// In: plans. Out: answers, through the Gateway. Never runs two changes at a time: the queue of the door gives each its turn.
+// In: plans. Out: answers, through the site port. Never runs two changes at a time: the queue of the door gives each its turn.
 #include "gateway/doors/http/site_change.hpp"
 
 #include <fmt/core.h>
@@ -13,29 +13,29 @@ namespace {
 constexpr int most_attempts = 3;
 
 /// What became of the site since the first revision that `if_match` names and the history still has; null if it has none of them.
-json::value changes_since(Gateway& gateway, std::string_view if_match, const SiteState& now) {
+json::value changes_since(const SitePort& sites, std::string_view if_match, const SiteState& now) {
     for (auto rest = if_match; !rest.empty();) {
         auto item = next_item(rest);
         if (item.size() < 3 || item.front() != '"' || item.back() != '"') continue;
         const auto revision = parse_whole(item.substr(1, item.size() - 2), 1, INT64_MAX);
-        const auto stored = revision ? gateway.site_revision(static_cast<std::uint64_t>(*revision)) : std::nullopt;
+        const auto stored = revision ? sites.site_revision(static_cast<std::uint64_t>(*revision)) : std::nullopt;
         if (!stored) continue;
         boost::system::error_code ec;
         const auto document = json::parse(stored->text, ec);
         if (ec) continue;
         std::vector<SiteFault> faults;
-        if (const auto then = parse_site(document, gateway.families(), faults)) return site_diff(*then, now.site);
+        if (const auto then = parse_site(document, sites.families(), faults)) return site_diff(*then, now.site);
     }
     return nullptr;
 }
 
 /// 412: the site in force, and what has changed since the one that was meant.
-Response site_overtaken(Gateway& gateway, std::string_view if_match, const SiteState& now, std::string detail) {
+Response site_overtaken(const SitePort& sites, std::string_view if_match, const SiteState& now, std::string detail) {
     Response r = to_response(Problem{
         .status = 412,
         .reason = "precondition_failed",
         .detail = std::move(detail),
-        .more = {{"etag", site_tag(now.revision)}, {"changes", changes_since(gateway, if_match, now)}, {"current", to_json(now.site)}}});
+        .more = {{"etag", site_tag(now.revision)}, {"changes", changes_since(sites, if_match, now)}, {"current", to_json(now.site)}}});
     r.headers.set("ETag", site_tag(now.revision));
     put_revision(r, now);
     return r;
@@ -43,7 +43,7 @@ Response site_overtaken(Gateway& gateway, std::string_view if_match, const SiteS
 
 /// One change on its way: planned on the site in force, applied; and planned again if another change came between.
 struct QueuedChange : std::enable_shared_from_this<QueuedChange> {
-    Gateway& gateway;
+    SitePort& sites;
     Origin origin;
     std::optional<std::uint64_t> only_for;  ///< If-Match was given: the change is for this revision alone
     std::string if_match;
@@ -52,7 +52,7 @@ struct QueuedChange : std::enable_shared_from_this<QueuedChange> {
     std::function<void()> done;
     int attempts = 0;
 
-    QueuedChange(Gateway& g, Origin o) : gateway(g), origin(std::move(o)) {}
+    QueuedChange(SitePort& s, Origin o) : sites(s), origin(std::move(o)) {}
 
     void end(Response r) {
         respond(std::move(r));
@@ -60,13 +60,13 @@ struct QueuedChange : std::enable_shared_from_this<QueuedChange> {
     }
     void attempt() {
         ++attempts;
-        const auto before = gateway.site();
+        const auto before = sites.site();
         if (only_for && *only_for != before->revision) return end(overtaken(*before));
         auto planned = plan(*before);
         if (auto* refusal = std::get_if<Response>(&planned)) return end(std::move(*refusal));
         auto& [site, show] = std::get<Plan>(planned);
         if (to_json(site) == to_json(before->site)) return end(show(before));  // nothing changes: nothing is disturbed
-        auto then = [self = shared_from_this(), before, show = std::move(show)](Gateway::SiteAnswer answer) {
+        auto then = [self = shared_from_this(), before, show = std::move(show)](SiteAnswer answer) {
             if (answer.good) return self->end(show(answer.now));
             if (!answer.now || answer.now->revision == before->revision) {
                 return self->end(problem(507, "not_stored", answer.fault.empty() ? "the site could not be stored" : answer.fault));
@@ -75,10 +75,10 @@ struct QueuedChange : std::enable_shared_from_this<QueuedChange> {
             self->end(self->only_for ? self->overtaken(*answer.now)
                                      : problem(503, "busy", "other clients keep changing the site: try again"));
         };
-        gateway.apply_site(std::move(site), before->revision, origin, std::move(then));
+        sites.apply_site(std::move(site), before->revision, origin, std::move(then));
     }
     Response overtaken(const SiteState& now) {
-        return site_overtaken(gateway, if_match, now, "the site was changed by another client meanwhile: read it again");
+        return site_overtaken(sites, if_match, now, "the site was changed by another client meanwhile: read it again");
     }
 };
 
@@ -88,14 +88,14 @@ std::string site_tag(std::uint64_t revision) { return fmt::format("\"{}\"", revi
 
 void put_revision(Response& r, const SiteState& site) { r.headers.set("Site-Revision", std::to_string(site.revision)); }
 
-std::optional<Response> precondition(const Call& c, const SiteState& site, bool demanded) {
+std::optional<Response> precondition(const Call& c, const SitePort& sites, const SiteState& site, bool demanded) {
     const auto header = c.request.headers.get("If-Match");
     if (header.empty()) {
         if (!demanded) return std::nullopt;
         return problem(428, "precondition_required", "say with If-Match which revision of the site you change: its ETag");
     }
     if (tag_listed(header, site_tag(site.revision), false)) return std::nullopt;
-    return site_overtaken(c.gateway(), header, site,
+    return site_overtaken(sites, header, site,
                           fmt::format("the site has the revision {} by now, not {}: read it again", site_tag(site.revision), header));
 }
 
@@ -120,12 +120,13 @@ Response refusal_for(const std::vector<SiteFault>& faults, std::string_view entr
     return to_response(p);
 }
 
-Handled change_site(Call& c, bool if_match_demanded, std::function<Planned(const SiteState& before)> plan) {
-    const auto site = c.gateway().site();
-    if (c.gateway().site_stage().busy())
+Handled change_site(Call& c, SitePort& sites, const StagePort& staging, bool if_match_demanded,
+                    std::function<Planned(const SiteState& before)> plan) {
+    const auto site = sites.site();
+    if (staging.site_stage().busy())
         return problem(409, "conflict", "a staged site is on trial: confirm it or roll it back before the site is changed otherwise");
-    if (auto refusal = precondition(c, *site, if_match_demanded)) return *refusal;
-    auto order = std::make_shared<QueuedChange>(c.gateway(), c.origin());
+    if (auto refusal = precondition(c, sites, *site, if_match_demanded)) return *refusal;
+    auto order = std::make_shared<QueuedChange>(sites, c.origin());
     order->if_match = c.request.headers.get("If-Match");
     if (!order->if_match.empty()) order->only_for = site->revision;
     order->plan = std::move(plan);

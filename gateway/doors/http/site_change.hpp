@@ -25,10 +25,11 @@ using Planned = std::variant<Plan, Response>;
 [[nodiscard]] std::string site_tag(std::uint64_t revision);
 
 /// Queues the change. `if_match_demanded`: 428 without If-Match.
-[[nodiscard]] Handled change_site(Call& call, bool if_match_demanded, std::function<Planned(const SiteState& before)> plan);
+[[nodiscard]] Handled change_site(Call& call, SitePort& sites, const StagePort& staging, bool if_match_demanded,
+                                  std::function<Planned(const SiteState& before)> plan);
 
 /// 412 or 428 where If-Match says so.
-[[nodiscard]] std::optional<Response> precondition(const Call& call, const SiteState& site, bool demanded);
+[[nodiscard]] std::optional<Response> precondition(const Call& call, const SitePort& sites, const SiteState& site, bool demanded);
 /// Pointers into the site become pointers into the request's body where they point into the entry `entry` ("/axes/2").
 [[nodiscard]] std::vector<Fault> faults_for(const std::vector<SiteFault>& faults, std::string_view entry, bool whole_document);
 /// 409 if all there is to say is that a place is taken; else 422.

@@ -1,6 +1,6 @@
 // Stream hub: asks each source for its version once per period and hands the same frame to all who subscribed to it.
-// In: requests, events, time. Out: frames in queues, a few clients at a time. A period that was missed is not made up for. Never waits for a
-// slow client.
+// In: requests, events, time. Out: frames in queues, a few clients at a time. A period that was missed is not made up for. Never waits for
+// a slow client.
 #include "gateway/doors/http/stream_hub.hpp"
 
 #include <fmt/core.h>
@@ -43,16 +43,28 @@ void StreamClient::close(std::uint16_t code, std::string_view reason) {
     has_work_ = true;
 }
 
-StreamHub::StreamHub(Gateway& gateway, const Settings& settings, Counters& counters, std::function<void()> rearm)
-    : gateway_(gateway), settings_(settings), counters_(counters), rearm_(std::move(rearm)), sources_(gateway) {
-    sources_.take_site(gateway_.site());
-    gateway_.listen(this);
+StreamHub::StreamHub(const Needs& ports, const Settings& settings, Counters& counters, std::function<void()> rearm)
+    : axes_(ports.get<AxisPort>()),
+      clock_(ports.get<ClockPort>()),
+      events_(ports.get<EventPort>()),
+      lines_(ports.get<LinePort>()),
+      sites_(ports.get<SitePort>()),
+      settings_(settings),
+      counters_(counters),
+      rearm_(std::move(rearm)),
+      sources_(ports) {
+    sources_.take_site(sites_.site());
+    events_.listen(this);
+    sites_.listen(this);
 }
 
 StreamHub::~StreamHub() { detach(); }
 
 void StreamHub::detach() {
-    if (attached_) gateway_.unlisten(this);
+    if (attached_) {
+        events_.unlisten(this);
+        sites_.unlisten(this);
+    }
     attached_ = false;
 }
 
@@ -68,7 +80,7 @@ void StreamHub::remove(const std::shared_ptr<StreamClient>& client) {
     // apart.
     const auto& who = client->gives_set_points_;
     if (attached_ && who && std::ranges::none_of(clients_, [&](const auto& c) { return c->gives_set_points_ == who; }))
-        gateway_.client_lost(*who, LossCause::set_points_silent);
+        axes_.client_lost(*who, LossCause::set_points_silent);
     counters_.stream_clients = clients_.size();
     const auto used = periods();
     std::erase_if(groups_, [&](const auto& g) { return !used.contains(g.first); });
@@ -88,7 +100,7 @@ void StreamHub::on_text(StreamClient& c, std::string_view text, Instant now) {
     std::string fault;
     const auto request = read_stream_request(text, fault);
     if (!request) {
-        tell_error(c, fault);
+        send_error(c, fault);
         if (++c.wrong_in_a_row_ >= wrong_requests) c.close(close_unsupported, "three messages in a row were not a request");
         wake(c);
         return;
@@ -123,37 +135,38 @@ bool StreamHub::may_ask(StreamClient& c, const StreamRequest& request, Instant n
 /// Handed on without an answer; only what could not be handed on is told to the client.
 void StreamHub::give_set_point(StreamClient& c, const json::object& body, Instant now) {
     auto origin = c.commander ? c.commander() : std::nullopt;
-    if (!origin) return tell_error(c, "set-points need the role operator or a higher one");
+    if (!origin) return send_error(c, "set-points need the role operator or a higher one");
     const auto* name = body.if_contains("axis");
-    const auto place = name && name->is_string() ? find_axis(gateway_, std::string_view(name->get_string())) : std::nullopt;
+    const auto place = name && name->is_string() ? find_axis(sites_, std::string_view(name->get_string())) : std::nullopt;
     if (!place)
-        return tell_error(c, name && name->is_string() ? fmt::format("there is no axis {}", std::string_view(name->get_string()))
+        return send_error(c, name && name->is_string() ? fmt::format("there is no axis {}", std::string_view(name->get_string()))
                                                        : "a set-point needs \"axis\", its name");
     auto read = read_set_point(body, place->spec().increments_per_unit, place->spec().unit);
-    if (!read.set_point) return tell_error(c, fmt::format("set_point: {}: {}", read.faults.front().text, read.faults.front().remedy));
+    if (!read.set_point) return send_error(c, fmt::format("set_point: {}: {}", read.faults.front().text, read.faults.front().remedy));
     read.set_point->axis = place->id();
     read.set_point->at = now;
     c.gives_set_points_ = AuthorityClient::of(*origin);
     read.set_point->origin = std::move(*origin);
-    gateway_.set_point(std::move(*read.set_point));
+    axes_.set_point(std::move(*read.set_point));
 }
 
 void StreamHub::subscribe(StreamClient& c, const std::string& topic, std::int64_t period_ms) {
     if (c.topics_.size() >= most_topics && !c.topics_.contains(topic))
-        return tell_error(c, fmt::format("at most {} topics", most_topics), topic);
+        return send_error(c, fmt::format("at most {} topics", most_topics), topic);
     if (topic == "events") {
         c.events_ = true;
     } else if (topic == "site") {
         c.site_ = true;
-        tell_site(c);
+        send_site(c);
     } else if (topic == "recipes") {
         c.recipes_ = true;
         for (const auto& report : recipes_now ? recipes_now() : std::vector<json::object>())
-            put_state(c, recipe_number(std::string(report.at("recipe").get_string())), stream_message("recipes", gateway_.now_unix_ns(), report));
+            put_state(c, recipe_number(std::string(report.at("recipe").get_string())),
+                      stream_message("recipes", clock_.now_unix_ns(), report));
     } else if (topic == "alarms") {
         c.alarms_ = true;
         if (alarms_number_ == 0) alarms_number_ = sources_.next_number();
-        if (alarms_now) put_state(c, alarms_number_, stream_message("alarms", gateway_.now_unix_ns(), alarms_now()));
+        if (alarms_now) put_state(c, alarms_number_, stream_message("alarms", clock_.now_unix_ns(), alarms_now()));
     } else if (const auto line = line_of_frames(topic); !line.empty() && sources_.find(fmt::format("lines/{}", line))) {
         auto it = std::ranges::find(c.frames_, topic, &StreamClient::FrameWatch::topic);
         if (it == c.frames_.end()) {
@@ -163,15 +176,16 @@ void StreamHub::subscribe(StreamClient& c, const std::string& topic, std::int64_
         it->period_ms = period_ms;
         begin_frames(c, *it);
     } else if (topic != "axes/*" && topic != "drives/*" && topic != "lines/*" && !sources_.find(topic)) {
-        return tell_error(
-            c, "there is no such topic: use axes/*, axes/NAME, drives/*, drives/NAME, lines/*, lines/NAME, lines/NAME/frames, events, alarms, recipes, site",
-            topic);
+        return send_error(c,
+                          "there is no such topic: use axes/*, axes/NAME, drives/*, drives/NAME, lines/*, lines/NAME, lines/NAME/frames, "
+                          "events, alarms, recipes, site",
+                          topic);
     }
     c.topics_.insert_or_assign(topic, period_ms);
 }
 
 void StreamHub::unsubscribe(StreamClient& c, const std::string& topic) {
-    if (c.topics_.erase(topic) == 0) return tell_error(c, "this topic is not subscribed", topic);
+    if (c.topics_.erase(topic) == 0) return send_error(c, "this topic is not subscribed", topic);
     if (topic == "events") c.events_ = false;
     if (topic == "site") c.site_ = false;
     if (topic == "recipes") c.recipes_ = false;
@@ -245,26 +259,27 @@ void StreamHub::on_deadline(Instant now) {
         // Not all of the period before are told yet: this one is left out, as for one that comes late.
         if (std::ranges::find(due_, period_ms, &Due::period_ms) != due_.end()) continue;
         for (const auto& c : clients_) {
-            const bool watches = c->watches_.contains(period_ms) || std::ranges::find(c->frames_, period_ms, &StreamClient::FrameWatch::period_ms) != c->frames_.end();
+            const bool watches = c->watches_.contains(period_ms) ||
+                                 std::ranges::find(c->frames_, period_ms, &StreamClient::FrameWatch::period_ms) != c->frames_.end();
             if (watches && !c->closing_) due_.push_back({c, period_ms, now});
         }
     }
     for (int n = 0; n < clients_per_slice && !due_.empty(); ++n) {
         const Due d = std::move(due_.front());
         due_.pop_front();
-        if (const auto c = d.client.lock(); c && !c->closing_) tell(*c, d.period_ms, d.at);
+        if (const auto c = d.client.lock(); c && !c->closing_) send(*c, d.period_ms, d.at);
     }
 }
 
-void StreamHub::tell(StreamClient& c, std::int64_t period_ms, Instant at) {
-    if (const auto list = c.watches_.find(period_ms); list != c.watches_.end()) tell_states(c, list->second, at);
+void StreamHub::send(StreamClient& c, std::int64_t period_ms, Instant at) {
+    if (const auto list = c.watches_.find(period_ms); list != c.watches_.end()) send_states(c, list->second, at);
     for (auto& f : c.frames_) {
-        if (f.period_ms == period_ms) tell_frames(c, f, at);
+        if (f.period_ms == period_ms) send_frames(c, f, at);
     }
     wake(c);
 }
 
-void StreamHub::tell_states(StreamClient& c, std::vector<StreamClient::Watch>& list, Instant at) {
+void StreamHub::send_states(StreamClient& c, std::vector<StreamClient::Watch>& list, Instant at) {
     const bool together = c.takes_at_once && c.queue.empty() && list.size() <= most_joined;
     changed_.clear();
     for (auto& w : list) {
@@ -300,28 +315,30 @@ void StreamHub::begin_frames(StreamClient& c, StreamClient::FrameWatch& watch) {
     if (id == no_line) return;
     watch.id = id;
     // The newest ones, whatever the number of kept frames is: read up to the end, keep the last stretch.
-    Gateway::Trace trace = gateway_.trace(id, 0, most_frames);
+    Trace trace = lines_.trace(id, 0, most_frames);
     for (int i = 0; i < 64 && trace.entries.size() == most_frames; ++i) {
-        Gateway::Trace more = gateway_.trace(id, trace.next, most_frames);
+        Trace more = lines_.trace(id, trace.next, most_frames);
         if (more.entries.empty()) break;
         trace = std::move(more);
     }
     watch.since = trace.next;
     const std::size_t from = trace.entries.size() > first_frames ? trace.entries.size() - first_frames : 0;
-    put_state(c, watch.number, stream_message(watch.topic, gateway_.now_unix_ns(), frames_document(decoder_for(watch.line, 0, trace.next), trace.entries, from, 0)));
+    put_state(
+        c, watch.number,
+        stream_message(watch.topic, clock_.now_unix_ns(), frames_document(decoder_for(watch.line, 0, trace.next), trace.entries, from, 0)));
 }
 
 /// The reader that has read this line up to `since`, or a new one. At most one per line is kept.
 FrameDecoder& StreamHub::decoder_for(const std::string& line, std::uint64_t since, std::uint64_t next) {
     auto& kept = decoders_[line];
     if (!kept.decoder || since == 0 || kept.next != since) {
-        kept.decoder = std::make_unique<FrameDecoder>(gateway_.families(), sources_.site().site, line);
+        kept.decoder = std::make_unique<FrameDecoder>(sites_.families(), sources_.site().site, line);
     }
     kept.next = next;
     return *kept.decoder;
 }
 
-void StreamHub::tell_frames(StreamClient& c, StreamClient::FrameWatch& watch, Instant now) {
+void StreamHub::send_frames(StreamClient& c, StreamClient::FrameWatch& watch, Instant now) {
     // The list before is still waiting: this client is slow. Its place in the recording is kept; what is overwritten meanwhile is counted.
     if (c.queue.state_waits(watch.number)) return;
     const LineId id = line_id(watch.line);
@@ -330,29 +347,30 @@ void StreamHub::tell_frames(StreamClient& c, StreamClient::FrameWatch& watch, In
     auto& last = last_frames_;
     const bool same = last.message && last.at == now && last.line == watch.line && last.since == watch.since;
     if (!same) {
-        const auto trace = gateway_.trace(id, watch.since, most_frames);
+        const auto trace = lines_.trace(id, watch.since, most_frames);
         last.at = now;
         last.line = watch.line;
         last.since = watch.since;
         last.missed = trace.missed;
         last.next = trace.next;
         last.frames = trace.entries.size();
-        last.message = stream_message(watch.topic, gateway_.now_unix_ns(), 
-                                      frames_document(decoder_for(watch.line, trace.missed > 0 ? 0 : watch.since, trace.next), trace.entries, 0, trace.missed));
+        last.message = stream_message(
+            watch.topic, clock_.now_unix_ns(),
+            frames_document(decoder_for(watch.line, trace.missed > 0 ? 0 : watch.since, trace.next), trace.entries, 0, trace.missed));
     }
     watch.since = last.next;
     if (last.frames > 0 || last.missed > 0) put_state(c, watch.number, last.message);
 }
 
-void StreamHub::tell_site(StreamClient& c) {
-    put_event(c, stream_message("site", gateway_.now_unix_ns(), json::object{{"revision", sources_.site().revision}}));
+void StreamHub::send_site(StreamClient& c) {
+    put_event(c, stream_message("site", clock_.now_unix_ns(), json::object{{"revision", sources_.site().revision}}));
 }
 
-void StreamHub::tell_error(StreamClient& c, std::string_view text, std::string_view topic) {
+void StreamHub::send_error(StreamClient& c, std::string_view text, std::string_view topic) {
     ++counters_.stream_requests_wrong;
     json::object data{{"text", text}};
     if (!topic.empty()) data["topic"] = topic.substr(0, 256);
-    put_event(c, stream_message("error", gateway_.now_unix_ns(), data));
+    put_event(c, stream_message("error", clock_.now_unix_ns(), data));
 }
 
 void StreamHub::put_event(StreamClient& c, SharedFrame frame) {
@@ -385,7 +403,7 @@ void StreamHub::on_recipe(const std::string& recipe, const json::object& report)
     SharedFrame frame;
     for (const auto& c : clients_) {
         if (!c->recipes_ || c->closing_) continue;
-        if (!frame) frame = stream_message("recipes", gateway_.now_unix_ns(), report);
+        if (!frame) frame = stream_message("recipes", clock_.now_unix_ns(), report);
         put_state(*c, recipe_number(recipe), frame);
         wake(*c);
     }
@@ -395,7 +413,7 @@ void StreamHub::on_alarms(const json::object& list) {
     SharedFrame frame;
     for (const auto& c : clients_) {
         if (!c->alarms_ || c->closing_) continue;
-        if (!frame) frame = stream_message("alarms", gateway_.now_unix_ns(), list);
+        if (!frame) frame = stream_message("alarms", clock_.now_unix_ns(), list);
         put_state(*c, alarms_number_, frame);
         wake(*c);
     }
@@ -431,7 +449,7 @@ void StreamHub::take_site(Instant now) {
         if (c->closing_) continue;
         for (const auto& source : gone) {
             const bool watched = c->topics_.contains(source->topic) || c->topics_.contains(wildcard_of(source->topic));
-            if (watched) put_state(*c, source->number, stream_message(source->topic, gateway_.now_unix_ns(), nullptr));
+            if (watched) put_state(*c, source->number, stream_message(source->topic, clock_.now_unix_ns(), nullptr));
             c->topics_.erase(source->topic);
             if (source->kind == Source::Kind::line) {
                 c->topics_.erase(source->topic + "/frames");
@@ -439,7 +457,7 @@ void StreamHub::take_site(Instant now) {
             }
         }
         resolve(*c, now, nullptr);
-        if (c->site_) tell_site(*c);
+        if (c->site_) send_site(*c);
         wake(*c);
     }
     keep_groups(now);

@@ -1,5 +1,5 @@
 // Stream hub: the live feed without sockets: who subscribed to what, what changed since, and what waits for whom.
-// In: requests of clients, events, the passing of time, the Gateway's pictures. Out: frames in each client's queue, and a wake-up.
+// In: requests of clients, events, the passing of time, pictures. Out: frames in each client's queue, and a wake-up.
 // Bounds: topics per client; the queue's (states newest wins, events refused over the bound: the client is closed with 1013 and the
 // reason). Never reads a clock and never sends: the WebSocket session does.
 #pragma once
@@ -21,7 +21,7 @@
 #include "gateway/doors/http/stream_request.hpp"
 #include "gateway/doors/http/stream_sources.hpp"
 #include "gateway/services/frame_decoder.hpp"
-#include "gateway/services/gateway.hpp"
+#include "gateway/services/ports/events.hpp"
 #include "gateway/services/services.hpp"
 
 namespace axisgate::http {
@@ -72,12 +72,13 @@ private:
     bool has_work_ = false;  ///< something was put into the queue since the last wake-up
 };
 
-class StreamHub final : public GatewayListener, public ServiceListener {
+class StreamHub final : public EventListener, public SiteListener, public ServiceListener {
 public:
     /// `rearm` is called when deadline() has changed by another cause than on_deadline.
-    StreamHub(Gateway& gateway, const Settings& settings, Counters& counters, std::function<void()> rearm);
+    using Needs = PortSet<AxisPort, ClockPort, DrivePort, EventPort, LinePort, SitePort>;
+    StreamHub(const Needs& ports, const Settings& settings, Counters& counters, std::function<void()> rearm);
     ~StreamHub() override;
-    /// Hears no more from the Gateway and asks it nothing more.
+    /// Listens no more, and asks nothing more.
     void detach();
     [[nodiscard]] bool attached() const noexcept { return attached_; }
     StreamHub(const StreamHub&) = delete;
@@ -114,7 +115,7 @@ private:
     static constexpr std::size_t most_frames = 4096;  ///< in one message
     static constexpr int wrong_requests = 3;          ///< in a row, then the client is closed
     /// Told in one call: sending to a hundred clients takes milliseconds, in which nobody else would be answered.
-    static constexpr int clients_per_slice = 2;
+    static constexpr int clients_per_slice = 4;
     static constexpr std::size_t most_joined = 128;  ///< states in one write, some 64 KiB
     /// Every subscription tells the whole state anew: a client may ask for so much at once, and for so much more a second. A request costs
     /// 1, with 1 more for each 50 topics, a set-point alone 1/50 (1000 a second), and 4 for each line's frames. Beyond, the client is
@@ -129,14 +130,14 @@ private:
     void resolve(StreamClient& c, Instant now, const std::vector<std::string>* snapshots_of);
     void begin_frames(StreamClient& c, StreamClient::FrameWatch& watch);
     [[nodiscard]] FrameDecoder& decoder_for(const std::string& line, std::uint64_t since, std::uint64_t next);
-    void tell_frames(StreamClient& c, StreamClient::FrameWatch& watch, Instant now);
-    void tell_site(StreamClient& c);
-    void tell_error(StreamClient& c, std::string_view text, std::string_view topic = {});
+    void send_frames(StreamClient& c, StreamClient::FrameWatch& watch, Instant now);
+    void send_site(StreamClient& c);
+    void send_error(StreamClient& c, std::string_view text, std::string_view topic = {});
     void put_event(StreamClient& c, SharedFrame frame);
     void put_state(StreamClient& c, std::uint32_t number, SharedFrame frame);
     void wake(StreamClient& c);
-    void tell(StreamClient& c, std::int64_t period_ms, Instant at);
-    void tell_states(StreamClient& c, std::vector<StreamClient::Watch>& list, Instant at);
+    void send(StreamClient& c, std::int64_t period_ms, Instant at);
+    void send_states(StreamClient& c, std::vector<StreamClient::Watch>& list, Instant at);
     [[nodiscard]] SharedFrame joined();
     void take_site(Instant now);
     void keep_groups(Instant now);
@@ -144,7 +145,11 @@ private:
     [[nodiscard]] std::set<std::int64_t> periods() const;
     [[nodiscard]] LineId line_id(std::string_view line) const;
 
-    Gateway& gateway_;
+    AxisPort& axes_;
+    const ClockPort& clock_;
+    EventPort& events_;
+    const LinePort& lines_;
+    SitePort& sites_;
     const Settings& settings_;
     Counters& counters_;
     std::function<void()> rearm_;

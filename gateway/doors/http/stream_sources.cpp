@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "gateway/services/axis_texts.hpp"
-#include "gateway/services/documents.hpp"
 #include "gateway/doors/http/handlers.hpp"
 #include "gateway/doors/http/websocket_codec.hpp"
+#include "gateway/services/axis_texts.hpp"
+#include "gateway/services/documents.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
@@ -85,10 +85,10 @@ void StreamSources::look(Source& s, Instant now, bool force) {
 void StreamSources::look_axis(Source& s, Instant now, bool force) {
     const AxisId id = s.index < site_->axis_ids.size() ? site_->axis_ids[s.index] : no_axis;
     if (id == no_axis) return;
-    const std::uint64_t revision = gateway_.picture_revision(id);
+    const std::uint64_t revision = axes_.picture_revision(id);
     const bool first = !s.frame || s.fresh;
     if (!first && !force && revision == s.picture_revision) return;
-    const AxisPicture picture = gateway_.picture(id);
+    const AxisPicture picture = axes_.picture(id);
     const bool changed = first || !same_but_time(picture, s.picture);
     const bool moved_on = picture.at != s.picture.at && now - s.built >= time_only_period;
     s.picture_revision = revision;
@@ -98,18 +98,18 @@ void StreamSources::look_axis(Source& s, Instant now, bool force) {
         if (picture.at != s.picture.at) s.picture_revision = revision - 1;
         return;
     }
-    const AxisPlace place = axis_at(gateway_, site_, s.index);
+    const AxisPlace place = axis_at(sites_, site_, s.index);
     std::string data =
-        json_text(axis_document({place.spec(), place.line, place.family, place.catalogue, picture, gateway_.to_unix_ns(picture.at)}));
+        json_text(axis_document({place.spec(), place.line, place.family, place.catalogue, picture, clock_.to_unix_ns(picture.at)}));
     const bool differs = changed ? data != s.text : moved_on;
     s.picture = picture;
     s.fresh = false;
     if (!differs && !force) return;
     // The age belongs to the message, not to what is compared: alone it is no news.
-    const std::int64_t at = gateway_.now_unix_ns();
+    const std::int64_t at = clock_.now_unix_ns();
     std::string shown = data;
     shown.pop_back();
-    put_age(picture.ever_seen, gateway_.to_unix_ns(picture.at), at, shown);
+    put_age(picture.ever_seen, clock_.to_unix_ns(picture.at), at, shown);
     s.frame = message_of(s.topic, at, shown);
     s.text = std::move(data);
     s.built = now;
@@ -121,16 +121,16 @@ void StreamSources::look_slow(Source& s, Instant now, bool force) {
     std::string data;
     if (s.kind == Source::Kind::drive) {
         data = json_text(drive_document(
-            *site_, s.index, s.index < site_->drive_ids.size() ? gateway_.drive_status(site_->drive_ids[s.index]) : DriveStatus{}));
+            *site_, s.index, s.index < site_->drive_ids.size() ? drives_.drive_status(site_->drive_ids[s.index]) : DriveStatus{}));
     } else {
-        data = json_text(line_document(*site_, s.index,
-                                       s.index < site_->line_ids.size() ? gateway_.line_report(site_->line_ids[s.index]) : LineReport{}));
+        data = json_text(
+            line_document(*site_, s.index, s.index < site_->line_ids.size() ? lines_.line_report(site_->line_ids[s.index]) : LineReport{}));
     }
     s.built = now;
     s.fresh = false;
     const bool differs = data != s.text;
     if (!differs && s.frame && !force) return;
-    s.frame = message_of(s.topic, gateway_.now_unix_ns(), data);
+    s.frame = message_of(s.topic, clock_.now_unix_ns(), data);
     s.text = std::move(data);
     if (differs) ++s.version;
 }

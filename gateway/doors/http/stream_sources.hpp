@@ -9,9 +9,14 @@
 #include <string>
 #include <string_view>
 
-#include "gateway/services/gateway.hpp"
 #include "gateway/core/instant.hpp"
 #include "gateway/doors/http/stream_queue.hpp"
+#include "gateway/services/ports/axes.hpp"
+#include "gateway/services/ports/clock.hpp"
+#include "gateway/services/ports/drives.hpp"
+#include "gateway/services/ports/lines.hpp"
+#include "gateway/services/ports/port_set.hpp"
+#include "gateway/services/ports/site.hpp"
 
 namespace axisgate::http {
 
@@ -45,7 +50,13 @@ public:
     /// Drives and lines are looked at this often at most.
     static constexpr std::chrono::milliseconds slow_period{250};
 
-    explicit StreamSources(Gateway& gateway) : gateway_(gateway) {}
+    using Needs = PortSet<AxisPort, ClockPort, DrivePort, LinePort, SitePort>;
+    explicit StreamSources(const Needs& ports)
+        : axes_(ports.get<AxisPort>()),
+          clock_(ports.get<ClockPort>()),
+          drives_(ports.get<DrivePort>()),
+          lines_(ports.get<LinePort>()),
+          sites_(ports.get<SitePort>()) {}
 
     /// Takes another site: sources of the same name stay (their next look makes a new frame if anything differs), others come and go.
     void take_site(std::shared_ptr<const SiteState> site);
@@ -63,7 +74,11 @@ private:
     void look_axis(Source& source, Instant now, bool force);
     void look_slow(Source& source, Instant now, bool force);
 
-    Gateway& gateway_;
+    const AxisPort& axes_;
+    const ClockPort& clock_;
+    const DrivePort& drives_;
+    const LinePort& lines_;
+    const SitePort& sites_;
     std::shared_ptr<const SiteState> site_;
     std::map<std::string, std::shared_ptr<Source>, std::less<>> by_topic_;
     std::uint32_t last_number_ = 0;

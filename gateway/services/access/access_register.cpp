@@ -1,4 +1,4 @@
-// Access desk: a cookie's session goes before a token, and local access comes last.
+// Access register: a cookie's session goes before a token, and local access comes last.
 // In: credentials and times. Out: identities. Never lets an unknown cookie or a wrong token pass for local access.
 #include "gateway/services/access/access_register.hpp"
 
@@ -8,16 +8,18 @@
 #include <algorithm>
 #include <array>
 
-#include "gateway/services/access/secrets.hpp"
 #include "gateway/core/text.hpp"
+#include "gateway/services/access/secrets.hpp"
 
 namespace axisgate {
 namespace {
 constexpr std::int64_t kept_use_ns = std::int64_t{3600} * 1'000'000'000;  // a token's last use is stored once an hour: spares flash
 
-constexpr std::size_t most_good_places = 8;                               // per user; beyond, the one that was not used for longest is forgotten
+constexpr std::size_t most_good_places = 8;  // per user; beyond, the one that was not used for longest is forgotten
 
-std::string user_key(std::string_view user, std::string_view peer) { return fmt::format("user {} at {}", lower(user.substr(0, 64)), network_of(peer)); }
+std::string user_key(std::string_view user, std::string_view peer) {
+    return fmt::format("user {} at {}", lower(user.substr(0, 64)), network_of(peer));
+}
 std::string peer_key(std::string_view peer) { return "peer " + network_of(peer); }
 }  // namespace
 
@@ -166,7 +168,7 @@ AccessRegister::Attempt AccessRegister::begin_sign_in(std::string_view name, std
 }
 
 std::optional<AccessRegister::NewSession> AccessRegister::end_sign_in(std::string_view name, std::string_view hash, bool fits,
-                                                              std::string_view peer, std::int64_t now_ns) {
+                                                                      std::string_view peer, std::int64_t now_ns) {
     const auto it = users_.find(name);
     if (!fits || it == users_.end() || !it->second.enabled || it->second.hash != hash) return std::nullopt;
     attempt_was_good(name, peer);

@@ -1,4 +1,4 @@
-// Access desk: who a request comes from: users, their sessions, tokens, local access, lockout, the first sign-in.
+// Access register: who a request comes from: users, their sessions, tokens, local access, lockout, the first sign-in.
 // In: credentials, peers, times; records from the store. Out: an Identity, or why not; records to store.
 // Pure: no clock, thread, socket, store or log; passwords are only seen as hashes, secrets are kept as digests.
 // Bounds: max_users, max_tokens, max_sessions in all (the longest idle one ends) and per user (its longest idle one ends), lockout's own.
@@ -21,9 +21,9 @@ struct User {
     std::string name;
     Role role = Role::viewer;
     bool enabled = true;
-    std::string hash;  ///< of the password; never leaves the desk and the store
+    std::string hash;  ///< of the password; never leaves the register and the store
     std::int64_t created_ns = 0;
-    std::int64_t last_sign_in_ns = 0;  ///< 0: never
+    std::int64_t last_sign_in_ns = 0;      ///< 0: never
     std::vector<std::string> good_from{};  ///< where he signed in from, newest first; kept with his last use
 };
 struct Token {
@@ -35,8 +35,8 @@ struct Token {
     std::int64_t last_used_ns = 0;  ///< 0: never
 };
 
-/// A row for the store: kind "user", "token", "last_use" or "first_sign_in". When somebody was here last is a record of its own: it is written
-/// beside changes, and must never bring back a user or a token as they were.
+/// A row for the store: kind "user", "token", "last_use" or "first_sign_in". When somebody was here last is a record of its own: it is
+/// written beside changes, and must never bring back a user or a token as they were.
 struct AccessRecord {
     std::string kind, name;
     std::optional<std::string> text;  ///< nothing: the record goes
@@ -57,13 +57,13 @@ struct Identity {
     enum class Via : std::uint8_t { none, cookie, token, local };
     Via via = Via::none;
     Role role = Role::none;
-    std::string user;           ///< empty for local access
-    std::string token;          ///< the token's name
-    std::string csrf;           ///< of a cookie session
-    std::string session;        ///< digest of its id
+    std::string user;     ///< empty for local access
+    std::string token;    ///< the token's name
+    std::string csrf;     ///< of a cookie session
+    std::string session;  ///< digest of its id
     std::int64_t expires_ns = 0;
-    bool wrong_token = false;   ///< a token was shown that is none: the request is refused, also from this machine
-    bool session_ended = false; ///< a session cookie was shown that is none any more: refused too, who signed out is not this machine
+    bool wrong_token = false;    ///< a token was shown that is none: the request is refused, also from this machine
+    bool session_ended = false;  ///< a session cookie was shown that is none any more: refused too, who signed out is not this machine
 };
 [[nodiscard]] std::string_view name_of(Identity::Via via) noexcept;
 /// "anna 192.0.2.7:5123", "token line3 (anna) 192.0.2.7:5123", "local 127.0.0.1:5123".
@@ -72,25 +72,25 @@ struct Identity {
 [[nodiscard]] std::string session_of(const Identity& identity);
 
 struct Credentials {
-    std::vector<std::string_view> cookies;   ///< values of AccessSettings::cookie
+    std::vector<std::string_view> cookies;  ///< values of AccessSettings::cookie
     std::optional<std::string_view> bearer;
-    std::string_view peer;                   ///< "127.0.0.1:51123"
-    bool forwarded = false;                  ///< a header of proxies is there, or the host of another way in: the peer speaks for somebody else
+    std::string_view peer;   ///< "127.0.0.1:51123"
+    bool forwarded = false;  ///< a header of proxies is there, or the host of another way in: the peer speaks for somebody else
 };
 /// "127.0.0.1:51123" and "[::1]:51123" without the port.
 [[nodiscard]] std::string_view address_of(std::string_view peer) noexcept;
 /// Whose place it is: an IPv4 address, or the /64 network of an IPv6 address, since its lower half is anybody's to choose.
 [[nodiscard]] std::string network_of(std::string_view peer);
 [[nodiscard]] bool is_loopback_peer(std::string_view peer) noexcept;
-/// Local access alone: what a door without a desk uses.
+/// Local access alone: what a door without users uses.
 [[nodiscard]] Identity local_identity(const Credentials& credentials, Role local_role);
 
 struct AccessSettings {
     /// Name of the session's cookie: cookies belong to a host, whatever the port, so each gateway on it needs a name of its own.
     std::string cookie = "axisgate_session";
     Role local_role = Role::engineer;
-    std::int64_t idle_ns = std::int64_t{60} * 60 * 1'000'000'000;       ///< a session without a request for so long ends
-    std::int64_t max_ns = std::int64_t{12} * 3600 * 1'000'000'000;      ///< a session ends so long after the sign-in whatever happens
+    std::int64_t idle_ns = std::int64_t{60} * 60 * 1'000'000'000;   ///< a session without a request for so long ends
+    std::int64_t max_ns = std::int64_t{12} * 3600 * 1'000'000'000;  ///< a session ends so long after the sign-in whatever happens
     std::size_t max_users = 256, max_tokens = 1024, max_sessions = 1024, max_sessions_per_user = 16;
 };
 
@@ -121,8 +121,9 @@ public:
         std::int64_t pause_s = 0;  ///< not 0: refused, come again after it
         std::string hash;          ///< to be compared with the password; of nobody if there is no such user
     };
-    /// Counts as failed until end_sign_in says otherwise. Failures count by user and address, so that nobody locks out another by guessing his
-    /// name from elsewhere; and by address, for all names together. The second does not hold up a user who was let in from there before.
+    /// Counts as failed until end_sign_in says otherwise. Failures count by user and address, so that nobody locks out another by guessing
+    /// his name from elsewhere; and by address, for all names together. The second does not hold up a user who was let in from there
+    /// before.
     [[nodiscard]] Attempt begin_sign_in(std::string_view user, std::string_view peer, std::int64_t now_ns);
     struct NewSession {
         std::string id;  ///< for the cookie; kept nowhere else
@@ -147,7 +148,8 @@ public:
     [[nodiscard]] const User* user(std::string_view name) const;
     [[nodiscard]] const std::map<std::string, Token, std::less<>>& tokens() const noexcept { return tokens_; }
     [[nodiscard]] bool is_last_administrator(std::string_view name) const;
-    /// Puts the user in place; what is known of his last use stays. Sessions of a user that was there end if role, password or enabled differ.
+    /// Puts the user in place; what is known of his last use stays. Sessions of a user that was there end if role, password or enabled
+    /// differ.
     void put(User user);
     /// The user, his sessions and his tokens go; ids of those tokens.
     std::vector<std::string> remove_user(std::string_view name);
@@ -171,7 +173,7 @@ private:
     std::map<std::string, User, std::less<>> users_;
     std::map<std::string, Token, std::less<>> tokens_;       // by id
     std::map<std::string, SignedIn, std::less<>> sessions_;  // by the digest of the id
-    std::set<std::string, std::less<>> uses_;  // names of "last_use" records
+    std::set<std::string, std::less<>> uses_;                // names of "last_use" records
     std::string code_digest_;
     Lockout lockout_;
 };

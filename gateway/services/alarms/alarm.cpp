@@ -10,7 +10,7 @@
 
 namespace axisgate {
 namespace {
-/// What is told of an axis while its drive is in fault, and is over with the fault.
+/// What is known of an axis while its drive is in fault, and is over with the fault.
 bool ends_with_fault(const Alarm& a) { return !a.axis.empty() && a.kind != "not_stored"; }
 
 bool same(const Alarm& a, const Event& e) {
@@ -121,10 +121,10 @@ bool AlarmList::on_event(const Event& e) {
     if (e.severity != Severity::alarm && !is_loss(e)) return false;
     // What nothing ever takes back has come and gone in one moment; it waits for somebody to have seen it.
     // The drive's own word about a fault that is on the list already: one alarm, not two to acknowledge.
-    const auto told = [&](const auto& a) {
+    const auto known = [&](const auto& a) {
         return a.second.active && a.second.kind == "fault" && a.second.axis == e.axis && a.second.code == e.code;
     };
-    if (!e.axis.empty() && e.kind != "fault" && e.code != 0 && std::ranges::any_of(alarms_, told)) return false;
+    if (!e.axis.empty() && e.kind != "fault" && e.code != 0 && std::ranges::any_of(alarms_, known)) return false;
     const bool part_of_fault = !e.axis.empty() && e.kind != "not_stored" && fault_active(e.axis);
     raise(e, !is_loss(e) && e.kind != "fault" && !part_of_fault);
     return true;

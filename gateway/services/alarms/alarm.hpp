@@ -12,7 +12,8 @@
 #include <string_view>
 #include <utility>
 
-#include "gateway/services/gateway.hpp"
+#include "gateway/core/event.hpp"
+#include "gateway/site/site.hpp"
 
 namespace axisgate {
 

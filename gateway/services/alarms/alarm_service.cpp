@@ -113,12 +113,17 @@ json::object alarm_document(const Alarm& a) {
             {"count", a.count}};
 }
 
-AlarmService::AlarmService(Gateway& gateway, std::function<Instant()> clock) : gateway_(gateway), clock_(std::move(clock)) {}
+AlarmService::AlarmService(const Needs& ports, std::function<Instant()> clock)
+    : wall_(ports.get<ClockPort>()),
+      documents_(ports.get<DocumentPort>()),
+      events_(ports.get<EventPort>()),
+      sites_(ports.get<SitePort>()),
+      clock_(std::move(clock)) {}
 AlarmService::~AlarmService() { detach(); }
 
 void AlarmService::begin() {
     bool known_before = false;
-    for (const auto& d : gateway_.documents(kind)) {
+    for (const auto& d : documents_.documents(kind)) {
         if (d.name == seen_name) {
             seen_ = static_cast<std::uint64_t>(parse_whole(d.text, 0, INT64_MAX).value_or(0));
             known_before = true;
@@ -129,23 +134,27 @@ void AlarmService::begin() {
     EventQuery query;
     query.since_id = seen_;
     query.limit = known_before ? 1000 : 1;
-    for (const auto& e : gateway_.events(query)) {
+    for (const auto& e : events_.events(query)) {
         // A data directory from before there were alarms: its old events are not news.
         if (known_before) list_.on_event(e);
         seen_ = std::max(seen_, e.id);
     }
-    list_.on_start(gateway_.now_unix_ns());
-    gateway_.listen(this);
+    list_.on_start(wall_.now_unix_ns());
+    events_.listen(this);
+    sites_.listen(this);
     attached_ = true;
     if (!known_before) waiting_.push_back([](const std::string&) {});  // from here on it is known what is news
     changed();
 }
 
 void AlarmService::detach() {
-    if (attached_) gateway_.unlisten(this);
+    if (attached_) {
+        events_.unlisten(this);
+        sites_.unlisten(this);
+    }
     attached_ = false;
     rearm = nullptr;
-    tell = nullptr;
+    publish = nullptr;
     waiting_.clear();
 }
 
@@ -179,11 +188,11 @@ std::string AlarmService::acknowledge(const std::vector<std::uint64_t>& ids, con
     // All or none: first on a copy.
     AlarmList trial = list_;
     for (const auto id : ids) {
-        if (auto fault = trial.acknowledge(id, who, comment, gateway_.now_unix_ns()); !fault.empty()) return fault;
+        if (auto fault = trial.acknowledge(id, who, comment, wall_.now_unix_ns()); !fault.empty()) return fault;
     }
     for (const auto id : ids) {
         const Alarm before = *list_.find(id);
-        (void)list_.acknowledge(id, who, comment, gateway_.now_unix_ns());
+        (void)list_.acknowledge(id, who, comment, wall_.now_unix_ns());
         note(before, comment.empty() ? "acknowledged" : fmt::format("acknowledged: {}", comment), origin);
     }
     waiting_.push_back(std::move(then));
@@ -193,7 +202,7 @@ std::string AlarmService::acknowledge(const std::vector<std::uint64_t>& ids, con
 
 std::string AlarmService::shelve(std::uint64_t id, std::int64_t for_s, const std::string& reason, const Origin& origin, Then then) {
     if (busy()) return "too many answers wait for the disk: come again in a moment";
-    if (auto fault = list_.shelve(id, for_s, origin.who ? *origin.who : "", reason, gateway_.now_unix_ns()); !fault.empty()) return fault;
+    if (auto fault = list_.shelve(id, for_s, origin.who ? *origin.who : "", reason, wall_.now_unix_ns()); !fault.empty()) return fault;
     note(*list_.find(id), fmt::format("shelved for {} s: {}", for_s, reason), origin);
     waiting_.push_back(std::move(then));
     changed();
@@ -221,7 +230,7 @@ void AlarmService::note(const Alarm& a, const std::string& what, const Origin& o
     e.text = fmt::format("alarm {} of {} ({}) {}", a.id, subject(a), a.text, what);
     e.who = origin.who ? *origin.who : "";
     e.door = std::string(name_of(origin.door));
-    gateway_.note(std::move(e));
+    events_.note(std::move(e));
 }
 
 void AlarmService::on_event(const Event& event) {
@@ -230,12 +239,12 @@ void AlarmService::on_event(const Event& event) {
 }
 
 void AlarmService::on_site(const std::shared_ptr<const SiteState>& site) {
-    if (list_.on_site(site->site, gateway_.now_unix_ns())) changed();
+    if (list_.on_site(site->site, wall_.now_unix_ns())) changed();
 }
 
 void AlarmService::changed() {
     unsaved_.merge(list_.take_changed());
-    untold_ = true;
+    unpublished_ = true;
     keep();
     if (rearm) rearm();
 }
@@ -267,38 +276,39 @@ void AlarmService::keep() {
             e.severity = Severity::warning;
             e.kind = "store";
             e.text = fmt::format("alarms are not stored: {}; after a restart what was done since is missing", batch->fault);
-            me->gateway_.note(std::move(e));
+            me->events_.note(std::move(e));
         }
         if (batch->fault.empty()) me->fault_told_ = false;
         me->keep();
     };
-    const auto now = gateway_.now_unix_ns();
+    const auto now = wall_.now_unix_ns();
     for (const auto id : ids) {
         if (const auto* a = list_.find(id)) {
-            gateway_.save_document(kind, {name_of_document(id), json::serialize(kept_form(*a)), a->acknowledged_by, now}, done);
+            documents_.save_document(kind, {name_of_document(id), json::serialize(kept_form(*a)), a->acknowledged_by, now}, done);
         } else {
-            gateway_.delete_document(kind, name_of_document(id), [done](const std::string&) { done({}); });  // it may never have been kept
+            documents_.delete_document(kind, name_of_document(id),
+                                       [done](const std::string&) { done({}); });  // it may never have been kept
         }
     }
-    gateway_.save_document(kind, {seen_name, std::to_string(seen_), "", now}, done);
+    documents_.save_document(kind, {seen_name, std::to_string(seen_), "", now}, done);
 }
 
 Instant AlarmService::deadline() const {
-    Instant next = untold_ ? std::max(told_ + tell_period, time_zero) : never;
+    Instant next = unpublished_ ? std::max(published_ + publish_period, time_zero) : never;
     if (const auto due = list_.deadline()) {
         // At most a minute: the wall clock may be set meanwhile.
-        const auto rest = std::clamp<std::int64_t>(*due - gateway_.now_unix_ns(), 0, 60'000'000'000);
+        const auto rest = std::clamp<std::int64_t>(*due - wall_.now_unix_ns(), 0, 60'000'000'000);
         next = std::min(next, clock_() + std::chrono::nanoseconds(rest));
     }
     return next;
 }
 
 void AlarmService::on_deadline(Instant now) {
-    if (list_.on_time(gateway_.now_unix_ns())) changed();
-    if (!untold_ || now < told_ + tell_period) return;
-    untold_ = false;
-    told_ = now;
-    if (tell) tell(document());
+    if (list_.on_time(wall_.now_unix_ns())) changed();
+    if (!unpublished_ || now < published_ + publish_period) return;
+    unpublished_ = false;
+    published_ = now;
+    if (publish) publish(document());
 }
 
 }  // namespace axisgate

@@ -1,5 +1,5 @@
 // Alarm service: keeps the list of alarms: feeds it with events and time, stores what changed, tells the live feed and the events who did
-// what. In: events and sites of the Gateway, acknowledgements and shelves, the clock it is given. Out: the list, documents, progress.
+// what. In: events, sites, acknowledgements and shelves, the clock it is given. Out: the list, documents, progress.
 // Bounds: those of AlarmList; one batch of documents is on its way to the disk, what changes meanwhile is one further batch; at most 64
 // answers wait for a batch, the next one is refused.
 // Never used off the warm thread; never sleeps: whoever owns it calls on_deadline.
@@ -13,27 +13,33 @@
 #include <vector>
 
 #include "gateway/services/alarms/alarm.hpp"
+#include "gateway/services/ports/clock.hpp"
+#include "gateway/services/ports/documents.hpp"
+#include "gateway/services/ports/events.hpp"
+#include "gateway/services/ports/port_set.hpp"
+#include "gateway/services/ports/site.hpp"
 
 namespace axisgate {
 
-class AlarmService final : public GatewayListener, public std::enable_shared_from_this<AlarmService> {
+class AlarmService final : public EventListener, public SiteListener, public std::enable_shared_from_this<AlarmService> {
 public:
-    static constexpr Duration tell_period = std::chrono::milliseconds(200);  ///< of the list, at most
+    static constexpr Duration publish_period = std::chrono::milliseconds(200);  ///< of the list, at most
     static constexpr std::size_t most_waiting = 64;
 
-    AlarmService(Gateway& gateway, std::function<Instant()> clock);
+    using Needs = PortSet<ClockPort, DocumentPort, EventPort, SitePort>;
+    AlarmService(const Needs& ports, std::function<Instant()> clock);
     ~AlarmService() override;
     AlarmService(const AlarmService&) = delete;
     AlarmService& operator=(const AlarmService&) = delete;
     /// Reads what is kept, and the events that came after it was kept; then listens.
     void begin();
-    /// Hears no more from the Gateway and asks it nothing more.
+    /// Listens no more, and asks nothing more.
     void detach();
 
     /// Called when deadline() may have changed by another cause than on_deadline.
     std::function<void()> rearm;
     /// The list, when it has changed.
-    std::function<void(const boost::json::object& list)> tell;
+    std::function<void(const boost::json::object& list)> publish;
 
     [[nodiscard]] const AlarmList& list() const noexcept { return list_; }
     /// {"unacknowledged", "dropped", "alarms"}: active ones first, then newest first. The counts are of all, whatever is asked for.
@@ -61,7 +67,10 @@ private:
     void note(const Alarm& alarm, const std::string& what, const Origin& origin);
     [[nodiscard]] bool busy() const { return waiting_.size() >= most_waiting; }
 
-    Gateway& gateway_;
+    ClockPort& wall_;
+    DocumentPort& documents_;
+    EventPort& events_;
+    SitePort& sites_;
     std::function<Instant()> clock_;
     AlarmList list_;
     bool attached_ = false;
@@ -69,8 +78,8 @@ private:
     std::set<std::uint64_t> unsaved_;
     std::vector<Then> waiting_;
     std::uint64_t seen_ = 0;  ///< newest event that the list knows of
-    bool untold_ = false;
-    Instant told_{};
+    bool unpublished_ = false;
+    Instant published_{};
 };
 
 [[nodiscard]] boost::json::object alarm_document(const Alarm& alarm);

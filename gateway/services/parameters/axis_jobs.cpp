@@ -1,18 +1,15 @@
-// Axis jobs: each step begins in the answer of the one before; where a Gateway answers inside submit, a loop goes on, no deeper call.
+// Axis jobs: each step begins in the answer of the one before; where a command is answered inside submit, a loop goes on, no deeper call.
 // In: points, answers. Out: values and failures, told once. Never blocks.
 #include "gateway/services/parameters/axis_jobs.hpp"
 
 #include <fmt/core.h>
 
-
 namespace axisgate {
 
-std::string why_not_written(const AxisPicture& p) {
-    return (p.flags & flag_moving) != 0 ? "the axis moves: stop it" : "";
-}
+std::string why_not_written(const AxisPicture& p) { return (p.flags & flag_moving) != 0 ? "the axis moves: stop it" : ""; }
 
 struct AxisJob : std::enable_shared_from_this<AxisJob> {
-    Gateway& gateway;
+    AxisPort& axes;
     std::shared_ptr<AxisJobs> jobs;
     std::shared_ptr<AxisJobs::Progress> progress;
     std::string axis;
@@ -24,15 +21,15 @@ struct AxisJob : std::enable_shared_from_this<AxisJob> {
     JobEnd end;
     bool stepping = false, answered = false;
 
-    AxisJob(Gateway& g, AxisId i, bool w, Origin o) : gateway(g), id(i), write(w), origin(std::move(o)) {}
+    AxisJob(AxisPort& a, AxisId i, bool w, Origin o) : axes(a), id(i), write(w), origin(std::move(o)) {}
 
     void finish() {
         progress->state = end.broken_off.empty() ? AxisJobs::State::done : AxisJobs::State::failed;
         progress->text = end.broken_off;
         if (end.broken_off.empty() && !end.failed.empty())
             progress->text = fmt::format("{} of {} were refused", end.failed.size(), points.size());
-        auto tell = std::move(then);
-        tell(std::move(end));
+        auto done = std::move(then);
+        done(std::move(end));
     }
     void take(const JobPoint& p, const Result& r) {
         if (good(r)) {
@@ -55,13 +52,13 @@ struct AxisJob : std::enable_shared_from_this<AxisJob> {
         }
         end.failed.push_back({p.id, why});
     }
-    /// A Gateway may answer inside submit: the loop then goes round instead of deeper.
+    /// A command may be answered inside submit: the loop then goes round instead of deeper.
     void step() {
         stepping = true;
         for (;;) {
             if (!end.broken_off.empty() || progress->done == points.size()) break;
             const JobPoint& p = points[progress->done];
-            if (const auto why = write ? why_not_written(gateway.picture(id)) : std::string(); !why.empty()) {
+            if (const auto why = write ? why_not_written(axes.picture(id)) : std::string(); !why.empty()) {
                 end.broken_off = fmt::format("{} of {} parameters were written, then {}", progress->done, points.size(), why);
                 break;
             }
@@ -73,7 +70,7 @@ struct AxisJob : std::enable_shared_from_this<AxisJob> {
             else
                 command.body = ReadParameter{p.point};
             answered = false;
-            gateway.submit(std::move(command), [self = shared_from_this()](const Result& r) {
+            axes.submit(std::move(command), [self = shared_from_this()](const Result& r) {
                 self->take(self->points[self->progress->done], r);
                 if (self->end.broken_off.empty()) ++self->progress->done;
                 self->answered = true;
@@ -94,11 +91,11 @@ const AxisJobs::Progress* AxisJobs::of(const std::string& axis) const {
     return it == list_.end() ? nullptr : it->second.get();
 }
 
-bool AxisJobs::start(const std::shared_ptr<AxisJobs>& jobs, Gateway& gateway, const std::string& axis, AxisId id,
+bool AxisJobs::start(const std::shared_ptr<AxisJobs>& jobs, AxisPort& axes, const std::string& axis, AxisId id,
                      std::vector<JobPoint> points, bool write, Origin origin, std::function<void(JobEnd)> then) {
     if (const auto* p = jobs->of(axis); p && p->state == State::running) return false;
     if (jobs->list_.size() >= most_kept) std::erase_if(jobs->list_, [](const auto& x) { return x.second->state != State::running; });
-    auto job = std::make_shared<AxisJob>(gateway, id, write, std::move(origin));
+    auto job = std::make_shared<AxisJob>(axes, id, write, std::move(origin));
     job->jobs = jobs;
     job->axis = axis;
     job->points = std::move(points);

@@ -1,5 +1,5 @@
 // Axis jobs: many parameters of one axis read or written one after the other through the normal queue, with progress.
-// In: points, the Gateway. Out: values, failures, told once at the end. One job per axis; polls and commands of others go between the
+// In: points, the axis port. Out: values, failures, told once at the end. One job per axis; polls and commands of others go between the
 // steps. Never retries and never has two exchanges on the way. Bounded: `most_points` per job, one job per axis; a silent drive ends it at
 // once.
 #pragma once
@@ -10,7 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "gateway/services/gateway.hpp"
+#include "gateway/core/records.hpp"
+#include "gateway/services/ports/axes.hpp"
 
 namespace axisgate {
 
@@ -47,7 +48,7 @@ public:
     /// Nothing if the axis never had one.
     [[nodiscard]] const Progress* of(const std::string& axis) const;
     /// False: one runs on this axis already.
-    [[nodiscard]] static bool start(const std::shared_ptr<AxisJobs>& jobs, Gateway& gateway, const std::string& axis, AxisId id,
+    [[nodiscard]] static bool start(const std::shared_ptr<AxisJobs>& jobs, AxisPort& axes, const std::string& axis, AxisId id,
                                     std::vector<JobPoint> points, bool write, Origin origin, std::function<void(JobEnd)> then);
 
 private:

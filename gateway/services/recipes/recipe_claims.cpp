@@ -18,9 +18,9 @@ using Whose = RecipeWorld::Claim::Whose;
 bool has(const std::vector<Ticket>& list, Ticket t) { return std::ranges::find(list, t) != list.end(); }
 
 /// Somebody else who holds the axis at this moment; empty: nobody else does.
-std::string other_holder(const AxisPicture& p, const Origin& run, const Gateway& gateway) {
+std::string other_holder(const AxisPicture& p, const Origin& run, const ClockPort& clock) {
     const std::string_view holder = p.authority_holder.data();
-    if (holder.empty() || gateway.to_unix_ns(p.authority_until) <= gateway.now_unix_ns()) return {};
+    if (holder.empty() || clock.to_unix_ns(p.authority_until) <= clock.now_unix_ns()) return {};
     const auto me = AuthorityClient::of(run);
     // Handed over to a user by name, any client of that user may command.
     const bool mine = p.authority == me.door && (me.name == holder || me.name.starts_with(std::string(holder) + " "));
@@ -47,7 +47,7 @@ Motion RecipeClaims::answered(const RecipeStep& step, const CommandBody& body, c
     c.waiting = false;
     if (r.outcome == Outcome::refused) {  // nothing has reached the drive, or it said no: whose motion it is has not changed
         std::erase(c.own, r.ticket);
-        return Motion::told;
+        return Motion::by_result;
     }
     sent(step.axis, r.ticket);
     const auto take = [&](bool sure) {
@@ -63,23 +63,23 @@ Motion RecipeClaims::answered(const RecipeStep& step, const CommandBody& body, c
         // What an action does is the family's; an axis that moved already by another command goes on as before, for all that is known.
         if (c.moved_before && !has(c.own, c.waiting_before)) return Motion::nothing;
         take(false);
-        return Motion::told;
+        return Motion::by_result;
     }
     if (const auto* data = std::get_if<ProcessData>(&body)) {
         const bool begun = now.motion_ticket == r.ticket;
         const bool may_wait = data->controlword && (*data->controlword & cia402::cw_new_setpoint) != 0;
         if (!begun && !may_wait) return Motion::nothing;
         if (begun || !c.sure) take(begun);
-        return Motion::told;
+        return Motion::by_result;
     }
     const auto* move = std::get_if<Move>(&body);
     if (!move && !std::holds_alternative<Home>(body)) return Motion::nothing;  // a register that is a parameter
     take(!move || !move->prepare_only);
-    return Motion::told;
+    return Motion::by_result;
 }
 
-RecipeWorld::Claim RecipeClaims::claim(const std::string& axis, const AxisPicture& now, const Origin& run, const Gateway& gateway) const {
-    if (const auto holder = other_holder(now, run, gateway); !holder.empty())
+RecipeWorld::Claim RecipeClaims::claim(const std::string& axis, const AxisPicture& now, const Origin& run, const ClockPort& clock) const {
+    if (const auto holder = other_holder(now, run, clock); !holder.empty())
         return {Whose::others, fmt::format("{} holds the axis now", holder)};
     const auto it = claims_.find(axis);
     if (it == claims_.end()) return {};

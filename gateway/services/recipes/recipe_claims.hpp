@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "gateway/services/gateway.hpp"
+#include "gateway/services/ports/clock.hpp"
 #include "gateway/services/recipes/recipe_run.hpp"
 
 namespace axisgate {
@@ -19,17 +19,19 @@ public:
     /// A command that may move the axis is about to be given, is on its way, has its result.
     void ask(const std::string& axis, const AxisPicture& before);
     void sent(const std::string& axis, Ticket ticket);
-    [[nodiscard]] RecipeAnswer::Motion answered(const RecipeStep& step, const CommandBody& body, const Result& result, const AxisPicture& now);
+    [[nodiscard]] RecipeAnswer::Motion answered(const RecipeStep& step, const CommandBody& body, const Result& result,
+                                                const AxisPicture& now);
 
-    [[nodiscard]] RecipeWorld::Claim claim(const std::string& axis, const AxisPicture& now, const Origin& run, const Gateway& gateway) const;
+    [[nodiscard]] RecipeWorld::Claim claim(const std::string& axis, const AxisPicture& now, const Origin& run,
+                                           const ClockPort& clock) const;
 
 private:
     struct Claim {
         std::vector<Ticket> own;
-        bool sure = false;              ///< the drive has taken a motion of the run: only `own` are its own
-        Ticket before = no_ticket;      ///< not sure: the motion that was there before may hide the run's
-        bool waiting = false;           ///< for a result
-        bool moved_before = false;      ///< it was moving when that command was given
+        bool sure = false;          ///< the drive has taken a motion of the run: only `own` are its own
+        Ticket before = no_ticket;  ///< not sure: the motion that was there before may hide the run's
+        bool waiting = false;       ///< for a result
+        bool moved_before = false;  ///< it was moving when that command was given
         Ticket waiting_before = no_ticket;
     };
     std::map<std::string, Claim, std::less<>> claims_;

@@ -52,11 +52,11 @@ std::string text_of(json::object report) {
 }  // namespace
 
 void RecipeReports::begin() {
-    for (const auto& d : gateway_.documents(under_way)) {
+    for (const auto& d : documents_.documents(under_way)) {
         auto report = parsed(d.text);
         const auto n = report ? number_of(*report) : 0;
-        if (n == 0 || gateway_.document(kind_of(d.name), name_of(n))) {  // it had ended, and its report was kept
-            gateway_.delete_document(under_way, d.name, [](const std::string&) {});
+        if (n == 0 || documents_.document(kind_of(d.name), name_of(n))) {  // it had ended, and its report was kept
+            documents_.delete_document(under_way, d.name, [](const std::string&) {});
             continue;
         }
         const std::string known = format_time(d.at_unix_ns);
@@ -87,7 +87,7 @@ void RecipeReports::begin() {
         e.who = d.who;
         e.text = fmt::format("recipe {} run {} interrupted{}: {}", d.name, n,
                              at && at->is_string() ? fmt::format(" at {}", std::string_view(at->get_string())) : std::string(), text);
-        gateway_.note(std::move(e));
+        events_.note(std::move(e));
         last_[d.name] = n;
         end(d.name, n, d.who, std::move(*report));
     }
@@ -95,7 +95,7 @@ void RecipeReports::begin() {
 
 std::uint64_t RecipeReports::next(const std::string& name) {
     std::vector<std::uint64_t> numbers;
-    for (const auto& d : gateway_.documents(kind_of(name)))
+    for (const auto& d : documents_.documents(kind_of(name)))
         numbers.push_back(number_in(d.name));
     auto& last = last_[name];
     for (const auto n : numbers)
@@ -114,39 +114,40 @@ bool RecipeReports::too_old(const std::string& name, std::uint64_t n) const {
 
 void RecipeReports::keep(const std::string& name, const std::string& who, const json::object& report) {
     // What cannot be stored now may be with the next; the end is the one that says so.
-    gateway_.save_document(under_way, {name, text_of(report), who, gateway_.now_unix_ns()}, [](const std::string&) {});
+    documents_.save_document(under_way, {name, text_of(report), who, clock_.now_unix_ns()}, [](const std::string&) {});
 }
 
 void RecipeReports::end(const std::string& name, std::uint64_t n, const std::string& who, json::object report) {
-    Gateway::Document d{name_of(n), text_of(report), who, gateway_.now_unix_ns()};
+    Document d{name_of(n), text_of(report), who, clock_.now_unix_ns()};
     unsaved_[{name, n}] = std::move(report);
-    gateway_.save_document(kind_of(name), std::move(d), [self = weak_from_this(), name, n](const std::string& fault) {
-        if (const auto me = self.lock()) me->told(name, n, fault);
+    documents_.save_document(kind_of(name), std::move(d), [self = weak_from_this(), name, n](const std::string& fault) {
+        if (const auto me = self.lock()) me->saved(name, n, fault);
     });
-    // Behind it, in the same order on the disk: whatever ends the program between the two leaves both, and the next start knows which counts.
-    gateway_.delete_document(under_way, name, [](const std::string&) {});
+    // Behind it, in the same order on the disk: whatever ends the program between the two leaves both, and the next start knows which
+    // counts.
+    documents_.delete_document(under_way, name, [](const std::string&) {});
 }
 
-void RecipeReports::told(const std::string& name, std::uint64_t n, const std::string& fault) {
+void RecipeReports::saved(const std::string& name, std::uint64_t n, const std::string& fault) {
     unsaved_.erase({name, n});  // what cannot be stored is not kept in memory either: the event has said how it ended
     if (fault.empty()) return;
     Event e;
     e.severity = Severity::warning;
     e.kind = "recipe";
     e.text = fmt::format("the report of run {} of recipe {} is not stored: {}", n, name, fault);
-    gateway_.note(std::move(e));
+    events_.note(std::move(e));
 }
 
 std::optional<json::object> RecipeReports::find(const std::string& name, std::uint64_t n) const {
     if (too_old(name, n)) return std::nullopt;
     if (const auto it = unsaved_.find({name, n}); it != unsaved_.end()) return it->second;
-    const auto d = gateway_.document(kind_of(name), name_of(n));
+    const auto d = documents_.document(kind_of(name), name_of(n));
     return d ? parsed(d->text) : std::nullopt;
 }
 
 std::map<std::uint64_t, json::object> RecipeReports::all(const std::string& name) const {
     std::map<std::uint64_t, json::object> out;
-    for (const auto& d : gateway_.documents(kind_of(name))) {
+    for (const auto& d : documents_.documents(kind_of(name))) {
         const auto n = number_in(d.name);
         auto report = n != 0 && !too_old(name, n) ? parsed(d.text) : std::nullopt;
         if (report) out[n] = std::move(*report);
@@ -158,7 +159,7 @@ std::map<std::uint64_t, json::object> RecipeReports::all(const std::string& name
 }
 
 void RecipeReports::remove(const std::string& name, std::uint64_t n) {
-    gateway_.delete_document(kind_of(name), name_of(n), [](const std::string&) {});
+    documents_.delete_document(kind_of(name), name_of(n), [](const std::string&) {});
 }
 
 void RecipeReports::forget(const std::string& name) {
@@ -167,9 +168,9 @@ void RecipeReports::forget(const std::string& name) {
         remove(name, u.first.second);  // it is on its way to the disk: what comes after it takes it away again
         return true;
     });
-    for (const auto& d : gateway_.documents(kind_of(name)))
+    for (const auto& d : documents_.documents(kind_of(name)))
         remove(name, number_in(d.name));
-    gateway_.delete_document(under_way, name, [](const std::string&) {});
+    documents_.delete_document(under_way, name, [](const std::string&) {});
     last_.erase(name);
 }
 

@@ -1,7 +1,7 @@
-// Recipe reports: what is kept of the runs of recipes: numbers that count up, the reports of the last 20 runs, and those that a restart ended.
-// In: reports of runs that begin, go on and end. Out: documents of the gateway; reports as they were kept.
-// Bounds: 20 reports of each recipe; 64 ended ones on their way to the disk; one document of less than 1 MiB each.
-// Never waits for the disk: what is not there yet is answered from memory.
+// Recipe reports: what is kept of the runs of recipes: numbers that count up, the reports of the last 20 runs, and those that a restart
+// ended. In: reports of runs that begin, go on and end. Out: documents of the gateway; reports as they were kept. Bounds: 20 reports of
+// each recipe; 64 ended ones on their way to the disk; one document of less than 1 MiB each. Never waits for the disk: what is not there
+// yet is answered from memory.
 #pragma once
 
 #include <boost/json/object.hpp>
@@ -12,7 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "gateway/services/gateway.hpp"
+#include "gateway/services/ports/clock.hpp"
+#include "gateway/services/ports/documents.hpp"
+#include "gateway/services/ports/events.hpp"
+#include "gateway/services/ports/port_set.hpp"
 
 namespace axisgate {
 
@@ -21,7 +24,9 @@ public:
     static constexpr std::size_t kept = 20;  ///< of each recipe, with the run in progress
     static constexpr std::size_t most_unsaved = 64;
 
-    explicit RecipeReports(Gateway& gateway) : gateway_(gateway) {}
+    using Needs = PortSet<ClockPort, DocumentPort, EventPort>;
+    explicit RecipeReports(const Needs& ports)
+        : clock_(ports.get<ClockPort>()), documents_(ports.get<DocumentPort>()), events_(ports.get<EventPort>()) {}
 
     /// Once, at the start: runs that were under way when the gateway ended are reported as interrupted.
     void begin();
@@ -42,9 +47,11 @@ public:
 private:
     [[nodiscard]] bool too_old(const std::string& name, std::uint64_t n) const;
     void remove(const std::string& name, std::uint64_t n);
-    void told(const std::string& name, std::uint64_t n, const std::string& fault);
+    void saved(const std::string& name, std::uint64_t n, const std::string& fault);
 
-    Gateway& gateway_;
+    ClockPort& clock_;
+    DocumentPort& documents_;
+    EventPort& events_;
     std::map<std::string, std::uint64_t> last_;                                     ///< numbers given in this process
     std::map<std::pair<std::string, std::uint64_t>, boost::json::object> unsaved_;  ///< ended, not on disk yet
 };

@@ -14,9 +14,7 @@ namespace json = boost::json;
 using Kind = RecipeStep::Kind;
 
 double seconds_in(Duration d) { return std::chrono::duration<double>(d).count(); }
-std::string shown(const json::value& v) {
-    return v.is_null() ? "not known" : plain_text(v);
-}
+std::string shown(const json::value& v) { return v.is_null() ? "not known" : plain_text(v); }
 bool is_stop(const RecipeStep& s) {
     if (s.kind == Kind::disable) return true;
     const auto* c = s.kind == Kind::command ? s.body.if_contains("command") : nullptr;
@@ -303,7 +301,7 @@ void RecipeRun::take_motion(const RecipeStep& s, bool good, RecipeAnswer::Motion
         in_motion_.erase(s.axis);
         prepared_.erase(s.axis);
     }
-    if (!is_motion(s) || s.axis.empty() || motion == Told::nothing || (!good && motion == Told::told)) return;
+    if (!is_motion(s) || s.axis.empty() || motion == Told::nothing || (!good && motion == Told::by_result)) return;
     if (is_prepared(s)) {
         prepared_.insert(s.axis);
         return;
@@ -358,7 +356,8 @@ bool RecipeRun::sort_motions(Instant now, const RecipeWorld& world, std::vector<
     for (auto it = in_motion_.begin(); it != in_motion_.end();) {
         const auto& [axis, motion] = *it;
         auto claim = world.claim(axis);
-        const bool at_rest = claim.whose == Whose::resting && (motion.interrupted || (motion.ends_itself && now - motion.begun > start_limit));
+        const bool at_rest =
+            claim.whose == Whose::resting && (motion.interrupted || (motion.ends_itself && now - motion.begun > start_limit));
         if (claim.whose == Whose::others) {
             stops_.push_back({axis, true, false, true, "left alone: " + std::move(claim.text)});
             ++revision_;

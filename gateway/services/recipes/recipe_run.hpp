@@ -49,7 +49,7 @@ struct RecipeRequest {
 struct RecipeAnswer {
     /// What the command has done to the motion of its axis, where `good` alone does not tell.
     enum class Motion : std::uint8_t {
-        told,         ///< good: begun, or come to its end, as the step says; not good: nothing was begun
+        by_result,    ///< good: begun, or come to its end, as the step says; not good: nothing was begun
         nothing,      ///< good, and yet it has begun nothing
         interrupted,  ///< begun, and ended by something else
         unknown       ///< not good, but it may have been begun
@@ -57,7 +57,7 @@ struct RecipeAnswer {
     bool good = false;
     std::string text;
     boost::json::value value{};  ///< null: none
-    Motion motion = Motion::told;
+    Motion motion = Motion::by_result;
 };
 
 struct RecipeRow {

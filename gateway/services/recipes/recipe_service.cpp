@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <boost/json/serialize.hpp>
 
-#include "gateway/services/documents.hpp"
 #include "gateway/core/text.hpp"
 #include "gateway/services/axis_place.hpp"
+#include "gateway/services/documents.hpp"
 #include "gateway/services/recipes/recipe_steps.hpp"
 
 namespace axisgate {
@@ -22,20 +22,20 @@ json::object without_steps(json::object report) {
 }  // namespace
 
 struct RecipeService::World final : RecipeWorld {
-    World(const Gateway& g, const Active& a) : gateway(g), active(a) {}
-    const Gateway& gateway;
+    World(const RecipeService& s, const Active& a) : service(s), active(a) {}
+    const RecipeService& service;
     const Active& active;
     [[nodiscard]] Claim claim(std::string_view axis) const override {
-        const auto place = find_axis(gateway, axis);
+        const auto place = find_axis(service.sites_, axis);
         if (!place) return {};
-        return active.claims.claim(std::string(axis), gateway.picture(place->id()), active.origin, gateway);
+        return active.claims.claim(std::string(axis), service.axes_.picture(place->id()), active.origin, service.wall_);
     }
     [[nodiscard]] json::value point(std::string_view axis, std::string_view point) const override {
-        const auto place = find_axis(gateway, axis);
+        const auto place = find_axis(service.sites_, axis);
         if (!place) return nullptr;
-        const AxisPicture picture = gateway.picture(place->id());
-        const auto document = axis_document(
-            {place->spec(), place->line, place->family, place->catalogue, picture, gateway.to_unix_ns(picture.at), gateway.now_unix_ns()});
+        const AxisPicture picture = service.axes_.picture(place->id());
+        const auto document = axis_document({place->spec(), place->line, place->family, place->catalogue, picture,
+                                             service.wall_.to_unix_ns(picture.at), service.wall_.now_unix_ns()});
         const bool about_itself = point == "online" || point == "stale" || point == "presence" || point == "simulated" || point == "number";
         if (!about_itself && (!picture.ever_seen || (picture.flags & flag_stale) != 0 || (picture.flags & flag_online) == 0))
             return nullptr;
@@ -45,7 +45,8 @@ struct RecipeService::World final : RecipeWorld {
     }
 };
 
-std::variant<json::object, RunRefusal> RecipeService::start(const std::string& name, Recipe recipe, json::object arguments, const Origin& origin) {
+std::variant<json::object, RunRefusal> RecipeService::start(const std::string& name, Recipe recipe, json::object arguments,
+                                                            const Origin& origin) {
     using Why = RunRefusal::Why;
     if (const auto n = running(name); n != 0)
         return RunRefusal{Why::running, fmt::format("recipe {} is running already (run {}): wait for its end, or cancel it", name, n)};
@@ -126,7 +127,7 @@ Instant RecipeService::deadline() const {
     Instant next = never;
     for (const auto& a : active_) {
         next = std::min(next, a->run->deadline());
-        if (a->run->revision() != a->told_revision) next = std::min(next, a->told + tell_period);
+        if (a->run->revision() != a->published_revision) next = std::min(next, a->published + publish_period);
         if (a->run->revision() != a->kept_revision) next = std::min(next, a->kept + keep_period);
     }
     return next;
@@ -138,10 +139,10 @@ void RecipeService::on_deadline(Instant now) {
     for (const auto& a : list) {
         if (a->run->deadline() <= now) pump(a, now);
         const bool over = a->run->ended();
-        if (a->run->revision() != a->told_revision && (over || a->told_revision == 0 || now - a->told >= tell_period)) {
-            a->told = now;
-            a->told_revision = a->run->revision();
-            if (tell) tell(a->name, document(*a));
+        if (a->run->revision() != a->published_revision && (over || a->published_revision == 0 || now - a->published >= publish_period)) {
+            a->published = now;
+            a->published_revision = a->run->revision();
+            if (publish) publish(a->name, document(*a));
         }
         if (over) {
             ended(a);
@@ -159,7 +160,7 @@ void RecipeService::keep(Active& a, Instant now) {
 
 void RecipeService::pump(const std::shared_ptr<Active>& a, Instant now) {
     std::vector<RecipeRequest> requests;
-    a->run->turn(now, World(gateway_, *a), requests);
+    a->run->turn(now, World(*this, *a), requests);
     for (const auto& r : requests)
         carry_out(a, r);
 }
@@ -167,7 +168,7 @@ void RecipeService::pump(const std::shared_ptr<Active>& a, Instant now) {
 void RecipeService::carry_out(const std::shared_ptr<Active>& a, const RecipeRequest& r) {
     Command command;
     if (r.what == RecipeRequest::What::stop) {
-        const auto place = find_axis(gateway_, r.axis);
+        const auto place = find_axis(sites_, r.axis);
         if (!place) return answer(a, r.number, {false, fmt::format("there is no axis {} any more", r.axis), nullptr});
         command.axis = place->id();
         if (a->run->recipe().quick_stop) {
@@ -183,7 +184,7 @@ void RecipeService::carry_out(const std::shared_ptr<Active>& a, const RecipeRequ
     }
     std::vector<SiteFault> faults;
     RecipeStep copy = *r.step;
-    auto made = r.what == RecipeRequest::What::read_parameter ? read_of(copy, gateway_, faults) : command_of(copy, gateway_, faults);
+    auto made = r.what == RecipeRequest::What::read_parameter ? read_of(copy, sites_, faults) : command_of(copy, sites_, faults);
     if (!made)  // the site has changed since the run began
         return answer(a, r.number, {false, faults.empty() ? std::string("the step cannot be carried out") : faults.front().text, nullptr});
     const bool mover = r.what == RecipeRequest::What::step && is_motion(*r.step) && !r.step->axis.empty();
@@ -195,18 +196,19 @@ void RecipeService::submit(const std::shared_ptr<Active>& a, std::uint32_t numbe
     command.origin = a->origin;
     const AxisId id = command.axis;
     const CommandBody body = command.body;
-    if (mover) a->claims.ask(mover->axis, gateway_.picture(id));
-    const Ticket ticket = gateway_.submit(std::move(command), [self = weak_from_this(), active = std::weak_ptr(a), number, mover, id, body](const Result& r) {
-        const auto me = self.lock();
-        const auto run = active.lock();
-        if (!me || !run) return;
-        RecipeAnswer answer{good(r), r.text, to_json(r.value)};
-        if (mover) answer.motion = run->claims.answered(*mover, body, r, me->gateway_.picture(id));
-        if (!answer.good)
-            answer.text = fmt::format("{} ({}{})", r.text.empty() ? std::string("it was refused") : r.text, name_of(r.reason),
-                                      r.code == 0 ? std::string() : fmt::format(", the drive's code {}", r.code));
-        me->answer(active, number, std::move(answer));
-    });
+    if (mover) a->claims.ask(mover->axis, axes_.picture(id));
+    const Ticket ticket =
+        axes_.submit(std::move(command), [self = weak_from_this(), active = std::weak_ptr(a), number, mover, id, body](const Result& r) {
+            const auto me = self.lock();
+            const auto run = active.lock();
+            if (!me || !run) return;
+            RecipeAnswer answer{good(r), r.text, to_json(r.value)};
+            if (mover) answer.motion = run->claims.answered(*mover, body, r, me->axes_.picture(id));
+            if (!answer.good)
+                answer.text = fmt::format("{} ({}{})", r.text.empty() ? std::string("it was refused") : r.text, name_of(r.reason),
+                                          r.code == 0 ? std::string() : fmt::format(", the drive's code {}", r.code));
+            me->answer(active, number, std::move(answer));
+        });
     if (mover) a->claims.sent(mover->axis, ticket);
 }
 
@@ -235,12 +237,12 @@ void RecipeService::note(const Active& a, Severity severity, std::string text, s
     e.text = std::move(text);
     e.who = a.who;
     e.door = std::string(name_of(a.origin.door));
-    gateway_.note(std::move(e));
+    events_.note(std::move(e));
 }
 
 json::object RecipeService::document(const Active& a) const {
     const RecipeRun& run = *a.run;
-    const auto time = [&](Instant i) { return i == Instant{} ? json::value(nullptr) : json::value(format_time(gateway_.to_unix_ns(i))); };
+    const auto time = [&](Instant i) { return i == Instant{} ? json::value(nullptr) : json::value(format_time(wall_.to_unix_ns(i))); };
     json::array steps, stops;
     std::size_t done = 0;
     for (const auto& row : run.rows()) {

@@ -1,4 +1,4 @@
-// Recipe service: runs recipes: hands their requests to the Gateway, gives them time and answers, keeps their reports.
+// Recipe service: runs recipes: hands their requests to the axes, gives them time and answers, keeps their reports.
 // In: recipes to start and to cancel, results, the clock it is given. Out: reports, events, progress for the live feed.
 // Bounds: 4 runs at once, one per recipe, no axis in two; a run is written down at its start, its end, and once a second in between.
 // Never used off the warm thread; never sends and never sleeps: whoever owns it calls on_deadline.
@@ -12,11 +12,16 @@
 #include <variant>
 #include <vector>
 
-#include "gateway/services/gateway.hpp"
-#include "gateway/services/recipes/recipe_run.hpp"
 #include "gateway/services/change_queue.hpp"
+#include "gateway/services/ports/axes.hpp"
+#include "gateway/services/ports/clock.hpp"
+#include "gateway/services/ports/documents.hpp"
+#include "gateway/services/ports/events.hpp"
+#include "gateway/services/ports/port_set.hpp"
+#include "gateway/services/ports/site.hpp"
 #include "gateway/services/recipes/recipe_claims.hpp"
 #include "gateway/services/recipes/recipe_reports.hpp"
+#include "gateway/services/recipes/recipe_run.hpp"
 
 namespace axisgate {
 
@@ -32,12 +37,18 @@ public:
     static constexpr std::size_t most_runs = 4;
     static constexpr std::size_t kept_reports = RecipeReports::kept;
     static constexpr std::size_t most_recipes = 200;
-    static constexpr Duration tell_period = std::chrono::milliseconds(100);  ///< of the progress of one run
+    static constexpr Duration publish_period = std::chrono::milliseconds(100);  ///< of the progress of one run
 
-    static constexpr Duration keep_period = std::chrono::seconds(1);         ///< between two writes of a run that goes on
+    static constexpr Duration keep_period = std::chrono::seconds(1);  ///< between two writes of a run that goes on
 
-    RecipeService(Gateway& gateway, std::function<Instant()> clock)
-        : gateway_(gateway), clock_(std::move(clock)), reports_(std::make_shared<RecipeReports>(gateway)) {}
+    using Needs = PortSet<AxisPort, ClockPort, DocumentPort, EventPort, SitePort>;
+    RecipeService(const Needs& ports, std::function<Instant()> clock)
+        : axes_(ports.get<AxisPort>()),
+          wall_(ports.get<ClockPort>()),
+          events_(ports.get<EventPort>()),
+          sites_(ports.get<SitePort>()),
+          clock_(std::move(clock)),
+          reports_(std::make_shared<RecipeReports>(ports)) {}
 
     /// Once, at the start: tells of runs that the end of the gateway has ended.
     void begin() { reports_->begin(); }
@@ -47,12 +58,12 @@ public:
 
     /// Called when deadline() may have changed by another cause than on_deadline.
     std::function<void()> rearm;
-    /// The report of a run whenever it has changed, at most every tell_period, and at its end.
-    std::function<void(const std::string& recipe, const boost::json::object& report)> tell;
+    /// The report of a run whenever it has changed, at most every publish_period, and at its end.
+    std::function<void(const std::string& recipe, const boost::json::object& report)> publish;
 
     /// A checked recipe begins; its report as it is then, or why it cannot begin.
     [[nodiscard]] std::variant<boost::json::object, RunRefusal> start(const std::string& name, Recipe recipe, boost::json::object arguments,
-                                                                   const Origin& origin);
+                                                                      const Origin& origin);
     [[nodiscard]] std::variant<boost::json::object, RunRefusal> cancel(const std::string& name, std::uint64_t n, const Origin& origin);
     [[nodiscard]] std::optional<boost::json::object> report(const std::string& name, std::uint64_t n) const;
     /// Newest first, without their steps.
@@ -76,8 +87,8 @@ private:
         boost::json::object arguments;
         Origin origin;    ///< of its commands
         std::string who;  ///< who has started it
-        Instant told{}, kept{};
-        std::uint64_t told_revision = 0, kept_revision = 0;
+        Instant published{}, kept{};
+        std::uint64_t published_revision = 0, kept_revision = 0;
         RecipeClaims claims;
     };
     struct World;
@@ -90,7 +101,10 @@ private:
     void note(const Active& active, Severity severity, std::string text, std::string axis = {});
     [[nodiscard]] boost::json::object document(const Active& active) const;
 
-    Gateway& gateway_;
+    AxisPort& axes_;
+    ClockPort& wall_;
+    EventPort& events_;
+    SitePort& sites_;
     std::function<Instant()> clock_;
     std::vector<std::shared_ptr<Active>> active_;
     std::shared_ptr<RecipeReports> reports_;

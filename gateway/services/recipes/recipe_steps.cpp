@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "gateway/registers/register_map.hpp"
-#include "gateway/site/mapping.hpp"
 #include "gateway/axis/process_data.hpp"
-#include "gateway/services/command_reader.hpp"
+#include "gateway/registers/register_map.hpp"
 #include "gateway/services/axis_place.hpp"
+#include "gateway/services/command_reader.hpp"
+#include "gateway/site/mapping.hpp"
 
 namespace axisgate {
 namespace {
@@ -30,9 +30,9 @@ std::string pointer_in(const RecipeStep& s, std::string_view member) {
     return fmt::format("{}/{}{}{}", s.pointer, name_of(s.kind), member.empty() ? "" : "/", member);
 }
 
-std::optional<AxisPlace> axis_of(const RecipeStep& s, std::string_view name, const std::string& pointer, const Gateway& g,
+std::optional<AxisPlace> axis_of(const RecipeStep& s, std::string_view name, const std::string& pointer, const SitePort& sites,
                                  std::vector<SiteFault>& faults) {
-    auto place = find_axis(g, name);
+    auto place = find_axis(sites, name);
     (void)s;
     if (!place) faults.push_back({pointer, fmt::format("there is no axis {}", name), "see /api/v1/axes", false});
     return place;
@@ -85,7 +85,7 @@ std::optional<CommandBody> process_data(const RecipeStep& s, AxisPoint point, co
     return d;
 }
 
-std::optional<Command> register_of(RecipeStep& s, const Gateway& g, std::vector<SiteFault>& faults) {
+std::optional<Command> register_of(RecipeStep& s, const SitePort& sites, std::vector<SiteFault>& faults) {
     const int unit = s.body.at("unit").to_number<int>(), address = s.body.at("address").to_number<int>();
     const auto* type = s.body.if_contains("type");
     const auto value = scalar(s.body.at("value"));
@@ -99,7 +99,7 @@ std::optional<Command> register_of(RecipeStep& s, const Gateway& g, std::vector<
                           fmt::format("write \"type\": \"{}\", or leave it out", is), false});
         return true;
     };
-    const auto site = g.site();
+    const auto site = sites.site();
     Command c;
     if (registers::is_standard_unit(unit)) {
         const auto axis = std::ranges::find(site->site.axes, address / registers::registers_per_axis + 1, &AxisSpec::number);
@@ -116,7 +116,7 @@ std::optional<Command> register_of(RecipeStep& s, const Gateway& g, std::vector<
         auto body = process_data(s, *point, *value, faults);
         if (!body) return std::nullopt;
         s.axis = axis->name;
-        c.axis = axis_at(g, site, static_cast<std::size_t>(axis - site->site.axes.begin())).id();
+        c.axis = axis_at(sites, site, static_cast<std::size_t>(axis - site->site.axes.begin())).id();
         c.body = std::move(*body);
         return c;
     }
@@ -141,7 +141,7 @@ std::optional<Command> register_of(RecipeStep& s, const Gateway& g, std::vector<
         return std::nullopt;
     }
     const Value meant = decode(*m, bytes.data());
-    const auto place = find_axis(g, m->axis);
+    const auto place = find_axis(sites, m->axis);
     if (!place) return std::nullopt;
     s.axis = m->axis;
     c.axis = place->id();
@@ -164,9 +164,9 @@ std::optional<CommandBody> plain_command(const RecipeStep& s, double scale, std:
 }
 }  // namespace
 
-std::optional<Command> command_of(RecipeStep& s, const Gateway& g, std::vector<SiteFault>& faults) {
-    if (s.kind == Kind::write_register) return register_of(s, g, faults);
-    const auto place = axis_of(s, s.axis, pointer_in(s, "axis"), g, faults);
+std::optional<Command> command_of(RecipeStep& s, const SitePort& sites, std::vector<SiteFault>& faults) {
+    if (s.kind == Kind::write_register) return register_of(s, sites, faults);
+    const auto place = axis_of(s, s.axis, pointer_in(s, "axis"), sites, faults);
     if (!place) return std::nullopt;
     Command c;
     c.axis = place->id();
@@ -207,8 +207,7 @@ std::optional<Command> command_of(RecipeStep& s, const Gateway& g, std::vector<S
             c.body = std::move(*body);
             return c;
         }
-        case Kind::action:
-        {
+        case Kind::action: {
             Action action{text("name"), text("argument")};
             std::vector<Fault> wrong;
             read_arguments(*place, action, nullptr, "", wrong);
@@ -223,13 +222,13 @@ std::optional<Command> command_of(RecipeStep& s, const Gateway& g, std::vector<S
     }
 }
 
-std::optional<Command> read_of(const RecipeStep& s, const Gateway& g, std::vector<SiteFault>& faults) {
+std::optional<Command> read_of(const RecipeStep& s, const SitePort& sites, std::vector<SiteFault>& faults) {
     const bool nested = s.kind == Kind::branch || s.kind == Kind::repeat;
     const std::string at = pointer_in(s, s.kind == Kind::branch   ? "condition"
                                          : s.kind == Kind::repeat ? "until"
                                                                   : "") +
                            (nested ? "/" : "/");
-    const auto place = axis_of(s, s.condition->axis, at + "axis", g, faults);
+    const auto place = axis_of(s, s.condition->axis, at + "axis", sites, faults);
     if (!place || !s.condition->parameter) return std::nullopt;
     const auto point = parameter_of(*place, s.condition->point, at + "parameter", faults);
     if (!point) return std::nullopt;
@@ -240,13 +239,13 @@ std::optional<Command> read_of(const RecipeStep& s, const Gateway& g, std::vecto
     return c;
 }
 
-void check_recipe(Recipe& recipe, const Gateway& g, std::vector<SiteFault>& faults) {
+void check_recipe(Recipe& recipe, const SitePort& sites, std::vector<SiteFault>& faults) {
     for_each_step(recipe.steps, [&](RecipeStep& s) {
         if (faults.size() >= 100) return;
         if (s.condition) {
-            (void)read_of(s, g, faults);
+            (void)read_of(s, sites, faults);
         } else if (s.kind != Kind::wait && s.kind != Kind::message && s.kind != Kind::repeat && s.kind != Kind::branch) {
-            (void)command_of(s, g, faults);
+            (void)command_of(s, sites, faults);
         }
     });
 }

@@ -8,17 +8,17 @@
 #include <string>
 #include <vector>
 
-#include "gateway/services/gateway.hpp"
+#include "gateway/services/ports/site.hpp"
 #include "gateway/services/recipes/recipe.hpp"
 
 namespace axisgate {
 
 /// The command of a step that is one (not a wait, a condition or a message), without an origin. Fills in step.axis of write_register.
-[[nodiscard]] std::optional<Command> command_of(RecipeStep& step, const Gateway& gateway, std::vector<SiteFault>& faults);
+[[nodiscard]] std::optional<Command> command_of(RecipeStep& step, const SitePort& sites, std::vector<SiteFault>& faults);
 /// The read of a condition's parameter.
-[[nodiscard]] std::optional<Command> read_of(const RecipeStep& step, const Gateway& gateway, std::vector<SiteFault>& faults);
+[[nodiscard]] std::optional<Command> read_of(const RecipeStep& step, const SitePort& sites, std::vector<SiteFault>& faults);
 /// Every step against the site: axes, parameters, values, registers.
-void check_recipe(Recipe& recipe, const Gateway& gateway, std::vector<SiteFault>& faults);
+void check_recipe(Recipe& recipe, const SitePort& sites, std::vector<SiteFault>& faults);
 /// The form of the commands alone, for a document without arguments and perhaps of another site.
 void check_recipe_form(const Recipe& recipe, std::vector<SiteFault>& faults);
 /// Every axis that it can command or looks at; those that it commands first.

@@ -1,4 +1,4 @@
-// Stage desk: ids are letters of this run of the program and a number, so that an id of before a restart fits nothing.
+// Stage owner: ids are letters of this run of the program and a number, so that an id of before a restart fits nothing.
 // In: the stage, callers. Out: ids, whose it is. Never keeps more than the present stage.
 #include "gateway/services/site/stage_owner.hpp"
 
@@ -17,7 +17,8 @@ std::string client_of(const Origin& by) { return by.client ? *by.client : by.tex
 }  // namespace
 
 StageOwner::StageOwner() : run_(random_secret().substr(0, run_letters)) {
-    std::ranges::replace_if(run_, [](char c) { return c == '-' || c == '_'; }, '0');
+    std::ranges::replace_if(
+        run_, [](char c) { return c == '-' || c == '_'; }, '0');
 }
 
 std::string StageOwner::id(const SiteStage& stage) const { return fmt::format("{}-{}", run_, stage.id()); }

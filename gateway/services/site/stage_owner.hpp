@@ -1,5 +1,5 @@
-// Stage desk: whose the staged site is: its id for clients, which client staged it and when, and which client applied it.
-// In: the Gateway's stage, callers, times. Out: ids, and whether a caller is the one. One stage at most, as the Gateway has it.
+// Stage owner: whose the staged site is: its id for clients, which client staged it and when, and which client applied it.
+// In: the stage, callers, times. Out: ids, and whether a caller is the one. One stage at most, as the stage port has it.
 // Never changes the stage: a handler asks here first.
 #pragma once
 
@@ -22,7 +22,7 @@ public:
     void staged(const SiteStage& stage, const Origin& by, std::int64_t at_unix_ns);
     /// `session`: in which the client is signed in (session_of), so that the same user elsewhere is another one.
     void applied(const SiteStage& stage, const Origin& by, std::string session);
-    /// Nothing is known of a stage that this desk has not seen made.
+    /// Nothing is known of a stage that it has not seen made.
     [[nodiscard]] const std::string& stager(const SiteStage& stage) const;
     [[nodiscard]] const std::string& applier(const SiteStage& stage) const;
     [[nodiscard]] const std::string& applier_session(const SiteStage& stage) const;

@@ -11,20 +11,29 @@ constexpr std::string_view far_peer = "192.0.2.7:5123";
 class AccessQueueTest : public ::testing::Test, public Harness {
 protected:
     std::shared_ptr<FakeAccess> access = std::make_shared<FakeAccess>();
-    Router door{Context{gateway, settings, [](std::string_view) { return std::string_view(); }, {}, std::make_shared<ChangeQueue>(), recipes, std::make_shared<AxisJobs>(), access, alarms}};
+    Router door{Context{gateway,
+                        settings,
+                        [](std::string_view) { return std::string_view(); },
+                        {},
+                        std::make_shared<ChangeQueue>(),
+                        recipes,
+                        std::make_shared<AxisJobs>(),
+                        access,
+                        alarms}};
     std::vector<std::pair<std::string, std::string>> admin;
 
     AccessQueueTest() {
         for (const auto* role : {"viewer", "administrator"})
-            access->own_desk.load(User{role, *role_named(role), true, std::string("hash of secret ") + role, 1, 0});
-        access->own_desk.load(Token{"id1", "line3", "viewer", Role::viewer, digest_of("secret"), 1, 0, 0});
+            access->own_accounts.load(User{role, *role_named(role), true, std::string("hash of secret ") + role, 1, 0});
+        access->own_accounts.load(Token{"id1", "line3", "viewer", Role::viewer, digest_of("secret"), 1, 0, 0});
         const auto a = from("POST", "/api/v1/session", R"({"user":"administrator","password":"secret administrator"})");
         const std::string cookie(a.headers.get("Set-Cookie"));
         admin = {{"Cookie", cookie.substr(0, cookie.find(';'))}, {"X-CSRF-Token", a.at("csrf")}};
         access->kept.clear();
         access->slow_disk = true;
     }
-    Answer from(std::string_view method, std::string target, std::string body = {}, std::vector<std::pair<std::string, std::string>> headers = {}) {
+    Answer from(std::string_view method, std::string target, std::string body = {},
+                std::vector<std::pair<std::string, std::string>> headers = {}) {
         Request r = request(method, std::move(target), std::move(body), std::move(headers));
         r.peer = std::string(far_peer);
         auto handled = door.handle(r, [this](Response x) { late.push_back(std::move(x)); });
@@ -86,7 +95,7 @@ TEST_F(AccessQueueTest, AUserWhoSignsInWhileHeIsChangedIsStoredAsHeWasChanged) {
     const auto desk = after_a_crash();
     EXPECT_FALSE(desk.user("viewer")->enabled);
     EXPECT_GT(desk.user("viewer")->last_sign_in_ns, 0) << "he was here all the same";
-    EXPECT_EQ(desk.user("viewer")->last_sign_in_ns, access->own_desk.user("viewer")->last_sign_in_ns);
+    EXPECT_EQ(desk.user("viewer")->last_sign_in_ns, access->own_accounts.user("viewer")->last_sign_in_ns);
 }
 
 TEST_F(AccessQueueTest, AUserWhoSignsInWhileHeIsRemovedIsGone) {
@@ -104,7 +113,7 @@ TEST_F(AccessQueueTest, AUserWhoSignsInWhileHeIsRemovedIsGone) {
 TEST_F(AccessQueueTest, UsesOfManyTakeOnePlaceInTheQueue) {
     for (int i = 0; i < 200; ++i) {
         const std::string id = "t" + std::to_string(i);
-        access->own_desk.load(Token{id, id, "viewer", Role::viewer, digest_of("secret"), 1, 0, 0});
+        access->own_accounts.load(Token{id, id, "viewer", Role::viewer, digest_of("secret"), 1, 0, 0});
         EXPECT_EQ(from("GET", "/api/v1/session", "", {{"Authorization", "Bearer " + id + ".secret"}}).at("via"), "token");
     }
     EXPECT_EQ(access->writing.size(), 1u);
@@ -127,13 +136,20 @@ TEST(ChangeQueue, AJobThatThrowsOrForgetsItsEndDoesNotHoldUpTheNext) {
     EXPECT_TRUE(queue->run([&](auto) { throw std::runtime_error("at once"); }, failed));
     EXPECT_TRUE(queue->run([&](auto) { throw 7; }, failed));
     EXPECT_TRUE(queue->run([&](auto) { said.push_back("forgets"); }, failed));
-    EXPECT_TRUE(queue->run([&](auto done) { done(); throw std::runtime_error("after its end"); }, failed));
+    EXPECT_TRUE(queue->run(
+        [&](auto done) {
+            done();
+            throw std::runtime_error("after its end");
+        },
+        failed));
     EXPECT_TRUE(queue->run([&](auto) { throw std::runtime_error("nobody listens"); }, nullptr));
-    EXPECT_TRUE(queue->run([&](auto done) {
-        said.push_back("runs");
-        done();
-        done();
-    }, failed));
+    EXPECT_TRUE(queue->run(
+        [&](auto done) {
+            said.push_back("runs");
+            done();
+            done();
+        },
+        failed));
     EXPECT_TRUE(said.empty());
     end_first();
     EXPECT_EQ(said, (std::vector<std::string>{"failed: at once", "failed: unknown", "forgets", "failed: after its end", "runs"}));
@@ -144,7 +160,12 @@ TEST(ChangeQueue, AJobWhoseEndIsLostLaterFreesItsPlaceThen) {
     std::function<void()> kept;
     bool ran = false;
     EXPECT_TRUE(queue->run([&](auto done) { kept = std::move(done); }, nullptr));
-    EXPECT_TRUE(queue->run([&](auto done) { ran = true; done(); }, nullptr));
+    EXPECT_TRUE(queue->run(
+        [&](auto done) {
+            ran = true;
+            done();
+        },
+        nullptr));
     EXPECT_FALSE(ran);
     kept = nullptr;  // whoever held it is gone, as when an exception unwinds it
     EXPECT_TRUE(ran);

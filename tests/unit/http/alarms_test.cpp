@@ -175,7 +175,7 @@ TEST_F(Alarms, WhatCannotBeStoredIsSaid) {
 
 TEST_F(Alarms, TheLiveFeedHasTheListAtMostFiveTimesASecond) {
     int told = 0;
-    alarms->tell = [&](const json::object&) { ++told; };
+    alarms->publish = [&](const json::object&) { ++told; };
     clock = at_ns(5'000'000'000);
     for (int i = 0; i < 100; ++i) {
         fault(i % 3 + 1);

@@ -19,11 +19,17 @@ TEST_F(HttpTest, DriveAndLineDocuments) {
     l.status.state = LineStatus::State::up;
     l.status.load = 0.25;
     l.counters.timeouts = 3;
+    l.families = {{"demo", {}}};
+    l.families[0].counters.refused = 2;
+    l.unclaimed = 7;
     const auto a = call("GET", "/api/v1/lines/can0");
     EXPECT_EQ(a.at("drives"), R"(["feeder","slide"])");
     EXPECT_EQ(a.json.at("status").at("state"), "up");
     EXPECT_EQ(json_text(a.json.at("status").at("load")), "0.25");
     EXPECT_EQ(json_text(a.json.at("status").at("counters").at("timeouts")), "3");
+    EXPECT_EQ(json_text(a.json.at("status").at("families").at(0).at("family")), R"("demo")");
+    EXPECT_EQ(json_text(a.json.at("status").at("families").at(0).at("counters").at("refused")), "2");
+    EXPECT_EQ(json_text(a.json.at("status").at("unclaimed")), "7");
     EXPECT_TRUE(a.json.at("status").at("twin").is_null());
     EXPECT_EQ(call("GET", "/api/v1/lines").array().size(), 2u);
     EXPECT_EQ(call("GET", "/api/v1/drives").array().size(), 3u);

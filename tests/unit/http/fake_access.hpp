@@ -12,8 +12,8 @@ namespace axisgate::http::test {
 
 class FakeAccess final : public AccessPort {
 public:
-    explicit FakeAccess(AccessSettings settings = {}) : own_desk(settings) {}
-    AccessRegister& desk() override { return own_desk; }
+    explicit FakeAccess(AccessSettings settings = {}) : own_accounts(settings) {}
+    AccessRegister& accounts() override { return own_accounts; }
     bool derive(std::string password, std::function<void(std::string)> then) override {
         if (full) return false;
         then("hash of " + password);
@@ -39,9 +39,9 @@ public:
         writing.pop_front();
         write();
     }
-    void tell(Event event) override { told.push_back(std::move(event)); }
+    void note(Event event) override { told.push_back(std::move(event)); }
 
-    AccessRegister own_desk;
+    AccessRegister own_accounts;
     bool full = false;
     bool slow_disk = false;
     std::deque<std::function<void()>> writing;

@@ -1,10 +1,10 @@
-// What of the FakeGateway is compiled once for all tests of the HTTP door: its making, its end, its site.
+// What of the doubles is compiled once for all tests of the HTTP door: their making, their end, the site.
 // In: a site as text. Out: the site in force, told to the listeners. Never has a thread or a clock.
 #include "tests/unit/http/fake_gateway.hpp"
 
 namespace axisgate::http::test {
 
-FakeGateway::FakeGateway(std::string_view site_text) {
+FakeSite::FakeSite(std::string_view site_text) {
     std::vector<std::string> faults;
     catalogue = *Catalogue::parse(catalogue_text, faults);
     family.name = "demo";
@@ -19,16 +19,26 @@ FakeGateway::FakeGateway(std::string_view site_text) {
     put_site(site_text);
 }
 
+FakeSite::~FakeSite() = default;
+
+FakeGateway::FakeGateway(std::string_view site_text)
+    : FakeSite(site_text),
+      FakeAxes(static_cast<FakeSite&>(*this)),
+      FakeEvents(static_cast<const FakeClock&>(*this)),
+      FakeStage(static_cast<FakeSite&>(*this), static_cast<const FakeClock&>(*this)),
+      FakeModbus(FakeSnapshots::keep_fault),
+      FakeBackup(FakeSnapshots::keep_fault) {}
+
 FakeGateway::~FakeGateway() = default;
 
-void FakeGateway::put_site(std::string_view text) {
+void FakeSite::put_site(std::string_view text) {
     std::vector<SiteFault> faults;
     auto site = parse_site(boost::json::parse(text), families_, faults);
     if (!site) throw std::logic_error("the test's site is wrong: " + faults.front().text);
     put_site(std::move(*site));
 }
 
-void FakeGateway::put_site(Site site) {
+void FakeSite::put_site(Site site) {
     auto state = std::make_shared<SiteState>();
     state->revision = site_ ? site_->revision + 1 : 1;
     for (const auto& l : site.lines)
@@ -39,7 +49,7 @@ void FakeGateway::put_site(Site site) {
         state->axis_ids.push_back(AxisId{id_of("axis " + a.name)});
     state->site = std::move(site);
     site_ = state;
-    const auto all = listeners;
+    const auto all = site_listeners;
     for (auto* l : all)
         l->on_site(site_);
 }

@@ -1,5 +1,5 @@
-// Who comes second: users, the locks of the Modbus door and single parameters have an ETag, and If-Match that means another state is refused
-// with what is there now. And two tokens of one owner have two names.
+// Who comes second: users, the locks of the Modbus door and single parameters have an ETag, and If-Match that means another state is
+// refused with what is there now. And two tokens of one owner have two names.
 #include "gateway/doors/http/preconditions.hpp"
 
 #include "tests/unit/http/fake_access.hpp"
@@ -12,17 +12,25 @@ using Fields = std::vector<std::pair<std::string, std::string>>;
 class Preconditions : public ::testing::Test, public Harness {
 protected:
     std::shared_ptr<FakeAccess> access = std::make_shared<FakeAccess>();
-    Router door{Context{gateway, settings, [](std::string_view) { return std::string_view(); }, {}, std::make_shared<ChangeQueue>(), recipes,
-                        std::make_shared<AxisJobs>(), access, alarms}};
+    Router door{Context{gateway,
+                        settings,
+                        [](std::string_view) { return std::string_view(); },
+                        {},
+                        std::make_shared<ChangeQueue>(),
+                        recipes,
+                        std::make_shared<AxisJobs>(),
+                        access,
+                        alarms}};
     Fields admin;
     Preconditions() {
         for (const auto* role : {"engineer", "administrator"})
-            access->own_desk.load(User{role, *role_named(role), true, std::string("hash of secret ") + role, 1, 0});
+            access->own_accounts.load(User{role, *role_named(role), true, std::string("hash of secret ") + role, 1, 0});
         admin = signed_in("administrator");
     }
     Answer ask(std::string_view method, std::string target, std::string body = {}, Fields headers = {}) {
         auto late = std::make_shared<std::optional<Response>>();  // an answer may come when nobody looks any more
-        auto handled = door.handle(request(method, std::move(target), std::move(body), std::move(headers)), [late](Response x) { *late = std::move(x); });
+        auto handled = door.handle(request(method, std::move(target), std::move(body), std::move(headers)),
+                                   [late](Response x) { *late = std::move(x); });
         if (handled.now) return answer_from(std::move(*handled.now));
         return *late ? answer_from(std::move(**late)) : Answer{};
     }
@@ -64,7 +72,8 @@ TEST_F(Preconditions, AUserWhoWasChangedMeanwhile) {
     EXPECT_EQ(newer, ask("GET", "/api/v1/users/engineer", "", admin).headers.get("ETag"));
     const auto kept = access->kept.size();
     for (const auto* method : {"PATCH", "DELETE"}) {
-        const auto late = ask(method, "/api/v1/users/engineer", std::string_view(method) == "PATCH" ? R"({"enabled":false})" : "", if_match(tag));
+        const auto late =
+            ask(method, "/api/v1/users/engineer", std::string_view(method) == "PATCH" ? R"({"enabled":false})" : "", if_match(tag));
         EXPECT_EQ(late.status, 412u) << method << late.text;
         EXPECT_EQ(late.at("reason"), "precondition_failed");
         EXPECT_EQ(late.at("etag"), newer);
@@ -89,7 +98,7 @@ TEST_F(Preconditions, ANewPasswordIsAnotherStateAndASignInIsNot) {
 TEST_F(Preconditions, TheLocksOfTheModbusDoor) {
     EXPECT_EQ(ask("GET", "/api/v1/modbus", "", admin).status, 503u) << "switched off";
     EXPECT_EQ(ask("PATCH", "/api/v1/modbus", R"({"read_only":true})", if_match("\"x\"")).status, 503u);
-    gateway.modbus_door = Gateway::ModbusReport{"127.0.0.1:1502", {"127.0.0.0/8"}, {"3"}, false, {}};
+    gateway.modbus_door = ModbusReport{"127.0.0.1:1502", {"127.0.0.0/8"}, {"3"}, false, {}};
     const auto seen = ask("GET", "/api/v1/modbus", "", admin);
     const std::string tag(seen.headers.get("ETag"));
     ASSERT_FALSE(tag.empty()) << seen.text;
@@ -117,7 +126,8 @@ TEST_F(Preconditions, AParameterThatWasWrittenMeanwhile) {
     EXPECT_EQ(unwritten, "\"never-written\"");
     EXPECT_EQ(write(if_match("\"x\"")).status, 412u);
     EXPECT_TRUE(write(if_match("\"x\"")).json.at("current").is_null()) << "nobody wrote it";
-    gateway.stored_values["feeder"] = {{"AC", std::int64_t{25000}, std::int64_t{20000}, "ben 192.0.2.7:5", "http", 1'700'000'000'000'000'000}};
+    gateway.stored_values["feeder"] = {
+        {"AC", std::int64_t{25000}, std::int64_t{20000}, "ben 192.0.2.7:5", "http", 1'700'000'000'000'000'000}};
     const auto late = write(if_match(unwritten));
     EXPECT_EQ(late.status, 412u) << late.text;
     EXPECT_EQ(late.json.at("current").at("value"), 25000);
@@ -143,15 +153,17 @@ TEST_F(Preconditions, AParameterThatWasWrittenMeanwhile) {
 }
 
 TEST_F(Preconditions, TwoTokensOfOneOwnerHaveTwoNames) {
-    const auto make = [&](std::string name, const Fields& who) { return ask("POST", "/api/v1/tokens", R"({"name":")" + name + R"(","role":"viewer"})", who); };
+    const auto make = [&](std::string name, const Fields& who) {
+        return ask("POST", "/api/v1/tokens", R"({"name":")" + name + R"(","role":"viewer"})", who);
+    };
     ASSERT_EQ(make("line3", admin).status, 201u);
     const auto again = make(" line3 ", admin);
     EXPECT_EQ(again.status, 409u) << again.text;
     EXPECT_EQ(again.at("detail"), "administrator has a token line3 already: choose another name, or remove that token first");
-    EXPECT_EQ(access->own_desk.tokens().size(), 1u);
+    EXPECT_EQ(access->own_accounts.tokens().size(), 1u);
     EXPECT_EQ(make("line3", signed_in("engineer")).status, 201u) << "another's";
     EXPECT_EQ(make("line4", admin).status, 201u);
-    EXPECT_EQ(ask("DELETE", "/api/v1/tokens/" + access->own_desk.tokens().begin()->first, "", admin).status, 204u);
+    EXPECT_EQ(ask("DELETE", "/api/v1/tokens/" + access->own_accounts.tokens().begin()->first, "", admin).status, 204u);
 }
 
 }  // namespace

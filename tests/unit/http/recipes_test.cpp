@@ -59,7 +59,9 @@ protected:
     bool stop_sent() {
         return std::ranges::any_of(gateway.submitted, [](const Command& c) { return std::holds_alternative<Halt>(c.body); });
     }
-    json::object report(const std::string& name, int n = 1) { return call("GET", fmt::format("/api/v1/recipes/{}/runs/{}", name, n)).object(); }
+    json::object report(const std::string& name, int n = 1) {
+        return call("GET", fmt::format("/api/v1/recipes/{}/runs/{}", name, n)).object();
+    }
     static constexpr Ticket others_ticket = 77;
 };
 constexpr auto moving_recipe = R"({"steps":[{"command":{"axis":"feeder","command":"move_absolute","position":1,"wait_s":9}}]})";
@@ -289,14 +291,16 @@ TEST_F(Recipes, ARunUnderWayIsShownAsInterruptedAfterARestart) {
     const auto r = fresh->report("go", 1);
     ASSERT_TRUE(r);
     EXPECT_EQ(r->at("state"), json::value("interrupted"));
-    EXPECT_TRUE(r->at("text").get_string().starts_with("the gateway was restarted while the run was under way")) << r->at("text").get_string();
+    EXPECT_TRUE(r->at("text").get_string().starts_with("the gateway was restarted while the run was under way"))
+        << r->at("text").get_string();
     EXPECT_TRUE(r->at("text").get_string().ends_with("see to feeder"));
     EXPECT_TRUE(r->at("ended_at").is_string());
     EXPECT_EQ(r->at("steps").get_array().at(0).at("state"), json::value("done"));
     EXPECT_EQ(r->at("steps").get_array().at(1).at("state"), json::value("interrupted"));
     ASSERT_EQ(gateway.noted.size(), noted + 1);
     EXPECT_EQ(gateway.noted.back().severity, Severity::warning);
-    EXPECT_TRUE(gateway.noted.back().text.starts_with("recipe go run 1 interrupted at /steps/1: the gateway was restarted")) << gateway.noted.back().text;
+    EXPECT_TRUE(gateway.noted.back().text.starts_with("recipe go run 1 interrupted at /steps/1: the gateway was restarted"))
+        << gateway.noted.back().text;
     fresh->begin();
     EXPECT_EQ(gateway.noted.size(), noted + 1) << "it is told once";
     std::vector<SiteFault> faults;
@@ -363,7 +367,7 @@ TEST_F(Recipes, TwentyReportsAreKeptAndNumbersGoOn) {
 
 TEST_F(Recipes, ProgressIsToldAtMostTenTimesASecond) {
     std::vector<std::string> told;
-    recipes->tell = [&](const std::string&, const json::object& r) { told.emplace_back(r.at("state").get_string()); };
+    recipes->publish = [&](const std::string&, const json::object& r) { told.emplace_back(r.at("state").get_string()); };
     put("steps", R"({"steps":[{"repeat":{"times":50,"steps":[{"wait_s":0.01}]}}]})");
     (void)run("steps");
     for (int i = 0; i < 60; ++i)
@@ -386,15 +390,19 @@ TEST_F(Recipes, AnAxisThatIsGoneEndsTheRun) {
 
 TEST_F(Recipes, ALineIsScanned) {
     EXPECT_EQ(call("GET", "/api/v1/lines/can0/scan").at("state"), "none");
-    const auto a = call("POST", "/api/v1/lines/can0/scan", R"({"from":5,"to":"9","limit_s":3})");
+    const auto a = call("POST", "/api/v1/lines/can0/scan", R"({"from":5,"to":"9","family":"demo","limit_s":3})");
     EXPECT_EQ(a.status, 202u);
     EXPECT_EQ(a.headers.get("Location"), "/api/v1/lines/can0/scan");
     ASSERT_EQ(gateway.scan_wishes.size(), 1u);
     EXPECT_EQ(gateway.scan_wishes[0].from, "5");
     EXPECT_EQ(gateway.scan_wishes[0].to, "9");
+    EXPECT_EQ(gateway.scan_wishes[0].family, "demo");
     EXPECT_EQ(gateway.scan_wishes[0].limit, std::chrono::seconds(3));
+    gateway.scans[gateway.line("can0")].parts = {{"demo", 3, 9, ""}, {"other", 0, 0, "it cannot be searched for"}};
+    EXPECT_EQ(call("GET", "/api/v1/lines/can0/scan").at("families"),
+              R"([{"family":"demo","asked":3,"of":9,"text":""},{"family":"other","asked":0,"of":0,"text":"it cannot be searched for"}])");
     EXPECT_EQ(call("DELETE", "/api/v1/lines/can0/scan").at("state"), "cancelled");
-    for (const auto* bad : {R"({"limit_s":0})", R"({"limit_s":601})", R"({"from":true})", R"({"x":1})"})
+    for (const auto* bad : {R"({"limit_s":0})", R"({"limit_s":601})", R"({"from":true})", R"({"family":1})", R"({"x":1})"})
         EXPECT_EQ(call("POST", "/api/v1/lines/can0/scan", bad).status, 422u) << bad;
     gateway.scan_fault = "line can0 is down";
     EXPECT_EQ(call("POST", "/api/v1/lines/can0/scan", "{}").status, 409u);

@@ -25,7 +25,7 @@ protected:
                         alarms}};
     AccessTest() {
         for (const auto* role : {"viewer", "operator", "engineer", "administrator"})
-            access->own_desk.load(User{role, *role_named(role), true, std::string("hash of secret ") + role, 1, 0});
+            access->own_accounts.load(User{role, *role_named(role), true, std::string("hash of secret ") + role, 1, 0});
     }
     /// Like Harness::send, at a door that has users; the fake answers inside the call.
     Answer send(const Request& r) {
@@ -335,9 +335,9 @@ TEST_F(AccessTest, SignOutEndsTheSession) {
 TEST_F(AccessTest, FirstSignInIsOnceAndNeedsTheCode) {
     const std::string body = R"({"code":"abcd-0000","user":"Eva","password":"correct-horse-9"})";
     EXPECT_EQ(from(faraway_peer, "POST", "/api/v1/session/first", body).status, 409u);
-    access->own_desk = AccessRegister{AccessSettings{}};
+    access->own_accounts = AccessRegister{AccessSettings{}};
     EXPECT_EQ(from(faraway_peer, "POST", "/api/v1/session/first", body).status, 401u);
-    access->own_desk.load_code(digest_of(plain_code("ABCD-0000")));
+    access->own_accounts.load_code(digest_of(plain_code("ABCD-0000")));
     EXPECT_EQ(from(faraway_peer, "POST", "/api/v1/session/first", R"({"code":"abcd-0000","user":"Eva","password":"short"})").status, 422u);
     access->store_fault = "the disk is full";
     EXPECT_EQ(from(faraway_peer, "POST", "/api/v1/session/first", body).status, 507u);
@@ -419,7 +419,7 @@ TEST_F(AccessTest, TokensAreShownOnceAndNotAboveTheirOwner) {
     gateway.now_ns += 60'000'000'000;
     EXPECT_EQ(from(faraway_peer, "GET", "/api/v1/axes", "", bearer).status, 401u) << "expired";
     EXPECT_EQ(from(faraway_peer, "DELETE", "/api/v1/tokens/" + made.at("id"), "", as("administrator")).status, 204u);
-    EXPECT_TRUE(access->own_desk.tokens().empty());
+    EXPECT_TRUE(access->own_accounts.tokens().empty());
 }
 
 TEST_F(AccessTest, LiveFeedIsOverWhenItsSessionIs) {

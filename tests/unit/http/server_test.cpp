@@ -157,15 +157,24 @@ TEST_F(HttpServer, WhatIsNotHttp) {
               400},
              {"NUL in a header", std::string("GET / HTTP/1.1\r\nHost: a\0b\r\n\r\n", 30), 400},
              {"another coding", "POST /api/v1/moves/start HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: gzip\r\n\r\n", 501},
-             {"a coding and a length", "POST /api/v1/moves/start HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: identity\r\nContent-Length: 4\r\n\r\nGET ", 400},
-             {"a length and a coding", "POST /api/v1/moves/start HTTP/1.1\r\nHost: localhost\r\nContent-Length: 4\r\nTransfer-Encoding: xchunked\r\n\r\nGET ", 400},
-             {"two codings", "POST /api/v1/moves/start HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\nTransfer-Encoding: identity\r\n\r\n0\r\n\r\n", 400},
-             {"a space before the colon", "POST /api/v1/moves/start HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding : chunked\r\n\r\n0\r\n\r\n", 400},
-             {"a line that goes on", "POST /api/v1/moves/start HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding:\r\n chunked\r\n\r\n0\r\n\r\n", 400},
-             {"chunks in HTTP/1.0", "POST /api/v1/moves/start HTTP/1.0\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\n", 400},
+             {"a coding and a length",
+              "POST /api/v1/moves/start HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: identity\r\nContent-Length: 4\r\n\r\nGET ", 400},
+             {"a length and a coding",
+              "POST /api/v1/moves/start HTTP/1.1\r\nHost: localhost\r\nContent-Length: 4\r\nTransfer-Encoding: xchunked\r\n\r\nGET ", 400},
+             {"two codings",
+              "POST /api/v1/moves/start HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\nTransfer-Encoding: "
+              "identity\r\n\r\n0\r\n\r\n",
+              400},
+             {"a space before the colon",
+              "POST /api/v1/moves/start HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding : chunked\r\n\r\n0\r\n\r\n", 400},
+             {"a line that goes on",
+              "POST /api/v1/moves/start HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding:\r\n chunked\r\n\r\n0\r\n\r\n", 400},
+             {"chunks in HTTP/1.0", "POST /api/v1/moves/start HTTP/1.0\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\n",
+              400},
              {"bare line feeds", "GET /healthz HTTP/1.1\nHost: localhost\r\n\r\n", 400},
              {"two hosts", "GET /healthz HTTP/1.1\r\nHost: localhost\r\nHost: localhost\r\n\r\n", 400},
-             {"two authorizations", "GET /healthz HTTP/1.1\r\nHost: localhost\r\nAuthorization: Bearer a\r\nauthorization: Bearer b\r\n\r\n", 400},
+             {"two authorizations",
+              "GET /healthz HTTP/1.1\r\nHost: localhost\r\nAuthorization: Bearer a\r\nauthorization: Bearer b\r\n\r\n", 400},
              {"other expectation", "POST / HTTP/1.1\r\nHost: localhost\r\nExpect: magic\r\nContent-Length: 2\r\n\r\n{}", 417}}) {
         Client c(door.port);
         ASSERT_TRUE(c.send(bytes)) << what;
@@ -225,9 +234,11 @@ TEST_F(HttpServer, HalfRequestsDoNotShutTheDoor) {
     std::vector<std::unique_ptr<Client>> half;
     for (int i = 0; i < 60; ++i) {
         half.push_back(std::make_unique<Client>(door.port));
-        half.back()->send(i % 3 == 0   ? "GET /healthz HTTP/1.1\r\nHo"
-                          : i % 3 == 1 ? "POST /api/v1/session HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 100\r\n\r\n{"
-                                       : "");
+        half.back()->send(
+            i % 3 == 0 ? "GET /healthz HTTP/1.1\r\nHo"
+            : i % 3 == 1
+                ? "POST /api/v1/session HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 100\r\n\r\n{"
+                : "");
     }
     Client fresh(door.port);
     EXPECT_EQ(fresh.get("/healthz").status(), 200u) << "there is always a place for one more";
@@ -259,7 +270,8 @@ TEST_F(HttpServer, WhatLargeAnswersHoldTogetherIsBounded) {
         x->send("GET /big.txt HTTP/1.1\r\nHost: localhost\r\n\r\n");
         ASSERT_TRUE(door.until([&] { return door.server().counters().bytes_out > 0; }));
     }
-    ASSERT_TRUE(door.until([&] { return door.server().counters().requests.size() == 1 && door.server().counters().requests.begin()->second == 2; }));
+    ASSERT_TRUE(door.until(
+        [&] { return door.server().counters().requests.size() == 1 && door.server().counters().requests.begin()->second == 2; }));
     const auto refused = c.get("/big.txt");
     EXPECT_EQ(refused.status(), 503u);
     EXPECT_EQ(refused.message[beast::http::field::retry_after], "2");
@@ -271,10 +283,24 @@ TEST_F(HttpServer, WhatLargeAnswersHoldTogetherIsBounded) {
     EXPECT_EQ(Client(door.port).get("/big.txt").status(), 200u) << "what a client that has gone held is free again";
 }
 
+TEST_F(HttpServer, ABackupThatNobodyReadsCountsAmongWhatLargeAnswersHold) {
+    door.settings.max_held_bytes = 20 * 1024 * 1024;
+    door.gateway.bytes.assign(12 * 1024 * 1024, 'x');
+    door.open();
+    Client slow(door.port, 4096), fresh(door.port);
+    slow.send("GET /api/v1/backup HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    ASSERT_TRUE(door.until([&] { return door.server().counters().bytes_out > 0; }));
+    EXPECT_EQ(fresh.get("/api/v1/backup").status(), 503u) << "12 MiB wait to be read: there is no room for 12 more";
+    slow.close();
+    EXPECT_TRUE(door.until([&] { return door.server().counters().connections == 1; }));
+    EXPECT_EQ(fresh.get("/api/v1/backup").status(), 200u);
+}
+
 TEST_F(HttpServer, AStrangersBodyIsAFewKiB) {
     door.open();
     const auto head = [](std::size_t bytes, const char* more) {
-        return "POST /api/v1/session HTTP/1.1\r\nHost: localhost\r\nVia: proxy\r\nContent-Type: application/json\r\n" + std::string(more) + "Content-Length: " + std::to_string(bytes) + "\r\n\r\n";
+        return "POST /api/v1/session HTTP/1.1\r\nHost: localhost\r\nVia: proxy\r\nContent-Type: application/json\r\n" + std::string(more) +
+               "Content-Length: " + std::to_string(bytes) + "\r\n\r\n";
     };
     Client c(door.port);
     c.send(head(8193, "") + "{");
@@ -284,7 +310,10 @@ TEST_F(HttpServer, AStrangersBodyIsAFewKiB) {
     fits.send(head(8192, "") + "{}" + std::string(8190, ' '));
     EXPECT_NE(fits.receive().status(), 413u);
     Client chunks(door.port);
-    chunks.send("POST /api/v1/session HTTP/1.1\r\nHost: localhost\r\nVia: proxy\r\nContent-Type: application/json\r\nTransfer-Encoding: chunked\r\n\r\n3000\r\n" + std::string(0x3000, ' ') + "\r\n");
+    chunks.send(
+        "POST /api/v1/session HTTP/1.1\r\nHost: localhost\r\nVia: proxy\r\nContent-Type: application/json\r\nTransfer-Encoding: "
+        "chunked\r\n\r\n3000\r\n" +
+        std::string(0x3000, ' ') + "\r\n");
     EXPECT_EQ(chunks.receive().status(), 413u);
 }
 

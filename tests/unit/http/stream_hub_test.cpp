@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <boost/json/serialize.hpp>
+
 #include "gateway/doors/http/websocket_codec.hpp"
 #include "tests/unit/http/fake_gateway.hpp"
 

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "gateway/engine/door.hpp"
-#include "gateway/services/gateway.hpp"
 
 namespace axisgate::modbus::test {
 
@@ -43,7 +42,8 @@ public:
     void set_mapping_revision(std::uint32_t revision) { image_.mapping_revision = revision; }
 
     /// Gives the result of the oldest command that has none. False: there is no such command.
-    bool answer(Outcome outcome = Outcome::accepted, Reason reason = Reason::none, std::int32_t code = 0, Value value = {}, std::string text = {}) {
+    bool answer(Outcome outcome = Outcome::accepted, Reason reason = Reason::none, std::int32_t code = 0, Value value = {},
+                std::string text = {}) {
         if (commands.empty()) return false;
         Command command = std::move(commands.front());
         commands.pop_front();

@@ -1,6 +1,6 @@
-// The hot thread and the service gateway when the ways between the threads are full, a thread is held up, the clock jumps or the disk
-// fails. In: rings that nobody empties, a clock of the test's own, a file layer that fails on purpose. Out: that everybody who asked is
-// answered exactly once, and that what was lost is counted and told. Never waits for time to go by, and never for ever.
+// The hot thread and the owners of the service's ports when the ways between the threads are full, a thread is held up, the clock jumps or
+// the disk fails. In: rings that nobody empties, a clock of the test's own, a file layer that fails on purpose. Out: that everybody who
+// asked is answered exactly once, and that what was lost is counted and told. Never waits for time to go by, and never for ever.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 #include <mutex>
 #include <thread>
 
-#include "gateway/runtime/warm_gateway.hpp"
+#include "gateway/runtime/warm_ports.hpp"
 #include "tests/unit/store/fault_vfs.hpp"
 #include "tests/unit/store/fixture.hpp"
 
@@ -48,7 +48,7 @@ struct RingBench {
     std::unique_ptr<Cold> cold;
     std::unique_ptr<Hot> hot = std::make_unique<Hot>(Families{}, with_test_clock());
     boost::asio::io_context warm;
-    std::unique_ptr<WarmGateway> gateway;
+    std::unique_ptr<WarmPorts> ports;
 
     RingBench() {
         test_time = ns_of(monotonic_now()) + 3'600'000'000'000;  // no timer of the real clock rings meanwhile
@@ -69,8 +69,8 @@ struct RingBench {
             faults.push_back(std::move(text));
         };
         cold = std::make_unique<Cold>(*store, std::move(answers));
-        gateway = std::make_unique<WarmGateway>(warm, *hot, *cold, Families{}, must(StoreReader::open(options)));
-        hot->connect({&gateway->results(), &gateway->samples(), &cold->from_hot()});
+        ports = std::make_unique<WarmPorts>(warm, *hot, *cold, Families{}, must(StoreReader::open(options)));
+        hot->connect(ports->outlets());
     }
     ~RingBench() {
         hot->stop();
@@ -148,11 +148,11 @@ TEST(FullRings, NotesOfTheServiceGoStraightToTheDiskAndAreCountedWhenTheyFindNoP
     RingBench b;
     b.fill_jobs();  // the hot thread takes nothing more: it is not on their way
     for (std::int32_t i = 1; i <= static_cast<std::int32_t>(service_places) + 2; ++i)
-        b.gateway->note(numbered(i));
-    EXPECT_EQ(b.gateway->lost_events(), 2u);
+        b.ports->events.note(numbered(i));
+    EXPECT_EQ(b.ports->events.lost(), 2u);
     EXPECT_EQ(b.hot->lost_events(), 0u);
     b.cold->from_service().empty();
-    b.gateway->note(numbered(-1));
+    b.ports->events.note(numbered(-1));
     b.cold->start();
     ASSERT_TRUE(until([&] { return b.locked([&] { return b.events.size() == service_places + 2u; }); }));
     EXPECT_EQ(b.events[service_places].kind, "gap");
@@ -160,11 +160,46 @@ TEST(FullRings, NotesOfTheServiceGoStraightToTheDiskAndAreCountedWhenTheyFindNoP
     EXPECT_EQ(b.events[service_places + 1u].code, -1);
 }
 
+TEST(AuditEvents, OfSitesAndLocksGoStraightToTheStorageAndNotByTheHotThread) {
+    RingBench b;
+    std::vector<std::string> by_hot;
+    boost::asio::io_context other;
+    Mailbox<ColdJob> ring(64, other.get_executor(), [&](ColdJob&& job) {
+        if (const auto* e = std::get_if<EventAt>(&job)) by_hot.push_back(e->event.kind);
+    });
+    auto outlets = b.ports->outlets();
+    outlets.cold = &ring;
+    b.hot->connect(outlets);
+    bool locked = false;
+    b.ports->modbus.use({[] { return ModbusReport{}; }, [&](bool on) { locked = on; }});
+    b.cold->start();
+    b.hot->start();
+    const Origin anna{Door::http, std::make_shared<const std::string>("anna"), {}};
+    int answers = 0;
+    b.ports->site.apply_site(Site{}, 0, anna, [&](const SiteAnswer& a) { answers += a.good ? 1 : 100; });
+    b.ports->modbus.set_modbus_read_only(true, anna, [&](const std::string& fault, bool) { answers += fault.empty() ? 1 : 100; });
+    ASSERT_TRUE(until([&] {
+        b.run_warm();
+        return answers >= 2 && b.locked([&] { return b.events.size() >= 2; });
+    }));
+    EXPECT_EQ(answers, 2);
+    b.hot->stop();
+    EXPECT_TRUE(locked);
+    ring.empty();
+    EXPECT_EQ(std::ranges::count(by_hot, "site") + std::ranges::count(by_hot, "modbus"), 0);
+    for (const auto* kind : {"site", "modbus"}) {
+        const auto it = std::ranges::find(b.events, kind, &Event::kind);
+        ASSERT_NE(it, b.events.end()) << kind;
+        EXPECT_EQ(it->who, "anna");
+        EXPECT_EQ(it->door, "http");
+    }
+}
+
 TEST(FullRings, WhoeverAsksIsAnsweredOnceAlthoughNothingCanBeTaken) {
     RingBench b;
-    b.gateway->modbus_on_hot = [] { return Gateway::ModbusReport{}; };
+    b.ports->modbus.use({[] { return ModbusReport{}; }, [](bool) {}});
     registers::RegisterImage image(*b.hot, {});
-    b.gateway->use_registers(image);
+    b.ports->registers.use(image);
     b.fill_jobs();
     std::map<std::string, int> answered;
     std::map<std::string, std::string> said;
@@ -172,17 +207,17 @@ TEST(FullRings, WhoeverAsksIsAnsweredOnceAlthoughNothingCanBeTaken) {
         ++answered[who];
         said[who] = std::move(text);
     };
-    b.gateway->hand(DriveId{0}, [&](auto items) { told("hand", items ? "items" : "none"); });
-    b.gateway->set_hand(DriveId{0}, {}, {}, [&](std::string fault) { told("set_hand", fault); });
-    b.gateway->start_scan(LineId{0}, {}, {}, [&](std::string fault) { told("start_scan", fault); });
-    b.gateway->cancel_scan(LineId{0},
-                           [&](const ScanReport& r) { told("cancel_scan", r.state == ScanReport::State::failed ? r.text : "not failed"); });
-    b.gateway->scan_report(LineId{0},
-                           [&](const ScanReport& r) { told("scan_report", r.state == ScanReport::State::failed ? r.text : "not failed"); });
-    b.gateway->modbus_report([&](auto report) { told("modbus_report", report ? "report" : "none"); });
-    b.gateway->read_registers(1, registers::Table::holding_registers, 0, 1,
-                              [&](auto read) { told("read_registers", read ? "answer" : "none"); });
-    b.gateway->events_settled([&] { told("events_settled", ""); });
+    b.ports->drives.hand(DriveId{0}, [&](auto items) { told("hand", items ? "items" : "none"); });
+    b.ports->drives.set_hand(DriveId{0}, {}, {}, [&](std::string fault) { told("set_hand", fault); });
+    b.ports->lines.start_scan(LineId{0}, {}, {}, [&](std::string fault) { told("start_scan", fault); });
+    b.ports->lines.cancel_scan(
+        LineId{0}, [&](const ScanReport& r) { told("cancel_scan", r.state == ScanReport::State::failed ? r.text : "not failed"); });
+    b.ports->lines.scan_report(
+        LineId{0}, [&](const ScanReport& r) { told("scan_report", r.state == ScanReport::State::failed ? r.text : "not failed"); });
+    b.ports->modbus.modbus_report([&](auto report) { told("modbus_report", report ? "report" : "none"); });
+    b.ports->registers.read_registers(1, registers::Table::holding_registers, 0, 1,
+                                      [&](auto read) { told("read_registers", read ? "answer" : "none"); });
+    b.ports->events.events_settled([&] { told("events_settled", ""); });
     b.run_warm();
     b.empty_jobs();
     b.run_warm();
@@ -211,7 +246,7 @@ TEST(FullRings, CommandsToAThreadThatIsHeldUpAreAnsweredExactlyOnceEach) {
         Command c;
         c.axis = AxisId{7};  // of no site
         c.body = Halt{};
-        const Ticket t = b.gateway->submit(std::move(c), [&](const Result& r) { answers[r.ticket].push_back(r.reason); });
+        const Ticket t = b.ports->axes.submit(std::move(c), [&](const Result& r) { answers[r.ticket].push_back(r.reason); });
         EXPECT_TRUE(answers.emplace(t, std::vector<Reason>{}).second) << "a ticket is given out once";
     }
     b.run_warm();
@@ -230,7 +265,7 @@ TEST(FullRings, CommandsToAThreadThatIsHeldUpAreAnsweredExactlyOnceEach) {
         EXPECT_EQ(list.size(), 1u) << ticket;
     EXPECT_EQ(b.hot->commands().full(), 0u) << "the gateway takes no more than the ring holds";
     bool again = false;
-    b.gateway->submit(Command{}, [&](const Result& r) { again = r.reason != Reason::busy; });
+    b.ports->axes.submit(Command{}, [&](const Result& r) { again = r.reason != Reason::busy; });
     EXPECT_TRUE(until([&] {
         b.run_warm();
         return again;
@@ -267,7 +302,7 @@ TEST(ColdDisk, AnOrderThatCannotBeSyncedIsReportedAndHealsWithTheDisk) {
     order(1);
     ASSERT_TRUE(until([&] { return b.locked([&] { return b.stored.size() == 1; }); }));
     EXPECT_EQ(b.stored[0].fault, "");
-    EXPECT_TRUE(b.gateway->not_ready().empty());
+    EXPECT_TRUE(b.ports->status.not_ready().empty());
     std::promise<void> set;
     b.cold->run([&](Store&) {
         b.vfs.fail(FaultVfs::sync | FaultVfs::write, SQLITE_IOERR_FSYNC, EIO);
@@ -281,8 +316,8 @@ TEST(ColdDisk, AnOrderThatCannotBeSyncedIsReportedAndHealsWithTheDisk) {
     EXPECT_NE(b.stored[1].fault, "") << "never as written";
     EXPECT_EQ(b.events[0].id, 0u) << "told, but not kept";
     EXPECT_FALSE(b.cold->healthy());
-    ASSERT_EQ(b.gateway->not_ready().size(), 1u);
-    EXPECT_NE(b.gateway->not_ready()[0].find("cannot be written"), std::string::npos);
+    ASSERT_EQ(b.ports->status.not_ready().size(), 1u);
+    EXPECT_NE(b.ports->status.not_ready()[0].find("cannot be written"), std::string::npos);
     EXPECT_FALSE(b.locked([&] { return b.faults.empty(); })) << "and it is for the log";
     std::promise<void> healed;
     b.cold->run([&](Store&) {

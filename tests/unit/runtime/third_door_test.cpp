@@ -9,7 +9,7 @@
 
 #include "gateway/runtime/catalogues.hpp"
 #include "gateway/runtime/clock.hpp"
-#include "gateway/runtime/warm_gateway.hpp"
+#include "gateway/runtime/warm_ports.hpp"
 #include "gateway/services/door.hpp"
 #include "tests/unit/store/fixture.hpp"
 
@@ -26,7 +26,8 @@ struct ThirdHotDoor final : HotDoor {
     void on_site(const SiteState& state) override { axis = state.axis_ids.at(0), sites.fetch_add(1); }
     void on_sample(const Sample&) override { samples.fetch_add(1); }
     void give(CommandBody body) {
-        port.submit({make_ticket(number, ++sequence), axis, std::move(body), false, {Door::dds, std::make_shared<const std::string>("peer:1")}});
+        port.submit(
+            {make_ticket(number, ++sequence), axis, std::move(body), false, {Door::dds, std::make_shared<const std::string>("peer:1")}});
     }
     void lose() { port.client_lost({Door::dds, "peer"}, LossCause::modbus_closed); }
 
@@ -38,24 +39,25 @@ struct ThirdHotDoor final : HotDoor {
 };
 
 /// A door of the service thread.
-struct ThirdServiceDoor final : ServiceDoor, GatewayListener {
-    explicit ThirdServiceDoor(Gateway& gateway) : gateway(gateway) {}
+struct ThirdServiceDoor final : ServiceDoor, SiteListener, SampleListener {
+    explicit ThirdServiceDoor(const PortSet<AxisPort, ParameterPort, SitePort>& ports) : ports(ports) {}
     std::string_view name() const override { return "third"; }
-    std::string start() override { return gateway.listen(this), std::string(); }
+    std::string start() override { return ports.get<SitePort>().listen(this), ports.get<ParameterPort>().listen(this), std::string(); }
     std::string address() const override { return "nowhere"; }
-    void stop(std::function<void()> done) override { gateway.unlisten(this), done(); }
-    void on_event(const Event&) override {}
-    void on_site(const std::shared_ptr<const SiteState>& state) override { axis = state->axis_ids.at(0); }
+    void stop(std::function<void()> done) override {
+        ports.get<SitePort>().unlisten(this), ports.get<ParameterPort>().unlisten(this), done();
+    }
+    void on_site(const std::shared_ptr<const SiteState>& state) override { axis = state->axis_ids.at(0), ++sites; }
     void on_sample(const Sample&) override { ++samples; }
     void give(CommandBody body) {
         Command c{no_ticket, axis, std::move(body), false, {Door::dds, std::make_shared<const std::string>("peer:1")}};
-        gateway.submit(std::move(c), [this](const Result& r) { ++(good(r) ? good_results : bad_results); });
+        ports.get<AxisPort>().submit(std::move(c), [this](const Result& r) { ++(good(r) ? good_results : bad_results); });
     }
-    void lose() { gateway.client_lost({Door::dds, "peer"}, LossCause::modbus_closed); }
+    void lose() { ports.get<AxisPort>().client_lost({Door::dds, "peer"}, LossCause::modbus_closed); }
 
-    Gateway& gateway;
+    PortSet<AxisPort, ParameterPort, SitePort> ports;
     AxisId axis = no_axis;
-    int good_results = 0, bad_results = 0, samples = 0;
+    int good_results = 0, bad_results = 0, sites = 0, samples = 0;
 };
 
 struct House {
@@ -67,7 +69,7 @@ struct House {
     Hot hot{families, {}};
     Cold cold{*store, {[](std::vector<Stored>) {}, [](std::vector<Event>) {}, [](std::string) {}}};
     boost::asio::io_context service;
-    WarmGateway gateway{service, hot, cold, families, must(StoreReader::open(options))};
+    WarmPorts ports{service, hot, cold, families, must(StoreReader::open(options))};
 
     ~House() {
         hot.stop();
@@ -75,24 +77,27 @@ struct House {
     }
     /// The first family's twin, whichever that is.
     void begin() {
-        hot.connect({&gateway.results(), &gateway.samples(), &cold.from_hot()});
+        hot.connect(ports.outlets());
         const Family& family = *families.entries.at(0).family;
-        const auto document = boost::json::parse(R"({"lines": [{"name": "l", "uri": "twin", "family": ")" + std::string(family.name) + R"("}],
-            "drives": [{"name": "d", "line": "l", "address": ")" + std::string(family.factory_address) + R"(", "presence": "twin"}],
+        const auto document =
+            boost::json::parse(R"({"lines": [{"name": "l", "uri": "twin", "family": ")" + std::string(family.name) + R"("}],
+            "drives": [{"name": "d", "line": "l", "address": ")" +
+                               std::string(family.factory_address) + R"(", "presence": "twin"}],
             "axes": [{"name": "x", "drive": "d", "number": 1}]})");
         std::vector<SiteFault> wrong;
         auto site = parse_site(document, families, wrong);
         ASSERT_TRUE(site) << (wrong.empty() ? "" : wrong[0].text);
         const auto state = hot.engine().apply_site(std::move(*site), {}, 1, monotonic_now());
-        gateway.set_site(state);
-        hot.tell_site(*state);
+        ports.site.set_site(state);
+        hot.publish_site(*state);
         cold.start();
         hot.start();
     }
-    AxisPicture picture() { return gateway.picture(gateway.site()->axis_ids.at(0)); }
+    AxisPicture picture() { return ports.axes.picture(ports.site.site()->axis_ids.at(0)); }
     template <class Condition>
     bool until(Condition condition) {
-        for (const auto end = std::chrono::steady_clock::now() + 20s; std::chrono::steady_clock::now() < end; std::this_thread::sleep_for(1ms)) {
+        for (const auto end = std::chrono::steady_clock::now() + 20s; std::chrono::steady_clock::now() < end;
+             std::this_thread::sleep_for(1ms)) {
             service.restart();
             service.poll();
             if (condition()) return true;
@@ -129,7 +134,8 @@ TEST(ThirdDoor, OnTheHotThread) {
         EXPECT_TRUE(house.hot.jobs().push([f](Engine&, Instant) { f(); }));
         house.hot.jobs().announce();
     };
-    house.drive([&](CommandBody body) { there([&door, body] { door.give(body); }); }, [&] { return door.good_results.load(); }, [&] { there([&door] { door.lose(); }); });
+    house.drive([&](CommandBody body) { there([&door, body] { door.give(body); }); }, [&] { return door.good_results.load(); },
+                [&] { there([&door] { door.lose(); }); });
     EXPECT_EQ(door.bad_results, 0);
     EXPECT_EQ(door.sites, 1);
     EXPECT_GT(door.samples, 0);
@@ -138,11 +144,12 @@ TEST(ThirdDoor, OnTheHotThread) {
 
 TEST(ThirdDoor, OnTheServiceThread) {
     House house;
-    ThirdServiceDoor door(house.gateway);
+    ThirdServiceDoor door(house.ports.all());
     ASSERT_EQ(door.start(), "");
     house.begin();
     house.drive([&](CommandBody body) { door.give(std::move(body)); }, [&] { return door.good_results; }, [&] { door.lose(); });
     EXPECT_EQ(door.bad_results, 0);
+    EXPECT_EQ(door.sites, 1);
     EXPECT_GT(door.samples, 0);
     bool stopped = false;
     door.stop([&] { stopped = true; });

@@ -53,7 +53,7 @@ protected:
         now += d;
         turn();
     }
-    void answer(bool good = true, std::string text = {}, json::value value = nullptr, Told motion = Told::told) {
+    void answer(bool good = true, std::string text = {}, json::value value = nullptr, Told motion = Told::by_result) {
         ASSERT_EQ(requests.size(), 1u);
         run->answer(requests[0].number, {good, std::move(text), std::move(value), motion});
         EXPECT_LE(run->deadline(), now);

@@ -75,6 +75,17 @@ TEST(Mapping, FillsInWhatIsLeftOut) {
         EXPECT_EQ(to_json((*same)[i]), to_json((*m)[i]));
 }
 
+TEST(Mapping, AreParsedOnceWithTheirSiteAndSharedByItsCopies) {
+    Plant p;
+    json::object document = to_json(p.site);
+    document["mappings"] = json::parse(R"([{"unit": 2, "address": 0, "axis": "x", "point": "position"}])");
+    const auto site = parse_site(document, p.families, p.faults);
+    ASSERT_TRUE(site);
+    ASSERT_EQ(site->map().size(), 1u);
+    const Site copy = *site;  // as the site in force, a stage, and every door's look at it
+    EXPECT_EQ(&copy.map(), &site->map());
+}
+
 TEST(Mapping, SaysWhatIsWrongAndWhatIsRight) {
     Plant p;
     const std::pair<const char*, const char*> rows[] = {
@@ -218,11 +229,13 @@ TEST(MappingValues, WhatDoesNotFitIsMarkedOrClamped) {
         Mapping mapping;
         const char *mark, *highest, *lowest;
     };
-    for (const auto& r : {Row{of(T::u16), "FFFF", "FFFF", "0000"}, Row{of(T::i16), "8000", "7FFF", "8000"}, Row{of(T::u32), "FFFFFFFF", "FFFFFFFF", "00000000"},
-                          Row{of(T::i32), "80000000", "7FFFFFFF", "80000000"}, Row{of(T::i32, low), "00008000", "FFFF7FFF", "00008000"},
-                          Row{of(T::u64), "FFFFFFFFFFFFFFFF", "7FFFFFFFFFFFFFFF", "0000000000000000"},
-                          Row{of(T::i64), "8000000000000000", "7FFFFFFFFFFFFFFF", "8000000000000000"}, Row{of(T::f32), "7FC00000", "7F7FFFFF", "FF7FFFFF"},
-                          Row{of(T::f64, MapWordOrder::high_first, 1e300), "7FF8000000000000", "7FEFFFFFFFFFFFFF", "FFEFFFFFFFFFFFFF"}}) {
+    for (const auto& r :
+         {Row{of(T::u16), "FFFF", "FFFF", "0000"}, Row{of(T::i16), "8000", "7FFF", "8000"},
+          Row{of(T::u32), "FFFFFFFF", "FFFFFFFF", "00000000"}, Row{of(T::i32), "80000000", "7FFFFFFF", "80000000"},
+          Row{of(T::i32, low), "00008000", "FFFF7FFF", "00008000"},
+          Row{of(T::u64), "FFFFFFFFFFFFFFFF", "7FFFFFFFFFFFFFFF", "0000000000000000"},
+          Row{of(T::i64), "8000000000000000", "7FFFFFFFFFFFFFFF", "8000000000000000"}, Row{of(T::f32), "7FC00000", "7F7FFFFF", "FF7FFFFF"},
+          Row{of(T::f64, MapWordOrder::high_first, 1e300), "7FF8000000000000", "7FEFFFFFFFFFFFFF", "FFEFFFFFFFFFFFFF"}}) {
         EXPECT_EQ(shown(r.mapping, above, MapOverflow::mark), r.mark) << name_of(r.mapping.type);
         EXPECT_EQ(shown(r.mapping, nothing, MapOverflow::mark), r.mark) << name_of(r.mapping.type);
         EXPECT_EQ(shown(r.mapping, nothing, MapOverflow::clamp), r.mark) << "near to no end";
@@ -327,7 +340,9 @@ OwnCatalogue with_extra(const CatalogueWish& wish) {
     if (it == wish.options.end()) return {};
     if (it->second == "?") return {nullptr, "extra = ?: write the name of a parameter"};
     std::vector<std::string> faults;
-    auto made = wish.page.with({json::object{{"id", it->second}, {"name", it->second}, {"group", "g"}, {"type", "u16"}, {"access", "RW"}, {"description", "d"}}}, faults);
+    auto made = wish.page.with(
+        {json::object{{"id", it->second}, {"name", it->second}, {"group", "g"}, {"type", "u16"}, {"access", "RW"}, {"description", "d"}}},
+        faults);
     EXPECT_TRUE(made) << faults.front();
     return {made ? std::make_shared<const Catalogue>(std::move(*made)) : nullptr, {}};
 }
@@ -337,7 +352,8 @@ TEST(OwnCatalogue, MappingsOfADriveAreReadByItsOwn) {
     p.family.own_catalogue = with_extra;
     auto document = to_json(p.site);
     document["drives"].as_array()[0].as_object()["options"] = json::object{{"extra", "Q1"}};
-    document["mappings"] = json::parse(R"([{"unit": 2, "address": 0, "axis": "x", "point": "Q1", "type": "u16"}, {"unit": 2, "address": 1, "axis": "x.1", "point": "AC"}])");
+    document["mappings"] = json::parse(
+        R"([{"unit": 2, "address": 0, "axis": "x", "point": "Q1", "type": "u16"}, {"unit": 2, "address": 1, "axis": "x.1", "point": "AC"}])");
     const auto site = parse_site(document, p.families, p.faults);
     ASSERT_TRUE(site) << p.faults.front().text;
     const auto own = catalogue_of(*site, site->drives[0], p.families), page = catalogue_of(*site, site->drives[1], p.families);
@@ -361,7 +377,8 @@ TEST(OwnCatalogue, MappingsOfADriveAreReadByItsOwn) {
     const auto other = parse_site(renamed, p.families, p.faults);
     auto bare = document;
     bare.erase("mappings");
-    EXPECT_NE(mapping_revision(*other), mapping_revision(*parse_site(bare, p.families, p.faults))) << "a selector of the parameter channel names another one";
+    EXPECT_NE(mapping_revision(*other), mapping_revision(*parse_site(bare, p.families, p.faults)))
+        << "a selector of the parameter channel names another one";
 
     document["drives"].as_array()[1].as_object()["options"] = json::object{{"extra", "?"}};
     p.faults.clear();
@@ -374,12 +391,17 @@ TEST(OwnCatalogue, MappingsOfADriveAreReadByItsOwn) {
 TEST(OwnCatalogue, FurtherParametersAreCheckedAsThoseOfThePage) {
     Plant p;
     std::vector<std::string> faults;
-    const auto made = p.catalogue.with({json::object{{"id", "Q1"}, {"name", "q1"}, {"group", "g"}, {"type", "i32"}, {"access", "RW"}, {"description", "d"}}}, faults);
+    const auto made = p.catalogue.with(
+        {json::object{{"id", "Q1"}, {"name", "q1"}, {"group", "g"}, {"type", "i32"}, {"access", "RW"}, {"description", "d"}}}, faults);
     ASSERT_TRUE(made && faults.empty());
-    EXPECT_EQ(made->document().at("parameters").as_array().size(), made->parameters().size()) << "forms are read from the document by the same place";
+    EXPECT_EQ(made->document().at("parameters").as_array().size(), made->parameters().size())
+        << "forms are read from the document by the same place";
     EXPECT_EQ(made->family(), "demo");
     EXPECT_EQ(p.catalogue.find("Q1"), std::nullopt);
-    EXPECT_FALSE(made->with({json::object{{"id", "AC"}, {"name", "ac2"}, {"group", "g"}, {"type", "i32"}, {"access", "RW"}, {"description", "d"}}, json::value(3)}, faults));
+    EXPECT_FALSE(
+        made->with({json::object{{"id", "AC"}, {"name", "ac2"}, {"group", "g"}, {"type", "i32"}, {"access", "RW"}, {"description", "d"}},
+                    json::value(3)},
+                   faults));
     EXPECT_EQ(faults, (std::vector<std::string>{"parameters[6]: AC is there twice", "parameters[7]: not an object"}));
 }
 
@@ -393,14 +415,16 @@ TEST(ModbusUnits, AreReadCheckedAndTold) {
     EXPECT_EQ(site->gaps, (std::map<std::uint8_t, MapGaps>{{2, MapGaps::refuse}, {9, MapGaps::zero}}));
     EXPECT_EQ(to_json(*parse_site(to_json(*site), p.families, p.faults)), to_json(*site));
     EXPECT_NE(mapping_revision(*site), mapping_revision(p.site)) << "what a register shows is another";
-    EXPECT_EQ(differences(p.site, *site), (std::vector<std::string>{"modbus unit 2: gaps not set -> refuse", "modbus unit 9: gaps not set -> zero"}));
-    const std::pair<const char*, const char*> rows[] = {{R"({})", "/modbus_units"},
-                                                        {R"([{"gaps": "zero"}])", "/modbus_units/0/unit"},
-                                                        {R"([{"unit": 1, "gaps": "zero"}])", "/modbus_units/0/unit"},
-                                                        {R"([{"unit": 2}])", "/modbus_units/0/gaps"},
-                                                        {R"([{"unit": 2, "gaps": "none"}])", "/modbus_units/0/gaps"},
-                                                        {R"([{"unit": 2, "gaps": "zero", "x": 1}])", "/modbus_units/0/x"},
-                                                        {R"([{"unit": 2, "gaps": "zero"}, {"unit": 2, "gaps": "zero"}])", "/modbus_units/1/unit"}};
+    EXPECT_EQ(differences(p.site, *site),
+              (std::vector<std::string>{"modbus unit 2: gaps not set -> refuse", "modbus unit 9: gaps not set -> zero"}));
+    const std::pair<const char*, const char*> rows[] = {
+        {R"({})", "/modbus_units"},
+        {R"([{"gaps": "zero"}])", "/modbus_units/0/unit"},
+        {R"([{"unit": 1, "gaps": "zero"}])", "/modbus_units/0/unit"},
+        {R"([{"unit": 2}])", "/modbus_units/0/gaps"},
+        {R"([{"unit": 2, "gaps": "none"}])", "/modbus_units/0/gaps"},
+        {R"([{"unit": 2, "gaps": "zero", "x": 1}])", "/modbus_units/0/x"},
+        {R"([{"unit": 2, "gaps": "zero"}, {"unit": 2, "gaps": "zero"}])", "/modbus_units/1/unit"}};
     for (const auto& [list, pointer] : rows) {
         p.faults.clear();
         document["modbus_units"] = json::parse(list);

@@ -1,0 +1,65 @@
+// Warm backup: each job of the cold thread is answered on the service thread; what was laid down is told as an event.
+// In: bytes, who sent them. Out: answers. The file that a download is made in is taken away before the answer leaves.
+#include "gateway/runtime/warm_backup.hpp"
+
+#include <fmt/core.h>
+
+#include <filesystem>
+
+#include "gateway/runtime/clock.hpp"
+#include "gateway/runtime/files.hpp"
+#include "gateway/runtime/waiting_backup.hpp"
+
+namespace axisgate {
+namespace {
+constexpr std::size_t most_backup_bytes = 64ull << 20;  // a larger one is made with `axisgate backup`
+}  // namespace
+
+void WarmBackup::backup(std::function<void(std::optional<std::string> bytes, std::string fault)> then) {
+    threads_.on_cold([this, then = std::move(then)](Store& store) {
+        const std::string file = fmt::format("{}/{}", store.directory(), download_name);
+        std::string fault;
+        std::optional<std::string> bytes;
+        if (const auto made = store.backup(file); !made) {
+            fault = made.error().text;
+        } else {
+            bytes = read_file(file, fault, most_backup_bytes);
+        }
+        std::error_code ec;
+        std::filesystem::remove(file, ec);
+        threads_.answer([then, bytes = std::move(bytes), fault = std::move(fault)]() mutable { then(std::move(bytes), std::move(fault)); });
+    });
+}
+
+void WarmBackup::restore(std::string bytes, Origin origin, std::function<void(RestoreFault)> then) {
+    threads_.on_cold([this, bytes = std::move(bytes), origin = std::move(origin), then = std::move(then)](Store& store) {
+        const auto fault = lay_down_backup(bytes, origin.who ? *origin.who : origin.text(), unix_now_ns(), store.options());
+        threads_.answer([this, origin, then, fault] {
+            if (fault.text.empty())
+                events_.note("site", "a backup was laid down: it takes the place of the database at the next start", origin,
+                             Severity::warning);
+            then(fault);
+        });
+    });
+}
+
+void WarmBackup::waiting_backup(std::function<void(std::optional<WaitingBackup>)> then) {
+    threads_.on_cold([this, then = std::move(then)](Store& store) {
+        threads_.answer([then, waits = axisgate::waiting_backup(store.directory())] { then(waits); });
+    });
+}
+
+void WarmBackup::cancel_restore(Origin origin, std::function<void(std::string fault)> then) {
+    threads_.on_cold([this, origin = std::move(origin), then = std::move(then)](Store& store) {
+        const std::string fault = cancel_waiting_backup(store.directory());
+        threads_.answer([this, origin, then, fault] {
+            if (fault.empty())
+                events_.note("site",
+                             "the backup that was laid down was taken away again: the next start goes on with the database as it is",
+                             origin, Severity::warning);
+            then(fault);
+        });
+    });
+}
+
+}  // namespace axisgate

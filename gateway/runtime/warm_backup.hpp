@@ -1,0 +1,25 @@
+// Warm backup: the backup port: copies of the database made, checked and laid down on the cold thread.
+// In: bytes. Out: bytes, or why not. A copy of more than 64 MiB is not sent: `axisgate backup` makes it.
+// Never names a path to who asked.
+#pragma once
+
+#include "gateway/runtime/warm_events.hpp"
+#include "gateway/runtime/warm_threads.hpp"
+#include "gateway/services/ports/backup.hpp"
+
+namespace axisgate {
+
+class WarmBackup final : public BackupPort {
+public:
+    WarmBackup(const WarmThreads& threads, WarmEvents& events) : threads_(threads), events_(events) {}
+    void backup(std::function<void(std::optional<std::string> bytes, std::string fault)> then) override;
+    void restore(std::string bytes, Origin origin, std::function<void(RestoreFault)> then) override;
+    void waiting_backup(std::function<void(std::optional<WaitingBackup>)> then) override;
+    void cancel_restore(Origin origin, std::function<void(std::string fault)> then) override;
+
+private:
+    const WarmThreads& threads_;
+    WarmEvents& events_;
+};
+
+}  // namespace axisgate

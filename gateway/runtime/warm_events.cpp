@@ -1,0 +1,43 @@
+// Warm events: listeners are told in the order of the numbers that the storage gave.
+// In: events, queries. Out: events. Reads of the database are local and short; nothing is written here.
+#include "gateway/runtime/warm_events.hpp"
+
+namespace axisgate {
+
+void WarmEvents::note(Event event) {
+    outlet_.send(std::move(event), monotonic_now());
+    threads_.cold.from_service().announce();
+}
+
+void WarmEvents::note(std::string kind, std::string text, const Origin& origin, Severity severity) {
+    Event e;
+    e.kind = std::move(kind);
+    e.severity = severity;
+    e.text = std::move(text);
+    e.who = origin.who ? *origin.who : "";
+    e.door = std::string(name_of(origin.door));
+    note(std::move(e));
+}
+
+void WarmEvents::written(std::vector<Event> events) {
+    threads_.answer([this, events = std::move(events)] {
+        const auto listeners = listeners_;
+        for (const auto& e : events) {
+            for (auto* l : listeners)
+                l->on_event(e);
+        }
+    });
+}
+
+std::vector<Event> WarmEvents::events(const EventQuery& query) const {
+    auto rows = threads_.reader.events(query);
+    return rows ? std::move(*rows) : std::vector<Event>{};
+}
+
+/// By way of the hot thread, behind everything that it was asked to do, and then behind everything that it has handed to the cold one.
+void WarmEvents::events_settled(std::function<void()> then) {
+    const auto back = [this, then] { threads_.answer(then); };
+    if (!threads_.on_hot([this, back](Engine&, Instant) { threads_.cold.flush(back); })) back();
+}
+
+}  // namespace axisgate

@@ -1,0 +1,97 @@
+// Warm lines: reports are copied from the hot thread's newest ones; searches and hands are jobs that it does between two frames.
+// In: questions. Out: answers on the service thread, one for each question. Never waits for the hot thread.
+#include "gateway/runtime/warm_lines.hpp"
+
+#include <fmt/core.h>
+
+#include "gateway/runtime/clock.hpp"
+
+namespace axisgate {
+namespace {
+/// A report that could not be had now.
+ScanReport no_report() {
+    ScanReport r;
+    r.state = ScanReport::State::failed;
+    r.text = too_much_asked;
+    return r;
+}
+}  // namespace
+
+LineReport WarmLines::line_report(LineId line) const {
+    const auto r = threads_.hot.reports();
+    return index_of(line) < r->lines.size() ? r->lines[index_of(line)] : LineReport{};
+}
+
+Trace WarmLines::trace(LineId line, std::uint64_t since, std::size_t limit) const {
+    Trace out;
+    const auto r = threads_.hot.reports();
+    const auto log = index_of(line) < r->logs.size() ? r->logs[index_of(line)] : nullptr;
+    if (!log) return out;
+    auto part = log->read(since, limit, unix_ns_of(time_zero));
+    out.missed = part.missed;
+    out.next = part.next;
+    out.entries = std::move(part.entries);
+    return out;
+}
+
+void WarmLines::start_scan(LineId line, ScanWish wish, Origin origin, std::function<void(std::string)> then) {
+    auto job = [this, line, wish = std::move(wish), origin = std::move(origin), then](Engine& engine, Instant now) mutable {
+        std::string fault = engine.start_scan(line, std::move(wish), now);
+        Event e;
+        for (std::size_t i = 0; i < engine.site()->line_ids.size(); ++i) {
+            if (engine.site()->line_ids[i] == line) e.line = engine.site()->site.lines[i].name;
+        }
+        threads_.answer([this, then, origin, fault = std::move(fault), e = std::move(e)]() mutable {
+            if (fault.empty()) {
+                e.kind = "scan";
+                e.text = fmt::format("line {} is searched for drives", e.line);
+                e.who = origin.who ? *origin.who : "";
+                e.door = std::string(name_of(origin.door));
+                events_.note(std::move(e));
+            }
+            then(std::move(fault));
+        });
+    };
+    if (!threads_.on_hot(std::move(job))) threads_.answer([then] { then(too_much_asked); });
+}
+
+void WarmLines::scan_report(LineId line, std::function<void(ScanReport)> then) {
+    auto job = [this, line, then](Engine& engine, Instant) {
+        threads_.answer([then, r = engine.scan_report(line)]() mutable { then(std::move(r)); });
+    };
+    if (!threads_.on_hot(std::move(job))) threads_.answer([then] { then(no_report()); });
+}
+
+void WarmLines::cancel_scan(LineId line, std::function<void(ScanReport)> then) {
+    auto job = [this, line, then](Engine& engine, Instant now) {
+        engine.cancel_scan(line, now);
+        threads_.answer([then, r = engine.scan_report(line)]() mutable { then(std::move(r)); });
+    };
+    if (!threads_.on_hot(std::move(job))) threads_.answer([then] { then(no_report()); });
+}
+
+DriveStatus WarmDrives::drive_status(DriveId drive) const {
+    const auto r = threads_.hot.reports();
+    return index_of(drive) < r->drives.size() ? r->drives[index_of(drive)] : DriveStatus{};
+}
+
+void WarmDrives::hand(DriveId drive, std::function<void(std::optional<std::vector<HandItem>>)> then) {
+    auto job = [this, drive, then](Engine& engine, Instant) {
+        Twin* twin = engine.twin(drive);
+        std::optional<std::vector<HandItem>> items;
+        if (twin) items = twin->hand();
+        threads_.answer([then, items = std::move(items)]() mutable { then(std::move(items)); });
+    };
+    if (!threads_.on_hot(std::move(job))) threads_.answer([then] { then(std::nullopt); });
+}
+
+void WarmDrives::set_hand(DriveId drive, std::vector<std::pair<std::string, Value>> items, Origin origin,
+                          std::function<void(std::string)> then) {
+    auto job = [this, drive, items = std::move(items), origin = std::move(origin), then](Engine& engine, Instant now) {
+        std::string fault = engine.set_hand(drive, items, origin, now);
+        threads_.answer([then, fault = std::move(fault)]() mutable { then(std::move(fault)); });
+    };
+    if (!threads_.on_hot(std::move(job))) threads_.answer([then] { then(too_much_asked); });
+}
+
+}  // namespace axisgate

@@ -1,0 +1,39 @@
+// Warm lines: the line and the drive port: the hot thread's newest reports and records, its searches and the hands of its twins.
+// In: questions. Out: reports at once; what only the hot thread knows, by callbacks.
+// Bounded by the hot thread's ring of jobs: one more is answered with "come again".
+#pragma once
+
+#include "gateway/runtime/warm_events.hpp"
+#include "gateway/runtime/warm_threads.hpp"
+#include "gateway/services/ports/drives.hpp"
+#include "gateway/services/ports/lines.hpp"
+
+namespace axisgate {
+
+class WarmLines final : public LinePort {
+public:
+    WarmLines(const WarmThreads& threads, WarmEvents& events) : threads_(threads), events_(events) {}
+    [[nodiscard]] LineReport line_report(LineId line) const override;
+    [[nodiscard]] Trace trace(LineId line, std::uint64_t since, std::size_t limit) const override;
+    void start_scan(LineId line, ScanWish wish, Origin origin, std::function<void(std::string)> then) override;
+    void cancel_scan(LineId line, std::function<void(ScanReport)> then) override;
+    void scan_report(LineId line, std::function<void(ScanReport)> then) override;
+
+private:
+    const WarmThreads& threads_;
+    WarmEvents& events_;
+};
+
+class WarmDrives final : public DrivePort {
+public:
+    explicit WarmDrives(const WarmThreads& threads) : threads_(threads) {}
+    [[nodiscard]] DriveStatus drive_status(DriveId drive) const override;
+    void hand(DriveId drive, std::function<void(std::optional<std::vector<HandItem>>)> then) override;
+    void set_hand(DriveId drive, std::vector<std::pair<std::string, Value>> items, Origin origin,
+                  std::function<void(std::string)> then) override;
+
+private:
+    const WarmThreads& threads_;
+};
+
+}  // namespace axisgate

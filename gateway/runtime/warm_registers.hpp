@@ -1,0 +1,31 @@
+// Warm registers: the register port: reads of the hot thread's register image, as jobs of that thread.
+// In: unit, table, address, count. Out: what a client of a register door would be answered now.
+// Bounded by the hot thread's ring of jobs: one more is answered with nothing.
+#pragma once
+
+#include "gateway/registers/register_image.hpp"
+#include "gateway/runtime/warm_threads.hpp"
+#include "gateway/services/ports/registers.hpp"
+
+namespace axisgate {
+
+class WarmRegisters final : public RegisterPort {
+public:
+    explicit WarmRegisters(const WarmThreads& threads) : threads_(threads) {}
+    /// The hot thread's register image; before start.
+    void use(registers::RegisterImage& image) { image_ = &image; }
+    void read_registers(std::uint8_t unit, registers::Table table, std::uint16_t address, std::uint16_t count,
+                        std::function<void(std::optional<registers::RegisterRead>)> then) override {
+        auto job = [this, unit, table, address, count, then](Engine&, Instant) {
+            auto read = image_->read(unit, table, address, count);
+            threads_.answer([then, read = std::move(read)]() mutable { then(std::move(read)); });
+        };
+        if (!image_ || !threads_.on_hot(std::move(job))) threads_.answer([then] { then(std::nullopt); });
+    }
+
+private:
+    const WarmThreads& threads_;
+    registers::RegisterImage* image_ = nullptr;  // of the hot thread, for its jobs
+};
+
+}  // namespace axisgate

@@ -1,0 +1,40 @@
+// Warm threads: what the owners of the service's ports share: their own executor, and the ways to the hot and the cold thread.
+// In: jobs for other threads. Out: answers, later, on the service thread. Never waits.
+// Bounded: the hot thread takes so many jobs at once; the next one is refused.
+#pragma once
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/post.hpp>
+#include <functional>
+#include <utility>
+
+#include "gateway/runtime/cold.hpp"
+#include "gateway/runtime/hot.hpp"
+#include "gateway/store/reader.hpp"
+
+namespace axisgate {
+
+/// Said where the hot thread takes no more jobs.
+inline constexpr const char* too_much_asked = "too much is asked at once; come again in a moment";
+
+struct WarmThreads {
+    boost::asio::io_context& warm;
+    Hot& hot;
+    Cold& cold;
+    StoreReader& reader;  ///< the service thread's own connection to the database
+
+    /// Later, on the service thread; from any thread.
+    template <class Then>
+    void answer(Then then) const {
+        boost::asio::post(warm, std::move(then));
+    }
+    /// False: it takes no more now, and `job` will not be called. Service thread.
+    [[nodiscard]] bool on_hot(Hot::Job job) const {
+        if (!hot.jobs().push(std::move(job))) return false;
+        hot.jobs().announce();
+        return true;
+    }
+    void on_cold(std::function<void(Store&)> job) const { cold.run(std::move(job)); }
+};
+
+}  // namespace axisgate

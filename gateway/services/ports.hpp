@@ -1,0 +1,28 @@
+// Ports: what services and doors of the service thread see of everything else, a small interface for each topic.
+// In: an owner of each. Out: each by its type. Whoever puts services and doors together holds all of them; a service or a handler takes
+// those that it uses, and no more. All are called on the service thread and call back there.
+#pragma once
+
+#include "gateway/services/ports/axes.hpp"
+#include "gateway/services/ports/backup.hpp"
+#include "gateway/services/ports/clock.hpp"
+#include "gateway/services/ports/documents.hpp"
+#include "gateway/services/ports/drives.hpp"
+#include "gateway/services/ports/events.hpp"
+#include "gateway/services/ports/lines.hpp"
+#include "gateway/services/ports/modbus.hpp"
+#include "gateway/services/ports/parameters.hpp"
+#include "gateway/services/ports/port_set.hpp"
+#include "gateway/services/ports/registers.hpp"
+#include "gateway/services/ports/site.hpp"
+#include "gateway/services/ports/snapshots.hpp"
+#include "gateway/services/ports/stage.hpp"
+#include "gateway/services/ports/status.hpp"
+
+namespace axisgate {
+
+/// All of them: for whoever puts services and doors together.
+using Ports = PortSet<AxisPort, BackupPort, ClockPort, DocumentPort, DrivePort, EventPort, LinePort, ModbusPort, ParameterPort,
+                      RegisterPort, SitePort, SnapshotPort, StagePort, StatusPort>;
+
+}  // namespace axisgate

@@ -1,0 +1,19 @@
+// Clock port: the wall clock of the gateway, and instants of pictures on it.
+// In: an instant. Out: nanoseconds since 1970. Never waits; a test's owner of it has its own time.
+#pragma once
+
+#include <cstdint>
+
+#include "gateway/core/instant.hpp"
+
+namespace axisgate {
+
+class ClockPort {
+public:
+    virtual ~ClockPort() = default;
+    [[nodiscard]] virtual std::int64_t now_unix_ns() const = 0;
+    /// Converts an instant of a picture to wall-clock time.
+    [[nodiscard]] virtual std::int64_t to_unix_ns(Instant instant) const = 0;
+};
+
+}  // namespace axisgate

@@ -1,0 +1,30 @@
+// Port set: some of the ports that one service or door uses, taken out of a larger set by their types.
+// In: owners, or a larger set. Out: each port by its type. Never owns one: the owners outlive it.
+#pragma once
+
+#include <concepts>
+#include <tuple>
+
+namespace axisgate {
+
+/// Some of the ports, by their types; the owners outlive it. Made from a set that has them all, from single ports, or from an owner of all.
+template <class... Port>
+class PortSet {
+public:
+    explicit(sizeof...(Port) == 1) PortSet(Port&... ports) : ports_(ports...) {}
+    template <class... More>
+    PortSet(const PortSet<More...>& more) : ports_(more.template get<Port>()...) {}
+    template <class Owner>
+    requires(std::derived_from<Owner, Port>&&...) PortSet(Owner& owner) : ports_(static_cast<Port&>(owner)...) {}
+
+    /// ports.get<AxisPort>(); a port that is not in the set does not compile.
+    template <class One>
+    [[nodiscard]] One& get() const noexcept {
+        return std::get<One&>(ports_);
+    }
+
+private:
+    std::tuple<Port&...> ports_;
+};
+
+}  // namespace axisgate

@@ -35,7 +35,8 @@ ConfigSources sources_of(const Common& c, bool& good) {
         if (std::string_view(*e).starts_with("AXISGATE_")) s.environment.emplace_back(*e);
     }
     if (!c.data_dir.empty()) s.overrides.push_back("data.dir=" + c.data_dir);
-    for (const auto& o : c.set) s.overrides.push_back(o);
+    for (const auto& o : c.set)
+        s.overrides.push_back(o);
     return s;
 }
 
@@ -44,7 +45,8 @@ bool config_of(const Common& c, Config& config) {
     const auto sources = sources_of(c, good);
     std::vector<ConfigFault> faults;
     config = read_config(sources, faults);
-    for (const auto& f : faults) complain(f);
+    for (const auto& f : faults)
+        complain(f);
     return good && faults.empty();
 }
 
@@ -52,7 +54,9 @@ void add_config(CLI::App& app, Common& c, bool site) {
     app.add_option("--config", c.config_file, "TOML file of this host")->type_name("FILE.toml");
     app.add_option("--data", c.data_dir, "data directory (default ./var)")->type_name("DIR");
     if (site) app.add_option("--site", c.site_file, "site document to put in force")->type_name("FILE.json");
-    app.add_option("--set", c.set, "one value of the configuration, such as http.bind=127.0.0.1:8081; may be repeated")->type_name("SECTION.KEY=VALUE")->allow_extra_args(false);
+    app.add_option("--set", c.set, "one value of the configuration, such as http.bind=127.0.0.1:8081; may be repeated")
+        ->type_name("SECTION.KEY=VALUE")
+        ->allow_extra_args(false);
 }
 }  // namespace
 
@@ -69,12 +73,21 @@ int main(int argc, char** argv) {
     TwinOptions twin_options;
     auto* twin = app.add_subcommand("twin", "run embedded drives by themselves on a line that anything can open");
     twin->add_option("family", twin_options.family, "family, see `axisgate families`")->required()->type_name("FAMILY");
-    twin->add_option("--line", twin_options.line_uri, "can:can0, serial:/dev/ttyUSB0?baud=57600, tcp-listen:HOST:PORT, tcp:HOST:PORT, udp-listen:HOST:PORT or pty:PATH, pty:PATH?baud=9600 at the pace of a serial port")->required()->type_name("URI");
+    twin->add_option("--line", twin_options.line_uri,
+                     "can:can0, serial:/dev/ttyUSB0?baud=57600, tcp-listen:HOST:PORT, tcp:HOST:PORT, udp-listen:HOST:PORT or pty:PATH, "
+                     "pty:PATH?baud=9600 at the pace of a serial port")
+        ->required()
+        ->type_name("URI");
     twin->add_option("--address", twin_options.addresses, "address of a drive; may be repeated")->type_name("A")->allow_extra_args(false);
-    twin->add_option("--state", twin_options.state_file, "file of the non-volatile memory: read at the start, written at each change")->type_name("FILE");
-    twin->add_option("--hand", twin_options.hand_bind, "serve the tester's hand (inputs, stall, power ...) over HTTP here")->type_name("HOST:PORT");
-    twin->add_option("--time-scale", twin_options.time_scale, "how many times as fast the drives' clock runs, 0.001 to 10000")->type_name("X");
-    twin->add_option("--option", twin_options.options, "an option of the family, such as crc=13; may be repeated")->type_name("NAME=VALUE")->allow_extra_args(false);
+    twin->add_option("--state", twin_options.state_file, "file of the non-volatile memory: read at the start, written at each change")
+        ->type_name("FILE");
+    twin->add_option("--hand", twin_options.hand_bind, "serve the tester's hand (inputs, stall, power ...) over HTTP here")
+        ->type_name("HOST:PORT");
+    twin->add_option("--time-scale", twin_options.time_scale, "how many times as fast the drives' clock runs, 0.001 to 10000")
+        ->type_name("X");
+    twin->add_option("--option", twin_options.options, "an option of the family, such as crc=13; may be repeated")
+        ->type_name("NAME=VALUE")
+        ->allow_extra_args(false);
 
     std::string families_format = "table";
     auto* families = app.add_subcommand("families", "list the drive families of this program");
@@ -83,13 +96,15 @@ int main(int argc, char** argv) {
     std::string catalogue_family, catalogue_what = "parameters", catalogue_format = "table";
     auto* catalogue = app.add_subcommand("catalogue", "what a family has: parameters, commands, errors");
     catalogue->add_option("family", catalogue_family)->required()->type_name("FAMILY");
-    catalogue->add_option("what", catalogue_what, "parameters, commands or errors")->check(CLI::IsMember({"parameters", "commands", "errors"}));
+    catalogue->add_option("what", catalogue_what, "parameters, commands or errors")
+        ->check(CLI::IsMember({"parameters", "commands", "errors"}));
     catalogue->add_option("--format", catalogue_format, "table, csv or json")->check(CLI::IsMember({"table", "csv", "json"}));
 
     std::string decode_family, decode_format = "candump", decode_file = "-";
     auto* decode = app.add_subcommand("decode", "one readable line per recorded frame");
     decode->add_option("family", decode_family)->required()->type_name("FAMILY");
-    decode->add_option("--format", decode_format, "candump, hex (lines of bytes, > to the drive, < from it) or trace")->check(CLI::IsMember({"candump", "hex", "trace"}));
+    decode->add_option("--format", decode_format, "candump, hex (lines of bytes, > to the drive, < from it) or trace")
+        ->check(CLI::IsMember({"candump", "hex", "trace"}));
     decode->add_option("file", decode_file, "recorded line; - or nothing: standard input")->type_name("FILE");
 
     auto* check = app.add_subcommand("check", "find all faults of configuration and site");

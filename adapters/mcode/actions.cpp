@@ -9,8 +9,8 @@
 #include <sstream>
 
 #include "adapters/mcode/node.hpp"
-#include "adapters/mcode/program.hpp"
 #include "adapters/mcode/parameters_variables.hpp"
+#include "adapters/mcode/program.hpp"
 
 namespace axisgate::mcode {
 using namespace std::chrono_literals;

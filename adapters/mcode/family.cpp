@@ -5,8 +5,8 @@
 
 #include "adapters/mcode/adapter.hpp"
 #include "adapters/mcode/decoder.hpp"
-#include "adapters/mcode/twin.hpp"
 #include "adapters/mcode/parameters_variables.hpp"
+#include "adapters/mcode/twin/twin.hpp"
 
 namespace axisgate {
 

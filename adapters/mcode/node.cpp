@@ -5,9 +5,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <algorithm>
 #include <utility>
 
 namespace axisgate::mcode {

@@ -1,4 +1,4 @@
-// Control, part actions: the functions of this family beyond the common ones, by the catalogue's names, and every command code by its own.
+// Drive, part actions: the functions of this family beyond the common ones, by the catalogue's names, and every command code by its own.
 // In: Action with its argument. Out: jobs of the other parts, or one command.
 // Never guesses an argument: what cannot be read is refused with an example.
 #include <fmt/core.h>
@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <charconv>
 
-#include "adapters/pacontrol/control.hpp"
-#include "adapters/pacontrol/number.hpp"
+#include "adapters/pacontrol/drive.hpp"
+#include "adapters/pacontrol/wire_number.hpp"
 
 namespace axisgate::pacontrol {
 namespace {
@@ -48,7 +48,7 @@ std::optional<Way> way_of(std::string_view how, std::string_view distance) {
 }
 }  // namespace
 
-void Control::start_action(Axis& a, const Action& action, Turn& t) {
+void Drive::start_action(Axis& a, const Action& action, Turn& t) {
     const std::string& n = action.name;
     const std::string_view arg = action.argument;
     const auto bare = [&](std::uint16_t what) {
@@ -106,7 +106,7 @@ void Control::start_action(Axis& a, const Action& action, Turn& t) {
 }
 
 /// One command by its name. Argument: nothing, `data`, or `parameter;data`. Without a parameter it is this axis' number.
-void Control::start_single(Axis& a, const CommandInfo& c, std::string_view argument, Turn& t) {
+void Drive::start_single(Axis& a, const CommandInfo& c, std::string_view argument, Turn& t) {
     Job& j = a.job;
     std::string_view parameter, data = argument;
     if (const auto at = argument.find(';'); at != std::string_view::npos) {
@@ -144,7 +144,7 @@ void Control::start_single(Axis& a, const CommandInfo& c, std::string_view argum
 }
 
 /// Steps: 1 the command itself; 10 a condition, then a start; 20 a manual move; 30 one reference run after the other, 31 its position.
-void Control::run_single(Axis& a, const Reply* reply, Turn& t) {
+void Drive::run_single(Axis& a, const Reply* reply, Turn& t) {
     Job& j = a.job;
     const auto ch = static_cast<std::uint32_t>(a.channel);
     if (!reply) return;  // asked already
@@ -257,7 +257,7 @@ void Control::run_single(Axis& a, const Reply* reply, Turn& t) {
 }
 
 /// "all", channels with commas ("1,3"), or a mask ("0x5"). The runs follow one another: each bars the line until its end.
-void Control::start_reference(Axis& a, std::string_view argument, Turn& t) {
+void Drive::start_reference(Axis& a, std::string_view argument, Turn& t) {
     Job& j = a.job;
     if (std::string why = why_not_movable(a); !why.empty()) return refuse(a, Reason::wrong_state, std::move(why), t);
     std::uint32_t mask = 0;
@@ -295,7 +295,7 @@ void Control::start_reference(Axis& a, std::string_view argument, Turn& t) {
 }
 
 /// "I5=1 to 200.0": moves as long as the input is not yet so; also O (outputs) and M (flags).
-void Control::start_until_input(Axis& a, std::string_view argument, Turn& t) {
+void Drive::start_until_input(Axis& a, std::string_view argument, Turn& t) {
     Job& j = a.job;
     const auto w = words(argument);
     const auto way = w.size() == 3 ? way_of(w[1], w[2]) : std::nullopt;
@@ -323,7 +323,7 @@ void Control::start_until_input(Axis& a, std::string_view argument, Turn& t) {
 
 /// "to 200.0" or "by -10": a move at manual speed that the gateway keeps alive by 0A92; it ends within a second if the gateway falls
 /// silent.
-void Control::start_manual(Axis& a, std::string_view argument, Turn& t) {
+void Drive::start_manual(Axis& a, std::string_view argument, Turn& t) {
     Job& j = a.job;
     const auto w = words(argument);
     const auto way = w.size() == 2 ? way_of(w[0], w[1]) : std::nullopt;

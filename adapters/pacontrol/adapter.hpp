@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "adapters/pacontrol/control.hpp"
+#include "adapters/pacontrol/drive.hpp"
 #include "gateway/core/adapter.hpp"
 
 namespace axisgate::pacontrol {
@@ -28,13 +28,13 @@ public:
     [[nodiscard]] AdapterCounters counters() const override { return counters_; }
 
 private:
-    void take_manners(const LineSetup& setup, Turn& t);
+    void read_form(const LineSetup& setup, Turn& t);
 
     const Catalogue& catalogue_;
     const Elements elements_;
     AdapterCounters counters_;
-    Manners manners_;
-    std::unique_ptr<Control> control_;
+    LineForm line_;
+    std::unique_ptr<Drive> drive_;
     bool up_ = false;
     Instant last_{};
 };

@@ -7,7 +7,7 @@
 
 #include <iterator>
 
-#include "adapters/pacontrol/commands.hpp"
+#include "adapters/pacontrol/wire_commands.hpp"
 
 namespace axisgate::pacontrol {
 namespace {

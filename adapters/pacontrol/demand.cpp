@@ -1,12 +1,12 @@
-// Control, part demand: where each axis should be: by 1915 where the control tells it, else by the order that it acknowledged.
+// Drive, part demand: where each axis should be: by 1915 where the control tells it, else by the order that it acknowledged.
 // In: acknowledgements of orders, 1911, positions, axis parameters. Out: demand_source and position_demand of the feedback.
 // Never guesses: whatever else may have moved the axis leaves its demand unknown until it stands, and then it is where it stands.
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "adapters/pacontrol/control.hpp"
-#include "adapters/pacontrol/number.hpp"
+#include "adapters/pacontrol/drive.hpp"
+#include "adapters/pacontrol/wire_number.hpp"
 
 namespace axisgate::pacontrol {
 namespace {
@@ -22,7 +22,7 @@ constexpr Duration parameters_pause = std::chrono::seconds(1);
 // --- what the control acknowledged ---------------------------------------------------------------------------------------------------
 
 /// Every acknowledged command passes here, whoever asked for it: verb, action or native text.
-void Control::follow(const Exchange& x, const Reply& reply, Turn& t) {
+void Drive::follow(const Exchange& x, const Reply& reply, Turn& t) {
     const Request& r = x.request;
     if (x.eot || x.purpose == Purpose::poll || x.purpose == Purpose::probe || x.purpose == Purpose::barrier) return;
     const bool of_parameter = r.code == code::put_axis_parameter;
@@ -84,7 +84,7 @@ void Control::follow(const Exchange& x, const Reply& reply, Turn& t) {
 }
 
 /// Sent, and whether it is carried out is not known.
-void Control::not_acknowledged(const Request& r) {
+void Drive::not_acknowledged(const Request& r) {
     const CommandInfo* c = command_info(r.code);
     if (r.code == code::stop) {
         for (Axis& a : axes_)
@@ -98,7 +98,7 @@ void Control::not_acknowledged(const Request& r) {
 }
 
 /// A motion begins at `start`. Without an override the axis parameters rule [6.1], and they can be read in home position alone.
-void Control::ordered(Axis& a, double start, double target, Turn& t) {
+void Drive::ordered(Axis& a, double start, double target, Turn& t) {
     doubt(a);
     Aim& m = a.aim;
     const auto parameter = [&](Aim::Parameter which) -> double { return m.parameters[which].value.value_or(-1) * increments_per_unit; };
@@ -113,7 +113,7 @@ void Control::ordered(Axis& a, double start, double target, Turn& t) {
 }
 
 /// The ramp of the axis takes it to rest [L3756], and the place where it stands is taken over.
-void Control::brake(Axis& a, Turn& t) {
+void Drive::brake(Axis& a, Turn& t) {
     if (a.id == no_axis) return;
     if (!a.aim.demand.known() || out_of_step_) return doubt(a);
     a.aim.demand.stop(t.now, a.aim.ramps);
@@ -121,13 +121,13 @@ void Control::brake(Axis& a, Turn& t) {
     a.aim.stands = false;
 }
 
-void Control::doubt(Axis& a) {
+void Drive::doubt(Axis& a) {
     a.aim.demand.forget();
     a.aim.settle = true;
     a.aim.stands = false;
 }
 
-void Control::rest(Axis& a, std::int64_t position) {
+void Drive::rest(Axis& a, std::int64_t position) {
     a.aim.demand.rest(static_cast<double>(position));
     a.aim.fresh = true;
     a.aim.settle = false;
@@ -136,7 +136,7 @@ void Control::rest(Axis& a, std::int64_t position) {
 // --- what the control says of its axes -----------------------------------------------------------------------------------------------
 
 /// Whether orders of this gateway decide where the axis is. What happens while they do not is nobody's demand.
-void Control::guide(Axis& a) {
+void Drive::guide(Axis& a) {
     const bool guided =
         a.on && mode_ == status::online && error_ == 0 && a.status != 4 && a.status != 8 && a.motion.kind != Motion::Kind::reference;
     if (guided == a.aim.guided) return;
@@ -147,19 +147,19 @@ void Control::guide(Axis& a) {
     doubt(a);
 }
 
-void Control::seen_running(Axis& a, Turn& t) {
+void Drive::seen_running(Axis& a, Turn& t) {
     a.aim.stands = false;
     if (!a.motion.active() && a.aim.demand.over(t.now)) doubt(a);  // it should stand: somebody else moves it
 }
 
-void Control::seen_standing(Axis& a) {
+void Drive::seen_standing(Axis& a) {
     if (!a.aim.guided || !a.aim.settle || a.motion.active()) return;
     a.aim.stands = true;
     poll_standing(a);
 }
 
 /// Source and demand that belong to the position that was told last.
-void Control::show_demand(Axis& a, Instant now) {
+void Drive::show_demand(Axis& a, Instant now) {
     guide(a);
     AxisFeedback& f = a.fb;
     const Aim& m = a.aim;
@@ -189,19 +189,17 @@ void Control::show_demand(Axis& a, Instant now) {
 // --- 1915 ----------------------------------------------------------------------------------------------------------------------------
 
 /// Microsteps mean something once the way of one revolution is known.
-bool Control::tells_following_error(const Axis& a) noexcept {
+bool Drive::tells_following_error(const Axis& a) noexcept {
     return a.aim.guided && !a.aim.lag_missing && a.aim.parameters[Aim::gear].value.value_or(0) > 0;
 }
 
-std::int64_t Control::following_error(const Axis& a) noexcept {
+std::int64_t Drive::following_error(const Axis& a) noexcept {
     return increments_of(a.aim.lag.value_or(0) / microsteps * a.aim.parameters[Aim::gear].value.value_or(0));
 }
 
-bool Control::stands_behind(const Axis& a) noexcept {
-    return tells_following_error(a) && a.aim.lag && std::fabs(*a.aim.lag) > 2 * full_step;
-}
+bool Drive::stands_behind(const Axis& a) noexcept { return tells_following_error(a) && a.aim.lag && std::fabs(*a.aim.lag) > 2 * full_step; }
 
-void Control::following_answered(Axis& a, double microsteps_behind, Turn& t) {
+void Drive::following_answered(Axis& a, double microsteps_behind, Turn& t) {
     Aim& m = a.aim;
     m.lag_at = t.now;
     m.lag_steady = !m.lag || std::fabs(microsteps_behind - *m.lag) <= steady;
@@ -211,7 +209,7 @@ void Control::following_answered(Axis& a, double microsteps_behind, Turn& t) {
     m.lag_refusals = 0;
 }
 
-void Control::following_refused(Axis& a, const Reply& reply) {
+void Drive::following_refused(Axis& a, const Reply& reply) {
     if (reply.quit == quit::inadmissible && ++a.aim.lag_refusals < refusals_limit) return;
     a.aim.lag_missing = true;
     a.aim.lag.reset();
@@ -220,9 +218,9 @@ void Control::following_refused(Axis& a, const Reply& reply) {
 
 // --- axis parameters -----------------------------------------------------------------------------------------------------------------
 
-bool Control::parameters_readable(Instant now) const noexcept { return is_home(mode_) && now >= parameters_at_; }
+bool Drive::parameters_readable(Instant now) const noexcept { return is_home(mode_) && now >= parameters_at_; }
 
-void Control::parameters_may_have_changed() {
+void Drive::parameters_may_have_changed() {
     parameters_at_ = {};  // an older refusal was the other mode's
     for (Axis& a : axes_)
         a.aim.parameters = {};
@@ -230,7 +228,7 @@ void Control::parameters_may_have_changed() {
 
 /// A few at a time, in home position, where nothing moves and nothing else is urgent. Those that are known are looked at again in the
 /// slow round (plan_cycle): they can be changed at the control.
-void Control::plan_parameters(Turn& t) {
+void Drive::plan_parameters(Turn& t) {
     if (!parameters_readable(t.now)) return;
     std::size_t planned = 0;
     for (std::size_t i = 0; i < axes_.size(); ++i) {
@@ -243,7 +241,7 @@ void Control::plan_parameters(Turn& t) {
     }
 }
 
-void Control::parameter_answered(Axis& a, std::uint8_t which, const Reply& reply, Turn& t) {
+void Drive::parameter_answered(Axis& a, std::uint8_t which, const Reply& reply, Turn& t) {
     if (reply.quit == quit::inadmissible) {
         parameters_at_ = t.now + parameters_pause;  // the mode says home position and the control does not: later
         std::erase_if(polls_, [](const Poll& p) { return p.kind == PollKind::parameter; });

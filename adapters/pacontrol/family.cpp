@@ -5,9 +5,16 @@
 
 #include "adapters/pacontrol/adapter.hpp"
 #include "adapters/pacontrol/decoder.hpp"
-#include "adapters/pacontrol/twin.hpp"
+#include "adapters/pacontrol/twin/twin.hpp"
 
 namespace axisgate {
+
+/// The port is point to point, so there is one question: does a control answer here? None where a drive has the address already.
+ScanPlan pacontrol::scan(const ScanWish& wish) {
+    ScanPlan plan;
+    if (wish.known.empty()) plan.addresses.emplace_back("com1");
+    return plan;
+}
 
 const Family& family_pacontrol() {
     static const Family family{

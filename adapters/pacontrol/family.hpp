@@ -1,12 +1,12 @@
 // Family pacontrol: what this folder gives to the rest of the gateway.
-// In: nothing. Out: the makers of its adapter, twin and decoder, and its manners.
+// In: nothing. Out: the makers of its adapter, twin and decoder, and its scan.
 // Never holds data about parameters: that is schema/families/pacontrol.json.
 #pragma once
 
 #include "gateway/core/family.hpp"
 
 namespace axisgate::pacontrol {
-/// Addresses that are worth asking (scan.cpp).
+/// Addresses that are worth asking.
 [[nodiscard]] ScanPlan scan(const ScanWish& wish);
 }  // namespace axisgate::pacontrol
 

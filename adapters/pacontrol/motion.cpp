@@ -1,4 +1,4 @@
-// Control, part motion: absolute, relative and velocity moves, reference runs, setting a position, starting several axes.
+// Drive, part motion: absolute, relative and velocity moves, reference runs, setting a position, starting several axes.
 // In: the verbs of CiA 402. Out: 0A9A, 0A8D, 0A8E, 0A94, 0A95, 0A84, 0A96, 0A85, 0A86.
 // Never uses 0A87 or 0A89 by itself: they bar the line until their end, and only one axis would move.
 #include <fmt/core.h>
@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <limits>
 
-#include "adapters/pacontrol/control.hpp"
-#include "adapters/pacontrol/number.hpp"
+#include "adapters/pacontrol/drive.hpp"
+#include "adapters/pacontrol/wire_number.hpp"
 
 namespace axisgate::pacontrol {
 namespace {
@@ -34,7 +34,7 @@ std::string_view advice_for(std::uint16_t q) {
 }
 }  // namespace
 
-std::string Control::why_not_movable(const Axis& a) const {
+std::string Drive::why_not_movable(const Axis& a) const {
     if (mode_ == status::online_stopped || mode_ == status::online_stop) {
         return fmt::format("operating status {}: enable the axis again, or let interrupted motions go on with online.start",
                            status_text(mode_));
@@ -45,7 +45,7 @@ std::string Control::why_not_movable(const Axis& a) const {
     return {};
 }
 
-void Control::start_move(Axis& a, const Move& m, Turn& t) {
+void Drive::start_move(Axis& a, const Move& m, Turn& t) {
     if (std::string why = why_not_movable(a); !why.empty()) return refuse(a, Reason::wrong_state, std::move(why), t);
     constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
     if (m.target > most || m.target < -most) {
@@ -66,7 +66,7 @@ void Control::start_move(Axis& a, const Move& m, Turn& t) {
 }
 
 /// Steps: 0 stop a running motion, 1 wait for standstill, 2 speed, 3 acceleration, 4 end of the area (velocity), 5 condition or start.
-void Control::run_move(Axis& a, const Reply* reply, Turn& t) {
+void Drive::run_move(Axis& a, const Reply* reply, Turn& t) {
     Job& j = a.job;
     const Move m = std::get<Move>(j.command.body);
     const auto ch = static_cast<std::uint32_t>(a.channel);
@@ -152,7 +152,7 @@ void Control::run_move(Axis& a, const Reply* reply, Turn& t) {
 
 /// A run that has begun and did not come to its end. What ended it is told to whoever asked, and as an event: it may have its answer long
 /// since.
-void Control::home_aborted(Axis& a, std::string text, std::int32_t code, Turn& t) {
+void Drive::home_aborted(Axis& a, std::string text, std::int32_t code, Turn& t) {
     const Reason reason = in_trouble() || what_ended(a).empty() ? Reason::drive_refused : Reason::interrupted;
     a.running = false;
     end_motion(a, false, reason, text, t);
@@ -164,7 +164,7 @@ void Control::home_aborted(Axis& a, std::string text, std::int32_t code, Turn& t
     job_over(a, Outcome::failed, reason, std::move(text), t, code);
 }
 
-void Control::run_home(Axis& a, const Reply* reply, Turn& t) {
+void Drive::run_home(Axis& a, const Reply* reply, Turn& t) {
     Job& j = a.job;
     const auto ch = static_cast<std::uint32_t>(a.channel);
     if (!reply) {
@@ -219,7 +219,7 @@ void Control::run_home(Axis& a, const Reply* reply, Turn& t) {
 }
 
 /// G29 shifts the software limits with the position, G26 leaves them where they are; option set_position chooses.
-void Control::run_origin(Axis& a, const Reply* reply, Turn& t) {
+void Drive::run_origin(Axis& a, const Reply* reply, Turn& t) {
     Job& j = a.job;
     const auto ch = static_cast<std::uint32_t>(a.channel);
     const std::int64_t wanted = std::get<SetPosition>(j.command.body).position;
@@ -245,7 +245,7 @@ void Control::run_origin(Axis& a, const Reply* reply, Turn& t) {
 
 // --- several axes ----------------------------------------------------------------------------------------------------------------
 
-void Control::start_together(Axis& a, const StartTogether& what, Turn& t) {
+void Drive::start_together(Axis& a, const StartTogether& what, Turn& t) {
     for (const AxisId id : what.axes) {
         Axis* x = axis_of(id);
         if (!x) return refuse(a, Reason::wrong_state, "one of the axes is not an axis of this control", t);
@@ -257,7 +257,7 @@ void Control::start_together(Axis& a, const StartTogether& what, Turn& t) {
     run(a, nullptr, t);
 }
 
-void Control::run_together(Axis& a, const Reply* reply, Turn& t) {
+void Drive::run_together(Axis& a, const Reply* reply, Turn& t) {
     Job& j = a.job;
     if (reply) {
         Axis& x = axes_[j.places[j.at]];

@@ -1,4 +1,4 @@
-// Control, part polls: what is asked again and again, in which order, and what the answers say.
+// Drive, part polls: what is asked again and again, in which order, and what the answers say.
 // In: turns on the line. Out: 1911 (who runs), positions, speeds or following errors of those that run, and one slow thing per cycle.
 // Never asks for what the control has said it does not have.
 #include <fmt/core.h>
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "adapters/pacontrol/control.hpp"
-#include "adapters/pacontrol/number.hpp"
+#include "adapters/pacontrol/drive.hpp"
+#include "adapters/pacontrol/wire_number.hpp"
 
 namespace axisgate::pacontrol {
 namespace {
@@ -18,12 +18,12 @@ constexpr int standing_cycles = 4;                                  // in which 
 constexpr std::size_t axes_per_running = 16;                        // that move, for each 1911
 }  // namespace
 
-bool Control::poll_wanted(Instant now) const noexcept { return !polls_.empty() || cycle_at_ <= now; }
+bool Drive::poll_wanted(Instant now) const noexcept { return !polls_.empty() || cycle_at_ <= now; }
 
-void Control::plan_cycle(Turn& t) {
-    cycle_time_ = std::clamp<Duration>(t.now - cycle_began_, manners_.poll_period, longest_cycle);
+void Drive::plan_cycle(Turn& t) {
+    cycle_time_ = std::clamp<Duration>(t.now - cycle_began_, line_.timing.poll_period, longest_cycle);
     cycle_began_ = t.now;
-    cycle_at_ = t.now + manners_.poll_period;
+    cycle_at_ = t.now + line_.timing.poll_period;
     std::size_t moving = 0;
     polls_.push_back({PollKind::running, 0});
     for (std::size_t i = 0; i < axes_.size(); ++i) {
@@ -59,7 +59,7 @@ void Control::plan_cycle(Turn& t) {
 
 /// Axes that stand, in turn: they may be pushed, or their position be set at the control. So many of them that what is told of each is
 /// never older than `standing_age` where the line allows it; where axes move, not one more.
-void Control::plan_standing(bool crowded) {
+void Drive::plan_standing(bool crowded) {
     const std::size_t n = axes_.size();
     const auto stands = [&](const Axis& a) {
         return a.id != no_axis && !a.missing && !a.running && !a.motion.active() && a.position_known;
@@ -81,7 +81,7 @@ void Control::plan_standing(bool crowded) {
 }
 
 /// One thing per cycle of what seldom changes: the switches of an axis that moves, references, and in home position parameters.
-void Control::plan_slow(Turn& t) {
+void Drive::plan_slow(Turn& t) {
     const std::size_t n = axes_.size();
     for (std::size_t k = 0; k < 3 * n; ++k) {
         slow_at_ = (slow_at_ + 1) % (3 * n);
@@ -100,19 +100,19 @@ void Control::plan_slow(Turn& t) {
     }
 }
 
-void Control::poll_soon(PollKind kind, const Axis& a) {
+void Drive::poll_soon(PollKind kind, const Axis& a) {
     std::erase_if(polls_, [&](const Poll& p) { return p.kind == kind && p.axis == place(a); });
     polls_.push_front({kind, place(a)});
 }
 
 /// Of an axis that has come to rest: what it is behind, where it is, and how.
-void Control::poll_standing(Axis& a) {
+void Drive::poll_standing(Axis& a) {
     poll_soon(status_poll(a), a);
     poll_soon(PollKind::position, a);
     if (tells_following_error(a)) poll_soon(PollKind::following, a);
 }
 
-void Control::send_next_poll(Turn& t) {
+void Drive::send_next_poll(Turn& t) {
     if (polls_.empty()) plan_cycle(t);
     const Poll p = polls_.front();
     polls_.pop_front();
@@ -148,7 +148,7 @@ void Control::send_next_poll(Turn& t) {
     exchange_.poll = p;
 }
 
-void Control::poll_answered(const Poll& p, const Reply& reply, Turn& t) {
+void Drive::poll_answered(const Poll& p, const Reply& reply, Turn& t) {
     Axis& a = axes_[p.axis];
     if (p.kind == PollKind::parameter) parameter_answered(a, p.parameter, reply, t);
     if (reply.quit != 0) {

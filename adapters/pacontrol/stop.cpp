@@ -1,11 +1,11 @@
-// Control, part stop: quick stop, halt and disable: before everything that waits, after the exchange in progress at most.
+// Drive, part stop: quick stop, halt and disable: before everything that waits, after the exchange in progress at most.
 // In: the three urgent commands, supervision. Out: 0A9A (0A93 while something is processed), 0A98, 0600, 0A81, 0603; their results.
 // Never lets a motion outlive a stop: what waits is ended as interrupted; a stop that is refused becomes one of all axes.
 #include <fmt/core.h>
 
 #include <algorithm>
 
-#include "adapters/pacontrol/control.hpp"
+#include "adapters/pacontrol/drive.hpp"
 
 namespace axisgate::pacontrol {
 namespace {
@@ -25,7 +25,7 @@ bool nobody_commands(int mode) {
 }
 }  // namespace
 
-void Control::interrupt_motions(Axis& a, std::string_view by, bool power_off, Turn& t) {
+void Drive::interrupt_motions(Axis& a, std::string_view by, bool power_off, Turn& t) {
     const std::string text = fmt::format("interrupted by {}", by);
     const auto ends = [&](const Command& c) { return is_motion(c.body) || (power_off && std::holds_alternative<Enable>(c.body)); };
     if (a.job.active() && ends(a.job.command)) {
@@ -53,7 +53,7 @@ void Control::interrupt_motions(Axis& a, std::string_view by, bool power_off, Tu
     a.renew_at = never;
 }
 
-void Control::submit_stop(Axis& a, const Command& c, Turn& t) {
+void Drive::submit_stop(Axis& a, const Command& c, Turn& t) {
     Stop s;
     s.kind = std::holds_alternative<Disable>(c.body) ? Stop::Kind::off
              : std::holds_alternative<Halt>(c.body)  ? Stop::Kind::halt
@@ -68,14 +68,14 @@ void Control::submit_stop(Axis& a, const Command& c, Turn& t) {
     stops_.push_back(s);
 }
 
-bool Control::stop_ready() const noexcept {
+bool Drive::stop_ready() const noexcept {
     return std::ranges::any_of(stops_, [&](const Stop& s) {
         if (s.blind) return false;                  // has been sent; again when the answers are in step
         return !(s.stopped && processing_.active);  // 0A98 waits for the end of processing
     });
 }
 
-void Control::send_stop(Turn& t) {
+void Drive::send_stop(Turn& t) {
     const auto it = std::ranges::find_if(stops_, [&](const Stop& s) { return !s.blind && !(s.stopped && processing_.active); });
     if (it != stops_.begin()) {
         const Stop first = *it;
@@ -105,7 +105,7 @@ void Control::send_stop(Turn& t) {
     send(Purpose::stop, r, s.axis, Priority::urgent, t);
 }
 
-void Control::stop_over(Outcome outcome, Reason reason, std::string text, Turn& t, std::int32_t code) {
+void Drive::stop_over(Outcome outcome, Reason reason, std::string text, Turn& t, std::int32_t code) {
     if (stops_.empty()) return;
     const Stop s = stops_.front();
     stops_.pop_front();
@@ -121,17 +121,17 @@ void Control::stop_over(Outcome outcome, Reason reason, std::string text, Turn& 
 }
 
 /// Out of ONLINE an axis with enable mode 1 has power [L722]; so may one whose mode could not be read.
-bool Control::powered_at_home(const Axis& a) const noexcept {
+bool Drive::powered_at_home(const Axis& a) const noexcept {
     const Aim::Known& m = a.aim.parameters[Aim::enable_mode];
     return a.id != no_axis && !a.missing && (!m.read || !m.value || *m.value == 1);
 }
 
-bool Control::goes_online_to_switch_off(const Axis& a) const noexcept {
+bool Drive::goes_online_to_switch_off(const Axis& a) const noexcept {
     return mode_ == status::home && error_ == 0 && options_.online_auto && powered_at_home(a);
 }
 
 /// A stop where no axis is commanded, or was not a moment ago. Off is what is known to have no power, and nothing else is called that.
-void Control::stop_found_standing(Turn& t) {
+void Drive::stop_found_standing(Turn& t) {
     Stop& s = stops_.front();
     const Axis& a = axes_[s.axis];
     const bool off = s.kind == Stop::Kind::off;
@@ -150,7 +150,7 @@ void Control::stop_found_standing(Turn& t) {
 }
 
 /// What a way over home position has given power again, although it was disabled, is switched off anew.
-void Control::keep_off(Turn&) {
+void Drive::keep_off(Turn&) {
     for (const Axis& a : axes_) {
         if (!a.off_ordered || !powered_at_home(a) || stops_.size() >= stop_limit) continue;
         Stop s;
@@ -160,7 +160,7 @@ void Control::keep_off(Turn&) {
     }
 }
 
-void Control::stop_answered(const Reply& reply, Turn& t) {
+void Drive::stop_answered(const Reply& reply, Turn& t) {
     if (stops_.empty()) return;
     Stop& s = stops_.front();
     Axis& a = axes_[s.axis];
@@ -246,10 +246,10 @@ void Control::stop_answered(const Reply& reply, Turn& t) {
     stop_over(Outcome::accepted, Reason::none, sent == code::stop ? "the control was stopped (0600): all axes" : "", t);
 }
 
-void Control::stop_silent(Turn& t) {
+void Drive::stop_silent(Turn& t) {
     if (stops_.empty()) return;
     Stop& s = stops_.front();
-    const int limit = phase_ == Phase::ready ? manners_.retries + 1 : 1;
+    const int limit = presence_.is(Phase::ready) ? line_.timing.retries + 1 : 1;
     if (s.tries < limit) {
         ++counters_.retries;
         return;
@@ -261,10 +261,10 @@ void Control::stop_silent(Turn& t) {
 }
 
 /// An axis that still runs that long after its stop: all axes are stopped.
-void Control::supervise(Turn& t) {
+void Drive::supervise(Turn& t) {
     supervise_at_ = never;
     Axis& a = axes_[supervised_];
-    if (!a.running || a.motion.active() || phase_ != Phase::ready || stops_.size() >= stop_limit) return;
+    if (!a.running || a.motion.active() || !presence_.is(Phase::ready) || stops_.size() >= stop_limit) return;
     notice(Severity::warning, "stop", 0,
            fmt::format("axis {} still runs {} s after it was stopped: all axes are stopped (0600)", a.channel,
                        milliseconds_of(supervise_after) / 1000),

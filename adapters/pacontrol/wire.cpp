@@ -8,7 +8,7 @@
 #include <array>
 #include <charconv>
 
-#include "adapters/pacontrol/number.hpp"
+#include "adapters/pacontrol/wire_number.hpp"
 
 namespace axisgate::pacontrol {
 namespace {

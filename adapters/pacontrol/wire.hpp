@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "adapters/pacontrol/check.hpp"
+#include "adapters/pacontrol/wire_check.hpp"
 
 namespace axisgate::pacontrol {
 

@@ -1,6 +1,6 @@
 // Adapter of the UIM342: the line: who is on it, whose turn it is, what arrives.
-// In: calls of the line's owner. Out: turns of nodes; each call ends with pump(), so that places of the window that are free are given away.
-// Never lets silent drives fill the window: a quarter of its places (at least one, never all but one of two or more) is theirs.
+// In: calls of the line's owner. Out: turns of nodes; each call ends with pump(), so that places of the window that are free are given
+// away. Never lets silent drives fill the window: a quarter of its places (at least one, never all but one of two or more) is theirs.
 #include "adapters/uim342/adapter.hpp"
 
 #include <fmt/core.h>
@@ -37,34 +37,23 @@ std::string check_address(std::string_view address) {
 
 LineAdapter::LineAdapter(const Catalogue& of_family, LineKind on) : Bus(of_family, on) {}
 
-void LineAdapter::take_manners(const LineSetup& setup) {
+void LineAdapter::take_timing(const LineSetup& setup) {
     const bool can = kind == LineKind::can;
-    const LineManners& m = setup.manners;
-    const auto or_else = [](Duration d, Duration otherwise) { return d > Duration::zero() ? d : otherwise; };
     using std::chrono::milliseconds;
-    manners.reply_timeout = or_else(m.reply_timeout, can ? milliseconds(50) : milliseconds(200));
-    manners.poll_period = or_else(m.poll_period, can ? milliseconds(20) : milliseconds(50));
-    manners.retries = m.retries < 0 ? 2 : std::min(m.retries, 10);
-    manners.silent_limit = std::clamp(m.silent_limit, 1, 1000);
-    manners.pause_min = or_else(m.retry_pause_min, milliseconds(200));
-    manners.pause_max = std::max(manners.pause_min, m.retry_pause_max);
-    pause_ = std::max(m.pause, Duration::zero());
+    timing = drive::timing_of(setup.manners, can ? drive::Timing{.reply_timeout = milliseconds(50), .poll_period = milliseconds(20)}
+                                                 : drive::Timing{.reply_timeout = milliseconds(200), .poll_period = milliseconds(50)});
     bit_rate = setup.bit_rate;
 
     // On a slow line fewer exchanges fit into the time that each may take: no more are begun than half of it holds.
     const Duration exchange = can ? wire_time(2 * 160, bit_rate) : wire_time(32u * setup.bits_per_byte, bit_rate);
-    const auto fitting = [&](Duration time, std::int64_t least, std::int64_t most) {
-        return exchange > Duration::zero() ? std::clamp(time / exchange, least, most) : most;
-    };
     const std::string wanted = option(setup.options, "in_flight", "");
     std::size_t n = 0;
     std::from_chars(wanted.data(), wanted.data() + wanted.size(), n);
-    window_ = n == 0 ? static_cast<std::size_t>(fitting(manners.reply_timeout / 2, 1, can ? 16 : 4))
-                     : std::min<std::size_t>(n, drive::slot_limit);
-    if (pause_ > Duration::zero() && !can) window_ = 1;  // silence between an answer and the next request: one at a time
+    window_ = n == 0 ? drive::fitting(timing.reply_timeout / 2, exchange, 1, can ? 16 : 4) : std::min<std::size_t>(n, drive::slot_limit);
+    if (timing.pause > Duration::zero() && !can) window_ = 1;  // silence between an answer and the next request: one at a time
     probe_window_ = std::max<std::size_t>(1, window_ / 4);
     // Grace: a drive's own time to answer, and two exchanges.
-    overtaken.set(static_cast<std::uint32_t>(fitting(manners.reply_timeout / 4, 2, 16)), milliseconds(2) + 2 * exchange);
+    overtaken.set(static_cast<std::uint32_t>(drive::fitting(timing.reply_timeout / 4, exchange, 2, 16)), milliseconds(2) + 2 * exchange);
 
     const CrcMode crc = crc_mode_named(option(setup.options, "crc", "12")).value_or(CrcMode::twelve);
     if (crc != crc_ || setup_.id == no_line) {
@@ -76,13 +65,13 @@ void LineAdapter::take_manners(const LineSetup& setup) {
 
 void LineAdapter::configure(const LineSetup& setup, Instant now, Out& out) {
     Turn t{now, out};
-    take_manners(setup);
+    take_timing(setup);
     if (const auto crc = setup.options.find("crc"); crc != setup.options.end() && !crc_mode_named(crc->second)) {
         out.notices.push_back({Severity::warning, no_drive, no_axis, "setup", 0,
                                fmt::format("option crc = {}: write 12, 13, auto or none; 12 is used", crc->second), now});
     }
     if (const auto n = setup.options.find("in_flight");
-        n != setup.options.end() && std::to_string(window_) != n->second && pause_ <= Duration::zero()) {
+        n != setup.options.end() && std::to_string(window_) != n->second && timing.pause <= Duration::zero()) {
         out.notices.push_back(
             {Severity::warning, no_drive, no_axis, "setup", 0,
              fmt::format("option in_flight = {}: write a whole number 1..{}; {} is used", n->second, drive::slot_limit, window_), now});
@@ -241,7 +230,7 @@ void LineAdapter::deliver(const Message& m, Turn& t) {
         ++Bus::counters.unexpected;  // another master, the gateway itself, or a drive that the setup does not name
         return;
     }
-    if (pause_ > Duration::zero()) quiet_until_ = t.now + pause_;
+    if (timing.pause > Duration::zero()) quiet_until_ = t.now + timing.pause;
     n->on_message(m, t);
     settle(*n, t);
 }
@@ -358,7 +347,7 @@ Instant LineAdapter::deadline() const {
     // Somebody waits for the silence after an answer to end, or for overtaken ones to have had their chance; else places become free
     // only by calls.
     const Instant chance = polls_.empty() ? never : overtaken.deadline();
-    return std::min({due, chance, pause_ > Duration::zero() ? quiet_until_ : never});
+    return std::min({due, chance, timing.pause > Duration::zero() ? quiet_until_ : never});
 }
 
 // --- questions of nodes ----------------------------------------------------------------------------------------------------------

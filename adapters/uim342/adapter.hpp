@@ -40,7 +40,7 @@ private:
     void part_done(Drive& node, Part part, Turn& t) override;
     [[nodiscard]] std::string user_of(std::uint8_t id, const Drive& but) const override;
 
-    void take_manners(const LineSetup& setup);
+    void take_timing(const LineSetup& setup);
     void deliver(const Message& m, Turn& t);
     void tell_other_crc(Turn& t);
     void settle(Drive& node, Turn& t);
@@ -79,8 +79,7 @@ private:
     bool other_crc_told_ = false;  ///< since the line came up
     std::size_t window_ = 16;
     std::size_t probe_window_ = 4;
-    Duration pause_{};
-    Instant quiet_until_{};                      ///< LineManners::pause
+    Instant quiet_until_{};                      ///< the pause after an answer
     std::vector<std::unique_ptr<Drive>> nodes_;  ///< by slot; empty places are nullptr
     std::array<Drive*, 128> by_id_{};
     std::vector<std::pair<AxisId, Drive*>> by_axis_;  ///< sorted

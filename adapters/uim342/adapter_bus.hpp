@@ -1,4 +1,4 @@
-// Bus: what one node sees of its line: how to send, the manners in force, who else is there; and the small types they share.
+// Bus: what one node sees of its line: how to send, the times in force, who else is there; and the small types they share.
 // In: calls by nodes. Out: frames in the turn's Out, counters. Implemented by the adapter alone.
 // Never lets one node look into another: questions about others are asked here, by ID.
 #pragma once
@@ -11,24 +11,12 @@
 #include "adapters/uim342/wire_instructions.hpp"
 #include "gateway/core/adapter.hpp"
 #include "gateway/drive/overtaken.hpp"
+#include "gateway/drive/timing.hpp"
+#include "gateway/drive/turn.hpp"
 
 namespace axisgate::uim342 {
 
-/// One call of the adapter from outside.
-struct Turn {
-    Instant now;
-    Out& out;
-};
-
-/// LineManners with this family's own defaults filled in.
-struct Manners {
-    Duration reply_timeout = std::chrono::milliseconds(50);
-    Duration poll_period = std::chrono::milliseconds(20);
-    int retries = 2;
-    int silent_limit = 3;
-    Duration pause_min = std::chrono::milliseconds(200);
-    Duration pause_max = std::chrono::seconds(5);
-};
+using drive::Turn;
 
 class Drive;
 
@@ -57,7 +45,7 @@ struct Bus {
     const Catalogue& catalogue;
     const Points points;
     const LineKind kind;
-    Manners manners;
+    drive::Timing timing;
     AdapterCounters counters;
     std::uint32_t bit_rate = 0;
     std::size_t in_flight = 0;         ///< exchanges that hold a place of the window

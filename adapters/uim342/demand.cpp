@@ -62,7 +62,7 @@ void Drive::demand_at_status(bool started_by_itself, Instant now) noexcept {
     if (!status_.on || started_by_itself) return forget_demand();
     if (fb_.moving || !position_known_) return;
     // It stands before it should: a switch, a stall or somebody else has ended the motion. The answer to BG was this much late at most.
-    if (demand_.known() && !demand_.over(now + bus_.manners.reply_timeout)) forget_demand();
+    if (demand_.known() && !demand_.over(now + bus_.timing.reply_timeout)) forget_demand();
 }
 
 /// Called with each position: it and the demand belong to one instant.

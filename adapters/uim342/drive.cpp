@@ -5,39 +5,32 @@
 
 #include <fmt/core.h>
 
-#include <charconv>
-
 #include "adapters/uim342/native.hpp"
+#include "gateway/drive/option_reader.hpp"
 
 namespace axisgate::uim342 {
 
 DriveOptions drive_options(const DriveSetup& setup) {
+    drive::OptionReader read(setup.options);
     DriveOptions o;
-    const auto whole = [&](const char* name, std::int64_t low, std::int64_t high) -> std::optional<std::int64_t> {
-        const std::string text = option(setup.options, name, "");
-        if (text.empty()) return std::nullopt;
-        std::int64_t v = 0;
-        const auto [p, ec] = std::from_chars(text.data(), text.data() + text.size(), v);
-        if (ec == std::errc{} && p == text.data() + text.size() && v >= low && v <= high) return v;
-        o.faults.push_back(fmt::format("option {} = {}: write a whole number {}..{}", name, text, low, high));
-        return std::nullopt;
-    };
-    const auto word = [&](const char* name, std::string_view no, std::string_view yes) {
-        const std::string text = option(setup.options, name, no);
-        if (text != no && text != yes) o.faults.push_back(fmt::format("option {} = {}: write {} or {}", name, text, no, yes));
-        return text == yes;
-    };
-    o.notify = word("notify", "off", "on");
-    o.absolute_known = word("referenced", "session", "absolute");
-    o.home_high = !word("home_active", "high", "low");
-    o.home_input = static_cast<std::uint8_t>(whole("home_input", 1, 3).value_or(0));
-    o.home_velocity = static_cast<std::uint32_t>(whole("home_velocity", 1, 8'388'607).value_or(0));
-    o.home_timeout = std::chrono::seconds(whole("home_timeout_s", 1, 3600).value_or(60));
+    o.notify = read.flag("notify", false);
+    o.absolute_known = read.word("referenced", {"session", "absolute"}) == "absolute";
+    o.home_high = read.word("home_active", {"high", "low"}) == "high";
+    o.home_input = static_cast<std::uint8_t>(read.whole("home_input", 1, 3, 0));
+    o.home_velocity = static_cast<std::uint32_t>(read.whole("home_velocity", 1, 8'388'607, 0));
+    o.home_timeout = std::chrono::seconds(read.whole("home_timeout_s", 1, 3600, 60));
+    o.faults = read.take_faults();
     return o;
 }
 
 Drive::Drive(Bus& bus, const DriveSetup& setup, std::uint8_t address, std::size_t slot)
-    : bus_(bus), setup_(setup), options_(drive_options(setup)), address_(address), slot_(slot) {
+    : bus_(bus),
+      setup_(setup),
+      options_(drive_options(setup)),
+      address_(address),
+      slot_(slot),
+      presence_(setup.id, bus.timing),
+      notices_(setup.id) {
     for (const auto& a : setup.axes) {
         if (a.channel == 1) axis_ = a.id;
     }
@@ -55,15 +48,15 @@ void Drive::line_up(Turn& t) {
 void Drive::line_down(Turn& t, std::string_view why) {
     fail_all(Reason::line_down, std::string(why), t);
     const bool was_online = online();
-    phase_ = Phase::down;
+    presence_.close();
     late_.clear();  // nothing of before comes through a line that was down
-    next_probe_ = next_poll_ = never;
-    if (was_online) link(false, std::string(why), t);
+    next_poll_ = never;
+    if (was_online) presence_.report(std::string(why), t.out);
 }
 
 void Drive::remove(Turn& t, std::string_view why) {
     fail_all(Reason::line_down, std::string(why), t);
-    phase_ = Phase::down;
+    presence_.close();
 }
 
 void Drive::fail_all(Reason reason, const std::string& text, Turn& t) {
@@ -89,13 +82,13 @@ void Drive::fail_all(Reason reason, const std::string& text, Turn& t) {
 // --- commands ------------------------------------------------------------------------------------------------------------------
 
 void Drive::submit(const Command& command, Turn& t) {
-    if (phase_ == Phase::down) return result(command.ticket, Outcome::refused, Reason::line_down, "the line is down", t);
+    if (presence_.is(Phase::down)) return result(command.ticket, Outcome::refused, Reason::line_down, "the line is down", t);
     if (is_urgent(command.body)) return submit_stop(command, t);
-    if (phase_ == Phase::absent) {
-        return result(
-            command.ticket, Outcome::refused, Reason::no_answer,
-            fmt::format("drive {} (ID {}) does not answer; it is asked again every {} ms", name(), address_, milliseconds_of(retry_pause_)),
-            t);
+    if (presence_.is(Phase::absent)) {
+        return result(command.ticket, Outcome::refused, Reason::no_answer,
+                      fmt::format("drive {} (ID {}) does not answer; it is asked again every {} ms", name(), address_,
+                                  milliseconds_of(presence_.retry_pause())),
+                      t);
     }
     if (queue_.size() >= queue_limit) {
         return result(command.ticket, Outcome::refused, Reason::busy, fmt::format("{} commands wait already", queue_limit), t);
@@ -107,13 +100,13 @@ void Drive::submit(const Command& command, Turn& t) {
 
 Drive::Want Drive::wants(Instant now) const noexcept {
     if (exchange_.active) return Want::nothing;
-    switch (phase_) {
+    switch (presence_.phase()) {
         case Phase::down:
             return Want::nothing;
         case Phase::probing:
         case Phase::absent:
-        case Phase::rebooting:
-            return now >= next_probe_ ? Want::probe : Want::nothing;
+        case Phase::restarting:
+            return presence_.probe_due(now) ? Want::probe : Want::nothing;
         case Phase::starting:
             return Want::poll;
         case Phase::ready:
@@ -131,7 +124,7 @@ Drive::Want Drive::wants(Instant now) const noexcept {
 Instant Drive::due() const noexcept {
     const Instant due = due_but_wish();
     if (exchange_.active) return due;
-    return std::min(due, phase_ == Phase::ready ? next_poll_ : next_probe_);
+    return std::min(due, presence_.is(Phase::ready) ? next_poll_ : presence_.deadline());
 }
 
 Instant Drive::due_but_wish() const noexcept {
@@ -145,16 +138,13 @@ Instant Drive::due_but_wish() const noexcept {
 
 void Drive::go(Turn& t) {
     if (exchange_.active) return;
-    switch (phase_) {
+    switch (presence_.phase()) {
         case Phase::down:
             return;
-        case Phase::rebooting:
-            phase_ = Phase::probing;
-            silent_ = 0;
-            [[fallthrough]];
+        case Phase::restarting:
         case Phase::probing:
         case Phase::absent:
-            next_probe_ = never;
+            presence_.probe_sent();
             return send_exchange(msg_get(cw::ML), Purpose::probe, 0, 0, Priority::poll, t);
         case Phase::starting:
             return startup_next(t);
@@ -164,14 +154,14 @@ void Drive::go(Turn& t) {
     if (confirm_) {
         const Message m = *confirm_ == StopKind::off ? msg_set(cw::MO, 0) : msg_act(cw::ST);
         confirm_.reset();
-        return send_exchange(m, Purpose::confirm, 0, static_cast<std::uint8_t>(bus_.manners.retries), Priority::command, t);
+        return send_exchange(m, Purpose::confirm, 0, static_cast<std::uint8_t>(bus_.timing.retries), Priority::command, t);
     }
     const bool may_command = !stopping();
     if (may_command && job_.active && !job_.waiting) return run_job(t);
     if (core_pending()) return startup_next(t);
     // Commands go before polls, but a poll that is a whole period late goes between two commands: the picture stays alive. One poll; on a
     // line that cannot carry all of them every poll is late, and commands would never have their turn.
-    const bool overdue = commanded_last_ && next_poll_ != never && t.now >= next_poll_ + bus_.manners.poll_period;
+    const bool overdue = commanded_last_ && next_poll_ != never && t.now >= next_poll_ + bus_.timing.poll_period;
     if (may_command && !job_.active && !overdue) {
         if (restore_due()) return plan_restore(t);
         if (search_.check_due) return search_check(t);
@@ -201,7 +191,7 @@ void Drive::go(Turn& t) {
         poll_speed_ = false;
     } else {
         poll_speed_ = true;
-        const Duration period = moving_now() ? bus_.manners.poll_period : 4 * bus_.manners.poll_period;
+        const Duration period = moving_now() ? bus_.timing.poll_period : 4 * bus_.timing.poll_period;
         next_poll_ = next_poll_ + period > t.now ? next_poll_ + period : t.now + period;
         if (next_poll_ > t.now + period) next_poll_ = t.now + period;
     }
@@ -237,7 +227,7 @@ void Drive::send_exchange(const Message& m, Purpose p, std::uint8_t mf, std::uin
     exchange_.tries = 1;
     exchange_.left = retries;
     exchange_.sent = t.now;
-    exchange_.deadline = t.now + bus_.manners.reply_timeout;
+    exchange_.deadline = t.now + bus_.timing.reply_timeout;
     exchange_.probe_place = p == Purpose::probe;
     ++bus_.in_flight;
     bus_.overtaken.began(static_cast<std::uint8_t>(slot_));
@@ -253,12 +243,12 @@ void Drive::end_exchange() noexcept {
 }
 
 void Drive::on_message(const Message& m, Turn& t) {
-    if (phase_ == Phase::down) return;
+    if (presence_.is(Phase::down)) return;
     if (m.cw & ack_bit) {
         ++bus_.counters.garbled;  // nothing that a device sends has bit 7 set
         return;
     }
-    if (phase_ == Phase::rebooting) {
+    if (presence_.is(Phase::restarting)) {
         ++bus_.counters.unexpected;  // said before it fell silent
         return;
     }
@@ -295,10 +285,10 @@ void Drive::on_message(const Message& m, Turn& t) {
             ++bus_.counters.unexpected;
         }
         // An absent drive that says anything is asked at once.
-        if (phase_ == Phase::absent || phase_ == Phase::probing) next_probe_ = std::min(next_probe_, t.now);
+        presence_.heard(t.now);
         return;
     }
-    silent_ = 0;
+    presence_.answered();
     ++bus_.counters.exchanges;
     const std::uint8_t tries = who == -1 ? exchange_.tries : stops_[static_cast<std::size_t>(who)].tries;
     const std::uint16_t mark = mark_of(who == -1 ? exchange_.message : stops_[static_cast<std::size_t>(who)].message);
@@ -367,8 +357,8 @@ void Drive::exchange_refused(const Message& m, Turn& t) {
     switch (e.purpose) {
         case Purpose::probe:
             // Whoever refuses ML is no UIM342 as the manual has it, or not ready: what waits is answered now, and it is asked again.
-            silent_ = static_cast<std::uint32_t>(bus_.manners.silent_limit);
-            go_absent(t, fmt::format("ID {} refuses to tell its model", address_), bus_.manners.pause_max);
+            presence_.lose(t.now, bus_.timing.pause_max);
+            went_absent(t, fmt::format("ID {} refuses to tell its model", address_));
             break;
         case Purpose::startup:
             startup_step_done(t);
@@ -419,21 +409,20 @@ void Drive::exchange_silent(Turn& t) {
             break;
     }
     count_silence(t);
-    if (phase_ != Phase::absent) waiting_stops(t);
+    if (!presence_.is(Phase::absent)) waiting_stops(t);
 }
 
 void Drive::count_silence(Turn& t) {
-    ++silent_;
-    const bool absent_now = silent_ >= static_cast<std::uint32_t>(bus_.manners.silent_limit);
-    if (phase_ == Phase::probing && !absent_now) {
-        next_probe_ = t.now;
-    } else if (phase_ == Phase::absent) {
-        const Duration before = retry_pause_;
-        retry_pause_ = std::min(2 * retry_pause_, bus_.manners.pause_max);
-        next_probe_ = t.now + retry_pause_;
-        if (retry_pause_ != before) link(false, fmt::format("ID {} does not answer", address_), t);
-    } else if (absent_now && phase_ != Phase::down && phase_ != Phase::rebooting) {
-        go_absent(t, fmt::format("ID {} has not answered {} times in a row", address_, silent_), bus_.manners.pause_min);
+    const Duration before = presence_.retry_pause();
+    switch (presence_.silent(t.now)) {
+        case drive::Presence::Silence::counted:
+            break;
+        case drive::Presence::Silence::lost:
+            went_absent(t, fmt::format("ID {} has not answered {} times in a row", address_, presence_.silences()));
+            break;
+        case drive::Presence::Silence::still_absent:
+            if (presence_.retry_pause() != before) presence_.report(fmt::format("ID {} does not answer", address_), t.out);
+            break;
     }
 }
 
@@ -446,7 +435,7 @@ void Drive::on_deadline(Turn& t) {
             --exchange_.left;
             ++exchange_.tries;
             ++bus_.counters.retries;
-            exchange_.deadline = t.now + bus_.manners.reply_timeout;
+            exchange_.deadline = t.now + bus_.timing.reply_timeout;
             bus_.transmit(exchange_.message, Priority::command, t);
         } else {
             exchange_silent(t);
@@ -467,25 +456,8 @@ void Drive::result(Ticket ticket, Outcome outcome, Reason reason, std::string te
     t.out.results.push_back({ticket, axis_, outcome, reason, code, std::move(text), std::move(value), std::move(bytes)});
 }
 
-/// At most 20 at once and 10 in a second, alarms excepted: a chattering input must not fill the journal.
 void Drive::notice(Severity severity, std::string_view kind, std::int32_t code, std::string text, Turn& t) {
-    if (severity != Severity::alarm) {
-        const auto earned = (t.now - notice_refilled_) / std::chrono::milliseconds(100);
-        if (earned > 0) {
-            notice_tokens_ = static_cast<int>(std::min<std::int64_t>(20, notice_tokens_ + earned));
-            notice_refilled_ = t.now;
-        }
-        if (notice_tokens_ == 0) {
-            ++notices_dropped_;
-            return;
-        }
-        --notice_tokens_;
-        if (notices_dropped_ != 0) {
-            text += fmt::format(" ({} more were not told: too many in a second)", notices_dropped_);
-            notices_dropped_ = 0;
-        }
-    }
-    t.out.notices.push_back({severity, setup_.id, axis_, std::string(kind), code, std::move(text), t.now});
+    notices_.tell(severity, axis_, kind, code, std::move(text), t.now, t.out);
 }
 
 }  // namespace axisgate::uim342

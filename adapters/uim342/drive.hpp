@@ -14,6 +14,8 @@
 #include "adapters/uim342/adapter_bus.hpp"
 #include "adapters/uim342/drive_exchange.hpp"
 #include "gateway/axis/demand.hpp"
+#include "gateway/drive/notices.hpp"
+#include "gateway/drive/presence.hpp"
 
 namespace axisgate::uim342 {
 
@@ -78,20 +80,13 @@ public:
     [[nodiscard]] AxisId axis() const noexcept { return axis_; }
     [[nodiscard]] const std::string& name() const noexcept { return setup_.name; }
     [[nodiscard]] const DriveSetup& setup() const noexcept { return setup_; }
-    [[nodiscard]] bool online() const noexcept { return phase_ == Phase::starting || phase_ == Phase::ready || phase_ == Phase::rebooting; }
-    [[nodiscard]] bool ever_seen() const noexcept { return ever_seen_; }
+    [[nodiscard]] bool online() const noexcept { return presence_.online(); }
+    [[nodiscard]] bool ever_seen() const noexcept { return presence_.ever_found(); }
     [[nodiscard]] std::optional<std::uint8_t> group() const noexcept { return group_; }  ///< in force, as far as known
     std::uint8_t in_ring = 0;  ///< the adapter's marks: in which waiting rings this node stands
 
 private:
-    enum class Phase : std::uint8_t {
-        down,      ///< the line is down
-        probing,   ///< nobody knows yet whether it is there
-        absent,    ///< it does not answer; asked again after growing pauses
-        starting,  ///< it answered; the values that everything rests on are being read
-        ready,
-        rebooting  ///< SY[1] was sent; left alone until it has started
-    };
+    using Phase = drive::Presence::Phase;
 
     // --- jobs: a command taken apart into exchanges ---------------------------------------------------------------------
     enum class JobKind : std::uint8_t { enable, reset, origin, move, begin, together, search, read, write, native, system, restore };
@@ -183,8 +178,8 @@ private:
     // start.cpp: finding and reading
     void begin_probing(Turn& t);
     void probe_answered(const Message& m, Turn& t);
-    void go_absent(Turn& t, std::string why, Duration pause);
-    void link(bool online, std::string text, Turn& t);
+    void stop_polls() noexcept;
+    void went_absent(Turn& t, std::string why);
     void startup_next(Turn& t);
     void startup_step_done(Turn& t);
     void core_known(Turn& t);
@@ -300,15 +295,10 @@ private:
     std::size_t slot_;
 
     // presence
-    Phase phase_ = Phase::down;
-    bool ever_seen_ = false;
-    std::uint32_t silent_ = 0;
-    Duration retry_pause_{};
-    Instant next_probe_ = never;
+    drive::Presence presence_;
     std::uint8_t startup_at_ = 0;     ///< next value to read; past the end: all are read
     std::uint8_t startup_tries_ = 0;  ///< times the present one was given up
     std::string identity_;
-    DriveLink told_;  ///< last DriveLink: the same is not said twice
 
     // exchanges
     Exchange exchange_;
@@ -379,10 +369,7 @@ private:
     } search_;
     Restore restore_;
 
-    // bounds on what is told
-    int notice_tokens_ = 20;
-    Instant notice_refilled_{};
-    std::uint64_t notices_dropped_ = 0;
+    drive::Notices notices_;
 };
 
 }  // namespace axisgate::uim342

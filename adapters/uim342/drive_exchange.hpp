@@ -3,12 +3,11 @@
 // Never sends by itself. Fixed size: nothing is allocated for an exchange.
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cstdint>
 
 #include "adapters/uim342/wire_instructions.hpp"
 #include "gateway/core/instant.hpp"
+#include "gateway/drive/exchange.hpp"
 
 namespace axisgate::uim342 {
 
@@ -37,24 +36,7 @@ struct Exchange {
     Instant deadline = never;
 };
 
-/// Answers that may still come although nobody waits for them any more: of an instruction that was given up, or sent twice.
-/// A new instruction with the same mark must not be sent before another exchange has ended: a drive answers in order, so
-/// what comes after that exchange's answer is new. Full (8 marks): the drive has been silent for so long that it counts as absent.
-class LateAnswers {
-public:
-    void add(std::uint16_t mark) noexcept {
-        if (has(mark)) return;
-        if (size_ < marks_.size()) marks_[size_++] = mark;
-    }
-    [[nodiscard]] bool has(std::uint16_t mark) const noexcept {
-        return std::find(marks_.begin(), marks_.begin() + size_, mark) != marks_.begin() + size_;
-    }
-    [[nodiscard]] bool none() const noexcept { return size_ == 0; }
-    void clear() noexcept { size_ = 0; }
-
-private:
-    std::array<std::uint16_t, 8> marks_{};
-    std::size_t size_ = 0;
-};
+/// Of instructions that were given up, or sent twice.
+using LateAnswers = drive::LateMarks<std::uint16_t>;
 
 }  // namespace axisgate::uim342

@@ -255,7 +255,7 @@ void Drive::on_error_report(const Message& m, Turn& t) {
 
 void Drive::on_notification(const Message& m, Turn& t) {
     const Notification n = notification_of(m);
-    if (phase_ == Phase::absent || phase_ == Phase::probing) next_probe_ = std::min(next_probe_, t.now);
+    presence_.heard(t.now);
     switch (n.kind) {
         case Notification::Kind::unknown:
             ++bus_.counters.garbled;

@@ -208,7 +208,7 @@ void Drive::search_over(bool good, Reason reason, std::string text, Turn& t) {
 
 /// Only with the driver on, so that it stays in RAM; until then the armed input is harmless, because nothing moves.
 bool Drive::restore_due() const noexcept {
-    return restore_.pending && phase_ == Phase::ready && status_.on && !job_.active && !fb_.moving && !searching();
+    return restore_.pending && presence_.is(Phase::ready) && status_.on && !job_.active && !fb_.moving && !searching();
 }
 
 void Drive::plan_restore(Turn& t) {

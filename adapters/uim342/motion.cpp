@@ -44,7 +44,7 @@ bool Drive::is_motion(const CommandBody& body) const noexcept {
 }
 
 std::string Drive::not_startable() const {
-    if (phase_ != Phase::ready) return fmt::format("{} does not answer", name());
+    if (!presence_.is(Phase::ready)) return fmt::format("{} does not answer", name());
     if (!status_.on) return fmt::format("{} is off", name());
     if (status_.lock) return fmt::format("{} is locked", name());
     if (stopping() || (stop_ramp_ && fb_.moving)) return fmt::format("{} is being stopped", name());
@@ -124,7 +124,7 @@ void Drive::run_job(Turn& t) {
         const Step& step = job_.steps[job_.at];
         const Instruction* i = instruction(step.message.cw);
         if (late_.has(mark_of(step.message)) || (step.select && late_.has(mark_of(job_.steps[job_.at + 1u].message)))) return go_barrier(t);
-        const auto retries = static_cast<std::uint8_t>(bus_.manners.retries);
+        const auto retries = static_cast<std::uint8_t>(bus_.timing.retries);
         if (mf_unknown_ && i && i->takes_mf && step.mf == 0) {
             return send_exchange(msg_set(cw::MF, 0), Purpose::clear_mf, 0, retries, Priority::command, t);
         }
@@ -208,7 +208,7 @@ void Drive::job_refused(const Message& m, Turn& t) {
 void Drive::job_silent(Turn& t) {
     if (!job_.active) return;
     const Step step = job_.steps[std::min<std::size_t>(job_.at, job_.steps.size() - 1)];
-    if (step.mf != 0 && job_.rounds < bus_.manners.retries) {
+    if (step.mf != 0 && job_.rounds < bus_.timing.retries) {
         // Its MF may be used up: the pair is sent anew, never the value alone.
         ++job_.rounds;
         ++bus_.counters.retries;
@@ -468,7 +468,7 @@ bool Drive::join(Turn& t) {
 
 void Drive::begun_by_group(bool until_done, Turn& t) {
     if (job_.active && job_.kind == JobKind::together) job_.active = false;
-    broadcast_until_ = t.now + 4 * bus_.manners.reply_timeout;  // it may wait in the line's queue behind other frames
+    broadcast_until_ = t.now + 4 * bus_.timing.reply_timeout;  // it may wait in the line's queue behind other frames
     if (prepared_) {
         begin_motion(prepared_motion_, t);
     } else {

@@ -30,44 +30,32 @@ constexpr Read read_at(std::size_t n) { return n < core.size() ? core[n] : rest[
 bool Drive::startup_pending() const noexcept { return startup_at_ < all; }
 bool Drive::core_pending() const noexcept { return startup_at_ < core.size(); }
 
-void Drive::link(bool is_online, std::string text, Turn& t) {
-    const Duration pause = is_online ? Duration{} : retry_pause_;
-    if (told_.drive == setup_.id && told_.online == is_online && told_.retry_pause == pause && told_.text == text) return;
-    told_ = {setup_.id, is_online, silent_, pause, std::move(text)};
-    t.out.links.push_back(told_);
-}
-
 void Drive::begin_probing(Turn& t) {
-    phase_ = Phase::probing;
-    silent_ = 0;
-    retry_pause_ = {};
-    next_probe_ = t.now;
-    next_poll_ = never;
-    poll_speed_ = false;
-    read_error_ = false;
-    notice_refilled_ = t.now;
+    presence_.begin(t.now);
+    stop_polls();
 }
 
-void Drive::go_absent(Turn& t, std::string why, Duration pause) {
-    before_ = {status_known_ && position_known_, status_.on, fb_.referenced, fb_.position, cause_ == Cause::own};
-    phase_ = Phase::absent;
-    retry_pause_ = pause;
-    next_probe_ = t.now + retry_pause_;
+void Drive::stop_polls() noexcept {
     next_poll_ = never;
     poll_speed_ = false;
     read_error_ = false;
+}
+
+/// Its presence has been lost just now.
+void Drive::went_absent(Turn& t, std::string why) {
+    before_ = {status_known_ && position_known_, status_.on, fb_.referenced, fb_.position, cause_ == Cause::own};
+    stop_polls();
     fail_all(Reason::no_answer, why, t);
-    link(false, std::move(why), t);
+    presence_.report(std::move(why), t.out);
 }
 
 void Drive::probe_answered(const Message& m, Turn& t) {
     const Model model = model_of(m);
     if (model.gateway) {
-        silent_ = static_cast<std::uint32_t>(bus_.manners.silent_limit);
-        return go_absent(t, fmt::format("at ID {} answers a gateway ({}), not a UIM342: correct the drive's address", address_, model.name),
-                         bus_.manners.pause_max);
+        presence_.lose(t.now, bus_.timing.pause_max);
+        return went_absent(t,
+                           fmt::format("at ID {} answers a gateway ({}), not a UIM342: correct the drive's address", address_, model.name));
     }
-    ever_seen_ = true;
     const unsigned firmware = m.dl >= 6 ? get_u16(&m.d[4]) : 0u;
     if (model.name.empty()) {
         identity_ = fmt::format("unknown model ({}), firmware {}", hex_of(m), firmware);
@@ -76,8 +64,8 @@ void Drive::probe_answered(const Message& m, Turn& t) {
     } else {
         identity_ = fmt::format("{}, firmware {}", model.name, firmware);
     }
-    phase_ = Phase::starting;
-    link(true, identity_, t);
+    presence_.found();
+    presence_.report(identity_, t.out);
     bus_.points.each(m, 0, [&](const Binding& b, Value v) {
         t.out.samples.push_back({axis_, b.point, std::move(v), Quality::good, t.now});
     });
@@ -121,7 +109,7 @@ void Drive::begin_reading(Turn& t, bool from_nothing) {
 void Drive::startup_next(Turn& t) {
     const Read r = read_at(startup_at_);
     const Message m = msg_get(r.cw, r.index);
-    const auto retries = static_cast<std::uint8_t>(bus_.manners.retries);
+    const auto retries = static_cast<std::uint8_t>(bus_.timing.retries);
     if (late_.has(mark_of(m))) return go_barrier(t);
     if (mf_unknown_ && instruction(r.cw)->takes_mf)
         return send_exchange(msg_set(cw::MF, 0), Purpose::clear_mf, 0, retries, Priority::poll, t);
@@ -129,7 +117,7 @@ void Drive::startup_next(Turn& t) {
         // Everything else is answered but not this one: leave it unknown rather than ask for ever.
         notice(Severity::warning, "protocol", 0, fmt::format("{} is not answered; its value stays unknown", describe_request(m)), t);
         startup_step_done(t);
-        if (!startup_pending() || exchange_.active || phase_ != Phase::starting) return;
+        if (!startup_pending() || exchange_.active || !presence_.is(Phase::starting)) return;
         return startup_next(t);
     }
     send_exchange(m, Purpose::startup, 0, retries, Priority::poll, t);
@@ -143,8 +131,8 @@ void Drive::startup_step_done(Turn& t) {
 
 /// Everything is known that commands rest on.
 void Drive::core_known(Turn& t) {
-    const bool first = phase_ == Phase::starting;
-    phase_ = Phase::ready;
+    const bool first = presence_.is(Phase::starting);
+    presence_.made_ready();
     if (first) {
         // A restart loses the zero of an incremental encoder. A drive that is still on (and does not switch itself on), or still
         // stands where it stood (a restart begins at 0), was only out of reach.
@@ -159,7 +147,7 @@ void Drive::core_known(Turn& t) {
         before_ = {};
         power_expected_ = status_.on;
         // Spread over the period, so that many drives that start together are not polled together.
-        next_poll_ = t.now + bus_.manners.poll_period * static_cast<std::int64_t>(slot_ % 16) / 16;
+        next_poll_ = t.now + bus_.timing.poll_period * static_cast<std::int64_t>(slot_ % 16) / 16;
     }
     if (options_.absolute_known && absolute_encoder_ == true && battery_ok_ != false) fb_.referenced = true;
     derive(t);
@@ -173,11 +161,8 @@ void Drive::reboot_begun(Turn& t) {
     fb_.homing_attained = false;
     fail_all(Reason::interrupted, "the drive is restarted", t);
     restore_ = {};
-    phase_ = Phase::rebooting;
-    next_probe_ = t.now + boot_time;
-    next_poll_ = never;
-    poll_speed_ = false;
-    read_error_ = false;
+    presence_.restart(t.now, boot_time);
+    stop_polls();
 }
 
 }  // namespace axisgate::uim342

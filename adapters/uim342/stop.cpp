@@ -82,7 +82,7 @@ void Drive::add_stop(Stop wanted, Turn& t) {
 }
 
 void Drive::begin_stop(Stop& s, Turn& t) {
-    const auto retries = static_cast<std::uint8_t>(bus_.manners.retries);
+    const auto retries = static_cast<std::uint8_t>(bus_.timing.retries);
     const bool motion_on_its_way = exchange_.active && sets_motion(exchange_.message);
     const bool start_on_its_way = (exchange_.active && exchange_.message.function() == cw::BG) || t.now < broadcast_until_;
     // A stop that gets between MF and its value may use the selection up: the pair is begun anew.
@@ -96,7 +96,7 @@ void Drive::begin_stop(Stop& s, Turn& t) {
         if (exchange_.active && m.function() == cw::MO && form_of(m) == Form::set && m.d[0] != 0) confirm_ = StopKind::off;
         return send_stop(s, msg_set(cw::MO, 0), retries, t);
     }
-    if (s.kind == StopKind::halt && phase_ == Phase::ready) {
+    if (s.kind == StopKind::halt && presence_.is(Phase::ready)) {
         // There is no instruction "stop on DC". A jog speed of 0 and BG decelerate with DC; ST would use SD. With AC and DC as
         // times the ramp to speed 0 is not defined, and at rest there is nothing to decelerate: then ST.
         // With a group of MF perhaps still selected JV could go astray: then ST too.
@@ -131,7 +131,7 @@ void Drive::send_stop(Stop& s, const Message& m, std::uint8_t retries, Turn& t) 
     s.tries = 1;
     s.left = retries;
     s.sent = t.now;
-    s.deadline = t.now + bus_.manners.reply_timeout;
+    s.deadline = t.now + bus_.timing.reply_timeout;
     bus_.transmit(m, Priority::urgent, t);
 }
 
@@ -180,7 +180,7 @@ void Drive::stop_silent(Stop& s, Turn& t) {
         --s.left;
         ++s.tries;
         ++bus_.counters.retries;
-        s.deadline = t.now + bus_.manners.reply_timeout;
+        s.deadline = t.now + bus_.timing.reply_timeout;
         return bus_.transmit(s.message, Priority::urgent, t);
     }
     late_.add(mark_of(s.message));
@@ -199,7 +199,7 @@ void Drive::harden(Stop& s, std::string_view why, bool late_begin, Turn& t) {
     notice(Severity::warning, "stop", 0, fmt::format("halt: {}; ST is sent instead", why), t);
     s.soft = false;
     if (late_begin) confirm_ = StopKind::quick;
-    send_stop(s, msg_act(cw::ST), static_cast<std::uint8_t>(bus_.manners.retries), t);
+    send_stop(s, msg_act(cw::ST), static_cast<std::uint8_t>(bus_.timing.retries), t);
 }
 
 void Drive::stop_finished(Stop& s, Outcome outcome, Reason reason, std::string text, std::int32_t code, Turn& t) {

@@ -16,11 +16,11 @@ using Change = AxisAuthority::Change;
 /// Not in the middle of a letter of several bytes.
 std::string cut(std::string_view name) {
     std::size_t n = std::min(name.size(), AxisAuthority::name_most);
-    while (n > 0 && n < name.size() && (static_cast<unsigned char>(name[n]) & 0xC0u) == 0x80u) --n;
+    while (n > 0 && n < name.size() && (static_cast<unsigned char>(name[n]) & 0xC0u) == 0x80u)
+        --n;
     return std::string(name.substr(0, n));
 }
 }  // namespace
-
 
 AuthorityClient AuthorityClient::of(const Origin& origin) {
     AuthorityClient c;
@@ -67,7 +67,8 @@ bool AxisAuthority::bind(const AuthorityClient& who) noexcept {
 Verdict AxisAuthority::refusal(Instant now) const {
     const auto rest = std::chrono::duration_cast<std::chrono::milliseconds>(until_ - now).count();
     return {false, Change::none,
-            fmt::format("held by {} for {:.1f} s more; wait, ask for it to be handed over or released, or let an engineer take it over; a stop is always possible",
+            fmt::format("held by {} for {:.1f} s more; wait, ask for it to be handed over or released, or let an engineer take it over; a "
+                        "stop is always possible",
                         holder_.text(), static_cast<double>(rest) / 1000.0)};
 }
 
@@ -90,7 +91,8 @@ Verdict AxisAuthority::command(const AuthorityClient& who, AuthorityMode mode, D
     if (commander_ != who) {
         if (v.change == Change::none) {
             v = {true, Change::commander,
-                 commander_.door == Door::none ? "commanded by " + who.text() : fmt::format("commanded by {} (before: {})", who.text(), commander_.text())};
+                 commander_.door == Door::none ? "commanded by " + who.text()
+                                               : fmt::format("commanded by {} (before: {})", who.text(), commander_.text())};
         }
         commander_ = who;
     }

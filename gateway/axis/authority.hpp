@@ -53,8 +53,11 @@ public:
     [[nodiscard]] const AuthorityClient& commander() const noexcept { return commander_; }
     [[nodiscard]] Instant since() const noexcept { return since_; }
     [[nodiscard]] Instant until() const noexcept { return until_; }
-    /// For register 17: the holder's door; while nobody holds it the one that commanded last, unless that was a holder whose lease has ended.
-    [[nodiscard]] Door door() const noexcept { return holder_.door != Door::none ? holder_.door : given_up_ ? Door::none : commander_.door; }
+    /// For register 17: the holder's door; while nobody holds it the one that commanded last, unless that was a holder whose lease has
+    /// ended.
+    [[nodiscard]] Door door() const noexcept {
+        return holder_.door != Door::none ? holder_.door : given_up_ ? Door::none : commander_.door;
+    }
 
 private:
     [[nodiscard]] bool mine(const AuthorityClient& who) const noexcept;

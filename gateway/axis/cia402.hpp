@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "gateway/axis/authority.hpp"
-#include "gateway/core/command.hpp"
 #include "gateway/axis/image.hpp"
+#include "gateway/core/command.hpp"
 #include "gateway/core/sample.hpp"
 
 namespace axisgate {
@@ -57,7 +57,8 @@ public:
     /// What is to be done about a request. `orders` go to the adapter in this order; with none and no refusal it is done already.
     struct Decision {
         std::vector<CommandBody> orders;
-        std::optional<Move> waits;  ///< a set-point that was buffered behind the running one: on_feedback gives it back when its turn has come
+        /// A set-point that was buffered behind the running one: on_feedback gives it back when its turn has come.
+        std::optional<Move> waits;
         bool refused = false;
         Reason reason = Reason::none;
         std::string text;
@@ -65,8 +66,8 @@ public:
 
     /// Registers 32..47: values are latched, then the control word is followed. Set-points act on edges, never on levels. A word that ends
     /// a motion or the power is followed even if something else in it cannot be; without a drive that answers only such a word is sent.
-    /// `by`: whose registers these are. A set-point moves with the target and the profile that its own door has written, never with another's;
-    /// a profile velocity that this door has not written, or wrote as 0, is refused with the set-point.
+    /// `by`: whose registers these are. A set-point moves with the target and the profile that its own door has written, never with
+    /// another's; a profile velocity that this door has not written, or wrote as 0, is refused with the set-point.
     [[nodiscard]] Decision on_process_data(const ProcessData& data, const Origin& by = {});
     /// The commands of POST /axes/{name}/commands (all bodies but ProcessData, parameters and the like).
     [[nodiscard]] Decision on_command(const CommandBody& body, const Origin& by = {});
@@ -78,8 +79,8 @@ public:
     void end_following();
     /// The drive took an order, or did not.
     void on_order_result(const CommandBody& order, bool good, Instant now);
-    /// What the drive says. Gives back what is to be ordered because of it: a buffered set-point whose turn has come, or the stop of a drive
-    /// that reports a fault and still moves (the fault reaction: asked for again every second until it stands or has no fault).
+    /// What the drive says. Gives back what is to be ordered because of it: a buffered set-point whose turn has come, or the stop of a
+    /// drive that reports a fault and still moves (the fault reaction: asked for again every second until it stands or has no fault).
     [[nodiscard]] std::optional<CommandBody> on_feedback(const AxisFeedback& feedback, Instant now);
     /// Who answers now. A change forgets set-points and buffered motions: nothing moves because something started.
     void on_presence(Presence presence);
@@ -107,11 +108,11 @@ private:
         PowerState state = PowerState::not_ready_to_switch_on;
         Presence presence = Presence::offline;
         AxisFeedback feedback;
-        bool seen = false;                        // since the present presence began
-        Presence heard = Presence::offline;      // whose feedback is kept: offline, nobody's
+        bool seen = false;                   // since the present presence began
+        Presence heard = Presence::offline;  // whose feedback is kept: offline, nobody's
         std::uint16_t controlword = 0;
         std::int16_t mode = cia402::mode_none;
-        std::array<Written, doors> written;      // by Door
+        std::array<Written, doors> written;  // by Door
         // As registers 34..41 show it: written last, or in force since the last motion that a drive took, whoever gave it.
         std::int32_t target_position = 0;
         std::uint32_t profile_velocity = 0;
@@ -120,28 +121,29 @@ private:
         std::int32_t target_velocity = 0;
         std::int16_t homing_method = 0;
         std::uint16_t setpoints_accepted = 0;
-        std::uint16_t virtual_step = 0;          // 0 switch on disabled, 1 ready, 2 switched on: where the drive only knows "off"; 3 enabled by us
-        std::int8_t power_pending = -1;          // -1 none, 0 off ordered, 1 on ordered
-        Instant power_known_at{};                // feedback up to here may be older than the acknowledged power order
-        bool quick_stopped = false;              // quick stop active until left by a control word or command
-        bool setpoint_acknowledged = false;      // bit 12 in mode 1
-        int told_again = 0;                      // moves on their way to the drive that are no new set-points: after a halt, or buffered before
+        std::uint16_t virtual_step = 0;  // 0 switch on disabled, 1 ready, 2 switched on: where the drive only knows "off"; 3 enabled by us
+        std::int8_t power_pending = -1;  // -1 none, 0 off ordered, 1 on ordered
+        Instant power_known_at{};        // feedback up to here may be older than the acknowledged power order
+        bool quick_stopped = false;      // quick stop active until left by a control word or command
+        bool setpoint_acknowledged = false;  // bit 12 in mode 1
+        int told_again = 0;                  // moves on their way to the drive that are no new set-points: after a halt, or buffered before
         bool halted = false;
-        bool homing_refused = false;             // the last homing was not taken: bit 13, and an older "attained" is not shown
-        bool reacting = false;                   // the stop of the present fault is on its way, or was taken
+        bool homing_refused = false;  // the last homing was not taken: bit 13, and an older "attained" is not shown
+        bool reacting = false;        // the stop of the present fault is on its way, or was taken
         Instant reaction_at{};
-        std::int64_t ordered_velocity = 0;       // mode 3: last velocity given to the drive
-        bool following = false;                  // streamed set-points, in a mode of their own
+        std::int64_t ordered_velocity = 0;  // mode 3: last velocity given to the drive
+        bool following = false;             // streamed set-points, in a mode of their own
         std::int16_t mode_before = cia402::mode_none;
-        std::optional<Move> active;              // motion that a halt interrupts and its end continues (absolute target)
-        std::optional<Move> buffered;            // one set-point that waits for the running one
+        std::optional<Move> active;    // motion that a halt interrupts and its end continues (absolute target)
+        std::optional<Move> buffered;  // one set-point that waits for the running one
     };
 
     [[nodiscard]] static PowerState state_when_off(const State& s) noexcept;
     [[nodiscard]] Decision refuse(Reason reason, std::string text) const;
     [[nodiscard]] bool change_unheard(State& s, std::uint16_t before, std::uint16_t cw, Decision& d) const;
     void change_power(State& s, std::uint16_t before, std::uint16_t cw, const AuthorityClient& by, Decision& d) const;
-    [[nodiscard]] bool change_motion(State& s, std::uint16_t before, std::uint16_t cw, const ProcessData& data, Written& own, Decision& d) const;
+    [[nodiscard]] bool change_motion(State& s, std::uint16_t before, std::uint16_t cw, const ProcessData& data, Written& own,
+                                     Decision& d) const;
     void settle(State& s) const;
     static void order_on(State& s, const AuthorityClient& by, Decision& d);
     static void order_off(State& s, Decision& d);

@@ -60,8 +60,8 @@ private:
 
     bool known_ = false;
     Instant since_{};
-    double length_ = 0;     ///< s; infinite for a run
-    DemandState end_;       ///< while an order is taken: the state behind the pieces so far
+    double length_ = 0;  ///< s; infinite for a run
+    DemandState end_;    ///< while an order is taken: the state behind the pieces so far
     std::size_t count_ = 0;
     std::array<Piece, 4> pieces_{};  ///< brake to turn, rise or fall to the speed, cruise, brake to the end
 };

@@ -22,22 +22,29 @@ std::optional<std::int64_t> increments(const std::optional<double>& v, double sc
 std::optional<Refusal> check_position(std::int64_t target, const AxisLimits& l) {
     constexpr std::int64_t low = std::numeric_limits<std::int32_t>::min(), high = std::numeric_limits<std::int32_t>::max();
     if (target < low || target > high) {
-        return Refusal{Reason::out_of_range, fmt::format("target {} is outside the 32 bits of a position ({}..{} increments)", target, low, high)};
+        return Refusal{Reason::out_of_range,
+                       fmt::format("target {} is outside the 32 bits of a position ({}..{} increments)", target, low, high)};
     }
     if (l.position_min && target < *l.position_min) {
-        return Refusal{Reason::out_of_range, fmt::format("target {} is below the axis' position_min {}", in_unit(target, l), in_unit(*l.position_min, l))};
+        return Refusal{Reason::out_of_range,
+                       fmt::format("target {} is below the axis' position_min {}", in_unit(target, l), in_unit(*l.position_min, l))};
     }
     if (l.position_max && target > *l.position_max) {
-        return Refusal{Reason::out_of_range, fmt::format("target {} is above the axis' position_max {}", in_unit(target, l), in_unit(*l.position_max, l))};
+        return Refusal{Reason::out_of_range,
+                       fmt::format("target {} is above the axis' position_max {}", in_unit(target, l), in_unit(*l.position_max, l))};
     }
     return std::nullopt;
 }
 
-std::optional<Refusal> check_rate(std::string_view what, std::optional<std::int64_t> value, std::optional<std::int64_t> max, const AxisLimits& l, std::string_view per) {
+std::optional<Refusal> check_rate(std::string_view what, std::optional<std::int64_t> value, std::optional<std::int64_t> max,
+                                  const AxisLimits& l, std::string_view per) {
     if (!value) return std::nullopt;
     constexpr std::int64_t high = std::numeric_limits<std::uint32_t>::max();
-    if (*value < 1 || *value > high) return Refusal{Reason::out_of_range, fmt::format("{} {} is outside 1..{} increments{}", what, *value, high, per)};
-    if (max && *value > *max) return Refusal{Reason::out_of_range, fmt::format("{} {} is above the axis' limit of {}", what, in_unit(*value, l, per), in_unit(*max, l, per))};
+    if (*value < 1 || *value > high)
+        return Refusal{Reason::out_of_range, fmt::format("{} {} is outside 1..{} increments{}", what, *value, high, per)};
+    if (max && *value > *max)
+        return Refusal{Reason::out_of_range,
+                       fmt::format("{} {} is above the axis' limit of {}", what, in_unit(*value, l, per), in_unit(*max, l, per))};
     return std::nullopt;
 }
 }  // namespace
@@ -61,18 +68,23 @@ AxisLimits AxisLimits::of(const AxisSpec& a) {
 std::optional<Refusal> guard_move(const Move& m, const AxisLimits& l, std::int64_t position) {
     if (m.kind == Move::Kind::velocity) {
         constexpr std::int64_t high = std::numeric_limits<std::int32_t>::max();
-        if (m.target < -high || m.target > high) return Refusal{Reason::out_of_range, fmt::format("velocity {} is outside -{}..{} increments/s", m.target, high, high)};
+        if (m.target < -high || m.target > high)
+            return Refusal{Reason::out_of_range, fmt::format("velocity {} is outside -{}..{} increments/s", m.target, high, high)};
         if (l.velocity_max && std::llabs(m.target) > *l.velocity_max) {
-            return Refusal{Reason::out_of_range, fmt::format("velocity {} is above the axis' limit of {}", in_unit(m.target, l, "/s"), in_unit(*l.velocity_max, l, "/s"))};
+            return Refusal{Reason::out_of_range, fmt::format("velocity {} is above the axis' limit of {}", in_unit(m.target, l, "/s"),
+                                                             in_unit(*l.velocity_max, l, "/s"))};
         }
-        if ((m.target > 0 && l.position_max && position >= *l.position_max) || (m.target < 0 && l.position_min && position <= *l.position_min)) {
+        if ((m.target > 0 && l.position_max && position >= *l.position_max) ||
+            (m.target < 0 && l.position_min && position <= *l.position_min)) {
             const bool up = m.target > 0;
-            return Refusal{Reason::out_of_range, fmt::format("the axis is at {}, its {} is {}: it may only move the other way", in_unit(position, l),
-                                                             up ? "position_max" : "position_min", in_unit(up ? *l.position_max : *l.position_min, l))};
+            return Refusal{Reason::out_of_range,
+                           fmt::format("the axis is at {}, its {} is {}: it may only move the other way", in_unit(position, l),
+                                       up ? "position_max" : "position_min", in_unit(up ? *l.position_max : *l.position_min, l))};
         }
     } else {
         std::int64_t target = m.target;
-        if (m.kind == Move::Kind::relative && __builtin_add_overflow(position, m.target, &target)) target = std::numeric_limits<std::int64_t>::max();
+        if (m.kind == Move::Kind::relative && __builtin_add_overflow(position, m.target, &target))
+            target = std::numeric_limits<std::int64_t>::max();
         if (auto r = check_position(target, l)) return r;
     }
     if (auto r = check_rate("velocity", m.velocity, l.velocity_max, l, "/s")) return r;
@@ -97,7 +109,8 @@ std::optional<Refusal> guard_mode(std::int16_t mode, std::span<const std::int16_
 }
 
 std::optional<Refusal> guard_process_data(const ProcessData& d, const AxisLimits& l) {
-    const auto rate = [&](std::string_view what, std::optional<std::uint32_t> v, std::optional<std::int64_t> max, std::string_view per) -> std::optional<Refusal> {
+    const auto rate = [&](std::string_view what, std::optional<std::uint32_t> v, std::optional<std::int64_t> max,
+                          std::string_view per) -> std::optional<Refusal> {
         if (!v || *v == 0) return std::nullopt;  // 0: as the drive has it
         return check_rate(what, static_cast<std::int64_t>(*v), max, l, per);
     };

@@ -3,10 +3,10 @@
 // Never torn: a reader sees one whole AxisPicture or another, on every thread.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <cstring>
-#include <array>
 #include <memory>
 #include <type_traits>
 #include <vector>
@@ -23,22 +23,24 @@ enum class Presence : std::uint8_t { offline, device, twin };  ///< who answers 
 /// Everything that a door shows of an axis. Plain data of fixed size.
 struct AxisPicture {
     // identity (from the site)
-    std::uint16_t number = 0;         ///< 1-based axis number of the register map; 0: this axis is not configured (removed)
+    std::uint16_t number = 0;  ///< 1-based axis number of the register map; 0: this axis is not configured (removed)
     std::uint16_t family_number = 0;
     // what the drive says
-    std::int64_t position = 0;        ///< increments
-    std::int64_t position_demand = 0; ///< increments; equals the position unless the drive says it or it is computed
-    std::int64_t velocity = 0;        ///< increments/s
+    std::int64_t position = 0;         ///< increments
+    std::int64_t position_demand = 0;  ///< increments; equals the position unless the drive says it or it is computed
+    std::int64_t velocity = 0;         ///< increments/s
     std::uint32_t native_status = 0;
-    std::uint16_t error_code = 0;     ///< the drive's own
+    std::uint16_t error_code = 0;  ///< the drive's own
     // CiA 402
-    std::uint16_t statusword = 0;     ///< with 8 simulated, 14 stale, 15 referenced
-    std::int16_t mode_display = 0;    ///< modes of operation display
-    std::uint16_t flags = 0;          ///< register 9: 0 online, 1 simulated, 2 stale, 3 referenced, 4 moving, 5 target reached, 6 fault, 7 warning, 8 fail-safe
-    std::uint16_t fail_safe_cause = 0;  ///< register 22: the LossCause for which the axis was stopped without a command, until the next command
+    std::uint16_t statusword = 0;   ///< with 8 simulated, 14 stale, 15 referenced
+    std::int16_t mode_display = 0;  ///< modes of operation display
+    /// Register 9: 0 online, 1 simulated, 2 stale, 3 referenced, 4 moving, 5 target reached, 6 fault, 7 warning, 8 fail-safe.
+    std::uint16_t flags = 0;
+    /// Register 22: the LossCause for which the axis was stopped without a command, until the next command.
+    std::uint16_t fail_safe_cause = 0;
     // set-points as last accepted (registers 32..47 read back)
     std::uint16_t controlword = 0;
-    std::int16_t mode = 0;            ///< modes of operation
+    std::int16_t mode = 0;  ///< modes of operation
     std::int32_t target_position = 0;
     std::uint32_t profile_velocity = 0;
     std::uint32_t profile_acceleration = 0;
@@ -52,11 +54,12 @@ struct AxisPicture {
     std::array<char, 64> authority_holder{};     ///< the holder's name, ends with 0; empty: nobody
     std::array<char, 64> authority_commander{};  ///< who commanded last: "modbus 192.0.2.7"
     Presence presence = Presence::offline;
-    bool ever_seen = false;                ///< feedback has arrived at least once: position, velocity, error code and `at` are the last ones
+    bool ever_seen = false;  ///< feedback has arrived at least once: position, velocity, error code and `at` are the last ones
     DemandSource demand_source = DemandSource::none;  ///< whose word position_demand is
-    bool current = false;                  ///< it has, since who serves the axis has answered again
-    Instant at{};                          ///< when the drive said it
-    std::uint32_t source = 0;              ///< another number when another drive, channel or twin speaks for the axis: what was said before is not its word
+    bool current = false;                             ///< it has, since who serves the axis has answered again
+    Instant at{};                                     ///< when the drive said it
+    /// Another number when another drive, channel or twin speaks for the axis: what was said before is not its word.
+    std::uint32_t source = 0;
     /// The command whose motion the drive took last; no_ticket: none yet, or a stop after it.
     Ticket motion_ticket = no_ticket;
 
@@ -68,14 +71,17 @@ struct AxisPicture {
         Reason::none;  ///< why the newest one was not handed on, or why the stream ended; none: it was, or none came yet
 
     /// Somebody says where the axis should be, and something else where it is.
-    [[nodiscard]] constexpr bool following_error_known() const noexcept { return demand_source == DemandSource::drive || demand_source == DemandSource::computed; }
+    [[nodiscard]] constexpr bool following_error_known() const noexcept {
+        return demand_source == DemandSource::drive || demand_source == DemandSource::computed;
+    }
     /// Demand less position (CiA 402 60F4h), increments; 0 while it is not known.
     [[nodiscard]] constexpr std::int64_t following_error() const noexcept { return position_demand - position; }
 };
 static_assert(std::is_trivially_copyable_v<AxisPicture>);
 
 inline constexpr std::uint16_t flag_online = 1u << 0, flag_simulated = 1u << 1, flag_stale = 1u << 2, flag_referenced = 1u << 3,
-                               flag_moving = 1u << 4, flag_target_reached = 1u << 5, flag_fault = 1u << 6, flag_warning = 1u << 7, flag_fail_safe = 1u << 8;
+                               flag_moving = 1u << 4, flag_target_reached = 1u << 5, flag_fault = 1u << 6, flag_warning = 1u << 7,
+                               flag_fail_safe = 1u << 8;
 
 /// One AxisPicture behind a sequence lock: one writer (the hot thread), any number of readers; readers never delay the writer.
 class AxisCell {
@@ -87,14 +93,16 @@ public:
         // released after it; and no word is read after the sequence is looked at again, because each is acquired.
         const auto s = sequence_.load(std::memory_order_relaxed);
         sequence_.store(s + 1, std::memory_order_relaxed);
-        for (std::size_t i = 0; i < word_count; ++i) words_[i].store(words[i], std::memory_order_release);
+        for (std::size_t i = 0; i < word_count; ++i)
+            words_[i].store(words[i], std::memory_order_release);
         sequence_.store(s + 2, std::memory_order_release);
     }
     [[nodiscard]] AxisPicture read() const noexcept {
         std::uint64_t words[word_count];
         for (;;) {
             const auto before = sequence_.load(std::memory_order_acquire);
-            for (std::size_t i = 0; i < word_count; ++i) words[i] = words_[i].load(std::memory_order_acquire);
+            for (std::size_t i = 0; i < word_count; ++i)
+                words[i] = words_[i].load(std::memory_order_acquire);
             if ((before & 1u) == 0 && sequence_.load(std::memory_order_relaxed) == before) break;
         }
         AxisPicture p;
@@ -114,11 +122,13 @@ private:
 class Image {
 public:
     static constexpr std::size_t max_axes = axisgate::max_axes;  ///< axis numbers of the register map: 1..1024 (65536 / 64)
-    static constexpr std::size_t max_ids = 16384;  ///< ids are not given twice: so many axes can be added before a restart
+    static constexpr std::size_t max_ids = 16384;                ///< ids are not given twice: so many axes can be added before a restart
 
     /// Hot thread: the picture to read or change; call publish afterwards.
     [[nodiscard]] AxisPicture& picture(AxisId id) noexcept { return chunks_[index_of(id) / chunk]->pictures[index_of(id) % chunk]; }
-    [[nodiscard]] const AxisPicture& picture(AxisId id) const noexcept { return chunks_[index_of(id) / chunk]->pictures[index_of(id) % chunk]; }
+    [[nodiscard]] const AxisPicture& picture(AxisId id) const noexcept {
+        return chunks_[index_of(id) / chunk]->pictures[index_of(id) % chunk];
+    }
     void publish(AxisId id) noexcept {
         cell_of(id).write(picture(id));
         ++changes_;

@@ -90,8 +90,9 @@ struct Adapter {
     virtual void on_set_point(const SetPoint& set_point, Instant /*now*/, Out& out) {
         out.stream_ends.push_back({set_point.axis, Reason::not_supported, "its adapter takes no streamed set-points"});
     }
-    /// Of an axis whose drive follows each set-point within a time of its own (CiA 402's interpolation time period, 60C2): that time. What it is
-    /// given next is bound by it and the site's limits: no further than the fastest allowed motion comes in it. 0: the drive makes its own ramps.
+    /// Of an axis whose drive follows each set-point within a time of its own (CiA 402's interpolation time period, 60C2): that time. What
+    /// it is given next is bound by it and the site's limits: no further than the fastest allowed motion comes in it. 0: the drive makes
+    /// its own ramps.
     [[nodiscard]] virtual Duration interpolation_time(AxisId /*axis*/) const { return {}; }
     virtual void on_frame(const Frame& frame, Instant now, Out& out) = 0;
     virtual void on_deadline(Instant now, Out& out) = 0;

@@ -2,8 +2,8 @@
 // In: the JSON text. Out: tables and lookups; all faults at once. Never guesses: a missing field is a fault, a null is "not known".
 #include "gateway/core/catalogue.hpp"
 
-#include <boost/json/parse.hpp>
 #include <fmt/core.h>
+#include <boost/json/parse.hpp>
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,8 @@ namespace axisgate {
 namespace {
 namespace json = boost::json;
 
-constexpr std::array<std::string_view, 6> completion_names{"acknowledged", "target_reached", "standstill", "powered", "online_again", "reported"};
+constexpr std::array<std::string_view, 6> completion_names{"acknowledged", "target_reached", "standstill",
+                                                           "powered",      "online_again",   "reported"};
 
 std::string text_or_empty(const json::object& o, std::string_view key) {
     const auto* v = o.if_contains(key);
@@ -155,12 +156,17 @@ std::optional<Catalogue> Catalogue::parse(std::string_view text, std::vector<std
         for (const auto& v : *list) {
             if (v.is_object()) {
                 const auto& o = v.get_object();
-                CatalogueCommand command{text_or_empty(o, "id"), text_or_empty(o, "name"), text_or_empty(o, "description"), Completion::acknowledged, {}};
+                CatalogueCommand command{
+                    text_or_empty(o, "id"), text_or_empty(o, "name"), text_or_empty(o, "description"), Completion::acknowledged, {}};
                 Reader{faults}.arguments(o, "commands: " + command.id, command.arguments);
+                if (const auto* ask = o.if_contains("confirm"); ask && !(ask->is_string() && ask->get_string().ends_with('.')))
+                    faults.push_back(fmt::format("commands: {}: confirm: sentences that say what is lost, or leave it out", command.id));
                 if (const std::string word = text_or_empty(o, "completes"); !word.empty()) {
                     const auto found = std::ranges::find(completion_names, word);
-                    if (found == completion_names.end()) faults.push_back(fmt::format("commands: {}: completes: {} is not known", command.id, word));
-                    else command.completes = static_cast<Completion>(found - completion_names.begin());
+                    if (found == completion_names.end())
+                        faults.push_back(fmt::format("commands: {}: completes: {} is not known", command.id, word));
+                    else
+                        command.completes = static_cast<Completion>(found - completion_names.begin());
                 }
                 c.commands_.push_back(std::move(command));
             }
@@ -241,7 +247,8 @@ bool Catalogue::offers_mode(std::int16_t mode) const noexcept { return std::rang
 std::string_view name_of(Completion completion) noexcept { return completion_names[static_cast<std::size_t>(completion)]; }
 
 const CatalogueCommand* Catalogue::command(std::string_view id_or_name) const noexcept {
-    const auto found = std::ranges::find_if(commands_, [&](const CatalogueCommand& c) { return c.id == id_or_name || c.name == id_or_name; });
+    const auto found =
+        std::ranges::find_if(commands_, [&](const CatalogueCommand& c) { return c.id == id_or_name || c.name == id_or_name; });
     return found == commands_.end() ? nullptr : &*found;
 }
 
@@ -305,7 +312,9 @@ Catalogue::Checked Catalogue::check_write(Point point, const Value& value) const
             return {{}, fmt::format("{}: {} is more than a number of single precision can be (3.4028235e+38)", id, *d)};
         }
         if ((p->min && *d < *p->min) || (p->max && *d > *p->max)) {
-            return {{}, fmt::format("{}: {} is outside {}..{}{}", id, *d, p->min ? fmt::format("{}", *p->min) : "", p->max ? fmt::format("{}", *p->max) : "", unit)};
+            return {{},
+                    fmt::format("{}: {} is outside {}..{}{}", id, *d, p->min ? fmt::format("{}", *p->min) : "",
+                                p->max ? fmt::format("{}", *p->max) : "", unit)};
         }
         return {*d, {}};
     }

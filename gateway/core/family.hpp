@@ -27,7 +27,7 @@ struct CatalogueWish {
 };
 struct OwnCatalogue {
     std::shared_ptr<const Catalogue> catalogue{};  ///< null: the family's page is the drive's
-    std::string fault{};                           ///< what is wrong with the options and what would be right: the site is refused; empty: nothing
+    std::string fault{};  ///< what is wrong with the options and what would be right: the site is refused; empty: nothing
 };
 
 /// Turns recorded frames into one readable line each. Has state, because some languages need the request to read the answer.

@@ -31,7 +31,7 @@ struct Frame {
     /// Which of the gateway's adapters on its line sends it: those that wait leave in turn by sender. Not on the wire; 0 if there is one.
     std::uint8_t sender = 0;
     std::uint16_t size = 0;
-    std::uint32_t id = 0;  ///< 11 or 29 bits; 0 for bytes
+    std::uint32_t id = 0;                        ///< 11 or 29 bits; 0 for bytes
     std::array<std::uint8_t, capacity> storage;  // deliberately not cleared: `size` says what is valid
 
     Frame() noexcept {}  // NOLINT(modernize-use-equals-default): `= default` would clear `storage` in value-initialisation
@@ -95,10 +95,10 @@ enum class Priority : std::uint8_t { urgent, command, poll };
 
 /// One recorded frame.
 struct TraceEntry {
-    std::uint64_t sequence = 0;        ///< counts up per line; a gap means that older ones were overwritten
+    std::uint64_t sequence = 0;  ///< counts up per line; a gap means that older ones were overwritten
     std::int64_t at_unix_ns = 0;
     bool to_drive = false;
-    bool simulated = false;            ///< crossed the twin bus, not the cable
+    bool simulated = false;  ///< crossed the twin bus, not the cable
     Frame frame;
 };
 

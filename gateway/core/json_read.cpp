@@ -21,7 +21,8 @@ constexpr std::size_t most_shown_name = 64, most_shown_pointer = 512;  // a name
 /// At most so many bytes, not cut in the middle of a letter.
 std::string shortened(std::string_view s, std::size_t most) {
     if (s.size() <= most) return std::string(s);
-    while (most > 0 && (static_cast<unsigned char>(s[most]) & 0xC0u) == 0x80u) --most;
+    while (most > 0 && (static_cast<unsigned char>(s[most]) & 0xC0u) == 0x80u)
+        --most;
     return std::string(s.substr(0, most)) + "...";
 }
 
@@ -157,7 +158,8 @@ std::optional<json::value> read_json(std::string_view text, JsonFault& fault) {
     const std::size_t used = parser.write_some(false, text.data(), text.size(), ec);
     if (!ec && used == text.size()) return parser.handler().release();
     fault = {};
-    fault.line = 1 + static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(used, text.size())), '\n'));
+    fault.line = 1 + static_cast<std::size_t>(
+                         std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(used, text.size())), '\n'));
     const Builder& builder = parser.handler();
     fault.twice = builder.found_twice();
     fault.text = fault.twice ? fmt::format("the member \"{}\" stands twice", shortened(builder.name_that_stands_twice(), most_shown_name))

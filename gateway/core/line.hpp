@@ -23,17 +23,17 @@ struct LineEvents {
 struct LineStatus {
     enum class State : std::uint8_t { closed, opening, up, down, bus_off };
     State state = State::closed;
-    std::string text;                ///< for people: "up at 1000000 bit/s", "cannot open /dev/ttyUSB0: no such file"
-    std::uint64_t frames_in = 0;     ///< CAN frames, or runs of bytes
+    std::string text;             ///< for people: "up at 1000000 bit/s", "cannot open /dev/ttyUSB0: no such file"
+    std::uint64_t frames_in = 0;  ///< CAN frames, or runs of bytes
     std::uint64_t frames_out = 0;
     std::uint64_t bytes_in = 0;
     std::uint64_t bytes_out = 0;
-    std::uint64_t dropped = 0;       ///< frames that found the queue full
-    std::uint64_t errors = 0;        ///< controller errors, framing errors, failed writes
-    std::uint64_t reopened = 0;      ///< times the line came back
-    std::uint32_t queued = 0;        ///< frames waiting now
-    double load = 0;                 ///< share of the bit rate used in the last second, 0..1; 0 where there is no bit rate
-    std::uint8_t tx_errors = 0;      ///< CAN controller's counters, where it tells them
+    std::uint64_t dropped = 0;   ///< frames that found the queue full
+    std::uint64_t errors = 0;    ///< controller errors, framing errors, failed writes
+    std::uint64_t reopened = 0;  ///< times the line came back
+    std::uint32_t queued = 0;    ///< frames waiting now
+    double load = 0;             ///< share of the bit rate used in the last second, 0..1; 0 where there is no bit rate
+    std::uint8_t tx_errors = 0;  ///< CAN controller's counters, where it tells them
     std::uint8_t rx_errors = 0;
 };
 [[nodiscard]] std::string_view name_of(LineStatus::State state) noexcept;

@@ -37,7 +37,7 @@ PlaceVerdict find_place(std::span<const Guest> guests, PlaceHolder newcomer, boo
         ++count[g.holder];
         if (g.standing == Standing::stop_path) paths[g.holder].push_back(g.since);
     }
-    ++count[newcomer];  // who comes with one more has one more
+    ++count[newcomer];                                     // who comes with one more has one more
     std::unordered_map<PlaceHolder, Instant> oldest_path;  // of those that never give way
     for (auto& [holder, list] : paths) {
         const std::size_t last = std::min(rules.paths, list.size());

@@ -20,11 +20,11 @@ using PlaceHolder = std::uint64_t;
 
 /// In the order in which they give way.
 enum class Standing : std::uint8_t {
-    stranger,       ///< nobody has signed in on it, or commanded, and nothing is being worked on: silent, or half a request
-    strangers_work, ///< the same, in the middle of something that ends by itself soon
-    known,          ///< signed in, or has commanded; nothing is being worked on
-    knowns_work,    ///< the same, in the middle of something
-    stop_path       ///< its client has set something in motion over it
+    stranger,        ///< nobody has signed in on it, or commanded, and nothing is being worked on: silent, or half a request
+    strangers_work,  ///< the same, in the middle of something that ends by itself soon
+    known,           ///< signed in, or has commanded; nothing is being worked on
+    knowns_work,     ///< the same, in the middle of something
+    stop_path        ///< its client has set something in motion over it
 };
 
 struct Guest {
@@ -45,8 +45,9 @@ struct PlaceVerdict {
 };
 
 /// Strangers who do nothing go first, from the holder that has most connections, the one that has been silent for longest; then known ones
-/// in the same way. What is in the middle of something goes only if its holder has more than an eighth of all places and more than 8. `known`: of the new
-/// one. `full`: there is no room for another reason (descriptors).
-[[nodiscard]] PlaceVerdict find_place(std::span<const Guest> guests, PlaceHolder newcomer, bool known, const PlaceRules& rules, bool full = false);
+/// in the same way. What is in the middle of something goes only if its holder has more than an eighth of all places and more than 8.
+/// `known`: of the new one. `full`: there is no room for another reason (descriptors).
+[[nodiscard]] PlaceVerdict find_place(std::span<const Guest> guests, PlaceHolder newcomer, bool known, const PlaceRules& rules,
+                                      bool full = false);
 
 }  // namespace axisgate

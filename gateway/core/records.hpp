@@ -1,5 +1,6 @@
-// Records: what is kept of a site over restarts, as plain values: stored parameters, snapshots, revisions of the site, and questions for events.
-// In: built from acknowledged writes and from people's requests. Out: the store, services and doors. Never holds ids of the running process.
+// Records: what is kept of a site over restarts, as plain values: stored parameters, snapshots, revisions of the site, and questions for
+// events. In: built from acknowledged writes and from people's requests. Out: the store, services and doors. Never holds ids of the running
+// process.
 #pragma once
 
 #include <cstdint>
@@ -14,18 +15,18 @@
 namespace axisgate {
 
 struct EventQuery {
-    std::uint64_t since_id = 0;       ///< events with a greater id
-    std::int64_t since_unix_ns = 0;   ///< and not older than this
-    std::string axis;                 ///< empty: any
+    std::uint64_t since_id = 0;      ///< events with a greater id
+    std::int64_t since_unix_ns = 0;  ///< and not older than this
+    std::string axis;                ///< empty: any
     std::optional<Severity> at_least;
-    std::size_t limit = 200;          ///< 1..1000; the newest ones if there are more, or the oldest ones
-    bool oldest_first = false;        ///< the oldest ones if there are more than `limit`: for reading on from `since_id`
-    std::string kind;                 ///< empty: any
-    std::uint64_t before_id = 0;      ///< events with a smaller id, for paging backwards; 0: no bound
+    std::size_t limit = 200;      ///< 1..1000; the newest ones if there are more, or the oldest ones
+    bool oldest_first = false;    ///< the oldest ones if there are more than `limit`: for reading on from `since_id`
+    std::string kind;             ///< empty: any
+    std::uint64_t before_id = 0;  ///< events with a smaller id, for paging backwards; 0: no bound
 };
 
 struct StoredParameter {
-    std::string parameter;            ///< catalogue id
+    std::string parameter;  ///< catalogue id
     Value value;
     Value previous;
     std::string who, door;

@@ -28,20 +28,20 @@ struct AxisSetup {
 struct DriveSetup {
     DriveId id = no_drive;
     std::string name;
-    std::string address;                         ///< in the family's own form, checked by Family::check_address
+    std::string address;  ///< in the family's own form, checked by Family::check_address
     std::vector<AxisSetup> axes;
-    std::map<std::string, std::string> options;  ///< the drive's "options" of the site, values as text; see the family's README
+    std::map<std::string, std::string> options;    ///< the drive's "options" of the site, values as text; see the family's README
     std::shared_ptr<const Catalogue> catalogue{};  ///< by which its points are numbered; null: the family's page
 };
 
 /// How one talks on the line. A Duration of zero means: the family's own default.
 struct LineManners {
-    Duration reply_timeout{};   ///< wait for one answer
-    Duration poll_period{};     ///< time between two polls of the same axis
-    Duration pause{};           ///< silence kept between an answer and the next request
-    int retries = -1;           ///< further attempts of a repeatable exchange; -1: the family's default
-    int silent_limit = 3;       ///< exchanges without an answer after which a drive counts as absent
-    Duration stale_after{};     ///< age from which feedback counts as stale; zero: 1 s on CAN, 3 s on byte lines
+    Duration reply_timeout{};  ///< wait for one answer
+    Duration poll_period{};    ///< time between two polls of the same axis
+    Duration pause{};          ///< silence kept between an answer and the next request
+    int retries = -1;          ///< further attempts of a repeatable exchange; -1: the family's default
+    int silent_limit = 3;      ///< exchanges without an answer after which a drive counts as absent
+    Duration stale_after{};    ///< age from which feedback counts as stale; zero: 1 s on CAN, 3 s on byte lines
     Duration retry_pause_min = std::chrono::milliseconds(200);  ///< first pause before an absent drive is tried again ...
     Duration retry_pause_max = std::chrono::seconds(5);         ///< ... which doubles up to this
 };
@@ -50,15 +50,16 @@ struct LineSetup {
     LineId id = no_line;
     std::string name;
     LineKind kind = LineKind::bytes;
-    std::uint32_t bit_rate = 0;                  ///< bit/s; 0: not known (TCP)
-    std::uint8_t bits_per_byte = 10;             ///< start, data, parity and stop bits of a byte on a serial line
+    std::uint32_t bit_rate = 0;       ///< bit/s; 0: not known (TCP)
+    std::uint8_t bits_per_byte = 10;  ///< start, data, parity and stop bits of a byte on a serial line
     LineManners manners;
     std::map<std::string, std::string> options;  ///< the line's "options" of the site
     std::vector<DriveSetup> drives;
 };
 
 /// Value of an option, or `fallback`.
-[[nodiscard]] inline std::string option(const std::map<std::string, std::string>& options, const std::string& name, std::string_view fallback) {
+[[nodiscard]] inline std::string option(const std::map<std::string, std::string>& options, const std::string& name,
+                                        std::string_view fallback) {
     const auto it = options.find(name);
     return it == options.end() ? std::string(fallback) : it->second;
 }

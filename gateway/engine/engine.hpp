@@ -13,17 +13,17 @@
 
 #include "gateway/axis/authority.hpp"
 #include "gateway/axis/cia402.hpp"
-#include "gateway/engine/door.hpp"
-#include "gateway/site/fail_safe.hpp"
-#include "gateway/wire/frame_log.hpp"
+#include "gateway/axis/guard.hpp"
 #include "gateway/core/event.hpp"
+#include "gateway/core/line.hpp"
 #include "gateway/core/scan.hpp"
 #include "gateway/core/twin.hpp"
+#include "gateway/engine/door.hpp"
 #include "gateway/engine/report.hpp"
-#include "gateway/site/site_state.hpp"
-#include "gateway/axis/guard.hpp"
-#include "gateway/core/line.hpp"
+#include "gateway/site/fail_safe.hpp"
 #include "gateway/site/site.hpp"
+#include "gateway/site/site_state.hpp"
+#include "gateway/wire/frame_log.hpp"
 #include "gateway/wire/twin_bus.hpp"
 
 namespace axisgate {
@@ -70,8 +70,8 @@ public:
     /// Puts a checked site in force, at once. Lines, drives and axes that are the same go on undisturbed.
     std::shared_ptr<const SiteState> apply_site(Site site, SiteMemory memory, std::uint64_t revision, Instant now);
     using Applied = std::function<void(std::shared_ptr<const SiteState>)>;
-    /// apply_site, after what the site takes away or makes anew while it moves has been stopped by its drive's own means. `then` is told as soon
-    /// as all of it stands, 5 s later at the latest, or from inside this call where nothing moves.
+    /// apply_site, after what the site takes away or makes anew while it moves has been stopped by its drive's own means. `then` is told as
+    /// soon as all of it stands, 5 s later at the latest, or from inside this call where nothing moves.
     void change_site(Site site, SiteMemory memory, std::uint64_t revision, Instant now, Applied then);
     [[nodiscard]] const std::shared_ptr<const SiteState>& site() const noexcept { return site_; }
 
@@ -92,8 +92,8 @@ public:
 
     [[nodiscard]] Instant deadline() const;
     void on_deadline(Instant now);
-    /// Nothing moves, nobody waits for an answer, and for a second nothing was commanded, found or lost: what is due may be met together with
-    /// what is due a little later.
+    /// Nothing moves, nobody waits for an answer, and for a second nothing was commanded, found or lost: what is due may be met together
+    /// with what is due a little later.
     [[nodiscard]] bool at_rest(Instant now) const noexcept;
 
     [[nodiscard]] const Catalogue* catalogue(AxisId axis) const;
@@ -107,7 +107,8 @@ public:
     [[nodiscard]] std::shared_ptr<const FrameLog> frame_log(LineId line) const;
     /// The tester's hand; nullptr-free only for drives that are simulated now.
     [[nodiscard]] Twin* twin(DriveId drive);
-    [[nodiscard]] std::string set_hand(DriveId drive, const std::vector<std::pair<std::string, Value>>& items, const Origin& origin, Instant now);
+    [[nodiscard]] std::string set_hand(DriveId drive, const std::vector<std::pair<std::string, Value>>& items, const Origin& origin,
+                                       Instant now);
     /// True as soon as every line is up, or its drives are served by twins, or its first attempts have failed for good reason.
     [[nodiscard]] bool settled() const;
     /// What is not as it should be, a sentence each: lines down, drives offline.
@@ -231,12 +232,12 @@ private:
     EngineHost& host_;
     Image& image_;
     std::shared_ptr<const SiteState> site_;
-    std::vector<std::unique_ptr<LineUnit>> lines_;    // by LineId; null: removed
-    std::vector<std::unique_ptr<Drive>> drives_;      // by DriveId
-    std::vector<std::unique_ptr<Axis>> axes_;         // by AxisId
-    std::vector<Side*> sides_;                        // all that exist, for the deadline scan
-    std::unordered_map<std::uint64_t, std::unique_ptr<Client>> clients_;   // by own number
-    std::unordered_map<Ticket, OrderRecord> orders_;  // by the ticket that the adapter or the store has
+    std::vector<std::unique_ptr<LineUnit>> lines_;                        // by LineId; null: removed
+    std::vector<std::unique_ptr<Drive>> drives_;                          // by DriveId
+    std::vector<std::unique_ptr<Axis>> axes_;                             // by AxisId
+    std::vector<Side*> sides_;                                            // all that exist, for the deadline scan
+    std::unordered_map<std::uint64_t, std::unique_ptr<Client>> clients_;  // by own number
+    std::unordered_map<Ticket, OrderRecord> orders_;                      // by the ticket that the adapter or the store has
     std::vector<Out> spare_;
     std::unique_ptr<Change> change_;
     std::uint64_t next_ = 1;

@@ -43,7 +43,8 @@ DriveStatus Engine::drive_status(DriveId id) const {
     if (!d) return s;
     s.presence = d->serving;
     s.device_online = d->device_online;
-    if ((d->serving == Presence::device && !d->device_online) || (d->serving == Presence::twin && !d->twin_online)) s.presence = Presence::offline;
+    if ((d->serving == Presence::device && !d->device_online) || (d->serving == Presence::twin && !d->twin_online))
+        s.presence = Presence::offline;
     s.text = d->why;
     s.simulated = d->serving == Presence::twin;
     const DriveLink& serving = s.simulated ? d->twin_link : d->device_link;
@@ -95,7 +96,8 @@ bool Engine::settled() const {
     for (const auto& d : drives_) {
         if (!d) continue;
         const Side* real = d->line->real.get();
-        const bool served = d->serving == Presence::twin ? d->twin_online : (d->serving == Presence::device && (d->device_online || (real && real->tried)));
+        const bool served =
+            d->serving == Presence::twin ? d->twin_online : (d->serving == Presence::device && (d->device_online || (real && real->tried)));
         if (!served) return false;
         // Whoever is told `ready` commands at once: an axis whose drive answers has also said where it is.
         const bool answers = d->serving == Presence::twin ? d->twin_online : d->device_online;
@@ -111,12 +113,14 @@ std::vector<std::string> Engine::complaints() const {
     std::vector<std::string> out;
     for (const auto& l : lines_) {
         if (l && l->real && !l->real->up) {
-            const bool needed = std::ranges::any_of(l->drives, [&](DriveId id) { return drives_[index_of(id)]->spec.presence == PresenceRule::device; });
+            const bool needed =
+                std::ranges::any_of(l->drives, [&](DriveId id) { return drives_[index_of(id)]->spec.presence == PresenceRule::device; });
             if (needed) out.push_back(fmt::format("line {} is down: {}", l->spec.name, l->real->why));
         }
     }
     for (const auto& d : drives_) {
-        if (d && ((d->serving == Presence::device && !d->device_online) || (d->serving == Presence::twin && !d->twin_online) || d->serving == Presence::offline)) {
+        if (d && ((d->serving == Presence::device && !d->device_online) || (d->serving == Presence::twin && !d->twin_online) ||
+                  d->serving == Presence::offline)) {
             out.push_back(fmt::format("drive {} does not answer: {}", d->spec.name, d->why));
         }
     }

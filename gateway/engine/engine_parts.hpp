@@ -156,12 +156,12 @@ struct Engine::Axis {
         AuthorityClient who;
         Origin origin;
         std::int64_t value = 0;  ///< of the newest one that was handed to the drive
-        Instant renewed{};  ///< by one that was handed to the drive: a refused one keeps nothing alive
+        Instant renewed{};       ///< by one that was handed to the drive: a refused one keeps nothing alive
         Duration good_for{};
         std::uint32_t taken = 0, refused = 0;
         Reason refusal = Reason::none;  ///< of the newest one, or of the stream
         Instant tell_again_at{};
-        bool untold = false;  ///< the present refusal has not been told in words
+        bool untold = false;       ///< the present refusal has not been told in words
         AuthorityClient ended_by;  ///< whose stream was the last; it must pause before its next one
         Instant ended_heard{};     ///< when it sent one last, since then
         Reason ended_for = Reason::none;

@@ -24,7 +24,8 @@ void Engine::line_state(Side& side, bool up, const std::string& why, Instant now
         e.severity = up ? Severity::info : Severity::warning;
         e.kind = "line";
         e.line = side.unit.spec.name;
-        e.text = up ? fmt::format("line {} is up: {}", side.unit.spec.name, why) : fmt::format("line {} is down: {}", side.unit.spec.name, why);
+        e.text =
+            up ? fmt::format("line {} is up: {}", side.unit.spec.name, why) : fmt::format("line {} is down: {}", side.unit.spec.name, why);
         event(std::move(e), now);
     }
     for (const auto& s : side.speakers)
@@ -87,14 +88,17 @@ void Engine::decide_presence(Drive& d, Instant now) {
             if (d.serving != Presence::device) serve(d, Presence::device, "the site wants the real drive only", now);
             return;
         case PresenceRule::twin:
-            if (d.serving != Presence::twin) serve(d, Presence::twin, line_has_device ? "the site wants the embedded model" : "the line has embedded drives alone", now);
+            if (d.serving != Presence::twin)
+                serve(d, Presence::twin, line_has_device ? "the site wants the embedded model" : "the line has embedded drives alone", now);
             return;
-        case PresenceRule::automatic: break;
+        case PresenceRule::automatic:
+            break;
     }
     if (d.serving == Presence::offline) {
         if (d.device_online) {
             serve(d, Presence::device, "the drive answers", now);
-        } else if (const Side& real = *d.line->real; (real.tried && !real.up) || d.device_link.silent_exchanges > 0 || now - d.waiting_since >= first_answer_limit) {
+        } else if (const Side& real = *d.line->real;
+                   (real.tried && !real.up) || d.device_link.silent_exchanges > 0 || now - d.waiting_since >= first_answer_limit) {
             serve(d, Presence::twin, real.up ? "no drive answered" : fmt::format("line {} is down", d.line->spec.name), now);
         }
         return;
@@ -102,10 +106,13 @@ void Engine::decide_presence(Drive& d, Instant now) {
     if (d.serving == Presence::device) {
         if (d.device_online) return;
         bool commanded = d.device_lost_while_commanded;
-        for (const AxisId id : d.axes) commanded = commanded || axes_[index_of(id)]->profile.commanded();
+        for (const AxisId id : d.axes)
+            commanded = commanded || axes_[index_of(id)]->profile.commanded();
         if (commanded) {
-            d.why = "it went silent while it was powered, so its twin waits: whether the real drive is off is not known; mend the line or the drive, or "
-                    "disable the axis to let the twin take over";
+            d.why =
+                "it went silent while it was powered, so its twin waits: whether the real drive is off is not known; mend the line or the "
+                "drive, or "
+                "disable the axis to let the twin take over";
             return;
         }
         serve(d, Presence::twin, "the drive does not answer", now);
@@ -174,25 +181,28 @@ void Engine::plug_in_twin(Drive& d, Instant now) {
     LineUnit& unit = *d.line;
     TwinSetup t;
     t.address = d.spec.address;
-    for (const AxisId id : d.axes) t.axes = std::max(t.axes, axes_[index_of(id)]->spec.channel);
+    for (const AxisId id : d.axes)
+        t.axes = std::max(t.axes, axes_[index_of(id)]->spec.channel);
     t.kind = unit.kind;
     t.bit_rate = unit.spec.bitrate;
     t.options = d.spec.options;
-    for (const auto& [k, v] : unit.spec.options) t.options.emplace(k, v);
+    for (const auto& [k, v] : unit.spec.options)
+        t.options.emplace(k, v);
     unit.twins->touched();
     unit.twins->bus->add(d.id, d.family.family->make_twin(*d.catalogue, t), d.memory, now);
     d.memory_revision = unit.twins->bus->twin(d.id)->non_volatile_revision();
     d.twin_axes = t.axes;
 }
 
-/// A channel was configured that the running twin does not have. Where it cannot be fitted as it runs, the twin is built anew, as a real drive
-/// would be switched off for it.
+/// A channel was configured that the running twin does not have. Where it cannot be fitted as it runs, the twin is built anew, as a real
+/// drive would be switched off for it.
 void Engine::refit_twin(Drive& d, Instant now) {
     LineUnit& unit = *d.line;
     const bool fits = std::ranges::all_of(d.axes, [&](AxisId id) { return axes_[index_of(id)]->spec.channel <= d.twin_axes; });
     if (d.serving != Presence::twin || fits) return;
     int axes = d.twin_axes;
-    for (const AxisId id : d.axes) axes = std::max(axes, axes_[index_of(id)]->spec.channel);
+    for (const AxisId id : d.axes)
+        axes = std::max(axes, axes_[index_of(id)]->spec.channel);
     Event e;
     e.kind = "presence";
     e.drive = d.spec.name;
@@ -263,7 +273,8 @@ bool Engine::handback_result(const Result& r, Instant) {
     const Value& wanted = a->stored[point];
     const auto x = as_number(wanted), y = as_number(r.value);
     const bool same = x && y ? *x == *y : wanted == r.value;
-    if (!same) h.differences.push_back(fmt::format("{} of axis {}: stored {}, drive {}", id, a->spec.name, to_text(wanted), to_text(r.value)));
+    if (!same)
+        h.differences.push_back(fmt::format("{} of axis {}: stored {}, drive {}", id, a->spec.name, to_text(wanted), to_text(r.value)));
     return true;
 }
 

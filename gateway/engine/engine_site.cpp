@@ -5,11 +5,11 @@
 
 #include <algorithm>
 
+#include "gateway/core/line_uri.hpp"
 #include "gateway/engine/engine.hpp"
 #include "gateway/engine/engine_parts.hpp"
-#include "gateway/site/site_stage.hpp"
-#include "gateway/core/line_uri.hpp"
 #include "gateway/site/options.hpp"
+#include "gateway/site/site_stage.hpp"
 
 namespace axisgate {
 namespace {
@@ -63,7 +63,8 @@ LineSetup Engine::setup_for(const Speaker& speaker) const {
         ds.address = d.spec.address;
         ds.options = d.spec.options;
         ds.catalogue = d.catalogue;
-        for (const AxisId a : d.axes) ds.axes.push_back({a, axes_[index_of(a)]->spec.channel});
+        for (const AxisId a : d.axes)
+            ds.axes.push_back({a, axes_[index_of(a)]->spec.channel});
         s.drives.push_back(std::move(ds));
     }
     s.drives.insert(s.drives.end(), speaker.probes.begin(), speaker.probes.end());
@@ -163,9 +164,12 @@ std::shared_ptr<const SiteState> Engine::apply_site(Site site, SiteMemory memory
     std::map<std::string, LineId> line_ids;
     std::map<std::string, DriveId> drive_ids;
     std::map<std::string, AxisId> axis_ids;
-    for (std::size_t i = 0; i < old.lines.size(); ++i) line_ids[old.lines[i].name] = site_->line_ids[i];
-    for (std::size_t i = 0; i < old.drives.size(); ++i) drive_ids[old.drives[i].name] = site_->drive_ids[i];
-    for (std::size_t i = 0; i < old.axes.size(); ++i) axis_ids[old.axes[i].name] = site_->axis_ids[i];
+    for (std::size_t i = 0; i < old.lines.size(); ++i)
+        line_ids[old.lines[i].name] = site_->line_ids[i];
+    for (std::size_t i = 0; i < old.drives.size(); ++i)
+        drive_ids[old.drives[i].name] = site_->drive_ids[i];
+    for (std::size_t i = 0; i < old.axes.size(); ++i)
+        axis_ids[old.axes[i].name] = site_->axis_ids[i];
 
     std::vector<std::unique_ptr<Axis>> gone_axes;
     for (const auto& a : old.axes) {
@@ -283,8 +287,10 @@ std::shared_ptr<const SiteState> Engine::apply_site(Site site, SiteMemory memory
         if (unit->real) fit_speakers(*unit->real, now);
         if (unit->twins) fit_speakers(*unit->twins, now);
     }
-    for (LineUnit* unit : fresh_lines) build_line(*unit, now);
-    for (Drive* d : fresh_drives) decide_presence(*d, now);
+    for (LineUnit* unit : fresh_lines)
+        build_line(*unit, now);
+    for (Drive* d : fresh_drives)
+        decide_presence(*d, now);
     tell_options(fresh_lines, fresh_drives, now);
     for (const auto& a : axes_) {
         if (a) publish(*a, now);

@@ -27,7 +27,8 @@ void Engine::supersede(Axis& a, std::uint64_t by, std::string_view what, Instant
     for (const auto number : a.clients) {
         if (number == by) continue;
         const Client& c = *clients_.at(number);
-        const bool motion = std::holds_alternative<Move>(c.body) || std::holds_alternative<Home>(c.body) || std::holds_alternative<StartTogether>(c.body);
+        const bool motion =
+            std::holds_alternative<Move>(c.body) || std::holds_alternative<Home>(c.body) || std::holds_alternative<StartTogether>(c.body);
         if (c.accepted && motion) ended.push_back(number);
     }
     for (const auto number : ended) {
@@ -113,12 +114,14 @@ void Engine::track(Axis& a, Instant now) {
             if (!f.fault) {
                 progress = Progress::done;
             } else if (now - c.accepted_at > reset_limit) {
-                fail(Reason::wrong_state, fmt::format("axis {}: the fault (drive's code {}) is still there; remove its cause first", a.spec.name, f.error_code));
+                fail(Reason::wrong_state,
+                     fmt::format("axis {}: the fault (drive's code {}) is still there; remove its cause first", a.spec.name, f.error_code));
             }
         } else if (std::holds_alternative<Home>(c.body)) {
             if (f.homing_error) {
-                fail(Reason::interrupted, a.homing_why.empty() ? fmt::format("axis {}: homing ended with an error, drive's code {}", a.spec.name, f.error_code)
-                                                               : fmt::format("axis {}: {}", a.spec.name, a.homing_why));
+                fail(Reason::interrupted,
+                     a.homing_why.empty() ? fmt::format("axis {}: homing ended with an error, drive's code {}", a.spec.name, f.error_code)
+                                          : fmt::format("axis {}: {}", a.spec.name, a.homing_why));
             } else if (f.homing_attained && !f.moving && !f.homing) {
                 progress = Progress::done;
             } else if (f.fault) {
@@ -162,8 +165,9 @@ void Engine::track(Axis& a, Instant now) {
             r.code = f.error_code;
             r.text = std::move(text);
         } else {
-            const bool is_motion = std::holds_alternative<Move>(c.body) || std::holds_alternative<Home>(c.body) || std::holds_alternative<Halt>(c.body) ||
-                                   std::holds_alternative<QuickStop>(c.body) || std::holds_alternative<StartTogether>(c.body);
+            const bool is_motion = std::holds_alternative<Move>(c.body) || std::holds_alternative<Home>(c.body) ||
+                                   std::holds_alternative<Halt>(c.body) || std::holds_alternative<QuickStop>(c.body) ||
+                                   std::holds_alternative<StartTogether>(c.body);
             // Whatever its adapter calls it: what was merely taken is not done.
             r.outcome = c.until_done || !is_motion ? Outcome::done : Outcome::accepted;
         }
@@ -241,7 +245,8 @@ void Engine::check_run(Axis& a, Instant now) {
     const double rate = static_cast<double>(a.run.deceleration), told = std::fabs(static_cast<double>(velocity));
     // While it gains speed it is faster by the time the halt arrives, but never than it was told to go.
     const double gained = told + 2 * a.run.round_s * static_cast<double>(a.run.acceleration);
-    const double speed = (a.run.velocity > 0) == up ? std::max(told, std::min(gained, std::fabs(static_cast<double>(a.run.velocity)))) : told;
+    const double speed =
+        (a.run.velocity > 0) == up ? std::max(told, std::min(gained, std::fabs(static_cast<double>(a.run.velocity)))) : told;
     const double needed = 2 * speed * a.run.round_s + (rate > 0 ? speed * speed / (2 * rate) : 0);
     const double left = static_cast<double>(up ? *limit - f.position : f.position - *limit);
     if (left > needed) return;
@@ -249,7 +254,8 @@ void Engine::check_run(Axis& a, Instant now) {
     e.severity = Severity::warning;
     e.kind = "limit";
     e.axis = a.spec.name;
-    e.text = fmt::format("{} is halted at the axis' {} {}", a.run.found ? "a motion that was under way when the axis was found" : "the velocity move",
+    e.text = fmt::format("{} is halted at the axis' {} {}",
+                         a.run.found ? "a motion that was under way when the axis was found" : "the velocity move",
                          up ? "position_max" : "position_min", in_unit(*limit, a.limits));
     event(std::move(e), now);
     auto decision = a.profile.on_command(Halt{});
@@ -270,7 +276,8 @@ void Engine::shut_down(Instant now) {
         e.text = "the gateway stops: the moving axis is stopped";
         event(std::move(e), now);
         auto decision = a->profile.on_command(QuickStop{});
-        for (auto& o : decision.orders) give_order(*a, nullptr, std::move(o), {}, now);
+        for (auto& o : decision.orders)
+            give_order(*a, nullptr, std::move(o), {}, now);
     }
     closing_ = true;
 }

@@ -13,17 +13,17 @@
 namespace axisgate {
 
 struct DriveStatus {
-    Presence presence = Presence::offline;   ///< who serves the axes now
-    bool simulated = false;                  ///< the twin serves them, whether it answers or not
-    bool device_online = false;              ///< the real drive answers
-    std::string text;                        ///< why it is so, for people
+    Presence presence = Presence::offline;  ///< who serves the axes now
+    bool simulated = false;                 ///< the twin serves them, whether it answers or not
+    bool device_online = false;             ///< the real drive answers
+    std::string text;                       ///< why it is so, for people
     std::uint32_t silent_exchanges = 0;
     std::int64_t retry_pause_ms = 0;
 };
 struct LineReport {
-    LineStatus status;                 ///< of the real line; of the twin bus if the URI is "twin"
+    LineStatus status;  ///< of the real line; of the twin bus if the URI is "twin"
     AdapterCounters counters;
-    bool has_twin_bus = false;         ///< some drives of it are simulated now
+    bool has_twin_bus = false;  ///< some drives of it are simulated now
     LineStatus twin_status;
     /// What each family's adapter counted; `counters` is their sum.
     struct OfFamily {

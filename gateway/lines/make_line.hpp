@@ -15,7 +15,8 @@
 namespace axisgate {
 
 /// The line of a checked URI. "twin" is no line of this room (core/twin_bus.hpp) and gives one that stays down.
-[[nodiscard]] std::unique_ptr<Line> make_line(const LineUri& uri, const LineBase& base, const CanLineOptions& can = {}, const PtyPlaces& ptys = {});
+[[nodiscard]] std::unique_ptr<Line> make_line(const LineUri& uri, const LineBase& base, const CanLineOptions& can = {},
+                                              const PtyPlaces& ptys = {});
 
 /// The line of a URI's text, on this machine's clock. A bit rate that the setup knows holds for a serial line whose URI does not say, and
 /// for the load of a CAN interface that does not tell its own; `default_format` is the family's (Family::default_format). `stale_after` as

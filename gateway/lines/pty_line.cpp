@@ -81,9 +81,12 @@ std::string forbidden(const std::string& path, const PtyPlaces& places) {
         return fmt::format("{} is in the gateway's data directory: choose another folder", path);
     if (places.only_below.empty()) return {};
     const std::string allowed = real_path(places.only_below);
-    if (allowed.empty()) return fmt::format("{} cannot be made: the folder {} ([lines] pty_dir) is not there; make it, or name another", path, places.only_below);
+    if (allowed.empty())
+        return fmt::format("{} cannot be made: the folder {} ([lines] pty_dir) is not there; make it, or name another", path,
+                           places.only_below);
     if (lies_in(folder, allowed)) return {};
-    return fmt::format("{} is not below {}: pseudo-terminals are linked there alone ([lines] pty_dir of the host's configuration)", path, places.only_below);
+    return fmt::format("{} is not below {}: pseudo-terminals are linked there alone ([lines] pty_dir of the host's configuration)", path,
+                       places.only_below);
 }
 
 /// Puts the link; a link to a pseudo-terminal that is there already is taken as left over from before. Empty, or what is wrong.
@@ -92,7 +95,8 @@ std::string put_link(const std::string& target, const std::string& path, const P
     struct stat there {};
     if (::lstat(path.c_str(), &there) == 0) {
         if (!S_ISLNK(there.st_mode)) return fmt::format("{} exists and is not a link: choose another path, or remove it", path);
-        if (!names_a_pty(target_of(path))) return fmt::format("{} is a link to something else than a pseudo-terminal: choose another path, or remove it", path);
+        if (!names_a_pty(target_of(path)))
+            return fmt::format("{} is a link to something else than a pseudo-terminal: choose another path, or remove it", path);
         if (::unlink(path.c_str()) != 0) return fmt::format("cannot remove the old link {}: {}", path, error_text(errno));
     }
     if (::symlink(target.c_str(), path.c_str()) != 0) {

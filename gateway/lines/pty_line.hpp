@@ -1,9 +1,9 @@
 // PtyLine: a pseudo-terminal made by us, under a name of the user's choice: a serial port that any program can open.
 // In: a path at which to put the link. Out: see StreamLine.
-// Never overwrites anything but a link to a pseudo-terminal, links only where PtyPlaces lets it, and takes away at the end only its own. Bytes that are sent while nobody has the other side open
-// are lost, as on a cable without a listener.
-// A pseudo-terminal has no rate: with settings that name one, bytes pass both ways as slowly as over a serial port; what waits meanwhile is
-// held by the send queue and by the terminal's own buffer, both bounded (a program that writes more is held up, as by a full port).
+// Never overwrites anything but a link to a pseudo-terminal, links only where PtyPlaces lets it, and takes away at the end only its own.
+// Bytes that are sent while nobody has the other side open are lost, as on a cable without a listener. A pseudo-terminal has no rate: with
+// settings that name one, bytes pass both ways as slowly as over a serial port; what waits meanwhile is held by the send queue and by the
+// terminal's own buffer, both bounded (a program that writes more is held up, as by a full port).
 #pragma once
 
 #include <string>
@@ -23,7 +23,8 @@ struct PtyPlaces {
 class PtyLine final : public StreamLine {
 public:
     /// The pace to keep, as that of a serial port; a baud of 0: as fast as the other side takes and gives.
-    PtyLine(const LineBase& base, std::string path, std::uint32_t pace_baud = 0, const SerialFormat& pace_format = {}, PtyPlaces places = {});
+    PtyLine(const LineBase& base, std::string path, std::uint32_t pace_baud = 0, const SerialFormat& pace_format = {},
+            PtyPlaces places = {});
     ~PtyLine() override { close(); }
 
 private:

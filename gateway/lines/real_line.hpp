@@ -11,10 +11,10 @@
 #include <utility>
 
 #include "gateway/core/line.hpp"
-#include "gateway/wire/load_meter.hpp"
-#include "gateway/wire/send_queue.hpp"
 #include "gateway/lines/clock.hpp"
 #include "gateway/lines/pauses.hpp"
+#include "gateway/wire/load_meter.hpp"
+#include "gateway/wire/send_queue.hpp"
 
 namespace axisgate {
 

@@ -60,8 +60,9 @@ ParameterChannel::Outcome ParameterChannel::write(const Write& write, const Cata
     if (!catalogue) {
         refuse(Reason::line_down, "the axis has no drive family: it is not configured");
     } else if (!parameter) {
-        refuse(Reason::unknown_point, fmt::format("{} has no parameter {} with the element {}: the selector is in the list of its parameters",
-                                                  catalogue->family(), point.parameter, point.element));
+        refuse(Reason::unknown_point,
+               fmt::format("{} has no parameter {} with the element {}: the selector is in the list of its parameters", catalogue->family(),
+                           point.parameter, point.element));
     } else if (is_text(parameter->type)) {
         refuse(Reason::not_supported, fmt::format("{} is a text, which the parameter channel does not carry", parameter_));
     } else if (request_ == request_read) {
@@ -99,9 +100,11 @@ void ParameterChannel::finish(const Result& result, const Catalogue* catalogue) 
     // A read value that does not fit is refused: nothing true could be shown. A write has happened, whatever came back with it: then
     // the value register keeps what was written.
     if (!shown && request_ == request_read) {
-        refuse(Reason::out_of_range, (selector_ & float_form) != 0 ? fmt::format("{} is {}, which no single can show", parameter_, to_text(result.value))
-                                                                   : fmt::format("{} is {}, which is no whole number of 32 bits: read it in the float form (bit 31 of the selector)",
-                                                                                 parameter_, to_text(result.value)));
+        refuse(Reason::out_of_range,
+               (selector_ & float_form) != 0
+                   ? fmt::format("{} is {}, which no single can show", parameter_, to_text(result.value))
+                   : fmt::format("{} is {}, which is no whole number of 32 bits: read it in the float form (bit 31 of the selector)",
+                                 parameter_, to_text(result.value)));
         return;
     }
     state_ = State::done;
@@ -118,7 +121,8 @@ void ParameterChannel::refuse(Reason reason, std::string why, std::int32_t code)
 
 /// What the value register means. No number and infinity stay what they are: the catalogue refuses them by name.
 Value ParameterChannel::given(ValueType type) const noexcept {
-    if ((selector_ & float_form) == 0) return type == ValueType::u32 ? std::int64_t{value_} : std::int64_t{static_cast<std::int32_t>(value_)};
+    if ((selector_ & float_form) == 0)
+        return type == ValueType::u32 ? std::int64_t{value_} : std::int64_t{static_cast<std::int32_t>(value_)};
     const float single = std::bit_cast<float>(value_);
     return std::isfinite(single) ? shortest(single) : static_cast<double>(single);
 }

@@ -16,7 +16,8 @@ namespace axisgate::registers {
 
 /// State of one axis' channel.
 ///
-///   selector  bits 0..15: the parameter's position in the family's catalogue (0-based); bits 16..30: the element (0 if it is not an array);
+///   selector  bits 0..15: the parameter's position in the family's catalogue (0-based); bits 16..30: the element (0 if it is not an
+///   array);
 ///             bit 31: the float form, in which `value` is an IEEE 754 single
 ///   request   1: read the parameter into `value`; 2: write `value` to it; 0: back to idle. Other numbers are illegal values.
 ///   state     0 idle, 1 busy, 2 done, 3 refused
@@ -39,8 +40,8 @@ public:
     };
     /// What became of a write.
     struct Outcome {
-        Verdict verdict = Verdict::good;       ///< unless good, nothing has changed
-        std::optional<CommandBody> command;     ///< to be given to the engine; the channel is busy until finish()
+        Verdict verdict = Verdict::good;     ///< unless good, nothing has changed
+        std::optional<CommandBody> command;  ///< to be given to the engine; the channel is busy until finish()
     };
     /// `catalogue`: of the axis' family, nullptr if it is not known (then exchanges are refused with line_down).
     [[nodiscard]] Outcome write(const Write& write, const Catalogue* catalogue);

@@ -9,7 +9,9 @@
 namespace axisgate::registers {
 namespace {
 std::string_view host_of(std::string_view who) noexcept { return who.substr(0, who.rfind(':')); }
-bool same_row(const Event& a, const Event& b) noexcept { return a.text == b.text && a.parameter == b.parameter && a.new_value == b.new_value; }
+bool same_row(const Event& a, const Event& b) noexcept {
+    return a.text == b.text && a.parameter == b.parameter && a.new_value == b.new_value;
+}
 std::string times(std::uint64_t n) { return n == 1 ? std::string("once") : fmt::format("{} times", n); }
 }  // namespace
 
@@ -23,7 +25,8 @@ std::string text_of(const RequestNote& n) {
     if (!n.write) return s;
     s += " =";
     const std::size_t shown = coils ? 1 : std::min<std::size_t>(n.count, RequestNote::most_shown);
-    for (std::size_t i = 0; i < shown; ++i) s += fmt::format(" {}", n.values[i]);
+    for (std::size_t i = 0; i < shown; ++i)
+        s += fmt::format(" {}", n.values[i]);
     if (shown < n.count) s += " ...";
     return s;
 }

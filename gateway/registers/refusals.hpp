@@ -28,7 +28,7 @@ struct RequestNote {
     bool write = false;
     Table table = Table::holding_registers;
     std::uint16_t address = 0;
-    std::uint16_t count = 0;                 ///< 0: the request was too short to say
+    std::uint16_t count = 0;                ///< 0: the request was too short to say
     std::uint16_t values[most_shown] = {};  ///< the first registers of a write; of coils the first bit
 };
 /// "unit 1 register 34 = 80", "unit 2 registers 32..35 = 15 1 0 80", "unit 2 holding registers 10..19".

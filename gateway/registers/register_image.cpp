@@ -46,7 +46,8 @@ void RegisterImage::set_mappings(std::vector<PlacedMapping> mappings, const std:
 
 void RegisterImage::on_site(const SiteState& state) {
     std::map<std::string_view, std::size_t> index;
-    for (std::size_t i = 0; i < state.site.axes.size(); ++i) index.emplace(state.site.axes[i].name, i);
+    for (std::size_t i = 0; i < state.site.axes.size(); ++i)
+        index.emplace(state.site.axes[i].name, i);
     std::vector<PlacedMapping> placed;
     placed.reserve(state.site.map().size());
     for (const auto& m : state.site.map()) {

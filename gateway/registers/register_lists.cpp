@@ -134,7 +134,8 @@ std::string register_number(MapTable table, std::uint32_t address) {
 
 std::string list_csv(const std::vector<ListedMapping>& list, const std::string& revision) {
     std::string s =
-        "unit,table,address,registers,type,word_order,axis,point,scale,offset,access,comment,mapping_revision,register_number,engineering_unit\r\n";
+        "unit,table,address,registers,type,word_order,axis,point,scale,offset,access,comment,mapping_revision,register_number,engineering_"
+        "unit\r\n";
     for (const auto& [m, unit] : list) {
         s += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", m.unit, name_of(m.table), m.address, m.size(), name_of(m.type),
                          name_of(m.word_order), csv_cell(m.axis), csv_cell(m.point), m.scale, m.offset, name_of(m.access),
@@ -149,16 +150,16 @@ std::string list_html(const std::vector<ListedMapping>& list, const std::string&
         "list</h1>\n"
         "<p>Mapping revision {0} (registers 18 and 19). Addresses count from 0, numbers from 1.</p>\n<table border=\"1\">\n<thead><tr>",
         revision);
-    for (const auto* head : {"Unit", "Table", "Address", "Number", "Registers", "Type", "Word order", "Axis", "Point", "Measured in", "Scale", "Offset",
-                             "Access", "Comment"})
+    for (const auto* head : {"Unit", "Table", "Address", "Number", "Registers", "Type", "Word order", "Axis", "Point", "Measured in",
+                             "Scale", "Offset", "Access", "Comment"})
         s += fmt::format("<th>{}</th>", head);
     s += "</tr></thead>\n<tbody>\n";
     for (const auto& [m, unit] : list) {
         s += "<tr>";
-        for (const auto& cell : {std::to_string(m.unit), std::string(name_of(m.table)), std::to_string(m.address), register_number(m.table, m.address),
-                                 std::to_string(m.size()), std::string(name_of(m.type)), std::string(name_of(m.word_order)), html(m.axis),
-                                 html(m.point), html(unit), fmt::format("{}", m.scale), fmt::format("{}", m.offset),
-                                 std::string(name_of(m.access)), html(m.comment)})
+        for (const auto& cell :
+             {std::to_string(m.unit), std::string(name_of(m.table)), std::to_string(m.address), register_number(m.table, m.address),
+              std::to_string(m.size()), std::string(name_of(m.type)), std::string(name_of(m.word_order)), html(m.axis), html(m.point),
+              html(unit), fmt::format("{}", m.scale), fmt::format("{}", m.offset), std::string(name_of(m.access)), html(m.comment)})
             s += fmt::format("<td>{}</td>", cell);
         s += "</tr>\n";
     }
@@ -168,9 +169,12 @@ std::string list_html(const std::vector<ListedMapping>& list, const std::string&
 std::string list_st(const std::vector<ListedMapping>& list, const std::string& revision) {
     std::string s = fmt::format(
         "(* Register list, mapping revision 16#{} (registers 18 and 19).\n"
-        "   One structure for each run of addresses without a gap: what can be read at once. Each member is as long as its registers, in words\n"
-        "   from the first address: no system may put bytes between them. CODESYS, TwinCAT: the attribute pack_mode at each structure says so.\n"
-        "   Siemens: a block without optimized access. Rockwell, others without packing: an array of words, and copy from the offsets (+n).\n"
+        "   One structure for each run of addresses without a gap: what can be read at once. Each member is as long as its registers, in "
+        "words\n"
+        "   from the first address: no system may put bytes between them. CODESYS, TwinCAT: the attribute pack_mode at each structure says "
+        "so.\n"
+        "   Siemens: a block without optimized access. Rockwell, others without packing: an array of words, and copy from the offsets "
+        "(+n).\n"
         "   Values of several registers have the word order that stands behind them; swap words where the system has the other one. *)\n",
         revision);
     if (list.empty()) return s + "(* no mappings *)\n";
@@ -187,7 +191,8 @@ std::string list_st(const std::vector<ListedMapping>& list, const std::string& r
         const bool bits = is_bits(first.table);
         s += fmt::format("\n(* unit {}, {} {}..{} ({}): {} {} *)\n", first.unit, name_of(first.table), first.address, end - 1,
                          register_number(first.table, first.address), end - first.address, bits ? "bits, one member each" : "registers");
-        s += fmt::format("{{attribute 'pack_mode' := '1'}}\nTYPE\n  Unit{}_{}_{} : STRUCT\n", first.unit, name_of(first.table), first.address);
+        s += fmt::format("{{attribute 'pack_mode' := '1'}}\nTYPE\n  Unit{}_{}_{} : STRUCT\n", first.unit, name_of(first.table),
+                         first.address);
         used.clear();
         for (; i < next; ++i) {
             const Mapping& m = list[i].mapping;
@@ -196,8 +201,9 @@ std::string list_st(const std::vector<ListedMapping>& list, const std::string& r
             for (int n = 2; std::ranges::find(used, lower(name)) != used.end(); ++n)
                 name = fmt::format("{}_{}", base, n);
             used.push_back(lower(name));
-            s += fmt::format("    {} : {}; (* +{} {} {}, {}, scale {}, offset {}{}{} *)\n", name, st_type(m), m.address - first.address, name_of(m.table),
-                             m.address, st_note(m), m.scale, m.offset, list[i].unit.empty() ? std::string() : ", " + st_comment(list[i].unit),
+            s += fmt::format("    {} : {}; (* +{} {} {}, {}, scale {}, offset {}{}{} *)\n", name, st_type(m), m.address - first.address,
+                             name_of(m.table), m.address, st_note(m), m.scale, m.offset,
+                             list[i].unit.empty() ? std::string() : ", " + st_comment(list[i].unit),
                              m.comment.empty() ? std::string() : ": " + st_comment(m.comment));
         }
         s += "  END_STRUCT;\nEND_TYPE\n";

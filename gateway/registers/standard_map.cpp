@@ -64,7 +64,8 @@ void StandardMap::note_refusal(AxisId axis, Reason reason) {
 
 Verdict StandardMap::no_such_axis(std::uint32_t index) {
     return refuse(Verdict::no_path, no_axis, Reason::line_down,
-                  fmt::format("no axis has the number {}, to which addresses {}..{} belong", index + 1, index * registers_per_axis, (index + 1) * registers_per_axis - 1));
+                  fmt::format("no axis has the number {}, to which addresses {}..{} belong", index + 1, index * registers_per_axis,
+                              (index + 1) * registers_per_axis - 1));
 }
 
 Verdict StandardMap::check_read(Table, std::uint16_t address, std::uint16_t count) {
@@ -124,7 +125,8 @@ Verdict StandardMap::check_write(Table table, std::uint16_t address, std::uint16
     // Coils show what is; what shall be is written as a control word. No range that is writable goes across two axes.
     const AxisId axis = axis_at(index_at(address));
     if (is_bits(table) || table == Table::input_registers)
-        return refuse(Verdict::no_address, axis, Reason::not_writable, "coils and inputs only show what is: write the control word, register 32 of the axis");
+        return refuse(Verdict::no_address, axis, Reason::not_writable,
+                      "coils and inputs only show what is: write the control word, register 32 of the axis");
     const std::uint16_t offset = offset_at(address);
     switch (const auto e = check_write_offsets(offset, count)) {
         case Verdict::good:
@@ -133,7 +135,8 @@ Verdict StandardMap::check_write(Table table, std::uint16_t address, std::uint16
             return refuse(e, axis, Reason::out_of_range, "half of a 32-bit value: write both of its registers in one request");
         default: {
             std::uint32_t wrong = offset;
-            while (wrong < offset + count && wrong < registers_per_axis && is_writable(static_cast<std::uint16_t>(wrong))) ++wrong;
+            while (wrong < offset + count && wrong < registers_per_axis && is_writable(static_cast<std::uint16_t>(wrong)))
+                ++wrong;
             const auto name = wrong < registers_per_axis ? name_at(static_cast<std::uint16_t>(wrong)) : std::string_view();
             return refuse(e, axis, name.empty() ? Reason::unknown_point : Reason::not_writable,
                           name.empty() ? fmt::format("register {} of the axis' 64 cannot be written: 32..45, 48..50, 52 and 53 can", wrong)
@@ -153,7 +156,7 @@ Verdict StandardMap::write(Table table, std::uint16_t address, std::uint16_t cou
 }
 
 Verdict StandardMap::write_channel(std::uint32_t index, std::uint16_t offset, std::uint16_t count, const std::uint8_t* data,
-                                     WritePlan& plan) {
+                                   WritePlan& plan) {
     std::uint8_t* const bytes = block(index);
     if (!bytes) return Verdict::no_path;
     Row& row = rows_[index];
@@ -170,7 +173,8 @@ Verdict StandardMap::write_channel(std::uint32_t index, std::uint16_t offset, st
     const ParameterChannel& channel = *row.channel;
     if (outcome.verdict != Verdict::good)
         return refuse(outcome.verdict, row.id, outcome.verdict == Verdict::busy ? Reason::busy : Reason::out_of_range, channel.why());
-    if (write.request && channel.state() == ParameterChannel::State::refused) refused_ = {row.id, channel.reason(), channel.why(), channel.parameter(), channel.wanted()};
+    if (write.request && channel.state() == ParameterChannel::State::refused)
+        refused_ = {row.id, channel.reason(), channel.why(), channel.parameter(), channel.wanted()};
     if (outcome.command) {
         ++row.exchange;
         plan.commands.push_back({row.id, std::move(*outcome.command), true, (std::uint32_t{row.exchange} << 16) | index});
@@ -186,7 +190,8 @@ void StandardMap::on_own_result(std::uint32_t note, const Result& result) {
     // The axis may have been removed or replaced since: its channel went with it.
     if (!row.channel || row.exchange != (note >> 16)) return;
     row.channel->finish(result, port_.catalogue(row.id));
-    if (const auto& c = *row.channel; c.state() == ParameterChannel::State::refused) refused_ = {row.id, c.reason(), c.why(), c.parameter(), c.wanted()};
+    if (const auto& c = *row.channel; c.state() == ParameterChannel::State::refused)
+        refused_ = {row.id, c.reason(), c.why(), c.parameter(), c.wanted()};
     row.channel->render(order_, blocks_.data() + index * block_size);
 }
 

@@ -38,7 +38,7 @@ private:
         std::uint64_t revision = 0;  // of the axis' cell when the block was rendered
         std::uint16_t exchange = 0;  // counts the channel's exchanges: an answer to an older one is not taken for a newer one's
         std::unique_ptr<ParameterChannel> channel;  // made at the first write
-        std::uint16_t refusals = 0;  // modulo 65536
+        std::uint16_t refusals = 0;                 // modulo 65536
         Reason refused = Reason::none;
 
         void belong_to(AxisId axis) {  // another axis, or none: its channel went with it; `exchange` goes on counting
@@ -56,7 +56,7 @@ private:
     static void put_refusals(const Row& row, std::uint8_t* block) noexcept;
     [[nodiscard]] Verdict no_such_axis(std::uint32_t index);
     [[nodiscard]] Verdict write_channel(std::uint32_t index, std::uint16_t offset, std::uint16_t count, const std::uint8_t* data,
-                                          WritePlan& plan);
+                                        WritePlan& plan);
 
     const DoorPort& port_;
     WordOrder order_;

@@ -53,7 +53,9 @@ enum class Verdict : std::uint8_t {
     return Verdict::failed;
 }
 /// `good` for a good result; a bad result is never `good`, whatever its reason says.
-[[nodiscard]] inline Verdict verdict_of(const Result& result) noexcept { return axisgate::good(result) ? Verdict::good : verdict_of(result.reason); }
+[[nodiscard]] inline Verdict verdict_of(const Result& result) noexcept {
+    return axisgate::good(result) ? Verdict::good : verdict_of(result.reason);
+}
 
 /// What a reader that is no door of its own gets.
 struct RegisterRead {
@@ -90,7 +92,7 @@ public:
     [[nodiscard]] virtual Verdict check_read(Table table, std::uint16_t address, std::uint16_t count) = 0;
     /// 2 * count bytes, big-endian, all of one picture per axis. After another verdict than good `out` is undefined.
     [[nodiscard]] virtual Verdict read_registers(Table table, std::uint16_t address, std::uint16_t count, Instant now,
-                                                   std::uint8_t* out) = 0;
+                                                 std::uint8_t* out) = 0;
     /// (count + 7) / 8 bytes, first bit lowest, unused bits 0.
     [[nodiscard]] virtual Verdict read_bits(Table table, std::uint16_t address, std::uint16_t count, std::uint8_t* out) = 0;
     /// Whether the register shows its whole value: what is to be changed in part (function 22) must be known.
@@ -100,7 +102,7 @@ public:
     /// Plans a write. `data`: registers big-endian, or bits as in read_bits. All or nothing: unless it is good, nothing has changed and
     /// `plan` is empty.
     [[nodiscard]] virtual Verdict write(Table table, std::uint16_t address, std::uint16_t count, const std::uint8_t* data,
-                                          WritePlan& plan) = 0;
+                                        WritePlan& plan) = 0;
     /// The result of a command planned with `own`. If none comes in time, it is one with Reason::no_answer.
     virtual void on_own_result(std::uint32_t note, const Result& result) = 0;
     virtual ~UnitMap() = default;

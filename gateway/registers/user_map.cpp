@@ -93,7 +93,8 @@ Value axis_value(const Image& image, const AxisPicture& p, AxisPoint point, doub
 
 }  // namespace
 
-UserMap::UserMap(const DoorPort& port, std::vector<PlacedMapping> mappings, MapGaps gaps, Ask ask) : port_(port), gaps_(gaps), ask_(std::move(ask)) {
+UserMap::UserMap(const DoorPort& port, std::vector<PlacedMapping> mappings, MapGaps gaps, Ask ask)
+    : port_(port), gaps_(gaps), ask_(std::move(ask)) {
     std::ranges::sort(mappings, {}, [](const PlacedMapping& m) { return m.mapping.address; });
     for (auto& m : mappings) {
         Place place{std::move(m), 0};
@@ -147,11 +148,13 @@ Verdict UserMap::refuse_gap(Table table, std::uint32_t address, bool nothing_at_
     const char* const name = names[static_cast<std::size_t>(table)];
     if (it != list.end() && it->at.mapping.address <= address) {
         return refuse(Verdict::no_address, it->at.axis, Reason::not_writable,
-                      fmt::format("address {} of the {} ({} of axis {}) can only be written", address, name, it->at.mapping.point, it->at.mapping.axis));
+                      fmt::format("address {} of the {} ({} of axis {}) can only be written", address, name, it->at.mapping.point,
+                                  it->at.mapping.axis));
     }
     return refuse(Verdict::no_address, no_axis, Reason::unknown_point,
-                  nothing_at_all && gaps_ == MapGaps::zero ? fmt::format("nothing is mapped in the {} that the request asks for, from address {} on", name, address)
-                                                           : fmt::format("nothing is mapped at address {} of the {}", address, name));
+                  nothing_at_all && gaps_ == MapGaps::zero
+                      ? fmt::format("nothing is mapped in the {} that the request asks for, from address {} on", name, address)
+                      : fmt::format("nothing is mapped at address {} of the {}", address, name));
 }
 
 Verdict UserMap::refuse_axis(const Place& place) {
@@ -202,9 +205,8 @@ Verdict UserMap::value_of(const Place& place, Instant now, Value& value) {
 }
 
 Verdict UserMap::check_read(Table table, std::uint16_t address, std::uint16_t count) {
-    return each_read(table, address, count, [&](const Place& p) {
-        return port_.image().picture(p.at.axis).number == 0 ? refuse_axis(p) : Verdict::good;
-    });
+    return each_read(table, address, count,
+                     [&](const Place& p) { return port_.image().picture(p.at.axis).number == 0 ? refuse_axis(p) : Verdict::good; });
 }
 
 Verdict UserMap::read_registers(Table table, std::uint16_t address, std::uint16_t count, Instant now, std::uint8_t* out) {
@@ -241,10 +243,12 @@ bool UserMap::is_exact(std::uint16_t address, Instant now) {
     const auto it = first_at(list, address);
     Value value;
     std::uint8_t bytes[widest];
-    if (it == list.end() || it->at.mapping.address > address || value_of(*it, now, value) != Verdict::good) return true;  // refused elsewhere
+    if (it == list.end() || it->at.mapping.address > address || value_of(*it, now, value) != Verdict::good)
+        return true;  // refused elsewhere
     if (encode(it->at.mapping, value, bytes)) return true;
     (void)refuse(Verdict::failed, it->at.axis, Reason::wrong_state,
-                 fmt::format("{} of axis {} is {}, which its register cannot show: a part of it cannot be changed", it->at.mapping.point, it->at.mapping.axis, to_text(value)));
+                 fmt::format("{} of axis {} is {}, which its register cannot show: a part of it cannot be changed", it->at.mapping.point,
+                             it->at.mapping.axis, to_text(value)));
     return false;
 }
 
@@ -268,7 +272,8 @@ Verdict UserMap::check_write(Table table, std::uint16_t address, std::uint16_t c
     if (half) {
         const Mapping& m = half->at.mapping;
         return refuse(Verdict::bad_value, half->at.axis, Reason::out_of_range,
-                      fmt::format("{} of axis {} takes the registers {}..{}: write all of them in one request", m.point, m.axis, m.address, m.end() - 1));
+                      fmt::format("{} of axis {} takes the registers {}..{}: write all of them in one request", m.point, m.axis, m.address,
+                                  m.end() - 1));
     }
     return lost ? refuse_axis(*lost) : Verdict::good;
 }

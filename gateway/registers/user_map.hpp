@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "gateway/engine/door.hpp"
-#include "gateway/site/mapping.hpp"
 #include "gateway/registers/unit_map.hpp"
+#include "gateway/site/mapping.hpp"
 
 namespace axisgate::registers {
 

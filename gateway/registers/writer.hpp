@@ -47,8 +47,8 @@ public:
         std::uint16_t outstanding = 0;
     };
     /// `data` as UnitMap::write has it. Never tells the owner from inside this call.
-    [[nodiscard]] Begun write(const Client& client, std::uint8_t slot, UnitMap& map, Table table, std::uint16_t address, std::uint16_t count,
-                              const std::uint8_t* data, const RequestNote& note, Instant now);
+    [[nodiscard]] Begun write(const Client& client, std::uint8_t slot, UnitMap& map, Table table, std::uint16_t address,
+                              std::uint16_t count, const std::uint8_t* data, const RequestNote& note, Instant now);
 
     /// One of the door's tickets has ended.
     void on_result(const Result& result);

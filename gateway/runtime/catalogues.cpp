@@ -15,7 +15,8 @@ Families load_families(std::vector<std::string>& faults) {
         const std::string path = "schema/families/" + std::string(f->name) + ".json";
         std::vector<std::string> wrong;
         auto catalogue = Catalogue::parse(asset(path), wrong);
-        for (const auto& w : wrong) faults.push_back(path + ": " + w);
+        for (const auto& w : wrong)
+            faults.push_back(path + ": " + w);
         if (!catalogue) continue;
         kept.push_back(std::make_unique<Catalogue>(std::move(*catalogue)));
         families.entries.push_back({f, kept.back().get()});

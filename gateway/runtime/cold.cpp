@@ -2,7 +2,6 @@
 // In: orders of two threads. Out: what was stored, faults. Never holds more than its mailboxes' bounds plus one batch.
 #include "gateway/runtime/cold.hpp"
 
-
 #include "gateway/runtime/clock.hpp"
 #include "gateway/runtime/threads.hpp"
 
@@ -74,7 +73,8 @@ void Cold::take(ColdJob&& job) {
 void Cold::write_at(Instant when) {
     if (write_at_ <= when) return;
     write_at_ = when;
-    timer_.expires_at(std::chrono::steady_clock::time_point(std::chrono::duration_cast<std::chrono::steady_clock::duration>(when.time_since_epoch())));
+    timer_.expires_at(
+        std::chrono::steady_clock::time_point(std::chrono::duration_cast<std::chrono::steady_clock::duration>(when.time_since_epoch())));
     timer_.async_wait([this](const boost::system::error_code& moved) {
         if (!moved && write_at_ <= monotonic_now()) write_batch();  // else it had rung already when it was moved
     });
@@ -96,7 +96,8 @@ void Cold::write_batch() {
     std::vector<ParameterWrite> writes;
     writes.reserve(orders.size());
     for (const auto& o : orders) {
-        writes.push_back({o.axis_name, o.parameter, o.value, o.previous, o.origin.door, o.origin.who ? *o.origin.who : "", unix_now_ns(), o.storage});
+        writes.push_back(
+            {o.axis_name, o.parameter, o.value, o.previous, o.origin.door, o.origin.who ? *o.origin.who : "", unix_now_ns(), o.storage});
     }
     std::vector<Event> events;
     events.reserve(events_at.size());
@@ -134,7 +135,8 @@ void Cold::write_batch() {
     write_ns_.fetch_add(static_cast<std::uint64_t>((monotonic_now() - begun).count()), std::memory_order_relaxed);
     if (!orders.empty()) {
         std::vector<Stored> stored;
-        for (const auto& o : orders) stored.push_back({o.ticket, fault});
+        for (const auto& o : orders)
+            stored.push_back({o.ticket, fault});
         answers_.stored(std::move(stored));
     }
     if (!events.empty()) answers_.events(std::move(events));

@@ -42,9 +42,9 @@ inline constexpr Duration cold_gathers = std::chrono::milliseconds(50);
 class Cold {
 public:
     struct Answers {
-        std::function<void(std::vector<Stored>)> stored;           ///< called on the cold thread, once per batch
-        std::function<void(std::vector<Event>)> events;            ///< with ids, on disk or not
-        std::function<void(std::string)> fault;                    ///< the store failed: for the log
+        std::function<void(std::vector<Stored>)> stored;  ///< called on the cold thread, once per batch
+        std::function<void(std::vector<Event>)> events;   ///< with ids, on disk or not
+        std::function<void(std::string)> fault;           ///< the store failed: for the log
     };
     Cold(Store& store, Answers answers);
     ~Cold();
@@ -80,8 +80,8 @@ private:
     std::vector<ParameterSeen> seen_;
     std::vector<TwinMemory> twins_;
     boost::asio::steady_timer timer_{io_};
-    Instant write_at_ = never;   ///< when the batch that is gathered is written
-    Instant written_{};          ///< when the last one was
+    Instant write_at_ = never;  ///< when the batch that is gathered is written
+    Instant written_{};         ///< when the last one was
     bool stopping_ = false;
     std::uint64_t next_event_id_ = 1;
     std::atomic<std::uint64_t> batches_{0}, faults_{0}, write_ns_{0};

@@ -9,13 +9,13 @@
 #include <cstdio>
 
 #include "gateway/core/assets.hpp"
-#include "gateway/site/options.hpp"
-#include "gateway/services/documents.hpp"
 #include "gateway/runtime/catalogues.hpp"
 #include "gateway/runtime/clock.hpp"
 #include "gateway/runtime/config_host.hpp"
 #include "gateway/runtime/site_file.hpp"
 #include "gateway/runtime/tls_files.hpp"
+#include "gateway/services/documents.hpp"
+#include "gateway/site/options.hpp"
 #include "gateway/store/backup.hpp"
 #include "gateway/store/store.hpp"
 
@@ -30,34 +30,41 @@ using Row = std::vector<std::string>;
 void print_table(const Row& head, const std::vector<Row>& rows) {
     std::vector<std::size_t> width(head.size());
     const auto measure = [&](const Row& r) {
-        for (std::size_t i = 0; i < r.size(); ++i) width[i] = std::max(width[i], r[i].size());
+        for (std::size_t i = 0; i < r.size(); ++i)
+            width[i] = std::max(width[i], r[i].size());
     };
     measure(head);
-    for (const auto& r : rows) measure(r);
+    for (const auto& r : rows)
+        measure(r);
     const auto print = [&](const Row& r) {
         std::string line;
-        for (std::size_t i = 0; i < r.size(); ++i) line += i + 1 < r.size() ? fmt::format("{:<{}}  ", r[i], width[i]) : r[i];
+        for (std::size_t i = 0; i < r.size(); ++i)
+            line += i + 1 < r.size() ? fmt::format("{:<{}}  ", r[i], width[i]) : r[i];
         fmt::print("{}\n", line);
     };
     print(head);
-    for (const auto& r : rows) print(r);
+    for (const auto& r : rows)
+        print(r);
 }
 
 std::string csv_field(const std::string& s) {
     if (s.find_first_of(",\"\r\n") == std::string::npos) return s;
     std::string out = "\"";
-    for (const char c : s) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+    for (const char c : s)
+        out += c == '"' ? std::string("\"\"") : std::string(1, c);
     return out + "\"";
 }
 
 void print_csv(const Row& head, const std::vector<Row>& rows) {
     const auto print = [](const Row& r) {
         std::string line;
-        for (const auto& f : r) line += (line.empty() && &f == &r.front() ? "" : ",") + csv_field(f);
+        for (const auto& f : r)
+            line += (line.empty() && &f == &r.front() ? "" : ",") + csv_field(f);
         fmt::print("{}\r\n", line);  // RFC 4180
     };
     print(head);
-    for (const auto& r : rows) print(r);
+    for (const auto& r : rows)
+        print(r);
 }
 
 std::string plain(const json::value* v) {
@@ -76,12 +83,13 @@ std::optional<FamilyEntry> family_named(const Families& families, const std::str
 std::optional<Families> families_or_complain() {
     std::vector<std::string> faults;
     auto families = load_families(faults);
-    for (const auto& f : faults) complain(f);
+    for (const auto& f : faults)
+        complain(f);
     if (!faults.empty()) return std::nullopt;
     return families;
 }
 
-constexpr std::string_view parameter_fields[] = {"id",     "name",    "group",   "type",        "unit",       "min", "max",
+constexpr std::string_view parameter_fields[] = {"id",      "name",   "group",   "type",        "unit",       "min",  "max",
                                                  "default", "access", "storage", "description", "addressing", "live", "allowed"};
 
 /// {"0": "off", "1": "on"} as "0 = off, 1 = on"; everything else as it stands.
@@ -105,9 +113,15 @@ int command_families(const std::string& format) {
         rows.push_back({std::to_string(e.catalogue->number()), std::string(e.family->name), plain(doc.if_contains("title")), lines,
                         std::string(e.family->factory_address), std::to_string(e.catalogue->parameters().size()),
                         std::to_string(e.catalogue->commands().size()), std::to_string(e.catalogue->errors().size())});
-        list.push_back({{"number", e.catalogue->number()}, {"name", e.family->name}, {"title", plain(doc.if_contains("title"))},
-                        {"can", e.family->uses_can}, {"bytes", e.family->uses_bytes}, {"factory_address", e.family->factory_address},
-                        {"parameters", e.catalogue->parameters().size()}, {"commands", e.catalogue->commands().size()}, {"errors", e.catalogue->errors().size()}});
+        list.push_back({{"number", e.catalogue->number()},
+                        {"name", e.family->name},
+                        {"title", plain(doc.if_contains("title"))},
+                        {"can", e.family->uses_can},
+                        {"bytes", e.family->uses_bytes},
+                        {"factory_address", e.family->factory_address},
+                        {"parameters", e.catalogue->parameters().size()},
+                        {"commands", e.catalogue->commands().size()},
+                        {"errors", e.catalogue->errors().size()}});
     }
     if (format == "json") {
         fmt::print("{}\n", json::serialize(list));
@@ -129,7 +143,8 @@ int command_catalogue(const std::string& family, const std::string& what, const 
     }
     Row head;
     if (what == "parameters") {
-        for (const auto f : parameter_fields) head.emplace_back(f);
+        for (const auto f : parameter_fields)
+            head.emplace_back(f);
     } else if (what == "commands") {
         head = {"id", "name", "description"};
     } else {
@@ -140,7 +155,8 @@ int command_catalogue(const std::string& family, const std::string& what, const 
         if (what == "parameters") {  // as /families/{f}/parameters has them
             const auto parameters = entry->catalogue->parameters();
             for (std::size_t i = 0; i < parameters.size(); ++i)
-                out.push_back(parameter_document(*entry->catalogue, {static_cast<std::uint16_t>(i), parameters[i].first}, parameters[i].id));
+                out.push_back(
+                    parameter_document(*entry->catalogue, {static_cast<std::uint16_t>(i), parameters[i].first}, parameters[i].id));
         } else {
             out = list->get_array();
         }
@@ -150,7 +166,8 @@ int command_catalogue(const std::string& family, const std::string& what, const 
     std::vector<Row> rows;
     for (const auto& item : list->get_array()) {
         Row r;
-        for (const auto& f : head) r.push_back(cell(f, item.get_object().if_contains(f)));
+        for (const auto& f : head)
+            r.push_back(cell(f, item.get_object().if_contains(f)));
         rows.push_back(std::move(r));
     }
     if (format == "csv") {
@@ -167,17 +184,21 @@ int command_check(const ConfigSources& sources, const std::string& site_file, bo
     std::vector<ConfigFault> faults;
     const auto config = read_config(sources, faults);
     if (faults.empty()) faults = check_tls(config, unix_now_ns() / 1'000'000'000);
-    for (auto& f : check_host(config)) faults.push_back(std::move(f));
-    for (const auto& f : faults) complain(f);
+    for (auto& f : check_host(config))
+        faults.push_back(std::move(f));
+    for (const auto& f : faults)
+        complain(f);
     std::size_t count = (all_read ? 0u : 1u) + static_cast<std::size_t>(std::ranges::count(faults, false, &ConfigFault::warning));
     if (!site_file.empty()) {
         const auto families = families_or_complain();
         if (!families) return exit_failed;
         const auto read = read_site_file(site_file, *families);
-        for (const auto& f : read.faults) complain(f);
+        for (const auto& f : read.faults)
+            complain(f);
         count += read.faults.size();
         if (read.site) {
-            for (const auto& f : check_options(*read.site, *families)) complain("warning: " + f.text + "; it counts as not given");
+            for (const auto& f : check_options(*read.site, *families))
+                complain("warning: " + f.text + "; it counts as not given");
         }
     }
     if (count == 0) fmt::print("no faults found\n");

@@ -17,11 +17,12 @@
 namespace axisgate {
 
 struct Config {
-    std::string data_dir = "./var";              ///< [data] dir
-    std::string http_bind = "127.0.0.1:8080";    ///< [http] bind; empty: no HTTP door
-    std::string http_tls_cert, http_tls_key;     ///< [http] tls_cert, tls_key
-    bool http_tls_self_signed = false;           ///< [http] tls = "off" | "self_signed": a certificate of our own making, in the data directory
-    std::vector<std::string> http_allowed_hosts; ///< [http] allowed_hosts: names of this host beside its addresses and localhost; others get 421
+    std::string data_dir = "./var";            ///< [data] dir
+    std::string http_bind = "127.0.0.1:8080";  ///< [http] bind; empty: no HTTP door
+    std::string http_tls_cert, http_tls_key;   ///< [http] tls_cert, tls_key
+    bool http_tls_self_signed = false;  ///< [http] tls = "off" | "self_signed": a certificate of our own making, in the data directory
+    /// [http] allowed_hosts: names of this host beside its addresses and localhost; others get 421.
+    std::vector<std::string> http_allowed_hosts;
     std::string modbus_bind = "127.0.0.1:1502";  ///< [modbus] bind; empty: no Modbus/TCP door
     bool modbus_low_word_first = false;          ///< [modbus] word_order = "high_first" | "low_first"
     std::int64_t modbus_watchdog_ms = 5000;      ///< [modbus] watchdog_ms, 0..600000; 0: a silent client is not watched
@@ -42,22 +43,23 @@ struct Config {
     std::int64_t spin_us = 0;                    ///< [runtime] spin_us, 0..1000: how long the hot loop polls before it sleeps
     std::int64_t hot_cpu = -1;                   ///< [runtime] hot_cpu: processor for the hot loop; -1: any
     std::int64_t max_http_connections = 512;     ///< [limits] http_connections
-    std::string users_local_role = "engineer";   ///< [users] local_role: of requests from this machine without a sign-in; none: sign in always, as behind a proxy
-    std::int64_t users_session_idle_min = 60;    ///< [users] session_idle_min, 1..1440
-    std::int64_t users_session_max_h = 12;       ///< [users] session_max_h, 1..720
-    bool users_new_code = false;                 ///< [users] new_code: print another code for the first sign-in, while there is no user
-    std::int64_t trace_frames = 4096;            ///< [limits] trace_frames per line
+    /// [users] local_role: of requests from this machine without a sign-in; none: sign in always, as behind a proxy.
+    std::string users_local_role = "engineer";
+    std::int64_t users_session_idle_min = 60;  ///< [users] session_idle_min, 1..1440
+    std::int64_t users_session_max_h = 12;     ///< [users] session_max_h, 1..720
+    bool users_new_code = false;               ///< [users] new_code: print another code for the first sign-in, while there is no user
+    std::int64_t trace_frames = 4096;          ///< [limits] trace_frames per line
 };
 
 struct ConfigFault {
-    std::string place;   ///< "axisgate.toml:12", "--set http.bind", "AXISGATE_HTTP_BIND"
+    std::string place;  ///< "axisgate.toml:12", "--set http.bind", "AXISGATE_HTTP_BIND"
     std::string text;
     std::string remedy;
     bool warning = false;  ///< `serve` goes on without it
 };
 
 struct ConfigSources {
-    std::string file_name;                 ///< for messages; empty: no file was given
+    std::string file_name;  ///< for messages; empty: no file was given
     std::optional<std::string> file_text;
     std::vector<std::string> environment;  ///< "AXISGATE_HTTP_BIND=..." entries; others are ignored
     std::vector<std::string> overrides;    ///< "section.key=value" of --set, strongest

@@ -60,7 +60,8 @@ public:
 
     ~Mailbox() {
         T* item = nullptr;
-        while (ring_.pop(item)) delete item;
+        while (ring_.pop(item))
+            delete item;
     }
     Mailbox(const Mailbox&) = delete;
     Mailbox& operator=(const Mailbox&) = delete;

@@ -33,7 +33,8 @@ std::string memories_from_json(std::string_view text, std::map<std::string, NonV
     if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) return {};
     JsonFault unread;
     const auto parsed = read_json(text, unread);
-    if (!parsed && unread.twice) return fmt::format("{} in the memory of twins, in line {} ({}): keep one of them", unread.text, unread.line, unread.pointer);
+    if (!parsed && unread.twice)
+        return fmt::format("{} in the memory of twins, in line {} ({}): keep one of them", unread.text, unread.line, unread.pointer);
     if (!parsed || !parsed->is_object()) return "this is not the memory of twins: expected {\"ADDRESS\": {\"NAME\": VALUE, ...}}";
     for (const auto& [address, entry] : parsed->get_object()) {
         if (!entry.is_object()) return fmt::format("the memory of {} is not an object", std::string_view(address));
@@ -43,7 +44,8 @@ std::string memories_from_json(std::string_view text, std::map<std::string, NonV
             if (v.is_bool()) value = v.get_bool();
             if (v.is_int64()) value = v.get_int64();
             if (v.is_uint64()) return fmt::format("{} of {} is too large", std::string_view(name), std::string_view(address));
-            if (v.is_double() && !std::isfinite(v.get_double())) return fmt::format("{} of {} is too large", std::string_view(name), std::string_view(address));
+            if (v.is_double() && !std::isfinite(v.get_double()))
+                return fmt::format("{} of {} is too large", std::string_view(name), std::string_view(address));
             if (v.is_double()) value = v.get_double();
             if (v.is_string()) value = std::string(v.get_string());
             m[std::string(name)] = std::move(value);

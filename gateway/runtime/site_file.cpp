@@ -4,7 +4,6 @@
 
 #include <fmt/core.h>
 
-
 #include "gateway/core/json_read.hpp"
 #include "gateway/runtime/files.hpp"
 
@@ -22,14 +21,16 @@ SiteFile read_site_file(const std::string& path, const Families& families) {
     const auto document = read_json(*text, unread);
     if (!document) {
         out.faults.push_back(unread.twice ? fmt::format("{}:{}: {} ({}); keep one of them", path, unread.line, unread.text, unread.pointer)
-                                          : fmt::format("{}:{}: this is not JSON ({}); every name in double quotes, no comma before a closing bracket, nothing behind the end",
+                                          : fmt::format("{}:{}: this is not JSON ({}); every name in double quotes, no comma before a "
+                                                        "closing bracket, nothing behind the end",
                                                         path, unread.line, unread.text));
         return out;
     }
     std::vector<SiteFault> wrong;
     out.site = parse_site(*document, families, wrong);
     for (const auto& f : wrong) {
-        out.faults.push_back(fmt::format("{}:{}: {} ({}); {}", path, line_of_pointer(*text, f.pointer), f.text, f.pointer.empty() ? "/" : f.pointer, f.remedy));
+        out.faults.push_back(fmt::format("{}:{}: {} ({}); {}", path, line_of_pointer(*text, f.pointer), f.text,
+                                         f.pointer.empty() ? "/" : f.pointer, f.remedy));
     }
     return out;
 }
@@ -41,7 +42,8 @@ SiteMemory read_site_memory(StoreReader& store, const Site& site) {
     }
     for (const auto& a : site.axes) {
         if (const auto rows = store.stored(a.name)) {
-            for (const auto& row : *rows) memory.stored[a.name][row.parameter] = row.value;
+            for (const auto& row : *rows)
+                memory.stored[a.name][row.parameter] = row.value;
         }
     }
     return memory;

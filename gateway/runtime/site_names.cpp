@@ -43,14 +43,16 @@ Names names_in(const json::value& document, const std::map<std::string, std::str
     each(document, "axes", [&](const json::value& a) {
         const std::string drive = member(a, "drive");
         const auto was = former.find(drive);
-        out.axes.push_back({member(a, "name"), (was == former.end() ? drive : was->second) + '\n' + member(a, "channel"), family_of_drive[drive]});
+        out.axes.push_back(
+            {member(a, "name"), (was == former.end() ? drive : was->second) + '\n' + member(a, "channel"), family_of_drive[drive]});
     });
     return out;
 }
 
 std::vector<NameChange> renamed(const std::vector<Entry>& before, const std::vector<Entry>& after) {
     std::map<std::string, const Entry*> here;
-    for (const Entry& e : after) here[e.name] = &e;
+    for (const Entry& e : after)
+        here[e.name] = &e;
     std::map<std::string, const Entry*> gone, there;  // by place: of several that stood there, the last
     for (const Entry& e : before) {
         there[e.name] = &e;
@@ -72,13 +74,16 @@ SiteChange names_between(const json::value& before, const json::value& after) {
     SiteChange change;
     change.renamed_drives = renamed(names_in(before, {}).drives, names_in(after, {}).drives);
     std::map<std::string, std::string> former;
-    for (const auto& c : change.renamed_drives) former[c.to] = c.from;
+    for (const auto& c : change.renamed_drives)
+        former[c.to] = c.from;
     const Names now = names_in(after, former);
     change.renamed_axes = renamed(names_in(before, {}).axes, now.axes);
     change.axes.emplace();
     change.drives.emplace();
-    for (const Entry& e : now.axes) change.axes->push_back({e.name, e.family});
-    for (const Entry& e : now.drives) change.drives->push_back(e.name);
+    for (const Entry& e : now.axes)
+        change.axes->push_back({e.name, e.family});
+    for (const Entry& e : now.drives)
+        change.drives->push_back(e.name);
     return change;
 }
 

@@ -16,7 +16,8 @@ namespace axisgate {
 /// stand back do so for the hot thread, so that on a busy machine a page or a database never makes a machine wait.
 inline void enter_thread(const char* name, int nice_by) noexcept {
     pthread_setname_np(pthread_self(), name);
-    if (nice_by > 0) (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), getpriority(PRIO_PROCESS, static_cast<id_t>(gettid())) + nice_by);
+    if (nice_by > 0)
+        (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), getpriority(PRIO_PROCESS, static_cast<id_t>(gettid())) + nice_by);
 }
 /// Asks to go before every thread of the normal policy (the lowest real-time rank, in turn with others of it), where the system grants that
 /// (RLIMIT_RTPRIO, systemd's LimitRTPRIO=1). Only for a thread that sleeps: one that spins would keep its processor for itself. False: not
@@ -27,9 +28,9 @@ inline bool go_first() noexcept {
     p.sched_priority = 1;
     return sched_setscheduler(0, SCHED_RR | SCHED_RESET_ON_FORK, &p) == 0;
 }
-/// Asks for short turns on the processor. Linux since 6.12 lets a waking thread with a shorter slice in before one with a longer one; without
-/// it a thread that only stands back by nice may still end its own slice of some milliseconds first. Earlier kernels ignore it; it needs no
-/// privilege (sched_setattr(2): sched_runtime of a thread of the normal policy, 0.1 to 100 ms).
+/// Asks for short turns on the processor. Linux since 6.12 lets a waking thread with a shorter slice in before one with a longer one;
+/// without it a thread that only stands back by nice may still end its own slice of some milliseconds first. Earlier kernels ignore it; it
+/// needs no privilege (sched_setattr(2): sched_runtime of a thread of the normal policy, 0.1 to 100 ms).
 inline void take_short_turns() noexcept {
     struct Attributes {  // struct sched_attr, first published form: the C library has no name for it
         std::uint32_t size = 48, policy = SCHED_OTHER;

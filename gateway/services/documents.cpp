@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 
-#include "gateway/core/axis_members.hpp"
 #include "gateway/axis/cia402.hpp"
+#include "gateway/core/axis_members.hpp"
 #include "gateway/core/parameter_form.hpp"
 #include "gateway/core/text.hpp"
 
@@ -159,7 +159,8 @@ json::object axis_document(const AxisView& v) {
     o["native"] = p.native_status;
     o["authority"] = name_of(p.authority);
     o["authority_holder"] = p.authority_holder.data();
-    o["authority_until"] = p.authority_holder[0] != 0 ? json::value(format_time(v.at_unix_ns + ns_of(p.authority_until) - ns_of(p.at))) : json::value(nullptr);
+    o["authority_until"] =
+        p.authority_holder[0] != 0 ? json::value(format_time(v.at_unix_ns + ns_of(p.authority_until) - ns_of(p.at))) : json::value(nullptr);
     o["setpoints_accepted"] = p.setpoints_accepted;
     o["at"] = p.ever_seen ? json::value(format_time(v.at_unix_ns)) : json::value(nullptr);
     if (v.now_unix_ns) {
@@ -263,7 +264,8 @@ json::value allowed_document(const std::vector<std::pair<std::int64_t, std::stri
 void put_forms(json::object& o, const Catalogue& catalogue, Point point) {
     json::array fields, meanings;
     for (const auto& f : fields_of(catalogue, point))
-        fields.push_back(json::object{{"name", f.name}, {"low_bit", f.low_bit}, {"bits", f.bits}, {"allowed", allowed_document(f.allowed)}});
+        fields.push_back(
+            json::object{{"name", f.name}, {"low_bit", f.low_bit}, {"bits", f.bits}, {"allowed", allowed_document(f.allowed)}});
     for (const auto& m : meanings_of(catalogue, point))
         meanings.push_back(json::object{{"from", m.from}, {"through", m.through}, {"meaning", m.text}});
     o["fields"] = fields.empty() ? json::value(nullptr) : json::value(std::move(fields));
@@ -305,7 +307,14 @@ json::object parameter_document(const Catalogue& catalogue, Point point, std::st
     return o;
 }
 
-json::object command_document(const CatalogueCommand& c) {
+json::object command_document(const Catalogue& catalogue, const CatalogueCommand& c) {
+    json::value confirm;
+    for (const auto& v : catalogue.document().at("commands").as_array()) {
+        const auto* o = v.if_object();
+        const auto* id = o ? o->if_contains("id") : nullptr;
+        const auto* ask = id && *id == json::value(c.id) ? o->if_contains("confirm") : nullptr;
+        if (ask) confirm = *ask;
+    }
     const auto or_null = [](const std::optional<double>& d) { return d ? json::value(*d) : json::value(nullptr); };
     json::array arguments;
     for (const auto& a : c.arguments) {
@@ -322,6 +331,7 @@ json::object command_document(const CatalogueCommand& c) {
             {"name", c.name},
             {"description", text_or_null(c.description)},
             {"completes", name_of(c.completes)},
+            {"confirm", std::move(confirm)},
             {"arguments", std::move(arguments)}};
 }
 

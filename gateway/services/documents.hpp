@@ -48,7 +48,8 @@ struct AxisView {
 
 /// A parameter of the catalogue; of an array `point` is the element that is meant, or the first, and `id` says which: `N[17]`, or `N`.
 [[nodiscard]] boost::json::object parameter_document(const Catalogue& catalogue, Point point, std::string_view id);
-[[nodiscard]] boost::json::object command_document(const CatalogueCommand& command);
+/// A command of this catalogue, with what a person is asked before it is sent (`confirm` of the catalogue's document).
+[[nodiscard]] boost::json::object command_document(const Catalogue& catalogue, const CatalogueCommand& command);
 [[nodiscard]] boost::json::object error_document(const ErrorCode& error);
 /// A family, with whatever its catalogue says beside the three lists.
 [[nodiscard]] boost::json::object family_document(const FamilyEntry& entry);

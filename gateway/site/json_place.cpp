@@ -28,11 +28,13 @@ public:
 private:
     [[nodiscard]] std::size_t line(std::size_t at) const {
         std::size_t n = 1;
-        for (std::size_t k = 0; k < at && k < s_.size(); ++k) n += s_[k] == '\n';
+        for (std::size_t k = 0; k < at && k < s_.size(); ++k)
+            n += s_[k] == '\n';
         return n;
     }
     void skip_space() {
-        while (i_ < s_.size() && std::isspace(static_cast<unsigned char>(s_[i_]))) ++i_;
+        while (i_ < s_.size() && std::isspace(static_cast<unsigned char>(s_[i_])))
+            ++i_;
     }
     std::string string() {
         std::string out;

@@ -70,7 +70,8 @@ constexpr std::array<AxisPointInfo, 33> points{{
     {P::position, "position", false, "position actual value, increments"},
     {P::velocity, "velocity", false, "velocity actual value, increments/s"},
     {P::position_demand, "position_demand", false, "position demand value, increments; the position while nobody says another"},
-    {P::following_error, "following_error", false, "following error actual value: demand less position, increments; 0 while it is not known"},
+    {P::following_error, "following_error", false,
+     "following error actual value: demand less position, increments; 0 while it is not known"},
     {P::error_code, "error_code", false, "the drive's own error code, 0 = none"},
     {P::flags, "flags", false, "0 online, 1 simulated, 2 stale, 3 referenced, 4 moving, 5 target reached, 6 fault, 7 warning"},
     {P::native_status, "native_status", false, "the drive's own status"},
@@ -205,7 +206,8 @@ std::shared_ptr<const Catalogue> catalogue_of_axis(const Site& site, const Famil
 
 using Called = std::function<std::string(std::size_t index)>;
 
-void check_conflicts(const std::vector<Mapping>& all, const std::vector<std::size_t>& index_of, const Called& called, std::vector<SiteFault>& faults) {
+void check_conflicts(const std::vector<Mapping>& all, const std::vector<std::size_t>& index_of, const Called& called,
+                     std::vector<SiteFault>& faults) {
     std::map<std::pair<std::uint8_t, MapTable>, std::vector<std::size_t>> by_place;
     for (std::size_t i = 0; i < all.size(); ++i)
         by_place[{all[i].unit, all[i].table}].push_back(i);
@@ -222,7 +224,9 @@ void check_conflicts(const std::vector<Mapping>& all, const std::vector<std::siz
                                   fmt::format("unit {} {} {}..{} is taken by {} ({} of axis {})", here.unit, name_of(here.table),
                                               std::max<std::uint32_t>(before.address, here.address), std::min(before.end(), here.end()) - 1,
                                               other.empty() ? "mapping " + all[earlier].id : other, all[earlier].point, all[earlier].axis),
-                                  other.empty() ? "choose another address, or remove that mapping" : "choose another address, or take one of the two rows out", true});
+                                  other.empty() ? "choose another address, or remove that mapping"
+                                                : "choose another address, or take one of the two rows out",
+                                  true});
             }
             if (here.end() > before.end()) farthest = list[k];
         }
@@ -281,7 +285,8 @@ std::uint16_t Mapping::size() const noexcept {
 }
 
 std::optional<std::vector<Mapping>> parse_mappings(const json::array& entries, const Site& site, const Families& families,
-                                                   std::vector<SiteFault>& faults, const std::function<std::string(std::size_t index)>& called) {
+                                                   std::vector<SiteFault>& faults,
+                                                   const std::function<std::string(std::size_t index)>& called) {
     const std::size_t before = faults.size();
     if (entries.size() > most_mappings) {
         faults.push_back({"/mappings", fmt::format("{} mappings are too many", entries.size()), fmt::format("at most {}", most_mappings)});
@@ -307,11 +312,12 @@ std::optional<std::vector<Mapping>> parse_mappings(const json::array& entries, c
         const std::size_t good_before = faults.size();
         Entry f(*o, i, faults);
         for (const auto& [key, value] : *o) {
-            constexpr std::array known{"id",    "unit",   "table",  "address", "axis",        "point",  "type", "word_order",
-                                       "scale", "offset", "access", "length",  "on_overflow", "comment"};
+            constexpr std::array known{"id",         "unit",  "table",  "address", "axis",   "point",       "type",
+                                       "word_order", "scale", "offset", "access",  "length", "on_overflow", "comment"};
             if (std::ranges::find(known, std::string_view(key)) == known.end())
                 f.fault(key, fmt::format("{} is not known here", std::string_view(key)),
-                        "a mapping has id, unit, table, address, axis, point, type, word_order, scale, offset, access, length, on_overflow, comment");
+                        "a mapping has id, unit, table, address, axis, point, type, word_order, scale, offset, access, length, "
+                        "on_overflow, comment");
         }
         Mapping m;
         m.id = f.text("id", 64, false);

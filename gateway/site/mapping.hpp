@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "gateway/core/ids.hpp"
-#include "gateway/site/site.hpp"
 #include "gateway/core/value.hpp"
+#include "gateway/site/site.hpp"
 
 namespace axisgate {
 
@@ -24,7 +24,8 @@ enum class MapTable : std::uint8_t { coils, discrete_inputs, holding_registers, 
 enum class MapType : std::uint8_t { boolean, u16, i16, u32, i32, f32, u64, i64, f64, string };
 enum class MapAccess : std::uint8_t { read, write, read_write };
 enum class MapWordOrder : std::uint8_t { high_first, low_first };
-/// What registers show of a value that does not fit their type. mark: a number that says so (see encode). clamp: the nearest end of the type.
+/// What registers show of a value that does not fit their type. mark: a number that says so (see encode). clamp: the nearest end of the
+/// type.
 enum class MapOverflow : std::uint8_t { mark, clamp };
 
 [[nodiscard]] std::string_view name_of(MapTable table) noexcept;
@@ -99,7 +100,7 @@ struct Mapping {
     MapAccess access = MapAccess::read;
     std::uint16_t length = 16;  ///< type string: registers, 1..64; two characters each
     MapOverflow on_overflow = MapOverflow::mark;
-    std::string comment;        ///< up to 256 bytes, for people
+    std::string comment;  ///< up to 256 bytes, for people
 
     /// Registers, or bits, that it takes.
     [[nodiscard]] std::uint16_t size() const noexcept;
@@ -129,8 +130,8 @@ struct CsvFault {
 
 /// The registers of a mapping (2 * size() bytes, big-endian) that show `value`; whole numbers without scale and offset are exact at every
 /// width. False: the value is not known, is no number where one is needed, or does not fit the type; then `out` holds what stands for that:
-/// with MapOverflow::clamp the end of the type that is nearest to it; else, and where no end is nearer, 0x8000... for signed numbers, 0xFFFF...
-/// for unsigned ones, a NaN for floating-point ones, 0 for bool and an empty text.
+/// with MapOverflow::clamp the end of the type that is nearest to it; else, and where no end is nearer, 0x8000... for signed numbers,
+/// 0xFFFF... for unsigned ones, a NaN for floating-point ones, 0 for bool and an empty text.
 bool encode(const Mapping& mapping, const Value& value, std::uint8_t* out) noexcept;
 /// What registers of a mapping mean; whole numbers stay whole. Unknown for a floating-point register that is no number.
 [[nodiscard]] Value decode(const Mapping& mapping, const std::uint8_t* in);

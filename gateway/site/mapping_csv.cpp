@@ -1,6 +1,6 @@
 // Mapping, CSV: the whole list for a spreadsheet and back (RFC 4180: commas, quotes doubled, CR LF or LF).
-// In: text. Out: JSON entries for parse_mappings, and every faulty line. A semicolon as separator, and then a comma in numbers, is understood,
-// too: spreadsheets of many countries write it.
+// In: text. Out: JSON entries for parse_mappings, and every faulty line. A semicolon as separator, and then a comma in numbers, is
+// understood, too: spreadsheets of many countries write it.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -13,8 +13,8 @@ namespace axisgate {
 namespace json = boost::json;
 namespace {
 
-constexpr std::array<std::string_view, 14> columns{"id",    "unit",   "table",  "address", "axis",        "point",  "type", "word_order",
-                                                   "scale", "offset", "access", "length",  "comment", "on_overflow"};
+constexpr std::array<std::string_view, 14> columns{"id",         "unit",  "table",  "address", "axis",   "point",   "type",
+                                                   "word_order", "scale", "offset", "access",  "length", "comment", "on_overflow"};
 constexpr std::size_t longest_line = 4096;
 
 std::string quoted(std::string_view s) {
@@ -72,10 +72,9 @@ std::string mappings_to_csv(std::span<const Mapping> mappings) {
         out += (out.empty() ? "" : ",") + std::string(c);
     out += "\r\n";
     for (const auto& m : mappings) {
-        out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", quoted(m.id), m.unit, name_of(m.table), m.address, quoted(m.axis),
-                           quoted(m.point), name_of(m.type), name_of(m.word_order), m.scale, m.offset, name_of(m.access),
-                           m.type == MapType::string ? std::to_string(m.length) : std::string(), quoted(m.comment),
-                           name_of(m.on_overflow));
+        out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", quoted(m.id), m.unit, name_of(m.table), m.address,
+                           quoted(m.axis), quoted(m.point), name_of(m.type), name_of(m.word_order), m.scale, m.offset, name_of(m.access),
+                           m.type == MapType::string ? std::to_string(m.length) : std::string(), quoted(m.comment), name_of(m.on_overflow));
     }
     return out;
 }
@@ -125,7 +124,8 @@ std::optional<json::array> mappings_from_csv(std::string_view csv, std::vector<s
                 o[column] = cell;
                 continue;
             }
-            if (separator == ';' && std::ranges::count(cell, ',') == 1 && cell.find('.') == std::string::npos) std::ranges::replace(cell, ',', '.');
+            if (separator == ';' && std::ranges::count(cell, ',') == 1 && cell.find('.') == std::string::npos)
+                std::ranges::replace(cell, ',', '.');
             double number = 0;
             const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
             if (error != std::errc() || end != cell.data() + cell.size()) {

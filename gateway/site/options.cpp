@@ -14,9 +14,12 @@ namespace json = boost::json;
 
 constexpr std::string_view name_of(OptionOf place) noexcept {
     switch (place) {
-        case OptionOf::line: return "line";
-        case OptionOf::drive: return "drive";
-        case OptionOf::twin: return "twin";
+        case OptionOf::line:
+            return "line";
+        case OptionOf::drive:
+            return "drive";
+        case OptionOf::twin:
+            return "twin";
     }
     return "";
 }
@@ -68,16 +71,19 @@ std::string check_value(const json::object& o, std::string_view name, std::strin
     if (!low || !high) return {};
     std::int64_t n = 0;
     const auto [end, wrong] = std::from_chars(value.data(), value.data() + value.size(), n);
-    if (wrong == std::errc{} && end == value.data() + value.size() && static_cast<double>(n) >= *low && static_cast<double>(n) <= *high) return {};
+    if (wrong == std::errc{} && end == value.data() + value.size() && static_cast<double>(n) >= *low && static_cast<double>(n) <= *high)
+        return {};
     const std::string_view unit = text_of(o, "unit");
     return fmt::format("{} = {}: write a whole number from {:.0f} to {:.0f}{}{}", name, value, *low, *high, unit.empty() ? "" : " ", unit);
 }
 }  // namespace
 
-std::string check_option(const Catalogue& catalogue, std::initializer_list<OptionOf> places, std::string_view name, std::string_view value) {
+std::string check_option(const Catalogue& catalogue, std::initializer_list<OptionOf> places, std::string_view name,
+                         std::string_view value) {
     if (const json::object* o = find(catalogue, places, name)) return check_value(*o, name, value);
     std::string known;
-    for (const json::object* o : of(catalogue, places)) known += (known.empty() ? "" : ", ") + std::string(text_of(*o, "name"));
+    for (const json::object* o : of(catalogue, places))
+        known += (known.empty() ? "" : ", ") + std::string(text_of(*o, "name"));
     return fmt::format("{} is no option here; {} has {}", name, catalogue.family(), known.empty() ? "none" : known);
 }
 
@@ -110,7 +116,8 @@ std::vector<OptionFault> check_options(const Site& site, const Families& familie
             if (!catalogue) continue;
             for (const auto& [name, value] : d.options) {
                 if (auto wrong = check_option(*catalogue, {OptionOf::drive, OptionOf::twin}, name, value); !wrong.empty()) {
-                    out.push_back({l.name, d.name, fmt::format("drive {}: option {}", d.name, wrong), find(*catalogue, {OptionOf::drive}, name) != nullptr});
+                    out.push_back({l.name, d.name, fmt::format("drive {}: option {}", d.name, wrong),
+                                   find(*catalogue, {OptionOf::drive}, name) != nullptr});
                 }
             }
         }

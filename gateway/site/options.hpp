@@ -24,7 +24,7 @@ enum class OptionOf : std::uint8_t { line, drive, twin };
 
 /// One entry of a site whose options nobody will read as they stand.
 struct OptionFault {
-    std::string line, drive;   ///< which; a drive's has both
+    std::string line, drive;  ///< which; a drive's has both
     std::string text;
     bool adapter_says = false;  ///< its name is the adapter's own: that says so when it is configured
 };

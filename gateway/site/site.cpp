@@ -2,8 +2,8 @@
 // In: sites. Out: JSON, differences in words, a hash. Never changes a site.
 #include "gateway/site/site.hpp"
 
-#include <boost/json/serialize.hpp>
 #include <fmt/core.h>
+#include <boost/json/serialize.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,8 @@ const T* by_name(const std::vector<T>& list, std::string_view name) noexcept {
 void put_options(json::object& o, std::string_view key, const std::map<std::string, std::string>& options) {
     if (options.empty()) return;
     json::object x;
-    for (const auto& [k, v] : options) x[k] = v;
+    for (const auto& [k, v] : options)
+        x[k] = v;
     o[key] = std::move(x);
 }
 
@@ -59,9 +60,12 @@ json::object manners_json(const LineManners& m) {
 
 std::string_view name_of(PresenceRule rule) noexcept {
     switch (rule) {
-        case PresenceRule::device: return "device";
-        case PresenceRule::twin: return "twin";
-        case PresenceRule::automatic: return "auto";
+        case PresenceRule::device:
+            return "device";
+        case PresenceRule::twin:
+            return "twin";
+        case PresenceRule::automatic:
+            return "auto";
     }
     return "auto";
 }
@@ -119,7 +123,8 @@ std::shared_ptr<const Catalogue> catalogue_of(const Site& site, const DriveSpec&
 
 std::string Families::names() const {
     std::string s;
-    for (const auto& e : entries) s += (s.empty() ? "" : ", ") + std::string(e.family->name);
+    for (const auto& e : entries)
+        s += (s.empty() ? "" : ", ") + std::string(e.family->name);
     return s;
 }
 
@@ -163,12 +168,16 @@ json::object to_json(const AxisSpec& a) {
 
 json::object to_json(const Site& site) {
     json::array lines, drives, axes;
-    for (const auto& l : site.lines) lines.push_back(to_json(l));
-    for (const auto& d : site.drives) drives.push_back(to_json(d));
-    for (const auto& a : site.axes) axes.push_back(to_json(a));
+    for (const auto& l : site.lines)
+        lines.push_back(to_json(l));
+    for (const auto& d : site.drives)
+        drives.push_back(to_json(d));
+    for (const auto& a : site.axes)
+        axes.push_back(to_json(a));
     json::object o{{"lines", std::move(lines)}, {"drives", std::move(drives)}, {"axes", std::move(axes)}, {"mappings", site.mappings}};
     json::array units;
-    for (const auto& [unit, gaps] : site.gaps) units.push_back(json::object{{"unit", std::int64_t{unit}}, {"gaps", name_of(gaps)}});
+    for (const auto& [unit, gaps] : site.gaps)
+        units.push_back(json::object{{"unit", std::int64_t{unit}}, {"gaps", name_of(gaps)}});
     if (!units.empty()) o["modbus_units"] = std::move(units);
     return o;
 }
@@ -210,10 +219,12 @@ void compare_mappings(const json::array& from, const json::array& to, std::vecto
         for (const auto& [k, v] : *x) {
             const auto* w = it->second->if_contains(k);
             if (!w || *w != v)
-                out.push_back(fmt::format("mapping {}: {} {} -> {}", mapping_text(*x), std::string_view(k), shown(v), w ? shown(*w) : "not set"));
+                out.push_back(
+                    fmt::format("mapping {}: {} {} -> {}", mapping_text(*x), std::string_view(k), shown(v), w ? shown(*w) : "not set"));
         }
         for (const auto& [k, w] : *it->second) {
-            if (!x->contains(k)) out.push_back(fmt::format("mapping {}: {} not set -> {}", mapping_text(*x), std::string_view(k), shown(w)));
+            if (!x->contains(k))
+                out.push_back(fmt::format("mapping {}: {} not set -> {}", mapping_text(*x), std::string_view(k), shown(w)));
         }
     }
     for (const auto& [id, y] : after) {
@@ -240,7 +251,9 @@ std::vector<std::string> differences(const Site& from, const Site& to) {
             const auto jx = to_json(x), jy = to_json(*y);
             for (const auto& [k, v] : jx) {
                 const auto* w = jy.if_contains(k);
-                if (!w || *w != v) out.push_back(fmt::format("{} {}: {} {} -> {}", what, x.name, std::string_view(k), shown(v), w ? shown(*w) : "not set"));
+                if (!w || *w != v)
+                    out.push_back(
+                        fmt::format("{} {}: {} {} -> {}", what, x.name, std::string_view(k), shown(v), w ? shown(*w) : "not set"));
             }
             for (const auto& [k, w] : jy) {
                 if (!jx.contains(k)) out.push_back(fmt::format("{} {}: {} not set -> {}", what, x.name, std::string_view(k), shown(w)));
@@ -255,7 +268,8 @@ std::vector<std::string> differences(const Site& from, const Site& to) {
     compare("axis", from.axes, to.axes);
     for (unsigned unit = 2; unit <= 254 && from.gaps != to.gaps; ++unit) {
         const auto x = from.gaps.find(static_cast<std::uint8_t>(unit)), y = to.gaps.find(static_cast<std::uint8_t>(unit));
-        const auto before = x == from.gaps.end() ? "not set" : name_of(x->second), after = y == to.gaps.end() ? "not set" : name_of(y->second);
+        const auto before = x == from.gaps.end() ? "not set" : name_of(x->second),
+                   after = y == to.gaps.end() ? "not set" : name_of(y->second);
         if (before != after) out.push_back(fmt::format("modbus unit {}: gaps {} -> {}", unit, before, after));
     }
     if (from.mappings != to.mappings) compare_mappings(from.mappings, to.mappings, out);
@@ -266,7 +280,8 @@ std::uint32_t mapping_revision(const Site& site) noexcept {
     // FNV-1a over the axes' places, families' names and scales, and the mappings as they stand.
     std::uint32_t h = 2166136261u;
     const auto mix = [&h](std::string_view s) {
-        for (const unsigned char c : s) h = (h ^ c) * 16777619u;
+        for (const unsigned char c : s)
+            h = (h ^ c) * 16777619u;
         h = (h ^ 0xFFu) * 16777619u;
     };
     for (const auto& a : site.axes) {
@@ -281,10 +296,12 @@ std::uint32_t mapping_revision(const Site& site) noexcept {
     // The parameter channel names a parameter by its place in the catalogue.
     for (const auto& [drive, catalogue] : site.own_catalogues) {
         mix(drive);
-        for (const auto& p : catalogue->parameters()) mix(p.id);
+        for (const auto& p : catalogue->parameters())
+            mix(p.id);
     }
     mix(json::serialize(site.mappings));
-    for (const auto& [unit, gaps] : site.gaps) mix(fmt::format("{} {}", unit, name_of(gaps)));
+    for (const auto& [unit, gaps] : site.gaps)
+        mix(fmt::format("{} {}", unit, name_of(gaps)));
     return h;
 }
 

@@ -14,11 +14,11 @@
 #include <string_view>
 #include <vector>
 
-#include "gateway/site/authority_mode.hpp"
 #include "gateway/core/catalogue.hpp"
-#include "gateway/site/fail_safe.hpp"
 #include "gateway/core/family.hpp"
 #include "gateway/core/setup.hpp"
+#include "gateway/site/authority_mode.hpp"
+#include "gateway/site/fail_safe.hpp"
 
 namespace axisgate {
 
@@ -31,19 +31,19 @@ enum class PresenceRule : std::uint8_t {
 
 struct LineSpec {
     std::string name;
-    std::string uri;              ///< CONTRACT's line URIs; "twin": a bus with embedded drives alone
-    std::string family;           ///< of its drives that name none; empty on a CAN line whose drives all name theirs
-    std::uint32_t bitrate = 0;    ///< bit/s; 0: from the URI or the family's default
+    std::string uri;            ///< CONTRACT's line URIs; "twin": a bus with embedded drives alone
+    std::string family;         ///< of its drives that name none; empty on a CAN line whose drives all name theirs
+    std::uint32_t bitrate = 0;  ///< bit/s; 0: from the URI or the family's default
     std::map<std::string, std::string> options;
-    LineManners manners;          ///< "manners": {"reply_timeout_ms": ..., "poll_period_ms": ..., ...}
+    LineManners manners;  ///< "manners": {"reply_timeout_ms": ..., "poll_period_ms": ..., ...}
     bool operator==(const LineSpec&) const;
 };
 
 struct DriveSpec {
     std::string name;
     std::string line;
-    std::string family;           ///< empty: the line's
-    std::string address;          ///< number or text in the document; text here
+    std::string family;   ///< empty: the line's
+    std::string address;  ///< number or text in the document; text here
     PresenceRule presence = PresenceRule::automatic;
     std::map<std::string, std::string> options;
     bool operator==(const DriveSpec&) const = default;
@@ -52,16 +52,16 @@ struct DriveSpec {
 struct AxisSpec {
     std::string name;
     std::string drive;
-    int channel = 1;                    ///< 1-based, within the drive
-    int number = 0;                     ///< 1..1024: place in the register map
-    std::string unit;                   ///< for people: "mm", "deg"; empty: increments
-    double increments_per_unit = 1.0;   ///< > 0
-    std::optional<double> position_min; ///< software limits of the gateway, in `unit`
+    int channel = 1;                     ///< 1-based, within the drive
+    int number = 0;                      ///< 1..1024: place in the register map
+    std::string unit;                    ///< for people: "mm", "deg"; empty: increments
+    double increments_per_unit = 1.0;    ///< > 0
+    std::optional<double> position_min;  ///< software limits of the gateway, in `unit`
     std::optional<double> position_max;
-    std::optional<double> velocity_max; ///< unit/s, > 0
+    std::optional<double> velocity_max;  ///< unit/s, > 0
     std::optional<double> acceleration_max;
     AuthorityMode authority_mode = AuthorityMode::free;  ///< "lease": a command takes the axis for a while, and others are refused
-    FailSafe fail_safe;                 ///< what happens when the client that commands it is lost
+    FailSafe fail_safe;                                  ///< what happens when the client that commands it is lost
     bool operator==(const AxisSpec&) const = default;
 };
 
@@ -98,9 +98,9 @@ struct Site {
 };
 
 struct SiteFault {
-    std::string pointer;  ///< JSON pointer into the document: "/axes/2/number"
-    std::string text;     ///< what is wrong
-    std::string remedy;   ///< what to do
+    std::string pointer;    ///< JSON pointer into the document: "/axes/2/number"
+    std::string text;       ///< what is wrong
+    std::string remedy;     ///< what to do
     bool conflict = false;  ///< a place is taken: either of two entries must give way
 };
 

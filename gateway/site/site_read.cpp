@@ -2,8 +2,8 @@
 // In: JSON. Out: a site, or every fault with its place and what would be right. Never stops at the first fault.
 #include "gateway/site/site.hpp"
 
-#include <boost/json/serialize.hpp>
 #include <fmt/core.h>
+#include <boost/json/serialize.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,8 @@ namespace json = boost::json;
 
 std::string quoted_list(const std::vector<std::string_view>& words) {
     std::string s;
-    for (const auto w : words) s += (s.empty() ? "" : ", ") + std::string(w);
+    for (const auto w : words)
+        s += (s.empty() ? "" : ", ") + std::string(w);
     return s;
 }
 
@@ -47,7 +48,8 @@ public:
         const auto* v = get(key);
         if (v && v->is_string() && (!required || !v->get_string().empty())) return std::string(v->get_string());
         if (v || required) {
-            fault(key, v ? fmt::format("{} must be a text", key) : fmt::format("{} is missing", key), fmt::format("write \"{}\": \"{}\"", key, example));
+            fault(key, v ? fmt::format("{} must be a text", key) : fmt::format("{} is missing", key),
+                  fmt::format("write \"{}\": \"{}\"", key, example));
         }
         return {};
     }
@@ -126,6 +128,14 @@ std::string read_name(Fields& f, std::string_view example) {
     return name;
 }
 
+/// Empty: left out. An empty text names no family.
+std::string read_family(Fields& f, std::string_view example) {
+    std::string name = f.text("family", false, example);
+    if (const auto* v = f.get("family"); v && v->is_string() && name.empty())
+        f.fault("family", "family is an empty text", fmt::format("write the name of a family, as {}, or leave it out", example));
+    return name;
+}
+
 LineManners read_manners(const json::value* v, const std::string& pointer, std::vector<SiteFault>& faults) {
     LineManners m;
     if (!v) return m;
@@ -154,7 +164,9 @@ FailSafe read_fail_safe(const json::value* v, const std::string& pointer, std::v
         const auto* entry = f.get(name_of(cause));
         if (!entry) continue;
         if (entry->is_string()) s.of(cause) = fail_safe_action_of(std::string_view(entry->get_string()));
-        if (!s.of(cause)) f.fault(name_of(cause), "this is not a fail-safe action", "use nothing, halt, quick_stop or disable; leave it out to halt velocity moves alone");
+        if (!s.of(cause))
+            f.fault(name_of(cause), "this is not a fail-safe action",
+                    "use nothing, halt, quick_stop or disable; leave it out to halt velocity moves alone");
     }
     s.watchdog_ms = f.integer("watchdog_ms", 0, 600'000);
     f.unknown_keys();
@@ -171,7 +183,8 @@ void read_list(const json::object& document, std::string_view key, std::vector<T
         return;
     }
     if (v->get_array().size() > max_axes) {
-        faults.push_back({base, fmt::format("{} has {} entries", key, v->get_array().size()), fmt::format("at most {} are possible", max_axes)});
+        faults.push_back(
+            {base, fmt::format("{} has {} entries", key, v->get_array().size()), fmt::format("at most {} are possible", max_axes)});
         return;
     }
     std::set<std::string> names;
@@ -190,7 +203,8 @@ void read_list(const json::object& document, std::string_view key, std::vector<T
 template <class T>
 std::string names_of(const std::vector<T>& list) {
     std::string s;
-    for (const auto& x : list) s += (s.empty() ? "" : ", ") + x.name;
+    for (const auto& x : list)
+        s += (s.empty() ? "" : ", ") + x.name;
     return s.empty() ? "none" : s;
 }
 
@@ -280,7 +294,8 @@ void check_relations(const Site& site, const Families& families, std::vector<Sit
         if (l.uri.empty()) continue;
         const auto uri = parse_line_uri(l.uri);
         if (!uri.good()) {
-            faults.push_back({at("lines", i, "uri"), uri.fault, "see the line URIs in the manual page: can:can0, serial:/dev/ttyUSB0?baud=9600, tcp:HOST:PORT, twin"});
+            faults.push_back({at("lines", i, "uri"), uri.fault,
+                              "see the line URIs in the manual page: can:can0, serial:/dev/ttyUSB0?baud=9600, tcp:HOST:PORT, twin"});
             continue;
         }
         if (family.family) {
@@ -301,19 +316,23 @@ void check_relations(const Site& site, const Families& families, std::vector<Sit
         const auto& d = site.drives[i];
         const LineSpec* line = site.line(d.line);
         if (!d.line.empty() && !line) {
-            faults.push_back({at("drives", i, "line"), fmt::format("drive {}: there is no line {}", d.name, d.line), "lines: " + names_of(site.lines)});
+            faults.push_back(
+                {at("drives", i, "line"), fmt::format("drive {}: there is no line {}", d.name, d.line), "lines: " + names_of(site.lines)});
         }
         if (!line) continue;
         if (const auto family = families.find(site.family_of(d)); family.family && !d.address.empty()) {
             if (std::string wrong = family.family->check_address(d.address); !wrong.empty()) {
-                faults.push_back({at("drives", i, "address"), fmt::format("drive {}: {}", d.name, wrong), "the factory address is " + std::string(family.family->factory_address)});
+                faults.push_back({at("drives", i, "address"), fmt::format("drive {}: {}", d.name, wrong),
+                                  "the factory address is " + std::string(family.family->factory_address)});
             }
         }
         if (!addresses.emplace(d.line, site.family_of(d), d.address).second) {
-            faults.push_back({at("drives", i, "address"), fmt::format("two drives on {} have the address {}", d.line, d.address), "give each drive an address of its own"});
+            faults.push_back({at("drives", i, "address"), fmt::format("two drives on {} have the address {}", d.line, d.address),
+                              "give each drive an address of its own"});
         }
         if (line->uri == "twin" && d.presence == PresenceRule::device) {
-            faults.push_back({at("drives", i, "presence"), fmt::format("drive {}: a twin line has no real drives", d.name), "use presence twin or auto, or a real line"});
+            faults.push_back({at("drives", i, "presence"), fmt::format("drive {}: a twin line has no real drives", d.name),
+                              "use presence twin or auto, or a real line"});
         }
     }
     std::set<int> numbers;
@@ -322,19 +341,25 @@ void check_relations(const Site& site, const Families& families, std::vector<Sit
         const auto& a = site.axes[i];
         const DriveSpec* drive = site.drive(a.drive);
         if (!a.drive.empty() && !drive) {
-            faults.push_back({at("axes", i, "drive"), fmt::format("axis {}: there is no drive {}", a.name, a.drive), "drives: " + names_of(site.drives)});
+            faults.push_back({at("axes", i, "drive"), fmt::format("axis {}: there is no drive {}", a.name, a.drive),
+                              "drives: " + names_of(site.drives)});
         }
         if (a.number > 0 && !numbers.insert(a.number).second) {
-            faults.push_back({at("axes", i, "number"), fmt::format("axis {}: the number {} is taken", a.name, a.number), "give each axis a number of its own: it is its place in the register map"});
+            faults.push_back({at("axes", i, "number"), fmt::format("axis {}: the number {} is taken", a.name, a.number),
+                              "give each axis a number of its own: it is its place in the register map"});
         }
         if (!channels.emplace(a.drive, a.channel).second) {
-            faults.push_back({at("axes", i, "channel"), fmt::format("axis {}: channel {} of {} is taken", a.name, a.channel, a.drive), "one axis per channel"});
+            faults.push_back({at("axes", i, "channel"), fmt::format("axis {}: channel {} of {} is taken", a.name, a.channel, a.drive),
+                              "one axis per channel"});
         }
         if (drive) {
             if (const auto catalogue = catalogue_of(site, *drive, families)) {
                 const int highest = catalogue->most_channels();
                 if (a.channel > highest) {
-                    faults.push_back({at("axes", i, "channel"), fmt::format("axis {}: a {} has {} channel{}", a.name, catalogue->family(), highest, highest == 1 ? "" : "s"), fmt::format("use 1 to {}", highest)});
+                    faults.push_back(
+                        {at("axes", i, "channel"),
+                         fmt::format("axis {}: a {} has {} channel{}", a.name, catalogue->family(), highest, highest == 1 ? "" : "s"),
+                         fmt::format("use 1 to {}", highest)});
                 }
             }
         }
@@ -352,7 +377,9 @@ void read_units(const json::value* list, Site& site, std::vector<SiteFault>& fau
         if (!f.get("unit")) f.fault("unit", "unit is missing", "write \"unit\": 2, a Modbus unit with a map of its own");
         const auto unit = f.integer("unit", 2, 254);
         const auto gaps = map_gaps_named(f.text("gaps", true, "refuse"));
-        if (!gaps && f.get("gaps")) f.fault("gaps", "this is not a way to show gaps", "use zero or refuse; leave the entry out for what the host's [modbus] gaps says");
+        if (!gaps && f.get("gaps"))
+            f.fault("gaps", "this is not a way to show gaps",
+                    "use zero or refuse; leave the entry out for what the host's [modbus] gaps says");
         f.unknown_keys();
         if (unit && gaps && !site.gaps.emplace(static_cast<std::uint8_t>(*unit), *gaps).second)
             f.fault("unit", fmt::format("unit {} is there twice", *unit), "keep one of the two entries");
@@ -369,7 +396,8 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
     const auto& o = document.get_object();
     for (const auto& [k, v] : o) {
         if (k != "lines" && k != "drives" && k != "axes" && k != "mappings" && k != "modbus_units") {
-            faults.push_back({"/" + std::string(k), fmt::format("{} is not known here", std::string_view(k)), "a site has lines, drives, axes, mappings and modbus_units"});
+            faults.push_back({"/" + std::string(k), fmt::format("{} is not known here", std::string_view(k)),
+                              "a site has lines, drives, axes, mappings and modbus_units"});
         }
     }
     Site site;
@@ -377,7 +405,7 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
         LineSpec l;
         l.name = read_name(f, "can0");
         l.uri = f.text("uri", true, "twin");
-        l.family = f.text("family", false, families.entries.empty() ? "uim342" : families.entries.front().family->name);
+        l.family = read_family(f, families.entries.empty() ? "uim342" : families.entries.front().family->name);
         l.bitrate = static_cast<std::uint32_t>(f.integer("bitrate", 0, 100'000'000).value_or(0));
         l.options = f.options("options");
         l.manners = read_manners(f.get("manners"), pointer + "/manners", faults);
@@ -388,13 +416,14 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
         d.name = read_name(f, "feeder");
         d.line = f.text("line", true, "can0");
         const LineSpec* line = site.line(d.line);
-        d.family = f.text("family", false, line && !line->family.empty() ? line->family : "uim342");
+        d.family = read_family(f, line && !line->family.empty() ? line->family : "uim342");
         if (line && d.family == line->family) d.family.clear();  // the line's: it follows when the line's changes
         const FamilyEntry family = families.find(site.family_of(d));
         if (const auto* a = f.get("address")) {
             if (a->is_string()) {
                 d.address = std::string(a->get_string());
-                if (d.address.empty()) f.fault("address", "the address is empty", "write the drive's address, or leave it out for the factory's");
+                if (d.address.empty())
+                    f.fault("address", "the address is empty", "write the drive's address, or leave it out for the factory's");
             } else if (a->is_int64() || a->is_uint64()) {
                 d.address = json::serialize(*a);
             } else {
@@ -426,12 +455,15 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
         a.name = read_name(f, "feeder");
         a.drive = f.text("drive", true, "feeder");
         a.channel = static_cast<int>(f.integer("channel", 1, 256).value_or(1));
-        if (!f.get("number")) f.fault("number", fmt::format("axis {}: number is missing", a.name), "write \"number\": 1, its place in the register map");
+        if (!f.get("number"))
+            f.fault("number", fmt::format("axis {}: number is missing", a.name), "write \"number\": 1, its place in the register map");
         a.number = static_cast<int>(f.integer("number", 1, max_axes).value_or(0));
         a.unit = f.get("unit") ? f.text("unit", false, "mm") : "";
         if (const auto x = f.number("increments_per_unit", "3200")) {
             a.increments_per_unit = *x;
-            if (!(*x > 0)) f.fault("increments_per_unit", "increments_per_unit must be above 0", "write how many increments of the drive make one unit; turn the direction round in the drive");
+            if (!(*x > 0))
+                f.fault("increments_per_unit", "increments_per_unit must be above 0",
+                        "write how many increments of the drive make one unit; turn the direction round in the drive");
         }
         a.position_min = f.number("position_min", "-100");
         a.position_max = f.number("position_max", "100");
@@ -465,7 +497,8 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
     // In their full form from here on: ids that were given, defaults that were chosen.
     if (auto mappings = parse_mappings(site.mappings, site, families, faults)) {
         site.mappings.clear();
-        for (const auto& mapping : *mappings) site.mappings.push_back(to_json(mapping));
+        for (const auto& mapping : *mappings)
+            site.mappings.push_back(to_json(mapping));
         site.parsed_mappings = std::make_shared<const std::vector<Mapping>>(std::move(*mappings));
     }
     if (faults.size() != before) return std::nullopt;

@@ -13,10 +13,10 @@ namespace axisgate {
 /// A site in force: immutable, shared with every reader. Ids are those of the running engine.
 struct SiteState {
     Site site;
-    std::uint64_t revision = 0;     ///< counts up with each change; also the strong ETag of /site
-    std::vector<AxisId> axis_ids;   ///< by index in site.axes
-    std::vector<DriveId> drive_ids; ///< by index in site.drives
-    std::vector<LineId> line_ids;   ///< by index in site.lines
+    std::uint64_t revision = 0;      ///< counts up with each change; also the strong ETag of /site
+    std::vector<AxisId> axis_ids;    ///< by index in site.axes
+    std::vector<DriveId> drive_ids;  ///< by index in site.drives
+    std::vector<LineId> line_ids;    ///< by index in site.lines
 };
 
 }  // namespace axisgate

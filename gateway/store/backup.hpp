@@ -17,8 +17,8 @@ namespace axisgate {
 [[nodiscard]] StoreResult<> backup_database(const std::string& directory, const std::string& target);
 
 struct RestoreReport {
-    std::string kept;  ///< where the replaced database now is; empty if there was none
-    int version = 0;   ///< of the restored file; the next start upgrades it if it is older than the program
+    std::string kept;                 ///< where the replaced database now is; empty if there was none
+    int version = 0;                  ///< of the restored file; the next start upgrades it if it is older than the program
     std::uint64_t site_revision = 0;  ///< in force in it; 0: none
 };
 /// Puts the backup `source` in the place of the database in `options.directory` (which may be empty or missing). The gateway must not

@@ -154,9 +154,11 @@ StoreResult<> create(const std::string& file, const std::string& directory) {
 
 StoreResult<> copy(const std::string& from, const std::string& to, const std::string& directory) {
     struct stat st {};
-    const std::string folder = std::filesystem::path(from).has_parent_path() ? std::filesystem::path(from).parent_path().string() : "the folder that it is in";
+    const std::string folder =
+        std::filesystem::path(from).has_parent_path() ? std::filesystem::path(from).parent_path().string() : "the folder that it is in";
     if (::stat(from.c_str(), &st) != 0) {
-        if (errno == ENOENT) return fail(StoreError::Kind::cannot_open, fmt::format("there is no file {}. Name a backup that is there", from));
+        if (errno == ENOENT)
+            return fail(StoreError::Kind::cannot_open, fmt::format("there is no file {}. Name a backup that is there", from));
         return system_fail("cannot read", from, folder);
     }
     if (!S_ISREG(st.st_mode)) {  // looked at first: to open a pipe would wait for ever

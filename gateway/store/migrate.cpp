@@ -71,9 +71,11 @@ StoreResult<> check_identity(Db& db, int newest) {
     if (*id != application_id) {
         // SQLite takes a file of fewer bytes than a page for a database in which nothing is yet.
         if (!files::has_sqlite_header(db.file())) {
-            return fail(Kind::corrupt, fmt::format("{} is not a database. Name a file that `axisgate backup` made; if it lies in the place of the database, "
-                                                   "move it away and restore a backup with `axisgate restore FILE`",
-                                                   db.file()));
+            return fail(
+                Kind::corrupt,
+                fmt::format("{} is not a database. Name a file that `axisgate backup` made; if it lies in the place of the database, "
+                            "move it away and restore a backup with `axisgate restore FILE`",
+                            db.file()));
         }
         return fail(Kind::not_ours,
                     fmt::format("{} is a SQLite file, but not one of axisgate. Name the right file, or move this one away", db.file()));

@@ -30,7 +30,8 @@ public:
     /// The document in force; nothing if none was ever saved.
     [[nodiscard]] StoreResult<std::optional<SiteRevision>> load_site();
     [[nodiscard]] StoreResult<std::optional<SiteRevision>> site(std::uint64_t revision);
-    /// Newest first, without the texts. `limit`: 1..max_answer_rows (clamped). `before`: smaller numbers, for the next page; 0: from the newest.
+    /// Newest first, without the texts. `limit`: 1..max_answer_rows (clamped). `before`: smaller numbers, for the next page; 0: from the
+    /// newest.
     [[nodiscard]] StoreResult<std::vector<SiteRevision>> site_history(std::size_t limit = max_answer_rows, std::uint64_t before = 0);
 
     // --- parameters --------------------------------------------------------------------------------------------------------
@@ -39,8 +40,8 @@ public:
     /// Newest acknowledged write of each parameter under the family that the axis has, in order of parameter id; none for removed axes.
     [[nodiscard]] StoreResult<std::vector<ParameterRecord>> stored(std::string_view axis);
     [[nodiscard]] StoreResult<std::optional<ParameterRecord>> stored(std::string_view axis, std::string_view parameter);
-    /// Writes under the family that the axis has (had), newest first, also of removed axes. `parameter` empty: all of the axis. `limit`: 1..max_answer_rows (clamped).
-    /// `before_id`: rows with a smaller id, for the next page; 0: from the newest.
+    /// Writes under the family that the axis has (had), newest first, also of removed axes. `parameter` empty: all of the axis.
+    /// `limit`: 1..max_answer_rows (clamped). `before_id`: rows with a smaller id, for the next page; 0: from the newest.
     [[nodiscard]] StoreResult<std::vector<ParameterRecord>> history(std::string_view axis, std::string_view parameter, std::size_t limit,
                                                                     std::uint64_t before_id = 0);
     /// What the drive last said, in order of parameter id; none for removed axes.

@@ -69,7 +69,8 @@ StoreResult<std::vector<AxisRecord>> StoreReader::axes() {
 StoreResult<std::vector<ParameterRecord>> StoreReader::stored(std::string_view axis) {
     Query q(*db_,
             "SELECT s.parameter, s.value_type, s.value, s.old_type, s.old_value, s.door, s.who, s.at_unix_ns, s.storage, 0 "
-            "FROM axis a JOIN parameter_stored s ON s.axis_id = a.id AND s.family = a.family WHERE a.name = ? AND a.removed_unix_ns IS NULL ORDER BY s.parameter");
+            "FROM axis a JOIN parameter_stored s ON s.axis_id = a.id AND s.family = a.family WHERE a.name = ? AND a.removed_unix_ns IS "
+            "NULL ORDER BY s.parameter");
     q.bind(axis);
     return all_records(q, axis);
 }

@@ -2,8 +2,8 @@
 // In: built by the runtime from results, samples, notices and the site. Out: the same, read back.
 // Never holds ids of the running process (AxisId, DriveId): names alone outlive it. Times are nanoseconds since 1970 (UTC).
 //
-// Event, EventQuery, StoredParameter, SiteRevision and the snapshots are gateway/core/records.hpp's; what is added to them here is added by derivation, so that a
-// vector of ours can be handed on as a vector of theirs.
+// Event, EventQuery, StoredParameter, SiteRevision and the snapshots are gateway/core/records.hpp's; what is added to them here is added by
+// derivation, so that a vector of ours can be handed on as a vector of theirs.
 #pragma once
 
 #include <cstddef>
@@ -24,8 +24,8 @@ namespace axisgate {
 /// except that texts of events are cut: an event must not be lost for its length.
 struct StoreLimits {
     std::uint64_t site_revisions = 1000;
-    std::uint64_t site_bytes = 256ull << 20;        ///< their documents together; the one in force stays whatever its length
-    std::uint64_t removed_axes = 1000;              ///< with all that is stored for them
+    std::uint64_t site_bytes = 256ull << 20;   ///< their documents together; the one in force stays whatever its length
+    std::uint64_t removed_axes = 1000;         ///< with all that is stored for them
     std::uint64_t parameter_writes = 100'000;  ///< rows of the history, all axes together
     std::uint64_t events = 200'000;
     std::uint64_t piece = 256;                      ///< rows deleted beyond those added, per transaction, when a table is over its bound

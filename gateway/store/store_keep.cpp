@@ -68,7 +68,9 @@ StoreResult<std::uint32_t> Store::save_snapshot(std::string_view axis, std::stri
             n = next.integer(0);
             if (auto r = next.run(); !r) return fail(r);
         }
-        if (auto r = Query(*db_, "INSERT INTO snapshot (axis_id, n, name, comment, who, at_unix_ns, family) VALUES (?1, ?2, ?3, ?4, ?5, ?6, (SELECT family FROM axis WHERE id = ?1))")
+        if (auto r = Query(*db_,
+                           "INSERT INTO snapshot (axis_id, n, name, comment, who, at_unix_ns, family) VALUES (?1, ?2, ?3, ?4, ?5, ?6, "
+                           "(SELECT family FROM axis WHERE id = ?1))")
                          .bind(*id)
                          .bind(n)
                          .bind(name)

@@ -176,9 +176,10 @@ StoreResult<> Store::bring_in(const SiteAxis& axis) {
     bool removed = false;
     if (auto r = find(id, family, removed); !r) return r;
     if (id == 0) {
-        if (auto r = Query(*db_, "UPDATE axis SET name = aside_of, aside_of = NULL WHERE id = (SELECT max(id) FROM axis WHERE aside_of = ?)")
-                         .bind(axis.name)
-                         .run();
+        if (auto r =
+                Query(*db_, "UPDATE axis SET name = aside_of, aside_of = NULL WHERE id = (SELECT max(id) FROM axis WHERE aside_of = ?)")
+                    .bind(axis.name)
+                    .run();
             !r) {
             return r;
         }
@@ -215,7 +216,8 @@ StoreResult<> Store::forget_oldest_axes() {
         }
     }
     for (const std::int64_t id : gone) {
-        for (const char* sql : {"DELETE FROM parameter_write WHERE axis_id = ?", "DELETE FROM snapshot WHERE axis_id = ?", "DELETE FROM axis WHERE id = ?"}) {
+        for (const char* sql :
+             {"DELETE FROM parameter_write WHERE axis_id = ?", "DELETE FROM snapshot WHERE axis_id = ?", "DELETE FROM axis WHERE id = ?"}) {
             if (auto r = Query(*db_, sql).bind(id).run(); !r) return r;
         }
     }

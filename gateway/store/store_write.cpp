@@ -77,7 +77,8 @@ StoreResult<> Store::put(const ParameterWrite& w) {
     Query stored(
         *db_,
         "INSERT INTO parameter_stored (axis_id, parameter, value_type, value, old_type, old_value, storage, door, who, at_unix_ns, family) "
-        "VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, (SELECT family FROM axis WHERE id = ?1)) ON CONFLICT (axis_id, family, parameter) DO UPDATE SET value_type = excluded.value_type, "
+        "VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, (SELECT family FROM axis WHERE id = ?1)) ON CONFLICT (axis_id, family, "
+        "parameter) DO UPDATE SET value_type = excluded.value_type, "
         "value = excluded.value, old_type = excluded.old_type, old_value = excluded.old_value, storage = excluded.storage, "
         "door = excluded.door, who = excluded.who, at_unix_ns = excluded.at_unix_ns");
     for (Query* q : {&history, &stored}) {

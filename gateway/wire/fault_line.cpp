@@ -242,7 +242,8 @@ bool FaultLine::give(Direction& d, const Frame& frame, Priority priority, Instan
     Instant due = now;
     if (d.rates.drift > Duration::zero()) {
         if (d.since == never) d.since = now;
-        due += std::min(d.rates.drift_max, Duration{static_cast<Duration::rep>(static_cast<double>(d.rates.drift.count()) * seconds(now - d.since))});
+        due += std::min(d.rates.drift_max,
+                        Duration{static_cast<Duration::rep>(static_cast<double>(d.rates.drift.count()) * seconds(now - d.since))});
     }
     if (d.rates.delay_max > Duration::zero() && chance(d.random, d.rates.delay)) {
         ++counters_.delayed;

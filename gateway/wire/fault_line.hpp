@@ -80,9 +80,9 @@ private:
         FaultRates rates;
         std::uint64_t random = 0;  // each direction has its own sequence: more traffic in one leaves the other as it was
         bool to_drive = true;
-        std::deque<Late> late;      // in order of `due`
-        std::optional<Late> held;   // waits to be overtaken
-        Instant since = never;      // of the rates: the first frame after they were set
+        std::deque<Late> late;     // in order of `due`
+        std::optional<Late> held;  // waits to be overtaken
+        Instant since = never;     // of the rates: the first frame after they were set
     };
 
     void on_frame(const Frame& frame) override;

@@ -11,10 +11,10 @@
 
 #include "gateway/core/ids.hpp"
 #include "gateway/core/line.hpp"
-#include "gateway/wire/load_meter.hpp"
-#include "gateway/wire/send_queue.hpp"
 #include "gateway/core/setup.hpp"
 #include "gateway/core/twin.hpp"
+#include "gateway/wire/load_meter.hpp"
+#include "gateway/wire/send_queue.hpp"
 
 namespace axisgate {
 

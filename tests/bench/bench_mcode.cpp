@@ -2,7 +2,7 @@
 // In: a loop of five simple statements, compiled once. Out: statements per second as a ratio to five million; on one processor.
 #include <chrono>
 
-#include "adapters/mcode/twin_run.hpp"
+#include "adapters/mcode/twin/run.hpp"
 #include "tests/bench/report.hpp"
 
 namespace axisgate::bench {

@@ -21,8 +21,8 @@
 #include <cstring>
 #include <string>
 
-#include "gateway/engine/door.hpp"
 #include "gateway/doors/modbus/server.hpp"
+#include "gateway/engine/door.hpp"
 
 namespace axisgate::bench {
 

@@ -58,8 +58,7 @@ bool open_client(Client& c, Address address, int period_ms, Crowd::Watches what)
         return send_all(c.fd, client_frame(1, R"({"subscribe":[)" + topics + R"(],"period_ms":)" + std::to_string(period) + "}"));
     };
     if (!subscribe(R"("axes/*")", period_ms)) return false;
-    return what == Crowd::Watches::axes ||
-           (subscribe(R"("site","events","alarms")", 1000) && subscribe(R"("drives/*","lines/*")", 500));
+    return what == Crowd::Watches::axes || (subscribe(R"("site","events","alarms")", 1000) && subscribe(R"("drives/*","lines/*")", 500));
 }
 
 /// Takes the whole frames out of what has come. False: closed, or not what a server sends.

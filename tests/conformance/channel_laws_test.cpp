@@ -20,7 +20,8 @@ protected:
         ASSERT_EQ(site->axis_ids.size(), static_cast<std::size_t>(most > 1 ? most : std::ssize(addresses(e, 3))));
     }
     void enable_all() {
-        for (const AxisId axis : site->axis_ids) ASSERT_NO_FATAL_FAILURE(order(axis, Enable{}));
+        for (const AxisId axis : site->axis_ids)
+            ASSERT_NO_FATAL_FAILURE(order(axis, Enable{}));
     }
     /// Two axes that go far away in opposite directions, by whatever their drive can.
     void turn_two(AxisId one, AxisId other) {
@@ -29,7 +30,8 @@ protected:
     }
     [[nodiscard]] std::vector<double> places() const {
         std::vector<double> list;
-        for (const AxisId axis : site->axis_ids) list.push_back(mechanics(axis).position);
+        for (const AxisId axis : site->axis_ids)
+            list.push_back(mechanics(axis).position);
         return list;
     }
     /// All but these stand where they stood.
@@ -89,20 +91,24 @@ TEST_P(ChannelLaws, StopsOfAllStopAllAndEachIsAnswered) {
         }
         const auto asked = w.now;
         std::vector<Ticket> stops;
-        for (const AxisId axis : site->axis_ids) stops.push_back(w.command(axis, quick ? CommandBody{QuickStop{}} : CommandBody{Halt{}}, true));
-        ASSERT_TRUE(w.run_until_true([&] { return std::ranges::all_of(site->axis_ids, [&](AxisId axis) { return speed(axis) == 0; }); }, 5s))
+        for (const AxisId axis : site->axis_ids)
+            stops.push_back(w.command(axis, quick ? CommandBody{QuickStop{}} : CommandBody{Halt{}}, true));
+        ASSERT_TRUE(
+            w.run_until_true([&] { return std::ranges::all_of(site->axis_ids, [&](AxisId axis) { return speed(axis) == 0; }); }, 5s))
             << "an axis goes on " << seconds(w.now - asked) << " s after its stop";
         for (const Ticket t : stops) {
             const Result* r = w.wait(t, 60s);
             EXPECT_TRUE(r && good(*r)) << told(r);
         }
         w.run_for(1s);
-        for (const Ticket t : stops) EXPECT_EQ(w.results[t].size(), 1u);
+        for (const Ticket t : stops)
+            EXPECT_EQ(w.results[t].size(), 1u);
         for (const AxisId axis : site->axis_ids) {
             EXPECT_EQ(power_state_of(now(axis).statusword), quick ? PowerState::quick_stop_active : PowerState::operation_enabled);
             EXPECT_EQ(speed(axis), 0);
         }
-        for (const AxisId axis : site->axis_ids) order(axis, Enable{});
+        for (const AxisId axis : site->axis_ids)
+            order(axis, Enable{});
     }
 }
 
@@ -188,7 +194,8 @@ TEST_P(ChannelLaws, PreparedMovesBeginTogetherOrAreRefused) {
     r = ask(all[0], go, true);  // what was started is not prepared any more
     ASSERT_TRUE(r);
     w.run_for(2s);
-    for (const AxisId axis : all) EXPECT_EQ(now(axis).position, 3000) << told(r);
+    for (const AxisId axis : all)
+        EXPECT_EQ(now(axis).position, 3000) << told(r);
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, ChannelLaws, testing::ValuesIn(law_subjects()), name_of_subject);

@@ -50,7 +50,8 @@ protected:
         return answer(modbus(d));
     }
     void enable_by_words() {
-        for (const int cw : {0x06, 0x07, 0x0F}) ASSERT_TRUE(good(word(cw)));
+        for (const int cw : {0x06, 0x07, 0x0F})
+            ASSERT_TRUE(good(word(cw)));
         ASSERT_EQ(power_state_of(now().statusword), PowerState::operation_enabled);
     }
     void enable(std::int16_t mode) {
@@ -100,8 +101,9 @@ TEST_P(CommandLaws, ASetPointThatWaitsKeepsTheLimits) {
     const auto before = world->events.size();
     const Result back = set_point(-2000, 0x5F);
     EXPECT_TRUE(good(back)) << back.text;
-    EXPECT_TRUE(std::any_of(world->events.begin() + static_cast<std::ptrdiff_t>(before), world->events.end(), [](const Event& x) { return x.text.find("waits") != std::string::npos; }))
-        << "a set-point that waits is an event like any other";
+    EXPECT_TRUE(std::any_of(world->events.begin() + static_cast<std::ptrdiff_t>(before), world->events.end(), [](const Event& x) {
+        return x.text.find("waits") != std::string::npos;
+    })) << "a set-point that waits is an event like any other";
     std::int64_t highest = begin;
     for (int i = 0; i < 1200; ++i) {
         world->run_for(10ms);

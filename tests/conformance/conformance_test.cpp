@@ -25,7 +25,8 @@ TEST_P(EveryFamily, CatalogueIsWhole) {
     EXPECT_GT(e.catalogue->parameters().size(), 0u);
     EXPECT_GT(e.catalogue->commands().size(), 0u);
     EXPECT_GT(e.catalogue->errors().size(), 0u);
-    for (const auto* key : {"title", "maker", "description"}) EXPECT_TRUE(doc.if_contains(key)) << key;
+    for (const auto* key : {"title", "maker", "description"})
+        EXPECT_TRUE(doc.if_contains(key)) << key;
     for (const auto& p : e.catalogue->parameters()) {
         EXPECT_GT(p.description.size(), 10u) << p.id;
         EXPECT_FALSE(p.storage.empty()) << p.id;
@@ -220,7 +221,8 @@ TEST_P(EveryFamily, StopInterruptsAWatchedMotionWithOneResultEach) {
     EXPECT_EQ(r->reason, Reason::interrupted);
     ASSERT_TRUE(w.wait(stop, 5s));
     w.run_for(2s);
-    for (const auto& [t, list] : w.results) EXPECT_EQ(list.size(), 1u) << "ticket " << t;
+    for (const auto& [t, list] : w.results)
+        EXPECT_EQ(list.size(), 1u) << "ticket " << t;
 }
 
 TEST_P(EveryFamily, EveryReadableParameterCanBeReadAndIsInItsRange) {
@@ -410,7 +412,9 @@ TEST_P(EveryFamily, PowerCycleIsSurvived) {
 TEST_P(EveryFamily, CommandsInFlightAreAnsweredWhenTheirDriveIsRemoved) {
     start();
     std::vector<Ticket> tickets;
-    for (int i = 0; i < 5; ++i) tickets.push_back(w.command(a1, ReadParameter{{0, e.catalogue->parameters()[0].count ? e.catalogue->parameters()[0].first : std::uint16_t{0}}}));
+    for (int i = 0; i < 5; ++i)
+        tickets.push_back(
+            w.command(a1, ReadParameter{{0, e.catalogue->parameters()[0].count ? e.catalogue->parameters()[0].first : std::uint16_t{0}}}));
     w.apply(Site{});
     w.run_for(5s);
     for (const auto t : tickets) {
@@ -469,7 +473,8 @@ TEST_P(EveryFamily, TooManyCommandsAreBusyAndNoneIsLost) {
     start();
     std::vector<Ticket> tickets;
     const Point p{0, e.catalogue->parameters()[0].count ? e.catalogue->parameters()[0].first : std::uint16_t{0}};
-    for (int i = 0; i < 200; ++i) tickets.push_back(w.command(a1, ReadParameter{p}));
+    for (int i = 0; i < 200; ++i)
+        tickets.push_back(w.command(a1, ReadParameter{p}));
     w.run_for(30s);
     std::size_t busy = 0;
     for (const auto t : tickets) {
@@ -506,7 +511,8 @@ TEST_P(EveryFamily, GarbageOnTheWireHarmsNobody) {
         adapter->on_line(true, now, out);
         for (int i = 0; i < 20000; ++i) {
             std::array<std::uint8_t, 64> bytes{};
-            for (auto& b : bytes) b = static_cast<std::uint8_t>(random());
+            for (auto& b : bytes)
+                b = static_cast<std::uint8_t>(random());
             Frame f;
             if (kind == LineKind::can) {
                 f = Frame::can_extended(static_cast<std::uint32_t>(random()), std::span(bytes).first(random() % 9));
@@ -549,8 +555,10 @@ TEST_P(EveryFamily, ATwinAtRestCostsNothing) {
             EXPECT_FALSE(h.description.empty()) << h.name;
         }
         std::set<std::string> names;
-        for (const auto& h : twin->hand()) names.insert(h.name);
-        for (const auto* must : {"power", "silent", "inject_error", "stall"}) EXPECT_TRUE(names.contains(must)) << must;
+        for (const auto& h : twin->hand())
+            names.insert(h.name);
+        for (const auto* must : {"power", "silent", "inject_error", "stall"})
+            EXPECT_TRUE(names.contains(must)) << must;
         EXPECT_NE(twin->set_hand("no_such_thing", Value{true}, now, out), "");
     }
 }
@@ -561,7 +569,8 @@ TEST_P(EveryFamily, WhatCrossesTheLineCanBeReadByPeople) {
     w.wait(w.command(a1, move_to(w.picture(a1).position + 500), true), 10s);
     const auto log = w.engine.frame_log(site->line_ids[0])->read(1, 100000, 0);
     ASSERT_GT(log.entries.size(), 20u);
-    auto decoder = e.family->make_decoder(*e.catalogue, log.entries.front().frame.kind == Frame::Kind::bytes ? LineKind::bytes : LineKind::can);
+    auto decoder =
+        e.family->make_decoder(*e.catalogue, log.entries.front().frame.kind == Frame::Kind::bytes ? LineKind::bytes : LineKind::can);
     std::size_t lines = 0;
     for (const auto& entry : log.entries) {
         for (const auto& text : decoder->on_frame(entry.frame, entry.to_drive)) {
@@ -590,7 +599,8 @@ INSTANTIATE_TEST_SUITE_P(Families, EveryFamily, testing::ValuesIn(law_subjects()
 TEST(Conformance, ThereAreFamiliesAndTheirNumbersDiffer) {
     ASSERT_FALSE(families().entries.empty());
     std::set<int> numbers;
-    for (const auto& e : families().entries) EXPECT_TRUE(numbers.insert(e.catalogue->number()).second);
+    for (const auto& e : families().entries)
+        EXPECT_TRUE(numbers.insert(e.catalogue->number()).second);
 }
 
 }  // namespace

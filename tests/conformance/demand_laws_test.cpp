@@ -26,7 +26,7 @@ protected:
     }
     void ends_with(const CommandBody& stop) {
         start();
-    w.run_for(1s);
+        w.run_for(1s);
         order(Enable{});
         w.run_for(500ms);
         w.command(a1, move(now().position + 40000), false);

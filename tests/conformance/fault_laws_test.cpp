@@ -36,7 +36,8 @@ protected:
     std::vector<Condition> conditions() {
         std::vector<Condition> list;
         for (const HandItem& item : w->engine.twin(d1)->hand()) {
-            if (!item.writable || item.name == "power" || item.name == "silent" || item.name.find("inject_error") != std::string::npos) continue;
+            if (!item.writable || item.name == "power" || item.name == "silent" || item.name.find("inject_error") != std::string::npos)
+                continue;
             if (const auto* on = std::get_if<bool>(&item.value)) {
                 list.push_back({item.name, Value{!*on}, item.value});
             } else if (const auto number = as_number(item.value)) {
@@ -95,7 +96,8 @@ TEST_P(FaultLaws, OneFaultIsOneAlarmRaisedOnceAndClearedOnce) {
     auto list = conditions();
     for (const HandItem& item : w->engine.twin(d1)->hand()) {
         if (item.name != "inject_error") continue;
-        for (const ErrorCode& known : e.catalogue->errors()) list.push_back({item.name, Value{std::int64_t{known.code}}, Value{std::int64_t{0}}});
+        for (const ErrorCode& known : e.catalogue->errors())
+            list.push_back({item.name, Value{std::int64_t{known.code}}, Value{std::int64_t{0}}});
     }
     int faults = 0, resets = 0;
     for (const Condition& c : list) {
@@ -132,10 +134,12 @@ TEST_P(FaultLaws, OneFaultIsOneAlarmRaisedOnceAndClearedOnce) {
         EXPECT_EQ(cleared(), fault() ? 0 : 1) << by;
         const auto after = alarms();
         EXPECT_EQ(after.all().size(), 1u) << by;
-        for (const auto& [id, alarm] : after.all()) EXPECT_EQ(alarm.active, fault()) << by << ": " << alarm.text;
+        for (const auto& [id, alarm] : after.all())
+            EXPECT_EQ(alarm.active, fault()) << by << ": " << alarm.text;
         if (!fault()) ++resets;
         if (HasFailure()) {
-            for (const auto& ev : w->events) ADD_FAILURE() << by << ": event " << ev.kind << " " << ev.code << " " << ev.text;
+            for (const auto& ev : w->events)
+                ADD_FAILURE() << by << ": event " << ev.kind << " " << ev.code << " " << ev.text;
             return;
         }
     }

@@ -9,14 +9,12 @@ namespace axisgate::test {
 namespace {
 
 /// The first family's adapter, which has never heard of velocity moves.
-class WithoutVelocity final : public Adapter {
+class WithoutVelocity final : public PassingAdapter {
 public:
-    explicit WithoutVelocity(std::unique_ptr<Adapter> inner) : inner_(std::move(inner)) {}
-    void configure(const LineSetup& setup, Instant now, Out& out) override { inner_->configure(setup, now, out); }
-    void on_line(bool up, Instant now, Out& out) override { inner_->on_line(up, now, out); }
+    using PassingAdapter::PassingAdapter;
     void on_command(const Command& command, Instant now, Out& out) override {
         const auto* move = std::get_if<Move>(&command.body);
-        if (!move || move->kind != Move::Kind::velocity) return inner_->on_command(command, now, out);
+        if (!move || move->kind != Move::Kind::velocity) return PassingAdapter::on_command(command, now, out);
         Result r;
         r.ticket = command.ticket;
         r.axis = command.axis;
@@ -25,14 +23,6 @@ public:
         r.text = "this drive has no velocity mode: use a positioning";
         if (command.ticket != no_ticket) out.results.push_back(std::move(r));
     }
-    void on_set_point(const SetPoint& p, Instant now, Out& out) override { inner_->on_set_point(p, now, out); }
-    void on_frame(const Frame& frame, Instant now, Out& out) override { inner_->on_frame(frame, now, out); }
-    void on_deadline(Instant now, Out& out) override { inner_->on_deadline(now, out); }
-    [[nodiscard]] Instant deadline() const override { return inner_->deadline(); }
-    [[nodiscard]] AdapterCounters counters() const override { return inner_->counters(); }
-
-private:
-    std::unique_ptr<Adapter> inner_;
 };
 
 const Family& family_without_velocity() {

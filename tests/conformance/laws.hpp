@@ -1,5 +1,5 @@
-// Laws: the ground that the conformance suites stand on: one subject (a family on one of its wires) in a world of its own, and how its drives
-// are brought up, enabled and set in motion. In: the subject. Out: helpers that say what the drive answered. Never names a family.
+// Laws: the ground that the conformance suites stand on: one subject (a family on one of its wires) in a world of its own, and how its
+// drives are brought up, enabled and set in motion. In: the subject. Out: helpers that say what the drive answered. Never names a family.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -20,12 +20,30 @@ inline std::string told(const Result* r) {
     return r ? std::string(name_of(r->outcome)) + " " + std::string(name_of(r->reason)) + ": " + r->text : "no result";
 }
 
+/// Another adapter with every call passed on: what a test wants otherwise, it overrides.
+class PassingAdapter : public Adapter {
+public:
+    explicit PassingAdapter(std::unique_ptr<Adapter> inner) : inner_(std::move(inner)) {}
+    void configure(const LineSetup& setup, Instant now, Out& out) override { inner_->configure(setup, now, out); }
+    void on_line(bool up, Instant now, Out& out) override { inner_->on_line(up, now, out); }
+    void on_command(const Command& command, Instant now, Out& out) override { inner_->on_command(command, now, out); }
+    void on_set_point(const SetPoint& p, Instant now, Out& out) override { inner_->on_set_point(p, now, out); }
+    [[nodiscard]] Duration interpolation_time(AxisId axis) const override { return inner_->interpolation_time(axis); }
+    void on_frame(const Frame& frame, Instant now, Out& out) override { inner_->on_frame(frame, now, out); }
+    void on_deadline(Instant now, Out& out) override { inner_->on_deadline(now, out); }
+    [[nodiscard]] Instant deadline() const override { return inner_->deadline(); }
+    [[nodiscard]] AdapterCounters counters() const override { return inner_->counters(); }
+
+private:
+    std::unique_ptr<Adapter> inner_;
+};
+
 class Laws : public testing::TestWithParam<Subject> {
 protected:
     const Subject& e = GetParam();
     std::unique_ptr<World> world = fresh();
     std::shared_ptr<const SiteState> site;
-    AxisId a1 = no_axis;   ///< the first axis
+    AxisId a1 = no_axis;    ///< the first axis
     DriveId d1 = no_drive;  ///< and its drive
 
     [[nodiscard]] std::unique_ptr<World> fresh() const {
@@ -45,7 +63,8 @@ protected:
         site = world->apply(std::move(wanted));
         a1 = site->axis_ids.at(0);
         d1 = site->drive_ids.at(0);
-        ASSERT_TRUE(world->run_until_true([&] { return std::ranges::all_of(site->axis_ids, [&](AxisId x) { return online(x); }); }, std::chrono::seconds(60)))
+        ASSERT_TRUE(world->run_until_true([&] { return std::ranges::all_of(site->axis_ids, [&](AxisId x) { return online(x); }); },
+                                          std::chrono::seconds(60)))
             << "the twins do not come up";
         world->run_for(std::chrono::seconds(1));
     }
@@ -81,7 +100,8 @@ protected:
             ASSERT_TRUE(r);
         }
         ASSERT_TRUE(good(*r)) << told(r);
-        ASSERT_TRUE(world->run_until_true([&] { return moving(axis) && std::llabs(now(axis).velocity) * 10 > std::llabs(velocity) * 9; }, std::chrono::seconds(20)))
+        ASSERT_TRUE(world->run_until_true([&] { return moving(axis) && std::llabs(now(axis).velocity) * 10 > std::llabs(velocity) * 9; },
+                                          std::chrono::seconds(20)))
             << "it does not turn";
     }
     bool has_velocity = true;  ///< as turn() found it
@@ -103,9 +123,13 @@ protected:
         return no_drive;
     }
     /// The true state of its mechanics, past every wire.
-    [[nodiscard]] TwinMechanics mechanics(AxisId axis) const { return world->engine.twin(drive_of(axis))->mechanics(channel_of(axis), world->now); }
+    [[nodiscard]] TwinMechanics mechanics(AxisId axis) const {
+        return world->engine.twin(drive_of(axis))->mechanics(channel_of(axis), world->now);
+    }
     [[nodiscard]] double speed(AxisId axis) const { return std::fabs(mechanics(axis).velocity); }
-    [[nodiscard]] std::string hand(const std::string& name, const Value& v) { return world->engine.set_hand(d1, {{name, v}}, {}, world->now); }
+    [[nodiscard]] std::string hand(const std::string& name, const Value& v) {
+        return world->engine.set_hand(d1, {{name, v}}, {}, world->now);
+    }
 
     [[nodiscard]] std::ptrdiff_t events(std::string_view kind) const {
         return std::ranges::count_if(world->events, [&](const Event& v) { return v.kind == kind; });

@@ -138,7 +138,8 @@ TEST_P(LimitLaws, AnAxisThatIsFoundInMotionIsHaltedAtTheLimit) {
     EXPECT_EQ(std::ranges::count_if(next.events, [](const Event& v) { return v.kind == "limit" && v.severity == Severity::warning; }), 1);
 }
 
-/// Each order that would lead beyond is refused with its limit, at rest and on the way, whoever it comes from; and the shaft has never been there.
+/// Each order that would lead beyond is refused with its limit, at rest and on the way, whoever it comes from; and the shaft has never been
+/// there.
 TEST_P(LimitLaws, NoWayInLeadsOut) {
     begin();
     double farthest = 0;

@@ -37,13 +37,16 @@ TEST_P(Options, EachIsDescribedAndItsDefaultIsGood) {
                 EXPECT_EQ(check_option(*e.catalogue, {place}, name, std::string_view(o.at("default").as_string())), "");
             }
             if (o.contains("values")) {
-                for (const auto& good : o.at("values").as_array()) EXPECT_EQ(check_option(*e.catalogue, {place}, name, std::string_view(good.as_string())), "");
+                for (const auto& good : o.at("values").as_array())
+                    EXPECT_EQ(check_option(*e.catalogue, {place}, name, std::string_view(good.as_string())), "");
                 EXPECT_NE(check_option(*e.catalogue, {place}, name, "no such value"), "") << name;
                 EXPECT_NE(check_option(*e.catalogue, {place}, name, ""), "") << name;
             } else if (o.contains("min")) {
                 const auto low = o.at("min").as_int64(), high = o.at("max").as_int64();
-                for (const auto n : {low, high}) EXPECT_EQ(check_option(*e.catalogue, {place}, name, std::to_string(n)), "") << name;
-                for (const auto n : {low - 1, high + 1}) EXPECT_NE(check_option(*e.catalogue, {place}, name, std::to_string(n)), "") << name;
+                for (const auto n : {low, high})
+                    EXPECT_EQ(check_option(*e.catalogue, {place}, name, std::to_string(n)), "") << name;
+                for (const auto n : {low - 1, high + 1})
+                    EXPECT_NE(check_option(*e.catalogue, {place}, name, std::to_string(n)), "") << name;
                 for (const auto* odd : {"", "1x", "0x1", " 1", "1.5", "99999999999999999999"}) {
                     EXPECT_NE(check_option(*e.catalogue, {place}, name, odd), "") << name << " = " << odd;
                 }
@@ -72,7 +75,9 @@ TEST_P(Options, ASiteWithAWrongOneIsUsedAndSaysSo) {
     wanted.lines[0].options["full_duplex"] = "false";
     wanted.drives.back().options["such option"] = "2";
     const auto told = [&](std::string_view text) {
-        return std::ranges::count_if(w.events, [&](const Event& v) { return v.kind == "setup" && v.severity == Severity::warning && v.text.find(text) != std::string::npos; });
+        return std::ranges::count_if(w.events, [&](const Event& v) {
+            return v.kind == "setup" && v.severity == Severity::warning && v.text.find(text) != std::string::npos;
+        });
     };
     const auto state = w.apply(wanted);
     w.run_for(2s);

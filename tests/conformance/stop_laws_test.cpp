@@ -128,7 +128,8 @@ TEST_P(StopLaws, AnEnableThatWaitsIsOverWithADisable) {
             ASSERT_TRUE(r) << "it has its answer";
             for (int i = 0; i < 40; ++i) {
                 world->run_for(50ms);
-                ASSERT_NE(power_state_of(now().statusword), PowerState::operation_enabled) << reads << " reads before it, " << between.count() << " ns";
+                ASSERT_NE(power_state_of(now().statusword), PowerState::operation_enabled)
+                    << reads << " reads before it, " << between.count() << " ns";
                 if (!powered) ASSERT_FALSE(mechanics(a1).powered) << reads << " reads before it, " << between.count() << " ns";
             }
         }

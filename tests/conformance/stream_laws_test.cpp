@@ -352,37 +352,17 @@ TEST_P(StreamLaws, AModeThatTheDriveHasNotIsRefusedByWord) {
 }
 
 /// An adapter whose drive reaches each set-point within 20 ms, whatever speed that takes.
-class InItsPeriod final : public Adapter {
+class InItsPeriod final : public PassingAdapter {
 public:
-    explicit InItsPeriod(std::unique_ptr<Adapter> inner) : inner_(std::move(inner)) {}
-    void configure(const LineSetup& setup, Instant now, Out& out) override { inner_->configure(setup, now, out); }
-    void on_line(bool up, Instant now, Out& out) override { inner_->on_line(up, now, out); }
-    void on_command(const Command& command, Instant now, Out& out) override { inner_->on_command(command, now, out); }
-    void on_set_point(const SetPoint& p, Instant now, Out& out) override { inner_->on_set_point(p, now, out); }
+    using PassingAdapter::PassingAdapter;
     [[nodiscard]] Duration interpolation_time(AxisId) const override { return 20ms; }
-    void on_frame(const Frame& frame, Instant now, Out& out) override { inner_->on_frame(frame, now, out); }
-    void on_deadline(Instant now, Out& out) override { inner_->on_deadline(now, out); }
-    [[nodiscard]] Instant deadline() const override { return inner_->deadline(); }
-    [[nodiscard]] AdapterCounters counters() const override { return inner_->counters(); }
-
-private:
-    std::unique_ptr<Adapter> inner_;
 };
 
 /// And one that has never heard of set-points, whatever its page says.
-class WithoutSetPoints final : public Adapter {
+class WithoutSetPoints final : public PassingAdapter {
 public:
-    explicit WithoutSetPoints(std::unique_ptr<Adapter> inner) : inner_(std::move(inner)) {}
-    void configure(const LineSetup& setup, Instant now, Out& out) override { inner_->configure(setup, now, out); }
-    void on_line(bool up, Instant now, Out& out) override { inner_->on_line(up, now, out); }
-    void on_command(const Command& command, Instant now, Out& out) override { inner_->on_command(command, now, out); }
-    void on_frame(const Frame& frame, Instant now, Out& out) override { inner_->on_frame(frame, now, out); }
-    void on_deadline(Instant now, Out& out) override { inner_->on_deadline(now, out); }
-    [[nodiscard]] Instant deadline() const override { return inner_->deadline(); }
-    [[nodiscard]] AdapterCounters counters() const override { return inner_->counters(); }
-
-private:
-    std::unique_ptr<Adapter> inner_;
+    using PassingAdapter::PassingAdapter;
+    void on_set_point(const SetPoint& p, Instant now, Out& out) override { Adapter::on_set_point(p, now, out); }
 };
 
 /// The family that follows positions and speeds, with another adapter around its own.

@@ -1,6 +1,6 @@
 // Fuzz: a backup that somebody sends: a good database with the fuzzer's changes in it, or anything at all.
-// In: the fuzzer's bytes: changes (place, byte), a cut, or the file itself. Out: nothing; laws: it is taken or refused in words, and what was
-// there before is untouched by a refusal.
+// In: the fuzzer's bytes: changes (place, byte), a cut, or the file itself. Out: nothing; laws: it is taken or refused in words, and what
+// was there before is untouched by a refusal.
 #include <unistd.h>
 
 #include <filesystem>

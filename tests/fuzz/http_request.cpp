@@ -7,11 +7,11 @@
 #include <cstdlib>
 #include <string>
 
-#include "gateway/services/alarms/alarm_service.hpp"
-#include "gateway/services/recipes/recipe_service.hpp"
 #include "gateway/doors/http/router.hpp"
 #include "gateway/doors/http/stream_hub.hpp"
 #include "gateway/doors/http/websocket_codec.hpp"
+#include "gateway/services/alarms/alarm_service.hpp"
+#include "gateway/services/recipes/recipe_service.hpp"
 #include "tests/unit/http/fake_gateway.hpp"
 
 namespace {
@@ -54,8 +54,15 @@ void feed_request(std::string_view text) {
     Settings settings;
     const auto recipes = std::make_shared<RecipeService>(gateway, [] { return time_zero; });
     const auto alarms = std::make_shared<AlarmService>(gateway, [] { return time_zero; });
-    const Router router{Context{gateway, settings, [](std::string_view) { return std::string_view(); }, {}, std::make_shared<ChangeQueue>(), recipes,
-                                std::make_shared<AxisJobs>(), nullptr, alarms}};
+    const Router router{Context{gateway,
+                                settings,
+                                [](std::string_view) { return std::string_view(); },
+                                {},
+                                std::make_shared<ChangeQueue>(),
+                                recipes,
+                                std::make_shared<AxisJobs>(),
+                                nullptr,
+                                alarms}};
     Request request;
     const auto first = line_of(text);
     request.method = method_named(first.substr(0, first.find(' ')));

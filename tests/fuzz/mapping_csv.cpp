@@ -1,6 +1,6 @@
 // Fuzz: user maps as CSV, and as JSON entries against a site with one axis of every family.
-// In: the fuzzer's bytes as the file. Out: nothing; laws: rows or faults with their lines; what is taken can be written and read back and is
-// the same; values survive the registers of their mapping.
+// In: the fuzzer's bytes as the file. Out: nothing; laws: rows or faults with their lines; what is taken can be written and read back and
+// is the same; values survive the registers of their mapping.
 #include <boost/json.hpp>
 
 #include "gateway/site/mapping.hpp"
@@ -34,7 +34,8 @@ std::optional<std::vector<Mapping>> read(std::string_view csv, bool& readable) {
     const auto rows = mappings_from_csv(csv, lines, faults);
     require(rows || !faults.empty(), "rows, or why not");
     const auto file_lines = static_cast<std::size_t>(std::ranges::count(csv, '\n')) + 1;
-    for (const auto& f : faults) require(f.line <= file_lines && !f.text.empty(), "a fault has its line and words");
+    for (const auto& f : faults)
+        require(f.line <= file_lines && !f.text.empty(), "a fault has its line and words");
     readable = rows && faults.empty();
     if (!readable) return std::nullopt;
     require(lines.size() == rows->size(), "every row has its line");
@@ -57,7 +58,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const Mapping& m : *list) {
         require(m.end() <= 65536, "a mapping ends within its table");
         std::vector<std::uint8_t> words(std::size_t{2} * m.size());
-        for (std::size_t i = 0; i < words.size() && i < size; ++i) words[i] = data[i];
+        for (std::size_t i = 0; i < words.size() && i < size; ++i)
+            words[i] = data[i];
         const Value v = decode(m, words.data());
         std::vector<std::uint8_t> back(words.size());
         if (known(v) && encode(m, v, back.data())) (void)decode(m, back.data());

@@ -1,11 +1,11 @@
 // Fuzz: a table of parameters that is written back, through the router with a made-up gateway.
-// In: the fuzzer's bytes: the query up to the first line end, then the file. Out: nothing; laws: one whole answer; a file with a fault writes
-// nothing; what is written is in the catalogue's range.
+// In: the fuzzer's bytes: the query up to the first line end, then the file. Out: nothing; laws: one whole answer; a file with a fault
+// writes nothing; what is written is in the catalogue's range.
 #include <boost/json/parse.hpp>
 
+#include "gateway/doors/http/router.hpp"
 #include "gateway/services/alarms/alarm_service.hpp"
 #include "gateway/services/recipes/recipe_service.hpp"
-#include "gateway/doors/http/router.hpp"
 #include "tests/fuzz/fuzz.hpp"
 #include "tests/unit/http/fake_gateway.hpp"
 
@@ -32,8 +32,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Settings settings;
     const auto recipes = std::make_shared<RecipeService>(gateway, [] { return time_zero; });
     const auto alarms = std::make_shared<AlarmService>(gateway, [] { return time_zero; });
-    const Router router{Context{gateway, settings, [](std::string_view) { return std::string_view(); }, {}, std::make_shared<ChangeQueue>(), recipes,
-                                std::make_shared<AxisJobs>(), nullptr, alarms}};
+    const Router router{Context{gateway,
+                                settings,
+                                [](std::string_view) { return std::string_view(); },
+                                {},
+                                std::make_shared<ChangeQueue>(),
+                                recipes,
+                                std::make_shared<AxisJobs>(),
+                                nullptr,
+                                alarms}};
     Request request;
     const auto end = text.find('\n');
     const std::string_view query = text.substr(0, end);

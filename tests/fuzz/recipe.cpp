@@ -52,7 +52,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     (void)read(*document, &arguments);
     if (!alone) return 0;
     const auto whole = whole_arguments(*document, arguments);
-    for (const auto& [name, value] : arguments) require(whole.contains(name), "an argument that was given stays");
+    for (const auto& [name, value] : arguments)
+        require(whole.contains(name), "an argument that was given stays");
     (void)read(*document, &whole);
     return 0;
 }

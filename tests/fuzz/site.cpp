@@ -1,7 +1,7 @@
 // Fuzz: JSON of others, and the site document, as `axisgate check`, `--site` and PUT /api/v1/site read it.
 // In: JSON text. Out: nothing; laws: a site or a fault, never both; faults have a place and a remedy; what is written reads back the same.
-#include "gateway/core/json_read.hpp"
 #include "gateway/site/site.hpp"
+#include "gateway/core/json_read.hpp"
 
 #include <boost/json/parse.hpp>
 #include <boost/json/serialize.hpp>

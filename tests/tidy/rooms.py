@@ -3,11 +3,15 @@
 
 In: the source tree. Out: one line per fault, one per rule, then "N passed, N failed" of rules. Never changes a file.
 """
+import concurrent.futures
 import fnmatch
+import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
+import tempfile
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 # arpa/inet.h is none: it makes addresses of texts, and opens nothing.
@@ -40,9 +44,7 @@ ROLE_FOLDERS = {"twin", "tests", "fuzz"}
 # Families from before the roles. Names may go from here, and none may come: a file that is there no more is a fault of this list.
 BEFORE_ROLES = {
     "mcode": "aim.cpp aim.hpp framing.cpp framing.hpp jobs.cpp language.cpp language.hpp leaving.cpp node.cpp node.hpp node_next.cpp program.cpp "
-             "program.hpp program_end.cpp rate.cpp scan.cpp state.cpp statement.cpp statement.hpp stops.cpp trouble.cpp trouble.hpp twin*",
-    "pacontrol": "axis.hpp check.cpp check.hpp commands.cpp commands.hpp control.cpp control.hpp elements.cpp elements.hpp exchange.cpp mode.cpp "
-                 "number.cpp number.hpp presence.cpp scan.cpp status.cpp values.cpp twin*",
+             "program.hpp program_end.cpp rate.cpp scan.cpp state.cpp statement.cpp statement.hpp stops.cpp trouble.cpp trouble.hpp",
 }
 
 
@@ -126,6 +128,7 @@ RULES = {
     "families": "a family is a folder and a page of data",
     "roles": "a family's files are called by their roles",
     "errata": "a family lists the errata that it speaks of",
+    "format": "sources look as clang-format writes them",
 }
 
 
@@ -157,6 +160,23 @@ PROBES = (("rooms", "gateway/engine/engine.cpp", "// x\n#include <boost/asio.hpp
           ("once", "gateway/runtime/hot.hpp", "// x\n"), ("length", "gateway/runtime/hot.cpp", "// x\n" * 901))
 
 
+def misformatted(sources, tool=shutil.which("clang-format-14") or "clang-format"):
+    """What clang-format would write otherwise, the first place of each file. The tool is Debian's 14: others write other breaks."""
+    def of(batch):
+        said = subprocess.run([tool, "--dry-run", "--Werror", *map(str, batch)], cwd=TOP, capture_output=True, text=True)
+        places = [line.split(": error: ")[0] for line in said.stderr.splitlines() if ": error: " in line]
+        return places if said.returncode == 0 or places else [f"clang-format failed: {said.stderr[:200]}"]
+    version = subprocess.run([tool, "--version"], capture_output=True, text=True).stdout
+    if " 14." not in version:
+        return [f"clang-format 14 is wanted, not {version.strip()}"]
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        found = [place for places in pool.map(of, [sources[i:i + 40] for i in range(0, len(sources), 40)]) for place in places]
+    first = {}
+    for place in found:
+        first.setdefault(place.split(":")[0], place)
+    return [f"{place.removeprefix(str(TOP) + '/')}: run {tool} -i" for place in first.values()]
+
+
 def main():
     files = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=TOP, capture_output=True, text=True, check=True).stdout.split("\n")
     sources = [TOP / f for f in files if f.endswith((".cpp", ".hpp")) and (TOP / f).is_file()]
@@ -173,6 +193,12 @@ def main():
             missing = {int(n) for n in re.findall(r"\bE-(\d+)\b", page.read_text(encoding="utf-8", errors="replace"))} - listed
             if missing:
                 faults.append(("errata", f"{page.relative_to(TOP)}: E-{min(missing):02} stands in no list of adapters/{f}/*.md"))
+    faults += [("format", what) for what in misformatted(sources)]
+    with tempfile.NamedTemporaryFile("w", suffix=".cpp", dir=TOP / "tests/tidy") as probe:
+        probe.write("int  x ;\n")
+        probe.flush()
+        if not misformatted([pathlib.Path(probe.name)]):
+            faults.append(("format", "the rule no longer finds what it is for"))
     if len(sources) < 100 or not families:
         faults.append(("rooms", f"only {len(sources)} sources and {len(families)} families were found"))
     for rule, name, text in PROBES:

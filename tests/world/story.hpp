@@ -11,7 +11,8 @@ namespace axisgate::test {
 /// What the seed makes of a world. Several hold at once.
 struct StoryPlan {
     explicit StoryPlan(std::uint64_t seed);
-    bool garbling;      ///< bits turned over, frames cut short, foreign bytes: what was ordered may come as another order, so no law about motion
+    bool garbling;      ///< bits turned over, frames cut short, foreign bytes: what was ordered may come as another order, so no law about
+                        ///< motion
     bool faulty;        ///< losses, doubles, lateness, cuts: what a wire does that keeps its bits
     bool limits;        ///< the site limits positions; only on a wire without faults
     bool two_lines;     ///< beside a line of another subject, which has no faults and must not feel those of the first

@@ -47,8 +47,8 @@ public:
         s.rest_from = by;
         s.place.reset();
     }
-    /// A disable was answered as good: from `by` on it has no power until the next order. Who starts with power has it by its own rule until
-    /// then, and again after its supply has failed (PA-CONTROL's enable mode 1 [L722]).
+    /// A disable was answered as good: from `by` on it has no power until the next order. Who starts with power has it by its own rule
+    /// until then, and again after its supply has failed (PA-CONTROL's enable mode 1 [L722]).
     void switched_off(std::size_t n, std::uint64_t powers, Instant by) {
         Shaft& s = shafts_[n];
         if (s.powers == powers) s.off_from = std::min(s.off_from, by);

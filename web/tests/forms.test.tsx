@@ -166,12 +166,12 @@ describe('the site', () => {
 });
 
 describe('parameters', () => {
-  it('no snapshot is kept at first; a comparison says when there is nothing to compare, and what differs', async () => {
+  it('no snapshot is kept at first; a comparison reads what is not known, says how much could be compared, and what differs', async () => {
     await open('/axes/feeder/parameters');
     await p.see('main', 'No snapshot is kept.');
     await p.press('Compare');
-    await p.see('[data-field=compare-told]', 'There is no value that both sides know. Read the parameters first.');
-    expect(p.text('.compare')).not.toContain('Nothing differs.');
+    await p.see('[data-field=compare-told]', '0 of 11 values differ; 3 of 14 cannot be compared, because one side does not know them.');
+    await p.see('.compare', 'Nothing differs.');
     const feeder = door.world.axisOf('feeder');
     feeder.write('AC', 5000, 'x');
     feeder.read('SP');
@@ -179,7 +179,7 @@ describe('parameters', () => {
     door.world.axisOf('turntable').values.set('TE', 50);
     await p.press('Compare');
     await p.see('[data-compared=AC]', /differs$/);
-    await p.see('[data-field=compare-told]', '1 of 2 values differ.');
+    await p.see('[data-field=compare-told]', '1 of 11 values differ; 3 of 14 cannot be compared');
     expect(p.text('[data-compared=SP]')).toBe('');
     p.field('equal ones too').click();
     p.field('equal ones too').dispatchEvent(new Event('change', { bubbles: true }));

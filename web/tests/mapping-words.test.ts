@@ -1,6 +1,6 @@
 // Mappings in words and numbers: places, conflicts, gaps, checks, live values, raw words. All pure.
 import { describe, expect, it } from 'vitest';
-import { cellsOf, checkTexts, conflictsOf, decodeWords, differenceText, gridOf, neighbourText, nextFree, oneBased, pointUnit, pointValue, registerValue, signWarning, spansOf, textsOf, widthOf, type Known, type Mapping, type Texts } from '../src/words/mapping';
+import { freeBlock, cellsOf, checkTexts, conflictsOf, decodeWords, differenceText, gridOf, neighbourText, nextFree, oneBased, pointUnit, pointValue, registerValue, signWarning, spansOf, textsOf, widthOf, type Known, type Mapping, type Texts } from '../src/words/mapping';
 import { bitName, notMapped } from '../src/words/register-map';
 import { catalogueMissing, csvOfSpecs, readTable } from '../src/words/mapping-table';
 import { csvOf, mostRows, rowsOf } from '../src/words/table-text';
@@ -182,4 +182,19 @@ it('rows of a table wait for the catalogue before they are called good', () => {
   expect(catalogueMissing([spec], { ...known, points: [] })).toBe('Waiting for the list of points …');
   expect(catalogueMissing([spec], known)).toBe('Waiting for the parameters of slide.x …');
   expect(catalogueMissing([{ ...spec, axis: 'feeder' }, { ...spec, point: 'position' }], known)).toBe('');
+});
+
+describe('a block of an axis', () => {
+  const at = (address: number, table = 'holding_registers', unit = 2) => ({ id: `m${address}`, unit, table, address, axis: 'x', point: 'position', type: 'i32', word_order: 'high_first', scale: 1, offset: 0, access: 'R' }) as Parameters<typeof freeBlock>[0][number];
+  it('begins at a multiple of its width, whatever lies before', () => {
+    expect(freeBlock([], 2, 64)).toBe(0);
+    expect(freeBlock([at(0)], 2, 64)).toBe(64);
+    expect(freeBlock([at(63)], 2, 64)).toBe(128); // two registers: 63 and 64
+    expect(freeBlock([at(70), at(10)], 2, 64)).toBe(128);
+    expect(freeBlock([at(0, 'holding_registers', 3)], 2, 64)).toBe(0);
+  });
+  it('leaves room in every table, and says when there is none', () => {
+    expect(freeBlock([at(5, 'input_registers')], 2, 64)).toBe(64);
+    expect(freeBlock(Array.from({ length: 1024 }, (_, i) => at(i * 64 + 3)), 2, 64)).toBeNull();
+  });
 });

@@ -1,6 +1,8 @@
 // Small words: a restore that waits, a snapshot and its family, an event in the axis' unit, the type and unit that a mapped value has by itself.
 import { describe, expect, it } from 'vitest';
-import { inUnits } from '../src/words/event';
+import { groupsOf, inUnits } from '../src/words/event';
+import { allowedWords } from '../src/words/register-map';
+import type { GatewayEvent } from '../src/api/types';
 import { plain } from '../src/words/plain';
 import { naturalType, valueUnit } from '../src/words/mapping-type';
 import type { Known } from '../src/words/mapping';
@@ -54,3 +56,21 @@ describe('a mapped value by itself', () => {
     expect(['position_units', 'velocity', 'statusword', 'AC', 'MT[3]', 'nothing'].map((p) => valueUnit({ unit: 'mm' }, 'a', p, known))).toEqual(['mm', 'inc/s', '', 'pulse/s²', '', '']);
   });
 });
+
+describe('many writes of one go are one entry', () => {
+  const at = (n: number) => new Date(1_700_000_000_000 + n * 1000).toISOString();
+  const write = (id: number, s: number, change: object = {}) => ({ id, at: at(s), kind: 'write', severity: 'info', axis: 'feeder', who: 'anna', door: 'http', parameter: `P${id}`, text: '', ...change }) as unknown as GatewayEvent;
+  const ids = (events: GatewayEvent[]) => groupsOf(events).map((g) => g.map((e) => e.id).join(' '));
+  it('from four on, of one axis by one person, each soon after the other', () => {
+    expect(ids([write(5, 9), write(4, 7), write(3, 6), write(2, 4), write(1, 2)])).toEqual(['5 4 3 2 1']);
+    expect(ids([write(3, 3), write(2, 2), write(1, 1)])).toEqual(['3', '2', '1']);
+    expect(ids([write(5, 20), write(4, 4), write(3, 3), write(2, 2), write(1, 1)])).toEqual(['5', '4 3 2 1']);
+  });
+  it.each([[{ axis: 'gripper' }], [{ who: 'bert' }], [{ severity: 'alarm' }], [{ kind: 'command' }], [{ door: 'modbus' }], [{ who: '' }]])('%j stands between, by itself', (other) =>
+    expect(ids([write(9, 9), write(8, 8), write(7, 7), write(6, 6), write(5, 5, other), write(4, 4), write(3, 3), write(2, 2), write(1, 1)])).toEqual(['9 8 7 6', '5', '4 3 2 1']));
+});
+
+it.each([
+  [[], '0.0.0.0:502', 'everywhere'], [['10.0.0.0/8', '::1'], '0.0.0.0:502', '10.0.0.0/8, ::1'], [[], '127.0.0.1:1502', 'this machine alone: the door listens at 127.0.0.1:1502'],
+  [[], '[::1]:502', 'this machine alone: the door listens at [::1]:502'], [['10.0.0.0/8'], '127.0.0.1:502', 'this machine alone: the door listens at 127.0.0.1:502'], [[], '[::]:502', 'everywhere'],
+])('allowed %j at %s: %s', (allow, bind, words) => expect(allowedWords(allow, bind)).toBe(words));

@@ -281,6 +281,33 @@ TEST(LinmotAdapter, ChecksumsWorkAndSayThatTheyAreNotProven) {
     }
 }
 
+TEST(LinmotAdapter, StreamedSetPointsAreMovesAndNeverTheDrivesOwnStream) {
+    // 0: a line without a bit rate, as over TCP. However fast set-points come, nothing pretends the period of 2 to 5 ms that a stream
+    // needs.
+    for (const std::uint32_t bit_rate : {115'200u, 0u}) {
+        SCOPED_TRACE(bit_rate);
+        LineBench b(1, bit_rate);
+        b.run(1s);
+        ASSERT_TRUE(b.enable());
+        std::size_t moves = 0;
+        std::uint32_t last = 0;
+        for (int i = 1; i <= 500; ++i) {
+            b.stream(i * 20);  // 10 mm/s
+            b.run(2ms);
+            const std::uint32_t header = b.drive().ram(0x1DB0);
+            ASSERT_TRUE(header >> 4 == 0x010 || (i < 10 && header == 0)) << header;
+            moves += header != last;
+            last = header;
+        }
+        EXPECT_GT(moves, 100u) << "it follows";
+        EXPECT_EQ(b.drive().error_code(), 0);
+        b.run(250ms);  // a gap, which would be error 0083h of a stream
+        EXPECT_EQ(b.drive().error_code(), 0);
+        b.run(1s);
+        EXPECT_EQ(b.drive().actual(), 10'000) << "the newest one counts";
+    }
+}
+
 TEST(LinmotAdapter, PollsFillTheWire) {
     // 115200 baud: a default request and its response are 23 bytes, 2.0 ms.
     LineManners quick;

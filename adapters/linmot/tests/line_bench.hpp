@@ -92,6 +92,16 @@ public:
         take(out);
         return t;
     }
+    /// A streamed set-point of position.
+    void stream(std::int64_t place, std::size_t axis = 0) {
+        SetPoint p;
+        p.axis = AxisId{static_cast<std::uint16_t>(axis)};
+        p.value = place;
+        p.at = now;
+        Out out;
+        adapter->on_set_point(p, now, out);
+        take(out);
+    }
     /// The one result, waited for.
     Result ask(CommandBody body, std::size_t axis = 0, Duration limit = 15s) {
         const Ticket t = submit(std::move(body), axis);

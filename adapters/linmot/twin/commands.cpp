@@ -439,7 +439,9 @@ void Drive::stream(std::uint8_t sub, const Bytes& b, Instant now) {
         return raise(0x82, now);
     }
     const Duration period = stream_period_ > Duration{} ? stream_period_ : Duration{std::chrono::milliseconds(2)};
-    stream_points_.emplace_back(std::max(now + period * 3 / 2, stream_points_.back().first + Duration{1}), Point{s32(b, 2), 0});
+    stream_points_.emplace_back(std::max(now + period * 3 / 2, stream_points_.back().first + Duration{1}),
+                                Point{s32(b, 2), sub == 1 ? s32(b, 6) * velocity_count : 0});
+    stream_velocities_ = sub == 1;
     target_ = s32(b, 2);
 }
 

@@ -241,6 +241,7 @@ std::vector<HandItem> Device::hand() const {
         {"limit_positive", flag(o.limit_out), true, "limit switch OUT"},
         {"limit_negative", flag(o.limit_in), true, "limit switch IN"},
         {"temperature", Value{static_cast<double>(o.temperature) / 10}, true, "controller, deg C"},
+        {"sensor", whole(o.sensor), true, "whose temperature that is: 1..8 in the order of 1BC6h..1BCDh; 0: of all"},
         {"motor_hot", flag(o.motor_hot), true, "motor temperature sensor"},
         {"ptc_1", flag(o.ptc1_hot), true, "PTC 1 hot or open"},
         {"ptc_2", flag(o.ptc2_hot), true, "PTC 2 hot or open"},
@@ -317,6 +318,8 @@ std::string Device::set_hand(const std::string& name, const Value& value, Instan
         o.safe_voltage_enable = flag;
     else if (name == "temperature")
         fault = number(o.temperature, 10);
+    else if (name == "sensor")
+        fault = in(0, 8) ? (o.sensor = std::llround(*n), std::string()) : "sensor takes 0..8";
     else if (name == "motor_supply")
         fault = number(o.motor_supply, 100);
     else if (name == "logic_supply")

@@ -57,6 +57,11 @@ void Drive::start_software(Instant now) {
     enter(not_ready, now);
     interface_word_ |= 1;
     if (memory.ram(0x170C) == 0) raise(0x65, now);
+    if (memory.ram(0x101D) != 0) {  // regeneration is configured: above the supply at rest, and half a volt apart
+        const double on = memory.number(0x101E), off = memory.number(0x101F), idle = static_cast<double>(outside_.motor_supply);
+        if (on < idle || off < idle) raise(0x60, now);
+        if (on - off < 50) raise(0x61, now);
+    }
     compute_control_word(now);
 }
 
@@ -203,8 +208,14 @@ Point Drive::demand_at(Instant now) const {
         const auto& [at, p] = stream_points_.front();
         if (stream_points_.size() > 1 && now > at) {
             const auto& [next_at, q] = stream_points_[1];
-            const double part = std::clamp(seconds(now - at) / std::max(1e-9, seconds(next_at - at)), 0.0, 1.0);
-            return {p.position + (q.position - p.position) * part, (q.position - p.position) / std::max(1e-9, seconds(next_at - at))};
+            const double period = std::max(1e-9, seconds(next_at - at)), part = std::clamp(seconds(now - at) / period, 0.0, 1.0);
+            // With velocities the fine interpolation leaves and meets each set-point with its own (cubic), else it is straight.
+            if (stream_velocities_) {
+                const double way = q.position - p.position, a = p.velocity * period, b = q.velocity * period;
+                const double c2 = 3 * way - 2 * a - b, c3 = a + b - 2 * way;
+                return {p.position + part * (a + part * (c2 + part * c3)), (a + part * (2 * c2 + 3 * part * c3)) / period};
+            }
+            return {p.position + (q.position - p.position) * part, (q.position - p.position) / period};
         }
         return {p.position, 0};
     }

@@ -101,6 +101,8 @@ public:
     [[nodiscard]] std::uint64_t commands_done() const noexcept { return commands_done_; }
     /// The master encoder's count as the drive has it [L4403-4470].
     [[nodiscard]] double master() const { return master_at(now_); }
+    /// The force that is held, 0.1 N; nothing: the position is controlled.
+    [[nodiscard]] std::optional<double> held_force() const { return force_control_ ? std::optional(force_target_) : std::nullopt; }
     [[nodiscard]] double encoder_edges() const { return edges_at(now_); }
 
     // --- the tester's hand ----------------------------------------------------------------------------------------------
@@ -120,7 +122,8 @@ public:
         std::int64_t force = 0;                                 ///< 0.1 N
         std::int64_t current = 0;                               ///< mA
         std::int64_t motor_supply = 7200, logic_supply = 2400;  ///< 10 mV
-        std::int64_t temperature = 300;                         ///< controller, 0.1 deg C
+        std::int64_t temperature = 300;                         ///< controller, 0.1 deg C ...
+        std::int64_t sensor = 0;                                ///< ... of this sensor, 1..8 in the order of 1BC6h..1BCDh; 0: of all
         bool motor_hot = false, ptc1_hot = false, ptc2_hot = false;
         bool limit_in = false, limit_out = false;
     };
@@ -315,6 +318,7 @@ private:
     Instant stream_last_{};
     Duration stream_period_{};
     int stream_count_ = 0;
+    bool stream_velocities_ = false;  ///< its set-points have velocities (031xh)
     std::deque<std::pair<Instant, Point>> stream_points_;
     // motion command interface
     Bytes buffer_{};

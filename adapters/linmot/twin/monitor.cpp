@@ -89,8 +89,10 @@ void Drive::check_outside(Instant now) {
 }
 
 void Drive::show_temperatures() {
-    for (std::uint16_t u = 0x1BC6; u <= 0x1BCD; ++u)
-        memory.set_ram(u, static_cast<std::uint32_t>(outside_.temperature));
+    for (std::uint16_t u = 0x1BC6; u <= 0x1BCD; ++u) {
+        const bool meant = outside_.sensor == 0 || outside_.sensor == u - 0x1BC5;
+        memory.set_ram(u, static_cast<std::uint32_t>(meant ? outside_.temperature : Outside{}.temperature));
+    }
 }
 
 void Drive::set_outside(const Outside& outside, Instant now) {

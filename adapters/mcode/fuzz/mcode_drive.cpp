@@ -12,10 +12,11 @@ namespace {
 /// A line that the drive might be sent: words, operators and numbers in an order that is often right.
 std::string any_line(FuzzedDataProvider& in, char name) {
     constexpr std::array words{
-        "MA ",   "MR ",    "SL ",  "HM ",    "HI ",  "H ",    "PR ",   "PG ",  "PG",   "E",     "S",     "EX 1", "EX M1", "LB M1",  "BR 1",   "BR M1,R1<5",
-        "CL M1", "RT",     "OE 1", "VA Q1=", "R1=",  "R2=R1*", "P=",   "C1=",  "VI=",  "VM=",   "A=",    "D=",   "AS=",   "EE=",    "PY=",    "EM=",
-        "CK=",   "DN=\"b\"", "DE=", "ES=",   "CE=",  "TI 1,",  "TP 1,", "TT 1,", "TE=", "IS=1,", "OS=1,", "LM=", "JE=",   "SM=",    "PM=",    "SF=",
-        "FD",    "IP",     "IC R1", "DC R1", "L",    "L 1",    "CP",    "PS",  "RS",   "PR P",  "PR AL", "ER",   "EF",    "\x1B"};
+        "MA ",   "MR ",  "SL ",        "HM ",   "HI ", "H ",   "PR ",    "PG ",      "PG",     "E",   "S",   "EX 1",  "EX M1",
+        "LB M1", "BR 1", "BR M1,R1<5", "CL M1", "RT",  "OE 1", "VA Q1=", "R1=",      "R2=R1*", "P=",  "C1=", "VI=",   "VM=",
+        "A=",    "D=",   "AS=",        "EE=",   "PY=", "EM=",  "CK=",    "DN=\"b\"", "DE=",    "ES=", "CE=", "TI 1,", "TP 1,",
+        "TT 1,", "TE=",  "IS=1,",      "OS=1,", "LM=", "JE=",  "SM=",    "PM=",      "SF=",    "FD",  "IP",  "IC R1", "DC R1",
+        "L",     "L 1",  "CP",         "PS",    "RS",  "PR P", "PR AL",  "ER",       "EF",     "\x1B"};
     std::string s;
     if (in.ConsumeIntegralInRange<int>(0, 3) == 0) s += in.ConsumeBool() ? name : '*';
     s += in.PickValueInArray(words);
@@ -49,9 +50,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     constexpr std::array<const char*, 3> products{"LMDC", "LMDO", "LMM"};
     setup.options["product"] = in.PickValueInArray(products);
     if (in.ConsumeBool()) setup.options["ethernet"] = "on";
-    fuzz::TwinRun twin(entry.family->make_twin(*entry.catalogue, setup), 1, [](const Frame& f) {
-        require(f.kind == Frame::Kind::bytes && f.size > 0, "a twin sends runs of bytes");
-    });
+    fuzz::TwinRun twin(entry.family->make_twin(*entry.catalogue, setup), 1,
+                       [](const Frame& f) { require(f.kind == Frame::Kind::bytes && f.size > 0, "a twin sends runs of bytes"); });
 
     constexpr std::array<const char*, 10> names{"DN", "PY", "EM", "CK", "VM", "AS", "C1", "F1", "PG", "R1"};
     NonVolatile first;
@@ -81,7 +81,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 break;
             default: {
                 const std::string line = any_line(in, setup.address[0]);
-                twin.frame(Frame::run({reinterpret_cast<const std::uint8_t*>(line.data()), std::min<std::size_t>(line.size(), Frame::capacity)}));
+                twin.frame(
+                    Frame::run({reinterpret_cast<const std::uint8_t*>(line.data()), std::min<std::size_t>(line.size(), Frame::capacity)}));
                 break;
             }
         }

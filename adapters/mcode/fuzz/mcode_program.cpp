@@ -22,7 +22,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         for (const ProgramLine& l : checked.lines) {
             require(!l.text.empty() && l.text.size() <= 64, "a line is no longer than the drive's");
             require(l.number <= lines, "and has its place in the text");
-            for (const char c : l.text) require(c >= 0x20 && c < 0x7F, "printable ASCII");
+            for (const char c : l.text)
+                require(c >= 0x20 && c < 0x7F, "printable ASCII");
             if (l.kind == ProgramLine::Kind::frame) within = !within;
             if (l.kind == ProgramLine::Kind::stored) listing += l.text + "\r\n";
         }

@@ -3,8 +3,8 @@
 // no statement runs without giving a known error code.
 #include <fuzzer/FuzzedDataProvider.h>
 
-#include "adapters/mcode/twin_comm.hpp"
-#include "adapters/mcode/twin_run.hpp"
+#include "adapters/mcode/twin/comm.hpp"
+#include "adapters/mcode/twin/run.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 using namespace axisgate;

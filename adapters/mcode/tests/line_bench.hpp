@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "adapters/mcode/tests/fake_drive.hpp"
-#include "adapters/mcode/twin.hpp"
+#include "adapters/mcode/twin/twin.hpp"
 #include "gateway/core/wire_time.hpp"
 #include "gateway/wire/twin_bus.hpp"
 

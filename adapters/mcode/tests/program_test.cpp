@@ -8,7 +8,7 @@
 #include "adapters/mcode/statement.hpp"
 #include "adapters/mcode/tests/fake_drive.hpp"
 #include "adapters/mcode/tests/printed_listings.hpp"
-#include "adapters/mcode/twin_statement.hpp"
+#include "adapters/mcode/twin/statement.hpp"
 
 namespace axisgate::mcode::test {
 namespace {

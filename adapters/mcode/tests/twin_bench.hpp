@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-#include "adapters/mcode/twin_device.hpp"
+#include "adapters/mcode/twin/device.hpp"
 
 namespace axisgate::mcode::twin::test {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "adapters/mcode/twin_motor.hpp"
+#include "adapters/mcode/twin/motor.hpp"
 
 namespace axisgate::mcode::twin::test {
 

@@ -363,5 +363,28 @@ TEST(McodePoints, EveryHandItemIsSaidAndBadValuesAreRefused) {
     EXPECT_NE(*b.motor.set_hand("home_switch", Value{true}, b.now), "");  // no input of that type
 }
 
+/// A switch is shown as it is: at an input by its input, beside the axis by where the shaft stands, also before IS gives it an input.
+TEST(McodePoints, TheHandShowsTheHomeSwitchAsItIs) {
+    MotorBench b;
+    const auto closed = [&] { return as_flag(b.shown("home_switch")).value_or(false); };
+    EXPECT_FALSE(closed());
+    b.hand("home_position", 1.0);
+    EXPECT_FALSE(closed());
+    ASSERT_EQ(b.start("MA", 51200 * 1.02), 0);
+    b.rest();
+    EXPECT_TRUE(closed());
+    ASSERT_EQ(b.start("MA", 0), 0);
+    b.rest();
+    EXPECT_FALSE(closed());
+    b.hand("home_position", std::string("none"));
+    ASSERT_EQ(b.set("IS", {1, 1, 0}), 0);
+    b.hand("home_switch", true);
+    EXPECT_TRUE(closed());
+    EXPECT_EQ(b.get("I1"), 1);
+    b.hand("home_switch", false);
+    EXPECT_FALSE(closed());
+    EXPECT_EQ(b.get("I1"), 0);
+}
+
 }  // namespace
 }  // namespace axisgate::mcode::twin::test

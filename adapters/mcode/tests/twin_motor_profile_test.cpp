@@ -5,7 +5,7 @@
 #include <numbers>
 #include <random>
 
-#include "adapters/mcode/twin_profile.hpp"
+#include "adapters/mcode/twin/profile.hpp"
 
 namespace axisgate::mcode::twin::test {
 namespace {

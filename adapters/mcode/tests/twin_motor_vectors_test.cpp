@@ -8,7 +8,7 @@
 #include <regex>
 #include <sstream>
 
-#include "adapters/mcode/twin_device.hpp"
+#include "adapters/mcode/twin/device.hpp"
 
 namespace axisgate::mcode::twin::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "adapters/mcode/tests/twin_bench.hpp"
-#include "adapters/mcode/twin.hpp"
+#include "adapters/mcode/twin/twin.hpp"
 #include "gateway/core/catalogue.hpp"
 
 namespace axisgate::mcode::twin::test {

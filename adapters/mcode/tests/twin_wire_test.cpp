@@ -2,8 +2,8 @@
 // In: bytes. Out: bytes.
 // Never tests words one by one: the tests of the language and of the motor do.
 #include "adapters/mcode/tests/twin_wire.hpp"
-#include "adapters/mcode/twin.hpp"
-#include "adapters/mcode/twin_switched.hpp"
+#include "adapters/mcode/twin/switched.hpp"
+#include "adapters/mcode/twin/twin.hpp"
 #include "gateway/core/catalogue.hpp"
 
 namespace axisgate::mcode::twin::test {

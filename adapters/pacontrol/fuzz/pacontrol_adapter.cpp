@@ -3,7 +3,7 @@
 // poll, with one of the three legal checks.
 #include <algorithm>
 
-#include "adapters/pacontrol/commands.hpp"
+#include "adapters/pacontrol/wire_commands.hpp"
 #include "tests/fuzz/adapter_laws.hpp"
 
 using namespace axisgate;

@@ -1,7 +1,7 @@
 // Fuzz: the PA-CONTROL twin: any memory, bytes, frames, times and hand.
 // In: the fuzzer's bytes. Out: nothing; laws: deadlines move on, the mechanics stay numbers, what it sends is one whole acknowledgement
 // with the right check, its memory survives power-off, and its revision tells of every change of it.
-#include "adapters/pacontrol/twin.hpp"
+#include "adapters/pacontrol/twin/twin.hpp"
 #include "gateway/core/family.hpp"
 #include "tests/fuzz/twin_laws.hpp"
 

@@ -3,9 +3,9 @@
 // and is the same, and the decoder says one line for whatever it is given.
 #include <algorithm>
 
-#include "adapters/pacontrol/commands.hpp"
 #include "adapters/pacontrol/decoder.hpp"
-#include "adapters/pacontrol/number.hpp"
+#include "adapters/pacontrol/wire_commands.hpp"
+#include "adapters/pacontrol/wire_number.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 using namespace axisgate;

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "adapters/pacontrol/adapter.hpp"
-#include "adapters/pacontrol/number.hpp"
+#include "adapters/pacontrol/wire_number.hpp"
 #include "gateway/core/wire_time.hpp"
 
 namespace axisgate::pacontrol::test {

@@ -15,10 +15,10 @@
 #include <vector>
 
 #include "adapters/pacontrol/adapter.hpp"
-#include "adapters/pacontrol/twin.hpp"
-#include "adapters/pacontrol/twin_device.hpp"
-#include "gateway/wire/twin_bus.hpp"
+#include "adapters/pacontrol/twin/device.hpp"
+#include "adapters/pacontrol/twin/twin.hpp"
 #include "gateway/core/wire_time.hpp"
+#include "gateway/wire/twin_bus.hpp"
 
 namespace axisgate::pacontrol::test {
 

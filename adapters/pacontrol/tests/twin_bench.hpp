@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
-#include "adapters/pacontrol/twin.hpp"
-#include "adapters/pacontrol/twin_device.hpp"
+#include "adapters/pacontrol/twin/device.hpp"
+#include "adapters/pacontrol/twin/twin.hpp"
 #include "gateway/core/catalogue.hpp"
 
 namespace axisgate::pacontrol::twin::test {

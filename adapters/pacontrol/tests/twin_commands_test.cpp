@@ -3,7 +3,7 @@
 #include <set>
 
 #include "adapters/pacontrol/tests/twin_bench.hpp"
-#include "adapters/pacontrol/twin_commands.hpp"
+#include "adapters/pacontrol/twin/commands.hpp"
 
 namespace axisgate::pacontrol::twin::test {
 namespace {

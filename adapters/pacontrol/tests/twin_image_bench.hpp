@@ -7,7 +7,7 @@
 #include <bit>
 #include <vector>
 
-#include "adapters/pacontrol/twin_image.hpp"
+#include "adapters/pacontrol/twin/image.hpp"
 
 namespace axisgate::pacontrol::twin {
 

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "adapters/pacontrol/tests/twin_bench.hpp"
-#include "adapters/pacontrol/twin_commands.hpp"
+#include "adapters/pacontrol/twin/commands.hpp"
 #include "gateway/wire/twin_bus.hpp"
 
 namespace axisgate::pacontrol::twin::test {

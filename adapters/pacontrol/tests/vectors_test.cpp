@@ -7,8 +7,8 @@
 #include <set>
 #include <sstream>
 
-#include "adapters/pacontrol/commands.hpp"
-#include "adapters/pacontrol/number.hpp"
+#include "adapters/pacontrol/wire_commands.hpp"
+#include "adapters/pacontrol/wire_number.hpp"
 
 namespace axisgate::pacontrol {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "adapters/pacontrol/commands.hpp"
-#include "adapters/pacontrol/number.hpp"
+#include "adapters/pacontrol/wire_commands.hpp"
+#include "adapters/pacontrol/wire_number.hpp"
 
 namespace axisgate::pacontrol {
 namespace {

@@ -17,7 +17,8 @@ Move move(Move::Kind kind, std::int64_t target, std::optional<std::int64_t> v = 
 struct Enabled {
     Bench b;
     FakeNode& f;
-    explicit Enabled(std::map<std::string, std::string> options = {}, std::function<void(FakeNode&)> before = {}) : f(b.add(5, std::move(options))) {
+    explicit Enabled(std::map<std::string, std::string> options = {}, std::function<void(FakeNode&)> before = {})
+        : f(b.add(5, std::move(options))) {
         if (before) before(f);
         b.start(1s);
         EXPECT_EQ(b.ask(Enable{}).outcome, Outcome::accepted);
@@ -93,7 +94,8 @@ TEST(Uim342Demand, GoesOnFromItsOwnSpeedWithANewOrder) {
     s.order(move(Move::Kind::velocity, 2000));
     const double there = s.demand();
     const double u = s.wait(1000);
-    // Down to 2000 with DC in 0.3 s (1050 on the way), then along; what passed between the last position and the order is unknown to the test.
+    // Down to 2000 with DC in 0.3 s (1050 on the way), then along; what passed between the last position and the order is unknown to the
+    // test.
     EXPECT_NEAR(s.demand(), there + 1050 + 2000 * (u - 0.3), 5000 * 0.08);
     s.order(move(Move::Kind::relative, 1000, 2000));
     s.wait(3000);
@@ -210,9 +212,8 @@ TEST(Uim342Demand, InOpenLoopThePositionIsTheDemand) {
 
 TEST(Uim342Demand, AValueThatIsNotKnownIsNoZero) {
     // SS is not answered: from which speed the axis starts is not known, and so the demand is not.
-    Enabled s({}, [](FakeNode& f) {
-        f.script = [](const Message& m) { return m.function() == 0x1B ? FakeNode::lost() : FakeNode::Verdict{}; };
-    });
+    Enabled s(
+        {}, [](FakeNode& f) { f.script = [](const Message& m) { return m.function() == 0x1B ? FakeNode::lost() : FakeNode::Verdict{}; }; });
     s.order(move(Move::Kind::velocity, 500));
     s.wait(300);
     EXPECT_TRUE(s.none());

@@ -190,6 +190,31 @@ TEST(Uim342Truth, StorageThatTheManualDoesNotPrintIsMarked) {
         EXPECT_FALSE(entry_of(catalogue(), Bench::point(id))->contains("choice")) << id;
 }
 
+TEST(Uim342Truth, CodesAreLegibleInTheCatalogue) {
+    for (const char* id : {"TG[0]", "TG[1]", "TG[2]"}) {  // [L1651] to [L1653]
+        const auto meanings = meanings_of(catalogue(), Bench::point(id));
+        ASSERT_EQ(meanings.size(), 3u) << id;
+        for (const std::int64_t code : {0, 1, 60000, 60001})
+            EXPECT_EQ(std::ranges::count_if(meanings, [&](const auto& m) { return m.from <= code && code <= m.through; }), 1) << id << code;
+    }
+    for (const char* id : {"IL[0]", "IL[1]", "IL[2]"}) {  // [L1000], [L1611]: twelve parts in all
+        const auto fields = fields_of(catalogue(), Bench::point(id));
+        ASSERT_EQ(fields.size(), 4u) << id;
+        for (const auto& f : fields)
+            EXPECT_EQ(f.allowed.size(), f.bits == 1 ? 2u : 12u) << id << " " << f.name;
+        for (const char* part : {".falling_action", ".falling_flag", ".rising_action", ".rising_flag"})
+            EXPECT_NE(entry_of(catalogue(), Bench::point(std::string(id) + part)), nullptr) << id << part;
+    }
+    // DI is written as 0 or 1 and read as the image of all ports, bits 0 to 2 and 8 [L1682].
+    const auto written = alternate_of(catalogue(), Bench::point("DI"));
+    ASSERT_TRUE(written);
+    EXPECT_FALSE(written->of) << "of what is written";
+    EXPECT_EQ(written->min, 0);
+    EXPECT_EQ(written->max, 1);
+    EXPECT_EQ(fields_of(catalogue(), Bench::point("DI")).size(), 4u);
+    EXPECT_EQ(*form_now(catalogue(), Bench::point("DI"), [](Point) { return Value{}; }).max, 0x107);
+}
+
 TEST(Uim342Truth, FramesWithTheOtherCrcAreTold) {
     for (const CrcMode mine : {CrcMode::twelve, CrcMode::thirteen}) {
         const CrcMode other = mine == CrcMode::twelve ? CrcMode::thirteen : CrcMode::twelve;

@@ -21,7 +21,8 @@ std::vector<ClientsSeen::Client> ClientsSeen::list(std::int64_t now_unix_ns) con
     std::vector<Client> out;
     {
         const std::lock_guard lock(mutex_);
-        std::ranges::copy_if(clients_, std::back_inserter(out), [&](const Client& c) { return now_unix_ns - c.at_unix_ns <= forget_after_ns; });
+        std::ranges::copy_if(clients_, std::back_inserter(out),
+                             [&](const Client& c) { return now_unix_ns - c.at_unix_ns <= forget_after_ns; });
     }
     std::ranges::sort(out, std::ranges::greater{}, &Client::at_unix_ns);
     return out;

@@ -72,7 +72,12 @@ std::string response_head(const Response& r, bool keep, std::int64_t now_unix_s)
 }
 
 Connection::Connection(Transport socket, std::shared_ptr<SessionHost> host, std::string peer, PlaceHolder holder)
-    : socket_(std::move(socket)), host_(std::move(host)), peer_(std::move(peer)), holder_(holder), timer_(socket_.get_executor()), buffer_(most_buffered) {}
+    : socket_(std::move(socket)),
+      host_(std::move(host)),
+      peer_(std::move(peer)),
+      holder_(holder),
+      timer_(socket_.get_executor()),
+      buffer_(most_buffered) {}
 
 void Connection::start() {
     if (host_->tls) return await_handshake();
@@ -114,7 +119,10 @@ Guest Connection::guest() const {
     g.since = Instant{since_.time_since_epoch()};
     // Half a request and an answer that is not read are silence as well: else a few slow clients could hold all places.
     const bool works = phase_ == Phase::answering || (known_ && phase_ == Phase::writing);
-    g.standing = stop_path_ ? Standing::stop_path : known_ ? (works ? Standing::knowns_work : Standing::known) : works ? Standing::strangers_work : Standing::stranger;
+    g.standing = stop_path_ ? Standing::stop_path
+                 : known_   ? (works ? Standing::knowns_work : Standing::known)
+                 : works    ? Standing::strangers_work
+                            : Standing::stranger;
     return g;
 }
 
@@ -220,7 +228,8 @@ void Connection::await_bytes() {
 void Connection::read_header() {
     const auto bytes = buffer_.data();
     const auto scan = scan_head({static_cast<const char*>(bytes.data()), bytes.size()}, host_->settings.max_header_bytes);
-    if (phase_ == Phase::idle && scan.verdict == HeadScan::Verdict::incomplete && scan.empty_lines == bytes.size() && ++empty_lines_ <= most_empty_lines) {
+    if (phase_ == Phase::idle && scan.verdict == HeadScan::Verdict::incomplete && scan.empty_lines == bytes.size() &&
+        ++empty_lines_ <= most_empty_lines) {
         buffer_.consume(scan.empty_lines);  // an empty line alone begins no request
         return await_bytes();
     }
@@ -267,7 +276,8 @@ void Connection::on_header(ErrorCode ec) {
     if (phase_ != Phase::header) return;
     if (ec) return read_failed(ec);
     take_head();
-    if (auto fault = framing_fault(request_.headers, request_.http_1_0)) return fail(fault->status, fault->status == 501 ? "not_supported" : "bad_request", std::move(fault->text));
+    if (auto fault = framing_fault(request_.headers, request_.http_1_0))
+        return fail(fault->status, fault->status == 501 ? "not_supported" : "bad_request", std::move(fault->text));
     const auto expect = parser_->get()[beast::http::field::expect];
     if (!expect.empty() && !parser_->is_done() && !beast::iequals(expect, "100-continue"))
         return fail(417, "bad_request", "the only expectation that is met is 100-continue");
@@ -282,7 +292,9 @@ void Connection::on_header(ErrorCode ec) {
     }
     if (request_.announced_bytes.value_or(0) > most_body_bytes_) return read_failed(beast::http::error::body_limit);
     parser_->body_limit(most_body_bytes_);
-    if (const std::size_t bytes = request_.announced_bytes.value_or(most_body_bytes_); !parser_->is_done() && bytes > small_bytes && !hold(bytes)) return refuse(too_much_held());
+    if (const std::size_t bytes = request_.announced_bytes.value_or(most_body_bytes_);
+        !parser_->is_done() && bytes > small_bytes && !hold(bytes))
+        return refuse(too_much_held());
     if (expect.empty() || parser_->is_done()) return read_body();
     if (parser_->get().version() < 11 || buffer_.size() > 0) return read_body();
     head_ = "HTTP/1.1 100 Continue\r\n\r\n";
@@ -362,8 +374,10 @@ bool Connection::hold(std::size_t bytes) {
 }
 
 Response Connection::too_much_held() const {
-    Response r = problem(503, "busy",
-                         fmt::format("large answers and bodies of all clients together hold {} MiB already, and wait to be read: come again in a moment", host_->budget.most >> 20));
+    Response r = problem(
+        503, "busy",
+        fmt::format("large answers and bodies of all clients together hold {} MiB already, and wait to be read: come again in a moment",
+                    host_->budget.most >> 20));
     r.headers.set("Retry-After", "2");
     r.headers.set("Cache-Control", "no-store");
     return r;

@@ -66,10 +66,10 @@ private:
     std::shared_ptr<SessionHost> host_;
     std::string peer_;
     PlaceHolder holder_;
-    bool known_ = false;       ///< the last request came from somebody who had signed in, or from this machine
-    bool stop_path_ = false;   ///< something was set in motion over it
-    std::size_t held_ = 0;     ///< of the host's budget
-    int empty_lines_ = 0;      ///< in front of the request, when nothing else came
+    bool known_ = false;      ///< the last request came from somebody who had signed in, or from this machine
+    bool stop_path_ = false;  ///< something was set in motion over it
+    std::size_t held_ = 0;    ///< of the host's budget
+    int empty_lines_ = 0;     ///< in front of the request, when nothing else came
     boost::asio::steady_timer timer_;
     /// The limit of the phase is a value. The timer itself is only touched when it would come too late: when it comes too early, it is set
     /// anew, so that a request costs none of the system's timers.

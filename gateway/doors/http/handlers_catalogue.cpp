@@ -13,7 +13,7 @@ Handled list_of(Call& c, const SitePort& sites, List list, Show show) {
     if (!entry.family || !entry.catalogue) return nothing_named("family", c.names[0]);
     json::array out;
     for (const auto& x : list(*entry.catalogue))
-        out.push_back(show(x));
+        out.push_back(show(*entry.catalogue, x));
     return json_response(out);
 }
 }  // namespace
@@ -44,12 +44,13 @@ Handled list_family_parameters(Call& c, const SitePort& sites) {
 
 Handled list_family_commands(Call& c, const SitePort& sites) {
     return list_of(
-        c, sites, [](const Catalogue& k) { return k.commands(); }, [](const CatalogueCommand& x) { return command_document(x); });
+        c, sites, [](const Catalogue& k) { return k.commands(); },
+        [](const Catalogue& k, const CatalogueCommand& x) { return command_document(k, x); });
 }
 
 Handled list_family_errors(Call& c, const SitePort& sites) {
     return list_of(
-        c, sites, [](const Catalogue& k) { return k.errors(); }, [](const ErrorCode& e) { return error_document(e); });
+        c, sites, [](const Catalogue& k) { return k.errors(); }, [](const Catalogue&, const ErrorCode& e) { return error_document(e); });
 }
 
 }  // namespace axisgate::http

@@ -13,8 +13,9 @@ namespace {
 constexpr std::size_t most_empty_bytes = 4;  // two empty lines
 
 /// Fields of which a request has one at most (RFC 9110 5.3): which one of two would count, nobody can say.
-constexpr std::array<std::string_view, 13> single{"host",        "content-length",   "transfer-encoding", "content-type",      "authorization",         "origin",        "x-csrf-token",
-                                                  "x-client",    "expect",           "upgrade",           "sec-websocket-key", "sec-websocket-version", "sec-fetch-site"};
+constexpr std::array<std::string_view, 13> single{
+    "host",     "content-length", "transfer-encoding", "content-type",      "authorization",         "origin",        "x-csrf-token",
+    "x-client", "expect",         "upgrade",           "sec-websocket-key", "sec-websocket-version", "sec-fetch-site"};
 
 /// A line that goes on in the next (obs-fold), a line end that is not CR LF, or a NUL.
 bool has_odd_lines(std::string_view head) noexcept {
@@ -29,7 +30,10 @@ bool has_odd_lines(std::string_view head) noexcept {
     return false;
 }
 
-bool begins_a_request(char c) noexcept { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || std::string_view("!#$%&'*+-.^_`|~").find(c) != std::string_view::npos; }
+bool begins_a_request(char c) noexcept {
+    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') ||
+           std::string_view("!#$%&'*+-.^_`|~").find(c) != std::string_view::npos;
+}
 }  // namespace
 
 HeadScan scan_head(std::string_view bytes, std::size_t most) noexcept {
@@ -62,10 +66,12 @@ std::optional<FramingFault> framing_fault(const Headers& headers, bool http_1_0)
     }
     if (headers.count("Transfer-Encoding") == 0) return std::nullopt;
     if (http_1_0) return FramingFault{400, "HTTP/1.0 has no Transfer-Encoding"};
-    if (headers.count("Content-Length") != 0) return FramingFault{400, "Transfer-Encoding and Content-Length are both there: send one of them"};
+    if (headers.count("Content-Length") != 0)
+        return FramingFault{400, "Transfer-Encoding and Content-Length are both there: send one of them"};
     const auto coding = headers.get("Transfer-Encoding");
     if (lower(coding) == "chunked") return std::nullopt;
-    return FramingFault{501, fmt::format("Transfer-Encoding: {} is not served: send the body as it is, with Content-Length, or chunked", coding)};
+    return FramingFault{
+        501, fmt::format("Transfer-Encoding: {} is not served: send the body as it is, with Content-Length, or chunked", coding)};
 }
 
 }  // namespace axisgate::http

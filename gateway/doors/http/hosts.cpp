@@ -59,7 +59,8 @@ bool host_is_written_right(std::string_view host) {
     if (!port.empty() && (port.front() != ':' || (port.size() > 1 && !parse_whole(port.substr(1), 0, 65535)))) return false;
     if (name.starts_with('[')) return is_ip_address(name);
     return std::ranges::all_of(name, [](char c) {
-        return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || std::string_view("-._~%!$&'()*+,;=").find(c) != std::string_view::npos;
+        return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+               std::string_view("-._~%!$&'()*+,;=").find(c) != std::string_view::npos;
     });
 }
 

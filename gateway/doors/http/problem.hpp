@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "gateway/core/command.hpp"
-#include "gateway/site/site.hpp"
 #include "gateway/doors/http/message.hpp"
 #include "gateway/services/fault.hpp"
 #include "gateway/services/recipes/recipe_service.hpp"
+#include "gateway/site/site.hpp"
 
 namespace axisgate::http {
 
@@ -31,14 +31,15 @@ struct Problem {
     std::string axis{};
     std::vector<Fault> faults{};  ///< the first ones are told
     std::size_t more_faults = 0;  ///< found, but not kept in the list
-    boost::json::object more{};  ///< further members
+    boost::json::object more{};   ///< further members
 };
 
 [[nodiscard]] Response to_response(const Problem& problem);
 /// The common case.
 [[nodiscard]] Response problem(unsigned status, std::string_view reason, std::string detail);
 /// 422 with its first faults; the detail is the first one, with the number of the others. `more`: beside those in the list.
-[[nodiscard]] Response invalid(std::vector<Fault> faults, std::string_view axis = {}, std::string_view reason = "invalid", std::size_t more = 0);
+[[nodiscard]] Response invalid(std::vector<Fault> faults, std::string_view axis = {}, std::string_view reason = "invalid",
+                               std::size_t more = 0);
 
 /// The status for a reason, as command.hpp gives it.
 [[nodiscard]] unsigned status_of(Reason reason) noexcept;

@@ -50,7 +50,8 @@ std::optional<Response> check_coding(const Request& request, Takes takes) {
         for (std::string_view rest = value; !rest.empty();) {
             const auto coding = trimmed(next_item(rest));
             if (coding.empty() || lower(coding) == "identity") continue;
-            Response r = problem(415, "unsupported_media_type", fmt::format("the body comes with Content-Encoding: {}: send it as it is, without one", coding));
+            Response r = problem(415, "unsupported_media_type",
+                                 fmt::format("the body comes with Content-Encoding: {}: send it as it is, without one", coding));
             r.headers.set("Accept-Encoding", "identity");
             return r;
         }

@@ -24,22 +24,24 @@ struct Settings {
     /// `bind` is: a page of another site may bind its own name to this machine, and its requests would come from this machine.
     std::vector<std::string> allowed_hosts;
     MapGaps map_gaps = MapGaps::zero;  ///< [modbus] gaps: of units that the site does not name
-    bool low_word_first = false;    ///< of the standard map, as `[modbus] word_order` has it: for what shows and describes its registers
-    bool require_if_match = false;  ///< true: PUT /site without If-Match is refused with 428
+    bool low_word_first = false;       ///< of the standard map, as `[modbus] word_order` has it: for what shows and describes its registers
+    bool require_if_match = false;     ///< true: PUT /site without If-Match is refused with 428
 
-    std::size_t max_connections = 512;  ///< an eighth more for who has signed in; beyond: who gives way is told in gateway/core/places.hpp; if nobody may, 503
+    /// An eighth more for who has signed in; beyond: who gives way is told in gateway/core/places.hpp; if nobody may, 503.
+    std::size_t max_connections = 512;
     std::size_t max_header_bytes = 8 * 1024;          ///< request line and headers with the empty line behind them; beyond: 431
     std::size_t max_stranger_bytes = 8 * 1024;        ///< body of a request without credentials, such as a sign-in; beyond: 413
     std::size_t max_body_bytes = 1024 * 1024;         ///< beyond: 413
     std::size_t max_backup_bytes = 64 * 1024 * 1024;  ///< PUT /backup alone
-    std::size_t max_held_bytes = 128 * 1024 * 1024;   ///< of all answers and bodies above 64 KiB together that are in the gateway's memory; beyond: 503
-    std::chrono::milliseconds header_limit{10'000};   ///< from the first byte (or the connection) to the end of the headers; then 408
-    std::chrono::milliseconds body_limit{30'000};     ///< for the whole body; then 408
-    std::chrono::milliseconds idle_limit{60'000};     ///< between two requests of a connection; then it is closed
-    std::chrono::milliseconds write_limit{30'000};  ///< without progress in writing an answer, or for one batch of the live feed; then cut
+    /// Of all answers and bodies above 64 KiB together that are in the gateway's memory; beyond: 503.
+    std::size_t max_held_bytes = 128 * 1024 * 1024;
+    std::chrono::milliseconds header_limit{10'000};  ///< from the first byte (or the connection) to the end of the headers; then 408
+    std::chrono::milliseconds body_limit{30'000};    ///< for the whole body; then 408
+    std::chrono::milliseconds idle_limit{60'000};    ///< between two requests of a connection; then it is closed
+    std::chrono::milliseconds write_limit{30'000};   ///< without progress in writing an answer, or for one batch of the live feed; then cut
     std::chrono::milliseconds answer_limit_at_stop{200};  ///< for requests that wait for an answer when the door is closed
-    std::chrono::milliseconds stop_limit{600};      ///< for all requests in progress then
-    std::chrono::milliseconds linger_limit{2'000};  ///< for the client to read a last answer before the connection is cut
+    std::chrono::milliseconds stop_limit{600};            ///< for all requests in progress then
+    std::chrono::milliseconds linger_limit{2'000};        ///< for the client to read a last answer before the connection is cut
 
     std::chrono::milliseconds ping_period{20'000};    ///< of the live feed
     std::chrono::milliseconds right_period{2'000};    ///< live feed: how often it is looked at whether its session or token still holds

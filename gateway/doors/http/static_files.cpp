@@ -101,8 +101,9 @@ Response static_file(const AssetLookup& asset, const Target& target, const Heade
     if (bytes.data() == nullptr) {
         return problem(
             404, "not_found",
-            target.path == "/" || opened ? "this build holds no page; the interface is described at /api/v1/openapi.yaml"
-                                         : fmt::format("there is no {} here: the interface is at /api/v1, described by /api/v1/openapi.yaml", target.path));
+            target.path == "/" || opened
+                ? "this build holds no page; the interface is described at /api/v1/openapi.yaml"
+                : fmt::format("there is no {} here: the interface is at /api/v1, described by /api/v1/openapi.yaml", target.path));
     }
     // Packed when the page was built, and not again for each request. What comes packed is another representation: it has its own tag.
     Response r;

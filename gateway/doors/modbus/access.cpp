@@ -9,8 +9,8 @@
 #include <string>
 
 #include "gateway/axis/cia402.hpp"
-#include "gateway/registers/register_map.hpp"
 #include "gateway/doors/modbus/wire.hpp"
+#include "gateway/registers/register_map.hpp"
 
 namespace axisgate::modbus {
 namespace {
@@ -47,7 +47,8 @@ std::optional<Network> parse_network(std::string_view text) {
     const auto digits = text.substr(slash + 1);
     unsigned bits = 0;
     const auto [end, ec] = std::from_chars(digits.data(), digits.data() + digits.size(), bits);
-    if (digits.empty() || ec != std::errc{} || end != digits.data() + digits.size() || bits > (parsed->is_v4 ? 32u : 128u)) return std::nullopt;
+    if (digits.empty() || ec != std::errc{} || end != digits.data() + digits.size() || bits > (parsed->is_v4 ? 32u : 128u))
+        return std::nullopt;
     n.bits = parsed->is_v4 ? bits + 96 : bits;
     return n;
 }

@@ -24,9 +24,9 @@ struct Network {
 [[nodiscard]] std::optional<std::array<std::uint8_t, 16>> address_of(std::string_view endpoint);
 
 struct Access {
-    std::vector<Network> allow;     ///< empty: everybody
-    std::bitset<128> functions;     ///< none set: all that there are
-    bool read_only = false;         ///< what writes is answered with exception 1; a pure stop alone is taken, see stops_only
+    std::vector<Network> allow;  ///< empty: everybody
+    std::bitset<128> functions;  ///< none set: all that there are
+    bool read_only = false;      ///< what writes is answered with exception 1; a pure stop alone is taken, see stops_only
 
     [[nodiscard]] bool admits(std::string_view endpoint) const;
     /// `pdu`: of at least one byte. Functions that `functions` leaves out are not served, whatever they say.

@@ -18,13 +18,13 @@ struct Counters {
 
     Counter connections_open;  ///< gauge
     Counter connections_accepted;
-    Counter connections_refused;  ///< the limit is reached and no connection is idle
+    Counter connections_refused;      ///< the limit is reached and no connection is idle
     Counter connections_not_allowed;  ///< closed at once: the peer is not on the allow list
-    Counter connections_evicted;  ///< closed, the longest idle one, to make room
-    Counter closed_idle;          ///< no request for the idle time-out
-    Counter closed_not_modbus;    ///< bad protocol id or length
-    Counter closed_partial;       ///< half a request, and then nothing for the partial time-out
-    Counter closed_not_reading;   ///< the client did not take its answers
+    Counter connections_evicted;      ///< closed, the longest idle one, to make room
+    Counter closed_idle;              ///< no request for the idle time-out
+    Counter closed_not_modbus;        ///< bad protocol id or length
+    Counter closed_partial;           ///< half a request, and then nothing for the partial time-out
+    Counter closed_not_reading;       ///< the client did not take its answers
     Counter bytes_received;
     Counter bytes_sent;
 

@@ -20,7 +20,11 @@ Refused in_words(Exception e) {
         case Exception::illegal_address:
             return {no_axis, Reason::unknown_point, "the request reaches beyond address 65535", {}, {}};
         case Exception::illegal_value:
-            return {no_axis, Reason::out_of_range, "the request's count, length and data do not fit each other, or go beyond what one request may carry", {}, {}};
+            return {no_axis,
+                    Reason::out_of_range,
+                    "the request's count, length and data do not fit each other, or go beyond what one request may carry",
+                    {},
+                    {}};
         case Exception::busy:
             return {no_axis, Reason::busy, "too many writes wait for their drives: wait for their answers", {}, {}};
         case Exception::no_answer:
@@ -49,8 +53,9 @@ Responder::Responder(DoorPort& port, registers::RegisterImage& image, Settings s
       image_(image),
       settings_(std::move(settings)),
       identity_(Identity::gateway(settings_.version, image.word_order())),
-      writer_(port, image, {Door::modbus, settings_.result_timeout, settings_.max_commands,
-                            [](Verdict v) { return fmt::format("exception {}", static_cast<int>(v)); }}) {}
+      writer_(port, image, {Door::modbus, settings_.result_timeout, settings_.max_commands, [](Verdict v) {
+                                return fmt::format("exception {}", static_cast<int>(v));
+                            }}) {}
 
 bool Responder::may_overtake_waiting(std::span<const std::uint8_t> pdu) noexcept {
     switch (pdu[0]) {
@@ -85,7 +90,12 @@ std::size_t Responder::answer(const Client& client, std::uint8_t slot, std::uint
     UnitMap* const map = image_.unit(unit);
     if (!map) {
         if (client.who) {
-            refused(*client.who, {no_axis, Reason::line_down, fmt::format("unit {} has no map: unit 1 is the standard map, others get theirs from the site's mappings", unit), {}, {}},
+            refused(*client.who,
+                    {no_axis,
+                     Reason::line_down,
+                     fmt::format("unit {} has no map: unit 1 is the standard map, others get theirs from the site's mappings", unit),
+                     {},
+                     {}},
                     note_of(unit, pdu), Exception::no_path, now);
         }
         return exception_answer(pdu[0], Exception::no_path, out);
@@ -109,11 +119,13 @@ std::size_t Responder::answer(const Client& client, std::uint8_t slot, std::uint
 }
 
 void Responder::refused(const std::string& who, Refused refused, const RequestNote& request, Exception e, Instant now) {
-    writer_.refused(who, std::move(refused), request, e == Exception::none ? std::string() : fmt::format("exception {}", static_cast<int>(e)), now);
+    writer_.refused(who, std::move(refused), request,
+                    e == Exception::none ? std::string() : fmt::format("exception {}", static_cast<int>(e)), now);
 }
 
 AxisId Responder::axis_of(std::uint8_t unit, const RequestNote& request) const {
-    return image_.is_standard(unit) && request.count > 0 ? port_.image().by_number(request.address / registers::registers_per_axis + 1u) : no_axis;
+    return image_.is_standard(unit) && request.count > 0 ? port_.image().by_number(request.address / registers::registers_per_axis + 1u)
+                                                         : no_axis;
 }
 
 Refused Responder::refused_by_access(std::uint8_t unit, const RequestNote& request) const {
@@ -136,8 +148,8 @@ std::size_t Responder::finish(const LateAnswer& late, Instant now, std::uint8_t*
         return late.echo_size;
     }
     UnitMap* const map = image_.unit(late.unit);
-    const Exception e =
-        map ? exception_of(map->read_registers(Table::holding_registers, late.read_address, late.read_count, now, out + 2)) : Exception::no_path;
+    const Exception e = map ? exception_of(map->read_registers(Table::holding_registers, late.read_address, late.read_count, now, out + 2))
+                            : Exception::no_path;
     if (e != Exception::none) {
         if (map) (void)map->take_refused();  // of a read that was good when its write was taken: the axis has gone meanwhile
         return exception_answer(late.function, e, out);
@@ -235,7 +247,8 @@ Responder::Answer Responder::mask_write(Request& r) {
     if (const auto e = r.map.check_write(Table::holding_registers, address, 1); e != Verdict::good) return {exception_of(e), 0};
     if (!r.map.is_exact(address, r.now)) return {Exception::device_failure, 0};  // the rest of the value is not in the register
     std::uint8_t value[2];
-    if (const auto e = r.map.read_registers(Table::holding_registers, address, 1, r.now, value); e != Verdict::good) return {exception_of(e), 0};
+    if (const auto e = r.map.read_registers(Table::holding_registers, address, 1, r.now, value); e != Verdict::good)
+        return {exception_of(e), 0};
     put16(value, static_cast<std::uint16_t>((get16(value) & and_mask) | (or_mask & ~std::uint32_t{and_mask})));
     return carry_out(r, Table::holding_registers, address, 1, value, 7);
 }
@@ -251,8 +264,10 @@ Responder::Answer Responder::read_write(Request& r) {
     if (r.pdu[9] != bytes || r.pdu.size() != 10 + bytes) return {Exception::illegal_value, 0};
     if (overflows(read_address, read_count) || overflows(write_address, write_count)) return {Exception::illegal_address, 0};
     // Both halves are checked before anything is written: a request that cannot be answered shall not have moved something.
-    if (const auto e = r.map.check_write(Table::holding_registers, write_address, write_count); e != Verdict::good) return {exception_of(e), 0};
-    if (const auto e = r.map.check_read(Table::holding_registers, read_address, read_count); e != Verdict::good) return {exception_of(e), 0};
+    if (const auto e = r.map.check_write(Table::holding_registers, write_address, write_count); e != Verdict::good)
+        return {exception_of(e), 0};
+    if (const auto e = r.map.check_read(Table::holding_registers, read_address, read_count); e != Verdict::good)
+        return {exception_of(e), 0};
     r.late.reads = true;
     r.late.read_address = read_address;
     r.late.read_count = read_count;

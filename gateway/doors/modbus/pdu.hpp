@@ -9,12 +9,12 @@
 #include <span>
 #include <string>
 
-#include "gateway/engine/door.hpp"
 #include "gateway/doors/modbus/access.hpp"
 #include "gateway/doors/modbus/counters.hpp"
 #include "gateway/doors/modbus/identification.hpp"
 #include "gateway/doors/modbus/request_note.hpp"
 #include "gateway/doors/modbus/wire.hpp"
+#include "gateway/engine/door.hpp"
 #include "gateway/registers/register_image.hpp"
 #include "gateway/registers/writer.hpp"
 

@@ -32,7 +32,8 @@ RequestNote note_of(std::uint8_t unit, std::span<const std::uint8_t> pdu) noexce
     const auto word = [&](std::size_t at) { return at + 2 <= pdu.size() ? get16(pdu.data() + at) : std::uint16_t{0}; };
     const bool both = n.code == function::read_write_multiple_registers;
     if (pdu.size() < (both ? 9u : 5u)) return n;
-    const bool one = n.code == function::write_single_coil || n.code == function::write_single_register || n.code == function::mask_write_register;
+    const bool one =
+        n.code == function::write_single_coil || n.code == function::write_single_register || n.code == function::mask_write_register;
     n.address = word(both ? 5 : 1);
     n.count = one ? std::uint16_t{1} : word(both ? 7 : 3);
     if (!n.write) return n;
@@ -42,7 +43,8 @@ RequestNote note_of(std::uint8_t unit, std::span<const std::uint8_t> pdu) noexce
         n.values[0] = (n.code == function::write_single_coil ? bits != 0 : (bits & 1) != 0) ? std::uint16_t{1} : std::uint16_t{0};
         return n;
     }
-    for (std::size_t i = 0; i < std::min<std::size_t>(n.count, RequestNote::most_shown); ++i) n.values[i] = word(data + 2 * i);
+    for (std::size_t i = 0; i < std::min<std::size_t>(n.count, RequestNote::most_shown); ++i)
+        n.values[i] = word(data + 2 * i);
     return n;
 }
 

@@ -142,7 +142,8 @@ public:
     [[nodiscard]] std::vector<ConnectionReport> connections() const {
         std::vector<ConnectionReport> list;
         for (const auto& place : places_) {
-            if (const Connection* c = place.connection.get()) list.push_back({c->peer(), c->requests(), c->writes(), c->exceptions(), place.since});
+            if (const Connection* c = place.connection.get())
+                list.push_back({c->peer(), c->requests(), c->writes(), c->exceptions(), place.since});
         }
         return list;
     }
@@ -311,7 +312,8 @@ private:
     [[nodiscard]] std::optional<Instant> heard(std::string_view host) const {
         std::optional<Instant> newest;
         for (std::size_t i = 0; i < places_.size(); ++i) {
-            if (places_[i].connection && places_[i].host == host && (!newest || times_[i].last_request > *newest)) newest = times_[i].last_request;
+            if (places_[i].connection && places_[i].host == host && (!newest || times_[i].last_request > *newest))
+                newest = times_[i].last_request;
         }
         return newest;
     }
@@ -347,7 +349,9 @@ private:
         commanders_.push_back(holder);
         if (commanders_.size() > most_commanders) commanders_.erase(commanders_.begin());
     }
-    [[nodiscard]] bool has_commanded(PlaceHolder holder) const noexcept { return std::ranges::find(commanders_, holder) != commanders_.end(); }
+    [[nodiscard]] bool has_commanded(PlaceHolder holder) const noexcept {
+        return std::ranges::find(commanders_, holder) != commanders_.end();
+    }
 
     void watch_time() {
         if (std::exchange(timing_, true)) return;

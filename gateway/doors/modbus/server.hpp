@@ -3,7 +3,8 @@
 // Never blocks, never uses descriptor sets (select), and never lets one client's bytes, silence or slowness delay another's answer.
 //
 // What happens at the bounds:
-//   connections     at `max_connections` one gives way for a new one, see gateway/core/places.hpp: first those that have never commanded and
+//   connections     at `max_connections` one gives way for a new one, see gateway/core/places.hpp: first those that have never commanded
+//   and
 //                   stand still, of the address that has most of them. Never the newest 16 of an address that command (a write on its way,
 //                   or an axis moving that it set in motion under Modbus' authority), and one whose last request is younger than
 //                   `idle_before_eviction` only if its address has more than an eighth of all. An eighth more places are kept for
@@ -22,8 +23,8 @@
 #include <string>
 #include <vector>
 
-#include "gateway/engine/door.hpp"
 #include "gateway/doors/modbus/pdu.hpp"
+#include "gateway/engine/door.hpp"
 
 namespace axisgate::modbus {
 

@@ -11,14 +11,14 @@
 
 namespace axisgate::modbus {
 
-using registers::Table;
-using registers::UnitMap;
-using registers::Verdict;
-using registers::WordOrder;
 using registers::get16;
 using registers::get32;
 using registers::put16;
 using registers::put32;
+using registers::Table;
+using registers::UnitMap;
+using registers::Verdict;
+using registers::WordOrder;
 
 inline constexpr std::size_t mbap_size = 7;                       ///< transaction, protocol, length, unit
 inline constexpr std::size_t max_pdu = 253;                       ///< function code and data

@@ -4,8 +4,8 @@
 #include <boost/json/object.hpp>
 #include <boost/json/parse.hpp>
 
-#include "gateway/services/access/access_register.hpp"
 #include "gateway/core/text.hpp"
+#include "gateway/services/access/access_register.hpp"
 
 namespace axisgate {
 namespace json = boost::json;
@@ -28,14 +28,24 @@ std::int64_t whole(const json::object& o, std::string_view key) {
 
 AccessRecord record_of(const User& u) {
     return {"user", u.name,
-            json_text(json::object{{"name", u.name}, {"role", name_of(u.role)}, {"enabled", u.enabled}, {"hash", u.hash},
-                                   {"created_ns", u.created_ns}, {"last_sign_in_ns", u.last_sign_in_ns}})};
+            json_text(json::object{{"name", u.name},
+                                   {"role", name_of(u.role)},
+                                   {"enabled", u.enabled},
+                                   {"hash", u.hash},
+                                   {"created_ns", u.created_ns},
+                                   {"last_sign_in_ns", u.last_sign_in_ns}})};
 }
 
 AccessRecord record_of(const Token& t) {
     return {"token", t.id,
-            json_text(json::object{{"id", t.id}, {"name", t.name}, {"owner", t.owner}, {"role", name_of(t.role)}, {"digest", t.digest},
-                                   {"created_ns", t.created_ns}, {"expires_ns", t.expires_ns}, {"last_used_ns", t.last_used_ns}})};
+            json_text(json::object{{"id", t.id},
+                                   {"name", t.name},
+                                   {"owner", t.owner},
+                                   {"role", name_of(t.role)},
+                                   {"digest", t.digest},
+                                   {"created_ns", t.created_ns},
+                                   {"expires_ns", t.expires_ns},
+                                   {"last_used_ns", t.last_used_ns}})};
 }
 
 AccessRecord no_use_of_user(std::string_view name) { return {"last_use", "user " + std::string(name), std::nullopt}; }
@@ -91,8 +101,8 @@ std::optional<User> user_of(std::string_view document) {
     if (!o) return std::nullopt;
     const auto role = role_named(text(*o, "role"));
     const auto* enabled = o->if_contains("enabled");
-    User u{text(*o, "name"), role.value_or(Role::none), enabled && enabled->is_bool() && enabled->get_bool(), text(*o, "hash"),
-           whole(*o, "created_ns"), whole(*o, "last_sign_in_ns")};
+    User u{text(*o, "name"), role.value_or(Role::none), enabled && enabled->is_bool() && enabled->get_bool(),
+           text(*o, "hash"), whole(*o, "created_ns"),   whole(*o, "last_sign_in_ns")};
     if (u.name.empty() || u.hash.empty() || u.role == Role::none) return std::nullopt;
     return u;
 }
@@ -101,8 +111,8 @@ std::optional<Token> token_of(std::string_view document) {
     const auto o = read(document);
     if (!o) return std::nullopt;
     const auto role = role_named(text(*o, "role"));
-    Token t{text(*o, "id"), text(*o, "name"), text(*o, "owner"), role.value_or(Role::none), text(*o, "digest"),
-            whole(*o, "created_ns"), whole(*o, "expires_ns"), whole(*o, "last_used_ns")};
+    Token t{text(*o, "id"),     text(*o, "name"),        text(*o, "owner"),       role.value_or(Role::none),
+            text(*o, "digest"), whole(*o, "created_ns"), whole(*o, "expires_ns"), whole(*o, "last_used_ns")};
     if (t.id.empty() || t.owner.empty() || t.digest.empty() || t.role == Role::none) return std::nullopt;
     return t;
 }

@@ -22,14 +22,15 @@ namespace {
 constexpr std::string_view code_letters = "0123456789ABCDEFGHJKMNPQRSTVWXYZ";
 
 /// Of the passwords that are tried first those that are long enough for us. Repetitions and runs are found by rule, not by list.
+// clang-format off
 constexpr std::array<std::string_view, 24> common{
     "password1234",    "password12345", "password123456", "passwordpassword", "adminadminadmin", "administrator", "administrator1", "qwertyuiop12",
     "qwertyuiop123",   "qwertyuiopasdf", "1q2w3e4r5t6y",   "1qaz2wsx3edc",     "zaq12wsxcde3",    "letmeinletmein", "iloveyou1234",   "welcome12345",
     "changeme1234",    "changemechangeme", "correcthorsebatterystaple", "trustno1trustno1", "supervisor12", "maintenance1", "axisgate1234", "axisgateaxisgate"};
+// clang-format on
 }  // namespace
 
-const std::string_view hash_of_nobody =
-    "$argon2id$v=19$m=65536,t=2,p=1$AAAAAAAAAAAAAAAAAAAAAA$AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA";
+const std::string_view hash_of_nobody = "$argon2id$v=19$m=65536,t=2,p=1$AAAAAAAAAAAAAAAAAAAAAA$AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA";
 
 std::string random_secret() {
     (void)ready();

@@ -36,8 +36,7 @@ bool is_motion(const RecipeStep& s) noexcept {
 }
 
 std::string to_text(const RecipeCondition& c) {
-    return fmt::format("{} {}{} {} {}{}", c.axis, c.parameter ? "parameter " : "", c.point, name_of(c.op),
-                       plain_text(c.value),
+    return fmt::format("{} {}{} {} {}{}", c.axis, c.parameter ? "parameter " : "", c.point, name_of(c.op), plain_text(c.value),
                        c.tolerance > 0 ? fmt::format(" within {}", c.tolerance) : std::string());
 }
 

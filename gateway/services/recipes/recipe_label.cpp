@@ -86,7 +86,8 @@ std::string plain_text(const json::value& v) {
 }
 
 std::string label_of(const RecipeStep& step, std::string_view pass) {
-    std::string out = fmt::format("Step {}{}: {}", number_of(step.pointer), pass.empty() ? "" : fmt::format(" (pass {})", pass), what_of(step));
+    std::string out =
+        fmt::format("Step {}{}: {}", number_of(step.pointer), pass.empty() ? "" : fmt::format(" (pass {})", pass), what_of(step));
     if (out.size() <= most_recipe_label_bytes) return out;
     std::size_t n = most_recipe_label_bytes - 3;  // not in the middle of a letter of several bytes
     while (n > 0 && (static_cast<unsigned char>(out[n]) & 0xC0u) == 0x80u)

@@ -14,7 +14,8 @@ TEST(Authority, ClientIsItsStableNameElseItsPeerWithoutThePort) {
     const auto who = std::make_shared<const std::string>("[fd00::1]:5123");
     EXPECT_EQ(AuthorityClient::of({Door::modbus, who, {}}).name, "[fd00::1]");
     EXPECT_EQ(AuthorityClient::of({Door::http, who, std::make_shared<const std::string>("anna")}).name, "anna");
-    EXPECT_EQ(AuthorityClient::of({Door::http, who, std::make_shared<const std::string>(std::string(200, 'x'))}).name.size(), AxisAuthority::name_most);
+    EXPECT_EQ(AuthorityClient::of({Door::http, who, std::make_shared<const std::string>(std::string(200, 'x'))}).name.size(),
+              AxisAuthority::name_most);
 }
 
 TEST(Authority, OthersAreRefusedByNameUntilTheLeaseEnds) {
@@ -51,8 +52,10 @@ TEST(Authority, TheDoorIsNoneAgainWhenTheHoldersLeaseHasEnded) {
         (void)a.take(plc, seconds(30), false, t0);
         (void)a.command(plc, AuthorityMode::free, seconds(30), t0);
         EXPECT_EQ(a.door(), Door::modbus);
-        if (released) (void)a.release(plc, t0 + seconds(1));
-        else (void)a.expire(t0 + seconds(30));
+        if (released)
+            (void)a.release(plc, t0 + seconds(1));
+        else
+            (void)a.expire(t0 + seconds(30));
         EXPECT_EQ(a.door(), Door::none);
         EXPECT_EQ(a.commander(), plc) << "who commanded last is still known";
         (void)a.take(panel, seconds(30), false, t0 + seconds(31));

@@ -55,14 +55,39 @@ struct Bench {
     }
     void to(PowerState wanted) {
         switch (wanted) {
-            case PowerState::switch_on_disabled: break;
-            case PowerState::ready_to_switch_on: word(0x06); break;
-            case PowerState::switched_on: word(0x06); word(0x07); break;
-            case PowerState::operation_enabled: word(0x06); word(0x07); word(0x0F); break;
-            case PowerState::quick_stop_active: word(0x06); word(0x07); word(0x0F); word(0x0B); break;
-            case PowerState::fault: drive.fault = true; drive.error_code = 7; say(); break;
-            case PowerState::fault_reaction_active: drive.fault = true; drive.moving = true; say(); break;
-            case PowerState::not_ready_to_switch_on: profile.on_presence(Presence::offline); break;
+            case PowerState::switch_on_disabled:
+                break;
+            case PowerState::ready_to_switch_on:
+                word(0x06);
+                break;
+            case PowerState::switched_on:
+                word(0x06);
+                word(0x07);
+                break;
+            case PowerState::operation_enabled:
+                word(0x06);
+                word(0x07);
+                word(0x0F);
+                break;
+            case PowerState::quick_stop_active:
+                word(0x06);
+                word(0x07);
+                word(0x0F);
+                word(0x0B);
+                break;
+            case PowerState::fault:
+                drive.fault = true;
+                drive.error_code = 7;
+                say();
+                break;
+            case PowerState::fault_reaction_active:
+                drive.fault = true;
+                drive.moving = true;
+                say();
+                break;
+            case PowerState::not_ready_to_switch_on:
+                profile.on_presence(Presence::offline);
+                break;
         }
         ASSERT_EQ(profile.state(), wanted) << name_of(profile.state());
     }

@@ -10,7 +10,7 @@ using namespace cia402;
 using cia402_bench::Bench;
 using Power = AxisFeedback::Power;
 
-std::vector<std::uint16_t> words(std::initializer_list<int> list) { 
+std::vector<std::uint16_t> words(std::initializer_list<int> list) {
     std::vector<std::uint16_t> out;
     for (const int w : list)
         out.push_back(static_cast<std::uint16_t>(w));

@@ -35,24 +35,29 @@ constexpr auto sod = PowerState::switch_on_disabled, rtso = PowerState::ready_to
 
 INSTANTIATE_TEST_SUITE_P(
     Cia402, EveryTransition,
-    testing::Values(Transition{sod, 0x06, rtso, "2"}, Transition{sod, 0x07, sod, "switch on is not possible here"}, Transition{sod, 0x0F, sod, "nor is enable operation"},
-                    Transition{sod, 0x00, sod, "disable voltage"}, Transition{sod, 0x02, sod, "quick stop"},
-                    Transition{rtso, 0x07, so, "3"}, Transition{rtso, 0x0F, oe, "3+4"}, Transition{rtso, 0x00, sod, "7 by disable voltage"},
-                    Transition{rtso, 0x02, sod, "7 by quick stop"}, Transition{rtso, 0x06, rtso, "stays"},
-                    Transition{so, 0x0F, oe, "4"}, Transition{so, 0x06, rtso, "6"}, Transition{so, 0x00, sod, "10 by disable voltage"}, Transition{so, 0x02, sod, "10 by quick stop"},
-                    Transition{so, 0x07, so, "stays"}, Transition{oe, 0x07, so, "5"}, Transition{oe, 0x06, rtso, "8"}, Transition{oe, 0x00, sod, "9"}, Transition{oe, 0x0D, sod, "9: bit 1 counts alone"},
-                    Transition{oe, 0x02, qsa, "11"}, Transition{oe, 0x0B, qsa, "11 with the other bits set"}, Transition{oe, 0x0F, oe, "stays"},
-                    Transition{qsa, 0x00, sod, "12"}, Transition{qsa, 0x0F, oe, "16"}, Transition{qsa, 0x02, qsa, "stays"}, Transition{qsa, 0x06, qsa, "shutdown is not possible here"},
-                    Transition{flt, 0x80, sod, "15"}, Transition{flt, 0x0F, flt, "only the reset's edge"}, Transition{flt, 0x06, flt, "only the reset's edge"}, Transition{flt, 0x00, flt, "stays"},
-                    Transition{far, 0x00, far, "left by the drive: 14"}, Transition{far, 0x0F, far, "left by the drive"},
-                    Transition{nrtso, 0x0F, nrtso, "left by the drive: 0, 1"}, Transition{nrtso, 0x06, nrtso, "left by the drive"}));
+    testing::Values(Transition{sod, 0x06, rtso, "2"}, Transition{sod, 0x07, sod, "switch on is not possible here"},
+                    Transition{sod, 0x0F, sod, "nor is enable operation"}, Transition{sod, 0x00, sod, "disable voltage"},
+                    Transition{sod, 0x02, sod, "quick stop"}, Transition{rtso, 0x07, so, "3"}, Transition{rtso, 0x0F, oe, "3+4"},
+                    Transition{rtso, 0x00, sod, "7 by disable voltage"}, Transition{rtso, 0x02, sod, "7 by quick stop"},
+                    Transition{rtso, 0x06, rtso, "stays"}, Transition{so, 0x0F, oe, "4"}, Transition{so, 0x06, rtso, "6"},
+                    Transition{so, 0x00, sod, "10 by disable voltage"}, Transition{so, 0x02, sod, "10 by quick stop"},
+                    Transition{so, 0x07, so, "stays"}, Transition{oe, 0x07, so, "5"}, Transition{oe, 0x06, rtso, "8"},
+                    Transition{oe, 0x00, sod, "9"}, Transition{oe, 0x0D, sod, "9: bit 1 counts alone"}, Transition{oe, 0x02, qsa, "11"},
+                    Transition{oe, 0x0B, qsa, "11 with the other bits set"}, Transition{oe, 0x0F, oe, "stays"},
+                    Transition{qsa, 0x00, sod, "12"}, Transition{qsa, 0x0F, oe, "16"}, Transition{qsa, 0x02, qsa, "stays"},
+                    Transition{qsa, 0x06, qsa, "shutdown is not possible here"}, Transition{flt, 0x80, sod, "15"},
+                    Transition{flt, 0x0F, flt, "only the reset's edge"}, Transition{flt, 0x06, flt, "only the reset's edge"},
+                    Transition{flt, 0x00, flt, "stays"}, Transition{far, 0x00, far, "left by the drive: 14"},
+                    Transition{far, 0x0F, far, "left by the drive"}, Transition{nrtso, 0x0F, nrtso, "left by the drive: 0, 1"},
+                    Transition{nrtso, 0x06, nrtso, "left by the drive"}));
 
 TEST(Cia402, StatusWordCodesOfEveryState) {
     struct Row {
         PowerState state;
         std::uint16_t masked, mask;
     };
-    for (const Row& r : {Row{nrtso, 0x00, 0x4F}, Row{sod, 0x40, 0x4F}, Row{rtso, 0x21, 0x6F}, Row{so, 0x23, 0x6F}, Row{oe, 0x27, 0x6F}, Row{qsa, 0x07, 0x6F}, Row{far, 0x0F, 0x4F}, Row{flt, 0x08, 0x4F}}) {
+    for (const Row& r : {Row{nrtso, 0x00, 0x4F}, Row{sod, 0x40, 0x4F}, Row{rtso, 0x21, 0x6F}, Row{so, 0x23, 0x6F}, Row{oe, 0x27, 0x6F},
+                         Row{qsa, 0x07, 0x6F}, Row{far, 0x0F, 0x4F}, Row{flt, 0x08, 0x4F}}) {
         Bench b;
         b.to(r.state);
         EXPECT_EQ(b.picture().statusword & r.mask, r.masked) << name_of(r.state);
@@ -235,7 +240,8 @@ TEST(Cia402, ASetPointNeedsAVelocityThatItsOwnDoorHasWritten) {
     n.acceleration = 7;
     const auto by_command = b.profile.on_command(n);
     ASSERT_EQ(by_command.orders.size(), 1u);
-    EXPECT_FALSE(std::get<Move>(by_command.orders[0]).deceleration.has_value()) << "what stands in the registers is no default of a command";
+    EXPECT_FALSE(std::get<Move>(by_command.orders[0]).deceleration.has_value())
+        << "what stands in the registers is no default of a command";
 }
 
 TEST(Cia402, ADriveThatReportsAFaultAndMovesIsStoppedAndAskedAgain) {

@@ -141,8 +141,8 @@ TEST(Demand, LawsOverRandomOrders) {
         bool ends = false;
         double fastest = 0, steepest = 0, step = 0;
         for (int order = 0; order < 4; ++order) {
-            const DemandRamps r{round % 7 == 0 ? DemandRamps::at_once : draw(50, 5000), round % 11 == 0 ? DemandRamps::at_once : draw(50, 5000),
-                                round % 3 == 0 ? draw(0, 300) : 0};
+            const DemandRamps r{round % 7 == 0 ? DemandRamps::at_once : draw(50, 5000),
+                                round % 11 == 0 ? DemandRamps::at_once : draw(50, 5000), round % 3 == 0 ? draw(0, 300) : 0};
             const double speed = draw(1, 2000);
             fastest = std::max(std::abs(d.at(at_s(t)).velocity), speed);
             steepest = std::max(r.acceleration, r.deceleration);

@@ -21,7 +21,8 @@ TEST(ImageThreads, NeverTorn) {
         while (!stop.load()) {
             const AxisPicture p = image.cell(id).read();
             seen.fetch_add(1, std::memory_order_relaxed);
-            if (p.position != p.velocity || p.position_demand != p.position || static_cast<std::int64_t>(p.native_status) != p.position) ++torn;
+            if (p.position != p.velocity || p.position_demand != p.position || static_cast<std::int64_t>(p.native_status) != p.position)
+                ++torn;
         }
     });
     // Until the reader has looked often enough, however late its thread begins.

@@ -1,7 +1,7 @@
 // Command arguments: names, types, scales, ranges and defaults; the same result by object and by text.
 // In: a small catalogue. Out: values in counts, or a fault for each argument.
-#include <boost/json/parse.hpp>
 #include <gtest/gtest.h>
+#include <boost/json/parse.hpp>
 
 #include "gateway/core/command_arguments.hpp"
 
@@ -34,13 +34,15 @@ TEST_F(CommandArguments, AreScaledIntoCountsInTheCataloguesOrder) {
     EXPECT_EQ(c.values, (std::vector<Value>{std::int64_t{125000}, std::int64_t{250000}, std::int64_t{3}, 4.0, true, std::string("12")}));
     EXPECT_EQ(check_arguments(go, "velocity=0.25, position=12.5 soft=true label=12\ngain=2").values, c.values) << "text says the same";
     EXPECT_EQ(object(R"({"position": -0.00004})").values[0], Value{std::int64_t{0}}) << "to the nearest count";
-    EXPECT_EQ(object(R"({"position": 1})").values, (std::vector<Value>{std::int64_t{10000}, std::int64_t{100000}, std::int64_t{3}, 2.0, false, std::string("7")}));
+    EXPECT_EQ(object(R"({"position": 1})").values,
+              (std::vector<Value>{std::int64_t{10000}, std::int64_t{100000}, std::int64_t{3}, 2.0, false, std::string("7")}));
 }
 
 TEST_F(CommandArguments, EachFaultIsToldByName) {
     const auto c = object(R"({"velocity": 6, "count": 256, "speed": 1, "gain": -1, "soft": 2, "label": 5})");
     std::vector<std::string> names;
-    for (const auto& f : c.faults) names.push_back(f.argument);
+    for (const auto& f : c.faults)
+        names.push_back(f.argument);
     EXPECT_EQ(names, (std::vector<std::string>{"speed", "position", "velocity", "count", "gain", "soft", "label"}));
     EXPECT_EQ(c.faults[1].text, "position is missing");
     EXPECT_EQ(c.faults[1].remedy, "give a value in -214748.3648..214748.3647 mm");
@@ -69,10 +71,14 @@ TEST_F(CommandArguments, TextIsReadOrRefused) {
 }
 
 TEST_F(CommandArguments, AFaultyCatalogueIsRefused) {
-    for (const char* bad : {R"({"name": "a"})", R"({"type": "i32"})", R"({"name": "a", "type": "i33"})", R"({"name": "a", "type": "i32", "scale": 0})",
-                            R"({"name": "a", "type": "i32", "min": 2, "max": 1})", R"({"name": "a", "type": "i32"}, {"name": "a", "type": "i32"})", "5"}) {
+    for (const char* bad :
+         {R"({"name": "a"})", R"({"type": "i32"})", R"({"name": "a", "type": "i33"})", R"({"name": "a", "type": "i32", "scale": 0})",
+          R"({"name": "a", "type": "i32", "min": 2, "max": 1})", R"({"name": "a", "type": "i32"}, {"name": "a", "type": "i32"})", "5"}) {
         std::vector<std::string> list;
-        const std::string text = std::string(R"({"family": "t", "number": 9, "parameters": [], "errors": [], "commands": [{"id": "x", "name": "x", "arguments": [)") + bad + "]}]}";
+        const std::string text =
+            std::string(
+                R"({"family": "t", "number": 9, "parameters": [], "errors": [], "commands": [{"id": "x", "name": "x", "arguments": [)") +
+            bad + "]}]}";
         EXPECT_FALSE(Catalogue::parse(text, list)) << bad;
         EXPECT_FALSE(list.empty()) << bad;
     }

@@ -23,9 +23,9 @@ std::string twice_at(std::string_view text) {
 }
 
 TEST(JsonRead, GivesWhatTheLibraryGives) {
-    for (const std::string_view text :
-         {R"({"a": 1, "b": [true, null, -2, 2.5, 18446744073709551615, "x\u00e9\n"], "": {"a": {}}})", " [ ] ", "3", "\"\"", "{\"a\":[{\"a\":1},{\"a\":2}]}\n",
-          R"({"long\u0020name that has \"quotes\" and \\": "value\twith\u0000zero"})", "1e400", "-0.0"}) {
+    for (const std::string_view text : {R"({"a": 1, "b": [true, null, -2, 2.5, 18446744073709551615, "x\u00e9\n"], "": {"a": {}}})",
+                                        " [ ] ", "3", "\"\"", "{\"a\":[{\"a\":1},{\"a\":2}]}\n",
+                                        R"({"long\u0020name that has \"quotes\" and \\": "value\twith\u0000zero"})", "1e400", "-0.0"}) {
         JsonFault fault;
         const auto value = read_json(text, fault);
         boost::system::error_code ec;
@@ -60,13 +60,15 @@ TEST(JsonRead, NoMemberStandsTwice) {
     EXPECT_EQ(twice_at(R"({"": 1, "": 2})"), "/") << "the empty name is a name";
     EXPECT_EQ(twice_at(R"({"a/b~c": 1, "a/b~c": 2})"), "/a~1b~0c");
     JsonFault none;
-    EXPECT_TRUE(read_json(R"({"a": {"a": {"a": 1}}, "b": [{"a": 1}, {"a": 1}], "A": 1})", none)) << "the same name in other objects, or in capitals";
+    EXPECT_TRUE(read_json(R"({"a": {"a": {"a": 1}}, "b": [{"a": 1}, {"a": 1}], "A": 1})", none))
+        << "the same name in other objects, or in capitals";
 }
 
 TEST(JsonRead, DepthIsBounded) {
     const auto nested = [](int depth) {
         std::string text;
-        for (int i = 0; i < depth; ++i) text += "{\"a\":";
+        for (int i = 0; i < depth; ++i)
+            text += "{\"a\":";
         text += "{\"b\":1,\"b\":2}";
         return text + std::string(static_cast<std::size_t>(depth), '}');
     };
@@ -77,7 +79,8 @@ TEST(JsonRead, DepthIsBounded) {
 
 TEST(JsonRead, LargeTextsAreReadInTimeAndFaultsStaySmall) {
     std::string text = "{";
-    for (int i = 0; i < 200'000; ++i) text += "\"name" + std::to_string(i) + "\":" + std::to_string(i) + ",";
+    for (int i = 0; i < 200'000; ++i)
+        text += "\"name" + std::to_string(i) + "\":" + std::to_string(i) + ",";
     const auto begun = std::chrono::steady_clock::now();
     JsonFault fault;
     EXPECT_TRUE(read_json(text + "\"last\":0}", fault));

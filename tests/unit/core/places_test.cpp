@@ -19,7 +19,8 @@ TEST(Places, WhileThereIsRoomNobodyGoes) {
 }
 
 TEST(Places, StrangersGoFirstTheOldestOfTheHolderWithMost) {
-    const std::vector<Guest> guests{guest(7, known, 1), guest(1, stranger, 2), guest(2, stranger, 4), guest(2, stranger, 3), guest(2, stop_path, 0), guest(3, knowns_work, 0)};
+    const std::vector<Guest> guests{guest(7, known, 1),    guest(1, stranger, 2),  guest(2, stranger, 4),
+                                    guest(2, stranger, 3), guest(2, stop_path, 0), guest(3, knowns_work, 0)};
     EXPECT_EQ(find_place(guests, 9, false, {6, 0}).closes, 3u);
     EXPECT_EQ(find_place(guests, 9, true, {5, 1}).closes, 3u) << "one who is known is no reason to close another who is";
     const std::vector<Guest> without{guest(7, known, 1), guest(7, known, 0), guest(8, known, 0), guest(2, stop_path, 0)};
@@ -75,7 +76,9 @@ TEST(Places, FullForAnotherReasonClosesWhoeverMayGo) {
 
 TEST(Places, HoldersAreAddressesOrNetworks) {
     const auto v4 = [](std::uint8_t d) { return std::array<std::uint8_t, 16>{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF, 192, 0, 2, d}; };
-    const auto v6 = [](std::uint8_t net, std::uint8_t host) { return std::array<std::uint8_t, 16>{0x20, 1, 0x0d, 0xb8, 0, 0, 0, net, 0, 0, 0, 0, 0, 0, 0, host}; };
+    const auto v6 = [](std::uint8_t net, std::uint8_t host) {
+        return std::array<std::uint8_t, 16>{0x20, 1, 0x0d, 0xb8, 0, 0, 0, net, 0, 0, 0, 0, 0, 0, 0, host};
+    };
     EXPECT_NE(place_holder(v4(1)), place_holder(v4(2)));
     EXPECT_EQ(place_holder(v6(1, 1)), place_holder(v6(1, 2)));
     EXPECT_NE(place_holder(v6(1, 1)), place_holder(v6(2, 1)));

@@ -71,9 +71,9 @@ TEST(Catalogue, FindsByIdNameAndElement) {
 }
 
 TEST(Catalogue, ModesOfOperationAreThePagesOrTheCommonThree) {
-    EXPECT_TRUE(std::ranges::equal(read(page).modes(), std::vector<std::int16_t>{1, 3, 6}));
+    EXPECT_TRUE(std::ranges::equal(read(values_page).modes(), std::vector<std::int16_t>{1, 3, 6}));
     const auto with = [](std::string_view modes) {
-        std::string text(page);
+        std::string text(values_page);
         text.insert(text.find('{') + 1, "\"modes\": " + std::string(modes) + ",");
         return text;
     };
@@ -100,6 +100,23 @@ TEST(Catalogue, ASelectorIsThePositionAndTheElementAndNothingForTexts) {
     EXPECT_EQ(c.selector({2, 3}), 0x30002u);
     EXPECT_EQ(c.selector({2, 0}), std::nullopt);
     EXPECT_EQ(c.selector({3, 0}), std::nullopt);
+}
+
+TEST(Catalogue, WhatIsAskedBeforeACommandIsSentences) {
+    const auto with = [](std::string_view confirm) {
+        return fmt::format(R"({{"family": "x", "number": 1, "parameters": [], "errors": [], "commands": [{{"id": "FD", "name": "f"{}}}]}})",
+                           confirm);
+    };
+    for (const auto* good : {"", R"(, "confirm": "All settings are lost.")"}) {
+        std::vector<std::string> faults;
+        EXPECT_TRUE(Catalogue::parse(with(good), faults)) << good;
+    }
+    for (const auto* bad : {R"(, "confirm": "")", R"(, "confirm": "Sure?")", R"(, "confirm": true)", R"(, "confirm": null)"}) {
+        std::vector<std::string> faults;
+        EXPECT_FALSE(Catalogue::parse(with(bad), faults)) << bad;
+        ASSERT_EQ(faults.size(), 1u) << bad;
+        EXPECT_NE(faults[0].find("FD: confirm"), std::string::npos) << faults[0];
+    }
 }
 
 TEST(Catalogue, AClassSpeaksForTheCodesThatNothingElseNames) {

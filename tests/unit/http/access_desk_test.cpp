@@ -157,9 +157,17 @@ TEST(LocalAccess, IsForThisMachineWithoutAProxyAlone) {
     struct {
         std::string_view peer;
         bool forwarded, let_in;
-    } const table[]{{"127.0.0.1:5", false, true},  {"127.9.9.9:5", false, true},      {"[::1]:5", false, true},       {"[::ffff:127.0.0.1]:5", false, true},
-                    {"127.0.0.1:5", true, false},  {"192.0.2.7:5", false, false},     {"[::2]:5", false, false},      {"[::ffff:192.0.2.7]:5", false, false},
-                    {"128.0.0.1:5", false, false}, {"[2001:db8::127]:5", false, false}, {"", false, false}};
+    } const table[]{{"127.0.0.1:5", false, true},
+                    {"127.9.9.9:5", false, true},
+                    {"[::1]:5", false, true},
+                    {"[::ffff:127.0.0.1]:5", false, true},
+                    {"127.0.0.1:5", true, false},
+                    {"192.0.2.7:5", false, false},
+                    {"[::2]:5", false, false},
+                    {"[::ffff:192.0.2.7]:5", false, false},
+                    {"128.0.0.1:5", false, false},
+                    {"[2001:db8::127]:5", false, false},
+                    {"", false, false}};
     for (const auto& row : table) {
         Credentials c;
         c.peer = row.peer;
@@ -308,7 +316,8 @@ TEST(Records, ComeBackAsTheyWere) {
     EXPECT_FALSE(desk.has_users()) << "a use brings nobody back";
     EXPECT_TRUE(desk.tokens().empty());
     EXPECT_EQ(code_of(*record_of_code("abc").text), "abc");
-    for (const auto* bad : {"", "[]", "{", "{}", R"({"name":"a","role":"king","hash":"h"})", R"({"name":"a","role":"none","hash":"h"})", R"({"name":"","role":"viewer","hash":"h"})"})
+    for (const auto* bad : {"", "[]", "{", "{}", R"({"name":"a","role":"king","hash":"h"})", R"({"name":"a","role":"none","hash":"h"})",
+                            R"({"name":"","role":"viewer","hash":"h"})"})
         EXPECT_FALSE(user_of(bad)) << bad;
 }
 
@@ -316,9 +325,10 @@ TEST(Passwords, RulesAreKept) {
     struct {
         std::string password;
         bool good;
-    } const table[]{{"correct-horse-9", true},    {"short-one-1", false},       {std::string(257, 'x') + "abcdefgh", false}, {"password1234", false},
-                    {"PassWord1234", false},      {"aaaaaaaaaaaaaaaa", false},  {"123456789012", false},                     {"abcdefghijklm", false},
-                    {"anna-anna-1", false},       {"annaanna1234", true},       {"anna1234567", false},                      {"\xff\xfe\xfd-not-utf8-text", false},
+    } const table[]{{"correct-horse-9", true},    {"short-one-1", false},     {std::string(257, 'x') + "abcdefgh", false},
+                    {"password1234", false},      {"PassWord1234", false},    {"aaaaaaaaaaaaaaaa", false},
+                    {"123456789012", false},      {"abcdefghijklm", false},   {"anna-anna-1", false},
+                    {"annaanna1234", true},       {"anna1234567", false},     {"\xff\xfe\xfd-not-utf8-text", false},
                     {"Werkstatt im Süden", true}, {"changemechangeme", false}};
     for (const auto& row : table)
         EXPECT_EQ(password_fault(row.password, "anna").empty(), row.good) << row.password;

@@ -11,15 +11,7 @@ constexpr std::string_view far_peer = "192.0.2.7:5123";
 class AccessQueueTest : public ::testing::Test, public Harness {
 protected:
     std::shared_ptr<FakeAccess> access = std::make_shared<FakeAccess>();
-    Router door{Context{gateway,
-                        settings,
-                        [](std::string_view) { return std::string_view(); },
-                        {},
-                        std::make_shared<ChangeQueue>(),
-                        recipes,
-                        std::make_shared<AxisJobs>(),
-                        access,
-                        alarms}};
+    Router door = with_users(access);
     std::vector<std::pair<std::string, std::string>> admin;
 
     AccessQueueTest() {

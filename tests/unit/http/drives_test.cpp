@@ -115,10 +115,12 @@ TEST_F(HttpTest, Hand) {
     EXPECT_EQ(wrong.status, 422u);
     EXPECT_EQ(wrong.at("detail"), "temperature takes -40..200");
     EXPECT_EQ(wrong.fault().at("pointer"), "/temperature");
-    EXPECT_EQ(call("PATCH", "/api/v1/drives/feeder/hand", R"({"stall":true,"temperature":900})").fault().at("pointer"), "/temperature") << "the one that is named";
+    EXPECT_EQ(call("PATCH", "/api/v1/drives/feeder/hand", R"({"stall":true,"temperature":900})").fault().at("pointer"), "/temperature")
+        << "the one that is named";
     gateway.hand_fault = "write true or false";
     EXPECT_EQ(call("PATCH", "/api/v1/drives/feeder/hand", R"({"stall":"yes"})").fault().at("pointer"), "/stall") << "there is only one";
-    EXPECT_EQ(call("PATCH", "/api/v1/drives/feeder/hand", R"({"stall":"yes","temperature":900})").fault().at("pointer"), "") << "nobody knows which";
+    EXPECT_EQ(call("PATCH", "/api/v1/drives/feeder/hand", R"({"stall":"yes","temperature":900})").fault().at("pointer"), "")
+        << "nobody knows which";
     EXPECT_EQ(call("GET", "/api/v1/drives/feeder/hand?describe=x").status, 400u);
 }
 

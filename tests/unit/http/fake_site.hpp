@@ -26,7 +26,7 @@ inline constexpr std::string_view catalogue_text = R"({
     {"id": "PP", "name": "protocol", "group": "bus", "type": "u8", "min": 0, "max": 200, "access": "RW", "description": "Array.", "first": 1, "count": 8, "addressing": true},
     {"id": "N", "name": "registers", "group": "program", "type": "f64", "access": "RW", "description": "Long array.", "first": 1, "count": 2000}
   ],
-  "commands": [{"id": "BG", "name": "begin", "description": "Starts."},
+  "commands": [{"id": "BG", "name": "begin", "description": "Starts.", "confirm": "The axis moves."},
     {"id": "GO", "name": "go", "arguments": [{"name": "position", "type": "i32", "unit": "mm", "scale": 0.0001}, {"name": "speed", "type": "u16", "default": 5}]}],
   "errors": [{"code": 49, "kind": "error", "name": "overcurrent", "text": "too much current", "cause": "short", "remedy": "look"}]
 })";

@@ -53,18 +53,22 @@ TEST_F(HttpTest, Catalogue) {
         json_text(p[0]),
         R"({"id":"AC","name":"acceleration","group":"motion","type":"u32","unit":"pulse/s^2","min":1,"max":65000000,"default":20000,"access":"RW",)"
         R"("storage":"eeprom","addressing":false,"live":false,"description":"Acceleration of motions.","allowed":null,"fields":null,"meanings":null,"alternate":null,"choice":[],"first":null,"count":null,"selector":0})");
-    EXPECT_EQ(json_text(p[1]),
-              R"({"id":"ML","name":"model","group":"identity","type":"text","unit":null,"min":null,"max":null,"default":null,"access":"R",)"
-              R"("storage":null,"addressing":false,"live":false,"description":"Model name.","allowed":null,"fields":null,"meanings":null,"alternate":null,"choice":[],"first":null,"count":null,"selector":null})");
+    EXPECT_EQ(
+        json_text(p[1]),
+        R"({"id":"ML","name":"model","group":"identity","type":"text","unit":null,"min":null,"max":null,"default":null,"access":"R",)"
+        R"("storage":null,"addressing":false,"live":false,"description":"Model name.","allowed":null,"fields":null,"meanings":null,"alternate":null,"choice":[],"first":null,"count":null,"selector":null})");
     EXPECT_EQ(json_text(p[3].at("allowed")), R"([{"value":1,"meaning":"full"},{"value":16,"meaning":"sixteenth"}])");
     EXPECT_EQ(json_text(p[4].at("first")) + json_text(p[4].at("count")), "18");
     EXPECT_EQ(json_text(p[4].at("selector")), std::to_string(65536 + 4)) << "of its first element";
-    EXPECT_EQ(call("GET", "/api/v1/families/demo/commands").text, R"([{"id":"BG","name":"begin","description":"Starts.","completes":"acknowledged","arguments":[]},)"
-              R"({"id":"GO","name":"go","description":null,"completes":"acknowledged","arguments":[)"
-              R"({"name":"position","type":"i32","unit":"mm","scale":0.0001,"min":null,"max":null,"default":null,"description":null},)"
-              R"({"name":"speed","type":"u16","unit":null,"scale":1,"min":null,"max":null,"default":5,"description":null}]}])");
-    EXPECT_EQ(call("GET", "/api/v1/families/demo/errors").text,
-              R"([{"code":49,"through":null,"kind":"error","name":"overcurrent","text":"too much current","cause":"short","remedy":"look"}])");
+    EXPECT_EQ(
+        call("GET", "/api/v1/families/demo/commands").text,
+        R"([{"id":"BG","name":"begin","description":"Starts.","completes":"acknowledged","confirm":"The axis moves.","arguments":[]},)"
+        R"({"id":"GO","name":"go","description":null,"completes":"acknowledged","confirm":null,"arguments":[)"
+        R"({"name":"position","type":"i32","unit":"mm","scale":0.0001,"min":null,"max":null,"default":null,"description":null},)"
+        R"({"name":"speed","type":"u16","unit":null,"scale":1,"min":null,"max":null,"default":5,"description":null}]}])");
+    EXPECT_EQ(
+        call("GET", "/api/v1/families/demo/errors").text,
+        R"([{"code":49,"through":null,"kind":"error","name":"overcurrent","text":"too much current","cause":"short","remedy":"look"}])");
     for (const auto* path :
          {"/api/v1/families/x", "/api/v1/families/x/parameters", "/api/v1/families/x/commands", "/api/v1/families/x/errors"})
         EXPECT_EQ(call("GET", path).status, 404u);
@@ -120,8 +124,8 @@ TEST_F(HttpTest, AxisDocument) {
 
 TEST_F(HttpTest, WhatADriveNeverSaidIsNull) {
     const auto a = call("GET", "/api/v1/axes/slide");
-    for (const auto* key :
-         {"position", "velocity", "position_demand", "following_error", "demand_source", "target_position", "position_increments", "velocity_increments", "at", "age_ms"})
+    for (const auto* key : {"position", "velocity", "position_demand", "following_error", "demand_source", "target_position",
+                            "position_increments", "velocity_increments", "at", "age_ms"})
         EXPECT_EQ(a.at(key), "null") << key;
     EXPECT_EQ(a.at("online"), "false");
     EXPECT_EQ(a.at("state"), "not_ready_to_switch_on");
@@ -136,8 +140,9 @@ TEST_F(HttpTest, ADemandIsShownWithWhoseWordItIs) {
         DemandSource source;
         const char *name, *demand, *error;
     };
-    for (const Row& row : {Row{DemandSource::none, "null", "null", "null"}, Row{DemandSource::drive, "drive", "1300", "300"},
-                           Row{DemandSource::computed, "computed", "1300", "300"}, Row{DemandSource::open_loop, "open_loop", "1000", "null"}}) {
+    for (const Row& row :
+         {Row{DemandSource::none, "null", "null", "null"}, Row{DemandSource::drive, "drive", "1300", "300"},
+          Row{DemandSource::computed, "computed", "1300", "300"}, Row{DemandSource::open_loop, "open_loop", "1000", "null"}}) {
         auto p = standing(1000);
         p.demand_source = row.source;
         if (p.following_error_known()) p.position_demand = 1300;
@@ -336,9 +341,10 @@ TEST_F(HttpTest, ActionsWithArgumentsByName) {
     ASSERT_EQ(gateway.submitted.size(), 3u);
     const auto wrong = call("POST", "/api/v1/axes/feeder/actions", R"({"name":"go","arguments":{"speed":70000,"x":1}})");
     EXPECT_EQ(wrong.status, 422u);
-    for (const auto* place : {"/arguments/x", "/arguments/position", "/arguments/speed"}) EXPECT_NE(wrong.text.find(place), std::string::npos) << place;
-    for (const auto* bad : {R"({"name":"go","arguments":[]})", R"({"name":"go","argument":"position=1","arguments":{"position":1}})", R"({"name":"go"})",
-                            R"({"name":"begin","arguments":{"a":1}})", R"({"name":"unlisted","arguments":{"a":1}})"}) {
+    for (const auto* place : {"/arguments/x", "/arguments/position", "/arguments/speed"})
+        EXPECT_NE(wrong.text.find(place), std::string::npos) << place;
+    for (const auto* bad : {R"({"name":"go","arguments":[]})", R"({"name":"go","argument":"position=1","arguments":{"position":1}})",
+                            R"({"name":"go"})", R"({"name":"begin","arguments":{"a":1}})", R"({"name":"unlisted","arguments":{"a":1}})"}) {
         EXPECT_EQ(call("POST", "/api/v1/axes/feeder/actions", bad).status, 422u) << bad;
     }
     EXPECT_EQ(gateway.submitted.size(), 3u) << "nothing wrong reaches a drive";

@@ -35,6 +35,16 @@ Harness::Harness()
           nullptr, alarms}) {}
 Harness::~Harness() = default;
 
+Router Harness::with_users(std::shared_ptr<AccessPort> access) {
+    return Router{Context{.ports = gateway,
+                          .settings = settings,
+                          .asset = [](std::string_view) { return std::string_view(); },
+                          .own_metrics = {},
+                          .recipes = recipes,
+                          .access = std::move(access),
+                          .alarms = alarms}};
+}
+
 HttpTest::HttpTest() = default;
 HttpTest::~HttpTest() = default;
 

@@ -7,9 +7,9 @@
 
 #include <string>
 
+#include "gateway/doors/http/router.hpp"
 #include "gateway/services/alarms/alarm_service.hpp"
 #include "gateway/services/recipes/recipe_service.hpp"
-#include "gateway/doors/http/router.hpp"
 #include "tests/unit/http/fake_gateway.hpp"
 
 namespace axisgate::http::test {
@@ -59,6 +59,8 @@ struct Harness {
     Answer send(const Request& r);
     /// What came through the callback after a promise.
     Answer answered();
+    /// Another router at the same gateway, with users and without a page.
+    [[nodiscard]] Router with_users(std::shared_ptr<AccessPort> access);
 };
 
 class HttpTest : public ::testing::Test, public Harness {

@@ -38,8 +38,10 @@ TEST(HttpHead, TwoEmptyLinesInFrontArePassedOver) {
 }
 
 TEST(HttpHead, LinesThatTwoProgramsReadInTwoWays) {
-    for (const std::string& bad : {std::string("GET / HTTP/1.1\r\nA: b\r\n c\r\n\r\n"), std::string("GET / HTTP/1.1\r\nA: b\r\n\tc\r\n\r\n"), std::string("GET / HTTP/1.1\nA: b\r\n\r\n"),
-                                  std::string("GET / HTTP/1.1\r\nA: b\rX: c\r\n\r\n"), std::string("GET / HTTP/1.1\r\nA: \0b\r\n\r\n", 26), std::string("GET / HTTP/1.1\r\nA: b\n\r\n\r\n")})
+    for (const std::string& bad :
+         {std::string("GET / HTTP/1.1\r\nA: b\r\n c\r\n\r\n"), std::string("GET / HTTP/1.1\r\nA: b\r\n\tc\r\n\r\n"),
+          std::string("GET / HTTP/1.1\nA: b\r\n\r\n"), std::string("GET / HTTP/1.1\r\nA: b\rX: c\r\n\r\n"),
+          std::string("GET / HTTP/1.1\r\nA: \0b\r\n\r\n", 26), std::string("GET / HTTP/1.1\r\nA: b\n\r\n\r\n")})
         EXPECT_EQ(scan_head(bad, 1000).verdict, Verdict::malformed) << bad;
 }
 
@@ -54,7 +56,8 @@ TEST(HttpHead, TheLengthOfTheBodyIsBeyondDoubt) {
     EXPECT_EQ(status({{"Transfer-Encoding", "chunked"}}), 200u);
     EXPECT_EQ(status({{"transfer-encoding", "Chunked"}}), 200u);
     EXPECT_EQ(status({{"Transfer-Encoding", "chunked"}}, true), 400u) << "HTTP/1.0";
-    for (const auto* other : {"identity", "gzip", "gzip, chunked", "chunked, chunked", "chunked, identity", "chunked;q=1", "xchunked", "\"chunked\"", "chunked,", ",chunked", "", "\vchunked"}) {
+    for (const auto* other : {"identity", "gzip", "gzip, chunked", "chunked, chunked", "chunked, identity", "chunked;q=1", "xchunked",
+                              "\"chunked\"", "chunked,", ",chunked", "", "\vchunked"}) {
         EXPECT_EQ(status({{"Transfer-Encoding", other}}), 501u) << other;
         EXPECT_EQ(status({{"Transfer-Encoding", other}, {"Content-Length", "5"}}), 400u) << other;
         EXPECT_EQ(status({{"Content-Length", "5"}, {"Transfer-Encoding", other}}), 400u) << other;

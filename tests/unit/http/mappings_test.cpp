@@ -73,11 +73,13 @@ TEST_F(HttpTest, MappingsAsCsv) {
     EXPECT_EQ(faulty.fault(0).at("pointer"), "/3");
     EXPECT_EQ(faulty.fault(1).at("pointer"), "/4");
     // A cell that cannot be read keeps no other row from being looked at.
-    const auto mixed = call("PUT", "/api/v1/mappings.csv?dry_run=1",
-                            "unit,address,axis,point\n1,0,feeder,position\n2,x,feeder,position\n2,5,nobody,position\n2,9,feeder,position\n", type);
+    const auto mixed =
+        call("PUT", "/api/v1/mappings.csv?dry_run=1",
+             "unit,address,axis,point\n1,0,feeder,position\n2,x,feeder,position\n2,5,nobody,position\n2,9,feeder,position\n", type);
     EXPECT_EQ(mixed.status, 422u);
     std::set<std::string> lines;
-    for (const auto& f : mixed.object().at("faults").get_array()) lines.insert(std::string(f.at("pointer").as_string()));
+    for (const auto& f : mixed.object().at("faults").get_array())
+        lines.insert(std::string(f.at("pointer").as_string()));
     EXPECT_EQ(lines, (std::set<std::string>{"/2", "/3", "/4"})) << mixed.text;
     EXPECT_EQ(gateway.site()->site.mappings.size(), 3u) << "all or nothing";
     EXPECT_EQ(call("POST", "/api/v1/mappings.csv", "{}").status, 415u);
@@ -90,9 +92,13 @@ TEST_F(HttpTest, RowsOfATableThatAreInEachOthersWayAreNamedByTheirLines) {
         return std::string(a.fault().at("text").get_string());
     };
     const auto own = faulty("PUT", "unit,address,axis,point\n\n2,0,feeder,position\n2,1,slide,position\n");
-    EXPECT_EQ(own, "unit 2 holding_registers 1..1 is taken by row 3 (position of axis feeder); choose another address, or take one of the two rows out");
+    EXPECT_EQ(own,
+              "unit 2 holding_registers 1..1 is taken by row 3 (position of axis feeder); choose another address, or take one of the two "
+              "rows out");
     const auto added = faulty("POST", "unit,address,axis,point\n2,1,feeder,position\n");
-    EXPECT_EQ(added, "unit 2 holding_registers 1..1 is taken by mapping m1 (position of axis slide); choose another address, or remove that mapping");
+    EXPECT_EQ(
+        added,
+        "unit 2 holding_registers 1..1 is taken by mapping m1 (position of axis slide); choose another address, or remove that mapping");
     const auto put_over = faulty("POST", "id,unit,address,axis,point\nm1,2,10,slide,position\n,2,11,feeder,position\n");
     EXPECT_NE(put_over.find("is taken by row 2 (position"), std::string::npos) << "in the place of the one that was there: " << put_over;
 }
@@ -111,7 +117,8 @@ TEST_F(HttpTest, PointsThatCanBeMapped) {
 }
 
 TEST_F(HttpTest, SeveralMappingsAreRemovedAtOnceOrNone) {
-    for (const auto* entry : {R"({"id": "a", "unit": 2, "address": 20, "point": "feeder.position"})", R"({"id": "b", "unit": 3, "address": 0, "point": "feeder.position"})",
+    for (const auto* entry : {R"({"id": "a", "unit": 2, "address": 20, "point": "feeder.position"})",
+                              R"({"id": "b", "unit": 3, "address": 0, "point": "feeder.position"})",
                               R"({"id": "c", "unit": 3, "address": 2, "point": "slide.position"})"})
         ASSERT_EQ(call("POST", "/api/v1/mappings", entry).status, 201u);
     EXPECT_EQ(call("DELETE", "/api/v1/mappings").status, 400u) << "never all by an oversight";

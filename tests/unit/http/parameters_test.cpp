@@ -82,7 +82,9 @@ TEST_F(HttpParameters, ATableGivesTheFormItsOwnValuesNeed) {
     gateway.catalogue = *Catalogue::parse(forms, faults);
     know("IC[4]", std::int64_t{1});
     know("AC", std::int64_t{500});
-    const auto put = [&](const std::string& rows) { return call("PUT", base + ".csv?dry_run=1", "parameter,value\n" + rows, {{"Content-Type", "text/csv"}}); };
+    const auto put = [&](const std::string& rows) {
+        return call("PUT", base + ".csv?dry_run=1", "parameter,value\n" + rows, {{"Content-Type", "text/csv"}});
+    };
     EXPECT_EQ(put("AC,100000\n").status, 422u) << "the drive has times";
     const auto both = put("AC,100000\nIC[4],0\n");
     EXPECT_EQ(both.status, 200u) << both.text << "the table makes them rates";
@@ -102,8 +104,9 @@ TEST_F(HttpParameters, BitsAndRangesAreLegible) {
               R"([{"name":"action","low_bit":0,"bits":7,"allowed":[{"value":0,"meaning":"no action"},{"value":3,"meaning":"stop"}]},)"
               R"({"name":"flag","low_bit":7,"bits":1,"allowed":[{"value":0,"meaning":"always"},{"value":1,"meaning":"on a change"}]}])");
     EXPECT_EQ(list[3].at("meaning"), "filter");
-    EXPECT_EQ(json_text(list[3].at("meanings")),
-              R"([{"from":0,"through":0,"meaning":"continuous"},{"from":1,"through":60000,"meaning":"filter"},{"from":60001,"through":60001,"meaning":"one time"}])");
+    EXPECT_EQ(
+        json_text(list[3].at("meanings")),
+        R"([{"from":0,"through":0,"meaning":"continuous"},{"from":1,"through":60000,"meaning":"filter"},{"from":60001,"through":60001,"meaning":"one time"}])");
     const auto no = call("PUT", base + "/IL", R"({"value":2})");
     EXPECT_EQ(no.status, 422u);
     EXPECT_EQ(no.json.at("detail"), "IL.action: 2 (bits 6..0 of 2) is not allowed; allowed: 0 (no action), 3 (stop)");

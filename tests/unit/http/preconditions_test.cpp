@@ -12,15 +12,7 @@ using Fields = std::vector<std::pair<std::string, std::string>>;
 class Preconditions : public ::testing::Test, public Harness {
 protected:
     std::shared_ptr<FakeAccess> access = std::make_shared<FakeAccess>();
-    Router door{Context{gateway,
-                        settings,
-                        [](std::string_view) { return std::string_view(); },
-                        {},
-                        std::make_shared<ChangeQueue>(),
-                        recipes,
-                        std::make_shared<AxisJobs>(),
-                        access,
-                        alarms}};
+    Router door = with_users(access);
     Fields admin;
     Preconditions() {
         for (const auto* role : {"engineer", "administrator"})

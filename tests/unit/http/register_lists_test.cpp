@@ -1,5 +1,5 @@
-// Register lists through the router: what a PLC computes from the structures is where the mappings are; numbers and units on paper; templates.
-// In: sites. Out: judgements. The offsets are computed from the text alone, as a compiler with packed structures does.
+// Register lists through the router: what a PLC computes from the structures is where the mappings are; numbers and units on paper;
+// templates. In: sites. Out: judgements. The offsets are computed from the text alone, as a compiler with packed structures does.
 #include <fmt/core.h>
 
 #include <regex>
@@ -14,7 +14,8 @@ class Lists : public HttpTest {
 protected:
     void put_mappings(const std::string& mappings) {
         gateway.put_site(R"({"lines":[{"name":"can0","uri":"twin","family":"demo"}],"drives":[{"name":"feeder","line":"can0","address":5}],
-          "axes":[{"name":"feeder","drive":"feeder","number":1,"unit":"mm","increments_per_unit":3200}],"mappings":[)" + mappings + "]}");
+          "axes":[{"name":"feeder","drive":"feeder","number":1,"unit":"mm","increments_per_unit":3200}],"mappings":[)" +
+                         mappings + "]}");
     }
     std::string list(const std::string& format) { return call("GET", "/api/v1/mappings/list?format=" + format).text; }
 };
@@ -91,7 +92,8 @@ TEST_F(Lists, PaperHasNumbersFromOneAndUnits) {
     EXPECT_EQ(register_number(MapTable::input_registers, 65535), "365536");
     EXPECT_EQ(register_number(MapTable::coils, 0), "00001");
     EXPECT_EQ(register_number(MapTable::discrete_inputs, 15), "10016");
-    put_mappings(R"({"unit":2,"address":4,"point":"feeder.velocity_units","type":"f32"},{"unit":2,"address":6,"point":"feeder.AC","type":"u32"},
+    put_mappings(
+        R"({"unit":2,"address":4,"point":"feeder.velocity_units","type":"f32"},{"unit":2,"address":6,"point":"feeder.AC","type":"u32"},
       {"unit":2,"address":8,"point":"feeder.position","type":"i32"})");
     const auto csv = list("csv");
     EXPECT_NE(csv.find("mapping_revision,register_number,engineering_unit\r\n"), std::string::npos) << csv;

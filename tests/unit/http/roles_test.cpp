@@ -14,15 +14,7 @@ using Fields = std::vector<std::pair<std::string, std::string>>;
 class AccessTest : public ::testing::Test, public Harness {
 protected:
     std::shared_ptr<FakeAccess> access = std::make_shared<FakeAccess>();
-    Router door{Context{gateway,
-                        settings,
-                        [](std::string_view) { return std::string_view(); },
-                        {},
-                        std::make_shared<ChangeQueue>(),
-                        recipes,
-                        std::make_shared<AxisJobs>(),
-                        access,
-                        alarms}};
+    Router door = with_users(access);
     AccessTest() {
         for (const auto* role : {"viewer", "operator", "engineer", "administrator"})
             access->own_accounts.load(User{role, *role_named(role), true, std::string("hash of secret ") + role, 1, 0});
@@ -81,7 +73,8 @@ TEST_F(AccessTest, EachRoleAgainstEachRoute) {
             ++checked;
             if (may) {
                 // What a handler refines by its body or by whose it is stands in its own tests.
-                const bool refines = route.handler == change_password || route.handler == add_token || route.handler == command_axis;
+                const bool refines =
+                    route.handler == take<change_password> || route.handler == take<add_token> || route.handler == take<command_axis>;
                 if (!refines) EXPECT_TRUE(a.status != 401 && a.status != 403) << what;
                 EXPECT_NE(a.at("reason"), "sign_in") << what;
                 EXPECT_NE(a.at("reason"), "csrf") << what;
@@ -176,7 +169,8 @@ TEST_F(AccessTest, OpenRoutesAreTheseAlone) {
     for (const auto& r : all_routes()) {
         if (r.needed() == Role::none) open.insert(std::string(name_of(r.method)) + " " + std::string(r.path));
         if (r.method != Method::get && r.needed() == Role::viewer) {
-            EXPECT_TRUE(r.handler == command_axis || r.handler == change_password || r.handler == add_token || r.handler == remove_token)
+            EXPECT_TRUE(r.handler == take<command_axis> || r.handler == take<change_password> || r.handler == take<add_token> ||
+                        r.handler == take<remove_token>)
                 << r.path;
         }
     }

@@ -48,7 +48,7 @@ TEST_F(HttpTest, NamesThatAQueryDoesNotHaveAreRefusedEverywhere) {
             queries.push_back("?" + first + "=1&other=1");
         }
         for (const auto& query : queries) {
-            if (query == "?") continue;  // an empty query is none
+            if (query == "?") continue;                           // an empty query is none
             if (route.needed() == Role::administrator) continue;  // who it is comes first: see roles_test
             const auto a = call(name_of(route.method), path + query, route.takes == Route::Takes::nothing ? "" : "{}", headers);
             EXPECT_EQ(a.status, 400u) << name_of(route.method) << " " << path << query << " " << a.text;
@@ -104,13 +104,16 @@ TEST_F(HttpTest, SecurityHeadersEverywhere) {
 }
 
 TEST_F(HttpTest, HostsThatAreNotListedAreMisdirectedWhateverTheBind) {
-    for (const auto* bind : {"127.0.0.1:8080", "[::1]:8080", "localhost:8080", "0.0.0.0:8080", "[::]:8080", "192.0.2.7:8080", "*:8080", ":8080"}) {
+    for (const auto* bind :
+         {"127.0.0.1:8080", "[::1]:8080", "localhost:8080", "0.0.0.0:8080", "[::]:8080", "192.0.2.7:8080", "*:8080", ":8080"}) {
         settings.bind = bind;
         settings.allowed_hosts.clear();
         const auto with = [this](std::string host) { return call("GET", "/api/v1/about", "", {{"Host", std::move(host)}}).status; };
-        for (const auto* good : {"127.0.0.1:8080", "127.0.0.1", "localhost", "LOCALHOST:1", "page.localhost", "[::1]:8080", "localhost.", "127.1.2.3"})
+        for (const auto* good :
+             {"127.0.0.1:8080", "127.0.0.1", "localhost", "LOCALHOST:1", "page.localhost", "[::1]:8080", "localhost.", "127.1.2.3"})
             EXPECT_EQ(with(good), 200u) << bind << ' ' << good;
-        for (const auto* bad : {"evil.example", "evil.example:8080", "", "127.0.0.1.evil.example", "localhost.evil.example", "1.2.3", "1.2.3.4.5", "256.1.1.1", "gateway", ":8080"})
+        for (const auto* bad : {"evil.example", "evil.example:8080", "", "127.0.0.1.evil.example", "localhost.evil.example", "1.2.3",
+                                "1.2.3.4.5", "256.1.1.1", "gateway", ":8080"})
             EXPECT_EQ(with(bad), 421u) << bind << ' ' << bad;
         settings.allowed_hosts = {"Gateway.example", "*"};
         EXPECT_EQ(with("gateway.EXAMPLE:8080"), 200u) << bind;
@@ -132,9 +135,10 @@ TEST_F(HttpTest, AnAddressOfAnotherWayInIsServedButIsNotThisMachine) {
 
 TEST_F(HttpTest, WhatAProxyWritesTakesLocalAccessAway) {
     EXPECT_EQ(call("GET", "/api/v1/about").status, 200u);
-    for (const auto* name : {"Forwarded", "X-Forwarded-For", "x-forwarded-host", "X-FORWARDED-PROTO", "X-Forwarded-Prefix", "X-Forwarded", "X-Real-IP", "Via", "X-Client-IP",
-                             "X-Cluster-Client-Ip", "X-Original-Forwarded-For", "X-Original-Host", "X-Envoy-External-Address", "True-Client-IP", "CF-Connecting-IP", "Fastly-Client-IP", "Client-IP",
-                             "CDN-Loop", "Proxy-Connection"}) {
+    for (const auto* name :
+         {"Forwarded", "X-Forwarded-For", "x-forwarded-host", "X-FORWARDED-PROTO", "X-Forwarded-Prefix", "X-Forwarded", "X-Real-IP", "Via",
+          "X-Client-IP", "X-Cluster-Client-Ip", "X-Original-Forwarded-For", "X-Original-Host", "X-Envoy-External-Address", "True-Client-IP",
+          "CF-Connecting-IP", "Fastly-Client-IP", "Client-IP", "CDN-Loop", "Proxy-Connection"}) {
         EXPECT_EQ(call("GET", "/api/v1/about", "", {{"Host", "localhost"}, {name, "192.0.2.9"}}).status, 401u) << name;
         EXPECT_EQ(call("GET", "/api/v1/about", "", {{"Host", "localhost"}, {name, ""}}).status, 401u) << name << ", empty";
     }
@@ -150,7 +154,8 @@ TEST_F(HttpTest, HostHeaderItself) {
     EXPECT_EQ(send(r).status, 200u) << "HTTP/1.0 has none";
     r.headers.fields = {{"Host", "localhost"}, {"host", "localhost"}};
     EXPECT_EQ(send(r).status, 400u);
-    for (const auto* bad : {"a b", "localhost:", "localhost:x", "localhost:8080:1", "localhost:65536", "me@localhost", "localhost/", "local\x7Fhost", "[x]", "[::1", "[::1]x", "[::1]:", "::1", "localhost, evil.example"}) {
+    for (const auto* bad : {"a b", "localhost:", "localhost:x", "localhost:8080:1", "localhost:65536", "me@localhost", "localhost/",
+                            "local\x7Fhost", "[x]", "[::1", "[::1]x", "[::1]:", "::1", "localhost, evil.example"}) {
         r.headers.fields = {{"Host", bad}};
         EXPECT_EQ(send(r).status, std::string_view(bad) == "localhost:" || std::string_view(bad) == "[::1]:" ? 200u : 400u) << bad;
     }
@@ -201,7 +206,8 @@ TEST_F(HttpTest, Bodies) {
     EXPECT_EQ(twice.at("reason"), "bad_request");
     EXPECT_EQ(twice.at("detail"), "the member \"command\" stands twice (/command, line 2): keep one of them");
     EXPECT_EQ(twice.fault().at("pointer"), "/command");
-    EXPECT_EQ(call("PUT", "/api/v1/site", R"({"lines":[{"name":"a"},{"name":"b","uri":"x","name":"c"}]})").fault().at("pointer"), "/lines/1/name");
+    EXPECT_EQ(call("PUT", "/api/v1/site", R"({"lines":[{"name":"a"},{"name":"b","uri":"x","name":"c"}]})").fault().at("pointer"),
+              "/lines/1/name");
     EXPECT_EQ(call("PUT", "/api/v1/recipes/x", R"({"steps":[{"wait_s":1,"wait_s":2}]})").status, 400u);
     EXPECT_EQ(gateway.submitted.size(), commands) << "neither of the two was done";
     const auto patch = call("PATCH", "/api/v1/axes/feeder", R"({"unit":"deg"})", {{"Content-Type", "application/merge-patch+json"}});
@@ -212,7 +218,8 @@ TEST_F(HttpTest, PackedBodiesAreNotTakenForPlainOnes) {
     const auto with = [this](std::string coding) {
         return call("POST", "/api/v1/axes/feeder/commands", R"({"command":"enable"})", {{"Content-Encoding", std::move(coding)}});
     };
-    for (const auto* good : {"identity", "Identity", "", " identity , identity"}) EXPECT_EQ(with(good).status, 0u) << good;
+    for (const auto* good : {"identity", "Identity", "", " identity , identity"})
+        EXPECT_EQ(with(good).status, 0u) << good;
     const auto commands = gateway.submitted.size();
     for (const auto* bad : {"gzip", "br", "identity, gzip", "x"}) {
         const auto a = with(bad);
@@ -246,7 +253,8 @@ TEST_F(HttpTest, BadTargets) {
     old.headers.fields.clear();
     old.http_1_0 = true;
     EXPECT_EQ(send(old).status, 421u) << "HTTP/1.0 without the header";
-    EXPECT_EQ(call("PUT", "http://localhost/api/v1/site", "{}", {{"Origin", "http://127.0.0.1:8080"}}).status, 403u) << "another origin than the host that is meant";
+    EXPECT_EQ(call("PUT", "http://localhost/api/v1/site", "{}", {{"Origin", "http://127.0.0.1:8080"}}).status, 403u)
+        << "another origin than the host that is meant";
 }
 
 TEST_F(HttpTest, AnExceptionIsA500) {
@@ -298,7 +306,8 @@ TEST_F(HttpTest, StaticFiles) {
     EXPECT_EQ(page.headers.get("Content-Type"), "text/html; charset=utf-8");
     const std::string tag(page.headers.get("ETag"));
     EXPECT_EQ(tag.size(), 18u);
-    const std::vector<std::pair<std::string, std::string>> browser{{"Accept", "text/html,application/xhtml+xml,application/xml;q=0.9,*/*;q=0.8"}};
+    const std::vector<std::pair<std::string, std::string>> browser{
+        {"Accept", "text/html,application/xhtml+xml,application/xml;q=0.9,*/*;q=0.8"}};
     for (const auto* route : {"/axes", "/axes/feeder", "/a/b/c", "/index.html", "/axes/portal.x", "/lines/com1.js?tab=2", "/missing.js"})
         EXPECT_EQ(call("GET", route, "", browser).text, page.text) << route;
     EXPECT_EQ(call("GET", "/axes/portal.x", "", browser).headers.get("Vary"), "Accept");

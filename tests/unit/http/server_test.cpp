@@ -283,19 +283,6 @@ TEST_F(HttpServer, WhatLargeAnswersHoldTogetherIsBounded) {
     EXPECT_EQ(Client(door.port).get("/big.txt").status(), 200u) << "what a client that has gone held is free again";
 }
 
-TEST_F(HttpServer, ABackupThatNobodyReadsCountsAmongWhatLargeAnswersHold) {
-    door.settings.max_held_bytes = 20 * 1024 * 1024;
-    door.gateway.bytes.assign(12 * 1024 * 1024, 'x');
-    door.open();
-    Client slow(door.port, 4096), fresh(door.port);
-    slow.send("GET /api/v1/backup HTTP/1.1\r\nHost: localhost\r\n\r\n");
-    ASSERT_TRUE(door.until([&] { return door.server().counters().bytes_out > 0; }));
-    EXPECT_EQ(fresh.get("/api/v1/backup").status(), 503u) << "12 MiB wait to be read: there is no room for 12 more";
-    slow.close();
-    EXPECT_TRUE(door.until([&] { return door.server().counters().connections == 1; }));
-    EXPECT_EQ(fresh.get("/api/v1/backup").status(), 200u);
-}
-
 TEST_F(HttpServer, AStrangersBodyIsAFewKiB) {
     door.open();
     const auto head = [](std::size_t bytes, const char* more) {

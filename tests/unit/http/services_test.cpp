@@ -41,7 +41,7 @@ TEST_F(ServicesAlone, RunRecipesOfWhoeverComes) {
     auto recipe = read_recipe(json::parse(R"({"steps":[{"enable":{"axis":"feeder"}}]})").get_object(), nullptr, faults);
     ASSERT_TRUE(recipe);
     const auto begun =
-        services->recipes->start("go", std::move(*recipe), {}, {Door::dds, std::make_shared<const std::string>("a panel"), {}});
+        services->recipes->start("go", std::move(*recipe), {}, {axisgate::Door::dds, std::make_shared<const std::string>("a panel"), {}});
     ASSERT_TRUE(std::holds_alternative<json::object>(begun));
     EXPECT_LE(services->deadline(), now) << "the services have one deadline, and it is the recipe's";
     services->on_deadline(now);

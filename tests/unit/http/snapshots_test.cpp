@@ -18,7 +18,8 @@ protected:
             return r;
         };
     }
-    Answer do_call(std::string_view method, std::string target, std::string body = {}, std::vector<std::pair<std::string, std::string>> headers = {}) {
+    Answer do_call(std::string_view method, std::string target, std::string body = {},
+                   std::vector<std::pair<std::string, std::string>> headers = {}) {
         auto a = call(method, std::move(target), std::move(body), std::move(headers));
         return a.status != 0 ? a : answered();
     }
@@ -28,8 +29,9 @@ protected:
         return p;
     }
     static std::string stage_body(const char* unit) {
-        return std::string(R"({"lines":[{"name":"can0","uri":"twin","family":"demo"}],"drives":[{"name":"feeder","line":"can0","address":5}],"axes":[{"name":"feeder","drive":"feeder","number":1,"unit":")") + unit +
-               R"("}],"mappings":[]})";
+        return std::string(
+                   R"({"lines":[{"name":"can0","uri":"twin","family":"demo"}],"drives":[{"name":"feeder","line":"can0","address":5}],"axes":[{"name":"feeder","drive":"feeder","number":1,"unit":")") +
+               unit + R"("}],"mappings":[]})";
     }
 };
 
@@ -57,7 +59,9 @@ TEST_F(Keep, ASnapshotReadsEverythingThatCanBeRead) {
 
 TEST_F(Keep, ASilentDriveGivesNoHalfSnapshot) {
     int asked = 0;
-    gateway.at_once = [&asked](const Command&) { return ++asked < 4 ? good_result() : bad_result(Reason::no_answer, "the drive is silent"); };
+    gateway.at_once = [&asked](const Command&) {
+        return ++asked < 4 ? good_result() : bad_result(Reason::no_answer, "the drive is silent");
+    };
     const auto a = do_call("POST", "/api/v1/axes/feeder/snapshots", R"({"name":"first"})");
     EXPECT_EQ(a.status, 504u);
     EXPECT_EQ(a.at("read"), "3");
@@ -99,7 +103,8 @@ TEST_F(Keep, RestoreWritesWhatDiffersAndNotWhileMoving) {
     EXPECT_EQ(a.at("changed"), R"([{"parameter":"AC","value":30000}])");
     EXPECT_EQ(call("POST", "/api/v1/axes/feeder/snapshots/1/restore", R"({"parameters":["zzz"]})").status, 422u);
     for (const auto* with : {"default", "stored", "snapshot:1", "axis:slide", "axis:feeder:1"})
-        EXPECT_EQ(call("GET", std::string("/api/v1/axes/feeder/snapshots/1/diff?with=") + with).object().at("rows").get_array().size(), 3u) << with;
+        EXPECT_EQ(call("GET", std::string("/api/v1/axes/feeder/snapshots/1/diff?with=") + with).object().at("rows").get_array().size(), 3u)
+            << with;
     const auto never = call("GET", "/api/v1/axes/feeder/snapshots/1/diff?with=axis:slide");
     EXPECT_EQ(never.at("not_known"), "3");
     EXPECT_NE(never.at("text").find("of slide: it was not read since the gateway's start"), std::string::npos) << never.text;
@@ -111,12 +116,14 @@ TEST_F(Keep, RestoreWritesWhatDiffersAndNotWhileMoving) {
 }
 
 TEST_F(Keep, ATableWithWrongRowsChangesNothingAndTellsAll) {
-    const auto a = call("PUT", "/api/v1/axes/feeder/parameters.csv", "parameter,value\nAC,0\nMT,16\nXX,1\nAC,abc\n", {{"Content-Type", "text/csv"}});
+    const auto a =
+        call("PUT", "/api/v1/axes/feeder/parameters.csv", "parameter,value\nAC,0\nMT,16\nXX,1\nAC,abc\n", {{"Content-Type", "text/csv"}});
     EXPECT_EQ(a.status, 422u);
     EXPECT_EQ(a.object().at("faults").get_array().size(), 3u) << a.text;
     EXPECT_TRUE(gateway.submitted.empty());
     drive_answers();
-    const auto good = do_call("PUT", "/api/v1/axes/feeder/parameters.csv", "value;parameter\r\n30000;AC\r\nx;ML\r\n", {{"Content-Type", "text/csv"}});
+    const auto good =
+        do_call("PUT", "/api/v1/axes/feeder/parameters.csv", "value;parameter\r\n30000;AC\r\nx;ML\r\n", {{"Content-Type", "text/csv"}});
     EXPECT_EQ(good.status, 200u) << good.text;
     EXPECT_EQ(gateway.submitted.size(), 1u);
     gateway.live_values[{gateway.axis("feeder"), *gateway.catalogue.find("ML")}] = {std::string("=1+1"), 0, Quality::good};
@@ -132,11 +139,13 @@ TEST_F(Keep, WhatTheDriveIsReachedByIsLeftOutUnlessAskedFor) {
     drive_answers();
     const auto restore = [this](std::string body) { return do_call("POST", "/api/v1/axes/feeder/snapshots/1/restore", std::move(body)); };
     const auto table = [this](std::string query) {
-        return do_call("PUT", "/api/v1/axes/feeder/parameters.csv" + query, "parameter,value\nAC,30001\nPP[2],7\n", {{"Content-Type", "text/csv"}});
+        return do_call("PUT", "/api/v1/axes/feeder/parameters.csv" + query, "parameter,value\nAC,30001\nPP[2],7\n",
+                       {{"Content-Type", "text/csv"}});
     };
-    const std::string left_out = R"({"parameter":"PP[2]","why":"the drive is reached by it (protocol): it is written only with include_addressing"})";
-    for (const auto& a : {restore(R"({"dry_run":true})"), restore("{}"), restore(R"({"parameters":["AC","PP[2]"]})"), restore(R"({"include_addressing":false})"),
-                          table("?dry_run=1"), table(""), table("?include_addressing=0")}) {
+    const std::string left_out =
+        R"({"parameter":"PP[2]","why":"the drive is reached by it (protocol): it is written only with include_addressing"})";
+    for (const auto& a : {restore(R"({"dry_run":true})"), restore("{}"), restore(R"({"parameters":["AC","PP[2]"]})"),
+                          restore(R"({"include_addressing":false})"), table("?dry_run=1"), table(""), table("?include_addressing=0")}) {
         ASSERT_EQ(a.status, 200u) << a.text;
         EXPECT_NE(a.text.find(left_out), std::string::npos) << a.text;
     }
@@ -149,12 +158,15 @@ TEST_F(Keep, WhatTheDriveIsReachedByIsLeftOutUnlessAskedFor) {
     EXPECT_EQ(table("?include_addressing=1").object().at("changed").get_array().size(), 2u);
     EXPECT_EQ(restore(R"({"include_addressing":1})").status, 422u);
     EXPECT_EQ(table("?include_addressing=maybe").status, 400u);
-    EXPECT_EQ(do_call("PUT", "/api/v1/axes/feeder/parameters/PP%5B2%5D", R"({"value":8})").status, 200u) << "by itself it is written as ever";
+    EXPECT_EQ(do_call("PUT", "/api/v1/axes/feeder/parameters/PP%5B2%5D", R"({"value":8})").status, 200u)
+        << "by itself it is written as ever";
 }
 
 TEST_F(Keep, WhatActsAtOnceIsLeftOutUnlessAskedFor) {
     std::string text(catalogue_text);
-    text.insert(text.find(R"({"id": "PP")"), R"({"id": "MO", "name": "motor_on", "group": "motor", "type": "u8", "min": 0, "max": 1, "access": "RW", "live": true, "description": "Switches."},)");
+    text.insert(
+        text.find(R"({"id": "PP")"),
+        R"({"id": "MO", "name": "motor_on", "group": "motor", "type": "u8", "min": 0, "max": 1, "access": "RW", "live": true, "description": "Switches."},)");
     std::vector<std::string> faults;
     gateway.catalogue = *Catalogue::parse(text, faults);
     AxisSnapshot s;
@@ -166,11 +178,14 @@ TEST_F(Keep, WhatActsAtOnceIsLeftOutUnlessAskedFor) {
     drive_answers();
     const auto restore = [this](std::string body) { return do_call("POST", "/api/v1/axes/feeder/snapshots/1/restore", std::move(body)); };
     const auto table = [this](std::string query) {
-        return do_call("PUT", "/api/v1/axes/feeder/parameters.csv" + query, "parameter,value\nAC,30001\nMO,1\n", {{"Content-Type", "text/csv"}});
+        return do_call("PUT", "/api/v1/axes/feeder/parameters.csv" + query, "parameter,value\nAC,30001\nMO,1\n",
+                       {{"Content-Type", "text/csv"}});
     };
-    const std::string left_out = R"({"parameter":"MO","why":"it acts at once and is no setting (motor_on): it is written only with include_live"})";
-    for (const auto& a : {restore(R"({"dry_run":true})"), restore("{}"), restore(R"({"parameters":["MO"]})"), restore(R"({"include_addressing":true})"),
-                          table("?dry_run=1"), table(""), table("?include_live=0&include_addressing=1")}) {
+    const std::string left_out =
+        R"({"parameter":"MO","why":"it acts at once and is no setting (motor_on): it is written only with include_live"})";
+    for (const auto& a :
+         {restore(R"({"dry_run":true})"), restore("{}"), restore(R"({"parameters":["MO"]})"), restore(R"({"include_addressing":true})"),
+          table("?dry_run=1"), table(""), table("?include_live=0&include_addressing=1")}) {
         ASSERT_EQ(a.status, 200u) << a.text;
         EXPECT_NE(a.text.find(left_out), std::string::npos) << a.text;
     }
@@ -198,9 +213,11 @@ TEST_F(Keep, AMovingAxisTakesNoRestoreAndNoTableUnlessNothingWouldBeWritten) {
     const auto refused = call("POST", "/api/v1/axes/feeder/snapshots/1/restore", "{}");
     EXPECT_EQ(refused.status, 409u) << refused.text;
     EXPECT_NE(refused.at("detail").find("the axis moves: stop it"), std::string::npos) << refused.text;
-    EXPECT_EQ(call("PUT", "/api/v1/axes/feeder/parameters.csv", "parameter,value\nAC,30000\n", {{"Content-Type", "text/csv"}}).status, 409u);
+    EXPECT_EQ(call("PUT", "/api/v1/axes/feeder/parameters.csv", "parameter,value\nAC,30000\n", {{"Content-Type", "text/csv"}}).status,
+              409u);
     EXPECT_TRUE(gateway.submitted.empty());
-    EXPECT_EQ(do_call("POST", "/api/v1/axes/feeder/snapshots/1/restore", R"({"parameters":["ML"]})").status, 200u) << "nothing would be written";
+    EXPECT_EQ(do_call("POST", "/api/v1/axes/feeder/snapshots/1/restore", R"({"parameters":["ML"]})").status, 200u)
+        << "nothing would be written";
     EXPECT_EQ(call("POST", "/api/v1/axes/feeder/snapshots/1/restore", R"({"dry_run":true})").status, 200u);
 }
 
@@ -217,7 +234,9 @@ TEST_F(Keep, ASnapshotOfAnotherFamilyIsRefusedAndOneOfUnknownFamilyIfItsWordsDoN
     keep(3, "", "AC");
     keep(4, "", "XX");
     drive_answers();
-    const auto restore = [this](int n) { return do_call("POST", fmt::format("/api/v1/axes/feeder/snapshots/{}/restore", n), R"({"dry_run":true})"); };
+    const auto restore = [this](int n) {
+        return do_call("POST", fmt::format("/api/v1/axes/feeder/snapshots/{}/restore", n), R"({"dry_run":true})");
+    };
     EXPECT_EQ(restore(1).status, 200u);
     EXPECT_EQ(restore(3).status, 200u);
     for (const int n : {2, 4}) {
@@ -225,7 +244,9 @@ TEST_F(Keep, ASnapshotOfAnotherFamilyIsRefusedAndOneOfUnknownFamilyIfItsWordsDoN
         EXPECT_EQ(a.status, 409u) << a.text;
         EXPECT_NE(a.at("detail").find(n == 2 ? "a other drive" : "has no XX"), std::string::npos) << a.text;
     }
-    const auto diff = [this](int n, std::string with) { return do_call("GET", fmt::format("/api/v1/axes/feeder/snapshots/{}/diff?with={}", n, with)).status; };
+    const auto diff = [this](int n, std::string with) {
+        return do_call("GET", fmt::format("/api/v1/axes/feeder/snapshots/{}/diff?with={}", n, with)).status;
+    };
     for (const auto* with : {"default", "device", "stored", "snapshot:1", "axis:slide", "axis:feeder:1"}) {
         EXPECT_EQ(diff(1, with), 200u) << with;
         EXPECT_EQ(diff(2, with), 409u) << with;
@@ -291,7 +312,9 @@ TEST_F(Keep, AnotherClientsStageIsNotReplacedOrAppliedInSilence) {
     const auto second = call("POST", "/api/v1/site/stage?replace=true", stage_body("m"), bert);
     ASSERT_EQ(second.status, 200u) << second.text;
     EXPECT_NE(second.at("id"), first.at("id"));
-    const auto apply = [&](std::string id, const Fields& who) { return do_call("POST", "/api/v1/site/stage/apply", R"({"stage":")" + id + R"("})", who); };
+    const auto apply = [&](std::string id, const Fields& who) {
+        return do_call("POST", "/api/v1/site/stage/apply", R"({"stage":")" + id + R"("})", who);
+    };
     const auto replaced = apply(first.at("id"), anna);
     EXPECT_EQ(replaced.status, 409u);
     EXPECT_EQ(replaced.at("type"), "urn:axisgate:problem:stage_replaced");
@@ -310,7 +333,8 @@ TEST_F(Keep, RegistersAreTheDoorsOwnAnswer) {
     gateway.registers_answer = registers::RegisterRead{registers::Verdict::good, {0, 0, 0x0C, 0x80}};
     const auto a = do_call("GET", "/api/v1/registers?unit=2&address=0&count=2");
     ASSERT_EQ(a.status, 200u) << a.text;
-    EXPECT_EQ(gateway.registers_asked, std::tuple(std::uint8_t{2}, registers::Table::holding_registers, std::uint16_t{0}, std::uint16_t{2}));
+    EXPECT_EQ(gateway.registers_asked,
+              std::tuple(std::uint8_t{2}, registers::Table::holding_registers, std::uint16_t{0}, std::uint16_t{2}));
     EXPECT_EQ(a.at("words"), "[0,3200]");
     EXPECT_EQ(a.object().at("decoded").at(0).at("value"), 3200);
     gateway.registers_answer = registers::RegisterRead{registers::Verdict::no_address, {}};
@@ -321,7 +345,8 @@ TEST_F(Keep, RegistersAreTheDoorsOwnAnswer) {
 }
 
 TEST_F(Keep, RegisterListsAreEscapedAndCarryTheRevision) {
-    gateway.put_site(R"({"lines":[{"name":"can0","uri":"twin","family":"demo"}],"drives":[{"name":"feeder","line":"can0","address":5}],"axes":[{"name":"feeder","drive":"feeder","number":1}],
+    gateway.put_site(
+        R"({"lines":[{"name":"can0","uri":"twin","family":"demo"}],"drives":[{"name":"feeder","line":"can0","address":5}],"axes":[{"name":"feeder","drive":"feeder","number":1}],
       "mappings":[{"unit":2,"table":"holding","address":4,"point":"feeder.position","type":"i32","comment":"<script>*) \"x\""}]})");
     const auto page = call("GET", "/api/v1/mappings/list?format=html");
     EXPECT_EQ(page.text.find("<script>"), std::string::npos);
@@ -337,8 +362,10 @@ TEST_F(Keep, RegisterListsAreEscapedAndCarryTheRevision) {
     }
     EXPECT_EQ(call("GET", "/api/v1/mappings/next-free?unit=2&words=4").at("address"), "0");
     EXPECT_EQ(call("GET", "/api/v1/mappings/next-free?unit=2&words=5").at("address"), "6");
-    EXPECT_EQ(do_call("POST", "/api/v1/mappings/template", R"({"template":"standard_map","axis":"feeder","unit":3,"address":0})").status, 201u);
-    EXPECT_EQ(do_call("POST", "/api/v1/mappings/template", R"({"template":"standard_map","axis":"feeder","unit":3,"address":0})").status, 409u);
+    EXPECT_EQ(do_call("POST", "/api/v1/mappings/template", R"({"template":"standard_map","axis":"feeder","unit":3,"address":0})").status,
+              201u);
+    EXPECT_EQ(do_call("POST", "/api/v1/mappings/template", R"({"template":"standard_map","axis":"feeder","unit":3,"address":0})").status,
+              409u);
 }
 }  // namespace
 }  // namespace axisgate::http::test

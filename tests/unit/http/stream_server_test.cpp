@@ -224,7 +224,8 @@ TEST_F(StreamServer, AClientThatDidNotReadForLongIsToldWhyWhenItGoesOn) {
     for (int i = 0; i < 800; ++i)
         door.on([&] { door.gateway.tell(event(std::string(20'000, 'e'))); });
     EXPECT_TRUE(door.until([&] { return door.server().counters().stream_closed.contains(1013); }));
-    while (!judge.ended) (void)judge.hear();
+    while (!judge.ended)
+        (void)judge.hear();
     EXPECT_EQ(judge.ended, beast::websocket::error::closed) << judge.ended.message();
     EXPECT_EQ(judge.close_code(), 1013);
     EXPECT_NE(judge.close_reason().find("not read"), std::string::npos) << judge.close_reason();

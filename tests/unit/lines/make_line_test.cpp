@@ -43,10 +43,8 @@ TEST_F(MakeLineTest, whatCannotBeSaysSo) {
     const struct {
         const char* uri;
         const char* says;
-    } rows[] = {{"twin", "no real side"},
-                {"nonsense", "is not a kind of line"},
-                {"tcp:host", "port is missing"},
-                {"udp:host:0", "not a port"}};
+    } rows[] = {
+        {"twin", "no real side"}, {"nonsense", "is not a kind of line"}, {"tcp:host", "port is missing"}, {"udp:host:0", "not a port"}};
     for (const auto& r : rows) {
         Owner o;
         const auto line = make_real_line(r.uri, {}, io);

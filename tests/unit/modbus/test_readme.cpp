@@ -24,8 +24,7 @@ TEST(ModbusReadme, PrintsTheRegisterMapAsItIs) {
     std::vector<std::string> expected;
     for (const auto& row : standard_registers()) {
         expected.push_back("| " + std::to_string(row.offset) + " | " + std::to_string(40001 + row.offset) + " | " +
-                           std::string(name_of(row.type)) + " | " + (row.writable ? "RW" : "R") + " | " + std::string(row.name) +
-                           " |");
+                           std::string(name_of(row.type)) + " | " + (row.writable ? "RW" : "R") + " | " + std::string(row.name) + " |");
     }
     EXPECT_EQ(printed, expected);
 }

@@ -46,12 +46,17 @@ TEST_F(Refusals, SentenceWhoRegisterAndValue) {
 TEST_F(Refusals, WhatTheDoorItselfRefuses) {
     const std::pair<const char*, const char*> rows[] = {
         {"06 00 02 00 07", "register 2 of the axis' 64 (position actual value) can only be read (unit 1 register 2 = 7: exception 2)"},
-        {"06 00 17 00 07", "register 23 of the axis' 64 cannot be written: 32..45, 48..50, 52 and 53 can (unit 1 register 23 = 7: exception 2)"},
+        {"06 00 17 00 07",
+         "register 23 of the axis' 64 cannot be written: 32..45, 48..50, 52 and 53 can (unit 1 register 23 = 7: exception 2)"},
         {"06 00 22 00 07", "half of a 32-bit value: write both of its registers in one request (unit 1 register 34 = 7: exception 3)"},
-        {"05 00 03 FF 00", "coils and inputs only show what is: write the control word, register 32 of the axis (unit 1 coil 3 = 1: exception 2)"},
+        {"05 00 03 FF 00",
+         "coils and inputs only show what is: write the control word, register 32 of the axis (unit 1 coil 3 = 1: exception 2)"},
         {"06 00 60 00 0F", "no axis has the number 2, to which addresses 64..127 belong (unit 1 register 96 = 15: exception 10)"},
-        {"10 00 20 00 02 02 00 0F", "the request's count, length and data do not fit each other, or go beyond what one request may carry (unit 1 registers 32..33 = 15 0: exception 3)"},
-        {"06 00 32 00 09", "the parameter channel has no request 9: 1 reads, 2 writes, 0 goes back to idle (unit 1 register 50 = 9: exception 3)"}};
+        {"10 00 20 00 02 02 00 0F",
+         "the request's count, length and data do not fit each other, or go beyond what one request may carry (unit 1 registers 32..33 = "
+         "15 0: exception 3)"},
+        {"06 00 32 00 09",
+         "the parameter channel has no request 9: 1 reads, 2 writes, 0 goes back to idle (unit 1 register 50 = 9: exception 3)"}};
     for (const auto& [request, text] : rows) {
         port.notes.clear();
         port.time += 10s;
@@ -63,12 +68,14 @@ TEST_F(Refusals, WhatTheDoorItselfRefuses) {
     port.notes.clear();
     port.time += 10s;
     EXPECT_EQ(ask("06 00 20 00 00", 7), "86 0A");
-    EXPECT_EQ(port.notes.at(0).first.text,
-              "unit 7 has no map: unit 1 is the standard map, others get theirs from the site's mappings (unit 7 register 32 = 0: exception 10)");
+    EXPECT_EQ(
+        port.notes.at(0).first.text,
+        "unit 7 has no map: unit 1 is the standard map, others get theirs from the site's mappings (unit 7 register 32 = 0: exception 10)");
     responder.set_read_only(true);
     EXPECT_EQ(ask("06 00 20 00 0F"), "86 01");
     EXPECT_EQ(port.notes.at(1).first.text,
-              "the Modbus door is read-only: it takes a quick stop or switching off by the control word alone (unit 1 register 32 = 15: exception 1)");
+              "the Modbus door is read-only: it takes a quick stop or switching off by the control word alone (unit 1 register 32 = 15: "
+              "exception 1)");
     EXPECT_EQ(registers(), "03 04 00 03 00 07");
 }
 
@@ -139,14 +146,17 @@ TEST_F(Refusals, AtMostSoManyEvents) {
     port.time += 1s;
     flood("192.0.2.7:1001", 1);
     ASSERT_EQ(port.notes.size(), 6u);
-    EXPECT_NE(port.notes[5].first.text.find("; 1995 more refusals of 192.0.2.7 were not told one by one"), std::string::npos) << port.notes[5].first.text;
+    EXPECT_NE(port.notes[5].first.text.find("; 1995 more refusals of 192.0.2.7 were not told one by one"), std::string::npos)
+        << port.notes[5].first.text;
     port.notes.clear();
     port.time += 60s;
-    for (int c = 0; c < 200; ++c) flood("198.51.100." + std::to_string(c) + ":1", 10);
+    for (int c = 0; c < 200; ++c)
+        flood("198.51.100." + std::to_string(c) + ":1", 10);
     EXPECT_EQ(port.notes.size(), 32u) << "the burst of all";
     for (int s = 0; s < 10; ++s) {
         port.time += 1s;
-        for (int c = 0; c < 200; ++c) flood("198.51.100." + std::to_string(c) + ":1", 3);
+        for (int c = 0; c < 200; ++c)
+            flood("198.51.100." + std::to_string(c) + ":1", 3);
     }
     EXPECT_EQ(port.notes.size(), 32u + 80u) << "and 8 a second";
 }

@@ -526,10 +526,12 @@ TEST(Server, ServesAtOnceWhenItIsAsked) {
     const auto answers = [&] { return net.server->counters().requests.value(); };
     const auto before = answers();
     const auto request = test::bytes(adu(1, control));
-    ASSERT_EQ(::send(c.fd(), request.data(), request.size(), MSG_NOSIGNAL), static_cast<ssize_t>(request.size())) << "past c.send(), which runs the io_context";
+    ASSERT_EQ(::send(c.fd(), request.data(), request.size(), MSG_NOSIGNAL), static_cast<ssize_t>(request.size()))
+        << "past c.send(), which runs the io_context";
     const auto limit = std::chrono::steady_clock::now() + 5s;
     bool served = false;
-    while (!served && std::chrono::steady_clock::now() < limit) served = net.port.doors.back()->serve_now();
+    while (!served && std::chrono::steady_clock::now() < limit)
+        served = net.port.doors.back()->serve_now();
     EXPECT_TRUE(served) << "and says so";
     EXPECT_EQ(answers(), before + 1) << "the io_context has not run";
     EXPECT_FALSE(net.port.doors.back()->serve_now());

@@ -75,7 +75,8 @@ TEST(ParameterChannel, FractionsGoInTheFloatForm) {
         EXPECT_EQ(read_as(par_f64, Value{-2.5}), (Seen{done, single(-2.5F), 0}));
         EXPECT_EQ(read_as(par_f64, Value{0.1}), (Seen{done, single(0.1F), 0})) << "the nearest one";
         EXPECT_EQ(read_as(par_i32, Value{std::int64_t{-7}}), (Seen{done, single(-7.0F), 0})) << "whole numbers too";
-        EXPECT_EQ(read_as(par_i64, Value{std::int64_t{1} << 40}), (Seen{done, single(1099511627776.0F), 0})) << "and those that i32 cannot show";
+        EXPECT_EQ(read_as(par_i64, Value{std::int64_t{1} << 40}), (Seen{done, single(1099511627776.0F), 0}))
+            << "and those that i32 cannot show";
         EXPECT_EQ(read_as(par_f64, Value{1e39}).state, refused) << "more than a single can be";
         EXPECT_EQ(c.look().error, out_of_range_number);
         EXPECT_EQ(read_as(par_array + (4u << 16), Value{std::int64_t{5}}), (Seen{done, single(5.0F), 0}));
@@ -119,11 +120,14 @@ TEST(ParameterChannel, ARefusalLeavesItsSentence) {
         EXPECT_EQ(e.who, "192.0.2.7:51123");
         EXPECT_EQ(e.severity, Severity::warning);
     }
-    EXPECT_EQ(texts, "A|A: 1001 is outside -1000..1000 (unit 1 registers 48..50 = 0 0 2: the parameter channel shows it)\n"
-                     "F|F is 2.5, which is no whole number of 32 bits: read it in the float form (bit 31 of the selector) (unit 1 registers 48..50 = 0 5 1: the parameter "
-                     "channel shows it)\n"
-                     "|the parameter channel is busy: write again when register 51 of the axis is no longer 1 (unit 1 registers 48..50 = 0 0 1: exception 6)\n"
-                     "A|axis x: the drive refused A: code 51 (unit 1 registers 48..50 = 0 0 1: the parameter channel shows it)\n");
+    EXPECT_EQ(texts,
+              "A|A: 1001 is outside -1000..1000 (unit 1 registers 48..50 = 0 0 2: the parameter channel shows it)\n"
+              "F|F is 2.5, which is no whole number of 32 bits: read it in the float form (bit 31 of the selector) (unit 1 registers "
+              "48..50 = 0 5 1: the parameter "
+              "channel shows it)\n"
+              "|the parameter channel is busy: write again when register 51 of the axis is no longer 1 (unit 1 registers 48..50 = 0 0 1: "
+              "exception 6)\n"
+              "A|axis x: the drive refused A: code 51 (unit 1 registers 48..50 = 0 0 1: the parameter channel shows it)\n");
     EXPECT_EQ(c.ask("03 00 14 00 02"), "03 04 00 06 00 04") << "reason of the last, and how many";
 }
 

@@ -114,27 +114,26 @@ TEST(RegisterMap, WriteOffsets) {
         std::uint16_t offset, count;
         Verdict expected;
     };
-    for (const auto& r : {Range{32, 13, Verdict::good},             // all set-points
-                          Range{32, 2, Verdict::good},              // control word and mode
-                          Range{32, 3, Verdict::bad_value},     // ends in the middle of the target position
-                          Range{32, 4, Verdict::good},              //
-                          Range{35, 2, Verdict::bad_value},     // second half of one, first half of the next
-                          Range{35, 3, Verdict::bad_value},     // begins in the middle
-                          Range{34, 10, Verdict::good},             // all 32-bit set-points
-                          Range{43, 2, Verdict::bad_value},     //
-                          Range{42, 3, Verdict::good},              //
+    for (const auto& r : {Range{32, 13, Verdict::good},        // all set-points
+                          Range{32, 2, Verdict::good},         // control word and mode
+                          Range{32, 3, Verdict::bad_value},    // ends in the middle of the target position
+                          Range{32, 4, Verdict::good},         //
+                          Range{35, 2, Verdict::bad_value},    // second half of one, first half of the next
+                          Range{35, 3, Verdict::bad_value},    // begins in the middle
+                          Range{34, 10, Verdict::good},        // all 32-bit set-points
+                          Range{43, 2, Verdict::bad_value},    //
+                          Range{42, 3, Verdict::good},         //
                           Range{44, 2, Verdict::no_address},   // 45 is not mapped
                           Range{31, 2, Verdict::no_address},   // 31 is not mapped
                           Range{35, 12, Verdict::no_address},  // address comes before value
-                          Range{48, 3, Verdict::good},              // selector and request
-                          Range{48, 2, Verdict::good},              //
-                          Range{49, 2, Verdict::bad_value},     //
+                          Range{48, 3, Verdict::good},         // selector and request
+                          Range{48, 2, Verdict::good},         //
+                          Range{49, 2, Verdict::bad_value},    //
                           Range{48, 4, Verdict::no_address},   // 51, the state, is read only
-                          Range{52, 2, Verdict::good},              //
+                          Range{52, 2, Verdict::good},         //
                           Range{52, 3, Verdict::no_address},   // 54, the error, is read only
                           Range{63, 2, Verdict::no_address},   // goes into the next axis
-                          Range{0, 64, Verdict::no_address},
-                          Range{32, 0, Verdict::no_address}}) {
+                          Range{0, 64, Verdict::no_address},  Range{32, 0, Verdict::no_address}}) {
         EXPECT_EQ(check_write_offsets(r.offset, r.count), r.expected) << r.offset << " x " << r.count;
     }
 }
@@ -171,19 +170,19 @@ TEST(RegisterMap, ProcessDataHoldsOnlyWhatWasWritten) {
 
 TEST(Verdicts, EveryReasonHasOne) {
     const std::pair<Reason, Verdict> table[] = {{Reason::none, Verdict::failed},
-                                                  {Reason::out_of_range, Verdict::bad_value},
-                                                  {Reason::unknown_point, Verdict::no_address},
-                                                  {Reason::not_writable, Verdict::no_address},
-                                                  {Reason::wrong_state, Verdict::failed},
-                                                  {Reason::not_supported, Verdict::failed},
-                                                  {Reason::drive_refused, Verdict::failed},
-                                                  {Reason::busy, Verdict::busy},
-                                                  {Reason::line_down, Verdict::no_path},
-                                                  {Reason::no_answer, Verdict::no_answer},
-                                                  {Reason::interrupted, Verdict::failed},
-                                                  {Reason::authority, Verdict::busy},
-                                                  {Reason::not_stored, Verdict::failed},
-                                                  {Reason::internal, Verdict::failed}};
+                                                {Reason::out_of_range, Verdict::bad_value},
+                                                {Reason::unknown_point, Verdict::no_address},
+                                                {Reason::not_writable, Verdict::no_address},
+                                                {Reason::wrong_state, Verdict::failed},
+                                                {Reason::not_supported, Verdict::failed},
+                                                {Reason::drive_refused, Verdict::failed},
+                                                {Reason::busy, Verdict::busy},
+                                                {Reason::line_down, Verdict::no_path},
+                                                {Reason::no_answer, Verdict::no_answer},
+                                                {Reason::interrupted, Verdict::failed},
+                                                {Reason::authority, Verdict::busy},
+                                                {Reason::not_stored, Verdict::failed},
+                                                {Reason::internal, Verdict::failed}};
     for (const auto& [reason, exception] : table) {
         Result r;
         r.outcome = Outcome::refused;

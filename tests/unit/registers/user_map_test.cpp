@@ -16,7 +16,8 @@ Mapping mapping(std::uint16_t address, std::variant<AxisPoint, Point> what, MapT
     Mapping m;
     m.unit = 2;
     m.axis = "x";
-    m.point = std::holds_alternative<AxisPoint>(what) ? std::string(name_of(std::get<AxisPoint>(what))) : test::catalogue().id_of(std::get<Point>(what));
+    m.point = std::holds_alternative<AxisPoint>(what) ? std::string(name_of(std::get<AxisPoint>(what)))
+                                                      : test::catalogue().id_of(std::get<Point>(what));
     m.address = address;
     m.what = what;
     m.type = type;
@@ -36,7 +37,7 @@ struct UserMapTest : testing::Test, Desk {
         for (auto& m : list)
             placed.push_back({std::move(m), x, 100});
         map = std::make_unique<UserMap>(port, std::move(placed), gaps,
-                                       [this](UnitMap& asking, PlannedCommand c) { return image.ask_for(asking, std::move(c)); });
+                                        [this](UnitMap& asking, PlannedCommand c) { return image.ask_for(asking, std::move(c)); });
         image.set_map(2, map.get());
     }
     void SetUp() override {
@@ -79,8 +80,8 @@ TEST_F(UserMapTest, AValueThatDoesNotFitSpoilsItselfAlone) {
     clamped.on_overflow = MapOverflow::clamp;
     auto below = mapping(7, AxisPoint::velocity, MapType::u16);
     below.on_overflow = MapOverflow::clamp;
-    put({mapping(0, AxisPoint::position, MapType::i16), mapping(1, AxisPoint::position, MapType::i32), mapping(3, AxisPoint::position, MapType::u16),
-         mapping(4, AxisPoint::velocity, MapType::u32), clamped, below});
+    put({mapping(0, AxisPoint::position, MapType::i16), mapping(1, AxisPoint::position, MapType::i32),
+         mapping(3, AxisPoint::position, MapType::u16), mapping(4, AxisPoint::velocity, MapType::u32), clamped, below});
     EXPECT_EQ(read("03 00 00 00 08"), "03 10 80 00 01 02 03 04 FF FF FF FF FF FF FF FF 00 00");
 }
 
@@ -96,7 +97,8 @@ TEST_F(UserMapTest, APartOfAValueThatDoesNotFitIsNotChanged) {
 TEST_F(UserMapTest, GapsReadZeroWhereSomethingIsTouched) {
     put({mapping(2, AxisPoint::velocity, MapType::i16), mapping(5, AxisPoint::target_position, MapType::i32, MapAccess::write),
          mapping(8, AxisPoint::position, MapType::i32), mapping(3, AxisPoint::moving, MapType::boolean, MapAccess::read, MapTable::coils)});
-    EXPECT_EQ(read("03 00 00 00 0C"), "03 18 00 00 00 00 FF 06 00 00 00 00 00 00 00 00 00 00 01 02 03 04 00 00 00 00") << "before, between, behind";
+    EXPECT_EQ(read("03 00 00 00 0C"), "03 18 00 00 00 00 FF 06 00 00 00 00 00 00 00 00 00 00 01 02 03 04 00 00 00 00")
+        << "before, between, behind";
     EXPECT_EQ(read("03 00 09 00 02"), "03 04 03 04 00 00") << "the end of a value, and what follows";
     EXPECT_EQ(read("01 00 00 00 0A"), "01 02 08 00");
     EXPECT_EQ(read("17 00 01 00 03 00 05 00 02 04 00 00 00 07"), "17 06 00 00 FF 06 00 00") << "function 23 reads in the same way";
@@ -105,24 +107,33 @@ TEST_F(UserMapTest, GapsReadZeroWhereSomethingIsTouched) {
     EXPECT_EQ(ask("10 00 04 00 03 06 00 00 00 00 00 00", 2), "90 02") << "never written";
     EXPECT_EQ(ask("06 00 00 00 01", 2), "86 02");
     std::string texts;
-    for (const auto& [e, axis] : port.notes) texts += e.text + "\n";
-    EXPECT_EQ(texts, "nothing is mapped in the holding registers that the request asks for, from address 3 on (unit 2 holding registers 3..7: exception 2)\n"
-                     "nothing is mapped in the input registers that the request asks for, from address 2 on (unit 2 input register 2: exception 2)\n"
-                     "nothing is mapped at address 4 of the holding registers (unit 2 registers 4..6 = 0 0 0: exception 2)\n"
-                     "nothing is mapped at address 0 of the holding registers (unit 2 register 0 = 1: exception 2)\n");
+    for (const auto& [e, axis] : port.notes)
+        texts += e.text + "\n";
+    EXPECT_EQ(
+        texts,
+        "nothing is mapped in the holding registers that the request asks for, from address 3 on (unit 2 holding registers 3..7: exception "
+        "2)\n"
+        "nothing is mapped in the input registers that the request asks for, from address 2 on (unit 2 input register 2: exception 2)\n"
+        "nothing is mapped at address 4 of the holding registers (unit 2 registers 4..6 = 0 0 0: exception 2)\n"
+        "nothing is mapped at address 0 of the holding registers (unit 2 register 0 = 1: exception 2)\n");
 }
 
 TEST_F(UserMapTest, GapsAreRefusedWhereTheSiteSaysSo) {
     gaps = MapGaps::refuse;
-    put({mapping(2, AxisPoint::velocity, MapType::i16), mapping(3, AxisPoint::target_position, MapType::i32, MapAccess::write), mapping(8, AxisPoint::velocity, MapType::i16)});
+    put({mapping(2, AxisPoint::velocity, MapType::i16), mapping(3, AxisPoint::target_position, MapType::i32, MapAccess::write),
+         mapping(8, AxisPoint::velocity, MapType::i16)});
     EXPECT_EQ(read("03 00 02 00 01"), "03 02 FF 06");
     EXPECT_EQ(read("03 00 01 00 02"), "83 02");
     EXPECT_EQ(read("03 00 02 00 02"), "83 02");
     EXPECT_EQ(read("03 00 08 00 02"), "83 02");
     ASSERT_EQ(port.notes.size(), 3u);
-    EXPECT_EQ(port.notes[0].first.text, "nothing is mapped at address 1 of the holding registers (unit 2 holding registers 1..2: exception 2)");
-    EXPECT_EQ(port.notes[1].first.text, "address 3 of the holding registers (target_position of axis x) can only be written (unit 2 holding registers 2..3: exception 2)");
-    EXPECT_EQ(port.notes[2].first.text, "nothing is mapped at address 9 of the holding registers (unit 2 holding registers 8..9: exception 2)");
+    EXPECT_EQ(port.notes[0].first.text,
+              "nothing is mapped at address 1 of the holding registers (unit 2 holding registers 1..2: exception 2)");
+    EXPECT_EQ(
+        port.notes[1].first.text,
+        "address 3 of the holding registers (target_position of axis x) can only be written (unit 2 holding registers 2..3: exception 2)");
+    EXPECT_EQ(port.notes[2].first.text,
+              "nothing is mapped at address 9 of the holding registers (unit 2 holding registers 8..9: exception 2)");
     EXPECT_EQ(port.notes[0].first.severity, Severity::info);
 }
 

@@ -25,13 +25,16 @@ TEST(AxisMetrics, SayWhatIsKnownInTheAxisUnit) {
     unknown.flags = flag_stale;
     const AxisPicture pictures[] = {known, unknown};
     const std::string s = axis_metrics(site, pictures, at_ns(1'250'000'000));
-    for (const auto* line : {"axisgate_axis_position{axis=\"feeder\",unit=\"a\\\"b\"} 2.5\n", "axisgate_axis_velocity{axis=\"feeder\",unit=\"a\\\"b\"} -0.5\n",
-                             "axisgate_axis_following_error{axis=\"feeder\",unit=\"a\\\"b\"} 0.1\n", "axisgate_axis_age_seconds{axis=\"feeder\"} 0.250\n",
-                             "axisgate_axis_state{axis=\"feeder\",state=\"operation_enabled\"} 1\n", "axisgate_axis_state{axis=\"feeder\",state=\"fault\"} 0\n",
-                             "axisgate_axis_simulated{axis=\"feeder\"} 1\n", "axisgate_axis_simulated{axis=\"slide\"} 0\n", "axisgate_axis_stale{axis=\"slide\"} 1\n",
-                             "axisgate_axis_fault{axis=\"slide\"} 0\n", "# TYPE axisgate_axis_position gauge\n"})
+    for (const auto* line :
+         {"axisgate_axis_position{axis=\"feeder\",unit=\"a\\\"b\"} 2.5\n", "axisgate_axis_velocity{axis=\"feeder\",unit=\"a\\\"b\"} -0.5\n",
+          "axisgate_axis_following_error{axis=\"feeder\",unit=\"a\\\"b\"} 0.1\n", "axisgate_axis_age_seconds{axis=\"feeder\"} 0.250\n",
+          "axisgate_axis_state{axis=\"feeder\",state=\"operation_enabled\"} 1\n",
+          "axisgate_axis_state{axis=\"feeder\",state=\"fault\"} 0\n", "axisgate_axis_simulated{axis=\"feeder\"} 1\n",
+          "axisgate_axis_simulated{axis=\"slide\"} 0\n", "axisgate_axis_stale{axis=\"slide\"} 1\n",
+          "axisgate_axis_fault{axis=\"slide\"} 0\n", "# TYPE axisgate_axis_position gauge\n"})
         EXPECT_NE(s.find(line), std::string::npos) << line << s;
-    for (const auto* absent : {"axisgate_axis_position{axis=\"slide\"", "axisgate_axis_age_seconds{axis=\"slide\"", "axisgate_axis_following_error{axis=\"slide\""})
+    for (const auto* absent : {"axisgate_axis_position{axis=\"slide\"", "axisgate_axis_age_seconds{axis=\"slide\"",
+                               "axisgate_axis_following_error{axis=\"slide\""})
         EXPECT_EQ(s.find(absent), std::string::npos) << absent;
 }
 

@@ -113,7 +113,8 @@ TEST(Cold, WhatIsGatheredIsOnTheDiskWhenItHasStopped) {
     Bench b;
     b.tell(1);
     ASSERT_TRUE(b.until([&] { return b.events.size() == 1; }));
-    for (int i = 2; i <= 20; ++i) b.tell(i);
+    for (int i = 2; i <= 20; ++i)
+        b.tell(i);
     b.cold->stop();
     EXPECT_EQ(must(b.store->last_event_id()), 20u);
 }
@@ -122,7 +123,8 @@ TEST(Cold, ManyAtOnceAreAllWritten) {
     Bench b;
     b.tell(0);
     ASSERT_TRUE(b.until([&] { return b.events.size() == 1; }));
-    for (int i = 1; i <= 3000; ++i) b.tell(i);  // more than one gathering holds, fewer than the ring
+    for (int i = 1; i <= 3000; ++i)
+        b.tell(i);  // more than one gathering holds, fewer than the ring
     ASSERT_TRUE(b.until([&] { return b.events.size() == 3001; }));
     EXPECT_EQ(must(b.store->last_event_id()), 3001u);
 }

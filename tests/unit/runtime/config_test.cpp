@@ -25,7 +25,9 @@ TEST(Config, DefaultsAreLoopback) {
 TEST(Config, SetBeatsEnvironmentBeatsFile) {
     ConfigSources s;
     s.file_name = "f.toml";
-    s.file_text = "[modbus]\nbind = \"127.0.0.1:1\"\nidle_timeout_s = 7\ngaps = \"refuse\"\n[log]\nfile = \"/dev/x\"\n[http]\nallowed_hosts = [\"a\", \"b\"]\n";
+    s.file_text =
+        "[modbus]\nbind = \"127.0.0.1:1\"\nidle_timeout_s = 7\ngaps = \"refuse\"\n[log]\nfile = \"/dev/x\"\n[http]\nallowed_hosts = "
+        "[\"a\", \"b\"]\n";
     s.environment = {"AXISGATE_MODBUS_BIND=127.0.0.1:2", "AXISGATE_LOG_FILE=/dev/y", "AXISGATE_SOMETHING_ELSE=1", "PATH=/bin"};
     s.overrides = {"modbus.bind=127.0.0.1:3", "http.bind=off"};
     std::vector<ConfigFault> faults;
@@ -50,7 +52,8 @@ TEST(Config, ListsAreWrittenAsInTheFileOrWithCommasAlone) {
         return c;
     };
     using List = std::vector<std::string>;
-    for (const auto* text : {R"(["127.0.0.2", "fd00::/8"])", R"( [ '127.0.0.2','fd00::/8' , ] )", "[127.0.0.2,fd00::/8]", "127.0.0.2, fd00::/8", "127.0.0.2,fd00::/8"}) {
+    for (const auto* text : {R"(["127.0.0.2", "fd00::/8"])", R"( [ '127.0.0.2','fd00::/8' , ] )", "[127.0.0.2,fd00::/8]",
+                             "127.0.0.2, fd00::/8", "127.0.0.2,fd00::/8"}) {
         EXPECT_EQ(with({std::string("modbus.allow=") + text}).modbus_allow, (List{"127.0.0.2", "fd00::/8"})) << text;
         EXPECT_EQ(with({}, {std::string("AXISGATE_MODBUS_ALLOW=") + text}).modbus_allow, (List{"127.0.0.2", "fd00::/8"})) << text;
     }
@@ -58,8 +61,9 @@ TEST(Config, ListsAreWrittenAsInTheFileOrWithCommasAlone) {
     EXPECT_EQ(with({"modbus.functions=[]"}).modbus_functions, List{});
     EXPECT_EQ(with({R"(http.allowed_hosts=["a", "b.example"])"}).http_allowed_hosts, (List{"a", "b.example"}));
     EXPECT_EQ(with({"http.allowed_hosts=[::1],[::2]"}).http_allowed_hosts, (List{"[::1]", "[::2]"})) << "brackets of addresses are no list";
-    for (const auto* bad : {"modbus.functions=[3,six]", R"(modbus.allow=["127.0.0.2)", R"(modbus.allow=["127.0.0.2", "x])", "modbus.functions=[[3]]", "http.allowed_hosts=http://a", "http.allowed_hosts=a:80",
-                            "http.allowed_hosts=a,b/c", "http.allowed_hosts=a b", "lines.pty_dir=var", "lines.pty_dir="}) {
+    for (const auto* bad : {"modbus.functions=[3,six]", R"(modbus.allow=["127.0.0.2)", R"(modbus.allow=["127.0.0.2", "x])",
+                            "modbus.functions=[[3]]", "http.allowed_hosts=http://a", "http.allowed_hosts=a:80", "http.allowed_hosts=a,b/c",
+                            "http.allowed_hosts=a b", "lines.pty_dir=var", "lines.pty_dir="}) {
         ConfigSources s;
         s.overrides = {bad};
         std::vector<ConfigFault> faults;
@@ -80,7 +84,8 @@ TEST(Config, EveryFaultAtOnceWithLineAndRemedy) {
         places.push_back(f.place);
         EXPECT_FALSE(f.remedy.empty()) << f.text;
     }
-    for (const auto* p : {"f.toml:2", "f.toml:3", "f.toml:5", "f.toml:6", "f.toml:9", "--set nothing", "--set http.nothing", "--set runtime.hot_cpu"}) {
+    for (const auto* p :
+         {"f.toml:2", "f.toml:3", "f.toml:5", "f.toml:6", "f.toml:9", "--set nothing", "--set http.nothing", "--set runtime.hot_cpu"}) {
         EXPECT_NE(std::find(places.begin(), places.end(), p), places.end()) << p;
     }
     EXPECT_EQ(faults.size(), 8u);
@@ -135,17 +140,20 @@ TEST(Config, ADoorBeyondThisMachineWithoutNamesIsWarnedOf) {
 TEST(Config, HostAndPort) {
     EXPECT_EQ(parse_host_port("127.0.0.1:80")->port, 80);
     EXPECT_EQ(parse_host_port("[::1]:80")->host, "::1");
-    for (const auto* bad : {"", ":80", "x", "x:", "x:y", "x:65536", "::1:80", "[]:1", "[::1]80"}) EXPECT_FALSE(parse_host_port(bad)) << bad;
+    for (const auto* bad : {"", ":80", "x", "x:", "x:y", "x:65536", "::1:80", "[]:1", "[::1]80"})
+        EXPECT_FALSE(parse_host_port(bad)) << bad;
 }
 
 TEST(MemoryFile, ATwinThatStandsTwiceIsRefused) {
     std::map<std::string, NonVolatile> memories;
-    EXPECT_EQ(memories_from_json("{\"5\": {\"AC\": 1},\n\"5\": {\"AC\": 2}}", memories), "the member \"5\" stands twice in the memory of twins, in line 2 (/5): keep one of them");
+    EXPECT_EQ(memories_from_json("{\"5\": {\"AC\": 1},\n\"5\": {\"AC\": 2}}", memories),
+              "the member \"5\" stands twice in the memory of twins, in line 2 (/5): keep one of them");
     EXPECT_TRUE(memories.empty());
 }
 
 TEST(MemoryFile, KeepsTypes) {
-    std::map<std::string, NonVolatile> m{{"5", {{"AC", Value{std::int64_t{5000}}}, {"on", Value{true}}, {"f", Value{1.5}}, {"t", Value{std::string("x")}}}}};
+    std::map<std::string, NonVolatile> m{
+        {"5", {{"AC", Value{std::int64_t{5000}}}, {"on", Value{true}}, {"f", Value{1.5}}, {"t", Value{std::string("x")}}}}};
     std::map<std::string, NonVolatile> back;
     EXPECT_EQ(memories_from_json(memories_to_json(m), back), "");
     EXPECT_EQ(back, m);
@@ -165,8 +173,9 @@ TEST(Config, LettersBeyondAsciiStandInQuotesAndCommentsAlone) {
     };
     EXPECT_TRUE(faults_of("# schön\n[data]\ndir = \"/tmp/möbel \\\" ä\"\n[log]\nfile = '/tmp/ü'  # é\n").empty());
     EXPECT_TRUE(faults_of("\xEF\xBB\xBF[data]\ndir = \"x\"\n").empty());
-    for (const char* text : {"[data]\nd\xC3\xA4r = \"x\"\n", "[data]\ndir = \"x\" \xEF\xBB\xAF\n", "[data]\n\xEF\xBB\xAF", "[data]\ndir = \"open\n\xEF\xBB\xAF",
-                             "[data]\ner r = 0.0v.[*:10\"1\xEF\xBB\xBD\n", "[data]\ndir = \"open \xEF\xBB\xBD\n", "[data]\ndir = 2.~8{''''{''\xEF\xBB\xAF''\n"}) {
+    for (const char* text : {"[data]\nd\xC3\xA4r = \"x\"\n", "[data]\ndir = \"x\" \xEF\xBB\xAF\n", "[data]\n\xEF\xBB\xAF",
+                             "[data]\ndir = \"open\n\xEF\xBB\xAF", "[data]\ner r = 0.0v.[*:10\"1\xEF\xBB\xBD\n",
+                             "[data]\ndir = \"open \xEF\xBB\xBD\n", "[data]\ndir = 2.~8{''''{''\xEF\xBB\xAF''\n"}) {
         const auto faults = faults_of(text);
         ASSERT_EQ(faults.size(), 1u) << text;
         EXPECT_NE(faults[0].text.find("ASCII"), std::string::npos) << faults[0].text;

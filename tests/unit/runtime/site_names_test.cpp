@@ -14,15 +14,17 @@ namespace axisgate::test {
 namespace {
 
 boost::json::value site(std::string_view drives, std::string_view axes) {
-    return boost::json::parse(R"({"lines":[{"name":"l","family":"demo"},{"name":"m","family":"other"}],"drives":[)" + std::string(drives) + R"(],"axes":[)" +
-                              std::string(axes) + "]}");
+    return boost::json::parse(R"({"lines":[{"name":"l","family":"demo"},{"name":"m","family":"other"}],"drives":[)" + std::string(drives) +
+                              R"(],"axes":[)" + std::string(axes) + "]}");
 }
 std::string told(const std::vector<NameChange>& changes) {
     std::string out;
-    for (const auto& c : changes) out += c.from + ">" + c.to + " ";
+    for (const auto& c : changes)
+        out += c.from + ">" + c.to + " ";
     return out;
 }
-constexpr const char* drives = R"({"name":"d","line":"l","address":5},{"name":"e","line":"l","address":6},{"name":"f","line":"m","address":5})";
+constexpr const char* drives =
+    R"({"name":"d","line":"l","address":5},{"name":"e","line":"l","address":6},{"name":"f","line":"m","address":5})";
 constexpr const char* axes = R"({"name":"x","drive":"d","channel":1},{"name":"y","drive":"e","channel":1})";
 
 TEST(SiteNames, AnAxisThatStandsWhereAnotherStoodIsThatOne) {
@@ -32,9 +34,13 @@ TEST(SiteNames, AnAxisThatStandsWhereAnotherStoodIsThatOne) {
     EXPECT_EQ(axes_of(drives, R"({"name":"z","drive":"d","channel":1},{"name":"y","drive":"e","channel":1})"), "x>z ");
     EXPECT_EQ(axes_of(drives, R"({"name":"z","drive":"d","channel":2},{"name":"y","drive":"e","channel":1})"), "") << "another channel";
     EXPECT_EQ(axes_of(drives, R"({"name":"z","drive":"f","channel":1},{"name":"y","drive":"e","channel":1})"), "") << "another drive";
-    EXPECT_EQ(axes_of(drives, R"({"name":"x","drive":"e","channel":1},{"name":"y","drive":"d","channel":1})"), "") << "both names are there: drives were exchanged";
-    EXPECT_EQ(axes_of(drives, R"({"name":"x","drive":"d","channel":1},{"name":"y","drive":"e","channel":1},{"name":"z","drive":"f","channel":1})"), "");
-    const auto change = names_between(before, site(R"({"name":"D","line":"l","address":5},{"name":"e","line":"l","address":6})", R"({"name":"X","drive":"D","channel":1})"));
+    EXPECT_EQ(axes_of(drives, R"({"name":"x","drive":"e","channel":1},{"name":"y","drive":"d","channel":1})"), "")
+        << "both names are there: drives were exchanged";
+    EXPECT_EQ(axes_of(drives,
+                      R"({"name":"x","drive":"d","channel":1},{"name":"y","drive":"e","channel":1},{"name":"z","drive":"f","channel":1})"),
+              "");
+    const auto change = names_between(before, site(R"({"name":"D","line":"l","address":5},{"name":"e","line":"l","address":6})",
+                                                   R"({"name":"X","drive":"D","channel":1})"));
     EXPECT_EQ(told(change.renamed_drives), "d>D ");
     EXPECT_EQ(told(change.renamed_axes), "x>X ") << "also when the drive gets another name along with it";
     ASSERT_EQ(change.axes->size(), 1u);

@@ -44,7 +44,8 @@ TEST_F(Runs, WhatMayHaveBegunIsStopped) {
 }
 
 TEST_F(Runs, AVelocityMoveThatIsAtItsSpeedGoesOn) {
-    start(R"({"steps":[{"command":{"axis":"a","command":"move_velocity","velocity":1,"wait_s":3}},{"check":{"axis":"a","point":"fault","is":false}}]})");
+    start(
+        R"({"steps":[{"command":{"axis":"a","command":"move_velocity","velocity":1,"wait_s":3}},{"check":{"axis":"a","point":"fault","is":false}}]})");
     answer();
     ASSERT_EQ(requests.size(), 1u);
     EXPECT_EQ(requests[0].what, RecipeRequest::What::stop);
@@ -102,7 +103,9 @@ TEST_F(Runs, AMotionThatAnotherHolderHasTakenOverIsLeftAlone) {
 TEST_F(Runs, AMoveThatHasArrivedIsOverAndAVelocityMoveNeverIs) {
     for (const bool ends : {true, false}) {
         world.claims["a"] = {Whose::resting, ""};
-        start(std::string(R"({"steps":[{"command":{"axis":"a",)") + (ends ? R"("command":"move_absolute","position":1)" : R"("command":"move_velocity","velocity":1)") + R"(}},{"wait_s":100}]})");
+        start(std::string(R"({"steps":[{"command":{"axis":"a",)") +
+              (ends ? R"("command":"move_absolute","position":1)" : R"("command":"move_velocity","velocity":1)") +
+              R"(}},{"wait_s":100}]})");
         answer();
         pass(RecipeRun::start_limit + milliseconds(1));
         EXPECT_TRUE(run->cancel("enough"));

@@ -189,11 +189,15 @@ TEST(Recipe, StepsHaveLabelsForPeople) {
             "then":[{"command":{"axis":"feeder","command":"move_relative","position":2.5,"velocity":4,"wait_s":2}}],
             "else":[{"action":{"axis":"feeder","name":"program.start","argument":"M1"}}]}}]}},
         {"write_register":{"unit":3,"address":10,"type":"u32","value":7}},{"wait_s":0.5},{"home":{"axis":"feeder","method":17}},
-        {"message":")" + std::string(99, 'x') + std::string(71, 'y') + "\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4" + R"("}]})"),
+        {"message":")" + std::string(99, 'x') +
+                                      std::string(71, 'y') +
+                                      "\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4" + R"("}]})"),
                                nullptr, faults);
     ASSERT_TRUE(r) << faults.front().text;
     std::vector<std::string> labels;
-    for_each_step(r->steps, [&](const RecipeStep& s) { labels.push_back(label_of(s, s.pointer.find("repeat") == std::string::npos ? "" : "2 of 5")); });
+    for_each_step(r->steps, [&](const RecipeStep& s) {
+        labels.push_back(label_of(s, s.pointer.find("repeat") == std::string::npos ? "" : "2 of 5"));
+    });
     EXPECT_EQ(labels[0], "Step 1: set_parameter AC of feeder = 20000");
     EXPECT_EQ(labels[1], "Step 2: repeat 5 times");
     EXPECT_EQ(labels[2], "Step 2.1 (pass 2 of 5): if feeder moving is true");
@@ -216,9 +220,10 @@ TEST_F(Runs, ARowSaysWhichPassItWas) {
 }
 
 TEST(Recipe, AFaultOfATextCanStandUnderAField) {
-    for (const auto& [document, text] : {std::pair(R"({"steps":[{"set_parameter":{"axis":"a","parameter":"","value":1}}]})", "parameter must be a text, such as \"AC\""),
-                                         std::pair(R"({"steps":[{"enable":{"axis":""}}]})", "axis must be a text, such as \"feeder\""),
-                                         std::pair(R"({"steps":[{"message":5}]})", "message must be a text, such as \"tool changed\"")}) {
+    for (const auto& [document, text] :
+         {std::pair(R"({"steps":[{"set_parameter":{"axis":"a","parameter":"","value":1}}]})", "parameter must be a text, such as \"AC\""),
+          std::pair(R"({"steps":[{"enable":{"axis":""}}]})", "axis must be a text, such as \"feeder\""),
+          std::pair(R"({"steps":[{"message":5}]})", "message must be a text, such as \"tool changed\"")}) {
         std::vector<SiteFault> faults;
         EXPECT_FALSE(read_recipe(object(document), nullptr, faults));
         ASSERT_FALSE(faults.empty());

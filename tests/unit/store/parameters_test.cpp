@@ -308,7 +308,8 @@ TEST(Axis, WhatWasStoredForARemovedOneIsShownAgainWhenItIsMadeAgain) {
     // Made again under its name: all goes on but what the drive itself said.
     must(commit_one(*store, a_write("feeder", "DC", std::int64_t{9})));
     EXPECT_EQ(must(store->axes()).at(0).removed_unix_ns, std::nullopt);
-    EXPECT_THAT(must(store->stored("feeder")), ElementsAre(testing::Field(&ParameterRecord::parameter, "AC"), testing::Field(&ParameterRecord::parameter, "DC")));
+    EXPECT_THAT(must(store->stored("feeder")),
+                ElementsAre(testing::Field(&ParameterRecord::parameter, "AC"), testing::Field(&ParameterRecord::parameter, "DC")));
     EXPECT_TRUE(must(store->seen("feeder")).empty());
     EXPECT_EQ(must(store->history("feeder", "", 10)).size(), 2u);
     EXPECT_EQ(must(store->save_snapshot("feeder", "new", "", "me", 2, {})), 2u);

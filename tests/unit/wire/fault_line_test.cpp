@@ -241,7 +241,8 @@ TEST(FaultLine, letsTheNextFrameOvertakeOnCanAndNeverOnBytes) {
     }
     const auto ids = [](const std::vector<Frame>& list) {
         std::vector<std::uint32_t> v;
-        for (const auto& f : list) v.push_back(f.id);
+        for (const auto& f : list)
+            v.push_back(f.id);
         return v;
     };
     EXPECT_EQ(ids(w.inner->taken), (std::vector<std::uint32_t>{2, 1, 4, 3}));
@@ -253,7 +254,8 @@ TEST(FaultLine, letsTheNextFrameOvertakeOnCanAndNeverOnBytes) {
     run(*w.line, t0 + ms(20));
     ASSERT_EQ(w.owner.frames.size(), 5u);
     EXPECT_EQ(w.owner.frames[4].at, t0 + FaultLine::overtaken_at_most);
-    for (const char* word : {"a", "b", "c"}) w.send(text(word), t0 + ms(20));
+    for (const char* word : {"a", "b", "c"})
+        w.send(text(word), t0 + ms(20));
     ASSERT_EQ(w.inner->taken.size(), 7u);
     EXPECT_EQ(as_text(w.inner->taken[4]) + as_text(w.inner->taken[5]) + as_text(w.inner->taken[6]), "abc");
 }

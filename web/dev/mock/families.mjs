@@ -29,14 +29,14 @@ export const families = [
 const argument = { unit: null, scale: 1, min: null, max: null, default: null, description: null };
 /** Actions that every mock family has: one that takes nothing, one with numbers, one with a text and a switch. @type {import('../../src/words/action').CatalogueCommand[]} */
 export const commands = [
-  { id: 'save', name: 'save', description: 'Keeps the settings.', completes: 'acknowledged', arguments: [] },
+  { id: 'save', name: 'save', description: 'Keeps the settings.', completes: 'acknowledged', confirm: 'What has been saved is replaced.', arguments: [] },
   {
-    id: '010xh', name: 'Go To Pos', description: 'Moves to a position.', completes: 'target_reached',
+    id: '010xh', name: 'Go To Pos', description: 'Moves to a position.', completes: 'target_reached', confirm: null,
     arguments: [
       { ...argument, name: 'position', type: 'i32', unit: 'mm', scale: 0.0001, description: 'Where to.' },
       { ...argument, name: 'velocity', type: 'u32', unit: 'm/s', scale: 1e-6 },
       { ...argument, name: 'entry', type: 'u16', min: 1, max: 255, default: 1 },
     ],
   },
-  { id: 'row', name: 'row.write', description: 'Writes a row.', completes: 'acknowledged', arguments: [{ ...argument, name: 'content', type: 'text' }, { ...argument, name: 'kept', type: 'bool', default: false }] },
+  { id: 'row', name: 'row.write', description: 'Writes a row.', completes: 'acknowledged', confirm: null, arguments: [{ ...argument, name: 'content', type: 'text' }, { ...argument, name: 'kept', type: 'bool', default: false }] },
 ];

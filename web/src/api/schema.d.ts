@@ -2070,6 +2070,11 @@ export interface components {
              * @enum {string}
              */
             completes: "acknowledged" | "target_reached" | "standstill" | "powered" | "online_again" | "reported";
+            /**
+             * @description what is lost or begins by it, in sentences to ask a person with before it is sent; the API itself does not ask; null: it does no harm
+             * @example All settings of the drive go back to the values of the factory.
+             */
+            confirm: string | null;
             /** @description what it takes by name; empty where it takes none, or one text */
             arguments: components["schemas"]["CommandArgument"][];
         };

@@ -1,12 +1,14 @@
 // Actions: every command of the axis' family by name, as a form with a field for each argument. In: axis and family. Out: one request when Run is
-// pressed; the answer in words. What was typed stays for the visit, whatever becomes of it. Never sends by itself, nor twice.
+// pressed, after a question where the catalogue says what is lost; the answer in words. What was typed stays for the visit, whatever becomes of it.
+// Never sends by itself, nor twice.
 import { useSignal } from '@preact/signals';
 import { asProblem } from '../api/problem';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
 import { kept } from '../state/kept';
 import { plain } from '../words/plain';
-import { bodyOf, faultsOf, found, hintOf, isFlag, labelOf, recipeText, type CatalogueCommand } from '../words/action';
+import { bodyOf, nameOf, questionOf, faultsOf, found, hintOf, isFlag, labelOf, recipeText, type CatalogueCommand } from '../words/action';
+import { Ask } from './ask';
 import { Choice, notOffered, quiet, Tell, TextField, type Told } from './form';
 import { Gate } from './gate';
 import { useLoaded } from './loaded';
@@ -40,19 +42,31 @@ function ActionForm({ axis, command }: { axis: string; command: CatalogueCommand
   const text = kept(`typed.action.text.${axis}.${command.id}`);
   const told = useSignal<Told>(quiet);
   const tried = useSignal(false);
+  /** What was asked about: it alone is sent when the answer is yes. */
+  const asked = useSignal<ReturnType<typeof bodyOf> | null>(null);
   const values: Record<string, string> = JSON.parse(typed.value);
   const faults = faultsOf(command, values);
-  const change = (name: string, t: string) => (typed.value = JSON.stringify({ ...JSON.parse(typed.peek()), [name]: t }));
-  const run = async () => {
+  const change = (name: string, t: string) => {
+    asked.value = null; // a question about other values is none
+    typed.value = JSON.stringify({ ...JSON.parse(typed.peek()), [name]: t });
+  };
+  const run = () => {
     tried.value = true;
     const now: Record<string, string> = JSON.parse(typed.peek());
     if (Object.keys(faultsOf(command, now)).length > 0) {
       told.value = { tone: 'refused', text: 'Not sent: see the fields.' };
       return;
     }
+    const body = bodyOf(command, now, text.peek());
+    if (!command.confirm) return void send(body);
+    told.value = quiet;
+    asked.value = body;
+  };
+  const send = async (body: ReturnType<typeof bodyOf>) => {
+    asked.value = null;
     told.value = { tone: 'busy', text: 'Sent…' };
     try {
-      const a = await client.act(axis, bodyOf(command, now, text.peek()));
+      const a = await client.act(axis, body);
       told.value = { tone: 'good', text: capital(plain(a.text || `${command.name}: ${a.result}`)) };
     } catch (error) {
       told.value = { tone: 'refused', text: capital(asProblem(error).words) };
@@ -64,14 +78,14 @@ function ActionForm({ axis, command }: { axis: string; command: CatalogueCommand
       class="form"
       onSubmit={(e) => {
         e.preventDefault();
-        void run();
+        run();
       }}
     >
       <p class="where" data-field="action-description">
         {command.description}
       </p>
       <div class="form-grid">
-        {command.arguments.length === 0 && <TextField label="Argument" value={text.value} onText={(t) => (text.value = t)} hint="Most take none." />}
+        {command.arguments.length === 0 && <TextField label="Argument" value={text.value} onText={(t) => { asked.value = null; text.value = t; }} hint="Most take none." />}
         {command.arguments.map((a) =>
           isFlag(a) ? (
             <Choice key={a.name} label={labelOf(a)} value={values[a.name] ?? ''} onChoice={(v) => change(a.name, v)} choices={[{ value: 'true', text: 'true' }, { value: 'false', text: 'false' }]} fault={tried.value ? faults[a.name] : undefined} hint={hintOf(a)} />
@@ -91,9 +105,20 @@ function ActionForm({ axis, command }: { axis: string; command: CatalogueCommand
       </div>
       <div class="form-foot">
         <button type="submit" class="button primary">
-          Run
+          {command.confirm ? 'Run …' : 'Run'}
         </button>
       </div>
+      {asked.value && (
+        <Ask
+          field="action-question"
+          words={questionOf(command, axis)}
+          yes={`Run ${nameOf(command)}`}
+          onNo={() => (asked.value = null)}
+          onYes={() => {
+            if (asked.peek()) void send(asked.peek() as ReturnType<typeof bodyOf>);
+          }}
+        />
+      )}
       {asStep && (
         <p class="where">
           In a recipe: <span class="mono" data-field="action-as-text">{`${command.name}: ${asStep}`}</span>

@@ -6,7 +6,7 @@ import { plainWord } from '../words/plain';
 import { clockTime } from '../words/time';
 import { useComputed } from '@preact/signals';
 import { useGateway } from '../gateway';
-import { inUnits, type Scale } from '../words/event';
+import { groupsOf, inUnits, type Scale } from '../words/event';
 import { Icon, type IconName } from './icon';
 import { memo } from './memo';
 import { AxisName, DriveName } from './name';
@@ -49,6 +49,35 @@ function ItemView({ event, scale }: { event: GatewayEvent; scale?: Scale | undef
 /** An event never changes, only the unit of its axis does: a thousand of them are drawn once. */
 export const EventItem = memo(ItemView, (a, b) => a.event === b.event && a.scale?.unit === b.scale?.unit && a.scale?.increments_per_unit === b.scale?.increments_per_unit);
 
+/** What one bulk edit wrote: a line with the count, each write on request. */
+function EventGroup({ events, scale }: { events: GatewayEvent[]; scale?: Scale | undefined }) {
+  const newest = events[0] as GatewayEvent;
+  return (
+    <li class="event tone-muted" data-severity="info" data-field="event-group">
+      <span class="event-mark" title="Info">
+        <Icon name="info" size={14} />
+        <span class="visually-hidden">Info</span>
+      </span>
+      <time dateTime={newest.at} title={newest.at}>
+        {clockTime(newest.at)}
+      </time>
+      <div class="event-what">
+        <b>{subject(newest)} </b>
+        {events.length} parameters written
+        <span class="event-who"> by {newest.who}</span>
+        <details>
+          <summary>each of them</summary>
+          <ol class="events">
+            {events.map((e) => (
+              <EventItem key={e.id} event={e} scale={scale} />
+            ))}
+          </ol>
+        </details>
+      </div>
+    </li>
+  );
+}
+
 export function EventList({ events, limit }: { events: GatewayEvent[]; limit: number }) {
   const { store } = useGateway();
   // As text: it is another only when a unit is, not with every reading.
@@ -57,9 +86,12 @@ export function EventList({ events, limit }: { events: GatewayEvent[]; limit: nu
   if (events.length === 0) return <p class="empty"><Icon name="info" /> Nothing has happened yet.</p>;
   return (
     <ol class="events">
-      {events.slice(0, limit).map((e) => (
-        <EventItem key={e.id} event={e} scale={e.axis ? scales.get(e.axis) : undefined} />
-      ))}
+      {groupsOf(events.slice(0, limit)).map((g) => {
+        const newest = g[0] as GatewayEvent;
+        const scale = newest.axis ? scales.get(newest.axis) : undefined;
+        // By its oldest: a group that grows stays the one that was opened.
+        return g.length === 1 ? <EventItem key={newest.id} event={newest} scale={scale} /> : <EventGroup key={`of ${g.at(-1)?.id}`} events={g} scale={scale} />;
+      })}
     </ol>
   );
 }

@@ -6,8 +6,10 @@ import type { MappingDoor, Registers } from '../api/mappings';
 import { asProblem } from '../api/problem';
 import type { Axis } from '../api/types';
 import { useGateway } from '../gateway';
+import { addressBase, addressField } from '../state/address-base';
 import { kept } from '../state/kept';
-import { decodeWords, oneBased, pointUnit, tableOf, tables, types, widthOf, type Mapping, type RegisterType, type Table } from '../words/mapping';
+import { decodeWords, pointUnit, tableOf, tables, types, widthOf, type Mapping, type RegisterType, type Table } from '../words/mapping';
+import { addressText, otherText, readAddress } from '../words/address';
 import { bitAxis, bitName, isStandard, notMapped } from '../words/register-map';
 import { formatExact, parseNumber } from '../words/number';
 import { Choice, notOffered, TextField } from './form';
@@ -16,7 +18,7 @@ import { Section } from './section';
 
 const unit = kept('hmi.unit', '1');
 const table = kept('hmi.table', 'holding_registers');
-const address = kept('hmi.address', '0');
+const address = addressField(kept('hmi.address'), () => table.peek() as Table);
 const count = kept('hmi.count', '16');
 const as = kept('hmi.as', 'i32');
 const order = kept('hmi.order', 'high_first');
@@ -35,7 +37,16 @@ export function HmiView({ door, rows }: { door: MappingDoor; rows: readonly Mapp
   const waiting = useSignal(false);
   /** What the answer that is shown was asked with. */
   const answerTo = useSignal('');
-  const at = { unit: within(unit.value, 0, 255), address: within(address.value, 0, 65535), count: within(count.value, 1, 125) };
+  const base = addressBase();
+  // Nothing typed: from the first register on.
+  const place = readAddress(address.value.trim() === '' ? base : address.value, table.value as Table, base);
+  const at = { unit: within(unit.value, 0, 255), address: place.good ? place.address : null, count: within(count.value, 1, 125) };
+
+  const choose = (text: string) => {
+    address.value = text;
+    const now = readAddress(text, table.peek() as Table, base);
+    if (now.good) table.value = now.table;
+  };
 
   const asked = `${unit.value.trim()}/${table.value}/${address.value.trim()}/${count.value.trim()}`;
   const look = async (end?: AbortSignal) => {
@@ -92,7 +103,7 @@ export function HmiView({ door, rows }: { door: MappingDoor; rows: readonly Mapp
         <div class="form-grid">
           <TextField label="Unit ID" number value={unit.value} onText={(t) => (unit.value = t)} fault={at.unit === null ? 'A whole number from 0 to 255.' : undefined} hint="1 is the standard map" />
           <Choice label="Table" value={table.value} onChoice={(t) => (table.value = t)} choices={tables.map((t) => ({ value: t.id, text: t.name }))} />
-          <TextField label="Address" number value={address.value} onText={(t) => (address.value = t)} fault={at.address === null ? 'A whole number from 0 to 65535.' : undefined} hint={at.address === null ? undefined : `${oneBased(table.value as Table, at.address)} counted from 1`} />
+          <TextField label="Address" number value={address.value} placeholder={addressText(table.value as Table, 0, base)} onText={choose} fault={place.good ? undefined : place.why} hint={at.address === null ? undefined : `${addressText(table.value as Table, at.address, base)} is ${otherText(table.value as Table, at.address, base)}`} />
           <TextField label="Count" number value={count.value} onText={(t) => (count.value = t)} fault={at.count === null ? 'A whole number from 1 to 125.' : undefined} />
           {!tableOf(table.value as Table).bits && (
             <>
@@ -114,7 +125,7 @@ export function HmiView({ door, rows }: { door: MappingDoor; rows: readonly Mapp
         </div>
         {a && !a.exception && answerTo.value !== asked && (
           <p class="form-told" role="status" data-field="hmi-former">
-            This is the former answer: unit {a.unit}, {tableOf(a.table).name.toLowerCase()} from {a.address} on. Press Look for what the fields say now.
+            This is the former answer: unit {a.unit}, {tableOf(a.table).name.toLowerCase()} from {addressText(a.table, a.address, base)} on. Press Look for what the fields say now.
           </p>
         )}
         {a && !a.exception && <Answer a={a} axes={axes} rows={rows} former={answerTo.value !== asked} />}
@@ -171,7 +182,7 @@ function Answer({ a, axes, rows, former }: { a: Registers; axes: readonly Axis[]
             return (
               <tr key={at} data-address={at}>
                 <th scope="row">
-                  <span class="mono id">{at}</span> <span class="where mono">{oneBased(a.table, at)}</span>
+                  <span class="mono id">{addressText(a.table, at, addressBase())}</span> <span class="where mono">{addressText(a.table, at, addressBase() === '0' ? '1' : '0')}</span>
                 </th>
                 {!bits && <td data-label="Hex" class="mono">{w.toString(16).toUpperCase().padStart(4, '0')}</td>}
                 <td data-label={bits ? 'Bit' : 'u16'} class="num mono">{w}</td>

@@ -4,9 +4,11 @@
 import { signal, useSignal, type Signal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import { useGateway } from '../gateway';
+import { addressBase, addressField, forgetAddressField } from '../state/address-base';
 import { emptied, kept } from '../state/kept';
 import type { Clash, MappingBook } from '../state/mappings';
-import { checkTexts, conflictsOf, emptyTexts, fields, neighbourText, nextFree, oneBased, placeText, signWarning, tables, textsOf, types, widthOf, type Field, type Known, type Mapping, type Texts } from '../words/mapping';
+import { checkTexts, conflictsOf, emptyTexts, fields, neighbourText, nextFree, placeText, signWarning, tables, textsOf, types, widthOf, type Field, type Known, type Mapping, type Table, type Texts } from '../words/mapping';
+import { addressText, doubtText, otherText, readAddress, spanText } from '../words/address';
 import { naturalType } from '../words/mapping-type';
 import { Choice, quiet, Tell, TextField, toldOf, type Told } from './form';
 import { useNamed } from './name';
@@ -14,17 +16,23 @@ import { Section } from './section';
 
 type Draft = Record<Field, Signal<string>>;
 const keptDraft = (): Draft => Object.fromEntries(fields.map((f) => [f, kept(`mapping.${f}`, emptyTexts[f])])) as Draft;
-const draftOf = (m: Mapping): Draft => Object.fromEntries(Object.entries(textsOf(m)).map(([f, t]) => [f, signal(t)])) as Draft;
+const draftOf = (m: Mapping): Draft => {
+  const d = Object.fromEntries(Object.entries(textsOf(m)).map(([f, t]) => [f, signal(t)])) as Draft;
+  d.address.value = addressText(m.table, m.address, addressBase());
+  addressField(d.address, () => d.table.peek() as Table);
+  return d;
+};
 const read = (d: Draft): Texts => Object.fromEntries(fields.map((f) => [f, d[f].value])) as Texts;
 
 const adding = keptDraft();
+addressField(adding.address, () => adding.table.peek() as Table);
 /** Not empty: the type was chosen by hand, and stays whatever the point is. Of an entry that is changed: unless its type is its point's own. */
 const byHand = new WeakMap<Draft, Signal<string>>([[adding, kept('mapping.type_by_hand')]]);
 /** Puts a free place into the form for adding. */
-export function addAt(unit: number, table: string, address: number): void {
+export function addAt(unit: number, table: Table, address: number): void {
   adding.unit.value = String(unit);
   adding.table.value = table;
-  adding.address.value = String(address);
+  adding.address.value = addressText(table as Table, address, addressBase());
   document.querySelector<HTMLElement>('#mapping-form')?.scrollIntoView({ block: 'nearest' });
   document.querySelector<HTMLElement>('#mapping-form select')?.focus({ preventScroll: true });
 }
@@ -56,13 +64,15 @@ export function MappingForm({ book, known, editing, done }: MappingFormProps) {
     if (editing) form.current?.querySelector<HTMLElement>('input, select')?.focus();
   }, [editing?.id]);
 
+  const base = addressBase();
   const texts = read(d);
   const { spec, faults } = checkTexts(texts, known);
   // Before the first attempt only what was typed is judged; an empty field is not a fault yet.
   const shown = (f: Field) => (touched.value || (texts[f].trim() !== '' && texts[f] !== emptyTexts[f]) ? faults[f] : undefined);
   const bits = texts.table === 'coils' || texts.table === 'discrete_inputs';
   const width = widthOf((texts.type || 'i32') as Mapping['type'], Number(texts.length) || 16);
-  const place = { unit: Number(texts.unit), table: texts.table as Mapping['table'], address: Number(texts.address), type: texts.type as Mapping['type'], ...(Number(texts.length) ? { length: Number(texts.length) } : {}) };
+  const at = readAddress(texts.address, texts.table as Table, base);
+  const place = { unit: Number(texts.unit), table: texts.table as Mapping['table'], address: at.good ? at.address : 0, type: texts.type as Mapping['type'], ...(Number(texts.length) ? { length: Number(texts.length) } : {}) };
   const placed = texts.address.trim() !== '' && !faults.address && !faults.unit && !faults.table && !faults.type;
   const conflicts = placed ? conflictsOf(place, book.rows.value, editing?.id) : [];
   const free = faults.unit || faults.table || faults.type ? null : nextFree(book.rows.value.filter((m) => m.id !== editing?.id), place.unit, place.table, width, conflicts.length > 0 ? place.address : 0);
@@ -74,9 +84,14 @@ export function MappingForm({ book, known, editing, done }: MappingFormProps) {
     d[f].value = text;
     if (f === 'type') hand.value = 'yes';
     told.value = quiet;
+    if (f === 'address') {
+      // A number that carries its table chooses it.
+      const now = readAddress(text, d.table.peek() as Table, base);
+      if (now.good && now.table !== d.table.peek()) set('table')(now.table);
+    }
     if (f === 'table') d.type.value = text === 'coils' || text === 'discrete_inputs' ? 'bool' : d.type.peek() === 'bool' ? 'u16' : d.type.peek();
   };
-  const taken = conflicts.length > 0 ? `Taken by ${conflicts.slice(0, 3).map((c) => `${c.id} (${c.point} of ${c.axis}, ${placeText(c)})`).join(', ')}${conflicts.length > 3 ? ` and ${conflicts.length - 3} more` : ''}.` : undefined;
+  const taken = conflicts.length > 0 ? `Taken by ${conflicts.slice(0, 3).map((c) => `${c.id} (${c.point} of ${c.axis}, ${placeText(c, base)})`).join(', ')}${conflicts.length > 3 ? ` and ${conflicts.length - 3} more` : ''}.` : undefined;
 
   const typeHint = !natural || bits ? undefined : natural === texts.type ? 'the point’s own type' : `the point’s own type is ${natural}`;
   const warning = signWarning({ point: texts.point.trim(), type: texts.type, offset: Number(texts.offset) || 0 });
@@ -96,12 +111,13 @@ export function MappingForm({ book, known, editing, done }: MappingFormProps) {
     if (!outcome.good) return;
     touched.value = false;
     if (editing) {
+      forgetAddressField(d.address);
       drafts.current.delete(editing.id);
       done();
     } else {
       // Ready for the next one: the place behind it.
       const next = nextFree(book.rows.peek(), spec.unit, place.table, width, spec.address + width);
-      emptied(d.address, sent.address, next === null ? '' : String(next));
+      emptied(d.address, sent.address, next === null ? '' : addressText(place.table, next, base));
       if (d.point.peek() === sent.point) hand.value = '';
       emptied(d.point, sent.point);
       emptied(d.comment, sent.comment);
@@ -132,9 +148,9 @@ export function MappingForm({ book, known, editing, done }: MappingFormProps) {
             number
             value={texts.address}
             onText={set('address')}
-            placeholder={free === null ? '' : `free: ${free}`}
+            placeholder={free === null ? '' : `free: ${addressText(place.table, free, base)}`}
             fault={shown('address') ?? taken}
-            hint={placed ? `${place.address}${width > 1 ? `–${place.address + width - 1}` : ''} is ${oneBased(place.table, place.address)} counted from 1. Free: ${neighbourText(place, book.rows.value, editing?.id)}.` : 'counted from 0'}
+            hint={placed ? `${doubtText(texts.address, base)} ${spanText(place.table, place.address, place.address + width - 1, base)} is ${otherText(place.table, place.address, base)}. Free: ${neighbourText(place, book.rows.value, editing?.id)}.`.trim() : `counted from ${base}`}
           />
           <Choice label="Type" value={texts.type} onChoice={set('type')} fault={shown('type')} hint={warning === '' ? typeHint : <span class="flag" data-field="sign-warning">{warning}</span>} choices={(bits ? (['bool'] as const) : types).map((t) => ({ value: t, text: t }))} />
           {texts.type === 'string' && <TextField label="Length" number value={texts.length} onText={set('length')} fault={shown('length')} placeholder="16" hint="registers" />}
@@ -150,8 +166,8 @@ export function MappingForm({ book, known, editing, done }: MappingFormProps) {
             {editing ? 'Save' : 'Add'}
           </button>
           {free !== null && (conflicts.length > 0 || texts.address.trim() === '') && (
-            <button type="button" class="button" onClick={() => set('address')(String(free))}>
-              Next free place: {free}
+            <button type="button" class="button" onClick={() => set('address')(addressText(place.table, free, base))}>
+              Next free place: {addressText(place.table, free, base)}
             </button>
           )}
           {clash.value && (
@@ -164,6 +180,7 @@ export function MappingForm({ book, known, editing, done }: MappingFormProps) {
               type="button"
               class="button quiet"
               onClick={() => {
+                forgetAddressField(d.address);
                 drafts.current.delete(editing.id);
                 done();
               }}

@@ -3,7 +3,9 @@
 // Modbus door's own answers, once a second; what is not live is said to be so. Draws at most 400 rows at once.
 import { useSignal, type ReadonlySignal } from '@preact/signals';
 import { useGateway } from '../gateway';
-import { gridOf, oneBased, placeText, pointUnit, pointValue, tableOf, type Mapping, type Table } from '../words/mapping';
+import { addressBase } from '../state/address-base';
+import { gridOf, placeText, pointUnit, pointValue, tableOf, type Mapping, type Table } from '../words/mapping';
+import { addressText, otherText, spanText } from '../words/address';
 import { formatExact } from '../words/number';
 import type { Heard } from '../state/register-look';
 import { useBarred } from './gate';
@@ -22,12 +24,13 @@ export interface GridProps {
   heard: ReadonlySignal<ReadonlyMap<string, Heard>>;
   edit: (m: Mapping) => void;
   remove: (m: Mapping) => void;
-  addAt: (unit: number, table: string, address: number) => void;
+  addAt: (unit: number, table: Table, address: number) => void;
 }
 
 export function MappingGrid({ rows, unit, table, heard, edit, remove, addAt }: GridProps) {
   const most = useSignal(rowsAtOnce);
   const no = useBarred('engineer');
+  const base = addressBase();
   const grid = gridOf(rows, unit, table);
   if (grid.length === 0) return <Empty text={rows.length === 0 ? 'Nothing is mapped yet. Add an entry below, or paste a table.' : `Unit ${unit} has no ${tableOf(table).name.toLowerCase()}.`} />;
   return (
@@ -52,9 +55,9 @@ export function MappingGrid({ rows, unit, table, heard, edit, remove, addAt }: G
               r.kind === 'gap' ? (
                 <tr key={`gap-${r.first}`} class="gap">
                   <td colSpan={9}>
-                    <span class="mono">{r.first === r.last ? r.first : `${r.first}–${r.last}`}</span> free ({r.last - r.first + 1}){' '}
+                    <span class="mono">{spanText(table, r.first, r.last, base)}</span> free ({r.last - r.first + 1}){' '}
                     <button type="button" class="button small quiet" {...no} onClick={() => addAt(unit, table, r.first)}>
-                      <Icon name="plus" size={14} /> Add at {r.first}
+                      <Icon name="plus" size={14} /> Add at {addressText(table, r.first, base)}
                     </button>
                   </td>
                 </tr>
@@ -83,10 +86,11 @@ interface RowProps {
 
 function RowView({ mapping: m, heard, edit, remove }: RowProps) {
   const no = useBarred('engineer');
+  const base = addressBase();
   return (
     <tr data-mapping={m.id}>
       <th scope="row">
-        <span class="mono id">{placeText(m)}</span> <span class="where mono" title="Counted from 1, as many editors show it">{oneBased(m.table, m.address)}</span>
+        <span class="mono id">{placeText(m, base)}</span> <span class="where mono" title={otherText(m.table, m.address, base)}>{addressText(m.table, m.address, base === '0' ? '1' : '0')}</span>
       </th>
       <td data-label="Point" class="point">
         <AxisName name={m.axis} /> <span class="mono">{m.point}</span> <span class="where">{m.id}</span>

@@ -125,7 +125,7 @@ export function MappingPaste({ book, known }: { book: MappingBook; known: Known 
                   return (
                     <tr key={r.line} data-line={r.line} class={faults.length > 0 ? 'is-bad' : ''}>
                       <th scope="row" class="mono">{r.line}</th>
-                      <td data-label="Place">{r.spec ? `unit ${r.spec.unit}, ${tableOf(r.spec.table ?? 'holding_registers').short.toLowerCase()} ${placeText({ type: 'i32', ...r.spec })}` : <span class="mono">{r.texts.address || '–'}</span>}</td>
+                      <td data-label="Place">{r.spec ? `unit ${r.spec.unit}, ${tableOf(r.spec.table ?? 'holding_registers').short.toLowerCase()} ${placeText({ type: 'i32', table: 'holding_registers', ...r.spec })}` : <span class="mono">{r.texts.address || '–'}</span>}</td>
                       <td data-label="Point">{[r.texts.axis, r.texts.point].filter(Boolean).join(' ') || '–'}</td>
                       <td data-label="Verdict">{faults.length > 0 ? <span class="fault-text">{faults.join(' ')}</span> : waits !== '' ? <span class="where">waits</span> : <span class="good-text">good</span>}</td>
                     </tr>

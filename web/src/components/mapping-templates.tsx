@@ -4,9 +4,11 @@ import { useSignal } from '@preact/signals';
 import { MappingDoor } from '../api/mappings';
 import { asProblem } from '../api/problem';
 import { useGateway } from '../gateway';
+import { addressBase, addressField } from '../state/address-base';
 import { emptied, kept } from '../state/kept';
 import type { MappingBook } from '../state/mappings';
-import { nextFree, placeText, type Mapping } from '../words/mapping';
+import { addressText, readAddress, spanText } from '../words/address';
+import { freeBlock, placeText, type Mapping } from '../words/mapping';
 import { parseNumber } from '../words/number';
 import { Choice, notOffered, quiet, Tell, TextField, toldOf, type Told } from './form';
 import { useNamed } from './name';
@@ -14,7 +16,7 @@ import { Section } from './section';
 
 const axis = kept('template.axis');
 const unit = kept('template.unit', '2');
-const address = kept('template.address');
+const address = addressField(kept('template.address'), () => 'holding_registers');
 /** Registers of the standard map of one axis. */
 const blockWidth = 64;
 
@@ -28,8 +30,12 @@ export function MappingTemplates({ book, door }: { book: MappingBook; door: Mapp
     return p.good && Number.isInteger(p.value) && p.value >= min && p.value <= max ? p.value : null;
   };
   const u = whole(unit.value, 2, 254);
-  const free = u === null ? null : nextFree(book.rows.value.map((m) => ({ ...m, table: 'holding_registers' as const })), u, 'holding_registers', blockWidth);
-  const at = address.value.trim() === '' ? free : whole(address.value, 0, 65535);
+  const base = addressBase();
+  const text = (n: number) => addressText('holding_registers', n, base);
+  const free = u === null ? null : freeBlock(book.rows.value, u, blockWidth);
+  const typed = readAddress(address.value, 'holding_registers', base);
+  const wrong = address.value.trim() === '' ? '' : !typed.good ? typed.why : typed.table !== 'holding_registers' ? 'The block lies in the holding registers.' : '';
+  const at = address.value.trim() === '' ? free : typed.good && wrong === '' ? typed.address : null;
 
   const run = async (dry: boolean) => {
     if (axis.value === '' || u === null || at === null) {
@@ -41,8 +47,8 @@ export function MappingTemplates({ book, door }: { book: MappingBook; door: Mapp
       if (dry) {
         const r = await door.template({ template: 'standard_map', axis: axis.value, unit: u, address: at, dry_run: true });
         // A gateway says the block entry by entry, or as sentences.
-        differences.value = Array.isArray(r.mappings) ? (r.mappings as Mapping[]).map((m) => `${placeText(m)}: ${m.point} of ${m.axis}, ${m.type}, ${{ R: 'read', W: 'write', RW: 'read and write' }[m.access]}`) : (r.differences ?? []);
-        told.value = { tone: 'good', text: `${differences.value.length} mappings at ${at}–${at + blockWidth - 1} of unit ${u}. Nothing has been changed.` };
+        differences.value = Array.isArray(r.mappings) ? (r.mappings as Mapping[]).map((m) => `${placeText(m, base)}: ${m.point} of ${m.axis}, ${m.type}, ${{ R: 'read', W: 'write', RW: 'read and write' }[m.access]}`) : (r.differences ?? []);
+        told.value = { tone: 'good', text: `${differences.value.length} mappings at ${spanText('holding_registers', at, at + blockWidth - 1, base)} of unit ${u}. Nothing has been changed.` };
         return;
       }
     } catch (error) {
@@ -75,9 +81,9 @@ export function MappingTemplates({ book, door }: { book: MappingBook; door: Mapp
             number
             value={address.value}
             onText={(t) => (address.value = t)}
-            placeholder={free === null ? 'none is free' : `next free block: ${free}`}
-            fault={address.value.trim() !== '' && at === null ? 'A whole number from 0 to 65535.' : undefined}
-            hint={`${blockWidth} registers as in unit 1`}
+            placeholder={free === null ? 'none is free' : `next free block: ${text(free)}`}
+            fault={wrong || undefined}
+            hint={`${blockWidth} registers, as in unit 1, where each axis begins at a multiple of ${blockWidth}`}
           />
         </div>
         <div class="form-foot">

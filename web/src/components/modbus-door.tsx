@@ -5,7 +5,7 @@ import { asProblem } from '../api/problem';
 import type { ModbusDoor as Door } from '../api/types';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
-import { functionWords } from '../words/register-map';
+import { allowedWords, functionWords } from '../words/register-map';
 import { quiet, Tell, type Told } from './form';
 import { useBarred, Why } from './gate';
 import { Empty } from './lines';
@@ -35,7 +35,7 @@ export function ModbusDoor() {
         {d && (
           <dl class="facts">
             <div><dt>Address</dt><dd class="mono">{d.bind}</dd></div>
-            <div><dt>Allowed from</dt><dd><span class="mono" data-field="modbus-allow">{d.allow.join(', ') || 'everywhere'}</span></dd></div>
+            <div><dt>Allowed from</dt><dd><span class="mono" data-field="modbus-allow">{allowedWords(d.allow, d.bind)}</span></dd></div>
             <div><dt>Functions</dt><dd data-field="modbus-functions">{functionWords(d.functions)}</dd></div>
             <div>
               <dt>Writing</dt>

@@ -1,14 +1,16 @@
 // Parameter compare: two sets of values of an axis side by side: what is known now or a snapshot, beside the defaults, what is stored, the drive,
-// another snapshot, another axis. In: the HTTP door. Out: a table of what differs; everything on demand.
+// another snapshot, another axis. In: the HTTP door. Out: a table of what differs; everything on demand. What an axis has not told yet is read first,
+// one value at a time, with the progress; that can be ended, and what was not read is said to be not compared.
 import { useSignal } from '@preact/signals';
-import { useMemo } from 'preact/hooks';
+import { useEffect, useMemo, useRef } from 'preact/hooks';
 import { asProblem } from '../api/problem';
+import type { AxisParameter } from '../api/types';
 import { SnapshotDoor, type Snapshot } from '../api/snapshots';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
 import { steppedText, unitWords, valueText } from '../words/parameter';
 import { axisChoice, differentFamilies, snapshotChoice } from '../words/snapshot';
-import { compareWith, type Compared } from '../words/transfer';
+import { comparedWords, compareWith, type Compared } from '../words/transfer';
 import { Choice, quiet, Tell, type Told } from './form';
 import { Empty } from './lines';
 import { SimulatedMark, useNamed } from './name';
@@ -36,7 +38,34 @@ export function ParameterCompare({ axis, family, snapshots }: { axis: string; fa
     ...others.map((n) => axisChoice(n, familyOfAxis(n), family, named(n))),
   ];
 
+  const reading = useRef<AbortController | null>(null);
+  useEffect(() => () => reading.current?.abort(), []);
+  const busy = useSignal(false);
+  /** All values of an axis; those that it has not told yet, or no longer tells, are read. */
+  const valuesOf = async (of: string, end: AbortSignal): Promise<AxisParameter[]> => {
+    const list = await client.parameters(of);
+    const wanted = list.filter((p) => p.quality !== 'good' && p.access !== 'W' && !p.count);
+    for (const [i, p] of wanted.entries()) {
+      if (end.aborted) break;
+      told.value = { tone: 'busy', text: `Reading ${of}: ${i + 1} of ${wanted.length} …` };
+      try {
+        list[list.indexOf(p)] = await client.parameter(of, p.id, {}, end);
+      } catch {
+        // What the drive refuses, and what was ended, is not known: counted below.
+      }
+    }
+    return list;
+  };
+  const comparable = (list: readonly AxisParameter[]) => list.filter((p) => p.access !== 'W' && !p.count).length;
+
   const compare = async () => {
+    if (busy.peek()) return;
+    const end = (reading.current = new AbortController());
+    busy.value = true;
+    await compareNow(end.signal);
+    busy.value = false;
+  };
+  const compareNow = async (end: AbortSignal) => {
     const theirs = other.value.startsWith('axis:') ? familyOfAxis(other.value.slice('axis:'.length)) : family;
     if (theirs !== family) {
       result.value = null;
@@ -49,6 +78,7 @@ export function ParameterCompare({ axis, family, snapshots }: { axis: string; fa
       const title = choices.find((c) => c.value === other.value)?.text ?? other.value;
       let rows: Compared[];
       let missing = '';
+      let of = 0;
       if (fromSnapshot || other.value.startsWith('snapshot:')) {
         // The gateway compares a snapshot with something; with the values known now it is the drive that counts.
         const n = Number(fromSnapshot ? base.value : other.value.slice('snapshot:'.length));
@@ -56,22 +86,22 @@ export function ParameterCompare({ axis, family, snapshots }: { axis: string; fa
         rows = answer.rows.map((r) => ({ id: r.parameter, name: r.name, unit: r.unit, mine: fromSnapshot ? r.snapshot : r.other, other: fromSnapshot ? r.other : r.snapshot, same: r.same, known: r.other_known !== false, writable: r.writable }));
         missing = answer.text ?? '';
       } else {
-        const list = await client.parameters(axis);
+        const list = await valuesOf(axis, end);
+        of = comparable(list);
         if (other.value.startsWith('axis:')) {
-          const theirs = new Map((await client.parameters(other.value.slice('axis:'.length))).map((p) => [p.id, p.value]));
+          const theirs = new Map((await valuesOf(other.value.slice('axis:'.length), end)).map((p) => [p.id, p.value]));
           rows = compareWith(list, (p) => theirs.get(p.id) ?? null);
         } else {
           rows = compareWith(list, (p) => (other.value === 'stored' ? p.stored : p.default));
         }
       }
       result.value = { title, rows };
-      const differ = rows.filter((r) => !r.same && r.known !== false).length;
-      told.value = { tone: 'good', text: rows.length === 0 ? 'There is no value that both sides know. Read the parameters first.' : `${differ} of ${rows.length} values differ.${missing ? ` ${capital(missing)}.` : ''}` };
+      told.value = { tone: 'good', text: `${comparedWords(rows, of)}${missing ? ` ${capital(missing)}.` : ''}` };
     } catch (error) {
       told.value = { tone: 'refused', text: capital(asProblem(error).words) };
     }
   };
-  const rows = (result.value?.rows ?? []).filter((r) => all.value || !r.same);
+  const rows = (result.value?.rows ?? []).filter((r) => all.value || (!r.same && (r.known !== false || fromSnapshot)));
   return (
     <Section title="Compare" class="compare" beside={<SimulatedMark of={axis} />}>
       <form
@@ -88,9 +118,15 @@ export function ParameterCompare({ axis, family, snapshots }: { axis: string; fa
           <Choice label="with" class="wide" value={other.value} onChoice={(v) => { other.value = v; result.value = null; told.value = quiet; }} choices={choices} />
         </div>
         <div class="form-foot">
-          <button type="submit" class="button primary">
-            Compare
-          </button>
+          {busy.value ? (
+            <button type="button" class="button" onClick={() => reading.current?.abort()}>
+              End reading
+            </button>
+          ) : (
+            <button type="submit" class="button primary">
+              Compare
+            </button>
+          )}
           <label class="check">
             <input type="checkbox" checked={all.value} onChange={(e) => (all.value = e.currentTarget.checked)} /> equal ones too
           </label>

@@ -1,6 +1,7 @@
 // Parameters of one axis: live, stored and default value, range, who wrote last; read from the drive, write with a check before.
-// In: REST. Out: a table. Reading all goes one by one and can be ended; a slow drive is not flooded. What was typed stays until the
-// drive took it. At most 100 rows are drawn at once; more on demand.
+// In: REST. Out: a table. What is on the screen is read again, one value at a time, unless that is switched off; each value tells its age, and
+// grey ones are old. Reading all goes one by one and can be ended; a slow drive is not flooded. What was typed stays until the drive took it.
+// At most 100 rows are drawn at once; more on demand.
 import { useBarred, Why } from './gate';
 import { signal, useSignal, type Signal } from '@preact/signals';
 import { useEffect, useId, useMemo, useRef } from 'preact/hooks';
@@ -8,22 +9,32 @@ import { asProblem } from '../api/problem';
 import type { AxisParameter } from '../api/types';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
+import { kept } from '../state/kept';
+import { dueNext, pauseAfter } from '../state/reread';
 import { isApart, isChanged, isMarked, marks, type Marked } from '../words/transfer';
-import { editText, fieldLines, fieldValue, rangeText, readValue, sameValue, searchRank, steppedText, unitWords, valueText, withField } from '../words/parameter';
-import { clockTime } from '../words/time';
+import { addressingWords, editText, fieldLines, fieldValue, rangeText, readValue, sameValue, searchRank, steppedText, unitWords, valueText, withField } from '../words/parameter';
+import { Ask } from './ask';
 import { Icon } from './icon';
 import { Empty } from './lines';
 import { memo } from './memo';
 import { Written } from './parameter-history';
+import { Age, heardAt, LiveValue, useOnScreen, type Since } from './parameter-live';
 import { Section } from './section';
 
 const rowsAtOnce = 100;
+const idle_ms = 400;
+/** Whether what is on the screen is read again. */
+const keep = kept('parameters.keep', 'no', 'browser');
 
 interface Row {
   data: Signal<AxisParameter>;
   note: Signal<{ tone: 'none' | 'busy' | 'good' | 'refused'; text: string }>;
   /** What is typed; null: the field shows nothing of its own. */
   typed: Signal<string | null>;
+  /** The value that was asked about before it is written: the drive is reached by this parameter. */
+  asked: Signal<string | null>;
+  /** When reading it without being asked was last refused, by the gateway's clock. */
+  refused_ms: number | null;
 }
 
 const isLongArray = (p: AxisParameter) => p.count !== null && p.count > 0 && !/\]$/.test(p.id);
@@ -39,6 +50,8 @@ export function Parameters({ axis }: { axis: string }) {
   const progress = useSignal<{ done: number; of: number } | null>(null);
   const reading = useRef<AbortController | null>(null);
   const epoch = store.connection.value.epoch;
+  const since: Signal<number> = useMemo(() => signal(0), [axis]);
+  const table = useRef<HTMLTableSectionElement>(null);
 
   const load = async (signalOfEnd: AbortSignal) => {
     try {
@@ -62,6 +75,30 @@ export function Parameters({ axis }: { axis: string }) {
     return () => end.abort();
   }, [axis, epoch]);
   useEffect(() => () => reading.current?.abort(), [axis]);
+  useEffect(() => {
+    if (epoch !== 0) since.value = store.gatewayNow_ms();
+  }, [axis, epoch]);
+  useEffect(() => store.onEvent((e) => void (e.axis === axis && e.kind === 'command' && (since.value = store.gatewayNow_ms()))), [axis]);
+  const onScreen = useOnScreen(table);
+  useEffect(() => {
+    if (keep.value !== 'yes') return;
+    const end = new AbortController();
+    let timer: ReturnType<typeof setTimeout>;
+    const turn = async () => {
+      const now_ms = store.gatewayNow_ms();
+      const away = document.hidden || !store.connected.peek() || reading.current !== null || store.axis(axis)?.peek().data.online !== true;
+      const wanted = away ? [] : rows.peek().filter((r) => onScreen.has(r.data.peek().id) && r.data.peek().access !== 'W' && !isLongArray(r.data.peek()) && r.note.peek().tone !== 'busy');
+      const next = dueNext(wanted.map((row) => ({ row, at_ms: heardAt(row.data.peek()), refused_ms: row.refused_ms })), now_ms, since.peek());
+      const began = performance.now();
+      if (next) await reread(next.row, end.signal);
+      if (!end.signal.aborted) timer = setTimeout(() => void turn(), next ? pauseAfter(performance.now() - began) : idle_ms);
+    };
+    timer = setTimeout(() => void turn(), idle_ms);
+    return () => {
+      end.abort();
+      clearTimeout(timer);
+    };
+  }, [axis, keep.value]);
   // Somebody else wrote: look again at what is known.
   useEffect(
     () =>
@@ -102,12 +139,24 @@ export function Parameters({ axis }: { axis: string }) {
   const read = async (row: Row, end?: AbortSignal) => {
     const id = row.data.peek().id;
     row.note.value = { tone: 'busy', text: 'Reading …' };
+    row.refused_ms = null;
     try {
       const p = await client.parameter(axis, id, {}, end);
       row.data.value = p;
       row.note.value = p.quality === 'stale' ? { tone: 'refused', text: capital(p.text || 'stale') } : { tone: 'none', text: '' };
     } catch (error) {
       row.note.value = end?.aborted ? { tone: 'none', text: '' } : { tone: 'refused', text: capital(asProblem(error).words) };
+    }
+  };
+
+  /** Without being asked: an answer is shown, a refusal leaves what is there, and its age tells the rest. */
+  const reread = async (row: Row, end: AbortSignal) => {
+    try {
+      const p = await client.parameter(axis, row.data.peek().id, {}, end);
+      row.refused_ms = p.quality === 'good' ? null : store.gatewayNow_ms();
+      row.data.value = p;
+    } catch {
+      row.refused_ms = store.gatewayNow_ms();
     }
   };
 
@@ -119,6 +168,12 @@ export function Parameters({ axis }: { axis: string }) {
       row.note.value = { tone: 'refused', text: value.why };
       return;
     }
+    if (p.addressing && row.asked.peek() !== sent) {
+      row.asked.value = sent;
+      row.note.value = { tone: 'none', text: '' };
+      return;
+    }
+    row.asked.value = null;
     row.note.value = { tone: 'busy', text: 'Writing …' };
     try {
       const answer = await client.writeParameter(axis, p.id, value.value);
@@ -177,6 +232,9 @@ export function Parameters({ axis }: { axis: string }) {
               ))}
             </select>
           </label>
+          <label class="check" title="What is on the screen is read again, one value at a time; at most a quarter of the line's time is taken">
+            <input type="checkbox" checked={keep.value === 'yes'} onChange={(e) => (keep.value = e.currentTarget.checked ? 'yes' : 'no')} /> Keep reading
+          </label>
           {progress.value ? (
             <button type="button" class="button" onClick={() => reading.current?.abort()}>
               Reading {progress.value.done} of {progress.value.of}: end
@@ -210,9 +268,9 @@ export function Parameters({ axis }: { axis: string }) {
                 <th scope="col">Last written</th>
               </tr>
             </thead>
-            <tbody>
+            <tbody ref={table}>
               {shown.map((r) => (
-                <ParameterRow key={r.data.peek().id} axis={axis} row={r} read={read} write={write} open={open} />
+                <ParameterRow key={r.data.peek().id} axis={axis} row={r} since={since} read={read} write={write} open={open} />
               ))}
             </tbody>
           </table>
@@ -227,17 +285,18 @@ export function Parameters({ axis }: { axis: string }) {
   );
 }
 
-const newRow = (p: AxisParameter): Row => ({ data: signal(p), note: signal({ tone: 'none', text: '' }), typed: signal(null) });
+const newRow = (p: AxisParameter): Row => ({ data: signal(p), note: signal({ tone: 'none', text: '' }), typed: signal(null), asked: signal(null), refused_ms: null });
 
 interface RowProps {
   axis: string;
   row: Row;
+  since: Since;
   read: (row: Row) => void;
   write: (row: Row) => void;
   open: (row: Row) => void;
 }
 
-function RowView({ axis, row, read, write, open }: RowProps) {
+function RowView({ axis, row, since, read, write, open }: RowProps) {
   const note = useId();
   const p = row.data.value;
   const n = row.note.value;
@@ -257,12 +316,11 @@ function RowView({ axis, row, read, write, open }: RowProps) {
           <span class="where">{p.count} elements</span>
         ) : (
           <>
-            <span class={`mono value${differs ? ' differs' : ''}`} title={p.at ? `The drive said it at ${clockTime(p.at)}` : 'Not read yet'}>
-              {valueText(p.value, p)}
-            </span>{' '}
+            <LiveValue p={p} since={since} differs={differs} />{' '}
             <span class="unit">{p.value !== null && !p.allowed ? `${unitWords(p.unit)} ${steppedText(p.value, p.unit)}`.trim() : ''}</span>
             {differs && <span class="flag changed" title="Not the default of the family"> changed</span>}
             {p.quality === 'stale' && <span class="flag"> stale</span>}
+            <Age p={p} />
             {p.quality === 'unknown' && <span class="visually-hidden"> not read yet</span>}
             {fieldLines(p.value, p).map((line) => (
               <span key={line} class="part">
@@ -298,6 +356,18 @@ function RowView({ axis, row, read, write, open }: RowProps) {
             </>
           )}
         </div>
+        {row.asked.value !== null && (
+          <Ask
+            field="addressing-question"
+            words={addressingWords(axis, p, row.asked.value)}
+            yes={`Write ${p.id}`}
+            onNo={() => (row.asked.value = null)}
+            onYes={() => {
+              row.typed.value = row.asked.peek();
+              write(row);
+            }}
+          />
+        )}
         <p class={`row-note result-${n.tone}`} id={note} role="status">
           {n.text || typedText(row.typed.value, p)}
         </p>

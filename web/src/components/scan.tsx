@@ -83,7 +83,7 @@ export function ScanSection({ line }: { line: string }) {
         {r && r.found.length > 0 && (
           <ul aria-label="Drives found">
             {r.found.map((f) => (
-              <li key={f.address} class="row" data-found={f.address}>
+              <li key={`${f.family ?? ""} ${f.address}`} class="row" data-found={f.address}>
                 <div class="row-head">
                   <h3>
                     {f.family} at {f.address}

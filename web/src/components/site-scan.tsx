@@ -14,11 +14,11 @@ const longest_ms = 600_000;
 const numberOf = (text: string): number | undefined => (/^\d+$/.test(text.trim()) ? Number(text) : undefined);
 
 /** A drive that was found, and its first axis, into the draft. */
-export function addFound(draft: SiteDraft, line: Entry, address: number | string): void {
+export function addFound(draft: SiteDraft, line: Entry, address: number | string, family?: string): void {
   const site = draft.draft.peek();
   const drive = freeName(site.drives, `${line.name}-${address}`);
   const axis = freeName(site.axes, drive);
-  const withDrive = withEntry(site, 'drives', { name: drive, line: line.name, address, presence: 'auto' }, null);
+  const withDrive = withEntry(site, 'drives', { name: drive, line: line.name, ...(family && family !== line.family ? { family } : {}), address, presence: 'auto' }, null);
   draft.edit(withEntry(withDrive, 'axes', { name: axis, drive, channel: 1, number: freeNumber(site) }, null));
 }
 
@@ -87,7 +87,9 @@ export function ScanPanel({ line, door, draft, begin = false, headed = false }: 
   useEffect(() => {
     void (begin && !no.disabled ? start() : look());
   }, [begin]);
-  const known = new Map((draft.draft.value.drives ?? []).filter((d) => d.line === line.name).map((d) => [String(d.address), d.name]));
+  // Drives of two families may have the same address on a line.
+  const placeOf = (family: unknown, address: unknown) => `${String(family || line.family || '')} ${String(address)}`;
+  const known = new Map((draft.draft.value.drives ?? []).filter((d) => d.line === line.name).map((d) => [placeOf(d.family, d.address), d.name]));
   return (
     <form
       class="form scan"
@@ -120,14 +122,14 @@ export function ScanPanel({ line, door, draft, begin = false, headed = false }: 
       {scan.value && scan.value.found.length > 0 && (
         <ul class="found" aria-label="Found">
           {scan.value.found.map((f) => {
-            const name = f.known_as ?? known.get(String(f.address));
+            const name = f.known_as ?? known.get(placeOf(f.family, f.address));
             return (
-              <li key={String(f.address)} data-found={f.address}>
+              <li key={`${f.family ?? ''} ${f.address}`} data-found={f.address}>
                 <b class="mono">{f.address}</b> <span>{f.text ?? ''}</span>{' '}
                 {name ? (
                   <span class="where">known as {name}</span>
                 ) : (
-                  <button type="button" class="button small" {...no} onClick={() => addFound(draft, line, f.address)}>
+                  <button type="button" class="button small" {...no} onClick={() => addFound(draft, line, f.address, f.family)}>
                     Add {f.address} as a drive
                   </button>
                 )}

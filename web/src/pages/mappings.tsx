@@ -17,6 +17,7 @@ import { MappingUnit } from '../components/mapping-unit';
 import { MappingTemplates } from '../components/mapping-templates';
 import { Section } from '../components/section';
 import { useGateway } from '../gateway';
+import { addressBase, countFrom } from '../state/address-base';
 import { kept } from '../state/kept';
 import { MappingBook, uncapital } from '../state/mappings';
 import { lookAt, type Heard } from '../state/register-look';
@@ -86,7 +87,9 @@ export function MappingsPage() {
   }, [shown, epoch]);
 
   const asked = useMemo(() => new Set<string>(), []);
+  const base = addressBase();
   const known: Known = {
+    base,
     axes: store.axisNames.value,
     points: book.points.value,
     parameters: (axis) => {
@@ -144,6 +147,13 @@ export function MappingsPage() {
                 ))}
               </select>
             </label>
+            <label class="select" title="How register addresses are written everywhere on this page; tables and files count from 0">
+              <span>Addresses</span>
+              <select value={base} onChange={(e) => countFrom(e.currentTarget.value === '1' ? '1' : '0')}>
+                <option value="0">from 0</option>
+                <option value="1">from 1 (40001)</option>
+              </select>
+            </label>
             <MappingUnit door={door} unit={unit} revision={revision} />
             <div class="group tables" role="group" aria-label="Table">
               {tables.map((t) => (
@@ -182,7 +192,7 @@ export function MappingsPage() {
       <Gate need="engineer">
         <MappingForm book={book} known={known} editing={editing.value} done={() => (editing.value = null)} />
         <MappingTemplates book={book} door={door} />
-        <MappingPaste book={book} known={known} />
+        <MappingPaste book={book} known={{ ...known, base: '0' }} />
       </Gate>
       <HmiView door={door} rows={rows} />
       <PrintedList rows={rows} known={known} hash={book.hash.value} />

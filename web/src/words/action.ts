@@ -50,6 +50,10 @@ export function bodyOf(c: CatalogueCommand, typed: Record<string, string>, text 
   const given = c.arguments.filter((a) => (typed[a.name] ?? '').trim() !== '').map((a) => [a.name, valueOf(a, isText(a) ? (typed[a.name] ?? '') : (typed[a.name] ?? '').trim())] as const);
   return { name: c.name, arguments: Object.fromEntries(given) };
 }
+/** "factory defaults" of factory_defaults. */
+export const nameOf = (c: CatalogueCommand): string => c.name.replaceAll('_', ' ');
+/** What is asked before it is sent; empty: it does no harm. */
+export const questionOf = (c: CatalogueCommand, axis: string): string => (c.confirm ? `${nameOf(c)} on ${axis}: ${c.confirm} Run it?` : '');
 /** The same as a recipe step's one text; empty where a text has blanks in it, which that form does not carry. */
 export function recipeText(c: CatalogueCommand, typed: Record<string, string>): string {
   const words = Object.entries(bodyOf(c, typed).arguments ?? {}).map(([name, value]) => `${name}=${value}`);

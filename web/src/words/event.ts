@@ -1,5 +1,7 @@
-// What an event says, in the unit of its axis: the gateway's own words count in increments of the drive here and there. In: an event's text, the axis as
-// it is now. Out: the text. Pure. The increments stay beside it: the axis may have had another unit when it happened.
+// What an event says, in the unit of its axis: the gateway's own words count in increments of the drive here and there; and many events that one bulk
+// edit made, as one. In: events, the axis as it is now. Out: texts, groups. Pure. The increments stay beside it: the axis may have had another
+// unit when it happened. A group has nothing of severity in it: what needs attention keeps a line of its own.
+import type { GatewayEvent } from '../api/types';
 import { decimalsOf, formatNumber } from './number';
 import { plain } from './plain';
 
@@ -16,4 +18,21 @@ export function inUnits(text: string, scale: Scale | undefined): string {
   const order = /^(move_\w+) (-?\d+)$/.exec(text);
   if (order && Object.hasOwn(orders, order[1] as string)) return `${plain(order[1] as string)} ${both(order[2] as string, orders[order[1] as string] as string)}`;
   return plain(text).replace(/\(at (-?\d+) increments\)/g, (_, n: string) => `at ${both(n, '')}`);
+}
+
+/** Between two writes of one bulk edit; a slow line needs its time. */
+const together_ms = 3_000;
+const fewest = 4;
+const bulk = (e: GatewayEvent): string => (e.kind === 'write' && e.severity === 'info' && e.axis && e.who ? `${e.axis} ${e.who} ${e.door ?? ''}` : '');
+
+/** Newest first, as they came; parameters of one axis written by one person in one go are one entry of several. */
+export function groupsOf(events: readonly GatewayEvent[]): GatewayEvent[][] {
+  const runs: GatewayEvent[][] = [];
+  for (const e of events) {
+    const run = runs.at(-1);
+    const last = run?.at(-1);
+    if (run && last && bulk(e) !== '' && bulk(e) === bulk(last) && Date.parse(last.at) - Date.parse(e.at) <= together_ms) run.push(e);
+    else runs.push([e]);
+  }
+  return runs.flatMap((run) => (run.length >= fewest ? [run] : run.map((e) => [e])));
 }

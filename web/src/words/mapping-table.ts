@@ -1,7 +1,7 @@
 // Mapping table: rows of a spreadsheet into mappings, each with its faults, also among one another. In: text, what is known, what is there.
 // Out: rows in their order. A row with the id of a present mapping takes its place. Pure.
 import { checkTexts, cellsOf, columns, conflictsOf, placeText, type Known, type Mapping, type MappingSpec, type Texts } from './mapping';
-import { csvOf, mostRows, rowsOf } from './table-text';
+import { csvOf, mostRows, pointed, rowsOf, separatorOf } from './table-text';
 
 export interface ReadRow {
   line: number;
@@ -18,7 +18,8 @@ const nameOf = (cell: string): Column | null => {
 };
 
 export function readTable(text: string, known: Known, present: readonly Mapping[]): { rows: ReadRow[]; problem: string } {
-  const { rows, tooMany } = rowsOf(text);
+  const separator = separatorOf(text);
+  const { rows, tooMany } = rowsOf(text, separator);
   const first = rows[0];
   if (!first) return { rows: [], problem: '' };
   const named = first.cells.filter((c) => nameOf(c) !== null).length >= 2;
@@ -35,7 +36,7 @@ export function readTable(text: string, known: Known, present: readonly Mapping[
   const read = (named ? rows.slice(1) : rows).map(({ line, cells }): ReadRow => {
     const texts: ReadRow['texts'] = {};
     heads.forEach((h, i) => {
-      if (h) texts[h] = cells[i] ?? '';
+      if (h) texts[h] = h === 'scale' || h === 'offset' ? pointed(cells[i] ?? '', separator) : (cells[i] ?? '');
     });
     const { spec, faults } = checkTexts(texts, known);
     const words: string[] = Object.entries(faults).map(([f, why]) => `${f.replace('_', ' ')}: ${why}`);

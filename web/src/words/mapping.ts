@@ -2,6 +2,7 @@
 // In: mappings, text, points. Out: specifications, faults per field, live values. Pure. The gateway checks all of it again.
 import type { components } from '../api/schema';
 import type { Axis } from '../api/types';
+import { readAddress, spanText, type Base } from './address';
 import { parseNumber } from './number';
 
 type Schemas = components['schemas'];
@@ -39,7 +40,7 @@ export const endOf = (m: Pick<Mapping, 'address' | 'type' | 'length'>): number =
 /** The number that many HMI and PLC editors show for the same place: 40001 is holding register 0. Six digits beyond 9999. */
 export const oneBased = (table: Table, address: number): string => tableOf(table).digit + String(address + 1).padStart(address < 9999 ? 4 : 5, '0');
 
-export const placeText = (m: Pick<Mapping, 'address' | 'type' | 'length'>): string => (endOf(m) === m.address ? `${m.address}` : `${m.address}–${endOf(m)}`);
+export const placeText = (m: Pick<Mapping, 'table' | 'address' | 'type' | 'length'>, base: Base = '0'): string => spanText(m.table, m.address, endOf(m), base);
 
 /** The mappings that have a place in common with this one, itself (by id) left out. */
 export function conflictsOf(m: Pick<Mapping, 'unit' | 'table' | 'address' | 'type' | 'length'>, all: readonly Mapping[], ownId = ''): Mapping[] {
@@ -75,6 +76,13 @@ export function nextFree(all: readonly Mapping[], unit: number, table: Table, wi
     at = endOf(m) + 1;
   }
   return at + width <= 65536 ? at : null;
+}
+
+/** First multiple of `width` with so many free places in every table of the unit: blocks of axes lie side by side as in unit 1. */
+export function freeBlock(all: readonly Mapping[], unit: number, width: number): number | null {
+  const own = all.filter((o) => o.unit === unit);
+  for (let at = 0; at + width <= 65536; at += width) if (!own.some((o) => o.address < at + width && endOf(o) >= at)) return at;
+  return null;
 }
 
 /** What lies before and behind a place: "follows on m1; 4 free up to m2". */
@@ -114,6 +122,8 @@ export function textsOf(m: Mapping): Texts {
 }
 
 export interface Known {
+  /** How addresses are written; from 0 where nothing is said, as in tables and files. */
+  base?: Base;
   axes: readonly string[];
   points: readonly MappingPoint[];
   /** Ids and names of the parameters of an axis; null where they are not known. */
@@ -140,8 +150,9 @@ export function checkTexts(t: Partial<Texts>, known: Known): Checked {
   const given = (t.table || 'holding_registers').toLowerCase();
   const table = otherNames[given] ?? (tables.find((x) => x.id === given)?.id as Table | undefined);
   if (!table) fault('table', `“${t.table}” is no table: ${tables.map((x) => x.id).join(', ')}.`);
-  const address = whole(t.address ?? '', 'the address', 0, 65535);
-  if (address.why) fault('address', address.why);
+  const address = readAddress(t.address ?? '', table ?? 'holding_registers', known.base ?? '0');
+  if (!address.good) fault('address', address.why);
+  else if (table && address.table !== table) fault('address', `${t.address?.trim()} is one of the ${tableOf(address.table).name.toLowerCase()}, and the table is ${tableOf(table).name.toLowerCase()}.`);
 
   let axis = t.axis?.trim() ?? '';
   let point = t.point?.trim() ?? '';
@@ -184,13 +195,13 @@ export function checkTexts(t: Partial<Texts>, known: Known): Checked {
     if (n.why) fault('length', n.why);
     else length = n.value;
   }
-  if (!address.why && address.value + widthOf(type, length) > 65536) fault('address', 'The value would end beyond address 65535.');
+  if (address.good && address.address + widthOf(type, length) > 65536) fault('address', 'The value would end beyond address 65535.');
   const overflow = (t.on_overflow ?? '').trim() || 'mark';
   if (overflow !== 'mark' && overflow !== 'clamp') fault('on_overflow', 'mark or clamp.');
   const comment = t.comment?.trim() ?? '';
   if (comment.length > 256) fault('comment', 'At most 256 characters.');
-  if (Object.keys(faults).length > 0 || !table) return { spec: null, faults };
-  const spec: MappingSpec = { unit: unit.value, table, address: address.value, axis, point, type, word_order: order as Mapping['word_order'], scale, offset };
+  if (Object.keys(faults).length > 0 || !table || !address.good) return { spec: null, faults };
+  const spec: MappingSpec = { unit: unit.value, table, address: address.address, axis, point, type, word_order: order as Mapping['word_order'], scale, offset };
   if (access) spec.access = access as Mapping['access'];
   if (length !== undefined) spec.length = length;
   if (overflow === 'clamp') spec.on_overflow = overflow;

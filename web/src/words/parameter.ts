@@ -147,3 +147,7 @@ export function sameValue(a: MaybeValue, b: MaybeValue): boolean {
   if (typeof a === 'number' && typeof b === 'boolean') return a === Number(b);
   return a === b;
 }
+
+/** What is asked before a value is written by which the drive is reached: its address, name or group, the speed or form of its line. */
+export const addressingWords = (axis: string, p: Pick<AxisParameter, 'id' | 'name' | 'value' | 'allowed'>, sent: string): string =>
+  `The drive of ${axis} is reached by ${p.id} (${p.name.replaceAll('_', ' ')}): ${p.value === null ? 'what it is now is not known' : `it is ${valueText(p.value, p)} now`} and will be ${sent.trim()}. The gateway may not find the drive again before the site says the same. Write it?`;

@@ -41,3 +41,10 @@ export function bitName(address: number, axes: readonly Pick<Axis, 'name' | 'num
   if (k < 32) return `${axis.name}: status word, bit ${k - 16}, ${statusBits[k - 16]?.name ?? ''}`;
   return `${axis.name}: not used`;
 }
+
+/** From where the door lets clients in: what is allowed, as far as the address that it listens at is reached from there. */
+export function allowedWords(allow: readonly string[], bind: string): string {
+  const here = /^(127\.|\[::1\]|::1$|localhost)/.test(bind);
+  if (here) return `this machine alone: the door listens at ${bind}`;
+  return allow.join(', ') || 'everywhere';
+}

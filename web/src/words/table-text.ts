@@ -61,3 +61,6 @@ export function rowsOf(text: string, separator = separatorOf(text)): { rows: Tex
 /** One cell as CSV: quoted where it must be. */
 export const csvCell = (value: string): string => (/[",;\r\n]|^\s|\s$/.test(value) ? `"${value.replaceAll('"', '""')}"` : value);
 export const csvOf = (rows: readonly (readonly string[])[]): string => rows.map((r) => `${r.map(csvCell).join(',')}\n`).join('');
+
+/** "1,5" as 1.5 in a table whose cells are separated by something else than commas; with a point beside it, it is left to be refused. */
+export const pointed = (cell: string, separator: string): string => (separator !== ',' && /^\s*[+\-\u2212]?\d*,\d+(e[+-]?\d+)?\s*$/i.test(cell) ? cell.replace(',', '.') : cell);

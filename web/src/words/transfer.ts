@@ -2,7 +2,7 @@
 // rows that were checked, each with its fault. Pure. Values are checked as if they were typed; nothing is changed to make it fit.
 import type { AxisParameter, MaybeValue, Value } from '../api/types';
 import { editText, readValue, sameValue } from './parameter';
-import { csvOf, rowsOf } from './table-text';
+import { csvOf, pointed, rowsOf, separatorOf } from './table-text';
 
 export interface Wanted {
   /** Line of the file, or place in the list, from 1. */
@@ -31,6 +31,7 @@ export function readTransfer(text: string, list: readonly AxisParameter[]): { ro
   if (t === '') return { rows: [], problem: '' };
   const pairs = t.startsWith('{') || t.startsWith('[') ? pairsOfJson(t) : pairsOfCsv(t);
   if (typeof pairs === 'string') return { rows: [], problem: pairs };
+  const separator = separatorOf(t);
   const byId = new Map(list.map((p) => [p.id, p]));
   const byName = new Map(list.map((p) => [p.name, p]));
   const seen = new Map<string, number>();
@@ -44,7 +45,7 @@ export function readTransfer(text: string, list: readonly AxisParameter[]): { ro
     else if (before !== undefined) row.fault = `Line ${before} has ${id} too.`;
     else if (p.access === 'R') row.fault = `${id} can only be read.`;
     else {
-      const read = readValue(typed, p);
+      const read = readValue(p.type === 'text' || p.type === 'bytes' ? typed : pointed(typed, separator), p);
       if (read.good) Object.assign(row, { value: read.value, same: p.value !== null && p.quality === 'good' && sameValue(p.value, read.value) });
       else row.fault = read.why;
     }
@@ -98,13 +99,24 @@ export interface Compared {
   writable: boolean;
 }
 
-/** The values of one axis beside others; what neither side knows is left out. */
+/** The values of one axis beside others; what one side does not know is not compared, and said to be so. */
 export function compareWith(list: readonly AxisParameter[], other: (p: AxisParameter) => MaybeValue): Compared[] {
   return list.flatMap((p) => {
     const o = other(p);
-    if (p.value === null || o === null) return [];
-    return [{ id: p.id, name: p.name, unit: p.unit, mine: p.value, other: o, same: sameValue(p.value, o), writable: p.access !== 'R' }];
+    const known = p.value !== null && o !== null;
+    const whole = p.count !== null && p.count > 0 && !/\]$/.test(p.id); // an array as such has no value
+    if (whole || (p.value === null && o === null)) return [];
+    return [{ id: p.id, name: p.name, unit: p.unit, mine: p.value, other: o, same: known && sameValue(p.value, o), known, writable: p.access !== 'R' }];
   });
+}
+
+/** "3 of 20 values that both sides know differ; 5 cannot be compared." */
+export function comparedWords(rows: readonly Compared[], of: number): string {
+  const both = rows.filter((r) => r.known !== false);
+  const differ = both.filter((r) => !r.same).length;
+  const open = Math.max(of, rows.length) - both.length;
+  if (both.length === 0) return `None of the ${of} values can be compared: no value is known by both sides.`;
+  return `${differ} of ${both.length} values differ${open > 0 ? `; ${open} of ${Math.max(of, rows.length)} cannot be compared, because one side does not know ${open === 1 ? 'it' : 'them'}` : ''}.`;
 }
 
 export type Marked = 'all' | 'changed' | 'unsaved' | 'written' | 'writable';

@@ -1,0 +1,111 @@
+// What shows the effect of one motion command: a bench that can leave it out, and the list of cases.
+// In: commands, rows of the command table, inputs. Out: the first thing that was not as it should be.
+#pragma once
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "adapters/linmot/tests/twin_bench.hpp"
+
+namespace axisgate::linmot::test {
+using Numbers = std::vector<std::int64_t>;
+constexpr std::int64_t quick = 1'000'000, steep = 10'000'000;  // 1 m/s, 100 m/s2
+constexpr std::uint16_t mark = 0x14BE;                         ///< what a row of the table writes, to say that it was reached
+
+/// A bench that leaves one command out, and remembers the first thing that was not as it should be.
+struct Trial : Bench {
+    std::string left_out, fault;
+    explicit Trial(std::map<std::string, std::string> with, std::string out = {}) : Bench(std::move(with)), left_out(std::move(out)) {}
+
+    void say(std::string_view id, const Numbers& values = {}) {
+        if (id != left_out) motion(id, values);
+    }
+    void is(double seen, double wanted, const char* what, double within = 0.5) {
+        if (fault.empty() && !(std::fabs(seen - wanted) <= within)) fault = fmt::format("{}: {} instead of {}", what, seen, wanted);
+    }
+    void to(std::int64_t place) {
+        motion("010xh", {place, quick, steep, steep});
+        run(2s);
+    }
+    void turn_to(std::int64_t count) { (void)hand("encoder", Value{count}); }
+    void edge(bool rising) {
+        if (!rising) (void)hand("trigger", Value{true});
+        (void)hand("trigger", Value{rising});
+    }
+    /// A curve of straight pieces.
+    void draw(std::uint16_t id, std::initializer_list<int> points, int x_length) {
+        auto& c = drive().curves[id];
+        c.info.assign(70, 0);
+        for (std::size_t i = 0; i < 4; ++i)
+            c.info[32 + i] = static_cast<std::uint8_t>(x_length >> 8 * i);
+        for (const int p : points)
+            put(c.data, p, 4);
+    }
+    /// A row of the command table by the catalogue's layout. A command that is left out is no row to wait at, and leads nowhere.
+    void row(std::uint16_t number, std::string_view id, const Numbers& values, std::uint16_t next) {
+        const auto* c = page().command(id);
+        const bool out = id == left_out;
+        std::vector<std::uint8_t> v;
+        put(v, 0xA701, 2);
+        put(v, next, 2);
+        put(v, out ? 0 : std::stol(c->id.substr(0, 3), nullptr, 16) << 4, 2);
+        for (std::size_t i = 0; i < c->arguments.size(); ++i)
+            put(v, values.at(i), c->arguments[i].type == ValueType::i16 || c->arguments[i].type == ValueType::u16 ? 2 : 4);
+        v.resize(64);
+        std::ranges::copy(v, drive().table[number].begin());
+    }
+    void mark_row(std::uint16_t number, std::int64_t value, std::uint16_t next = 0xFFFF) { row(number, "002xh", {mark, value}, next); }
+    [[nodiscard]] double marked() { return drive().ram(mark); }
+
+    /// A wait in front of a mark: held, then passed by what `release` does.
+    void wait(std::string_view id, const Numbers& values, Duration held, const std::function<void()>& release) {
+        motion("002xh", {mark, 0});
+        row(1, id, values, 2);
+        mark_row(2, 7);
+        motion("200xh", {1});
+        run(held);
+        is(marked(), 0, "it holds the table");
+        release();
+        is(marked(), 7, "it lets the table go on");
+    }
+    /// A branch with a level for "true" and one for "false".
+    void branch(std::string_view id, const Numbers& yes, const Numbers& no) {
+        for (const bool holds : {true, false}) {
+            motion("002xh", {mark, 0});
+            Numbers values = holds ? yes : no;
+            values.insert(values.end(), {2, 3});
+            row(1, id, values, 0xFFFF);
+            mark_row(2, 21);
+            mark_row(3, 22);
+            motion("200xh", {1});
+            run(10ms);
+            is(marked(), holds ? 21 : 22, holds ? "true" : "false");
+        }
+    }
+    /// Demand at 1 mm, held at 3 mm: -2 mm of difference, 2 mm without its sign.
+    void hold_apart() {
+        to(30'000);
+        (void)hand("stall", Value{true});
+        to(10'000);
+    }
+    /// The demand runs with 10 mm/s, the slider is held.
+    void hold_moving() {
+        (void)hand("stall", Value{true});
+        motion("0CExh", {10'000, quick});
+        run(50ms);
+    }
+};
+
+struct EffectCase {
+    std::function<void(Trial&)> run;
+    std::map<std::string, std::string> options = {};
+};
+using EffectCases = std::map<std::string, EffectCase>;
+
+/// Cases of the command table and its variables (twin_each_row_test.cpp).
+void add_table_effects(EffectCases& all);
+
+}  // namespace axisgate::linmot::test

@@ -1,0 +1,254 @@
+// Device: the passing of time and the link.
+// Words are in twin_exec.cpp, printing in twin_print.cpp, programs in twin_program_device.cpp, memory in twin_memory.cpp.
+// In: bytes, instants. Out: bytes at the instant at which the drive gives them.
+// Never goes back in time.
+#include "adapters/mcode/twin/device.hpp"
+
+#include <algorithm>
+
+#include "gateway/core/wire_time.hpp"
+
+namespace axisgate::mcode::twin {
+
+Device::Device(DeviceSetup setup, std::unique_ptr<Mechanism> motor)
+    : setup_(std::move(setup)), motor_(std::move(motor)), run_(program_, *this) {
+    run_.base_two(setup_.base_two);
+    comm_.network = setup_.ethernet;
+}
+
+bool Device::deaf() const noexcept {
+    if (!powered_ || upgrading_) return true;
+    const bool known = std::ranges::any_of(std::array{48, 96, 19, 38, 11}, [&](int c) { return rate_of_code(c) == setup_.bit_rate; });
+    return known && !setup_.ethernet && active_rate_ != setup_.bit_rate;
+}
+
+void Device::say(std::string_view text) {
+    if (data_ != nullptr) {
+        *data_ += text;
+        return;
+    }
+    // Program output has a bounded transmit buffer; the reply to a typed line is never lost.
+    const Duration length = wire_time(text.size() * 10, setup_.bit_rate);
+    if (transmit_free_ > now_ && transmit_free_ - now_ > wire_time(transmit_buffer * 10, setup_.bit_rate)) {
+        if (er_ != 66) raise(66);
+        return;
+    }
+    transmit_free_ = std::max(transmit_free_, now_) + length;
+    tx_ += text;
+}
+
+void Device::flush(Out& out) {
+    std::string_view rest = tx_;
+    while (!rest.empty() && !silent_ && powered_) {
+        const std::string_view piece = rest.substr(0, Frame::capacity);
+        Frame f = Frame::run({reinterpret_cast<const std::uint8_t*>(piece.data()), piece.size()});
+        f.at = now_;
+        out.send(f);
+        rest.remove_prefix(piece.size());
+    }
+    tx_.clear();
+}
+
+void Device::on_frame(const Frame& frame, Instant now, Out& out) {
+    pass_until(now, out);
+    if (deaf() || frame.kind != Frame::Kind::bytes) return;
+    const auto bytes = frame.data();
+    for (std::size_t i = comm_.pass_over(bytes); i < bytes.size(); i += 1 + comm_.pass_over(bytes.subspan(i + 1))) {
+        switch (comm_.receive(bytes[i], tx_).kind) {
+            case LinkEvent::Kind::none:
+                break;
+            case LinkEvent::Kind::command:
+                if (waiting_.size() >= waiting_lines) {
+                    raise(63);
+                    break;
+                }
+                waiting_.push_back(comm_.take());
+                if (command_due_ == never) command_due_ = now_ + command_time;
+                break;
+            case LinkEvent::Kind::stop:
+                stop_everything();
+                break;
+            case LinkEvent::Kind::reset:
+                boot();
+                break;
+            case LinkEvent::Kind::step:
+                step_now_ = true;
+                slice_due_ = now_;
+                break;
+            case LinkEvent::Kind::run_on:
+                mode_ = Mode::normal;
+                comm_.stepping(false);
+                slice_due_ = now_;
+                break;
+            case LinkEvent::Kind::overrun:
+                raise(20);
+                break;
+        }
+    }
+    settle(out);
+}
+
+void Device::on_deadline(Instant now, Out& out) { pass_until(now, out); }
+
+/// What is due up to `now`, each at the instant of its cause, however late the call is.
+void Device::pass_until(Instant now, Out& out) {
+    Instant done = never;
+    for (int i = 0; i < events_per_call; ++i) {
+        const Instant next = due();
+        if (next >= now || next == done) break;  // what stays due must not hold up time
+        done = next;
+        now_ = std::max(now_, next);
+        settle(out);
+    }
+    now_ = std::max(now_, now);
+    settle(out);
+}
+
+/// Everything that is due up to now_, oldest first.
+void Device::settle(Out& out) {
+    if (powered_) {
+        if (trip_time_ <= now_) {
+            // The position is that of the instant, however late the call is.
+            motor_->advance(trip_time_);
+            motor_->capture(trip_time_);
+            trip_time_ = never;
+            take_events();
+            fire(Word::TT);
+        }
+        motor_->advance(now_);
+        take_events();
+        while (command_due_ <= now_ && !waiting_.empty()) {
+            const Command c = std::move(waiting_.front());
+            waiting_.pop_front();
+            command_due_ = waiting_.empty() ? never : now_ + command_time;
+            run_command(c);
+            if (!powered_ || upgrading_) break;
+        }
+        if (waiting_.empty()) command_due_ = never;
+
+        if (ending_ && paused_ && !moving()) stop_program();
+        while (!run_.idle() && !paused_) {
+            if (ending_) {
+                if (moving()) break;
+                stop_program();
+                break;
+            }
+            const bool held = run_.state() != Run::State::running;
+            if (!run_.awake(now_)) break;
+            // A hold is not time that the program may make up for, nor is what lies before the present instant.
+            if (held || slice_due_ == never || slice_due_ + slice_time <= now_) slice_due_ = now_;
+            if (slice_due_ > now_) break;
+            run_slice(slice_due_);
+            if (slice_due_ != never) slice_due_ += slice_time;  // never: the slice ended the program
+            if (mode_ == Mode::step) break;
+        }
+        if (run_.idle()) slice_due_ = never;
+        motor_->tell(ef_, !run_.idle(), now_);
+        take_events();
+    }
+    flush(out);
+}
+
+void Device::run_slice(Instant at) {
+    for (int i = 0; i < lines_per_slice; ++i) {
+        if (run_.state() != Run::State::running || paused_ || ending_) return;
+        if (mode_ == Mode::step && !step_now_) return;
+        const std::size_t line = run_.line();
+        const auto& lines = program_.lines();
+        if (mode_ != Mode::normal && line < lines.size()) {
+            if (break_at_ && mode_ == Mode::trace) {
+                int unknown = 0;
+                if (program_.find(*break_at_, unknown) == static_cast<std::int32_t>(line) && --break_count_ <= 0) {
+                    mode_ = Mode::step;
+                    comm_.stepping(true);
+                    return;
+                }
+            }
+            say(std::to_string(lines[line].address) + ' ' + lines[line].text + "\r\n");
+        }
+        step_now_ = false;
+        if (const int code = run_.step(std::max(at, now_)); code != 0) raise(code);
+        motor_->advance(now_);
+        take_events();
+    }
+}
+
+void Device::take_events() {
+    // Bounded: each event is taken once, and a motor gives a finite number per instant.
+    for (int i = 0; i < 64; ++i) {
+        const auto e = motor_->next_event();
+        if (!e) return;
+        switch (e->kind) {
+            case MotorEvent::Kind::error:
+                raise(e->code);
+                break;
+            case MotorEvent::Kind::finished:
+                if (announce_) tx_ += comm_.flags.dn;  // whatever PY is [L4115]
+                announce_ = false;
+                break;
+            case MotorEvent::Kind::trip:
+                fire(e->word);
+                break;
+            case MotorEvent::Kind::end_program:
+                if (run_.idle() || paused_) break;  // ignored when the program is paused [L776]
+                stop_program();
+                if (e->code != 0) raise(e->code);
+                break;
+            case MotorEvent::Kind::pause:
+                if (!run_.idle() && !paused_) {
+                    paused_ = true;
+                    motor_->pause(now_);
+                }
+                break;
+            case MotorEvent::Kind::resume:
+                if (paused_) {
+                    paused_ = false;
+                    motor_->resume(now_);
+                    slice_due_ = now_;
+                }
+                break;
+            case MotorEvent::Kind::go:
+                if (run_.idle()) {
+                    Target first;
+                    first.given = true;
+                    first.address = 1;
+                    if (const int code = run_program(first, Mode::normal); code != 0) raise(code);
+                }
+                break;
+            case MotorEvent::Kind::reset:
+                boot();
+                return;
+        }
+    }
+}
+
+void Device::run_command(const Command& command) {
+    std::string data;
+    int code = 0;
+    data_ = &data;
+    data_ended_ = true;
+    data_given_ = false;
+    const bool running = !run_.idle();
+    bool good = command.checksum_good;
+    if (good) {
+        code = typed(command.text);
+        good = code == 0;
+    }
+    data_ = nullptr;
+    if (code != 0) raise(code);
+    tx_ += Comm::reply(command, data_given_ ? std::optional<std::string_view>(data) : std::nullopt, data_ended_, good, ef_, running);
+}
+
+Instant Device::deadline() const { return std::max(due(), now_); }
+
+Instant Device::due() const {
+    if (!powered_) return never;
+    Instant t = std::min({command_due_, trip_time_, motor_->deadline()});
+    if (!run_.idle() && !paused_ && !ending_) {
+        if (run_.state() == Run::State::running && !(mode_ == Mode::step && !step_now_)) t = std::min(t, slice_due_);
+        if (run_.state() == Run::State::hold_time) t = std::min(t, run_.hold_until());
+    }
+    return t;
+}
+
+}  // namespace axisgate::mcode::twin

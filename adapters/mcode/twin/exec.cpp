@@ -1,0 +1,364 @@
+// Device: typed lines, words and the instructions that are one step.
+// In: statements with worked-out fields. Out: values, MCode error codes.
+// Never moves anything itself: that is the motor's.
+#include <algorithm>
+
+#include "adapters/mcode/twin/device.hpp"
+#include "adapters/mcode/twin/errors.hpp"
+#include "gateway/core/text.hpp"
+
+namespace axisgate::mcode::twin {
+namespace {
+
+/// `PG1` of the manual's listing [L7052]: no name may have this form, so the address is meant.
+bool is_joined_pg(std::string_view s) noexcept {
+    return s.size() > 2 && (s[0] == 'P' || s[0] == 'p') && (s[1] == 'G' || s[1] == 'g') && is_digit(s[2]);
+}
+
+}  // namespace
+
+int Device::available(Word word) const noexcept {
+    if ((info(word).products & setup_.product) == 0) return err::not_available;
+    if (setup_.ethernet) {
+        switch (word) {
+            case Word::BD:
+            case Word::CK:
+            case Word::DG:
+            case Word::DN:
+            case Word::PY:
+            case Word::QD:
+                return err::not_available;
+            default:
+                break;
+        }
+    }
+    return 0;
+}
+
+void Device::raise(int code) {
+    if (code == 0) {
+        clear_error();
+        return;
+    }
+    er_ = code;
+    ef_ = true;
+    // The handler runs for errors of typed lines too, but not while programming [L4547-4549], and not for its own errors.
+    if (!on_error_ || programming_ || run_.handling_error()) return;
+    int fault = 0;
+    const std::int32_t line = program_.find(*on_error_, fault);
+    if (line < 0) return;
+    if (const int full = run_.interrupt(static_cast<std::size_t>(line), Run::CallKind::error_handler); full != 0) {
+        stop_program();
+        er_ = full;
+        return;
+    }
+    if (slice_due_ == never) slice_due_ = now_;
+}
+
+void Device::clear_error() {
+    er_ = 0;
+    ef_ = false;
+}
+
+int Device::typed(std::string_view text) {
+    text = trimmed(text);
+    std::string apart;
+    if (is_joined_pg(text)) text = apart = "PG " + std::string(text.substr(2));
+    if (programming_) return program_line(text);
+    if (input_pending_ && (text.empty() || is_digit(text[0]) || text[0] == '-' || text[0] == '+' || text[0] == '.'))
+        return input_value(text);
+    const Statement s = program_.compile_typed(text);
+    if (s.kind == Statement::Kind::faulty) {
+        // What this drive does not have it does not judge the value of: DN=a over Ethernet is 37, not 21.
+        const Tokens tokens(text);
+        const auto word = tokens.peek().kind == Token::Kind::name ? word_named(tokens.peek().text) : std::nullopt;
+        const int missing = word ? available(*word) : 0;
+        return missing != 0 ? missing : s.error;
+    }
+    if (s.kind == Statement::Kind::assign || s.kind == Statement::Kind::execute) {
+        if (const int code = available(s.word); code != 0) return code;
+        if (!info(s.word).immediate) return err::not_program;
+    }
+    return run_.execute(s, now_);
+}
+
+int Device::program_line(std::string_view text) {
+    const Tokens tokens(text);
+    if (tokens.peek().kind == Token::Kind::name && word_named(tokens.peek().text) == Word::PG) {
+        programming_ = false;
+        return 0;
+    }
+    if (tokens.peek(1).kind == Token::Kind::name && word_named(tokens.peek(1).text) == Word::PW && (setup_.product & lmm) != 0) {
+        // A word of the module, and a free name elsewhere [L4970].
+        const auto first = word_named(tokens.peek().text);
+        if (first == Word::VA) return err::illegal_data;
+        if (first == Word::LB) return err::redefine_word;
+    }
+    return program_.enter(text, program_address_);
+}
+
+int Device::input_value(std::string_view text) {
+    input_pending_ = false;
+    if (text.empty()) return 0;
+    Symbols none;
+    const Statement s = compile(text, none, false);
+    if (s.kind != Statement::Kind::bare_number) return err::bad_value;
+    int error = 0;
+    const Number n = run_.value(s.fields[0], input_word_ >= Word::F1 && input_word_ <= Word::F8, error);
+    if (error != 0) return error;
+    return input_symbol_ != no_symbol ? run_.store(input_symbol_, n) : run_.store(input_word_, n);
+}
+
+Number Device::read(Word word, int& error) {
+    if (const int code = available(word); code != 0) {
+        error = code;
+        return {};
+    }
+    if (info(word).owner == Owner::motor) return motor_->read(word, now_, error);
+    switch (word) {
+        case Word::BD:
+            return Number::of(bd_);
+        case Word::BY:
+            return Number::of(run_.idle() ? 0 : 1);
+        case Word::CE:
+            return Number::of(comm_.flags.ce);
+        case Word::CK:
+            return Number::of(comm_.flags.ck);
+        case Word::DG:
+            return Number::of(comm_.flags.dg ? 1 : 0);
+        case Word::EF:
+            return Number::of(ef_ ? 1 : 0);
+        case Word::EM:
+            return Number::of(comm_.flags.em);
+        case Word::ER:
+            return Number::of(er_);
+        case Word::ES:
+            return Number::of(comm_.flags.es);
+        case Word::IF:
+            return Number::of(input_pending_ ? 1 : 0);
+        case Word::LK:
+            return Number::of(lk_ ? 1 : 0);
+        case Word::NE:
+            return Number::of(ne_ ? 1 : 0);
+        case Word::PY:
+            return Number::of(comm_.flags.py ? 1 : 0);
+        case Word::QD:
+            return Number::of(comm_.flags.qd ? 1 : 0);
+        case Word::RA:
+            return Number::of(radians_ ? 1 : 0);
+        case Word::TE:
+            return Number::of(te_);
+        case Word::R1:
+        case Word::R2:
+        case Word::R3:
+        case Word::R4:
+            return Number::of(run_.integer(static_cast<std::size_t>(word) - static_cast<std::size_t>(Word::R1)));
+        default:
+            break;
+    }
+    if (word >= Word::F1 && word <= Word::F8)
+        return Number::of_real(run_.real(static_cast<std::size_t>(word) - static_cast<std::size_t>(Word::F1)));
+    error = err::bad_print;
+    return {};
+}
+
+int Device::write(Word word, std::span<const Number> fields) {
+    if (const int code = available(word); code != 0) return code;
+    const WordInfo& i = info(word);
+    if (i.access == Access::ro) return err::read_only;
+    if (i.access == Access::none) return err::unknown_set;
+    if (fields.size() != 1 && i.kind != WordKind::setup) return err::bad_value;
+    if (i.ranged) {
+        const auto v = static_cast<double>(fields[0].as_integer());  // the fraction is dropped first [L2813]
+        if (!(v >= i.min && v <= i.max)) return err::bad_value;
+    }
+    if (i.owner == Owner::motor) return motor_->write(word, fields, now_);
+    const std::int64_t v = fields[0].as_integer();
+    switch (word) {
+        case Word::BD:
+            if (rate_of_code(static_cast<int>(std::clamp<std::int64_t>(v, 0, 1000))) == 0) return err::bad_baud;
+            bd_ = static_cast<int>(v);
+            return 0;
+        case Word::CE:
+            comm_.flags.ce = static_cast<int>(v);
+            return 0;
+        case Word::CK:
+            comm_.flags.ck = static_cast<int>(v);
+            return 0;
+        case Word::DG:
+            comm_.flags.dg = v != 0;
+            return 0;
+        case Word::EM:
+            comm_.flags.em = static_cast<int>(v);
+            return 0;
+        case Word::ER:
+            if (v != 0) return err::bad_value;
+            clear_error();
+            return 0;
+        case Word::ES:
+            comm_.flags.es = static_cast<int>(v);
+            return 0;
+        case Word::IF:
+            input_pending_ = false;
+            return 0;
+        case Word::LK:
+            // A saved lock goes only with the programs: full CP or FD [L3907].
+            if (v == 0 && lk_saved_) return err::locked;
+            lk_ = v != 0;
+            return 0;
+        case Word::NE:
+            ne_ = v != 0;
+            return 0;
+        case Word::PF: {
+            PrintFormat f = format_;
+            const std::array<std::int64_t, 4> top{16, 16, 1, 1};
+            if (fields.size() > top.size()) return err::bad_value;
+            for (std::size_t k = 0; k < fields.size(); ++k) {
+                const std::int64_t n = fields[k].as_integer();
+                if (n < 0 || n > top[k]) return err::bad_value;
+                if (k == 0) f.width = static_cast<int>(n);
+                if (k == 1) f.decimals = static_cast<int>(n);
+                if (k == 2) f.scientific = n == 1;
+                if (k == 3) f.left = n == 1;
+            }
+            format_ = f;
+            return 0;
+        }
+        case Word::PW:
+            if (fields.size() > pw_.size()) return err::bad_value;
+            for (std::size_t k = 0; k < fields.size(); ++k)
+                pw_[k] = fields[k].as_integer();
+            return 0;
+        case Word::PY:
+            if (v != 0 && !comm_.flags.py) comm_.disarm();
+            comm_.flags.py = v != 0 || address_input_;
+            return 0;
+        case Word::QD:
+            comm_.flags.qd = v != 0;
+            return 0;
+        case Word::RA:
+            radians_ = v != 0;
+            return 0;
+        case Word::TE:
+            return enable_trips(v);
+        default:
+            return err::read_only;
+    }
+}
+
+int Device::perform(const Statement& s, std::span<const Number> fields) {
+    if (s.kind == Statement::Kind::bare_number) {
+        if (!ne_) return 60;
+        const auto last = motor_->text(Word::MD, now_);
+        const auto word = last ? word_named(*last) : std::nullopt;
+        if (!word || (*word != Word::MA && *word != Word::MR && *word != Word::SL)) return 60;
+        const int code = motor_->start(*word, fields, now_);
+        if (code == 0) announce_ = false;
+        return code;
+    }
+    if (const int code = available(s.word); code != 0) return code;
+    if (s.kind == Statement::Kind::assign) {
+        if (s.word != Word::DN) return err::unknown_set;
+        if (s.name.size() != 1 ||
+            !(is_digit(s.name[0]) || (s.name[0] >= 'a' && s.name[0] <= 'z') || (s.name[0] >= 'A' && s.name[0] <= 'Z')))
+            return err::bad_value;
+        comm_.flags.dn = s.name[0];
+        return 0;
+    }
+    if (info(s.word).kind == WordKind::trip) return set_trip(s, fields);
+    if (info(s.word).owner == Owner::motor) {
+        const int code = motor_->start(s.word, fields, now_);
+        // What was announced for an earlier motion is not said at the end of another one.
+        if (code == 0 && s.word != Word::CF)
+            announce_ = (s.word == Word::MA || s.word == Word::MR) && fields.size() >= 2 && fields[1].truth();
+        return code;
+    }
+    switch (s.word) {
+        case Word::PR:
+            return print(s);
+        case Word::VA:
+            return declare(s, fields);
+        case Word::EX:
+            return execute_label(s, fields);
+        case Word::E:
+            // In a program its end; typed: the program ends when the motion is over [L2523-2531].
+            if (run_.idle()) return err::not_running;
+            if (data_ == nullptr) {
+                stop_program();
+            } else {
+                ending_ = true;
+            }
+            return 0;
+        case Word::PS:
+            if (run_.idle() || paused_) return err::not_running;
+            paused_ = true;
+            motor_->pause(now_);
+            return 0;
+        case Word::RS:
+            if (run_.idle() || !paused_) return err::not_running;
+            paused_ = false;
+            motor_->resume(now_);
+            slice_due_ = now_;
+            return 0;
+        case Word::OE:
+            if (fields.empty() && s.target && s.target->given && s.target->label == no_symbol && !s.target->missing_name &&
+                s.target->address == 0) {
+                on_error_.reset();
+                return 0;
+            }
+            {
+                int error = 0;
+                if (!s.target) return err::unknown_name;
+                if (program_.find(*s.target, error) < 0) return err::unknown_name;
+                on_error_ = s.target;
+            }
+            return 0;
+        case Word::IV: {
+            if (input_pending_) return err::already_pending;
+            if (s.symbol != no_symbol) {
+                const auto kind = program_.symbols().at(s.symbol).kind;
+                if (kind != Symbol::Kind::global && kind != Symbol::Kind::local) return err::unknown_name;
+                input_symbol_ = s.symbol;
+            } else {
+                const Operand& o = s.fields[0].terms[0].operand;
+                if (info(o.word).access != Access::rw) return err::read_only;
+                input_symbol_ = no_symbol;
+                input_word_ = o.word;
+            }
+            input_pending_ = true;
+            return 0;
+        }
+        case Word::BP:
+            return break_point(s, fields);
+        case Word::PG:
+            return enter_program_mode(fields);
+        case Word::L:
+            return list(s);
+        case Word::CP:
+            return clear_program(s, fields);
+        case Word::S:
+            return save();
+        case Word::IP:
+            if (motor_->busy(true, now_)) return err::restoring_in_motion;
+            restore(nvm_, false);
+            return 0;
+        case Word::FD:
+            if (motor_->busy(true, now_)) return err::saving_in_motion;
+            stop_program();
+            factory_state(false);
+            nvm_ = snapshot();
+            ++nvm_revision_;
+            return 0;
+        case Word::UG: {
+            const std::int64_t code = fields.empty() ? 0 : fields[0].as_integer();
+            if (code != 2656102 && code != 2956102) return err::bad_value;
+            stop_everything();
+            upgrading_ = true;  // at 19200 and deaf for MCode until power comes back
+            return 0;
+        }
+        default:
+            return err::not_program;
+    }
+}
+
+}  // namespace axisgate::mcode::twin

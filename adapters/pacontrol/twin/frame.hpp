@@ -1,0 +1,67 @@
+// Frames of the serial port COM1, the twin's side: bytes to requests and polls, acknowledgements to bytes.
+// In: bytes with their instants. Out: what was heard: a poll, a request, or a command error of the frame itself (16..19).
+// Never keeps more than one frame; never includes the adapter's wire code.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "adapters/pacontrol/twin/value.hpp"
+#include "gateway/core/instant.hpp"
+
+namespace axisgate::pacontrol::twin {
+
+/// Command error numbers of the frame [L4027-4031].
+inline constexpr std::uint16_t quit_check = 0x10;
+inline constexpr std::uint16_t quit_sequence = 0x11;
+inline constexpr std::uint16_t quit_beginning = 0x12;
+inline constexpr std::uint16_t quit_unknown = 0x13;
+
+struct Heard {
+    enum class Kind : std::uint8_t { poll, request, fault };
+    Kind kind = Kind::poll;
+    std::uint16_t quit = 0;      ///< fault
+    std::uint16_t code = 0;      ///< request: four hex digits [L1125]
+    std::int64_t parameter = 0;  ///< request: decimal (E-03)
+    Datum data;                  ///< request
+};
+
+/// `SOH STX text ETX check EOT` [L1125-1155]. SOH begins a new frame wherever it comes (E-17); an EOT outside a frame is a poll
+/// [L1193]. 1 s of silence inside a frame forgets it without a word (E-17). A text over 64 characters is a wrong sequence.
+class FrameReader {
+public:
+    static constexpr std::size_t text_limit = 64;
+    static constexpr Duration silence = std::chrono::seconds(1);
+
+    /// `lenient`: also takes the check of the other direction, text XOR 3 (E-04).
+    explicit FrameReader(bool lenient = false) : lenient_(lenient) {}
+    [[nodiscard]] std::optional<Heard> feed(std::uint8_t byte, Instant at);
+    void reset() noexcept;
+
+private:
+    enum class State : std::uint8_t { idle, begun, text, check, headless };
+    [[nodiscard]] Heard finish() const;
+    void begin() noexcept;
+
+    bool lenient_;
+    State state_ = State::idle;
+    bool disorder_ = false;  // control symbols out of order, or a byte that is none of 7 bits
+    std::string text_;
+    std::string check_;
+    Instant last_{};
+};
+
+/// XOR of the bytes of the text: the request's check; with ETX (3) in it, the reply's (recovered from the printed frames).
+[[nodiscard]] std::uint8_t xor_of(std::string_view text) noexcept;
+
+/// Check of an acknowledgement: the nine printed frames' rule, the tenth's (E-05), or switched off [L1047].
+enum class ReplyCheck : std::uint8_t { with_etx, text, zero };
+
+/// `QUIT ; BE ; STATUS ; ERROR ; TYP_QUIT ; Q_PAR` framed [L1161-1203].
+[[nodiscard]] std::vector<std::uint8_t> acknowledgement(std::uint16_t quit, bool end, std::uint8_t status, std::uint16_t error,
+                                                        const Datum& data, ReplyCheck check);
+
+}  // namespace axisgate::pacontrol::twin

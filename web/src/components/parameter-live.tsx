@@ -1,0 +1,63 @@
+// Parameter live: how old the value of a parameter is, and which rows of a table are on the screen. In: a parameter as the gateway tells it, the
+// table's body. Out: the value, grey where it is not live; its age, counted on once a second; ids. Never asks the gateway for anything.
+import type { ReadonlySignal } from '@preact/signals';
+import { useEffect, useMemo } from 'preact/hooks';
+import type { AxisParameter } from '../api/types';
+import { useGateway } from '../gateway';
+import { tick } from '../state/clock';
+import { isLive } from '../state/reread';
+import { valueText } from '../words/parameter';
+import { clockTime, duration } from '../words/time';
+
+/** What was read before this is old: a command, or a lost connection, has come since. The gateway's clock. */
+export type Since = ReadonlySignal<number>;
+export const heardAt = (p: AxisParameter): number | null => (p.at === null ? null : Date.parse(p.at));
+
+/** Grey where it is not live: read before the connection was lost, before the last command, or long ago. */
+export function LiveValue({ p, since, differs }: { p: AxisParameter; since: Since; differs: boolean }) {
+  const { store } = useGateway();
+  void tick.value;
+  const live = store.connected.value && isLive(heardAt(p), store.gatewayNow_ms(), since.value);
+  return (
+    <span class={`mono value${differs ? ' differs' : ''}${live ? '' : ' is-old-value'}`} data-live={live} title={p.at ? `The drive said it at ${clockTime(p.at)}` : 'Not read yet'}>
+      {valueText(p.value, p)}
+    </span>
+  );
+}
+export function Age({ p }: { p: AxisParameter }) {
+  const { store } = useGateway();
+  void tick.value;
+  const at_ms = heardAt(p);
+  if (at_ms === null) return null;
+  return (
+    <span class="age" data-field="age">
+      {' '}
+      {duration(store.gatewayNow_ms() - at_ms)} ago
+    </span>
+  );
+}
+
+/** The ids of the rows that are on the screen now. */
+export function useOnScreen(body: { current: HTMLElement | null }): ReadonlySet<string> {
+  const seen = useMemo(() => new Set<string>(), []);
+  const eye = useMemo(
+    () =>
+      typeof IntersectionObserver === 'undefined'
+        ? null
+        : new IntersectionObserver((all) => {
+            for (const e of all) {
+              const id = (e.target as HTMLElement).dataset.parameter ?? '';
+              if (e.isIntersecting) seen.add(id);
+              else seen.delete(id);
+            }
+          }),
+    [],
+  );
+  useEffect(() => {
+    eye?.disconnect();
+    seen.clear();
+    for (const row of body.current?.children ?? []) eye?.observe(row);
+  });
+  useEffect(() => () => eye?.disconnect(), []);
+  return seen;
+}

@@ -16,7 +16,7 @@ void Drive::follow(const SetPoint& p) {
 void Drive::end_stream() noexcept {
     stream_ = Stream::none;
     newest_.reset();
-    led_velocity_ = 0;
+    led_.stand();
 }
 
 /// The drive's own place is its first target, and only then the mode is another.
@@ -48,31 +48,17 @@ void Drive::before_sync(Duration cycle, Turn& t) {
 
 void Drive::lead(Turn& t, Duration cycle) {
     const SetPoint& p = *newest_;
-    const double s = seconds(cycle);
     const auto rate = [&](const std::optional<std::int64_t>& v, std::size_t own) { return static_cast<double>(v.value_or(profile_[own])); };
-    const double up = rate(p.acceleration, 1) * s, down = rate(p.deceleration, 2) * s;
-    const auto towards = [&](double wanted) {
-        const bool slower = std::fabs(wanted) < std::fabs(led_velocity_) || wanted * led_velocity_ < 0;
-        led_velocity_ += std::clamp(wanted - led_velocity_, -(slower ? down : up), slower ? down : up);
-    };
+    const drive::LeadRamps ramps{rate(p.velocity, 0), rate(p.acceleration, 1), rate(p.deceleration, 2)};
     if (stream_ == Stream::torque)
         return t.out.send(canopen::data_frame(0x400u + node_, bytes_of(std::clamp<std::int64_t>(p.value, INT16_MIN, INT16_MAX), 2)));
     if (stream_ == Stream::velocity) {
-        towards(static_cast<double>(p.value));
-        return t.out.send(canopen::data_frame(0x300u + node_, bytes_of(std::llround(led_velocity_), 4)));
+        const double v = led_.speed_towards(static_cast<double>(p.value), ramps, seconds(cycle));
+        return t.out.send(canopen::data_frame(0x300u + node_, bytes_of(std::llround(v), 4)));
     }
-    const double way = static_cast<double>(p.value) - led_, most = rate(p.velocity, 0), half = down / 2;
-    // The speed from which it just stops at the target, in steps of one cycle.
-    const double brake = std::sqrt(half * half + 2 * (down / s) * std::fabs(way)) - half;
-    towards(std::copysign(std::min({most, brake, std::fabs(way) / s}), way));
-    if (std::fabs(way) <= std::fabs(led_velocity_) * s + 0.5 && std::fabs(led_velocity_) <= 2 * down + 1) {
-        led_ = static_cast<double>(p.value);
-        led_velocity_ = std::fabs(way) < 0.5 ? 0 : led_velocity_;
-    } else {
-        led_ += led_velocity_ * s;
-    }
-    led_ = std::clamp(led_, double{INT32_MIN}, double{INT32_MAX});
-    t.out.send(canopen::data_frame(0x200u + node_, bytes_of(std::llround(led_), 4)));
+    const double place =
+        std::clamp(led_.towards(static_cast<double>(p.value), ramps, seconds(cycle)), double{INT32_MIN}, double{INT32_MAX});
+    t.out.send(canopen::data_frame(0x200u + node_, bytes_of(std::llround(place), 4)));
 }
 
 }  // namespace axisgate::cia402_drive

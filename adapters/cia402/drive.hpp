@@ -11,6 +11,7 @@
 #include "gateway/core/wire_time.hpp"
 #include "gateway/drive/command_queue.hpp"
 #include "gateway/drive/exchange.hpp"
+#include "gateway/drive/lead.hpp"
 #include "gateway/drive/notices.hpp"
 #include "gateway/drive/turns.hpp"
 #include "gateway/protocols/canopen/emergency.hpp"
@@ -169,7 +170,7 @@ private:
 
     Stream stream_ = Stream::none;
     std::optional<SetPoint> newest_;
-    double led_ = 0, led_velocity_ = 0;
+    drive::Lead led_;
 };
 
 }  // namespace axisgate::cia402_drive

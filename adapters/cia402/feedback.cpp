@@ -94,7 +94,7 @@ void Drive::judge(Turn& t) {
     }
     fb_.target_reached = order_ == Order::position && mode_ == 1 && (sw & 0x400u);
     const bool on_its_way = (order_ == Order::position && !fb_.target_reached) || fb_.homing;
-    fb_.moving = fb_.velocity != 0 || on_its_way || (stream_ >= Stream::position && led_velocity_ != 0);
+    fb_.moving = fb_.velocity != 0 || on_its_way || (stream_ >= Stream::position && led_.velocity() != 0);
     if (fb_.power != AxisFeedback::Power::on) fb_.moving = fb_.velocity != 0;
     if (!fb_.fault) fb_.error_code = 0;
     if (fb_.fault && !was_fault && fb_.error_code == 0) {  // its EMCY was lost: the fault is told with its number

@@ -201,8 +201,7 @@ void Drive::finish(Job& job, Turn& t) {
     check_at_ = std::min(check_at_, t.now + std::max<Duration>(3 * line_.cycle, std::chrono::milliseconds(150)));
     if (job.stream) {
         stream_ = newest_ ? static_cast<Stream>(static_cast<int>(Stream::position) + static_cast<int>(newest_->mode)) : Stream::none;
-        led_ = static_cast<double>(job.here);
-        led_velocity_ = 0;
+        led_.begin(static_cast<double>(job.here));
         return;
     }
     if (is_urgent(body)) order_ = Order::none;

@@ -272,6 +272,55 @@ TEST(LinmotAdapter, WhatTheDriveSaysOfItself) {
               Reason::not_supported);
 }
 
+/// Everything that the catalogue marks as inferred, whatever it is: with the option off it is refused, says why, and not a byte of it is
+/// sent.
+TEST(LinmotAdapter, WhatIsInferredCanBeSwitchedOffOneByOne) {
+    LineBench b(1, 115200, {{"inferred", "off"}});
+    b.run(1s);
+    ASSERT_TRUE(b.enable());
+    const auto marked = [](const boost::json::value& v) {
+        const auto* mark = v.get_object().if_contains("inferred");
+        return mark && mark->is_bool() && mark->get_bool();
+    };
+    const auto refused = [&](const std::string& what, CommandBody body) {
+        SCOPED_TRACE(what);
+        b.sent.clear();
+        const Result r = b.ask(std::move(body));
+        EXPECT_EQ(r.reason, Reason::not_supported) << r.text;
+        EXPECT_NE(r.text.find("inferred"), std::string::npos) << r.text;
+        for (const Frame& f : b.sent) {
+            const auto bytes = f.data();
+            EXPECT_TRUE(bytes.size() > 5 && bytes[5] == 0)
+                << "something else than a question for its state was sent: group " << int{bytes[5]};
+        }
+    };
+    std::size_t commands = 0, parameters = 0;
+    const auto& document = page().document();
+    for (const auto& v : document.at("commands").get_array()) {
+        if (!marked(v)) continue;
+        ++commands;
+        const std::string id(v.at("id").get_string());
+        std::string arguments;
+        for (const auto& x : page().command(id)->arguments)
+            arguments += fmt::format("{}={} ", x.name, x.type == ValueType::text ? "x" : "1");
+        refused(id, Action{id, arguments});
+    }
+    for (const auto& v : document.at("parameters").get_array()) {
+        if (!marked(v)) continue;
+        ++parameters;
+        const std::string id(v.at("id").get_string());
+        const Parameter* p = nullptr;
+        std::uint16_t i = 0;
+        for (; !p; ++i)
+            if (page().parameters()[i].id == id) p = &page().parameters()[i];
+        const Point point{static_cast<std::uint16_t>(i - 1), p->count ? p->first : std::uint16_t{0}};
+        refused("read " + id, ReadParameter{point});
+        if (p->writable()) refused("write " + id, WriteParameter{point, Value{std::string("VAI Stop: deceleration=1")}});
+    }
+    EXPECT_EQ(commands, 12u) << "8 motion commands, 4 of tables and curves";
+    EXPECT_EQ(parameters, 3u) << "warn word, table, curve";
+}
+
 TEST(LinmotAdapter, ChecksumsWorkAndSayThatTheyAreNotProven) {
     for (const char* kind : {"sum", "crc", "crc_reflected"}) {
         LineBench b(1, 115200, {}, {}, {{"checksum", kind}});

@@ -28,6 +28,7 @@ public:
     std::map<DriveId, DriveLink> links;
     std::vector<Sample> samples;
     std::vector<Out::StreamEnd> stream_ends;
+    std::vector<Frame> sent;  ///< by the adapter, since the test cleared it
     std::uint64_t answers = 0;
 
     explicit LineBench(std::size_t drives = 1, std::uint32_t bit_rate = 115200, std::map<std::string, std::string> options = {},
@@ -121,7 +122,7 @@ public:
 private:
     void take(const Out& out) {
         for (const auto& f : out.frames)
-            (void)bus->send(f.frame, f.priority, now);
+            sent.push_back(f.frame), (void)bus->send(f.frame, f.priority, now);
         for (const auto& f : out.feedback)
             feedback[f.axis] = f.value;
         for (const auto& r : out.results)

@@ -1,7 +1,7 @@
 // Language: syntax and ranges of the catalogue, cut into forms and fields once at the start.
 // In: parameters and commands of the catalogue. Out: words by mnemonic.
 // Never guesses: a field whose range the catalogue does not have takes any value.
-#include "adapters/mcode/language.hpp"
+#include "adapters/mcode/native_language.hpp"
 
 #include <fmt/core.h>
 

@@ -1,4 +1,4 @@
-// Aim: where the axis of one drive should be, and who says so: its own lag register, this gateway's reckoning, or nobody.
+// AxisDemand: where the axis of one drive should be, and who says so: its own lag register, this gateway's reckoning, or nobody.
 // In: lines as the drive acknowledged them, readings of its polls, the values that its moves take. Out: the demand part of the feedback.
 // Never reckons what it cannot: moves of programs, of others or of natives, S ramps and backlash leave it without a word until the axis
 // stands again.
@@ -13,7 +13,7 @@
 
 namespace axisgate::mcode {
 
-class Aim {
+class AxisDemand {
 public:
     /// What moves take, in the drive's own units; 0: not known.
     struct Values {

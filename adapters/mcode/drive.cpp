@@ -1,7 +1,7 @@
-// Node: exchanges, presence, polls, stops.
+// Drive: exchanges, presence, polls, stops.
 // In: the end of each exchange, time. Out: the next request, feedback, links.
 // Never asks ER but when EF says that there is one: reading clears it [L2587].
-#include "adapters/mcode/node.hpp"
+#include "adapters/mcode/drive.hpp"
 
 #include <fmt/core.h>
 
@@ -32,7 +32,7 @@ std::vector<std::string_view> split(std::string_view s) {
 }
 }  // namespace
 
-Node::Node(const Catalogue& catalogue, const Manners& manners, AdapterCounters& counters, const DriveSetup& setup, Instant& next_listing)
+Drive::Drive(const Catalogue& catalogue, const Manners& manners, AdapterCounters& counters, const DriveSetup& setup, Instant& next_listing)
     : catalogue_(catalogue), manners_(manners), counters_(counters), next_listing_(next_listing), setup_(setup) {
     for (const auto& a : setup.axes) {
         if (a.channel == 1) axis_ = a.id;
@@ -41,9 +41,9 @@ Node::Node(const Catalogue& catalogue, const Manners& manners, AdapterCounters& 
 
 // --- presence --------------------------------------------------------------------------------------------------------------------
 
-void Node::line_up(Turn& t) { begin_probing(t); }
+void Drive::line_up(Turn& t) { begin_probing(t); }
 
-void Node::line_down(Turn& t, std::string_view why) {
+void Drive::line_down(Turn& t, std::string_view why) {
     restart_over(Outcome::failed, Reason::line_down, why, t);
     fail_all(Reason::line_down, std::string(why), t);
     half_was_away_ = half_was_away_ || clear_half_;
@@ -53,15 +53,15 @@ void Node::line_down(Turn& t, std::string_view why) {
     phase_ = Phase::down;
     if (shown_online_) link_state(false, std::string(why), t);
     seen_ = enabled_ = false;
-    aim_lost();
+    demand_lost();
 }
 
-void Node::remove(Turn& t, std::string_view why) {
+void Drive::remove(Turn& t, std::string_view why) {
     restart_over(Outcome::failed, Reason::line_down, why, t);
     fail_all(Reason::line_down, std::string(why), t);
 }
 
-void Node::begin_probing(Turn& t) {
+void Drive::begin_probing(Turn& t) {
     phase_ = Phase::probing;
     silent_ = 0;
     retry_pause_ = {};
@@ -73,7 +73,7 @@ void Node::begin_probing(Turn& t) {
     need_error_ = false;
 }
 
-void Node::go_absent(Turn& t, std::string why) {
+void Drive::go_absent(Turn& t, std::string why) {
     phase_ = Phase::absent;
     link_rounds_ = 0;
     if (retry_pause_ == Duration{}) retry_pause_ = manners_.pause_min;
@@ -83,7 +83,7 @@ void Node::go_absent(Turn& t, std::string why) {
     enabled_ = false;
     fb_.referenced = fb_.homing_attained = false;
     motion_ = {};
-    aim_lost();
+    demand_lost();
     zero_after_home_ = false;
     tidy_ = tidy_ || job_.kind == JobKind::tidy;
     // A stop that was not confirmed is said once more to a drive that may only not be heard.
@@ -99,12 +99,12 @@ void Node::go_absent(Turn& t, std::string why) {
     link_state(false, std::move(why), t);
 }
 
-void Node::link_state(bool is_online, std::string text, Turn& t) {
+void Drive::link_state(bool is_online, std::string text, Turn& t) {
     shown_online_ = is_online;
     t.out.links.push_back({setup_.id, is_online, silent_, is_online ? Duration{} : retry_pause_, std::move(text)});
 }
 
-void Node::came(Turn& t) {
+void Drive::came(Turn& t) {
     phase_ = Phase::ready;
     program_lost(Reason::interrupted, "the drive was found anew: it may have restarted", t);
     known_sums_ = sums_;
@@ -115,8 +115,8 @@ void Node::came(Turn& t) {
     fault_ = 0;
     fb_.target_reached = fb_.homing_error = false;
     seen_ = false;
-    aim_lost();
-    aim_.knows({vi_, vm_, a_, d_, encoder_flag_});
+    demand_lost();
+    demand_.knows({vi_, vm_, a_, d_, encoder_flag_});
     link_state(true, identity_.empty() ? fmt::format("answers to {}", setup_.address) : identity_, t);
     next_poll_ = t.now;
     if (!std::exchange(survey_, true)) {  // it keeps the turn that it has
@@ -134,12 +134,12 @@ void Node::came(Turn& t) {
     }
 }
 
-std::string Node::not_understood() const {
+std::string Drive::not_understood() const {
     return fmt::format("{}: what answers to {} is not understood: noise, another rate, or two drives with this name", name(),
                        setup_.address);
 }
 
-void Node::count_silence(Turn& t) {
+void Drive::count_silence(Turn& t) {
     ++silent_;
     ++counters_.timeouts;
     const bool gone = silent_ >= static_cast<std::uint32_t>(manners_.silent_limit);
@@ -159,7 +159,7 @@ void Node::count_silence(Turn& t) {
 
 // --- how it ended ----------------------------------------------------------------------------------------------------------------
 
-void Node::ended(Verdict v, const ReplyReader& reader, Turn& t) {
+void Drive::ended(Verdict v, const ReplyReader& reader, Turn& t) {
     if (v == Verdict::garbled) ++counters_.garbled;
     if (v == Verdict::refused) ++counters_.refused;
     const bool heard = v != Verdict::waiting;
@@ -271,7 +271,7 @@ void Node::ended(Verdict v, const ReplyReader& reader, Turn& t) {
     }
 }
 
-void Node::probe_ended(Verdict v, const std::string& data, Turn& t) {
+void Drive::probe_ended(Verdict v, const std::string& data, Turn& t) {
     if (v == Verdict::answered && data.size() == (manners_.ethernet ? 1U : 4U)) {
         em_ = data[0] - '0';
         ck_ = manners_.ethernet ? 0 : data[1] - '0';
@@ -318,7 +318,7 @@ void Node::probe_ended(Verdict v, const std::string& data, Turn& t) {
     }
 }
 
-void Node::startup_ended(Verdict v, const std::string& data, Turn& t) {
+void Drive::startup_ended(Verdict v, const std::string& data, Turn& t) {
     if (v == Verdict::waiting || v == Verdict::garbled) {
         if (v == Verdict::waiting)
             count_silence(t);
@@ -365,7 +365,7 @@ void Node::startup_ended(Verdict v, const std::string& data, Turn& t) {
     if (startup_at_ == startup_items.size()) came(t);
 }
 
-void Node::learn_values(std::string_view data) {
+void Drive::learn_values(std::string_view data) {
     const auto f = split(data);
     if (f.size() != (encoder_ ? 5U : 4U)) return;
     const auto vi = whole(f[0]).value_or(0);
@@ -375,10 +375,10 @@ void Node::learn_values(std::string_view data) {
     a_ = whole(f[2]).value_or(0);
     d_ = whole(f[3]).value_or(0);
     encoder_flag_ = encoder_ && whole(f[4]).value_or(0) == 1;
-    aim_.knows({vi_, vm_, a_, d_, encoder_flag_});
+    demand_.knows({vi_, vm_, a_, d_, encoder_flag_});
 }
 
-bool Node::learn_poll(const std::string& data, Turn& t) {
+bool Drive::learn_poll(const std::string& data, Turn& t) {
     const auto f = split(data);
     const std::size_t lr = 6U + (encoder_ ? 1U : 0U), as = lr + 1U;
     const std::size_t flags = lr + (hmt_ ? 2U : 0U) + (tells_input_ ? 1U : 0U);
@@ -412,7 +412,7 @@ bool Node::learn_poll(const std::string& data, Turn& t) {
     hmt_mode_ = hmt_ ? f[2][as] - '0' : 0;
     torque_ = hmt_mode_ == 3;
     if (asks_lag_) lag_misses_ = 0;
-    aim(lag);
+    take_demand(lag);
     program_ran_ = program_ran_ || running_;
     if (!running_ && std::exchange(program_ran_, false)) relearn_ = true;
     const bool waited = std::exchange(input_, tells_input_ && flag(flags - 1));
@@ -439,14 +439,14 @@ bool Node::learn_poll(const std::string& data, Turn& t) {
     return true;
 }
 
-void Node::learn_error(int code, bool ours, Turn& t) {
+void Drive::learn_error(int code, bool ours, Turn& t) {
     const ErrorCode* e = catalogue_.error(code);
     const std::string text = e ? e->text : std::string("a code that the catalogue does not have");
     last_error_ = code;
     if (program_ && !ours && code != 0) program_->code = code;
     if (is_fault_code(code)) fault_ = code;
     // SM says whether a stall (86) ends the motion, and the flags tell that.
-    if (!ours && code != 86 && (is_fault_code(code) || code == 83 || code == 84 || code == 91)) aim_.ended(t.now);
+    if (!ours && code != 86 && (is_fault_code(code) || code == 83 || code == 84 || code == 91)) demand_.ended(t.now);
     const bool no_news = std::exchange(own_trouble_, false) && !is_fault_code(code);
     if (!ours && !no_news && code != 0) {
         note(is_fault_code(code) ? Severity::alarm : Severity::warning, "error", code, fmt::format("{}: error {}, {}", name(), code, text),
@@ -456,7 +456,7 @@ void Node::learn_error(int code, bool ours, Turn& t) {
     emit(t);
 }
 
-void Node::error_read(Verdict v, const std::string& data, Turn& t) {
+void Drive::error_read(Verdict v, const std::string& data, Turn& t) {
     const auto code = v == Verdict::answered ? whole(data) : std::nullopt;
     if (!code) {
         if (v == Verdict::waiting) count_silence(t);

@@ -1,7 +1,7 @@
 // Framing: the search for a mark, for ACK and NAK, for a prompt, in what has come so far; looked at anew with each run of bytes.
 // In: runs of bytes. Out: a verdict, and the data between mark and end.
 // Never looks further than the present question.
-#include "adapters/mcode/framing.hpp"
+#include "adapters/mcode/wire_reply.hpp"
 
 #include <algorithm>
 

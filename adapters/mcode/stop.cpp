@@ -1,4 +1,4 @@
-// Node: stops and confirmations, and what leaves a node: results, notices.
+// Drive: stops and confirmations, and what leaves a node: results, notices.
 // In: the end of a stop's exchange, the poll or error code that confirms a line. Out: the next line of a stop, results, notices.
 // Never takes an acknowledgement alone for a stop: a poll, and ER if it says that there is one, come behind it.
 #include <fmt/core.h>
@@ -7,12 +7,12 @@
 #include <cstdlib>
 #include <utility>
 
-#include "adapters/mcode/node.hpp"
+#include "adapters/mcode/drive.hpp"
 
 namespace axisgate::mcode {
 using namespace std::chrono_literals;
 
-void Node::stop_ended(Verdict v, const ReplyReader&, Turn& t) {
+void Drive::stop_ended(Verdict v, const ReplyReader&, Turn& t) {
     if (stops_.empty()) return;
     Stop& s = stops_.front();
     if (phase_ == Phase::absent) {
@@ -22,34 +22,36 @@ void Node::stop_ended(Verdict v, const ReplyReader&, Turn& t) {
                          t);
     }
     const std::string& line = s.lines[s.at];
-    if (v == Verdict::refused) aim_.refused();
+    if (v == Verdict::refused) demand_.refused();
     if (v != Verdict::refused) program_told(line);
-    if (v == Verdict::waiting || v == Verdict::garbled) aim_.doubt(line);
-    if (v == Verdict::acknowledged || v == Verdict::answered) aim_.said(line, heard_at_, true);
+    if (v == Verdict::waiting || v == Verdict::garbled) demand_.doubt(line);
+    if (v == Verdict::acknowledged || v == Verdict::answered) demand_.said(line, heard_at_, true);
     s.said = v == Verdict::answered ? Verdict::acknowledged : v;
     s.confirming = true;
     s.to_all = false;
     if (v == Verdict::waiting) count_silence(t);
 }
 
-std::string_view Node::stop_line() const noexcept {
+std::string_view Drive::stop_line() const noexcept {
     if (phase_ != Phase::ready || leaving() || stops_.empty()) return {};
     const Stop& s = stops_.front();
     return s.at == 0 && s.lines[0] != escape_key ? std::string_view(s.lines[0]) : std::string_view();
 }
 
 /// What stops without a ramp: the escape character if it can be meant for one drive alone, else the bridges.
-std::string_view Node::stop_at_once() const noexcept { return link().party() && es_ != 3 ? std::string_view("DE=0") : escape_key; }
+std::string_view Drive::stop_at_once() const noexcept { return link().party() && es_ != 3 ? std::string_view("DE=0") : escape_key; }
 
 /// AS = 3 presses until AS is another mode, and AS changes at rest only [L7495, E-26].
-std::vector<std::string> Node::stop_of_torque() const { return {std::string(stop_at_once()), "AS=0"}; }
+std::vector<std::string> Drive::stop_of_torque() const { return {std::string(stop_at_once()), "AS=0"}; }
 
-bool Node::stop_unsent() const noexcept { return phase_ == Phase::ready && (leaving() || (!stops_.empty() && !stops_.front().confirming)); }
+bool Drive::stop_unsent() const noexcept {
+    return phase_ == Phase::ready && (leaving() || (!stops_.empty() && !stops_.front().confirming));
+}
 
-void Node::told_by_all(Instant heard) {
+void Drive::told_by_all(Instant heard) {
     if (stops_.empty() || stops_.front().confirming) return;
     Stop& s = stops_.front();
-    aim_.said(s.lines[s.at], heard, true);  // who proves not to have heard it loses its demand
+    demand_.said(s.lines[s.at], heard, true);  // who proves not to have heard it loses its demand
     s.confirming = s.to_all = true;
     s.said = Verdict::acknowledged;
     s.speed.reset();
@@ -57,7 +59,7 @@ void Node::told_by_all(Instant heard) {
 
 /// Whether a line to all has reached this drive, by what was just read: off, at rest, or slower than a reading ago while its speed
 /// changes. Nothing: read again. false: it is said to this drive alone, with an acknowledgement.
-std::optional<bool> Node::heard_all(Stop& s, const std::string& line) const {
+std::optional<bool> Drive::heard_all(Stop& s, const std::string& line) const {
     if (line == "DE=0") return !de_;
     const std::int64_t speed = std::llabs(fb_.velocity);
     if (speed == 0 && !vc_) return true;
@@ -65,13 +67,13 @@ std::optional<bool> Node::heard_all(Stop& s, const std::string& line) const {
     return vc_ ? std::nullopt : std::optional(false);
 }
 
-void Node::stop_over(Outcome o, Reason r, std::string text, Turn& t, std::int32_t code) {
+void Drive::stop_over(Outcome o, Reason r, std::string text, Turn& t, std::int32_t code) {
     const Command c = stops_.front().command;
     stops_.pop_front();
     result(c, o, r, std::move(text), t, code);
 }
 
-void Node::confirmed(Turn& t) {
+void Drive::confirmed(Turn& t) {
     if (!stops_.empty() && stops_.front().confirming) {
         Stop& s = stops_.front();
         const std::string line = s.lines[s.at];
@@ -93,13 +95,13 @@ void Node::confirmed(Turn& t) {
             if (!heard) return;
             s.to_all = false;
             if (!*heard) {
-                aim_.forget();
+                demand_.forget();
                 ++counters_.retries;
                 s.confirming = false;
                 return;
             }
         }
-        if (last_error_ != 0) aim_.withdraw();
+        if (last_error_ != 0) demand_.withdraw();
         const bool off = line == "DE=0" && !de_;
         const bool harmless = last_error_ == 40 || last_error_ == 94;  // no program ran; nothing can move with the drive off
         const bool taken = s.said == Verdict::acknowledged && last_error_ == 0 && (line != "DE=0" || off);
@@ -134,7 +136,7 @@ void Node::confirmed(Turn& t) {
     }
     if (job_.kind == JobKind::none || !job_.confirming) return;
     job_.confirming = false;
-    if (last_error_ != 0) aim_.withdraw();
+    if (last_error_ != 0) demand_.withdraw();
     const std::string& line = job_.steps[job_.at].text;
     if (last_error_ == 6 && job_.kind == JobKind::write && (line.starts_with("IS=") || line.starts_with("OS="))) {
         // Another point has the type, or this one has it: what is read tells.
@@ -180,12 +182,12 @@ void Node::confirmed(Turn& t) {
 
 // --- results and notices ---------------------------------------------------------------------------------------------------------
 
-void Node::result(const Command& c, Outcome o, Reason r, std::string text, Turn& t, std::int32_t code, Value value) {
+void Drive::result(const Command& c, Outcome o, Reason r, std::string text, Turn& t, std::int32_t code, Value value) {
     if (c.ticket == no_ticket) return;
     t.out.results.push_back({c.ticket, axis_, o, r, code, std::move(text), std::move(value), {}});
 }
 
-void Node::fail_all(Reason reason, const std::string& text, Turn& t) {
+void Drive::fail_all(Reason reason, const std::string& text, Turn& t) {
     program_lost(reason, text, t);
     while (!stops_.empty()) {
         const Command c = std::move(stops_.front().command);
@@ -210,7 +212,7 @@ void Node::fail_all(Reason reason, const std::string& text, Turn& t) {
 }
 
 /// At most 20 at once and 10 in a second, alarms excepted.
-void Node::note(Severity severity, std::string_view kind, std::int32_t code, std::string text, Turn& t) {
+void Drive::note(Severity severity, std::string_view kind, std::int32_t code, std::string text, Turn& t) {
     if (severity != Severity::alarm) {
         const auto earned = (t.now - notice_refilled_) / 100ms;
         if (earned > 0) {
@@ -223,7 +225,7 @@ void Node::note(Severity severity, std::string_view kind, std::int32_t code, std
     t.out.notices.push_back({severity, setup_.id, axis_, std::string(kind), code, std::move(text), t.now});
 }
 
-void Node::trouble(Trouble::Kind kind, Turn& t) {
+void Drive::trouble(Trouble::Kind kind, Turn& t) {
     const bool doubled = kind == Trouble::Kind::twice;
     const std::string counts = (doubled ? twice_ : trouble_).add(kind, t.now);
     if (counts.empty()) return;
@@ -236,7 +238,7 @@ void Node::trouble(Trouble::Kind kind, Turn& t) {
         t);
 }
 
-void Node::foreign(std::string_view text, Turn& t) {
+void Drive::foreign(std::string_view text, Turn& t) {
     ++counters_.unexpected;
     std::string shown;
     for (const char c : text) {

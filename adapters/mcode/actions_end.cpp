@@ -1,4 +1,4 @@
-// Node: what is waited for beside its jobs: the end of a program (BY tells it, and what else may have ended it), the return of a drive
+// Drive: what is waited for beside its jobs: the end of a program (BY tells it, and what else may have ended it), the return of a drive
 // that was restarted.
 // In: polls, lines that the drive took, errors, the loss of the drive. Out: the one result of the command that began it.
 // Never calls a program done that somebody has ended, nor one that nobody has seen end.
@@ -6,11 +6,11 @@
 
 #include <utility>
 
-#include "adapters/mcode/node.hpp"
+#include "adapters/mcode/drive.hpp"
 
 namespace axisgate::mcode {
 
-void Node::restart_over(Outcome o, Reason r, std::string_view what, Turn& t) {
+void Drive::restart_over(Outcome o, Reason r, std::string_view what, Turn& t) {
     if (!restart_) return;
     const Command c = std::move(*restart_);
     restart_.reset();
@@ -18,12 +18,12 @@ void Node::restart_over(Outcome o, Reason r, std::string_view what, Turn& t) {
 }
 
 /// A line that the drive took, or may have taken: does it end programs?
-void Node::program_told(std::string_view line) {
+void Drive::program_told(std::string_view line) {
     const auto w = word_of(line);
     if (program_ && (line == escape_key || w == "E" || w == "CP" || w == "FD")) program_->ended_by = line;
 }
 
-void Node::program_lost(Reason reason, const std::string& why, Turn& t) {
+void Drive::program_lost(Reason reason, const std::string& why, Turn& t) {
     if (!program_) return;
     const Command c = std::move(program_->command);
     program_.reset();
@@ -31,7 +31,7 @@ void Node::program_lost(Reason reason, const std::string& why, Turn& t) {
 }
 
 /// Behind a poll. The poll that confirms EX may be older than BY: the first one after it is the first look.
-void Node::watch_program(Turn& t) {
+void Drive::watch_program(Turn& t) {
     if (!program_ || running_ || ef_) return;  // the code of an error is asked for first; the next poll has EF = 0
     const StartedProgram p = std::move(*program_);
     program_.reset();

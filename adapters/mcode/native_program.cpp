@@ -1,7 +1,7 @@
 // Program: rows are cut, declared and judged in three passes, so that a name may be used before the line that declares it.
 // In: a text, or a listing. Out: lines with their numbers, or the first fault; listings in a form that can be compared.
 // Never changes a statement: what is sent is what was written, without its comment when the line would be too long with nothing lost.
-#include "adapters/mcode/program.hpp"
+#include "adapters/mcode/native_program.hpp"
 
 #include <fmt/core.h>
 
@@ -10,7 +10,7 @@
 #include <set>
 #include <sstream>
 
-#include "adapters/mcode/statement.hpp"
+#include "adapters/mcode/native_statement.hpp"
 #include "adapters/mcode/wire.hpp"
 
 namespace axisgate::mcode {

@@ -1,7 +1,7 @@
 // Statement: the fields behind a word matched against each form that the language has for it; the first form that fits decides.
 // In: one statement and what its program declares. Out: the first thing that no form allows, in words.
 // Never refuses for a range that only one product or one mode of the encoder has.
-#include "adapters/mcode/statement.hpp"
+#include "adapters/mcode/native_statement.hpp"
 
 #include <fmt/core.h>
 

@@ -1,7 +1,7 @@
 // Trouble: the times of the last few answers of a kind; a sentence when enough of them stand close together.
 // In: kinds and instants. Out: counts in words, or nothing.
 // Never keeps more than the last few times.
-#include "adapters/mcode/trouble.hpp"
+#include "adapters/mcode/drive_trouble.hpp"
 
 #include <fmt/core.h>
 

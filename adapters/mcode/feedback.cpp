@@ -1,11 +1,11 @@
-// Node: what is shown of its axis: the feedback that its polls and its own commands add up to.
+// Drive: what is shown of its axis: the feedback that its polls and its own commands add up to.
 // In: flags, positions and errors as they were read, the motion that this gateway began. Out: one feedback per reading.
 // Never calls a target reached that the position has not reached.
 #include <algorithm>
 #include <array>
 #include <cstdlib>
 
-#include "adapters/mcode/node.hpp"
+#include "adapters/mcode/drive.hpp"
 
 namespace axisgate::mcode {
 
@@ -33,7 +33,7 @@ bool is_fault_code(int code) noexcept {
     }
 }
 
-void Node::derive(Turn& t) {
+void Drive::derive(Turn& t) {
     if (!de_) enabled_ = false;
     fb_.power = de_ && enabled_ ? AxisFeedback::Power::on : AxisFeedback::Power::off;
     // In torque mode V reads 0 whatever the shaft does [L5995].
@@ -72,10 +72,10 @@ void Node::derive(Turn& t) {
 }
 
 /// Bridges that a fault has switched off hold nothing, although DE is 1 [L3983, L8452].
-void Node::aim(std::optional<std::int64_t> lag) {
+void Drive::take_demand(std::optional<std::int64_t> lag) {
     const bool bridges_off =
         (locked_ && !torque_) || fault_ == 13 || fault_ == 14 || fault_ == 72 || fault_ == 75 || fault_ == 79 || fault_ == 96;
-    Aim::Reading r;
+    AxisDemand::Reading r;
     r.at = heard_at_;
     r.position = fb_.position;
     r.velocity = fb_.velocity;
@@ -87,25 +87,25 @@ void Node::aim(std::optional<std::int64_t> lag) {
     r.stalled = stalled_;
     r.program = running_;
     r.homing = motion_.kind == Motion::Kind::home && !motion_.ended;
-    if (old_firmware_ && aim_.wants_shape()) aim_.shape(true);
-    aim_.read(r, fb_);
+    if (old_firmware_ && demand_.wants_shape()) demand_.shape(true);
+    demand_.read(r, fb_);
 }
 
-void Node::aim_lost() noexcept {
-    aim_.lost();
+void Drive::demand_lost() noexcept {
+    demand_.lost();
     fb_.demand_source = DemandSource::none;
     hmt_mode_ = 0;
     shape_refused_ = program_ran_ = false;
 }
 
 /// A step's line: the drive took it, or nobody knows, or it was refused. Somebody's text may be known too, but its moves are not ours.
-void Node::step_said(const Step& step, Verdict v) {
-    if (v == Verdict::refused) return aim_.refused();
+void Drive::step_said(const Step& step, Verdict v) {
+    if (v == Verdict::refused) return demand_.refused();
     program_told(step.text);
-    if (v == Verdict::waiting || v == Verdict::garbled) return aim_.doubt(step.text);
+    if (v == Verdict::waiting || v == Verdict::garbled) return demand_.doubt(step.text);
     const bool ours =
         job_.kind == JobKind::move || job_.kind == JobKind::home || job_.kind == JobKind::set_position || job_.kind == JobKind::write;
-    aim_.said(step.text, heard_at_, ours);
+    demand_.said(step.text, heard_at_, ours);
     const auto w = word_of(step.text);
     if (w == "EX") program_ran_ = true;
     // Said by somebody: what the next move would find is read anew.
@@ -114,13 +114,13 @@ void Node::step_said(const Step& step, Verdict v) {
 }
 
 /// LL is a luxury: a drive that does not answer such polls is asked without it, before it counts as away.
-void Node::lag_missed(Instant now) noexcept {
+void Drive::lag_missed(Instant now) noexcept {
     if (!asks_lag_) return;
     lag_misses_ = std::min(lag_misses_ + 1, 2);
     lag_again_ = now + std::chrono::seconds(10);
 }
 
-void Node::emit(Turn& t) {
+void Drive::emit(Turn& t) {
     if (axis_ == no_axis || !seen_) return;
     fb_.at = read_at_;  // what an acknowledgement or an error code adds is newer
     fb_.homing = motion_.kind == Motion::Kind::home && (!motion_.ended || zero_after_home_);

@@ -1,4 +1,4 @@
-// Node: the verbs of CiA 402 as lines of MCode, and the run of such a job to its one result.
+// Drive: the verbs of CiA 402 as lines of MCode, and the run of such a job to its one result.
 // In: commands from the queue, the end of their steps. Out: steps one after the other, the result.
 // Never starts what it could not set: a refused value ends the job before the motion. A relative move is sent as the absolute one that it
 // means at standstill, so that a repeat cannot move twice.
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 
-#include "adapters/mcode/node.hpp"
+#include "adapters/mcode/drive.hpp"
 
 namespace axisgate::mcode {
 using namespace std::chrono_literals;
@@ -20,7 +20,7 @@ constexpr std::string_view no_prepared_start =
 }  // namespace
 
 /// What moves the axis, whoever words it: by a stop it is over, also while it waits. With the power off so is what would bring that back.
-bool Node::ended_by_stop(const CommandBody& b, bool power_off) const {
+bool Drive::ended_by_stop(const CommandBody& b, bool power_off) const {
     if (std::holds_alternative<Move>(b) || std::holds_alternative<Home>(b) || std::holds_alternative<StartTogether>(b)) return true;
     if (power_off && std::holds_alternative<Enable>(b)) return true;
     const auto says = [&](std::string_view line) {
@@ -38,7 +38,7 @@ bool Node::ended_by_stop(const CommandBody& b, bool power_off) const {
            (action->name == "program.start" || action->name == "program.resume" || action->name == "calibrate" || says(action->name));
 }
 
-void Node::submit(const Command& c, Turn& t) {
+void Drive::submit(const Command& c, Turn& t) {
     if (phase_ == Phase::down) return result(c, Outcome::failed, Reason::line_down, "the line is down", t);
     const auto* action = std::get_if<Action>(&c.body);
     if (action && action->name == "line.setup" && phase_ != Phase::ready && job_.kind == JobKind::none) {
@@ -76,7 +76,7 @@ void Node::submit(const Command& c, Turn& t) {
     stops_.push_back(std::move(s));
 }
 
-void Node::cancel_motions(std::string_view by, bool power_off, Turn& t) {
+void Drive::cancel_motions(std::string_view by, bool power_off, Turn& t) {
     zero_after_home_ = false;
     const bool waits_for_rest = job_.at < job_.steps.size() && job_.steps[job_.at].what == Step::What::standstill;
     const bool over = job_.kind == JobKind::move || job_.kind == JobKind::home || job_.kind == JobKind::enable || waits_for_rest;
@@ -97,7 +97,7 @@ void Node::cancel_motions(std::string_view by, bool power_off, Turn& t) {
     queue_ = std::move(kept);
 }
 
-void Node::take_next(Turn& t) {
+void Drive::take_next(Turn& t) {
     while (job_.kind == JobKind::none && !queue_.empty()) {
         const Command c = std::move(queue_.front());
         queue_.pop_front();
@@ -105,7 +105,7 @@ void Node::take_next(Turn& t) {
     }
 }
 
-void Node::plan(const Command& c, Turn& t) {
+void Drive::plan(const Command& c, Turn& t) {
     job_ = {};
     job_.command = c;
     const CommandBody& b = c.body;
@@ -149,7 +149,7 @@ void Node::plan(const Command& c, Turn& t) {
     }
 }
 
-void Node::plan_move(const Move& m, Turn& t) {
+void Drive::plan_move(const Move& m, Turn& t) {
     const auto refuse = [&](Reason r, std::string why) { job_over(Outcome::refused, r, std::move(why), t); };
     if (m.prepare_only) return refuse(Reason::not_supported, std::string(no_prepared_start));
     if (!de_) return refuse(Reason::wrong_state, fmt::format("{} is off (DE=0): enable it first", name()));
@@ -210,7 +210,7 @@ void Node::plan_move(const Move& m, Turn& t) {
     job_.add(Step::What::send, fmt::format("MA {}", target));
 }
 
-void Node::plan_home(const Home& h, Turn& t) {
+void Drive::plan_home(const Home& h, Turn& t) {
     if (h.method == 35 || h.method == 37) {
         if (fb_.moving) return job_over(Outcome::refused, Reason::wrong_state, fmt::format("{} moves: stop it first", name()), t);
         job_.add(Step::What::send, "P=0");
@@ -249,7 +249,7 @@ void Node::plan_home(const Home& h, Turn& t) {
         t);
 }
 
-void Node::began_motion(Turn& t) {
+void Drive::began_motion(Turn& t) {
     motion_ = {};
     motion_.ended = false;
     stopping_ = false;
@@ -271,15 +271,15 @@ void Node::began_motion(Turn& t) {
     derive(t);
 }
 
-void Node::step_ended(Verdict v, const ReplyReader& r, Turn& t) {
+void Drive::step_ended(Verdict v, const ReplyReader& r, Turn& t) {
     if (job_.kind == JobKind::none || job_.at >= job_.steps.size()) {
         if (v == Verdict::waiting) count_silence(t);
-        aim_.forget();  // the line was in flight when a stop has ended its job: it may have been a motion
+        demand_.forget();  // the line was in flight when a stop has ended its job: it may have been a motion
         return;
     }
     if (job_.kind == JobKind::setup) return step_done(t);
     if (job_.kind == JobKind::factory && v != Verdict::refused) {
-        aim_lost();
+        demand_lost();
         // Echo, checksum and name are the factory's now: no poll would be understood.
         job_.give_up = t.now + 5s;
         enabled_ = false;
@@ -293,7 +293,7 @@ void Node::step_ended(Verdict v, const ReplyReader& r, Turn& t) {
         return;
     }
     if (job_.kind == JobKind::restart && job_.steps[job_.at].text == reset_key) {
-        aim_lost();
+        demand_lost();
         if (job_.command.until_done) {
             restart_ = std::move(job_.command);
             restart_until_ = t.now + restart_limit;
@@ -351,7 +351,7 @@ void Node::step_ended(Verdict v, const ReplyReader& r, Turn& t) {
     }
 }
 
-void Node::step_done(Turn& t) {
+void Drive::step_done(Turn& t) {
     const Step& step = job_.steps[job_.at];
     const bool last = job_.at + 1 == job_.steps.size();
     job_.tries = 0;
@@ -437,7 +437,7 @@ void Node::step_done(Turn& t) {
     job_over(begun ? Outcome::accepted : Outcome::done, Reason::none, job_.text, t);
 }
 
-void Node::job_over(Outcome o, Reason r, std::string text, Turn& t, std::int32_t code, Value value) {
+void Drive::job_over(Outcome o, Reason r, std::string text, Turn& t, std::int32_t code, Value value) {
     const Command c = std::move(job_.command);
     const bool bad = o == Outcome::refused || o == Outcome::failed;
     if (bad && job_.kind == JobKind::tidy) {

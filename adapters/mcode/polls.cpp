@@ -1,15 +1,15 @@
-// Node: what it wants and what it sends next: probes, its link, stops, errors, steps of a job, polls.
+// Drive: what it wants and what it sends next: probes, its link, stops, errors, steps of a job, polls.
 // In: its phase, its queue, the time. Out: one request.
-// Never chooses a poll or a command while a stop waits, nor a stop while the drive may be in program mode (leaving.cpp).
+// Never chooses a poll or a command while a stop waits, nor a stop while the drive may be in program mode (drive_mode.cpp).
 #include <fmt/core.h>
 
-#include "adapters/mcode/node.hpp"
+#include "adapters/mcode/drive.hpp"
 
 namespace axisgate::mcode {
 using namespace std::chrono_literals;
 using What = Request::Purpose;
 
-Node::Want Node::wants(Instant now) const noexcept {
+Drive::Want Drive::wants(Instant now) const noexcept {
     switch (phase_) {
         case Phase::down:
             return Want::nothing;
@@ -26,7 +26,7 @@ Node::Want Node::wants(Instant now) const noexcept {
     }
     if (!stops_.empty() || leaving()) return Want::urgent;
     if ((clear_half_ || tidy_) && seen_ && !running_ && !mv_) return Want::other;
-    if ((relearn_ || (aim_.wants_shape() && !shape_refused_)) && seen_ && job_.kind == JobKind::none) return Want::other;
+    if ((relearn_ || (demand_.wants_shape() && !shape_refused_)) && seen_ && job_.kind == JobKind::none) return Want::other;
     if (need_error_ || now >= next_poll_) return Want::other;
     if (job_.kind != JobKind::none) {
         return job_.at < job_.steps.size() && job_.steps[job_.at].what == Step::What::standstill ? Want::nothing : Want::other;
@@ -34,7 +34,7 @@ Node::Want Node::wants(Instant now) const noexcept {
     return queue_.empty() && !surveys(now) ? Want::nothing : Want::other;
 }
 
-bool Node::wants_unmarked(Instant now) const noexcept {
+bool Drive::wants_unmarked(Instant now) const noexcept {
     if (phase_ == Phase::linking) return true;
     if (phase_ != Phase::ready || !stops_.empty() || leaving() || need_error_ || !seen_) return false;
     if (job_.kind == JobKind::none) return !queue_.empty() || surveys(now) || ((clear_half_ || tidy_) && !running_ && !mv_);
@@ -43,7 +43,7 @@ bool Node::wants_unmarked(Instant now) const noexcept {
     return what == Step::What::send || what == Step::What::bare || what == Step::What::block;
 }
 
-Instant Node::due() const noexcept {
+Instant Drive::due() const noexcept {
     switch (phase_) {
         case Phase::down:
             return never;
@@ -55,7 +55,7 @@ Instant Node::due() const noexcept {
     }
 }
 
-std::string Node::poll_text(Instant now) {
+std::string Drive::poll_text(Instant now) {
     std::string s = R"(P,",",V,",",MV,MP,VC,DE,EF,BY)";
     if (encoder_) s += ",ST";
     if (hmt_) s += ",LR,AS";
@@ -66,9 +66,9 @@ std::string Node::poll_text(Instant now) {
     return s;
 }
 
-std::string Node::values_text() const { return std::string(R"(VI,",",VM,",",A,",",D)") + (encoder_ ? R"(,",",EE)" : ""); }
+std::string Drive::values_text() const { return std::string(R"(VI,",",VM,",",A,",",D)") + (encoder_ ? R"(,",",EE)" : ""); }
 
-Request Node::next(Turn& t) {
+Request Drive::next(Turn& t) {
     Request r;
     const auto ask = [&](What purpose, std::string items) {
         r.purpose = purpose_ = purpose;
@@ -158,7 +158,7 @@ Request Node::next(Turn& t) {
         relearn_ = false;
         job_.kind = JobKind::relearn;
         job_.add(Step::What::query, values_text());
-    } else if (aim_.wants_shape() && !shape_refused_ && job_.kind == JobKind::none) {
+    } else if (demand_.wants_shape() && !shape_refused_ && job_.kind == JobKind::none) {
         job_.kind = JobKind::shape;
         job_.add(Step::What::query, R"(BE,",",AT,",",DT)");
     }

@@ -1,7 +1,7 @@
-// Aim, the rules: which words move, renumber or rescale, and when a reading proves that somebody else does. [Lnnn]: the maker's reference.
-// In: lines, readings. Out: a demand, or none with its reason in the code beside it.
-// Never takes a mismatch for a following error where another order than this gateway's may be the reason: then nobody knows.
-#include "adapters/mcode/aim.hpp"
+// AxisDemand, the rules: which words move, renumber or rescale, and when a reading proves that somebody else does. [Lnnn]: the maker's
+// reference. In: lines, readings. Out: a demand, or none with its reason in the code beside it. Never takes a mismatch for a following
+// error where another order than this gateway's may be the reason: then nobody knows.
+#include "adapters/mcode/demand.hpp"
 
 #include <algorithm>
 #include <array>
@@ -49,7 +49,7 @@ std::int64_t beside(std::int64_t position, double demand) noexcept {
 }
 }  // namespace
 
-void Aim::knows(const Values& v) noexcept {
+void AxisDemand::knows(const Values& v) noexcept {
     if (v.encoder != values_.encoder) {
         forget();
         plain_.reset();
@@ -57,25 +57,25 @@ void Aim::knows(const Values& v) noexcept {
     values_ = v;
 }
 
-void Aim::value(std::string_view word, std::int64_t v) noexcept {
+void AxisDemand::value(std::string_view word, std::int64_t v) noexcept {
     if (word == "VI") values_.vi = v;
     if (word == "VM") values_.vm = v;
     if (word == "A") values_.a = v;
     if (word == "D") values_.d = v;
 }
 
-DemandRamps Aim::ramps() const noexcept {
+DemandRamps AxisDemand::ramps() const noexcept {
     return {static_cast<double>(values_.a), static_cast<double>(values_.d), static_cast<double>(values_.vi)};
 }
 
-void Aim::said(std::string_view line, Instant at, bool own) {
+void AxisDemand::said(std::string_view line, Instant at, bool own) {
     before_ = Before{demand_, values_, plain_, still_};
     const std::string word = word_of(line);
     order(word, field_of(line), at, own);
     if (any_of(word, shaping)) plain_.reset();
 }
 
-void Aim::doubt(std::string_view line) {
+void AxisDemand::doubt(std::string_view line) {
     before_.reset();
     const std::string word = word_of(line);
     value(word, 0);
@@ -83,7 +83,7 @@ void Aim::doubt(std::string_view line) {
     if (any_of(word, disturbing) || word == "MA" || word == "SL" || word == "P" || word == "C2" || word == "DE") forget();
 }
 
-void Aim::withdraw() noexcept {
+void AxisDemand::withdraw() noexcept {
     if (!before_) return;
     demand_ = before_->demand;
     values_ = before_->values;
@@ -92,11 +92,11 @@ void Aim::withdraw() noexcept {
     before_.reset();
 }
 
-void Aim::ended(Instant now) noexcept {
+void AxisDemand::ended(Instant now) noexcept {
     if (demand_.known() && !demand_.over(now)) forget();
 }
 
-void Aim::order(std::string_view word, std::optional<std::int64_t> number, Instant at, bool own) noexcept {
+void AxisDemand::order(std::string_view word, std::optional<std::int64_t> number, Instant at, bool own) noexcept {
     if (word == "EE" || word == "AS" || word == "MS")
         values_ = {0, 0, 0, 0, word == "EE" ? number == 1 : values_.encoder};  // scaled [L4293]
     if (any_of(word, disturbing) || (word == "DE" && number != 1)) return forget();
@@ -129,7 +129,7 @@ void Aim::order(std::string_view word, std::optional<std::int64_t> number, Insta
 
 /// V is the speed that the drive gives its motor: not this order's, some time around now. At rest a correction at VI towards the demand is
 /// the drive's own [L4825, L7360].
-bool Aim::strange(const Reading& r) const noexcept {
+bool AxisDemand::strange(const Reading& r) const noexcept {
     if (!r.moving || r.velocity == 0) return false;
     const auto speeds = {demand_.at(r.at - margin).velocity, demand_.at(r.at).velocity, demand_.at(r.at + margin).velocity};
     const double low = std::min(speeds), high = std::max(speeds), v = static_cast<double>(r.velocity);
@@ -139,7 +139,7 @@ bool Aim::strange(const Reading& r) const noexcept {
     return demand_.over(r.at - margin) && off * v <= 0;
 }
 
-void Aim::judge(const Reading& r) noexcept {
+void AxisDemand::judge(const Reading& r) noexcept {
     if (!demand_.known()) return;
     if (r.program) return forget();
     strange_ = strange(r) ? strange_ + 1 : 0;
@@ -154,7 +154,7 @@ void Aim::judge(const Reading& r) noexcept {
     }
 }
 
-void Aim::read(const Reading& r, AxisFeedback& fb) noexcept {
+void AxisDemand::read(const Reading& r, AxisFeedback& fb) noexcept {
     if (r.velocity != 0) way_ = r.velocity < 0 ? -1 : 1;
     stall_is_new_ = r.stalled && (stall_is_new_ || !stalled_);
     stalled_ = r.stalled;

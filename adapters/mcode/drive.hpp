@@ -1,9 +1,9 @@
-// Node: one drive: finding it, setting its link, its polls, its queue of commands and their steps, and what is known of its axis.
+// Drive: one drive: finding it, setting its link, its polls, its queue of commands and their steps, and what is known of its axis.
 // In: commands, the outcome of its exchanges, time. Out: the next request when it has the line; feedback, results, links, notices.
 // Never sends by itself: the line asks it, and gives it one exchange at a time.
-// Written in: node.cpp (exchanges, presence, polls), node_next.cpp (what is sent), state.cpp (its axis), stops.cpp (stops, results,
-// notices), leaving.cpp (out of program mode), rate.cpp (its bit rate), jobs.cpp (commands as steps), actions.cpp (parameters, native,
-// programs), program_end.cpp (a program that is waited for); aim.cpp is where its axis should be.
+// Written in: drive.cpp (exchanges, presence), polls.cpp (what is sent), feedback.cpp (its axis), stop.cpp (stops, results, notices),
+// drive_mode.cpp (out of program mode), start_rate.cpp (its bit rate), motion.cpp (commands as steps), actions.cpp (parameters, native,
+// programs), actions_end.cpp (a program that is waited for); demand.cpp is where its axis should be.
 #pragma once
 
 #include <array>
@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
-#include "adapters/mcode/aim.hpp"
-#include "adapters/mcode/framing.hpp"
-#include "adapters/mcode/program.hpp"
-#include "adapters/mcode/trouble.hpp"
+#include "adapters/mcode/demand.hpp"
+#include "adapters/mcode/drive_trouble.hpp"
+#include "adapters/mcode/native_program.hpp"
 #include "adapters/mcode/wire.hpp"
+#include "adapters/mcode/wire_reply.hpp"
 #include "gateway/core/adapter.hpp"
 #include "gateway/core/catalogue.hpp"
 
@@ -69,7 +69,7 @@ struct StartedProgram {
     int code = 0;          ///< the last error since its start
 };
 
-class Node {
+class Drive {
 public:
     static constexpr std::size_t queue_limit = 64;                       ///< waiting commands; one more is refused as busy
     static constexpr std::size_t urgent_limit = 16;                      ///< waiting stops; one more is refused as busy
@@ -77,7 +77,7 @@ public:
     static constexpr int link_round_limit = 8;  ///< lines that set its link in a row; what it has then is used as it is
 
     /// `next_listing`: of the line, shared by its nodes: a listing keeps the line to itself, so there is one in a second at most.
-    Node(const Catalogue& catalogue, const Manners& manners, AdapterCounters& counters, const DriveSetup& setup, Instant& next_listing);
+    Drive(const Catalogue& catalogue, const Manners& manners, AdapterCounters& counters, const DriveSetup& setup, Instant& next_listing);
 
     void line_up(Turn& t);
     void line_down(Turn& t, std::string_view why);
@@ -211,7 +211,7 @@ private:
     static constexpr std::string_view reset_key = "CTRL+C";       ///< Step::text: the character, not a line
     static constexpr std::string_view already_typed = "error 6";  ///< Job::text of a write that the drive answered so
 
-    // leaving.cpp
+    // drive_mode.cpp
     [[nodiscard]] bool leaving() const noexcept;
     [[nodiscard]] Request next_leave();
     void note_mode_line(std::string_view line);
@@ -223,7 +223,7 @@ private:
     void clear_if_half(std::string_view listing, Turn& t);
     void led_out(Turn& t);
     void tidy_up(std::string_view listing, Turn& t);
-    // node.cpp
+    // drive.cpp
     void begin_probing(Turn& t);
     void go_absent(Turn& t, std::string why);
     void came(Turn& t);
@@ -247,8 +247,8 @@ private:
     void restart_over(Outcome o, Reason r, std::string_view what, Turn& t);
     void program_told(std::string_view line);
     void program_lost(Reason reason, const std::string& why, Turn& t);
-    void aim(std::optional<std::int64_t> lag);
-    void aim_lost() noexcept;
+    void take_demand(std::optional<std::int64_t> lag);
+    void demand_lost() noexcept;
     void step_said(const Step& step, Verdict v);
     void lag_missed(Instant now) noexcept;
     void result(const Command& c, Outcome o, Reason r, std::string text, Turn& t, std::int32_t code = 0, Value value = {});
@@ -258,7 +258,7 @@ private:
     void stop_over(Outcome o, Reason r, std::string text, Turn& t, std::int32_t code = 0);
     [[nodiscard]] std::string_view stop_at_once() const noexcept;
     [[nodiscard]] std::vector<std::string> stop_of_torque() const;
-    // jobs.cpp
+    // motion.cpp
     void cancel_motions(std::string_view by, bool power_off, Turn& t);
     [[nodiscard]] bool ended_by_stop(const CommandBody& b, bool power_off) const;
     void take_next(Turn& t);
@@ -282,7 +282,7 @@ private:
     void download_failed(std::string why, Turn& t);
     void setting_refused(const std::string& why, Turn& t);
     void plan_download(const Action& a, Turn& t);
-    // edit.cpp
+    // actions_edit.cpp
     void plan_edit(const Action& a, Turn& t);
     void edit_listed(const std::string& text, Turn& t);
     [[nodiscard]] bool begin_edit(const std::vector<ListedLine>& rows, Turn& t);
@@ -388,7 +388,7 @@ private:
         bool ended = true;
     } motion_;
     bool zero_after_home_ = false;
-    Aim aim_;
+    AxisDemand demand_;
     Instant heard_at_{};
     bool program_ran_ = false;    ///< it may have set VI, VM, A, D or EE
     bool old_firmware_ = false;   ///< below 6: linear ramps and no backlash [L1030, L1031]

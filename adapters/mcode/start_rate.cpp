@@ -1,4 +1,4 @@
-// Node: the drive's bit rate: BD acts at the next restart only, so what will go wrong is said while the drive can still be heard.
+// Drive: the drive's bit rate: BD acts at the next restart only, so what will go wrong is said while the drive can still be heard.
 // In: BD as the drive has it, the line's rate. Out: texts that say what will happen and what to do.
 // Never sets a rate by itself: that is for line.setup.
 #include <fmt/core.h>
@@ -7,7 +7,7 @@
 #include <array>
 #include <utility>
 
-#include "adapters/mcode/node.hpp"
+#include "adapters/mcode/drive.hpp"
 
 namespace axisgate::mcode {
 
@@ -24,7 +24,7 @@ int code_of(std::uint32_t rate) noexcept {
 }
 
 /// The line's rate and that of the drive's memory part at its next restart: said while it can still be heard.
-std::string Node::rate_trouble() const {
+std::string Drive::rate_trouble() const {
     if (manners_.rate_code == 0 || bd_ == 0 || bd_ == manners_.rate_code) return {};
     return fmt::format(
         "{}: BD={}: from its next reset or power-up on it speaks at {} bit/s and is not heard on this line, which runs at {}: "
@@ -32,7 +32,7 @@ std::string Node::rate_trouble() const {
         name(), bd_, rate_of(bd_), rate_of(manners_.rate_code), manners_.rate_code, rate_of(bd_));
 }
 
-std::string Node::factory_hint() const {
+std::string Drive::factory_hint() const {
     if (!at_factory_rate_ || manners_.rate_code == 0 || manners_.rate_code == 96) return {};
     return fmt::format(
         "; since FD it may speak at the factory's 9600 bit/s, and this line runs at {}: give the line baud=9600, set BD={} there, "

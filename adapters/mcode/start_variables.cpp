@@ -1,11 +1,11 @@
-// Node: its user variables: which of them the site's option names, and which it does not.
+// Drive: its user variables: which of them the site's option names, and which it does not.
 // In: the drive's own listing (PR UV), asked for once when it was found. Out: one notice for each difference; sentences for what it lacks.
 // Never declares a variable, and never refuses one that a program may declare later.
 #include <fmt/core.h>
 
 #include <algorithm>
 
-#include "adapters/mcode/node.hpp"
+#include "adapters/mcode/drive.hpp"
 #include "adapters/mcode/parameters_variables.hpp"
 
 namespace axisgate::mcode {
@@ -20,7 +20,7 @@ std::string some_of(const std::vector<std::string>& names) {
 }
 }  // namespace
 
-void Node::variables_listed(std::string_view listing, Turn& t) {
+void Drive::variables_listed(std::string_view listing, Turn& t) {
     const auto all = listed_variables(listing);
     const auto has = [](const std::vector<std::string>& list, std::string_view name) {
         return std::ranges::find(list, name) != list.end();
@@ -51,7 +51,7 @@ void Node::variables_listed(std::string_view listing, Turn& t) {
 }
 
 /// Of the parameter in hand, if it is a user variable; else empty.
-std::string Node::variable_hint() const {
+std::string Drive::variable_hint() const {
     const auto* read = std::get_if<ReadParameter>(&job_.command.body);
     const auto* write = std::get_if<WriteParameter>(&job_.command.body);
     const Parameter* p = read || write ? drive_catalogue().parameter(read ? read->point : write->point) : nullptr;

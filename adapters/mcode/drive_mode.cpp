@@ -1,4 +1,4 @@
-// Node: out of program mode: after a broken download, and when somebody else has left the drive in it.
+// Drive: out of program mode: after a broken download, and when somebody else has left the drive in it.
 // In: lines PG as they are sent, their end; questions that were taken and not answered. Out: requests that lead the drive back to immediate
 // mode, an event, and the removal of what it has stored of this gateway's questions.
 // Never lets a stop, a poll or a command go to a drive that may take it as program text: PG toggles [L4778], so each PG is counted, and
@@ -8,15 +8,15 @@
 #include <algorithm>
 #include <utility>
 
-#include "adapters/mcode/node.hpp"
-#include "adapters/mcode/program.hpp"
+#include "adapters/mcode/drive.hpp"
+#include "adapters/mcode/native_program.hpp"
 
 namespace axisgate::mcode {
 
-bool Node::leaving() const noexcept { return mode_ != Mode::immediate && (job_.kind != JobKind::download || suspected_); }
+bool Drive::leaving() const noexcept { return mode_ != Mode::immediate && (job_.kind != JobKind::download || suspected_); }
 
 /// PG while the mode is known, a question while it is not. The question that was stored is removed by CP with the rest of the half.
-Request Node::next_leave() {
+Request Drive::next_leave() {
     Request r;
     r.purpose = purpose_ = Request::Purpose::leave;
     r.urgent = true;
@@ -32,7 +32,7 @@ Request Node::next_leave() {
     return r;
 }
 
-void Node::note_mode_line(std::string_view line) {
+void Drive::note_mode_line(std::string_view line) {
     if (word_of(line) != "PG") return;
     mode_flight_ = true;
     evidence_ = 0;
@@ -40,7 +40,7 @@ void Node::note_mode_line(std::string_view line) {
     mode_ = Mode::unknown;
 }
 
-void Node::mode_line_ended(Verdict v) {
+void Drive::mode_line_ended(Verdict v) {
     if (!mode_flight_) return;
     mode_flight_ = false;
     if (v == Verdict::refused) {
@@ -52,7 +52,7 @@ void Node::mode_line_ended(Verdict v) {
 }
 
 /// Bounded by presence: each round without a word counts as silence, and a silent drive becomes absent; its probes ask on.
-void Node::leave_ended(Verdict v, const ReplyReader& r, Turn& t) {
+void Drive::leave_ended(Verdict v, const ReplyReader& r, Turn& t) {
     if (r.data().empty() && v == Verdict::waiting && r.raw().empty()) {
         // EM = 2 says nothing for a stored line either: PG is tried, and the next question tells.
         if (mode_ == Mode::unknown && quiet() && !suspected_) mode_ = Mode::program;
@@ -89,7 +89,7 @@ void Node::leave_ended(Verdict v, const ReplyReader& r, Turn& t) {
 /// look like one that prints nothing. So it takes questions in a row, each behind a LF of our own, and no time-out between them: what the
 /// first has ended or joined cannot be in the way of the last. Silent drives are not led out on suspicion: EM = 2 acknowledges nothing, and
 /// PG would put one that is only away into program mode.
-bool Node::probe_tells_mode(Verdict v, const ReplyReader& r, Turn& t) {
+bool Drive::probe_tells_mode(Verdict v, const ReplyReader& r, Turn& t) {
     if (v == Verdict::answered) {
         const bool short_question = std::exchange(suspected_, false) && r.data().size() == 1 && !manners_.ethernet;
         mode_ = Mode::immediate;
@@ -142,7 +142,7 @@ bool Node::probe_tells_mode(Verdict v, const ReplyReader& r, Turn& t) {
 }
 
 /// What was acknowledged last has been stored, not done: it is said again behind PG.
-void Node::found_in_program() {
+void Drive::found_in_program() {
     found_ = true;
     mode_doubt_ = true;  // a PG too many would put it into program mode: a question verifies
     leave_rounds_ = 0;
@@ -151,7 +151,7 @@ void Node::found_in_program() {
     need_error_ = false;
 }
 
-void Node::led_out(Turn& t) {
+void Drive::led_out(Turn& t) {
     found_ = suspected_ = false;
     tidy_ = true;
     note(Severity::warning, "program_mode", 0,
@@ -162,7 +162,7 @@ void Node::led_out(Turn& t) {
 }
 
 /// The drive was away: it may have restarted with the program that it had saved, which is none of this gateway's business.
-void Node::clear_if_half(std::string_view listing, Turn& t) {
+void Drive::clear_if_half(std::string_view listing, Turn& t) {
     std::size_t i = half_was_away_ ? 0 : half_.size();
     for (const auto& l : half_was_away_ ? listed_lines(listing) : std::vector<std::string>()) {
         const auto w = word_of(l);
@@ -187,7 +187,7 @@ void Node::clear_if_half(std::string_view listing, Turn& t) {
     step_done(t);
 }
 
-void Node::tidy_up(std::string_view listing, Turn& t) {
+void Drive::tidy_up(std::string_view listing, Turn& t) {
     const auto left = stored_questions(listing);
     if (left.count == 0) return job_over(Outcome::done, Reason::none, {}, t);
     if (!left.at_end || left.address.empty()) {

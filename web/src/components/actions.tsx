@@ -28,7 +28,7 @@ export function Actions({ axis, family }: { axis: string; family: string }) {
       <div class="form card" data-part="actions">
         <div class="form-grid">
           <TextField label="Find" value={sought.value} onText={(t) => (sought.value = t)} hint={`${offered.length} of ${commands.value.length}`} />
-          <Choice label="Action" value={chosen.value} onChoice={(id) => (chosen.value = id)} choices={listed.map((c) => ({ value: c.id, text: c.id === c.name ? c.name : `${c.name} (${c.id})` }))} />
+          <Choice label="Action" value={chosen.value} onChoice={(id) => (chosen.value = id)} choices={listed.map((c) => ({ value: c.id, text: c.id === c.name ? nameOf(c) : `${nameOf(c)} (${c.id})` }))} />
         </div>
         {command && <ActionForm key={`${axis} ${command.id}`} axis={axis} command={command} />}
       </div>
@@ -67,7 +67,7 @@ function ActionForm({ axis, command }: { axis: string; command: CatalogueCommand
     told.value = { tone: 'busy', text: 'Sent…' };
     try {
       const a = await client.act(axis, body);
-      told.value = { tone: 'good', text: capital(plain(a.text || `${command.name}: ${a.result}`)) };
+      told.value = { tone: 'good', text: capital(plain(a.text || `${nameOf(command)}: ${a.result}`)) };
     } catch (error) {
       told.value = { tone: 'refused', text: capital(asProblem(error).words) };
     }

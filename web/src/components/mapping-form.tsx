@@ -140,7 +140,7 @@ export function MappingForm({ book, known, editing, done }: MappingFormProps) {
       >
         <div class="form-grid">
           <Choice label="Axis" value={texts.axis} onChoice={set('axis')} fault={shown('axis')} choices={[{ value: '', text: 'choose' }, ...store.axisNames.value.map((n) => ({ value: n, text: named(n) }))]} />
-          <TextField label="Point or parameter" class="wide" value={texts.point} onText={set('point')} fault={shown('point')} offers={offers} placeholder="position_units, MT[1] …" hint={known.points.find((p) => p.point === texts.point)?.description} />
+          <TextField label="Point or parameter" class="wide" value={texts.point} onText={set('point')} fault={shown('point')} offers={offers} placeholder="position, MT[1] …" hint={known.points.find((p) => p.point === texts.point)?.description} />
           <TextField label="Unit ID" number value={texts.unit} onText={set('unit')} fault={shown('unit')} />
           <Choice label="Table" value={texts.table} onChoice={set('table')} fault={shown('table')} choices={tables.map((t) => ({ value: t.id, text: t.name }))} />
           <TextField

@@ -51,7 +51,7 @@ export function PrintedList({ rows, known, hash }: { rows: readonly Mapping[]; k
                     <td>{endOf(m) === m.address ? m.address : `${m.address}–${endOf(m)}`}</td>
                     <td>{oneBased(m.table, m.address)}</td>
                     <td>{named(m.axis)}</td>
-                    <td>{m.point}</td>
+                    <td class="mono">{m.point}</td>
                     <td>{m.type}</td>
                     <td>{endOf(m) === m.address ? '' : m.word_order.replace('_', ' ')}</td>
                     <td>{unitOf(m)}</td>

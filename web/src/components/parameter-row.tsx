@@ -40,7 +40,7 @@ function RowView({ axis, row, since, read, write, open }: RowProps) {
   const p = row.data.peek(); // id, name and description never change
   return (
     <tr data-parameter={p.id}>
-      <th scope="row" title={p.description}>
+      <th scope="row" title={p.description.replaceAll('_', ' ')}>
         <span class="both">
           <span class="mono id">{p.id}</span>
           <span class="name">{p.name.replaceAll('_', ' ')}</span>

@@ -2,7 +2,7 @@
 // Words of the API never reach people: every part of the page over the mock door, searched for words with an underscore. What stands in a fixed-width
 // face is a name that one types, and no text.
 import { afterEach, expect, it } from 'vitest';
-import { plain, plainWord } from '../src/words/plain';
+import { plain, plainWord } from '../src/text/plain';
 import { openPage, type MockPage } from './mock-page';
 
 let p: MockPage;

@@ -6,8 +6,8 @@ import type { AxisParameter } from '../api/types';
 import { useGateway } from '../gateway';
 import { tick } from '../state/clock';
 import { isLive } from '../state/reread';
-import { valueText } from '../words/parameter';
-import { clockTime, duration } from '../words/time';
+import { valueText } from '../text/parameter';
+import { clockTime, duration } from '../text/time';
 
 /** What was read before this is old: a command, or a lost connection, has come since. The gateway's clock. */
 export type Since = ReadonlySignal<number>;

@@ -4,8 +4,8 @@
 import { signal, useSignal, type Signal } from '@preact/signals';
 import { useId, useRef } from 'preact/hooks';
 import type { AxisParameter } from '../api/types';
-import { addressingWords, editText, fieldLines, fieldValue, longestText, rangeText, readValue, steppedText, unitWords, valueText, withField } from '../words/parameter';
-import { isApart, isChanged } from '../words/transfer';
+import { addressingWords, editText, fieldLines, fieldValue, longestText, rangeText, readValue, steppedText, unitWords, valueText, withField } from '../text/parameter';
+import { isApart, isChanged } from '../text/transfer';
 import { Ask } from './ask';
 import { useBarred } from './gate';
 import { Icon } from './icon';

@@ -7,10 +7,10 @@ import { useEffect, useMemo, useRef } from 'preact/hooks';
 import { asProblem } from '../api/problem';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
-import { kept } from '../state/kept';
+import { persisted } from '../state/persisted';
 import { dueNext, pauseAfter } from '../state/reread';
-import { readValue, sameValue, searchRank, valueText } from '../words/parameter';
-import { isMarked, marks, type Marked } from '../words/transfer';
+import { readValue, sameValue, searchRank, valueText } from '../text/parameter';
+import { isMarked, marks, type Marked } from '../text/transfer';
 import { Why } from './gate';
 import { Empty } from './lines';
 import { heardAt, useOnScreen } from './parameter-live';
@@ -20,7 +20,7 @@ import { Section } from './section';
 const rowsAtOnce = 100;
 const idle_ms = 400;
 /** Whether what is on the screen is read again. */
-const keep = kept('parameters.keep', 'yes', 'browser');
+const keep = persisted('parameters.keep', 'yes', 'browser');
 
 export function Parameters({ axis }: { axis: string }) {
   const { client, store } = useGateway();

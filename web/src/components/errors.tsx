@@ -2,9 +2,9 @@
 // Old values are no news: without a connection the strip says what there is to say. What there is no room for is one press away, never only counted.
 import { useSignal } from '@preact/signals';
 import { useGateway } from '../gateway';
-import { withoutSubject } from '../words/alarm';
-import { plain } from '../words/plain';
-import { whatIsWrong, type Wrong } from '../words/wrong';
+import { withoutSubject } from '../text/alarm';
+import { plain } from '../text/plain';
+import { errorsNow, type ErrorEntry } from '../text/errors';
 import { Icon } from './icon';
 import { AxisName, SimulatedMark } from './name';
 import { Section } from './section';
@@ -12,12 +12,12 @@ import { Section } from './section';
 const most = 12;
 const mostAxes = 8;
 
-export function WrongList() {
+export function ErrorList() {
   const { store } = useGateway();
   const whole = useSignal(false);
   if (!store.connected.value || !store.listed.value) return null;
   const alarms = store.alarms.value;
-  const all = whatIsWrong(
+  const all = errorsNow(
     store.axisNames.value.flatMap((n) => store.axis(n)?.value.data ?? []),
     store.lineNames.value.flatMap((n) => store.line(n)?.value.data ?? []),
     store.driveNames.value.flatMap((n) => store.drive(n)?.value.data ?? []),
@@ -43,7 +43,7 @@ export function WrongList() {
               )}
               <span class="wrong-text">{plain(withoutSubject(w.text, w.about))}</span>
             </a>
-            {w.axes.length > 0 && <WrongAxes of={w} />}
+            {w.axes.length > 0 && <ErrorAxes of={w} />}
           </li>
         ))}
         {all.length > most && (
@@ -58,7 +58,7 @@ export function WrongList() {
   );
 }
 
-function WrongAxes({ of }: { of: Wrong }) {
+function ErrorAxes({ of }: { of: ErrorEntry }) {
   const whole = useSignal(false);
   const shown = whole.value ? of.axes : of.axes.slice(0, mostAxes);
   return (

@@ -1,10 +1,10 @@
-// Kept: what people typed or chose, by a name. In: text. Out: a signal that survives a change of page and a reload.
+// Persisted: what people typed or chose, by a name. In: text. Out: a signal that survives a change of page and a reload.
 // Typed text lives in the session of the tab; choices (theme, density) in the browser. Works without storage too, then for the visit.
 import { signal, type Signal } from '@preact/signals';
 
 const known = new Map<string, Signal<string>>();
 
-export function kept(name: string, first = '', where: 'session' | 'browser' = 'session'): Signal<string> {
+export function persisted(name: string, first = '', where: 'session' | 'browser' = 'session'): Signal<string> {
   const key = `axisgate.${name}`;
   let s = known.get(key);
   if (s) return s;

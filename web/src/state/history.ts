@@ -1,4 +1,4 @@
-// Trail: what one axis did lately, for sparkline and scope. In: samples with the gateway's time. Out: columns.
+// AxisHistory: what one axis did lately, for sparkline and scope. In: samples with the gateway's time. Out: columns.
 // Holds at most `capacity` samples (a ring of flat arrays that grow as they are needed; the oldest give way). A gap in the knowledge is
 // kept as a gap, never bridged by a line. The following error has a column of its own: reckoned from thinned columns it would lose its peaks.
 import type { Axis } from '../api/types';
@@ -6,7 +6,7 @@ import type { Axis } from '../api/types';
 /** Whose word the demand of a sample is; null: nobody's. */
 export type DemandSource = Axis['demand_source'];
 
-export interface TrailSample {
+export interface HistorySample {
   at_ms: number;
   position: number | null;
   velocity: number | null;
@@ -16,7 +16,7 @@ export interface TrailSample {
   source?: DemandSource;
 }
 
-export interface TrailColumns {
+export interface HistoryColumns {
   /** seconds since 1970 */
   at: number[];
   position: (number | null)[];
@@ -30,14 +30,14 @@ export interface TrailColumns {
 const columns = ['position', 'velocity', 'target', 'demand', 'error'] as const;
 /** As a number in the last of the flat arrays. */
 const sources: readonly DemandSource[] = [null, 'drive', 'computed', 'open_loop'];
-const empty = (): TrailColumns => ({ at: [], position: [], velocity: [], target: [], demand: [], error: [], source: [] });
+const empty = (): HistoryColumns => ({ at: [], position: [], velocity: [], target: [], demand: [], error: [], source: [] });
 const known = (v: number): number | null => (Number.isNaN(v) ? null : v);
 const kept = (v: number | null | undefined): number => v ?? NaN;
 /** What is drawn as a line between two samples. */
 const lines = ['position', 'demand', 'error'] as const;
-const differ = (a: TrailSample, b: TrailSample): boolean => lines.some((c) => (a[c] ?? null) !== (b[c] ?? null));
+const differ = (a: HistorySample, b: HistorySample): boolean => lines.some((c) => (a[c] ?? null) !== (b[c] ?? null));
 
-export class Trail {
+export class AxisHistory {
   private at_ms = new Float64Array(256);
   private values = [...columns, 'source'].map(() => new Float64Array(256));
   private first = 0;
@@ -55,7 +55,7 @@ export class Trail {
     return this.count;
   }
 
-  get last(): TrailSample | undefined {
+  get last(): HistorySample | undefined {
     return this.count === 0 ? undefined : this.sample(this.count - 1);
   }
 
@@ -64,10 +64,10 @@ export class Trail {
     this.capacity = Math.max(this.capacity, capacity);
   }
 
-  add(sample: TrailSample): void {
+  add(sample: HistorySample): void {
     const before = this.last;
     if (before && sample.at_ms <= before.at_ms) {
-      if (sample.at_ms < before.at_ms - 1000) this.clear(); // the clock was set back: the old trail means nothing
+      if (sample.at_ms < before.at_ms - 1000) this.clear(); // the clock was set back: the old history means nothing
       else return;
     }
     // The gateway tells of changes only. After a rest the old value held until just before: without this sample a line from the
@@ -90,7 +90,7 @@ export class Trail {
   }
 
   /** Everything from that time on (and up to another), with one sample before, so that the line enters from the left edge. */
-  since(from_ms: number, to_ms = Infinity): TrailColumns {
+  since(from_ms: number, to_ms = Infinity): HistoryColumns {
     const out = empty();
     for (let i = Math.max(0, this.lowerBound(from_ms) - 1); i < this.count; i += 1) {
       const k = this.place(i);
@@ -107,7 +107,7 @@ export class Trail {
    * The same, for a plot that is `width` points wide: where many samples fall on one point, the least and the greatest of them are given,
    * in the order in which they came, so that no peak is lost. At most 2 * width + 1 rows, whatever the number of samples.
    */
-  seen(from_ms: number, to_ms: number, width: number): TrailColumns {
+  seen(from_ms: number, to_ms: number, width: number): HistoryColumns {
     const begin = Math.max(0, this.lowerBound(from_ms) - 1);
     const end = this.lowerBound(to_ms + 1e-6);
     if (end - begin <= 2 * width) return this.since(from_ms, to_ms);
@@ -163,7 +163,7 @@ export class Trail {
     return k < this.at_ms.length ? k : k - this.at_ms.length;
   }
 
-  private sample(i: number): TrailSample {
+  private sample(i: number): HistorySample {
     const k = this.place(i);
     const [position, velocity, target, demand, error] = columns.map((_, n) => known(this.values[n]![k] as number)) as [number | null, number | null, number | null, number | null, number | null];
     return { at_ms: this.at_ms[k] as number, position, velocity, target, demand, error, source: this.sourceAt(k) };
@@ -173,7 +173,7 @@ export class Trail {
     return sources[this.values[columns.length]![place] as number] ?? null;
   }
 
-  private push(s: TrailSample): void {
+  private push(s: HistorySample): void {
     if (this.count === this.at_ms.length && this.at_ms.length < this.capacity) this.resize(Math.min(this.capacity, this.at_ms.length * 2));
     let k: number;
     if (this.count < this.at_ms.length) {

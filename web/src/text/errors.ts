@@ -4,7 +4,7 @@ import type { Alarm, Axis, Drive, Line } from '../api/types';
 import { axisPath, linePath } from '../router';
 import type { Word } from './axis';
 
-export interface Wrong {
+export interface ErrorEntry {
   key: string;
   word: Word;
   about: string;
@@ -27,8 +27,8 @@ export function offlineReason(axis: Pick<Axis, 'name' | 'drive' | 'error'>, driv
 }
 
 /** Faults first, then lines, drives, axes that do not answer, and at the end what waits to be acknowledged. Nothing: all is well. */
-export function whatIsWrong(axes: Axis[], lines: Line[], drives: Drive[], unacknowledged: number, alarms: readonly Alarm[] = []): Wrong[] {
-  const out: Wrong[] = [];
+export function errorsNow(axes: Axis[], lines: Line[], drives: Drive[], unacknowledged: number, alarms: readonly Alarm[] = []): ErrorEntry[] {
+  const out: ErrorEntry[] = [];
   const put = (key: string, text: string, icon: Word['icon'], tone: Word['tone'], about: string, long: string, path: string, of: string[] = []) =>
     out.push({ key, word: { text, icon, tone, long }, about, text: long, path, axes: of });
   for (const a of axes) if (a.fault) put(`axis ${a.name}`, 'Fault', 'octagon', 'fault', a.name, `Fault ${a.error.code}: ${a.error.text || 'the drive says no more'}`, axisPath(a.name));

@@ -93,6 +93,13 @@ export function valueText(value: MaybeValue, p: Pick<Described, 'allowed'> & Par
   return said ? meaning : `${formatExact(value)} = ${meaning}`;
 }
 
+/** The longest text that a value with meanings can have, for the room of its cell; empty: a number, which takes one line. */
+export function longestText(p: Pick<Described, 'allowed' | 'type'> & Partial<Pick<Described, 'meanings'>>): string {
+  const codes = [...(p.allowed ?? []).map((a) => a.value), ...(p.meanings ?? []).map((m) => m.through)];
+  const texts = codes.filter((c) => typeof c === 'number').map((c) => valueText(c, p));
+  return texts.reduce((a, b) => (b.length > a.length ? b : a), '');
+}
+
 /** How well a parameter answers a search: 0 its own id, then the beginning of it, id, name, description; null: not at all. */
 export function searchRank(p: Pick<AxisParameter, 'id' | 'name' | 'description'>, text: string): number | null {
   const id = p.id.toLowerCase();

@@ -24,6 +24,7 @@ ROOMS = {
     "wire": ("core",),
     "axis": ("core", "site"),
     "protocols/canopen": ("core",),
+    "protocols/cip": ("core",),
     "drive": ("core",),
     "engine": ("core", "site", "axis", "wire"),
     "registers": ("core", "site", "axis", "engine/door.hpp"),
@@ -33,7 +34,7 @@ ROOMS = {
     "doors/modbus": ("core", "site", "axis", "registers", "engine"),
     "doors/http": ("core", "site", "axis", "registers", "services", "engine", "wire"),
 }
-PURE = ("core", "site", "wire", "axis", "protocols/canopen", "drive", "engine", "registers", "services", "adapter", "twin")
+PURE = ("core", "site", "wire", "axis", "protocols/canopen", "protocols/cip", "drive", "engine", "registers", "services", "adapter", "twin")
 
 
 # What a family's files are called, so that who knows one family knows all: see CONTRIBUTING. A role that a family does not need is absent.

@@ -188,6 +188,8 @@ int Service::open_store() {
     answers.fault = [](std::string text) { spdlog::error("store: {}", text); };
     cold = std::make_unique<Cold>(*store, std::move(answers));
     ports = std::make_unique<WarmPorts>(warm, *hot, *cold, families, std::move(*reader));
+    ports->rehearsal.set_times(std::chrono::milliseconds(options.config.modbus_watchdog_ms),
+                               std::chrono::seconds(options.config.authority_lease_s));
     ports->events.listen(&log);
     hot->connect(ports->outlets());
     return exit_good;

@@ -169,6 +169,14 @@ DoorNumber Hot::attach(HotDoor& door) {
     return static_cast<DoorNumber>(doors_.size());
 }
 
+std::vector<HotDoor*> Hot::doors() const {
+    std::vector<HotDoor*> list;
+    for (HotDoor* door : doors_) {
+        if (door) list.push_back(door);
+    }
+    return list;
+}
+
 bool Hot::serve_doors() {
     bool served = false;
     for (HotDoor* door : doors_)

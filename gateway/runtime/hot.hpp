@@ -71,7 +71,8 @@ public:
     /// A site is in force: all doors look it up anew. Hot thread, or before start().
     void publish_site(const SiteState& site);
     /// The doors of this thread; before start(), or on the hot thread.
-    [[nodiscard]] const std::vector<HotDoor*>& doors() const noexcept { return doors_; }
+    /// Those that are attached now.
+    [[nodiscard]] std::vector<HotDoor*> doors() const;
 
     void start();
     /// Stops moving axes, gives them a moment, closes the lines, ends the thread.

@@ -325,8 +325,13 @@ int Service::open_doors() {
         es.incarnation = static_cast<std::uint16_t>(unix_now_ns() / 1'000'000'000);
         enip = std::make_unique<enip::Server>(hot->context(), *hot, *image, es);
         if (const std::string fault = enip->open(options.config.enip_bind); !fault.empty()) {
-            complain(fault);
-            return exit_failed;
+            enip.reset();
+            if (options.config.enip_bind_named) {
+                complain(fault);
+                return exit_failed;
+            }
+            // Another gateway on this host has the usual ports: nobody has asked for them here.
+            spdlog::warn("{}; there is no EtherNet/IP door: name an address with [enip] bind, or \"off\"", fault);
         }
     }
     if (!options.config.http_bind.empty()) {

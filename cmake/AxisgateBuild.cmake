@@ -266,6 +266,7 @@ function(axisgate_test_suites)
   axisgate_test_program(test_store tests/unit/store LINKS axisgate::store axisgate_assets)
   axisgate_test_program(test_modbus tests/unit/modbus LINKS axisgate::door_modbus)
   axisgate_test_program(test_registers tests/unit/registers LINKS axisgate::door_modbus)  # asked as a client of the Modbus door asks
+  axisgate_test_program(test_enip tests/unit/enip LINKS axisgate::door_enip)
   axisgate_test_program(test_http tests/unit/http LINKS axisgate::door_http axisgate_assets)
   axisgate_test_program(test_runtime tests/unit/runtime LINKS axisgate::runtime axisgate_assets)
   target_sources(test_runtime PRIVATE tests/unit/store/fault_vfs.cpp)  # the disk that fails

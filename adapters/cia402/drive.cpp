@@ -162,7 +162,7 @@ void Drive::emit_frames(std::vector<Frame>& frames, Priority priority, Turn& t) 
 void Drive::on_frame(const Frame& f, Turn& t) {
     if (presence_.is(Phase::down)) return;
     if (const auto e = canopen::emergency_of(f, node_)) return on_emergency(*e, t);
-    if (f.id == canopen::error_control_base + node_) return on_heartbeat(f, t);
+    if (f.id == static_cast<std::uint32_t>(canopen::error_control_base + node_)) return on_heartbeat(f, t);
     if (canopen::is_data(f, status_base + node_)) return on_status(f.data(), t);
     if (canopen::is_data(f, motion_base + node_)) return on_motion(f.data(), t);
     if (f.id != static_cast<std::uint32_t>(canopen::sdo_answer_base + node_)) return;

@@ -262,6 +262,7 @@ void Drive::finish(Job& job, Turn& t) {
         }
     }
     const bool done = read || to;
+    if (done && axis_ != no_axis) t.out.samples.push_back({axis_, read ? read->point : to->point, value, Quality::good, t.now, 0});
     if (const auto* home = std::get_if<Home>(&body); home && home->method != 0) homing_method_ = home->method;
     tickets_.answer(job.command.ticket, done ? Outcome::done : Outcome::accepted, Reason::none, std::move(text), t.out, 0, std::move(value),
                     job.data);

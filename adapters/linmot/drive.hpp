@@ -122,7 +122,6 @@ private:
 
     /// The drive's own position stream: one set-point each period, without a gap.
     struct Stream {
-        bool wanted = false;  ///< by the drive option set_points
         bool on = false, ending = false;
         Duration period{};
         Instant next = never, heard{};  ///< its next set-point; its last answer
@@ -214,6 +213,7 @@ private:
     drive::Exchange<Request> exchange_;
     drive::CommandQueue queue_;
     drive::SetPoints set_points_;
+    bool streams_ = false;  ///< by the drive option set_points
     Stream stream_;
     drive::Tickets tickets_;
     drive::Notices notices_;

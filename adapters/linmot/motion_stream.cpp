@@ -54,7 +54,7 @@ void Drive::send_stream(Turn& t) {
 
 void Drive::stream_answered(Turn& t) {
     if (std::exchange(stream_.ending, false)) {
-        stream_ = {.wanted = stream_.wanted};
+        stream_ = {};
         demand_.rest(static_cast<double>(status_.position));
         poll_.soon(t.now);
         return;
@@ -69,7 +69,7 @@ void Drive::stream_answered(Turn& t) {
 
 /// The drive has left it already, or never began.
 void Drive::end_stream(Reason reason, std::string why, Turn& t) {
-    stream_ = {.wanted = stream_.wanted};
+    stream_ = {};
     t.out.stream_ends.push_back({axis_, reason, std::move(why)});
 }
 

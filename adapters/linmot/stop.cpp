@@ -11,7 +11,7 @@ constexpr std::size_t most_stops = 16;
 
 void Drive::follow(const SetPoint& p) {
     if (p.axis != axis_ || !presence_.online()) return;
-    if (stream_.wanted && p.mode == SetPoint::Mode::position && stream_period() > Duration{} && !stream_.ending) {
+    if (streams_ && p.mode == SetPoint::Mode::position && stream_period() > Duration{} && !stream_.ending) {
         stream_.newest = p;
         return;
     }
@@ -67,7 +67,7 @@ std::optional<Telegram> Drive::stop_request(Turn& t) {
     while (!stops_.empty()) {
         Stop& s = stops_.front();
         // Control words end a stream by themselves; a halt is a motion command, and the stream is left before it.
-        if (stream_.on && !std::holds_alternative<Halt>(s.command.body)) stream_ = {.wanted = stream_.wanted};
+        if (stream_.on && !std::holds_alternative<Halt>(s.command.body)) stream_ = {};
         const std::uint8_t main = status_.state();
         release_home_ = false;
         if (std::holds_alternative<Disable>(s.command.body)) {

@@ -94,12 +94,18 @@ struct Device {
     std::uint16_t consistency = 0;  ///< of the layout: changes with it
 };
 
-struct Values {
+/// What there is, without its values: all that an EDS says.
+struct Description {
     [[nodiscard]] virtual const Device& device() const = 0;
-
     [[nodiscard]] virtual std::optional<AssemblyInfo> assembly(std::uint32_t instance) const = 0;
     /// All of them, ascending.
     [[nodiscard]] virtual const std::vector<std::uint32_t>& assemblies() const = 0;
+    [[nodiscard]] virtual std::uint32_t parameters() const = 0;  ///< instances 1..n
+    [[nodiscard]] virtual const ParameterInfo* parameter(std::uint32_t instance) const = 0;
+    virtual ~Description() = default;
+};
+
+struct Values : Description {
     /// Appends exactly the assembly's size.
     virtual void read(std::uint32_t instance, Instant now, Bytes& to) = 0;
     /// Another number after each change of what an input shows, but for what time alone changes.
@@ -117,13 +123,10 @@ struct Values {
     virtual void idle(std::uint32_t output, const Peer& who, Instant now) = 0;
     virtual void ended(std::uint32_t output, const Peer& who, End why, Instant now) = 0;
 
-    [[nodiscard]] virtual std::uint32_t parameters() const = 0;  ///< instances 1..n
-    [[nodiscard]] virtual const ParameterInfo* parameter(std::uint32_t instance) const = 0;
     /// Asks for a value: Adapter::told(token) follows, not from inside this call. Else why it is not asked.
     [[nodiscard]] virtual General ask(std::uint32_t instance, Token token, const Peer& who, Instant now) = 0;
     /// `value` has the right size.
     [[nodiscard]] virtual General set(std::uint32_t instance, View value, Token token, const Peer& who, Instant now) = 0;
-    virtual ~Values() = default;
 };
 
 }  // namespace axisgate::cip

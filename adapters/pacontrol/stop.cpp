@@ -11,7 +11,7 @@
 
 namespace axisgate::pacontrol {
 namespace {
-constexpr std::uint8_t frame_tries = 8;  // of one stop that the control could not read
+constexpr std::uint8_t unread_stop_tries = 8;  // of one stop that the control could not read
 constexpr Duration supervise_after = std::chrono::seconds(10);
 constexpr Duration switch_off_limit = std::chrono::seconds(10);  // of the start of ONLINE, as for an enable
 
@@ -212,7 +212,7 @@ void Stops::answered(const Sent& sent, const Reply& reply, Turn& t) {
 }
 
 void Stops::not_read(const Reply& reply, Turn& t) {
-    if (!sent_ || waiting_.empty() || ++sent_->tries < frame_tries) return;
+    if (!sent_ || waiting_.empty() || ++sent_->tries < unread_stop_tries) return;
     over(*sent_, Outcome::failed, Reason::drive_refused, describe_quit(reply.quit), t, reply.quit);
 }
 

@@ -45,7 +45,7 @@ TEST_P(Rehearsals, EachCellHasItsFigures) {
             EXPECT_GE(cell.travel, 0);
             const double wait_ms = cause == LossCause::lease_ended         ? 2000
                                    : cause == LossCause::modbus_silent     ? 300
-                                   : cause == LossCause::line_lost ? 2000
+                                   : cause == LossCause::line_lost         ? 2000
                                    : cause == LossCause::set_points_silent ? 500
                                                                            : 0;
             if (choice == FailSafeAction::nothing) {

@@ -24,11 +24,15 @@ LineReport Engine::line_report(LineId id, Instant now) const {
     }
     for (const FamilyEntry& f : u->families)
         r.families.push_back({std::string(f.family->name), {}});
+    r.scanned = u->scanned_gone;
     for (const Side* side : {u->real.get(), u->twins.get()}) {
         if (!side) continue;
         r.unclaimed += side->unclaimed;
         for (const auto& s : side->speakers) {
-            const AdapterCounters counted = s->adapter->counters();
+            const AdapterCounters all = s->adapter->counters();
+            const AdapterCounters scanned = s->scanned_now(all);
+            const AdapterCounters counted = Speaker::difference(all, scanned);
+            r.scanned += scanned;
             r.counters += counted;
             const auto of = std::ranges::find(r.families, s->family.family->name, &LineReport::OfFamily::family);
             if (of != r.families.end()) of->counters += counted;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 
 #include "gateway/axis/authority.hpp"
 #include "gateway/engine/engine.hpp"
@@ -18,7 +19,20 @@ struct Engine::Speaker {
     std::unique_ptr<Adapter> adapter;
     std::vector<CanIdentifiers> identifiers;
     bool hears_all = true;
-    std::vector<DriveSetup> probes;  ///< addresses that a scan asks now
+    std::vector<DriveSetup> probes;              ///< addresses that a scan asks now
+    std::optional<AdapterCounters> before_scan;  ///< what it had counted when the scan that runs came to it
+    AdapterCounters scanned;                     ///< while scans ran that are over
+
+    /// What it counted while scans ran, the one that runs among them.
+    [[nodiscard]] AdapterCounters scanned_now(const AdapterCounters& counted) const noexcept {
+        AdapterCounters all = scanned;
+        if (before_scan) all += difference(counted, *before_scan);
+        return all;
+    }
+    static AdapterCounters difference(const AdapterCounters& now, const AdapterCounters& before) noexcept {
+        return {now.exchanges - before.exchanges, now.timeouts - before.timeouts, now.retries - before.retries,
+                now.refused - before.refused,     now.garbled - before.garbled,   now.unexpected - before.unexpected};
+    }
 
     [[nodiscard]] bool hears(const Frame& f) const noexcept { return hears_all || f.kind != Frame::Kind::can || any_holds(identifiers, f); }
 };
@@ -94,7 +108,8 @@ struct Engine::LineUnit {
     std::unique_ptr<Side> twins;  ///< null while no drive is simulated
     std::shared_ptr<FrameLog> log;
     std::vector<DriveId> drives;
-    std::unique_ptr<Scan> scan;  ///< null: never scanned
+    std::unique_ptr<Scan> scan;    ///< null: never scanned
+    AdapterCounters scanned_gone;  ///< by speakers that only a scan brought in
     Duration stale_after{};
 };
 

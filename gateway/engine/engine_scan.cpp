@@ -114,8 +114,13 @@ void Engine::end_scan(LineUnit& unit, ScanReport::State state, std::string why, 
     unit.scan->parts.clear();
     Side* side = unit.real ? unit.real.get() : unit.twins.get();
     if (!side) return;
-    for (const auto& s : side->speakers)
+    for (const auto& s : side->speakers) {
         s->probes.clear();
+        s->scanned = s->scanned_now(s->adapter->counters());
+        s->before_scan.reset();
+        if (std::ranges::find(unit.families, s->family.family, &FamilyEntry::family) == unit.families.end())
+            unit.scanned_gone += s->scanned;
+    }
     fit_speakers(*side, now);
 }
 
@@ -157,6 +162,7 @@ void Engine::scan_turn(LineUnit& unit, Instant now) {
         if (!side) break;
         Speaker& speaker = bring_in(*side, part->family, now);
         speaker.probes.clear();
+        if (!speaker.before_scan) speaker.before_scan = speaker.adapter->counters();
         for (const auto& a : part->asking)
             speaker.probes.push_back({a.id, "scan " + a.address, a.address, {}, {}});
         configure(speaker, now);

@@ -21,8 +21,9 @@ struct DriveStatus {
     std::int64_t retry_pause_ms = 0;
 };
 struct LineReport {
-    LineStatus status;  ///< of the real line; of the twin bus if the URI is "twin"
-    AdapterCounters counters;
+    LineStatus status;          ///< of the real line; of the twin bus if the URI is "twin"
+    AdapterCounters counters;   ///< without what was counted while a scan ran
+    AdapterCounters scanned;    ///< while a scan ran: addresses where nobody is time out, which says nothing of the line
     bool has_twin_bus = false;  ///< some drives of it are simulated now
     LineStatus twin_status;
     /// What each family's adapter counted; `counters` is their sum.

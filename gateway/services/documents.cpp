@@ -205,6 +205,7 @@ json::object line_document(const SiteState& site, std::size_t index, const LineR
     json::object s = status_document(report.status);
     const AdapterCounters& c = report.counters;
     s["counters"] = counters_document(c);
+    s["scan_counters"] = counters_document(report.scanned);
     json::array families;
     for (const auto& f : report.families)
         families.push_back(json::object{{"family", f.family}, {"counters", counters_document(f.counters)}});

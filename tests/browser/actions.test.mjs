@@ -25,7 +25,7 @@ if (isMock) {
     });
     commands = (await program.call('GET', '/families/linmot/commands')).body;
     browser = await launch();
-    page = await open(browser, `${program.url}/axes/shuttle`);
+    page = await open(browser, `${program.url}/axes/shuttle/drive`);
     card = page.locator('[data-part=actions]');
     await card.waitFor();
   });

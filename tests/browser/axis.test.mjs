@@ -8,7 +8,7 @@ let program, browser, page, list;
 before(async () => {
   program = await Program.start();
   browser = await launch();
-  page = await open(browser, `${program.url}/axes/feeder`);
+  page = await open(browser, `${program.url}/axes/feeder/parameters`);
   await page.locator('[data-parameter]').first().waitFor();
   list = (await program.call('GET', '/axes/feeder/parameters')).body;
 });
@@ -17,6 +17,11 @@ after(async () => {
   await program?.end();
 });
 
+/** By its tab, as a person goes. */
+const tab = async (name) => {
+  await page.getByRole('navigation', { name: 'Parts of feeder' }).getByRole('link', { name, exact: true }).click();
+  await becomes('it is marked', () => page.locator('.axis-tabs [aria-current=page]').innerText(), name);
+};
 /** A parameter that may be written without harm, with a range. */
 const writable = () => list.find((p) => p.access === 'RW' && p.min !== null && p.max !== null && p.min >= 0 && !p.allowed && !p.count && /acceleration|AC\b/i.test(`${p.name} ${p.id}`)) ?? list.find((p) => p.access === 'RW' && p.max !== null && !p.allowed && !p.count);
 const row = (id) => page.locator(`tr[data-parameter="${id}"]`);
@@ -66,6 +71,7 @@ test('a parameter is read from the drive on demand', async () => {
 });
 
 test('a line in the drive\'s own language is answered in the console', async () => {
+  await tab('Drive');
   const input = page.getByRole('textbox', { name: 'Line to send to feeder' });
   const line = isMock ? 'PR P' : 'MO';
   await input.fill(line);
@@ -81,6 +87,7 @@ test('a line in the drive\'s own language is answered in the console', async () 
 });
 
 test('the hand of the twin has switches that take', async () => {
+  await tab('Simulation');
   const stall = page.getByRole('switch', { name: 'Stall' });
   await stall.waitFor();
   await becomes('it is off', () => stall.getAttribute('aria-checked'), 'false');
@@ -92,11 +99,15 @@ test('the hand of the twin has switches that take', async () => {
 });
 
 test('the state machine marks the present state, in words too', async () => {
+  await tab('Move');
   const drawing = page.getByRole('img', { name: /^Present state: / });
   await becomes('it is off', () => drawing.getAttribute('aria-label'), 'Present state: Switch on disabled');
   await page.getByRole('button', { name: 'Enable', exact: true }).click();
   await page.getByRole('img', { name: 'Present state: Operation enabled' }).waitFor();
   await becomes('the drawing says so', async () => (await page.locator('.node.is-now').textContent()).trim(), 'Operation enabled');
+  const set = (word) => page.locator(`[data-word="${word}"] .is-set`).allInnerTexts().then((all) => all.map((t) => t.replace(/^\d+\s+\d\s+/, '').trim()));
+  await until('the status word says it bit by bit', async () => (await set('Status word')).includes('Operation enabled') || (await set('Status word')));
+  await until('so does the control word', async () => (await set('Control word')).includes('Enable operation') || (await set('Control word')));
 });
 
 test('the scope draws a move', async () => {
@@ -130,6 +141,30 @@ test('the present position can be given another name without a motion', async ()
   await page.getByRole('button', { name: 'Set position …', exact: true }).click();
   await question.getByRole('button', { name: 'Set position', exact: true }).click();
   await until('it took', async () => Math.abs((await program.axis('feeder')).position) < 0.01 || (await program.axis('feeder')).position);
+});
+
+test('each tab has an address, a heading and a way back', async () => {
+  for (const [name, path, heading] of [['Scope', '/axes/feeder/scope', 'Scope of feeder'], ['Events', '/axes/feeder/events', 'Events of feeder'], ['Parameters', '/axes/feeder/parameters', 'Parameters of feeder'], ['Move', '/axes/feeder', 'feeder']]) {
+    await tab(name);
+    assert.equal(new URL(page.url()).pathname, path);
+    await page.getByRole('heading', { level: 1, name: heading, exact: true }).waitFor();
+    await page.getByRole('button', { name: 'Stop feeder', exact: true }).waitFor();
+  }
+  await page.goBack();
+  await page.getByRole('heading', { level: 1, name: 'Parameters of feeder' }).waitFor();
+  await page.goto(`${program.url}/axes/feeder/scope`);
+  await page.locator('.scope canvas').waitFor();
+});
+
+test('on a phone no tab is higher than three screens', async () => {
+  const phone = await open(browser, program.url, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+  for (const [path, ready] of [['/axes/feeder', '.machine'], ['/axes/feeder/scope', '.scope canvas'], ['/axes/feeder/drive', '[data-part=actions]'], ['/axes/feeder/simulation', '[data-hand]'], ['/axes/feeder/events', '.event']]) {
+    await phone.goto(program.url + path);
+    await phone.locator(ready).first().waitFor();
+    const height = await phone.evaluate(() => document.querySelector('main').getBoundingClientRect().height);
+    assert.ok(height <= 3 * 844, `${path} is ${height} px high`);
+  }
+  await phone.context().close();
 });
 
 test('nothing on the way was a fault of the page', () => {

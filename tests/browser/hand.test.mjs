@@ -22,7 +22,7 @@ const group = (name) => page.locator(`[data-hand-group="${name}"]`);
 before(async () => {
   program = await Program.start({ site });
   browser = await launch();
-  page = await open(browser, `${program.url}/axes/gantry-y`);
+  page = await open(browser, `${program.url}/axes/gantry-y/simulation`);
   await group('gantry-y').waitFor();
 });
 after(async () => {
@@ -100,7 +100,7 @@ test('wherever a simulated axis is named, that it is simulated stands beside it'
 });
 
 test('axe-core finds nothing serious, nothing scrolls sideways, pictures', async () => {
-  await pictures(browser, program.url, '/axes/gantry-y', 'hand', async (p) => {
+  await pictures(browser, program.url, '/axes/gantry-y/simulation', 'hand', async (p) => {
     await p.locator('[data-hand-group="gantry-y"]').waitFor();
     await p.locator('[data-hand-group="gantry-x"] summary').first().click();
     await p.evaluate(() => scrollTo(0, 0)); // nothing behind the head that stays

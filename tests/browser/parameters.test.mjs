@@ -35,7 +35,7 @@ after(async () => {
 
 test('the axis page leads here, and the heading names the axis', async () => {
   const other = await open(browser, `${program.url}/axes/feeder`);
-  await other.getByRole('link', { name: /Snapshots, comparison/ }).click();
+  await other.getByRole('navigation', { name: 'Parts of feeder' }).getByRole('link', { name: 'Parameters' }).click();
   await other.getByRole('heading', { level: 1, name: 'Parameters of feeder' }).waitFor();
   assert.equal(new URL(other.url()).pathname, path);
   await other.context().close();

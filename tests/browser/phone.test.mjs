@@ -77,7 +77,7 @@ test('nobody without keys is told of the Escape key', async () => {
 });
 
 test('a line of 3000 characters leaves the console as high as it was', async () => {
-  const page = await open(browser, `${program.url}/axes/feeder`);
+  const page = await open(browser, `${program.url}/axes/feeder/drive`);
   const line = page.getByLabel(/^Line to send to/);
   await line.fill('X'.repeat(3000));
   const before = (await box(page, '.console')).h;

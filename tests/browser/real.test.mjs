@@ -44,7 +44,7 @@ if (isMock) {
   });
 
   test('there is no hand for a real drive', async () => {
-    await page.goto(`${program.url}/axes/press`);
+    await page.goto(`${program.url}/axes/press/simulation`);
     await page.getByText('This drive is not simulated now').waitFor();
     await page.goto(program.url);
     await page.locator('[data-axis=press]').waitFor();

@@ -136,6 +136,8 @@ TEST_P(MemoryLaws, AScanFindsEveryDriveAndNoOther) {
         there.insert(list[i]);
     }
     ASSERT_TRUE(world->run_until_true([&] { return online(a1); }, 20s));
+    const auto line = [&] { return world->engine.line_report(site->line_ids[0], world->now); };
+    const AdapterCounters before = line().counters;
     ScanWish wish;
     wish.limit = 300s;
     const std::string refused = world->engine.start_scan(site->line_ids[0], wish, world->now);
@@ -154,6 +156,16 @@ TEST_P(MemoryLaws, AScanFindsEveryDriveAndNoOther) {
         EXPECT_EQ(f.known_as, f.address == list[0] ? "a1" : "") << f.address;
     }
     EXPECT_EQ(found, there);
+    // Addresses where nobody is time out: that is the scan's, and leaves no mark on the line.
+    EXPECT_EQ(line().counters.timeouts, before.timeouts);
+    EXPECT_EQ(line().counters.retries, before.retries);
+    EXPECT_EQ(line().counters.garbled, before.garbled);
+    if (report().asked > 0) EXPECT_GT(line().scanned.exchanges + line().scanned.timeouts, 0u);
+    const auto scanned = line().scanned.exchanges;
+    const auto counted = line().counters.exchanges;
+    world->run_for(2s);
+    EXPECT_EQ(line().scanned.exchanges, scanned) << "what comes after the scan is the line's again";
+    EXPECT_GT(line().counters.exchanges, counted);
     EXPECT_NE(now().flags & flag_online, 0) << "the site's own drive was served all the time";
 }
 

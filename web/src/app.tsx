@@ -2,7 +2,7 @@
 import { useEffect, useRef } from 'preact/hooks';
 import { Head, Spoken, Strip } from './components/frame';
 import { route } from './router';
-import { AxisPage } from './pages/axis';
+import { AxisPage, headingOf } from './pages/axis';
 import { EventsPage } from './pages/events';
 import { GatewayPage } from './pages/gateway';
 import { LinePage, LinesPage } from './pages/lines';
@@ -30,7 +30,7 @@ const titles = {
 
 export function App() {
   const r = route.value;
-  const title = r.page === 'parameters' ? `Parameters of ${r.name}` : r.page === 'axis' || r.page === 'line' || r.page === 'recipe' ? r.name : titles[r.page];
+  const title = r.page === 'parameters' ? `Parameters of ${r.name}` : r.page === 'axis' ? headingOf(r.name, r.tab) : r.page === 'line' || r.page === 'recipe' ? r.name : titles[r.page];
   useEffect(() => {
     document.title = `${title} · axisgate`;
   }, [title]);
@@ -73,7 +73,7 @@ function Page() {
   const r = route.value;
   switch (r.page) {
     case 'overview': return <Overview />;
-    case 'axis': return <AxisPage key={r.name} name={r.name} />;
+    case 'axis': return <AxisPage key={r.name} name={r.name} tab={r.tab} />;
     case 'lines': return <LinesPage />;
     case 'line': return <LinePage key={r.name} name={r.name} />;
     case 'recipes': return <RecipesPage />;

@@ -4,7 +4,7 @@ import { signal } from '@preact/signals';
 
 export type Route =
   | { page: 'overview' }
-  | { page: 'axis'; name: string }
+  | { page: 'axis'; name: string; tab: AxisTab }
   | { page: 'lines' }
   | { page: 'line'; name: string }
   | { page: 'recipes' }
@@ -18,6 +18,11 @@ export type Route =
   | { page: 'sign-in' }
   | { page: 'unknown'; path: string };
 
+/** The tabs of an axis' page, by their address; its parameters are one more, and a page of their own. */
+export const axisTabs = ['move', 'scope', 'drive', 'simulation', 'events'] as const;
+export type AxisTab = (typeof axisTabs)[number];
+const tabOf = (s: string | undefined): AxisTab | undefined => axisTabs.find((t) => t === s && t !== 'move');
+
 /** Pages without a name. */
 const plain = ['lines', 'mappings', 'recipes', 'site', 'events', 'gateway', 'users', 'sign-in'] as const;
 const isPlain = (s: string): s is (typeof plain)[number] => (plain as readonly string[]).includes(s);
@@ -27,11 +32,13 @@ export function routeOf(path: string): Route {
   const [first, second, ...rest] = parts;
   if (first === undefined) return { page: 'overview' };
   if (rest.length === 0 && second !== undefined) {
-    if (first === 'axes') return { page: 'axis', name: second };
+    if (first === 'axes') return { page: 'axis', name: second, tab: 'move' };
     if (first === 'lines') return { page: 'line', name: second };
     if (first === 'recipes') return { page: 'recipe', name: second };
   }
   if (first === 'axes' && second !== undefined && rest.length === 1 && rest[0] === 'parameters') return { page: 'parameters', name: second };
+  const tab = tabOf(rest[0]);
+  if (first === 'axes' && second !== undefined && rest.length === 1 && tab) return { page: 'axis', name: second, tab };
   if (second === undefined && isPlain(first)) return { page: first };
   return { page: 'unknown', path };
 }
@@ -39,6 +46,7 @@ export function routeOf(path: string): Route {
 // A last part with a point looks like a file to the gateway, which then has no page to answer; a slash at the end says it is none.
 const pathOf = (kind: string, name: string): string => `/${kind}/${encodeURIComponent(name)}${name.includes('.') ? '/' : ''}`;
 export const axisPath = (name: string): string => pathOf('axes', name);
+export const axisTabPath = (name: string, tab: AxisTab): string => (tab === 'move' ? axisPath(name) : `/axes/${encodeURIComponent(name)}/${tab}`);
 export const parametersPath = (name: string): string => `/axes/${encodeURIComponent(name)}/parameters`;
 export const linePath = (name: string): string => pathOf('lines', name);
 

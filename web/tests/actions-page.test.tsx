@@ -8,7 +8,7 @@ afterEach(() => p.close());
 const sent = () => p.wire.asked.filter((a) => /^POST .*\/actions/.test(a)).length;
 
 it('a command runs from its form, and not before its fields are right', async () => {
-  p = await openPage('/axes/feeder');
+  p = await openPage('/axes/feeder/drive');
   await p.see('[data-part=actions]', /3 of 3/);
   p.type(p.field('Find'), 'go pos');
   await p.see('[data-part=actions]', /1 of 3/);
@@ -29,7 +29,7 @@ it('a command runs from its form, and not before its fields are right', async ()
 });
 
 it('a command that loses something asks first, in its sentence; what was changed since is asked anew', async () => {
-  p = await openPage('/axes/feeder');
+  p = await openPage('/axes/feeder/drive');
   await p.see('[data-part=actions]', /of 3/);
   p.type(p.field('Find'), '');
   await p.see('[data-part=actions]', /3 of 3/);
@@ -55,7 +55,7 @@ it('a command that loses something asks first, in its sentence; what was changed
 });
 
 it('a parameter by which the drive is reached is written after a question with its old and new value', async () => {
-  p = await openPage('/axes/feeder');
+  p = await openPage('/axes/feeder/parameters');
   await p.see('[data-parameter=PP]', 'PP');
   await p.press('List elements');
   await p.see('[data-parameter="PP[1]"]', 'PP[1]');

@@ -22,7 +22,7 @@ const underscored = (root: HTMLElement): string[] => {
 };
 
 const ready: [string, string, RegExp][] = [
-  ['/', '[data-axis=feeder]', /feeder/], ['/axes/feeder', '.parameters', /Read all/], ['/axes/feeder/parameters', '[data-part=snapshots], main', /No snapshot is kept/],
+  ['/', '[data-axis=feeder]', /feeder/], ['/axes/feeder', '.machine', /Control word/], ['/axes/feeder/drive', '[data-part=actions]', /Find/], ['/axes/feeder/simulation', '.hand', /Stall/], ['/axes/feeder/events', 'main', /Events of this axis/], ['/axes/feeder/parameters', '[data-part=snapshots], main', /No snapshot is kept/],
   ['/lines', 'main', /feeder/], ['/lines/can0', 'main', /can0/], ['/mappings', '#mapping-form', /gantry-x/], ['/site', 'main', /feeder/], ['/recipes', 'main', /Recipes/],
   ['/events', 'main', /Events/], ['/gateway', 'main', /Modbus/], ['/users', 'main', /Users/],
 ];

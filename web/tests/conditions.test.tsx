@@ -73,8 +73,8 @@ describe('a role that may not', () => {
   it.each([
     ['viewer', '/', 'Every command but a stop needs the role operator. Yours is viewer.'],
     ['viewer', '/axes/feeder', 'Every command but a stop needs the role operator. Yours is viewer.'],
-    ['operator', '/axes/feeder', 'Writing a parameter needs the role engineer. Yours is operator.'],
-    ['operator', '/axes/feeder', 'This needs the role engineer. Yours is operator.'],
+    ['operator', '/axes/feeder/parameters', 'Writing a parameter needs the role engineer. Yours is operator.'],
+    ['operator', '/axes/feeder/drive', 'This needs the role engineer. Yours is operator.'],
     ['operator', '/axes/feeder/parameters', 'Saving, restoring and removing a snapshot needs the role engineer. Yours is operator.'],
     ['operator', '/axes/feeder/parameters', 'Writing what is imported needs the role engineer. Yours is operator.'],
     ['operator', '/lines/can0', 'Looking for drives needs the role engineer. Yours is operator.'],
@@ -92,7 +92,7 @@ describe('a role that may not', () => {
     await p.see('main', words);
   });
   it('an administrator is told nothing of the kind anywhere', async () => {
-    for (const path of ['/axes/feeder', '/site', '/recipes/r', '/gateway', '/events']) {
+    for (const path of ['/axes/feeder', '/axes/feeder/drive', '/site', '/recipes/r', '/gateway', '/events']) {
       await as('administrator', path);
       await soon(() => expect(p.text('[data-field=connection]')).toBe('Live'));
       await p.drawn();

@@ -142,7 +142,7 @@ it('a filter of the events that hides all says so, with how many there are, and 
 });
 
 it('a value that the twin refuses stays in its field, with the reason beside it, until one is taken', async () => {
-  await open('/axes/feeder');
+  await open('/axes/feeder/simulation');
   await p.see('[data-hand=temperature]', 'Temperature');
   const set = vi.spyOn(p.gateway.client, 'setHand').mockRejectedValueOnce(new (await import('../src/api/problem')).Problem('answered', 'temperature goes from -40 to 150', 422));
   p.type(p.field('Temperature'), '999');

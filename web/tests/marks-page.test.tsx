@@ -14,7 +14,7 @@ const handOf = (drive: string) => door.world.driveOf(drive).hand;
 
 describe('the hand', () => {
   it('on the page of the second axis changes the second axis, not the first', async () => {
-    await open('/axes/gantry-y');
+    await open('/axes/gantry-y/simulation');
     await p.see('[data-hand-group="gantry-y"]', 'Limit positive');
     await p.press('Limit positive');
     await soon(() => expect(handOf('gantry')['axis2.limit_positive']).toBe(true));
@@ -25,7 +25,7 @@ describe('the hand', () => {
     expect(handOf('gantry')['axis2.stall']).toBe(false);
   });
   it('on the page of the first one changes the first one, and says its position in its unit', async () => {
-    await open('/axes/gantry-x');
+    await open('/axes/gantry-x/simulation');
     await p.see('[data-hand-group="gantry-x"]', 'Limit positive');
     expect([...p.root.querySelectorAll('[data-hand-group]')].map((e) => e.getAttribute('data-hand-group'))).toEqual(['gantry-x', 'The whole drive', 'gantry-y']);
     p.type(p.field('Position'), '12500');
@@ -117,7 +117,7 @@ it('a value that is counted in steps says what it comes to, also while it is typ
   try {
     entry.unit = '0.1 A';
     door.world.axisOf('feeder').write(entry.id, 10, 'x');
-    await open('/axes/feeder');
+    await open('/axes/feeder/parameters');
     await p.see(`[data-parameter="${entry.id}"] [data-field=live]`, '10 × 0.1 A = 1.0 A');
     p.type(p.field(`New value of ${entry.id}`), '12');
     await p.see(`[data-parameter="${entry.id}"] .row-note`, '12 × 0.1 A = 1.2 A');

@@ -262,12 +262,12 @@ describe('what is small', () => {
   });
   it('what may be entered for the twin is text that can be unfolded, not only a tooltip', async () => {
     client.hand = vi.fn(async () => [{ name: 'inject_error', value: 0, writable: true, description: '0 or one of 2, 8, 11', options: [] }]);
-    route.value = { page: 'axis', name: 'feeder' };
+    route.value = { page: 'axis', name: 'feeder', tab: 'simulation' };
     await vi.waitFor(() => expect(text('[data-hand=inject_error] details summary')).toBe('What may be entered: Inject error'));
     expect(text('[data-hand=inject_error] details')).toContain('0 or one of 2, 8, 11');
   });
   it('demand and following error say whose word they are while one of them is shown, and are never barred', async () => {
-    route.value = { page: 'axis', name: 'feeder' };
+    route.value = { page: 'axis', name: 'feeder', tab: 'move' };
     tell({ position: 1 }, 5000);
     await vi.waitFor(() => expect(button('Following error')).toBeDefined());
     const line = () => text('[data-field=demand-source]');
@@ -297,12 +297,12 @@ describe('what is small', () => {
 
 describe('what appears later', () => {
   it('is noticed by who asked for it before', async () => {
-    route.value = { page: 'axis', name: 'later' };
+    route.value = { page: 'axis', name: 'later', tab: 'simulation' };
     await tick();
     expect(text('main')).toContain('There is no axis later.');
     gateway.store.take({ topic: 'axes/later', at: 2e9, data: axis({ name: 'later', number: 9, drive: 'late-drive', position: 1 }) });
     await tick();
-    expect(text('main h1')).toBe('later');
+    expect(text('main h1')).toBe('Simulation of later');
     expect(text('main')).toContain('not simulated now');
     gateway.store.take({ topic: 'drives/late-drive', at: 2e9, data: { ...world().driveOf('feeder').document(), name: 'late-drive' } });
     await tick();
@@ -320,7 +320,7 @@ describe('alarms and pages', () => {
     expect(text('[data-field=spoken]')).toBe('Alarm. feeder: the motor is stalled');
   });
   it('says that a page or an axis is not there', async () => {
-    route.value = { page: 'axis', name: 'nobody' };
+    route.value = { page: 'axis', name: 'nobody', tab: 'move' };
     await tick();
     expect(text('main')).toContain('There is no axis nobody.');
     route.value = { page: 'unknown', path: '/x' };
@@ -335,7 +335,7 @@ describe('alarms and pages', () => {
     route.value = { page: 'parameters', name: 'feeder' };
     await vi.waitFor(() => expect(text('main')).toContain('This gateway does not offer snapshots.'));
   });
-  it.each([{ page: 'axis', name: 'feeder' }, { page: 'lines' }, { page: 'line', name: 'can0' }, { page: 'events' }, { page: 'gateway' }, { page: 'mappings' }, { page: 'parameters', name: 'feeder' }, { page: 'site' }] as const)('draws %o with one heading', async (r) => {
+  it.each([{ page: 'axis', name: 'feeder', tab: 'move' }, { page: 'axis', name: 'feeder', tab: 'drive' }, { page: 'axis', name: 'feeder', tab: 'events' }, { page: 'lines' }, { page: 'line', name: 'can0' }, { page: 'events' }, { page: 'gateway' }, { page: 'mappings' }, { page: 'parameters', name: 'feeder' }, { page: 'site' }] as const)('draws %o with one heading', async (r) => {
     route.value = r;
     await tick();
     expect(root.querySelectorAll('main h1')).toHaveLength(1);

@@ -14,16 +14,19 @@ it.each([
   ['/axes/gantry.x/parameters/', { page: 'parameters', name: 'gantry.x' }],
   ['/recipes', { page: 'recipes' }],
   ['/recipes/warm-up', { page: 'recipe', name: 'warm-up' }],
-  ['/axes/feeder', { page: 'axis', name: 'feeder' }],
+  ['/axes/feeder', { page: 'axis', name: 'feeder', tab: 'move' }],
+  ['/axes/feeder/scope', { page: 'axis', name: 'feeder', tab: 'scope' }],
+  ['/axes/gantry.x/events/', { page: 'axis', name: 'gantry.x', tab: 'events' }],
+  ['/axes/feeder/move', { page: 'unknown', path: '/axes/feeder/move' }],
   ['/lines/can0', { page: 'line', name: 'can0' }],
   ['/axes', { page: 'unknown', path: '/axes' }],
   ['/axes/a/b', { page: 'unknown', path: '/axes/a/b' }],
   ['/nonsense', { page: 'unknown', path: '/nonsense' }],
-  ['/axes/%E0%A4%A', { page: 'axis', name: '%E0%A4%A' }],
+  ['/axes/%E0%A4%A', { page: 'axis', name: '%E0%A4%A', tab: 'move' }],
 ])('%s', (path, route) => expect(routeOf(path)).toEqual(route));
 
 it.each(['feeder', 'gantry.x', 'a_b-c', 'Z9'])('finds the axis %s by its own address', (name) => {
-  expect(routeOf(axisPath(name))).toEqual({ page: 'axis', name });
+  expect(routeOf(axisPath(name))).toEqual({ page: 'axis', name, tab: 'move' });
   expect(routeOf(linePath(name))).toEqual({ page: 'line', name });
 });
 it('ends the address of a name with a point in a slash, so that it is not taken for a file', () => {

@@ -13,6 +13,14 @@ namespace {
 /// What is known of an axis while its drive is in fault, and is over with the fault.
 bool ends_with_fault(const Alarm& a) { return !a.axis.empty() && a.kind != "not_stored"; }
 
+/// What a drive says by itself of an axis, beside its fault; what the gateway has to say stands alone.
+bool from_drive(const std::string& kind) { return kind != "fault" && kind != "not_stored" && kind != "site"; }
+
+constexpr std::size_t most_text = 400;
+void add_text(std::string& text, const std::string& more) {
+    if (text.find(more) == std::string::npos && text.size() + more.size() < most_text) text += fmt::format("; also: {}", more);
+}
+
 bool same(const Alarm& a, const Event& e) {
     if (a.kind != e.kind || a.code != e.code || a.axis != e.axis) return false;
     if (!a.axis.empty()) return true;
@@ -125,12 +133,48 @@ bool AlarmList::on_event(const Event& e) {
         return a.second.active && a.second.kind == "fault" && a.second.axis == e.axis && a.second.code == e.code;
     };
     if (!e.axis.empty() && e.kind != "fault" && e.code != 0 && std::ranges::any_of(alarms_, known)) return false;
+    if (joins_fault(e)) return true;
     const bool part_of_fault = !e.axis.empty() && e.kind != "not_stored" && fault_active(e.axis);
     raise(e, !is_loss(e) && e.kind != "fault" && !part_of_fault);
     return true;
 }
 
+/// A consequence that comes with a fault which nobody has dealt with yet adds its words to the fault's alarm.
+bool AlarmList::joins_fault(const Event& e) {
+    if (e.axis.empty() || !from_drive(e.kind)) return false;
+    for (auto it = alarms_.rbegin(); it != alarms_.rend(); ++it) {
+        Alarm& a = it->second;
+        if (!a.active || a.kind != "fault" || a.axis != e.axis || a.state() != AlarmState::unacknowledged_active) continue;
+        if (e.at_unix_ns - a.since_unix_ns > together_ns) continue;
+        add_text(a.text, e.text);
+        changed_.insert(a.id);
+        return true;
+    }
+    return false;
+}
+
+/// What the axis told just before its fault, once and unseen: off the list, its words for the fault's alarm.
+std::string AlarmList::take_forerunners(const Event& fault) {
+    std::string text;
+    for (auto it = alarms_.begin(); it != alarms_.end();) {
+        const Alarm& a = it->second;
+        const bool before = !fault.axis.empty() && a.axis == fault.axis && from_drive(a.kind) && a.count == 1 &&
+                            a.state() == AlarmState::unacknowledged_cleared && a.cleared_unix_ns == a.since_unix_ns &&
+                            fault.at_unix_ns - a.since_unix_ns <= together_ns;
+        if (before) {
+            if (text.empty())
+                text = a.text;
+            else
+                add_text(text, a.text);
+            changed_.insert(a.id);
+        }
+        it = before ? alarms_.erase(it) : std::next(it);
+    }
+    return text;
+}
+
 void AlarmList::raise(const Event& e, bool momentary) {
+    const std::string forerunners = e.kind == "fault" ? take_forerunners(e) : "";
     const auto known = std::ranges::find_if(alarms_, [&](const auto& a) { return same(a.second, e); });
     if (known == alarms_.end()) {
         if (alarms_.size() >= most_alarms) {
@@ -158,6 +202,7 @@ void AlarmList::raise(const Event& e, bool momentary) {
         a.since_unix_ns = e.at_unix_ns;
         a.active = !momentary;
         a.cleared_unix_ns = momentary ? e.at_unix_ns : 0;
+        if (!forerunners.empty()) add_text(a.text, forerunners);
         changed_.insert(a.id);
         alarms_.emplace(a.id, std::move(a));
         return;
@@ -167,6 +212,7 @@ void AlarmList::raise(const Event& e, bool momentary) {
     const bool goes_on = a.doubtful_until_unix_ns != 0;
     a.doubtful_until_unix_ns = 0;
     a.text = e.text;
+    if (!forerunners.empty()) add_text(a.text, forerunners);
     a.severity = e.severity;
     if (!goes_on) ++a.count;
     if (!a.active) {

@@ -57,6 +57,9 @@ public:
     /// After a drive is served by another (or the gateway has started) a fault that it still has shows within this time.
     static constexpr std::int64_t settle_ns = 10'000'000'000;
 
+    /// What an axis tells so shortly before or after its fault belongs to it: one alarm, which says both.
+    static constexpr std::int64_t together_ns = 2'000'000'000;
+
     /// An alarm as it was kept; not a change.
     void restore(Alarm alarm);
     /// True: something changed.
@@ -86,6 +89,8 @@ private:
     void raise(const Event& event, bool momentary);
     void clear(Alarm& alarm, std::int64_t now_unix_ns);
     void settle(std::uint64_t id);
+    [[nodiscard]] bool joins_fault(const Event& event);
+    [[nodiscard]] std::string take_forerunners(const Event& fault);
     [[nodiscard]] bool fault_active(const std::string& axis) const;
 
     std::map<std::uint64_t, Alarm> alarms_;

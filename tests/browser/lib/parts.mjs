@@ -5,7 +5,11 @@ import { quiet } from './browser.mjs';
 /** `ready`: a selector that is there when the part has got its documents. */
 export const parts = [
   { name: 'overview', path: '/', title: 'Overview', ready: '[data-axis=feeder] [data-live=true]' },
-  { name: 'axis', path: '/axes/feeder', title: 'feeder', ready: '[data-parameter]' },
+  { name: 'axis', path: '/axes/feeder', title: 'feeder', ready: '.machine' },
+  { name: 'axis-scope', path: '/axes/feeder/scope', title: 'Scope of feeder', ready: '.scope canvas' },
+  { name: 'axis-drive', path: '/axes/feeder/drive', title: 'Drive of feeder', ready: '[data-part=actions]' },
+  { name: 'axis-simulation', path: '/axes/feeder/simulation', title: 'Simulation of feeder', ready: '[data-hand]' },
+  { name: 'axis-events', path: '/axes/feeder/events', title: 'Events of feeder', ready: '.event' },
   { name: 'parameters', path: '/axes/feeder/parameters', title: 'Parameters of feeder', ready: '[data-snapshot]' },
   { name: 'lines', path: '/lines', title: 'Lines and drives', ready: '[data-drive=feeder]' },
   { name: 'line', path: '/lines/can0', title: 'can0', ready: '.frame-list li' },

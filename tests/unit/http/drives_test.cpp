@@ -19,6 +19,7 @@ TEST_F(HttpTest, DriveAndLineDocuments) {
     l.status.state = LineStatus::State::up;
     l.status.load = 0.25;
     l.counters.timeouts = 3;
+    l.scanned.timeouts = 40;
     l.families = {{"demo", {}}};
     l.families[0].counters.refused = 2;
     l.unclaimed = 7;
@@ -27,6 +28,7 @@ TEST_F(HttpTest, DriveAndLineDocuments) {
     EXPECT_EQ(a.json.at("status").at("state"), "up");
     EXPECT_EQ(json_text(a.json.at("status").at("load")), "0.25");
     EXPECT_EQ(json_text(a.json.at("status").at("counters").at("timeouts")), "3");
+    EXPECT_EQ(json_text(a.json.at("status").at("scan_counters").at("timeouts")), "40");
     EXPECT_EQ(json_text(a.json.at("status").at("families").at(0).at("family")), R"("demo")");
     EXPECT_EQ(json_text(a.json.at("status").at("families").at(0).at("counters").at("refused")), "2");
     EXPECT_EQ(json_text(a.json.at("status").at("unclaimed")), "7");

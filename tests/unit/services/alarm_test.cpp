@@ -125,13 +125,53 @@ TEST(Alarms, AreOnePerCodeAndTheFaultEndsThemAll) {
     w.fault(7);
     w.fault(8);
     EXPECT_EQ(w.list.all().size(), 2u);
-    w.list.on_event(w.event("alarm", Severity::alarm, 29));  // told while the drive is in fault: over with it
+    w.later(3);
+    w.list.on_event(w.event("alarm", Severity::alarm, 29));  // told while the drive is in fault, but not with it: over with it
     EXPECT_EQ(w.list.find(3)->state(), AlarmState::unacknowledged_active);
     EXPECT_FALSE(w.list.on_event(w.event("alarm", Severity::alarm, 8))) << "the drive's word about the fault 8";
     EXPECT_EQ(w.list.all().size(), 3u);
     w.cleared();
     for (const auto& [id, a] : w.list.all())
         EXPECT_EQ(a.state(), AlarmState::unacknowledged_cleared) << id;
+}
+
+TEST(Alarms, WhatComesWithAFaultIsPartOfIt) {
+    World w;
+    w.list.on_event(w.event("error", Severity::alarm, 29));  // 1: before the fault
+    w.later(1);
+    w.fault(7);                                              // 2
+    w.list.on_event(w.event("alarm", Severity::alarm, 30));  // 3: after it
+    w.list.on_event(w.event("alarm", Severity::alarm, 30));
+    ASSERT_EQ(w.list.all().size(), 1u);
+    EXPECT_EQ(w.list.find(2)->text, "fault 2; also: error 1; also: alarm 3; also: alarm 4");
+    EXPECT_EQ(w.list.find(2)->count, 1u);
+    // What the gateway has to say stands alone; so does what comes when somebody has seen the fault, another axis' word, another fault.
+    w.list.on_event(w.event("not_stored", Severity::alarm));
+    EXPECT_EQ(w.list.all().size(), 2u);
+    Event other = w.event("alarm", Severity::alarm, 30);
+    other.axis = "y";
+    w.list.on_event(other);
+    EXPECT_EQ(w.list.all().size(), 3u);
+    ASSERT_EQ(w.list.acknowledge(2, "anna", "", w.now), "");
+    w.list.on_event(w.event("alarm", Severity::alarm, 31));
+    EXPECT_EQ(w.list.all().size(), 4u);
+    EXPECT_EQ(w.list.find(2)->text, "fault 2; also: error 1; also: alarm 3; also: alarm 4");
+    w.fault(8);
+    EXPECT_EQ(w.list.find(w.id)->text, fmt::format("fault {}", w.id));
+    EXPECT_EQ(w.list.all().size(), 5u);
+}
+
+TEST(Alarms, WhatCameLongBeforeAFaultIsNoPartOfIt) {
+    World w;
+    w.list.on_event(w.event("error", Severity::alarm, 29));
+    w.later(3);
+    w.fault(7);
+    EXPECT_EQ(w.list.all().size(), 2u);
+    World b;  // nor what has come before already, or was seen
+    b.list.on_event(b.event("error", Severity::alarm, 29));
+    b.list.on_event(b.event("error", Severity::alarm, 29));
+    b.fault(7);
+    EXPECT_EQ(b.list.all().size(), 2u);
 }
 
 TEST(Alarms, WhatNothingTakesBackHasComeAndGone) {

@@ -203,6 +203,7 @@ export class World {
       status: {
         ...status,
         counters: { exchanges: this.exchanges, timeouts: l.uri === 'twin' ? 0 : 12, retries: l.uri === 'twin' ? 0 : 7, refused: 0, garbled: 0, unexpected: 0 },
+        scan_counters: { exchanges: 0, timeouts: 0, retries: 0, refused: 0, garbled: 0, unexpected: 0 },
         has_twin_bus: drives.some((d) => d.presence === 'twin'),
         twin: null,
       },

@@ -2229,6 +2229,8 @@ export interface components {
             readonly drives: string[];
             readonly status: components["schemas"]["LineStatus"] & {
                 counters: components["schemas"]["LineCounters"];
+                /** @description what was counted while a scan ran, polls of the site's own drives among it; not in `counters` */
+                scan_counters: components["schemas"]["LineCounters"];
                 /** @description what each family's protocol counted; `counters` is their sum */
                 families: {
                     family: string;

@@ -16,6 +16,7 @@ export type Line = Always<Schemas['LineFields'], 'name' | 'uri'> & {
   readonly drives: string[];
   readonly status: Schemas['LineStatus'] & {
     counters: Schemas['LineCounters'];
+    scan_counters: Schemas['LineCounters'];
     families?: { family: string; counters: Schemas['LineCounters'] }[];
     unclaimed?: number;
     has_twin_bus: boolean;

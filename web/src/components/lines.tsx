@@ -55,6 +55,7 @@ export function LineCard({ name }: { name: string }) {
   const line = known.data;
   const s = line.status;
   const live = store.connected.value && known.epoch === store.connection.value.epoch;
+  const scanned = s.scan_counters.exchanges + s.scan_counters.timeouts;
   return (
     <li class={`row${live ? '' : ' is-old'}`} data-line={name}>
       <div class="row-head">
@@ -78,6 +79,11 @@ export function LineCard({ name }: { name: string }) {
         <Count label="Queued" value={s.queued} />
         <Count label="Reopened" value={s.reopened} />
       </dl>
+      {scanned > 0 && (
+        <p class="where" data-field="scan-counters">
+          Scans apart: {formatExact(s.scan_counters.exchanges)} exchanges, {formatExact(s.scan_counters.timeouts)} addresses or retries without an answer
+        </p>
+      )}
     </li>
   );
 }

@@ -1,8 +1,9 @@
-// State machine: the power states of CiA 402 with the present one marked, and the words of the status word's bits.
+// State machine: the power states of CiA 402 with the present one marked, and status and control word beside it, bit by bit.
 // In: the axis. Out: a drawing whose content is also said in words. Old values are not shown as the present state.
+import { useMemo } from 'preact/hooks';
 import type { Axis, AxisStateName } from '../api/types';
 import type { Trust } from '../state/store';
-import { hex, stateName, statusBits } from '../text/axis';
+import { controlBits, hex, stateName, statusBits } from '../text/axis';
 
 const width = 140;
 const height = 32;
@@ -58,24 +59,37 @@ export function StateMachine({ axis, trust }: { axis: Axis; trust: Trust }) {
           </g>
         ))}
       </svg>
-      <details class="bits">
-        <summary>
-          Status word <span class="mono">{live ? hex(axis.statusword, 4) : '–'}</span>, drive's own <span class="mono">{live ? hex(axis.native, 8) : '–'}</span>, mode{' '}
-          <span class="mono">{live ? axis.mode_number : '–'}</span> of {axis.modes.join(', ')}
-        </summary>
-        <ol>
-          {[...statusBits].reverse().map(({ bit, name, lowActive }) => {
-            const set = ((axis.statusword >> bit) & 1) === 1;
-            return (
-              <li key={bit} class={live && set !== Boolean(lowActive) ? 'is-set' : ''}>
-                <span class="mono">{bit}</span>
-                <span class="mono">{live ? (set ? '1' : '0') : '–'}</span>
-                <span>{name}</span>
-              </li>
-            );
-          })}
-        </ol>
-      </details>
+      <div class="words">
+        <p class="where">
+          Drive's own <span class="mono">{live ? hex(axis.native, 8) : '–'}</span>, mode <span class="mono">{live ? axis.mode_number : '–'}</span> of {axis.modes.join(', ')}
+        </p>
+        <Bits title="Status word" word={live ? axis.statusword : null} bits={statusBits} />
+        <Bits title="Control word" word={live ? axis.controlword : null} bits={controlBits} />
+      </div>
     </figure>
+  );
+}
+
+/** One word, its highest bit first: each bit with its place, what it is now and its name. Folded on a phone. */
+function Bits({ title, word, bits }: { title: string; word: number | null; bits: typeof statusBits }) {
+  const open = useMemo(() => typeof matchMedia === 'undefined' || matchMedia('(width >= 900px)').matches, []);
+  return (
+    <details class="bits" open={open} data-word={title}>
+      <summary>
+        {title} <span class="mono">{word === null ? '–' : hex(word, 4)}</span>
+      </summary>
+      <ol>
+        {[...bits].reverse().map(({ bit, name, lowActive }) => {
+          const set = word !== null && ((word >> bit) & 1) === 1;
+          return (
+            <li key={bit} class={word !== null && set !== Boolean(lowActive) ? 'is-set' : ''}>
+              <span class="mono">{bit}</span>
+              <span class="mono">{word === null ? '–' : set ? '1' : '0'}</span>
+              <span>{name}</span>
+            </li>
+          );
+        })}
+      </ol>
+    </details>
   );
 }

@@ -1,12 +1,12 @@
-// Axis: one axis on its own page: readings, controls, scope, states, console, the twin's hand,
-// actions of its family, parameters, its events.
-// In: its name. Out: a page. Follows the axis at 50 ms while it is open.
+// Axis: one axis on its own page, in tabs that have addresses: move (readings, controls, states), scope, drive (actions, console), the twin's hand, events.
+// Its parameters are a page of their own under the same tabs. In: its name, the tab. Out: a page. Follows the axis at 50 ms while it is open.
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import type { Authority, Axis } from '../api/types';
 import { Actions } from '../components/actions';
 import { FullControls } from '../components/axis-controls';
 import { Notice, Readout, StatePills } from '../components/axis-tile';
+import { AxisTabs } from '../components/axis-tabs';
 import { AuthorityBar } from '../components/authority';
 import { Gate } from '../components/gate';
 import { Console } from '../components/console';
@@ -14,20 +14,22 @@ import { EventList } from '../components/events';
 import { Hand } from '../components/hand';
 import { Empty } from '../components/lines';
 import { memo } from '../components/memo';
-import { Parameters } from '../components/parameters';
 import { Mark } from '../components/pill';
 import { Scope } from '../components/scope';
 import { Section } from '../components/section';
 import { StateMachine } from '../components/state-machine';
 import { StopButton } from '../components/stop';
 import { useGateway } from '../gateway';
-import { linePath, parametersPath } from '../router';
+import { linePath, type AxisTab } from '../router';
 import { commandedWords } from '../text/authority';
 import { markOf, unitOf } from '../text/axis';
 
 const Controls = memo(FullControls, (a, b) => a.axis.name === b.axis.name && a.axis.unit === b.axis.unit);
 
-export function AxisPage({ name }: { name: string }) {
+const headings: Record<AxisTab, string> = { move: '', scope: 'Scope of ', drive: 'Drive of ', simulation: 'Simulation of ', events: 'Events of ' };
+export const headingOf = (name: string, tab: AxisTab): string => headings[tab] + name;
+
+export function AxisPage({ name, tab }: { name: string; tab: AxisTab }) {
   const gateway = useGateway();
   const { store } = gateway;
   const entry = store.axis(name);
@@ -39,7 +41,7 @@ export function AxisPage({ name }: { name: string }) {
         <p class="crumbs">
           <a href="/">Axes</a>
         </p>
-        <h1 tabIndex={-1}>{name}</h1>
+        <h1 tabIndex={-1}>{headingOf(name, tab)}</h1>
         <Empty text={store.listed.value ? `There is no axis ${name}.` : 'Waiting for the gateway.'} />
       </main>
     );
@@ -53,7 +55,7 @@ export function AxisPage({ name }: { name: string }) {
           <p class="crumbs">
             <a href="/">Axes</a>
           </p>
-          <h1 tabIndex={-1}>{name}</h1>
+          <h1 tabIndex={-1}>{headingOf(name, tab)}</h1>
           <Mark mark={markOf(axis)} />
         </div>
         <p class="where">
@@ -62,43 +64,61 @@ export function AxisPage({ name }: { name: string }) {
         </p>
         <StopButton axis={name} large urgent={axis.moving} />
       </header>
-      <div class="axis-top">
-        <div class="axis-state card" data-condition={trust} data-presence={axis.presence}>
-          <Readout entry={entry} large />
-          <StatePills entry={entry} />
-          <Notice entry={entry} />
-          <AuthorityBar entry={entry.value} />
-          <Controls axis={axis} />
-        </div>
-        <Scope axis={name} unit={unitOf(axis)} />
-      </div>
-      <div class="axis-three">
-        <Section title="State machine">
-          <StateMachine axis={axis} trust={trust} />
-        </Section>
-        <Section title="Native console">
-          <Gate need="engineer">
-            <Console drive={axis.drive} />
-          </Gate>
-        </Section>
+      <AxisTabs name={name} tab={tab} />
+      {tab === 'move' && (
+        <>
+          <div class="axis-top">
+            <div class="axis-state card" data-condition={trust} data-presence={axis.presence}>
+              <Readout entry={entry} large />
+              <StatePills entry={entry} />
+              <Notice entry={entry} />
+              <AuthorityBar entry={entry.value} />
+              <Controls axis={axis} />
+            </div>
+            <Scope axis={name} unit={unitOf(axis)} />
+          </div>
+          <Section title="State machine">
+            <StateMachine axis={axis} trust={trust} />
+          </Section>
+        </>
+      )}
+      {tab === 'scope' && (
+        <>
+          <div class="axis-glance card" data-condition={trust}>
+            <Readout entry={entry} />
+            <StatePills entry={entry} />
+          </div>
+          <div class="scope-alone">
+            <Scope axis={name} unit={unitOf(axis)} />
+          </div>
+        </>
+      )}
+      {tab === 'drive' && (
+        <>
+          <Section title="Actions of the family">
+            <Actions key={name} axis={name} family={axis.family} />
+          </Section>
+          <Section title="Native console">
+            <Gate need="engineer">
+              <Console drive={axis.drive} />
+            </Gate>
+          </Section>
+        </>
+      )}
+      {tab === 'simulation' && (
         <Section title="Fault simulation">
           <Gate need="engineer">
             <Hand drive={axis.drive} axis={name} />
           </Gate>
         </Section>
-      </div>
-      <Section title="Actions of the family">
-        <Actions key={name} axis={name} family={axis.family} />
-      </Section>
-      <Parameters axis={name} />
-      <p class="more-link">
-        <a href={parametersPath(name)}>Snapshots, comparison, export and import of the parameters</a>
-      </p>
-      <Section title="Events of this axis">
-        <div class="card scroll" tabIndex={0} role="region" aria-label="Events of this axis">
-          <AxisEvents name={name} />
-        </div>
-      </Section>
+      )}
+      {tab === 'events' && (
+        <Section title="Events of this axis">
+          <div class="card scroll" tabIndex={0} role="region" aria-label="Events of this axis">
+            <AxisEvents name={name} />
+          </div>
+        </Section>
+      )}
     </main>
   );
 }

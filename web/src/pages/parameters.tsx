@@ -1,6 +1,7 @@
 // Parameters: the whole catalogue of one axis on a page of its own: values, snapshots, comparison, export and import. In: its name. Out: a page.
 import { useSignal } from '@preact/signals';
 import type { Snapshot } from '../api/snapshots';
+import { AxisTabs } from '../components/axis-tabs';
 import { Empty } from '../components/lines';
 import { ParameterCompare } from '../components/parameter-compare';
 import { ParameterTransfer } from '../components/parameter-transfer';
@@ -34,6 +35,7 @@ export function ParametersPage({ name }: { name: string }) {
         )}
         {axis && <StopButton axis={name} large urgent={axis.moving} />}
       </header>
+      <AxisTabs name={name} tab="parameters" />
       {!axis ? (
         <Empty text={store.listed.value ? `There is no axis ${name}.` : 'Waiting for the gateway.'} />
       ) : (

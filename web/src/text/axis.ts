@@ -118,4 +118,18 @@ export const statusBits: readonly { bit: number; name: string; lowActive?: boole
   { bit: 15, name: 'Referenced' },
 ];
 
+/** Bits of the control word as it was last accepted, CiA 402; 9 and 11 to 15 are not used. */
+export const controlBits: typeof statusBits = [
+  { bit: 0, name: 'Switch on' },
+  { bit: 1, name: 'Enable voltage' },
+  { bit: 2, name: 'Quick stop (0 is active)', lowActive: true },
+  { bit: 3, name: 'Enable operation' },
+  { bit: 4, name: 'Mode: new set-point / start homing' },
+  { bit: 5, name: 'Mode: change at once' },
+  { bit: 6, name: 'Mode: target is relative' },
+  { bit: 7, name: 'Reset fault (at its rising edge)' },
+  { bit: 8, name: 'Halt' },
+  { bit: 10, name: 'Of the drive’s own' },
+];
+
 export const hex = (value: number, digits: number): string => `0x${(value >>> 0).toString(16).toUpperCase().padStart(digits, '0')}`;

@@ -1,0 +1,23 @@
+// Axis tabs: the parts of an axis' page as links, each an address that can be sent. In: the axis' name, which part is shown. Out: a row of links.
+import { axisTabPath, parametersPath, type AxisTab } from '../router';
+
+const tabs: readonly { tab: AxisTab | 'parameters'; text: string }[] = [
+  { tab: 'move', text: 'Move' },
+  { tab: 'scope', text: 'Scope' },
+  { tab: 'parameters', text: 'Parameters' },
+  { tab: 'drive', text: 'Drive' },
+  { tab: 'simulation', text: 'Simulation' },
+  { tab: 'events', text: 'Events' },
+];
+
+export function AxisTabs({ name, tab }: { name: string; tab: AxisTab | 'parameters' }) {
+  return (
+    <nav class="axis-tabs" aria-label={`Parts of ${name}`}>
+      {tabs.map((t) => (
+        <a key={t.tab} href={t.tab === 'parameters' ? parametersPath(name) : axisTabPath(name, t.tab)} aria-current={t.tab === tab ? 'page' : undefined}>
+          {t.text}
+        </a>
+      ))}
+    </nav>
+  );
+}

@@ -27,6 +27,7 @@ void LineAdapter::take_manners(const LineSetup& setup, Turn& t) {
     bus_.timing = drive::timing_of(setup.manners, defaults);
     bus_.bit_rate = setup.bit_rate;
     bus_.bits_per_byte = setup.bits_per_byte;
+    bus_.drives = setup.drives.size();
     drive::OptionReader options(setup.options);
     using Kind = ChecksumRule::Kind;
     const auto word = options.word("checksum", {"none", "sum", "crc", "crc_reflected"});

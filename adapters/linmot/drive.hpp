@@ -2,8 +2,8 @@
 // In: commands, its answers, the passing of time, a place on the line. Out: telegrams, feedback, samples, results, links, notices.
 // Every telegram may be repeated: control words and reads change nothing the second time, and a motion command with the same count is not
 // executed twice. Never commands a motion that nobody asked for.
-// Files: start.cpp, polls.cpp, feedback.cpp, power.cpp, motion.cpp, homing.cpp, stop.cpp, parameters.cpp, parameters_transfer.cpp,
-// native.cpp, actions.cpp, demand.cpp.
+// Files: start.cpp, polls.cpp, feedback.cpp, power.cpp, motion.cpp, motion_stream.cpp, homing.cpp, stop.cpp, parameters.cpp,
+// parameters_transfer.cpp, native.cpp, actions.cpp, demand.cpp.
 #pragma once
 
 #include <array>
@@ -18,6 +18,7 @@
 #include "gateway/core/adapter.hpp"
 #include "gateway/drive/command_queue.hpp"
 #include "gateway/drive/exchange.hpp"
+#include "gateway/drive/lead.hpp"
 #include "gateway/drive/notices.hpp"
 #include "gateway/drive/polls.hpp"
 #include "gateway/drive/presence.hpp"
@@ -43,6 +44,7 @@ struct Bus {
     ChecksumRule checksum;
     std::uint32_t bit_rate = 0;
     std::uint8_t bits_per_byte = 10;
+    std::size_t drives = 0;  ///< on the line
     [[nodiscard]] Duration wire(std::size_t bytes) const noexcept;
 };
 
@@ -79,7 +81,7 @@ public:
     [[nodiscard]] const DriveSetup& setup() const noexcept { return setup_; }
 
 private:
-    enum class Purpose : std::uint8_t { probe, core, poll, warn, job, stop, release };
+    enum class Purpose : std::uint8_t { probe, core, poll, warn, job, stop, release, stream };
     struct Request {
         Telegram telegram;
         Purpose purpose = Purpose::poll;
@@ -118,6 +120,15 @@ private:
         std::uint8_t count = 0;
     };
 
+    /// The drive's own position stream: one set-point each period, without a gap.
+    struct Stream {
+        bool on = false, ending = false;
+        Duration period{};
+        Instant next = never, heard{};  ///< its next set-point; its last answer
+        drive::Lead lead;
+        std::optional<SetPoint> newest;
+    };
+
     // start.cpp
     void find(const Telegram& telegram, Turn& t);
     void core_answered(const Telegram& telegram, Turn& t);
@@ -150,6 +161,12 @@ private:
     [[nodiscard]] Telegram motion_telegram(const Motion& motion, std::uint8_t count, std::span<const Value> values) const;
     [[nodiscard]] std::uint8_t next_count() noexcept;
     void motion_answered(Turn& t);
+    // motion_stream.cpp
+    [[nodiscard]] Duration stream_period() const noexcept;
+    void begin_stream(Turn& t);
+    void send_stream(Turn& t);
+    void stream_answered(Turn& t);
+    void end_stream(Reason reason, std::string why, Turn& t);
     // homing.cpp
     void begin_home(const Home& home, Turn& t);
     [[nodiscard]] std::optional<Telegram> home_request(Turn& t);
@@ -196,6 +213,8 @@ private:
     drive::Exchange<Request> exchange_;
     drive::CommandQueue queue_;
     drive::SetPoints set_points_;
+    bool streams_ = false;  ///< by the drive option set_points
+    Stream stream_;
     drive::Tickets tickets_;
     drive::Notices notices_;
     drive::PollTimer poll_;

@@ -14,8 +14,9 @@ Want Drive::wants(Instant now) const noexcept {
     if (presence_.is(Phase::down) || exchange_.active() || !late_.over(now)) return Want::nothing;
     if (!stops_.empty()) return Want::urgent;
     if (!presence_.is(Phase::ready) && !presence_.is(Phase::starting)) return presence_.probe_due(now) ? Want::probe : Want::nothing;
+    if (stream_.on) return stream_.ending || now >= stream_.next ? Want::command : Want::nothing;
     if (reading_.core_pending() || release_home_) return Want::command;
-    if (job_.active ? now >= job_.not_before : !queue_.empty() || !set_points_.empty()) return Want::command;
+    if (job_.active ? now >= job_.not_before : !queue_.empty() || !set_points_.empty() || stream_.newest) return Want::command;
     if (poll_.due(now)) return fb_.moving ? Want::quick_poll : Want::poll;
     return Want::nothing;
 }
@@ -24,9 +25,11 @@ Instant Drive::wish() const noexcept {
     if (presence_.is(Phase::down)) return never;
     Instant at = presence_.deadline();
     if (presence_.is(Phase::ready) || presence_.is(Phase::starting)) {
+        if (stream_.on) return std::max(stops_.empty() && !stream_.ending ? stream_.next : Instant{}, late_.until());
         at = std::min(at, poll_.deadline());
         if (job_.active) at = std::min(at, job_.not_before);
-        if (release_home_ || reading_.core_pending() || (!job_.active && (!queue_.empty() || !set_points_.empty()))) at = Instant{};
+        if (release_home_ || reading_.core_pending() || (!job_.active && (!queue_.empty() || !set_points_.empty() || stream_.newest)))
+            at = Instant{};
     }
     if (!stops_.empty()) at = Instant{};
     return std::max(at, late_.until());
@@ -34,6 +37,8 @@ Instant Drive::wish() const noexcept {
 
 void Drive::go(Turn& t) {
     if (exchange_.active()) return;
+    if (stream_.on && stream_.ending && (stops_.empty() || std::holds_alternative<Halt>(stops_.front().command.body)))
+        return send_stream(t);
     if (!stops_.empty()) {
         if (auto telegram = stop_request(t)) return send({std::move(*telegram), Purpose::stop}, t);
     }
@@ -48,6 +53,8 @@ void Drive::go(Turn& t) {
         release_home_ = false;
         return send({control(static_cast<std::uint16_t>(cw_ & ~cw_home)), Purpose::release}, t);
     }
+    if (!stream_.on && stream_.newest && !job_.active && queue_.empty()) begin_stream(t);
+    if (stream_.on) return t.now >= stream_.next ? send_stream(t) : void();
     // Commands that end at once make room for the next one.
     while (!job_.active && !queue_.empty())
         begin_job(t);
@@ -76,12 +83,12 @@ void Drive::go(Turn& t) {
 void Drive::send(Request r, Turn& t) {
     const auto bytes = pack(r.telegram, bus_.checksum);
     const Duration both = bus_.wire(bytes.size() + wire_size(ram_size, bus_.checksum));
-    const bool once =
-        r.purpose == Purpose::probe || r.purpose == Purpose::poll || r.purpose == Purpose::warn || r.any_length || r.quiet || r.once;
+    const bool once = r.purpose == Purpose::probe || r.purpose == Purpose::poll || r.purpose == Purpose::warn ||
+                      r.purpose == Purpose::stream || r.any_length || r.quiet || r.once;
     t.out.send(Frame::run(bytes), r.purpose == Purpose::stop                                  ? Priority::urgent
                                   : r.purpose == Purpose::poll || r.purpose == Purpose::probe ? Priority::poll
                                                                                               : Priority::command);
-    const Duration patience = bus_.timing.reply_timeout + both;
+    const Duration patience = r.purpose == Purpose::stream && !stream_.ending ? stream_.period : bus_.timing.reply_timeout + both;
     exchange_.begin(std::move(r), t.now, patience, once ? 0 : bus_.timing.retries);
 }
 
@@ -129,6 +136,8 @@ void Drive::on_telegram(const Telegram& telegram, Turn& t) {
         case Purpose::job:
             if (job_.active) job_answered(telegram, t);
             return;
+        case Purpose::stream:
+            return stream_answered(t);
         default:
             return;
     }
@@ -153,6 +162,8 @@ void Drive::silence(Turn& t) {
         if (job_.active) job_.not_before = t.now + std::chrono::milliseconds(200);
         return;
     }
+    // A stream waits for its period alone, and goes on with its next set-point: the drive may have heard it all the same.
+    if (exchange_.request().purpose == Purpose::stream && t.now - stream_.heard < bus_.timing.reply_timeout) return;
     late_.missed(t.now, bus_.timing.reply_timeout);
     const Purpose purpose = exchange_.request().purpose;
     const auto what = presence_.silent(t.now);

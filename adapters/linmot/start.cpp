@@ -21,6 +21,7 @@ Drive::Drive(Bus& bus, const DriveSetup& setup, std::uint8_t id, std::size_t slo
     warn_inferred_ = options.word("warn_word", {"off", "inferred"}) == "inferred";
     inferred_ = options.flag("inferred", true);
     stop_by_off3_ = options.word("quick_stop", {"abort", "off3"}) == "off3";
+    streams_ = options.word("set_points", {"moves", "stream"}) == "stream";
     option_faults_ = options.take_faults();
 }
 
@@ -30,6 +31,12 @@ void Drive::begin(Turn& t) {
     for (auto& fault : option_faults_)
         notices_.tell(Severity::warning, axis_, "setup", 0, std::move(fault), t.now, t.out);
     option_faults_.clear();
+    if (streams_ && stream_period() <= Duration{})
+        notices_.tell(
+            Severity::warning, axis_, "setup", 0,
+            "set_points: a stream needs a set-point every 2 to 5 ms, which this line cannot hold (a bit rate of 115200 or more, and "
+            "no other drive): set-points are sent as moves",
+            t.now, t.out);
 }
 
 void Drive::line_up(Turn& t) {
@@ -61,6 +68,7 @@ void Drive::lost(Turn& t, std::string why) {
     set_points_.clear();
     stops_.clear();
     job_ = {};
+    stream_ = {};
     poll_.stop();
     release_home_ = homing_ = motion_fresh_ = to_target_ = false;
     status_known_ = cw_known_ = false;

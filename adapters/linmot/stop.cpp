@@ -10,11 +10,26 @@ constexpr std::size_t most_stops = 16;
 }
 
 void Drive::follow(const SetPoint& p) {
-    if (p.axis == axis_ && presence_.online()) set_points_.put(p);
+    if (p.axis != axis_ || !presence_.online()) return;
+    if (streams_ && p.mode == SetPoint::Mode::position && stream_period() > Duration{} && !stream_.ending) {
+        stream_.newest = p;
+        return;
+    }
+    if (stream_.on) stream_.ending = true;  // another mode
+    set_points_.put(p);
 }
 
 void Drive::submit(const Command& command, Turn& t) {
-    if (is_urgent(command.body) || drive::is_motion(command.body)) set_points_.clear();
+    if (is_urgent(command.body) || drive::is_motion(command.body)) {
+        set_points_.clear();
+        stream_.newest.reset();
+        stream_.ending = stream_.on;
+    } else if (stream_.on && !stream_.ending) {
+        drive::Tickets::refuse(
+            command, Reason::busy,
+            fmt::format("drive {} follows a stream that leaves no time for other exchanges: end the stream first", title()), t.out);
+        return;
+    }
     switch (drive::admit(command, title(), presence_, queue_, tickets_, t)) {
         case drive::Admission::urgent:
             return begin_stop(command, t);
@@ -51,6 +66,8 @@ void Drive::end_stop(Outcome outcome, Reason reason, std::string text, Turn& t) 
 std::optional<Telegram> Drive::stop_request(Turn& t) {
     while (!stops_.empty()) {
         Stop& s = stops_.front();
+        // Control words end a stream by themselves; a halt is a motion command, and the stream is left before it.
+        if (stream_.on && !std::holds_alternative<Halt>(s.command.body)) stream_ = {};
         const std::uint8_t main = status_.state();
         release_home_ = false;
         if (std::holds_alternative<Disable>(s.command.body)) {

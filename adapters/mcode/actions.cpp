@@ -1,4 +1,4 @@
-// Node: parameters, native lines, and the actions of the family: programs, saving, setting up.
+// Drive: parameters, native lines, and the actions of the family: programs, saving, setting up.
 // In: commands, data of the drive. Out: steps, values, texts.
 // Never sends program text that has not been checked as a whole.
 #include <fmt/core.h>
@@ -8,9 +8,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "adapters/mcode/node.hpp"
+#include "adapters/mcode/drive.hpp"
+#include "adapters/mcode/native_program.hpp"
 #include "adapters/mcode/parameters_variables.hpp"
-#include "adapters/mcode/program.hpp"
 
 namespace axisgate::mcode {
 using namespace std::chrono_literals;
@@ -23,12 +23,12 @@ std::string_view form_of(const Parameter& p) {
 bool is_link_word(std::string_view w) { return w == "PY" || w == "DN" || w == "CK" || w == "EM" || w == "ES"; }
 }  // namespace
 
-std::string Node::word(const Parameter& p) const {
+std::string Drive::word(const Parameter& p) const {
     const auto* w = p.wire.if_contains("word");
     return w && w->is_string() ? std::string(w->get_string()) : p.id;
 }
 
-std::optional<Value> Node::value_of(const Parameter& p, std::string_view text) const {
+std::optional<Value> Drive::value_of(const Parameter& p, std::string_view text) const {
     while (!text.empty() && text.front() == ' ')
         text.remove_prefix(1);
     while (!text.empty() && (text.back() == ' ' || text.back() == '\r' || text.back() == '\n'))
@@ -42,7 +42,7 @@ std::optional<Value> Node::value_of(const Parameter& p, std::string_view text) c
     return Value{static_cast<std::int64_t>(std::llround(v))};
 }
 
-void Node::plan_read(const ReadParameter& read, Turn& t) {
+void Drive::plan_read(const ReadParameter& read, Turn& t) {
     const Parameter* p = drive_catalogue().parameter(read.point);
     if (!p) return job_over(Outcome::refused, Reason::unknown_point, "there is no such parameter", t);
     if (!p->readable())
@@ -55,7 +55,7 @@ void Node::plan_read(const ReadParameter& read, Turn& t) {
     job_.steps.push_back(std::move(s));
 }
 
-void Node::plan_write(const WriteParameter& write, Turn& t) {
+void Drive::plan_write(const WriteParameter& write, Turn& t) {
     const Parameter* p = drive_catalogue().parameter(write.point);
     if (!p) return job_over(Outcome::refused, Reason::unknown_point, "there is no such parameter", t);
     const std::string w = word(*p);
@@ -99,7 +99,7 @@ void Node::plan_write(const WriteParameter& write, Turn& t) {
     }
 }
 
-void Node::query_answered(const std::string& data, Turn& t) {
+void Drive::query_answered(const std::string& data, Turn& t) {
     if (job_.kind == JobKind::relearn) {
         learn_values(data);
         return job_over(Outcome::done, Reason::none, {}, t);
@@ -119,7 +119,7 @@ void Node::query_answered(const std::string& data, Turn& t) {
         return step_done(t);
     }
     if (job_.kind == JobKind::shape) {
-        aim_.shape(data == "0,1,1");
+        demand_.shape(data == "0,1,1");
         return job_over(Outcome::done, Reason::none, {}, t);
     }
     if (job_.kind == JobKind::download) {
@@ -160,7 +160,7 @@ void Node::query_answered(const std::string& data, Turn& t) {
     t.out.samples.push_back({axis_, point, *v, Quality::good, t.now});
     const std::string w = word(*p);
     const auto number = p->wire.contains("variable") ? std::nullopt : as_integer(*v);
-    if (number) aim_.value(w, *number);
+    if (number) demand_.value(w, *number);
     if (number && w == "VI") vi_ = user_vi_ = *number;
     if (number && w == "VM") vm_ = *number;
     if (number && w == "A") a_ = *number;
@@ -169,7 +169,7 @@ void Node::query_answered(const std::string& data, Turn& t) {
     if (number && w == "CE") ce_ = static_cast<int>(*number);
     if (write && (w == "MS" || w == "EE" || w == "AS")) {
         vi_ = user_vi_ = vm_ = a_ = d_ = 0;  // the drive has scaled them [L4293]
-        aim_.knows({0, 0, 0, 0, encoder_flag_});
+        demand_.knows({0, 0, 0, 0, encoder_flag_});
         relearn_ = true;
     }
     if (w == "ER" && number && *number == 0 && last_error_ != 0) {
@@ -179,7 +179,7 @@ void Node::query_answered(const std::string& data, Turn& t) {
     job_over(Outcome::done, Reason::none, {}, t, 0, *v);
 }
 
-void Node::plan_native(const Native& native, Turn& t) {
+void Drive::plan_native(const Native& native, Turn& t) {
     std::string line(native.send.begin(), native.send.end());
     // Bytes are the same line, with its end or without: the end, the name and the checksum are the line's own business.
     if (!native.is_text && line.ends_with('\n')) line.pop_back();
@@ -199,7 +199,7 @@ void Node::plan_native(const Native& native, Turn& t) {
 }
 
 /// A block is over when the question behind it was answered, which is a poll: it says as well whether the drive complained.
-void Node::block_came(Verdict v, const ReplyReader& r, Turn& t) {
+void Drive::block_came(Verdict v, const ReplyReader& r, Turn& t) {
     const std::string line = job_.steps[job_.at].text;
     if (v != Verdict::answered || r.overflowed() || !learn_poll(r.data(), t)) {
         if (v == Verdict::waiting) count_silence(t);
@@ -219,7 +219,7 @@ void Node::block_came(Verdict v, const ReplyReader& r, Turn& t) {
     error_is_ours_ = job_.said == Verdict::refused || !sums_ || quiet();  // an ACK means: no error [L2081]
 }
 
-void Node::block_ended(Turn& t) {
+void Drive::block_ended(Turn& t) {
     const std::string sent = request(link(), job_.steps[job_.at].text);
     const std::string text = plain_text(job_.listing, std::string_view(sent).substr(0, sent.size() - 1), sums_);
     if (sums_ && job_.listing.find(nak) != std::string::npos && text.empty()) {
@@ -256,15 +256,15 @@ void Node::block_ended(Turn& t) {
     job_over(Outcome::done, Reason::none, text, t, 0, Value{text});
 }
 
-void Node::download_failed(std::string why, Turn& t) {
+void Drive::download_failed(std::string why, Turn& t) {
     const bool touched = job_.memory_touched;
     if (touched) keep_half();
     relearn_ = relearn_ || touched;
     job_over(Outcome::failed, Reason::interrupted, fmt::format("{}: {}{}", name(), why, touched ? "; " + memory_is_half() : ""), t);
 }
 
-/// Program mode is left first (leaving.cpp); CP then removes the half, behind every stop that waits, also when the drive was away.
-void Node::keep_half() {
+/// Program mode is left first (drive_mode.cpp); CP then removes the half, behind every stop that waits, also when the drive was away.
+void Drive::keep_half() {
     clear_half_ = true;
     half_was_away_ = false;
     half_from_ = job_.from;
@@ -276,7 +276,7 @@ void Node::keep_half() {
 }
 
 /// A line outside of PG and PG. Before them the memory is empty, behind them it holds the program; only between two parts there is a half.
-void Node::setting_refused(const std::string& why, Turn& t) {
+void Drive::setting_refused(const std::string& why, Turn& t) {
     const Step step = job_.steps[job_.at];
     const auto is_part = [](const Step& s) { return s.what == Step::What::bare; };
     const auto here = job_.steps.begin() + static_cast<std::ptrdiff_t>(job_.at);
@@ -295,7 +295,7 @@ void Node::setting_refused(const std::string& why, Turn& t) {
 
 /// Actions for which the drive must not move: behind a stop or the end of a move MV stays 1 for MT + HT, which is waited for.
 /// false: it moves, and the job is over.
-bool Node::wait_for_rest(Turn& t) {
+bool Drive::wait_for_rest(Turn& t) {
     if (!mv_ && !fb_.moving) return true;
     const bool homes = motion_.kind == Motion::Kind::home && !motion_.ended;
     if (torque_ || homes || (!stopping_ && (fb_.velocity != 0 || vc_))) {
@@ -308,7 +308,7 @@ bool Node::wait_for_rest(Turn& t) {
     return true;
 }
 
-void Node::plan_download(const Action& a, Turn& t) {
+void Drive::plan_download(const Action& a, Turn& t) {
     if (running_) {
         return job_over(Outcome::refused, Reason::wrong_state, fmt::format("a program runs in {}: end it first (program.end)", name()), t);
     }
@@ -333,7 +333,7 @@ void Node::plan_download(const Action& a, Turn& t) {
 }
 
 /// line.setup of a drive that stays in single mode: what it may lack is the line's rate for its next restart.
-void Node::plan_rate(const Action& a, Turn& t) {
+void Drive::plan_rate(const Action& a, Turn& t) {
     const auto refuse = [&](Reason r, std::string why) { job_over(Outcome::refused, r, std::move(why), t); };
     if (!a.argument.empty() && a.argument != "save") {
         return refuse(Reason::out_of_range, fmt::format("line.setup {}: write save, or nothing", a.argument));
@@ -357,7 +357,7 @@ void Node::plan_rate(const Action& a, Turn& t) {
     bd_ = manners_.rate_code;
 }
 
-void Node::plan_action(const Action& a, Turn& t) {
+void Drive::plan_action(const Action& a, Turn& t) {
     const auto refuse = [&](Reason r, std::string why) { job_over(Outcome::refused, r, std::move(why), t); };
     const auto line = [&](std::string text, bool repeatable = true) {
         const auto w = word_of(text);

@@ -1,12 +1,12 @@
-// Node: part of a program changed: from a label or an address on, what the drive has is replaced by other lines, and the lines before stay.
-// In: the action's argument, the drive's listings. Out: steps of CP, PG and lines, behind which a download's own checks run.
-// Never reckons an address: how many a line takes the reference does not say (E-37), so the listing gives each.
+// Drive: part of a program changed: from a label or an address on, what the drive has is replaced by other lines, and the lines before
+// stay. In: the action's argument, the drive's listings. Out: steps of CP, PG and lines, behind which a download's own checks run. Never
+// reckons an address: how many a line takes the reference does not say (E-37), so the listing gives each.
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>
 
-#include "adapters/mcode/node.hpp"
+#include "adapters/mcode/drive.hpp"
 #include "adapters/mcode/parameters_variables.hpp"
 
 namespace axisgate::mcode {
@@ -21,7 +21,7 @@ std::pair<std::string, std::string> place_and_text(const std::string& argument) 
 bool is_address(std::string_view s) { return !s.empty() && s.find_first_not_of("0123456789") == std::string_view::npos; }
 }  // namespace
 
-void Node::plan_edit(const Action& a, Turn& t) {
+void Drive::plan_edit(const Action& a, Turn& t) {
     const auto refuse = [&](Reason r, std::string why) { job_over(Outcome::refused, r, std::move(why), t); };
     const auto [place, text] = place_and_text(a.argument);
     if (place.empty() || place.size() > 9 || (!is_address(place) && normal_form(place) != normal_form(word_of(place)))) {
@@ -38,7 +38,7 @@ void Node::plan_edit(const Action& a, Turn& t) {
 }
 
 /// One of the listings of an edit.
-void Node::edit_listed(const std::string& text, Turn& t) {
+void Drive::edit_listed(const std::string& text, Turn& t) {
     if (job_.steps[job_.at].text != "L") {
         job_.globals = global_variables(text);
         return step_done(t);
@@ -66,7 +66,7 @@ void Node::edit_listed(const std::string& text, Turn& t) {
 }
 
 /// Finds the place and checks the whole of what stays and what comes. false: it is refused, and nothing has been changed.
-bool Node::begin_edit(const std::vector<ListedLine>& rows, Turn& t) {
+bool Drive::begin_edit(const std::vector<ListedLine>& rows, Turn& t) {
     const auto refuse = [&](std::string why) {
         job_over(Outcome::refused, Reason::out_of_range, fmt::format("{}: {}; nothing was changed", name(), why), t);
         return false;
@@ -114,14 +114,14 @@ bool Node::begin_edit(const std::vector<ListedLine>& rows, Turn& t) {
     return true;
 }
 
-std::string Node::memory_is_half() const {
+std::string Drive::memory_is_half() const {
     return job_.from.empty() ? "the program memory is cleared or incomplete: download again"
                              : fmt::format("the program is cleared or incomplete from address {} on: edit again", job_.from);
 }
 
 /// Removes what is listed from job_.from on; CP with a place takes one program away, to its end, so it is said until nothing is left.
 /// false: nothing is left, or the job is over.
-bool Node::clear_from(const std::vector<ListedLine>& rows, Turn& t) {
+bool Drive::clear_from(const std::vector<ListedLine>& rows, Turn& t) {
     const long from = std::atol(job_.from.c_str());
     const auto first = std::ranges::find_if(rows, [&](const ListedLine& l) { return l.address >= from; });
     const auto left = static_cast<std::size_t>(rows.end() - first);

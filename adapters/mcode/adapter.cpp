@@ -61,7 +61,7 @@ void LineAdapter::take_manners(const LineSetup& setup, Turn& t) {
 void LineAdapter::configure(const LineSetup& setup, Instant now, Out& out) {
     Turn t{now, out};
     take_manners(setup, t);
-    std::vector<std::unique_ptr<Node>> kept;
+    std::vector<std::unique_ptr<Drive>> kept;
     for (auto& n : nodes_) {
         if (std::ranges::any_of(setup.drives, [&](const DriveSetup& d) { return same(d, n->setup()); })) {
             kept.push_back(std::move(n));
@@ -93,7 +93,7 @@ void LineAdapter::configure(const LineSetup& setup, Instant now, Out& out) {
             out.links.push_back({d.id, false, 0, Duration{}, std::move(why)});
             continue;
         }
-        nodes_.push_back(std::make_unique<Node>(catalogue_, manners_, counters_, d, next_listing_));
+        nodes_.push_back(std::make_unique<Drive>(catalogue_, manners_, counters_, d, next_listing_));
         if (up_) nodes_.back()->line_up(t);
     }
     setup_ = setup;
@@ -158,7 +158,7 @@ void LineAdapter::stray_line(Turn& t) {
         line.remove_suffix(1);
     if (!line.empty() && !marked(line, t)) {
         ++counters_.unexpected;
-        Node* from = nodes_.size() == 1 ? nodes_.front().get() : nullptr;
+        Drive* from = nodes_.size() == 1 ? nodes_.front().get() : nullptr;
         for (auto& n : nodes_) {
             if (!from && n->may_print(t.now)) from = n.get();
         }
@@ -235,7 +235,7 @@ void LineAdapter::on_frame(const Frame& frame, Instant now, Out& out) {
     pump(t);
 }
 
-void LineAdapter::start(Node& node, Turn& t) {
+void LineAdapter::start(Drive& node, Turn& t) {
     manners_.reset_hits_others = std::ranges::any_of(nodes_, [&](const auto& n) { return n.get() != &node && n->hears_every_reset(); });
     Request r = node.next(t);
     flight_ = {};
@@ -293,7 +293,7 @@ bool LineAdapter::close_block(Turn& t) {
 }
 
 void LineAdapter::finish(Verdict v, Turn& t) {
-    Node& node = *flight_.node;
+    Drive& node = *flight_.node;
     if (flight_.kind != Expect::Kind::block) gather(reader_, v, t);
     const Flight f = std::move(flight_);
     flight_ = {};
@@ -322,7 +322,7 @@ void LineAdapter::finish(Verdict v, Turn& t) {
 /// A drive with DG = 0 answers [L2399]: that is over before the next question, whose mark no such answer has.
 bool LineAdapter::stop_all_at_once(Turn& t) {
     std::string_view line;
-    Node* first = nullptr;
+    Drive* first = nullptr;
     std::size_t unsent = 0;
     for (const auto& n : nodes_) {
         if (!n->in_reach()) continue;
@@ -356,23 +356,23 @@ void LineAdapter::pump(Turn& t) {
     // Each round starts an exchange or ends the loop; a node that only gives results does so a bounded number of times (its queue).
     for (std::size_t guard = 0; guard < 4 && !flight_.node && t.now >= quiet_until_; ++guard) {
         if (stop_all_at_once(t)) return;
-        Node* next = nullptr;
+        Drive* next = nullptr;
         // Stops that no drive has heard yet go before the confirmation of those that are sent.
         for (const bool unsent : {true, false}) {
             for (std::size_t i = 0; i < nodes_.size() && !next; ++i) {
                 const std::size_t at = (urgent_turn_ + i) % nodes_.size();
-                if (nodes_[at]->wants(t.now) != Node::Want::urgent || (unsent && !nodes_[at]->stop_unsent())) continue;
+                if (nodes_[at]->wants(t.now) != Drive::Want::urgent || (unsent && !nodes_[at]->stop_unsent())) continue;
                 next = nodes_[at].get();
                 urgent_turn_ = (at + 1) % nodes_.size();
             }
         }
         // line.setup keeps the line to itself, but from a stop.
         for (std::size_t i = 0; i < nodes_.size() && next && next->naming(); ++i) {
-            if (nodes_[i]->wants(t.now) == Node::Want::urgent && !nodes_[i]->naming()) next = nodes_[i].get();
+            if (nodes_[i]->wants(t.now) == Drive::Want::urgent && !nodes_[i]->naming()) next = nodes_[i].get();
         }
         for (std::size_t i = 0; i < nodes_.size() && !next; ++i) {
-            Node& n = *nodes_[(turn_ + i) % nodes_.size()];
-            if (n.wants(t.now) != Node::Want::other) continue;
+            Drive& n = *nodes_[(turn_ + i) % nodes_.size()];
+            if (n.wants(t.now) != Drive::Want::other) continue;
             if (held(n, t.now)) continue;
             next = &n;
             turn_ = (turn_ + i + 1) % nodes_.size();
@@ -389,7 +389,7 @@ void LineAdapter::on_deadline(Instant now, Out& out) {
 }
 
 /// After a time-out: lines wait until late answers are over, and the drive that was late is not asked again while one waits for that.
-bool LineAdapter::held(const Node& n, Instant now) const noexcept {
+bool LineAdapter::held(const Drive& n, Instant now) const noexcept {
     if (n.wants_unmarked(now)) return now < dirty_until_;
     return &n == dirty_ && std::ranges::any_of(nodes_, [now](const auto& o) { return o->wants_unmarked(now); });
 }
@@ -400,9 +400,9 @@ Instant LineAdapter::deadline() const {
     const Instant earliest = std::max(quiet_until_, looked_at_);
     Instant due = never;
     for (const auto& n : nodes_) {
-        const Node::Want want = n->wants(earliest);
-        Instant at = want == Node::Want::nothing ? n->due() : earliest;
-        if (want != Node::Want::urgent && held(*n, earliest)) at = std::max(at, dirty_until_);
+        const Drive::Want want = n->wants(earliest);
+        Instant at = want == Drive::Want::nothing ? n->due() : earliest;
+        if (want != Drive::Want::urgent && held(*n, earliest)) at = std::max(at, dirty_until_);
         due = std::min(due, at);
     }
     return std::max(due, earliest);

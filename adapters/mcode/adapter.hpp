@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "adapters/mcode/node.hpp"
+#include "adapters/mcode/drive.hpp"
 
 namespace axisgate::mcode {
 
@@ -28,7 +28,7 @@ private:
     void take_manners(const LineSetup& setup, Turn& t);
     [[nodiscard]] Duration wire(std::size_t bytes) const noexcept;
     void pump(Turn& t);
-    void start(Node& node, Turn& t);
+    void start(Drive& node, Turn& t);
     void finish(Verdict v, Turn& t);
     [[nodiscard]] bool close_block(Turn& t);
     [[nodiscard]] bool stop_all_at_once(Turn& t);
@@ -36,19 +36,19 @@ private:
     void stray_line(Turn& t);
     void gather(const ReplyReader& reader, Verdict v, Turn& t);
     [[nodiscard]] bool marked(std::string_view line, Turn& t);
-    [[nodiscard]] bool held(const Node& n, Instant now) const noexcept;
+    [[nodiscard]] bool held(const Drive& n, Instant now) const noexcept;
 
     const Catalogue& catalogue_;
     LineSetup setup_;
     Manners manners_;
     AdapterCounters counters_;
     bool up_ = false;
-    std::vector<std::unique_ptr<Node>> nodes_;
+    std::vector<std::unique_ptr<Drive>> nodes_;
     std::size_t turn_ = 0;         ///< whose turn is next
     std::size_t urgent_turn_ = 0;  ///< among those with a stop
 
     struct Flight {
-        Node* node = nullptr;  ///< null: the line is free
+        Drive* node = nullptr;  ///< null: the line is free
         Request::Purpose purpose = Request::Purpose::poll;
         Expect::Kind kind = Expect::Kind::query;
         std::string sent;     ///< what its echo would be
@@ -61,16 +61,16 @@ private:
     ReplyReader reader_;
     unsigned mark_ = 0;
     std::string answered_mark_;  ///< of the last question that was answered: seen again, two drives answer to one name
-    Node* answered_ = nullptr;   ///< by whom
+    Drive* answered_ = nullptr;  ///< by whom
     Instant quiet_until_{};      ///< LineManners::pause
     Instant looked_at_{};        ///< when the nodes were asked last what they want: the deadline asks them for no earlier time
     Instant next_listing_{};     ///< when the next drive that comes may list its variables
     Instant dirty_until_{};      ///< answers of an exchange that was given up may come until then
-    const Node* dirty_ = nullptr;
+    const Drive* dirty_ = nullptr;
     std::string stray_;    ///< text that nobody asked for, up to its line end, at most 256
     bool resync_ = false;  ///< a line end may be lost: the next request on a party line begins with one
     struct Missed {
-        Node* node = nullptr;
+        Drive* node = nullptr;
         Instant at{};
     };
     std::array<Missed, 62> missed_{};  ///< by mark: questions that were given up

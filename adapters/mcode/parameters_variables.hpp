@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "adapters/mcode/language.hpp"
+#include "adapters/mcode/native_language.hpp"
 #include "gateway/core/family.hpp"
 
 namespace axisgate::mcode {

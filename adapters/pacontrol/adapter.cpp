@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "gateway/drive/option_reader.hpp"
 #include "gateway/drive/tickets.hpp"
@@ -39,76 +40,60 @@ void LineAdapter::read_form(const LineSetup& setup, Turn& t) {
 
 void LineAdapter::configure(const LineSetup& setup, Instant now, Out& out) {
     Turn t{now, out};
-    last_ = now;
     read_form(setup, t);
-    const DriveSetup* mine = nullptr;
-    for (const DriveSetup& d : setup.drives) {
-        const std::string wrong = check_address(d.address);
-        if (wrong.empty() && !mine) {
-            mine = &d;
-            continue;
-        }
-        out.links.push_back(
-            {d.id, false, 0, Duration{},
-             wrong.empty() ? fmt::format("the line belongs to drive {} already: a PA-CONTROL has a serial port of its own", mine->name)
-                           : wrong});
-    }
-    if (drive_) {
-        const DriveSetup& was = drive_->setup();
-        if (mine && mine->id == was.id && mine->name == was.name && mine->options == was.options) {
-            drive_->set_axes(*mine, t);
-            drive_->pump(t);
-            return;
-        }
-        if (up_) drive_->line_down(t, fmt::format("drive {} was removed or changed", was.name));
-        std::erase_if(out.links, [&](const DriveLink& l) { return l.drive == was.id && !mine; });
-        drive_.reset();
-    }
-    if (!mine) return;
-    drive_ = std::make_unique<Drive>(catalogue_, elements_, counters_, line_, *mine);
-    if (up_) drive_->line_up(t);
-    drive_->pump(t);
+    const auto fault = [&](const DriveSetup& s) -> std::string {
+        const Drive* other = drives_.at(0);
+        if (!other || !check_address(s.address).empty()) return check_address(s.address);
+        return fmt::format("the line belongs to drive {} already: a PA-CONTROL has a serial port of its own", other->setup().name);
+    };
+    drives_.fit_axes(setup, [&](Drive& d, const DriveSetup& s) { d.set_axes(s, t); });
+    const auto fresh = drives_.fit(
+        setup, [&](Drive& d) { d.line_down(t, fmt::format("drive {} was removed or changed", d.setup().name)); }, fault,
+        [&](const DriveSetup& s, std::size_t) { return std::make_unique<Drive>(catalogue_, elements_, counters_, line_, s); }, out);
+    for (Drive* d : fresh)
+        if (up_) d->line_up(t);
+    pump(t);
+}
+
+void LineAdapter::pump(Turn& t) {
+    last_ = t.now;
+    drives_.each([&](Drive& d) { d.pump(t); });
 }
 
 void LineAdapter::on_line(bool up, Instant now, Out& out) {
     Turn t{now, out};
-    last_ = now;
-    if (up == up_) return;
-    up_ = up;
-    if (!drive_) return;
-    up ? drive_->line_up(t) : drive_->line_down(t, "the line is down");
-    drive_->pump(t);
+    if (std::exchange(up_, up) != up) drives_.each([&](Drive& d) { up ? d.line_up(t) : d.line_down(t, "the line is down"); });
+    pump(t);
 }
 
 void LineAdapter::on_command(const Command& command, Instant now, Out& out) {
     Turn t{now, out};
-    last_ = now;
-    if (!drive_) return drive::Tickets::refuse(command, Reason::line_down, "this axis is not on the line", out);
-    drive_->submit(command, t);
-    drive_->pump(t);
+    Drive* d = drives_.of(command.axis);
+    if (!d) return drive::Tickets::refuse(command, Reason::line_down, "this axis is not on the line, or its channel is not 1 to 16", out);
+    d->submit(command, t);
+    pump(t);
 }
 
 void LineAdapter::on_frame(const Frame& frame, Instant now, Out& out) {
     Turn t{now, out};
-    last_ = now;
     if (!up_) return;
     if (frame.kind != Frame::Kind::bytes) {
         ++counters_.garbled;
         return;
     }
-    if (!drive_) return;
-    drive_->on_bytes(frame.data(), t);
-    drive_->pump(t);
+    drives_.each([&](Drive& d) { d.on_bytes(frame.data(), t); });
+    pump(t);
 }
 
 void LineAdapter::on_deadline(Instant now, Out& out) {
     Turn t{now, out};
-    last_ = now;
-    if (!drive_) return;
-    drive_->on_deadline(t);
-    drive_->pump(t);
+    drives_.each([&](Drive& d) { d.on_deadline(t); });
+    pump(t);
 }
 
-Instant LineAdapter::deadline() const { return drive_ ? std::max(drive_->deadline(last_), last_) : never; }
+Instant LineAdapter::deadline() const {
+    const Drive* d = drives_.at(0);
+    return d ? std::max(d->deadline(last_), last_) : never;
+}
 
 }  // namespace axisgate::pacontrol

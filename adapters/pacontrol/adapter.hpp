@@ -3,12 +3,12 @@
 // The port is point to point and knows no address: a second drive on the same line is told that its place is taken.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <string_view>
 
 #include "adapters/pacontrol/drive.hpp"
 #include "gateway/core/adapter.hpp"
+#include "gateway/drive/roster.hpp"
 
 namespace axisgate::pacontrol {
 
@@ -29,12 +29,13 @@ public:
 
 private:
     void read_form(const LineSetup& setup, Turn& t);
+    void pump(Turn& t);
 
     const Catalogue& catalogue_;
     const Elements elements_;
     AdapterCounters counters_;
     LineForm line_;
-    std::unique_ptr<Drive> drive_;
+    drive::Roster<Drive> drives_;  ///< one at most: the port is point to point
     bool up_ = false;
     Instant last_{};
 };

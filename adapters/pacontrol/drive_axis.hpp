@@ -1,10 +1,10 @@
-// Axis: what the adapter keeps of one axis of a control: its queue, the command in progress, its motion, what is known of it.
-// In and out: nothing; plain state that Drive works with.
-// Never unbounded: every list has its limit beside it, and Drive says what happens at it.
+// Axis: what the adapter keeps of one axis of a control: its queue, the command in progress, its motion, its demand, what is known of it.
+// In and out: nothing; plain state that the parts of a drive work with.
+// Never unbounded: every list has its limit beside it, and the part that fills it says what happens there.
 #pragma once
 
 #include <array>
-#include <deque>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,17 +12,29 @@
 #include "adapters/pacontrol/parameters_elements.hpp"
 #include "gateway/axis/demand.hpp"
 #include "gateway/core/adapter.hpp"
+#include "gateway/drive/command_queue.hpp"
+#include "gateway/drive/polls.hpp"
 #include "gateway/drive/turn.hpp"
 
 namespace axisgate::pacontrol {
 
 using drive::Turn;
+struct Axis;
+
+/// A verb of CiA 402, or of the control's own language, as exchanges (drive_verbs.hpp).
+class Verb {
+public:
+    virtual ~Verb() = default;
+    /// Goes on with the job of `a`: `reply` answers its request; nullptr: it begins, or what it waited for may have come.
+    virtual void run(Axis& a, const Reply* reply, Turn& t) = 0;
+};
 
 /// A command on its way, taken apart into exchanges: at each step it either wants to send `request` or waits for something.
 struct Job {
-    enum class Kind : std::uint8_t { none, enable, reset, home, origin, move, together, read, write, native, single, mode };
+    enum class Kind : std::uint8_t { none, enable, reset, mode, home, origin, move, together, read, write, native, single };
     enum class Want : std::uint8_t { nothing, send, wait };
     Kind kind = Kind::none;
+    Verb* verb = nullptr;
     Want want = Want::nothing;
     Command command;
     int step = 0;
@@ -36,11 +48,13 @@ struct Job {
     bool unknown = false;           ///< no answer to what cannot be repeated: reads the position back and ends as failed
     std::uint8_t tries = 0;         ///< of the present request
     Instant limit = never;          ///< of waiting
-    std::string text;               ///< said in the result
+    std::string text;               ///< for the result
     Point point;
-    std::vector<std::size_t> places;  ///< together: the axes, by their place
+    std::vector<std::size_t> places;  ///< of several axes
     std::size_t at = 0;
     [[nodiscard]] bool active() const noexcept { return kind != Kind::none; }
+    [[nodiscard]] bool waits() const noexcept { return active() && want == Want::wait; }
+    [[nodiscard]] bool of_parameter() const noexcept { return kind == Kind::read || kind == Kind::write; }
 };
 
 /// A motion that was commanded and whose end is watched.
@@ -49,7 +63,7 @@ struct Motion {
     Kind kind = Kind::none;
     std::int64_t target = 0;
     bool conditional = false;  ///< 0AA3 was set for it: an end short of the target is its right
-    bool final_due = false;    ///< 1911 says it stands: status and position are read before anybody hears of it
+    bool final_due = false;    ///< 1911 says it stands: status and position are read before its end is published
     std::uint64_t begun = 0;   ///< exchange count at its acknowledgement: answers to older questions do not end it
     [[nodiscard]] bool active() const noexcept { return kind != Kind::none; }
 };
@@ -61,8 +75,8 @@ struct Wait {
     std::int64_t value = 0;
 };
 
-/// Where the axis should be (demand.cpp): by the control's own word where it has one (1915), else by the orders that it acknowledged.
-struct Aim {
+/// What the demand of one axis rests on (demand.cpp): the control's own word where it has one (1915), else the orders that it acknowledged.
+struct AxisDemand {
     enum Parameter : std::uint8_t { traverse_speed, start_stop_speed, acceleration, gear, enable_mode };
     static constexpr std::array<std::uint8_t, 5> numbers{0x01, 0x05, 0x06, 0x07, 0x32};  ///< of the axis parameters [L2214-L2220, L2268]
     struct Known {
@@ -72,27 +86,30 @@ struct Aim {
     std::array<Known, numbers.size()> parameters;  ///< as they were in home position: nothing else can be asked there or changes them
     std::uint8_t next_parameter = 0;               ///< to be read anew
 
-    Demand demand;               ///< increments
+    Demand computed;             ///< increments
     DemandRamps ramps;           ///< of the motion under way, and of its stop
     double target = 0;           ///< increments
-    std::int64_t shown = 0;      ///< the demand at the instant of the position that was told last; orders since then do not change it
+    std::int64_t shown = 0;      ///< the demand at the instant of the position published last; orders since then do not change it
     bool fresh = false;          ///< a position came since
     bool guided = false;         ///< on, ONLINE, in order: the axis is where orders have put it
     bool settle = true;          ///< once it stands the demand is where it stands
-    bool stands = false;         ///< 1911 has said so since `settle` was set
+    bool stands = false;         ///< 1911 has shown so since `settle` was set
     bool speed_doubted = false;  ///< an override was sent and not acknowledged
     bool ramp_doubted = false;
 
-    Instant shown_at{};         ///< when the oldest part of the position that is told now was said
+    Instant shown_at{};         ///< when the oldest part of the position that is published now was received
     std::optional<double> lag;  ///< 1915, microsteps
     Instant lag_at{};
-    bool lag_steady = true;         ///< the last two answers were alike: a position between two answers may be told with the older one
+    bool lag_steady = true;         ///< the last two answers were alike: a position between two answers may go with the older one
     bool lag_new = false;           ///< answered since the last position
-    bool lag_pairs = false;         ///< answered just before the position that is told now
-    bool lag_missing = false;       ///< the control does not tell it of this axis: asked no more
+    bool lag_pairs = false;         ///< answered just before the position that is published now
+    bool lag_missing = false;       ///< the control does not have it for this axis: asked no more
     bool lag_due = false;           ///< stands anew: asked once
     bool lag_turn = false;          ///< of the two that share a place in the cycle it is 1915's turn
     std::uint8_t lag_refusals = 0;  ///< in a row, as inadmissible
+
+    /// 1915 can be had, and its microsteps mean something: the way of one revolution is known.
+    [[nodiscard]] bool has_lag() const noexcept { return guided && !lag_missing && parameters[gear].value.value_or(0) > 0; }
 };
 
 struct Axis {
@@ -102,33 +119,39 @@ struct Axis {
     AxisId id = no_axis;
     int channel = 1;
     AxisFeedback fb;
-    std::int64_t counter = 0;  ///< 190C as it was last told, increments
+    std::int64_t counter = 0;  ///< 190C as it was last received, increments
     bool position_known = false;
-    bool missing = false;           ///< the control says 20h: it has no such axis
-    bool on = false;                ///< 0A97 acknowledged since ONLINE began
-    bool off_ordered = false;       ///< 0A98 acknowledged since it was enabled last
-    bool referenced_own = false;    ///< as far as the gateway's own commands tell
-    int status = -1;                ///< 1910: 0 in position, 1 moving, 2 stopped, 4 malfunction, 8 measuring; -1 not read yet
-    bool malfunction_told = false;  ///< status 4 is known to everybody; asking anew does not make it news
+    bool missing = false;                ///< the control answers 20h: it has no such axis
+    bool on = false;                     ///< 0A97 acknowledged since ONLINE began
+    bool off_ordered = false;            ///< 0A98 acknowledged since it was enabled last
+    int status = -1;                     ///< 1910: 0 in position, 1 moving, 2 stopped, 4 malfunction, 8 measuring; -1 not read yet
+    bool malfunction_published = false;  ///< asking for status 4 anew does not make it news
     std::uint16_t trouble = 0;  ///< PA-CONTROL error of the fault that lasts: status 4 may be read for a while after the number has gone
     int limits = -1;            ///< 1921: bit 0 power pack ready, 1 positive switch free, 2 negative switch free; -1 not read
     bool extended_missing = false;  ///< 1921 is not executable here: 1910 is read in its place
     bool reached = false;           ///< the last motion has ended at its target, by the control's counter
     bool running = false;
-    Instant counter_at{}, velocity_at{}, running_at{}, status_at{};  ///< when 190C, 190D, 1911 and 1910 or 1921 last told it
+    Instant counter_at{}, velocity_at{}, running_at{}, status_at{};  ///< when 190C, 190D, 1911 and 1910 or 1921 were received last
     Motion motion;
     std::optional<std::int64_t> speed, acceleration;  ///< overrides in force, increments/s and /s2
-    Aim aim;
-    Instant renew_at = never;  ///< manual move: next 0A92
+    AxisDemand demand;
+    drive::PollTimer renewal;  ///< manual move: next 0A92
     bool condition_set = false;
     bool prepared = false;
     Request prepared_request;
     Motion prepared_motion;
-    std::string lost;  ///< a motion whose end was never heard: told with the position that is read back
+    std::string lost;  ///< a motion whose end was never received: published with the position that is read back
 
-    std::deque<Command> queue;
+    drive::CommandQueue queue{queue_limit};
     Job job;
     std::vector<Wait> waits;
+
+    [[nodiscard]] bool used() const noexcept { return id != no_axis; }       ///< by the site
+    [[nodiscard]] bool here() const noexcept { return used() && !missing; }  ///< and the control has it
+    [[nodiscard]] bool moves() const noexcept { return running || motion.active(); }
+    [[nodiscard]] std::size_t place() const noexcept { return static_cast<std::size_t>(channel) - 1; }
+    [[nodiscard]] std::uint32_t number() const noexcept { return static_cast<std::uint32_t>(channel); }  ///< as the control counts axes
+    [[nodiscard]] std::uint16_t status_code() const noexcept { return extended_missing ? code::status_axis : code::extended_status; }
 };
 
 }  // namespace axisgate::pacontrol

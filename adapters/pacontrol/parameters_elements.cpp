@@ -74,30 +74,14 @@ const Binding* Elements::binding(Point point) const noexcept {
     return point.parameter < bindings_.size() ? &bindings_[point.parameter] : nullptr;
 }
 
-std::optional<Point> Elements::point_of(std::uint16_t read_code) const noexcept {
-    for (std::size_t i = 0; i < bindings_.size(); ++i) {
-        const Binding& b = bindings_[i];
-        if (b.read && b.read->code == read_code && !b.array && !b.byte && !b.bit) return Point{static_cast<std::uint16_t>(i), 0};
-    }
-    return std::nullopt;
-}
-
 Request Elements::read(const Binding& b, Point point, int channel) {
-    Request r;
-    r.code = b.read->code;
-    r.parameter = parameter_of(*b.read, b, point, channel);
-    r.real = b.read->answer == Carries::real;  // reads of reals carry the type too [L1350-L1357]
-    return r;
+    return request_for(b.read->code, parameter_of(*b.read, b, point, channel));  // reads of reals carry the type too [L1350-L1357]
 }
 
 Request Elements::write(const Binding& b, Point point, int channel, const Value& value) {
-    Request r;
-    r.code = b.write->code;
-    r.parameter = parameter_of(*b.write, b, point, channel);
-    r.real = b.write->data == Carries::real;
     const double v = as_number(value).value_or(0);
-    r.data = r.real ? real_text(v) : std::to_string(std::llround(v));
-    return r;
+    return request_for(b.write->code, parameter_of(*b.write, b, point, channel),
+                       b.write->data == Carries::real ? real_text(v) : std::to_string(std::llround(v)));
 }
 
 Value Elements::value(const Binding& b, const Reply& reply) {

@@ -28,9 +28,6 @@ public:
 
     /// nullptr: there is no such point.
     [[nodiscard]] const Binding* binding(Point point) const noexcept;
-    /// Point that an axis' plain get command fills (190C, 190D, 1910 ...); nothing if the catalogue has none.
-    [[nodiscard]] std::optional<Point> point_of(std::uint16_t read_code) const noexcept;
-
     [[nodiscard]] static Request read(const Binding& binding, Point point, int channel);
     [[nodiscard]] static Request write(const Binding& binding, Point point, int channel, const Value& value);
     /// The value in an acknowledgement, in the parameter's type.

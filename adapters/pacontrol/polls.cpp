@@ -1,14 +1,10 @@
-// Drive, part polls: what is asked again and again, in which order, and what the answers say.
-// In: turns on the line. Out: 1911 (who runs), positions, speeds or following errors of those that run, and one slow thing per cycle.
-// Never asks for what the control has said it does not have.
-#include <fmt/core.h>
+// Polls: the cycles.
+// In: who runs, who stands, how long the last cycle took. Out: 1911 (who runs), positions, speeds or following errors of those that run,
+// some of those that stand, and one slow thing per cycle.
+#include "adapters/pacontrol/polls.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-
-#include "adapters/pacontrol/drive.hpp"
-#include "adapters/pacontrol/wire_number.hpp"
 
 namespace axisgate::pacontrol {
 namespace {
@@ -16,227 +12,125 @@ constexpr Duration longest_cycle = std::chrono::seconds(10);
 constexpr Duration standing_age = std::chrono::milliseconds(2400);  // below the 3 s from which a byte line's data count as stale
 constexpr int standing_cycles = 4;                                  // in which each axis that stands is asked once while none moves
 constexpr std::size_t axes_per_running = 16;                        // that move, for each 1911
+constexpr std::size_t parameters_per_cycle = 4;
 }  // namespace
 
-bool Drive::poll_wanted(Instant now) const noexcept { return !polls_.empty() || cycle_at_ <= now; }
-
-void Drive::plan_cycle(Turn& t) {
-    cycle_time_ = std::clamp<Duration>(t.now - cycle_began_, line_.timing.poll_period, longest_cycle);
-    cycle_began_ = t.now;
-    cycle_at_ = t.now + line_.timing.poll_period;
+void Polls::plan_cycle(Instant now) {
+    const Duration period = pac_.line.timing.poll_period;
+    cycle_time_ = std::clamp<Duration>(now - cycle_began_, period, longest_cycle);
+    cycle_began_ = now;
+    cycle_at_ = now + period;
     std::size_t moving = 0;
-    polls_.push_back({PollKind::running, 0});
-    for (std::size_t i = 0; i < axes_.size(); ++i) {
-        Axis& a = axes_[i];
-        if (a.id == no_axis || a.missing) continue;
+    waiting_.push_back({code::running_axes});
+    for (Axis& a : pac_.axes) {
+        if (!a.here()) continue;
+        const bool lag = a.demand.has_lag();
         if (first_cycle_) {
-            polls_.push_back({PollKind::position, i});
-            if (!system_flags_missing_) polls_.push_back({PollKind::referenced, i});
-            polls_.push_back({status_poll(a), i});
+            add(code::position, a);
+            if (!pac_.system_flags_missing) add(code::system_flag, a);
+            add(a.status_code(), a);
         } else if (a.motion.final_due) {
-            polls_.push_back({status_poll(a), i});
-            if (tells_following_error(a)) polls_.push_back({PollKind::following, i});
-            polls_.push_back({PollKind::position, i});
-        } else if (a.running || a.motion.active() || !a.position_known) {
-            // Ends are heard soon, however many move.
-            if (++moving % axes_per_running == 0) polls_.push_back({PollKind::running, 0});
+            add(a.status_code(), a);
+            if (lag) add(code::following_error, a);
+            add(code::position, a);
+        } else if (a.moves() || !a.position_known) {
+            // Ends are seen soon, however many move.
+            if (++moving % axes_per_running == 0) waiting_.push_back({code::running_axes});
             // Following error and speed share a place, so that the cycle takes no longer for it; the position it belongs to comes next.
-            a.aim.lag_turn = tells_following_error(a) && !a.aim.lag_turn;
-            if (a.aim.lag_turn) polls_.push_back({PollKind::following, i});
-            polls_.push_back({PollKind::position, i});
-            if (!a.aim.lag_turn) polls_.push_back({PollKind::speed, i});
-        } else if (a.aim.lag_due && tells_following_error(a)) {
-            polls_.push_back({PollKind::following, i});
+            a.demand.lag_turn = lag && !a.demand.lag_turn;
+            if (a.demand.lag_turn) add(code::following_error, a);
+            add(code::position, a);
+            if (!a.demand.lag_turn) add(code::speed, a);
+        } else if (a.demand.lag_due && lag) {
+            add(code::following_error, a);
         }
     }
     if (!first_cycle_) {
         plan_standing(moving > 0);
-        plan_slow(t);
-        plan_parameters(t);
+        plan_slow(now);
+        plan_parameters(now);
     }
     first_cycle_ = false;
 }
 
-/// Axes that stand, in turn: they may be pushed, or their position be set at the control. So many of them that what is told of each is
+/// Axes that stand, in turn: they may be pushed, or their position be set at the control. So many of them that what is known of each is
 /// never older than `standing_age` where the line allows it; where axes move, not one more.
-void Drive::plan_standing(bool crowded) {
-    const std::size_t n = axes_.size();
-    const auto stands = [&](const Axis& a) {
-        return a.id != no_axis && !a.missing && !a.running && !a.motion.active() && a.position_known;
-    };
-    const auto standing = static_cast<std::size_t>(std::ranges::count_if(axes_, stands));
+void Polls::plan_standing(bool crowded) {
+    const auto stands = [](const Axis& a) { return a.here() && !a.moves() && a.position_known; };
+    const auto standing = static_cast<std::size_t>(std::ranges::count_if(pac_.axes, stands));
     const double wanted = crowded ? static_cast<double>(standing) * seconds(cycle_time_) / seconds(standing_age)
                                   : static_cast<double>(standing) / standing_cycles;
     auto left = std::min(standing, static_cast<std::size_t>(std::ceil(wanted)));
-    for (std::size_t k = 0; k < n && left > 0; ++k) {
-        idle_at_ = (idle_at_ + 1) % n;
-        const Axis& a = axes_[idle_at_];
+    for (std::size_t k = 0; k < Control::channels && left > 0; ++k) {
+        idle_at_ = (idle_at_ + 1) % Control::channels;
+        const Axis& a = pac_.axes[idle_at_];
         if (!stands(a)) continue;
         --left;
-        if (tells_following_error(a))
-            polls_.push_back({PollKind::following, idle_at_});  // held, it may be pushed without its counter moving
-        polls_.push_back({PollKind::position, idle_at_});
-        polls_.push_back({status_poll(a), idle_at_});
+        if (a.demand.has_lag()) add(code::following_error, a);  // held, it may be pushed without its counter moving
+        add(code::position, a);
+        add(a.status_code(), a);
     }
 }
 
 /// One thing per cycle of what seldom changes: the switches of an axis that moves, references, and in home position parameters.
-void Drive::plan_slow(Turn& t) {
-    const std::size_t n = axes_.size();
-    for (std::size_t k = 0; k < 3 * n; ++k) {
-        slow_at_ = (slow_at_ + 1) % (3 * n);
-        const std::size_t i = slow_at_ / 3, what = slow_at_ % 3;
-        Axis& a = axes_[i];
-        if (a.id == no_axis || a.missing) continue;
-        if ((what == 0 && !a.running) || (what == 1 && system_flags_missing_) || (what == 2 && !parameters_readable(t.now))) continue;
-        if (what == 2) {
-            std::uint8_t& next = a.aim.next_parameter;
-            polls_.push_back({PollKind::parameter, i, next});
-            next = static_cast<std::uint8_t>((next + 1u) % Aim::numbers.size());
-        } else {
-            polls_.push_back({what == 1 ? PollKind::referenced : status_poll(a), i});
+void Polls::plan_slow(Instant now) {
+    constexpr std::size_t all = 3 * Control::channels;
+    for (std::size_t k = 0; k < all; ++k) {
+        slow_at_ = (slow_at_ + 1) % all;
+        Axis& a = pac_.axes[slow_at_ / 3];
+        const std::size_t what = slow_at_ % 3;
+        if (!a.here()) continue;
+        if (what == 0 && a.running) return add(a.status_code(), a);
+        if (what == 1 && !pac_.system_flags_missing) return add(code::system_flag, a);
+        if (what == 2 && pac_.parameters_readable(now)) {
+            std::uint8_t& next = a.demand.next_parameter;
+            add(code::axis_parameter, a, next);
+            next = static_cast<std::uint8_t>((next + 1u) % AxisDemand::numbers.size());
+            return;
         }
-        return;
     }
 }
 
-void Drive::poll_soon(PollKind kind, const Axis& a) {
-    std::erase_if(polls_, [&](const Poll& p) { return p.kind == kind && p.axis == place(a); });
-    polls_.push_front({kind, place(a)});
+/// A few at a time, in home position, where nothing moves and nothing else is urgent. Those that are known are looked at again in the
+/// slow round: they can be changed at the control.
+void Polls::plan_parameters(Instant now) {
+    if (!pac_.parameters_readable(now)) return;
+    std::size_t planned = 0;
+    for (const Axis& a : pac_.axes) {
+        if (!a.here()) continue;
+        for (std::uint8_t k = 0; k < AxisDemand::numbers.size(); ++k) {
+            if (a.demand.parameters[k].read) continue;
+            add(code::axis_parameter, a, k);
+            if (++planned == parameters_per_cycle) return;
+        }
+    }
 }
 
-/// Of an axis that has come to rest: what it is behind, where it is, and how.
-void Drive::poll_standing(Axis& a) {
-    poll_soon(status_poll(a), a);
-    poll_soon(PollKind::position, a);
-    if (tells_following_error(a)) poll_soon(PollKind::following, a);
+void Polls::drop(std::uint16_t code, const Axis* a) {
+    std::erase_if(waiting_, [&](const Poll& p) { return p.code == code && (!a || p.axis == a->place()); });
 }
 
-void Drive::send_next_poll(Turn& t) {
-    if (polls_.empty()) plan_cycle(t);
-    const Poll p = polls_.front();
-    polls_.pop_front();
+void Polls::soon(std::uint16_t code, const Axis& a) {
+    drop(code, &a);
+    waiting_.push_front({code, a.place()});
+}
+
+void Polls::soon_standing(const Axis& a) {
+    soon(a.status_code(), a);
+    soon(code::position, a);
+    if (a.demand.has_lag()) soon(code::following_error, a);
+}
+
+Sent Polls::next(Instant now) {
+    if (waiting_.empty()) plan_cycle(now);
+    const Poll p = waiting_.front();
+    waiting_.pop_front();
     const auto axis = static_cast<std::uint32_t>(p.axis) + 1;
-    Request r;
-    switch (p.kind) {
-        case PollKind::running:
-            r = {code::running_axes, 0, false, "0"};
-            break;
-        case PollKind::position:
-            r = {code::position, axis, true, "0"};
-            break;
-        case PollKind::speed:
-            r = {code::speed, axis, true, "0"};
-            break;
-        case PollKind::status:
-            r = {code::status_axis, axis, false, "0"};
-            break;
-        case PollKind::extended:
-            r = {code::extended_status, axis, false, "0"};
-            break;
-        case PollKind::referenced:
-            r = {code::system_flag, referenced_flag + axis, false, "0"};
-            break;
-        case PollKind::following:
-            r = {code::following_error, axis, true, "0"};
-            break;
-        case PollKind::parameter:
-            r = {code::axis_parameter, axis << 8 | Aim::numbers[p.parameter], true, "0"};
-            break;
-    }
-    send(Purpose::poll, r, p.axis, Priority::poll, t);
-    exchange_.poll = p;
-}
-
-void Drive::poll_answered(const Poll& p, const Reply& reply, Turn& t) {
-    Axis& a = axes_[p.axis];
-    if (p.kind == PollKind::parameter) parameter_answered(a, p.parameter, reply, t);
-    if (reply.quit != 0) {
-        if (p.kind == PollKind::following) following_refused(a, reply);
-        ++counters_.refused;
-        if (reply.quit == quit::axis_unknown && !a.missing) {
-            a.missing = true;
-            notice(Severity::alarm, "setup", reply.quit,
-                   fmt::format("the control has no axis {} ({}): take it out of the site, or raise system parameter 2 (number of axes)",
-                               a.channel, describe_quit(reply.quit)),
-                   t, a.id);
-        } else if (reply.quit != quit::inadmissible) {
-            if (p.kind == PollKind::extended) a.extended_missing = true;
-            if (p.kind == PollKind::status) a.status_at = t.now;  // asked, and it does not say
-            if (p.kind == PollKind::referenced) system_flags_missing_ = true;
-        }
-        return;
-    }
-    const double v = number_of(reply).value_or(0);
-    const auto n = std::fabs(v) < 4e9 ? static_cast<std::uint32_t>(std::llround(std::fabs(v))) : 0u;
-    switch (p.kind) {
-        case PollKind::running:
-            return learn_running(n, t);
-        case PollKind::speed:
-            a.fb.velocity = increments_of(v);
-            a.velocity_at = t.now;
-            if (a.motion.kind == Motion::Kind::velocity || a.motion.kind == Motion::Kind::position) {
-                // Whether the control gives the speed a sign is not said [L2885]: the direction of a commanded motion is known.
-                const bool down = a.motion.kind == Motion::Kind::velocity ? a.motion.target < 0 : a.motion.target < a.counter;
-                a.fb.velocity = down ? -std::llabs(a.fb.velocity) : std::llabs(a.fb.velocity);
-            }
-            return emit(a, t);
-        case PollKind::referenced:
-            a.fb.referenced = n != 0;
-            return;
-        case PollKind::status:
-            return learn_status(a, static_cast<int>(n), t);
-        case PollKind::extended:
-            // Byte 0, the highest: power pack ready; 1 positive and 2 negative limit switch (1: free); 3 axis status [L3164-L3194].
-            a.limits = static_cast<int>((n >> 24 & 1u) | (n >> 16 & 1u) << 1 | (n >> 8 & 1u) << 2);
-            learn_status(a, static_cast<int>(n & 0xFFu), t);
-            return;
-        case PollKind::following:
-            following_answered(a, v, t);
-            if (!a.running) emit(a, t);  // of one that runs the position is asked next: they are told together
-            return;
-        case PollKind::parameter:
-            return;
-        case PollKind::position:
-            break;
-    }
-    const bool ends = a.motion.final_due && a.status >= 0 && a.status != 1;
-    if (!ends) return learn_position(a, v, t);
-    const std::int64_t position = increments_of(v);
-    const Motion m = a.motion;
-    std::string why;
-    bool reached = m.kind == Motion::Kind::position || m.kind == Motion::Kind::manual;
-    const std::string cause = what_ended(a);
-    const std::int64_t slack = std::max<std::int64_t>(50, std::llabs(m.target) / 100'000);  // 7 digits, and the step of a gear
-    if (a.status == 4) {
-        reached = false;
-        why = "axis status 4, malfunction" + (cause.empty() ? cause : ": " + cause);
-    } else if (a.status == 2) {
-        reached = false;
-        why = "axis status 2, stopped" + (cause.empty() ? cause : ": " + cause);
-    } else if (a.status == 8) {
-        reached = false;
-        why = "axis status 8, measuring mode";
-    } else if (m.kind == Motion::Kind::velocity) {
-        why = "the end of the traverse area is reached";
-    } else if ((m.conditional || m.kind == Motion::Kind::manual) && std::llabs(position - m.target) > slack) {
-        reached = false;
-        why = m.conditional ? "the condition has ended it" : "the manual move was not renewed in time, or was stopped";
-    }
-    a.counter = position;
-    a.counter_at = t.now;
-    a.aim.fresh = true;
-    a.running = false;
-    rest(a, reached && m.kind == Motion::Kind::position ? m.target : position);
-    end_motion(a, reached, a.status == 4 && error_ != 0 ? Reason::drive_refused : Reason::interrupted,
-               fmt::format("axis {} has stopped at {}, target {}: {}", a.channel, axis_text(position), axis_text(m.target), why), t);
-    if (reached && stands_behind(a))
-        notice(Severity::warning, "motion", a.status,
-               fmt::format("axis {}: in position by its counter, but the shaft is {} behind: it is held or has lost steps", a.channel,
-                           axis_text(following_error(a))),
-               t, a.id);
-    if (!reached)
-        notice(Severity::info, "motion", a.status, fmt::format("axis {}: {}, at {}", a.channel, why, axis_text(position)), t, a.id);
+    const std::uint32_t parameter = p.code == code::running_axes     ? 0
+                                    : p.code == code::system_flag    ? referenced_flag + axis
+                                    : p.code == code::axis_parameter ? axis << 8 | AxisDemand::numbers[p.parameter]
+                                                                     : axis;
+    return {Purpose::poll, p.axis, request_for(p.code, parameter), false, p};
 }
 
 }  // namespace axisgate::pacontrol

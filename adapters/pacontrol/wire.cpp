@@ -42,6 +42,36 @@ std::string text_of(const Reply& r) {
     return fmt::format("{};{};{};{};{};{}", r.quit, r.end ? 1 : 0, r.status, r.error, r.real ? 1 : 0, r.data);
 }
 
+std::string_view name_of(CheckForm form) noexcept {
+    return form == CheckForm::text ? "text" : form == CheckForm::with_etx ? "text and ETX" : "0, not used";
+}
+
+std::optional<CheckMode> check_mode_named(std::string_view name) noexcept {
+    if (name == "compute") return CheckMode::compute;
+    if (name == "zero") return CheckMode::zero;
+    if (name == "learn") return CheckMode::learn;
+    return std::nullopt;
+}
+
+std::uint8_t check_of(std::string_view text, CheckForm form) noexcept {
+    if (form == CheckForm::zero) return 0;
+    std::uint8_t sum = form == CheckForm::with_etx ? 3 : 0;
+    for (const char c : text)
+        sum = static_cast<std::uint8_t>(sum ^ static_cast<std::uint8_t>(c));
+    return sum;
+}
+
+std::optional<CheckForm> form_of_check(std::string_view text, std::string_view digits, CheckForm expected) noexcept {
+    unsigned v = 0;
+    const auto [p, ec] = std::from_chars(digits.data(), digits.data() + digits.size(), v);
+    if (digits.empty() || digits.size() > 3 || ec != std::errc{} || p != digits.data() + digits.size() || v > 255) return std::nullopt;
+    if (v == check_of(text, expected)) return expected;
+    for (const CheckForm f : {CheckForm::text, CheckForm::with_etx, CheckForm::zero}) {
+        if (v == check_of(text, f)) return f;
+    }
+    return std::nullopt;
+}
+
 std::vector<std::uint8_t> framed(std::string_view text, CheckForm form) {
     std::vector<std::uint8_t> b;
     b.reserve(text.size() + 7);
@@ -101,25 +131,15 @@ std::optional<Reply> reply_of(std::string_view text, std::string& fault) {
 std::optional<double> number_of(const Reply& r) noexcept { return real_of(r.data); }
 
 std::string_view name_of(FrameFault fault) noexcept {
-    switch (fault) {
-        case FrameFault::stray:
-            return "bytes outside a frame";
-        case FrameFault::restarted:
-            return "a frame inside a frame: SOH before EOT";
-        case FrameFault::no_stx:
-            return "SOH without STX";
-        case FrameFault::no_etx:
-            return "EOT before ETX";
-        case FrameFault::no_eot:
-            return "no EOT after the check digits";
-        case FrameFault::eight_bits:
-            return "a byte with 8 bits on a line of 7: format=7N1 is what the control has when new";
-        case FrameFault::not_text:
-            return "a control symbol inside the text";
-        case FrameFault::too_long:
-            return "a text that does not end";
-    }
-    return "?";
+    constexpr std::array<std::string_view, 8> names{"bytes outside a frame",
+                                                    "a frame inside a frame: SOH before EOT",
+                                                    "SOH without STX",
+                                                    "EOT before ETX",
+                                                    "no EOT after the check digits",
+                                                    "a byte with 8 bits on a line of 7: format=7N1 is what the control has when new",
+                                                    "a control symbol inside the text",
+                                                    "a text that does not end"};
+    return names[static_cast<std::size_t>(fault)];
 }
 
 void Framer::reset() noexcept {

@@ -1,5 +1,5 @@
 // Wire: the frames of the serial port: SOH STX text ETX check EOT, and the poll, which is a lone EOT [L1123-L1205].
-// In: requests; bytes as they come. Out: bytes; messages found among them, and what was wrong with the rest.
+// In: requests; bytes as they come. Out: bytes; messages found among them, what their check digits prove, what was wrong with the rest.
 // Never knows what a command means, and never holds more than one frame.
 #pragma once
 
@@ -10,8 +10,6 @@
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "adapters/pacontrol/wire_check.hpp"
 
 namespace axisgate::pacontrol {
 
@@ -36,6 +34,28 @@ struct Reply {
     std::string data = "0";
     bool operator==(const Reply&) const = default;
 };
+
+/// "XOR sum of the digits" [L1047]. The manual gives no formula; its printed frames prove two, which differ by the ETX (03h) [L1220-L1495].
+enum class CheckForm : std::uint8_t {
+    text,      ///< XOR of the bytes strictly between STX and ETX: what requests carry
+    with_etx,  ///< the same and ETX: what acknowledgements carry
+    zero       ///< `0`: not used; legal in both directions [L1047]
+};
+[[nodiscard]] std::string_view name_of(CheckForm form) noexcept;
+
+/// Option `check` of the line.
+enum class CheckMode : std::uint8_t {
+    compute,  ///< requests carry the computed digits
+    zero,     ///< requests carry `0`
+    learn     ///< computed, until the control answers "check wrong" (10h) to it: then the other form, then `0`
+};
+[[nodiscard]] std::optional<CheckMode> check_mode_named(std::string_view name) noexcept;
+
+[[nodiscard]] std::uint8_t check_of(std::string_view text, CheckForm form) noexcept;
+
+/// Which form received digits have. A sum that is 0 by itself counts as computed. Nothing: they fit no form, or are no number 0..255.
+/// `expected` is looked at first.
+[[nodiscard]] std::optional<CheckForm> form_of_check(std::string_view text, std::string_view digits, CheckForm expected) noexcept;
 
 [[nodiscard]] std::string text_of(const Request& request);
 [[nodiscard]] std::string text_of(const Reply& reply);

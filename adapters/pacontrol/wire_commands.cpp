@@ -187,6 +187,11 @@ const CommandInfo* command_info(std::uint16_t code) noexcept {
     return it == table.end() ? nullptr : &*it;
 }
 
+Request request_for(std::uint16_t code, std::uint32_t parameter, std::string data) {
+    const CommandInfo* c = command_info(code);
+    return {code, parameter, c && (c->data == Carries::real || c->answer == Carries::real), std::move(data)};
+}
+
 const CommandInfo* command_named(std::string_view name) noexcept {
     for (const CommandInfo& c : table) {
         if (c.name == name || c.name.substr(4) == name || fmt::format("{:04X}", c.code) == name) return &c;

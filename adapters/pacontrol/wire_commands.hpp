@@ -46,6 +46,9 @@ struct CommandInfo {
 /// By name, by name without `cmd_`, or by its four hex digits.
 [[nodiscard]] const CommandInfo* command_named(std::string_view name) noexcept;
 
+/// A request whose type is the table's; an unknown code is one of integers.
+[[nodiscard]] Request request_for(std::uint16_t code, std::uint32_t parameter = 0, std::string data = "0");
+
 /// Command errors that the adapter acts upon [L4023-L4113].
 namespace quit {
 inline constexpr std::uint16_t check_wrong = 0x10, frame_order = 0x11, frame_begin = 0x12, unknown_command = 0x13, inadmissible = 0x14,

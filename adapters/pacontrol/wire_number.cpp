@@ -3,6 +3,7 @@
 // Never uses the locale.
 #include "adapters/pacontrol/wire_number.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -24,6 +25,30 @@ std::optional<double> real_of(std::string_view text) noexcept {
     const auto [p, ec] = std::from_chars(text.data(), text.data() + text.size(), v, std::chars_format::fixed);
     if (text.empty() || ec != std::errc{} || p != text.data() + text.size() || !std::isfinite(v)) return std::nullopt;
     return v;
+}
+
+std::optional<std::uint32_t> whole_of(std::string_view s) noexcept {
+    int base = 10;
+    if (s.starts_with("0x") || s.starts_with("0X")) {
+        base = 16;
+        s.remove_prefix(2);
+    }
+    std::uint32_t v = 0;
+    const auto [p, ec] = std::from_chars(s.data(), s.data() + s.size(), v, base);
+    if (s.empty() || ec != std::errc{} || p != s.data() + s.size()) return std::nullopt;
+    return v;
+}
+
+std::vector<std::string_view> words_of(std::string_view s) {
+    std::vector<std::string_view> w;
+    while (true) {
+        const auto at = s.find_first_not_of(" ,\t");
+        if (at == std::string_view::npos) return w;
+        s.remove_prefix(at);
+        const auto end = std::min(s.size(), s.find_first_of(" ,\t"));
+        w.push_back(s.substr(0, end));
+        s.remove_prefix(end);
+    }
 }
 
 std::string real_text(double value) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace axisgate::pacontrol {
 
@@ -14,6 +15,11 @@ namespace axisgate::pacontrol {
 [[nodiscard]] std::optional<std::int64_t> integer_of(std::string_view text) noexcept;
 /// Decimal with sign and point; any number of decimals. Nothing if it is not one, or not finite.
 [[nodiscard]] std::optional<double> real_of(std::string_view text) noexcept;
+
+/// Without sign, decimal or 0x with hexadecimal digits; nothing if it is not one of 32 bits.
+[[nodiscard]] std::optional<std::uint32_t> whole_of(std::string_view text) noexcept;
+/// Split at spaces, tabs and commas.
+[[nodiscard]] std::vector<std::string_view> words_of(std::string_view text);
 
 /// The shortest text that is this 32-bit float, with a point and at least one decimal: 200.0, -0.25. Never an exponent.
 [[nodiscard]] std::string real_text(double value);

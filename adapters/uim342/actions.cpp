@@ -21,19 +21,19 @@ std::string names_of(const std::vector<std::string>& names) {
 void LineAdapter::start_together(const Command& command, const StartTogether& what, Turn& t) {
     std::vector<Drive*> members;
     for (const AxisId axis : what.axes) {
-        Drive* n = node_of(axis);
+        Drive* n = roster_.of(axis);
         if (!n) {
-            return answer(command, Outcome::refused, Reason::line_down,
-                          fmt::format("axis {} of the list is not on this line", index_of(axis)), t);
+            return drive::Tickets::refuse(command, Reason::line_down,
+                                          fmt::format("axis {} of the list is not on this line", index_of(axis)), t.out);
         }
         if (std::ranges::find(members, n) == members.end()) members.push_back(n);
     }
-    if (members.empty()) return answer(command, Outcome::refused, Reason::out_of_range, "the list of axes is empty", t);
+    if (members.empty()) return drive::Tickets::refuse(command, Reason::out_of_range, "the list of axes is empty", t.out);
     if (members.size() == 1) {
         Command own = command;  // one drive: its own BG, acknowledged
         own.axis = members.front()->axis();
         members.front()->submit(own, t);
-        return settle(*members.front(), t);
+        return drive::settle(turns, *members.front(), t.now);
     }
     gather(command, Joint::Kind::start, std::move(members), t);
 }
@@ -42,21 +42,20 @@ void LineAdapter::start_group(const Command& command, const std::string& argumen
     unsigned group = 0;
     const auto [p, ec] = std::from_chars(argument.data(), argument.data() + argument.size(), group);
     if (ec != std::errc{} || p != argument.data() + argument.size() || group < first_node || group > last_node) {
-        return answer(command, Outcome::refused, Reason::out_of_range,
-                      fmt::format("start_group takes a group ID {}..{}", first_node, last_node), t);
+        return drive::Tickets::refuse(command, Reason::out_of_range,
+                                      fmt::format("start_group takes a group ID {}..{}", first_node, last_node), t.out);
+    }
+    if (const Drive* n = by_id_[group]) {
+        return drive::Tickets::refuse(command, Reason::wrong_state, fmt::format("{} is {}'s node ID, not a group", group, n->name()),
+                                      t.out);
     }
     std::vector<Drive*> members;
-    for (const auto& n : nodes_) {
-        if (!n) continue;
-        if (n->address() == group) {
-            return answer(command, Outcome::refused, Reason::wrong_state, fmt::format("{} is {}'s node ID, not a group", group, n->name()),
-                          t);
-        }
-        if (n->ever_seen() && n->group() == group) members.push_back(n.get());
-    }
+    roster_.each([&](Drive& d) {
+        if (d.ever_seen() && d.group() == group) members.push_back(&d);
+    });
     if (members.empty()) {
-        return answer(command, Outcome::refused, Reason::wrong_state,
-                      fmt::format("no drive of this line is known to be in group {}", group), t);
+        return drive::Tickets::refuse(command, Reason::wrong_state, fmt::format("no drive of this line is known to be in group {}", group),
+                                      t.out);
     }
     gather(command, Joint::Kind::start_group, std::move(members), t);
     joint_.group = static_cast<std::uint8_t>(group);
@@ -64,24 +63,24 @@ void LineAdapter::start_group(const Command& command, const std::string& argumen
 
 void LineAdapter::gather(const Command& command, Joint::Kind how, std::vector<Drive*> members, Turn& t) {
     if (joint_.kind != Joint::Kind::none) {
-        return answer(command, Outcome::refused, Reason::busy, "another joint start of this line is in progress", t);
+        return drive::Tickets::refuse(command, Reason::busy, "another joint start of this line is in progress", t.out);
     }
     for (const Drive* n : members) {
-        if (!n->online()) return answer(command, Outcome::refused, Reason::no_answer, fmt::format("{} does not answer", n->name()), t);
+        if (!n->online()) return drive::Tickets::refuse(command, Reason::no_answer, fmt::format("{} does not answer", n->name()), t.out);
     }
+    if (!tickets_.open(command, t.out)) return;
     joint_ = Joint{};
     joint_.kind = how;
     joint_.command = command;
     joint_.open = members;
     joint_.members = std::move(members);
     for (Drive* n : joint_.members) {
-        if (!n->join(t))
+        if (!n->join())
             return end_joint(Outcome::refused, Reason::busy, fmt::format("{}: {} commands wait already", n->name(), Drive::queue_limit), 0,
                              t);
     }
-    const auto all = joint_.members;
-    for (Drive* n : all)
-        settle(*n, t);
+    for (Drive* n : joint_.members)
+        drive::settle(turns, *n, t.now);
 }
 
 /// Every member has come to its place in its queue.
@@ -97,11 +96,10 @@ std::string LineAdapter::whom_to_start(std::uint8_t& id) const {
     const auto group = joint_.members.front()->group();
     if (group && std::ranges::all_of(joint_.members, [&](const Drive* n) { return n->group() == group; })) {
         std::vector<std::string> others;
-        for (const auto& n : nodes_) {
-            if (!n) continue;
-            if (n->address() == *group) others.push_back(n->name() + " (its node ID)");
-            if (!member(n.get()) && n->ever_seen() && n->group() == group) others.push_back(n->name());
-        }
+        roster_.each([&](const Drive& d) {
+            if (d.address() == *group) others.push_back(d.name() + " (its node ID)");
+            if (!member(&d) && d.ever_seen() && d.group() == group) others.push_back(d.name());
+        });
         if (others.empty()) {
             id = *group;
             return {};
@@ -111,9 +109,9 @@ std::string LineAdapter::whom_to_start(std::uint8_t& id) const {
         why = "they do not share a group ID (PP[8])";
     }
     std::vector<std::string> others;
-    for (const auto& n : nodes_) {
-        if (n && !member(n.get()) && n->ever_seen()) others.push_back(n->name());
-    }
+    roster_.each([&](const Drive& d) {
+        if (!member(&d) && d.ever_seen()) others.push_back(d.name());
+    });
     if (others.empty()) {
         id = global_id;
         return {};
@@ -137,22 +135,23 @@ void LineAdapter::begin_joint(Turn& t) {
     const auto members = joint_.members;
     for (Drive* n : members) {
         n->begun_by_group(joint_.command.until_done, t);
-        settle(*n, t);
+        drive::settle(turns, *n, t.now);
     }
 }
 
 void LineAdapter::global_stop(const Command& command, Turn& t) {
     transmit(message(global_id, cw::ST), Priority::urgent, t);
+    if (!tickets_.open(command, t.out)) return;
     if (joint_.kind == Joint::Kind::stop) {
-        return answer(command, Outcome::failed, Reason::busy,
-                      "sent again, but not watched: another global_stop waits for its acknowledgements", t);
+        return (void)tickets_.failed(command.ticket, Reason::busy,
+                                     "sent again, but not watched: another global_stop waits for its acknowledgements", t.out);
     }
     if (joint_.kind != Joint::Kind::none) end_joint(Outcome::failed, Reason::interrupted, "interrupted by global_stop", 0, t);
     std::vector<Drive*> members;
-    for (const auto& n : nodes_) {
-        if (n && n->online()) members.push_back(n.get());
-    }
-    if (members.empty()) return answer(command, Outcome::failed, Reason::no_answer, "sent; no drive of the line answers", t);
+    roster_.each([&](Drive& d) {
+        if (d.online()) members.push_back(&d);
+    });
+    if (members.empty()) return (void)tickets_.failed(command.ticket, Reason::no_answer, "sent; no drive of the line answers", t.out);
     joint_ = Joint{};
     joint_.kind = Joint::Kind::stop;
     joint_.stage = Joint::Stage::running;
@@ -160,7 +159,7 @@ void LineAdapter::global_stop(const Command& command, Turn& t) {
     joint_.open = joint_.members = members;
     for (Drive* n : members) {
         n->stopped_by_all(t);
-        settle(*n, t);
+        drive::settle(turns, *n, t.now);
     }
 }
 
@@ -188,12 +187,10 @@ void LineAdapter::end_joint(Outcome outcome, Reason reason, std::string text, st
     if (was.kind != Joint::Kind::stop) {
         for (Drive* n : was.members) {
             n->leave(t);
-            settle(*n, t);
+            drive::settle(turns, *n, t.now);
         }
     }
-    if (was.command.ticket != no_ticket) {
-        t.out.results.push_back({was.command.ticket, was.command.axis, outcome, reason, code, std::move(text), {}, {}});
-    }
+    (void)tickets_.answer(was.command.ticket, outcome, reason, std::move(text), t.out, code);
 }
 
 }  // namespace axisgate::uim342

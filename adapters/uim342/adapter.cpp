@@ -1,6 +1,6 @@
 // Adapter of the UIM342: the line: who is on it, whose turn it is, what arrives.
-// In: calls of the line's owner. Out: turns of nodes; each call ends with pump(), so that places of the window that are free are given
-// away. Never lets silent drives fill the window: a quarter of its places (at least one, never all but one of two or more) is theirs.
+// In: calls of the line's owner. Out: what its drives send and report; each call ends with the free places of the window being given away.
+// Never lets silent drives fill the window: a quarter of its places (at least one) is theirs.
 #include "adapters/uim342/adapter.hpp"
 
 #include <fmt/core.h>
@@ -12,21 +12,11 @@
 
 namespace axisgate::uim342 {
 namespace {
-constexpr std::uint8_t in_commands = 1, in_polls = 2, in_probes = 4;
-constexpr std::uint8_t commands_per_poll = 8;
-
 std::optional<std::uint8_t> address_of(std::string_view text) {
     unsigned v = 0;
     const auto [p, ec] = std::from_chars(text.data(), text.data() + text.size(), v);
     if (ec != std::errc{} || p != text.data() + text.size() || v < first_node || v > last_node) return std::nullopt;
     return static_cast<std::uint8_t>(v);
-}
-
-bool same(const DriveSetup& a, const DriveSetup& b) {
-    if (a.id != b.id || a.name != b.name || a.address != b.address || a.options != b.options || a.axes.size() != b.axes.size())
-        return false;
-    return std::ranges::equal(a.axes, b.axes,
-                              [](const AxisSetup& x, const AxisSetup& y) { return x.id == y.id && x.channel == y.channel; });
 }
 }  // namespace
 
@@ -49,14 +39,18 @@ void LineAdapter::take_timing(const LineSetup& setup) {
     const std::string wanted = option(setup.options, "in_flight", "");
     std::size_t n = 0;
     std::from_chars(wanted.data(), wanted.data() + wanted.size(), n);
-    window_ = n == 0 ? drive::fitting(timing.reply_timeout / 2, exchange, 1, can ? 16 : 4) : std::min<std::size_t>(n, drive::slot_limit);
-    if (timing.pause > Duration::zero() && !can) window_ = 1;  // silence between an answer and the next request: one at a time
-    probe_window_ = std::max<std::size_t>(1, window_ / 4);
-    // Grace: a drive's own time to answer, and two exchanges.
-    overtaken.set(static_cast<std::uint32_t>(drive::fitting(timing.reply_timeout / 4, exchange, 2, 16)), milliseconds(2) + 2 * exchange);
+    drive::TurnRules rules;
+    rules.window =
+        n == 0 ? drive::fitting(timing.reply_timeout / 2, exchange, 1, can ? 16 : 4) : std::min<std::size_t>(n, drive::slot_limit);
+    if (timing.pause > Duration::zero() && !can) rules.window = 1;  // silence between an answer and the next request: one at a time
+    rules.probe_window = std::max<std::size_t>(1, rules.window / 4);
+    rules.pause = timing.pause;
+    rules.overtaken_limit = static_cast<std::uint32_t>(drive::fitting(timing.reply_timeout / 4, exchange, 2, 16));
+    rules.overtaken_grace = milliseconds(2) + 2 * exchange;  // a drive's own time to answer, and two exchanges
+    turns.set(rules);
 
     const CrcMode crc = crc_mode_named(option(setup.options, "crc", "12")).value_or(CrcMode::twelve);
-    if (crc != crc_ || setup_.id == no_line) {
+    if (crc != crc_ || !configured_) {
         crc_ = crc;
         framer_ = UiFramer(crc);
         other_crc_told_ = false;
@@ -71,55 +65,40 @@ void LineAdapter::configure(const LineSetup& setup, Instant now, Out& out) {
                                fmt::format("option crc = {}: write 12, 13, auto or none; 12 is used", crc->second), now});
     }
     if (const auto n = setup.options.find("in_flight");
-        n != setup.options.end() && std::to_string(window_) != n->second && timing.pause <= Duration::zero()) {
-        out.notices.push_back(
-            {Severity::warning, no_drive, no_axis, "setup", 0,
-             fmt::format("option in_flight = {}: write a whole number 1..{}; {} is used", n->second, drive::slot_limit, window_), now});
+        n != setup.options.end() && std::to_string(turns.rules().window) != n->second && timing.pause <= Duration::zero()) {
+        out.notices.push_back({Severity::warning, no_drive, no_axis, "setup", 0,
+                               fmt::format("option in_flight = {}: write a whole number 1..{}; {} is used", n->second, drive::slot_limit,
+                                           turns.rules().window),
+                               now});
     }
-    // Removed and changed ones first, so that their addresses are free.
-    for (auto& n : nodes_) {
-        if (!n) continue;
-        const bool keep = std::ranges::any_of(setup.drives, [&](const DriveSetup& d) { return same(d, n->setup()); });
-        if (keep) continue;
-        if (joint_.kind != Joint::Kind::none && std::ranges::find(joint_.members, n.get()) != joint_.members.end()) {
-            end_joint(Outcome::failed, Reason::line_down, fmt::format("drive {} was removed", n->name()), 0, t);
-        }
-        n->remove(t, fmt::format("drive {} was removed or changed", n->name()));
-        by_id_[n->address()] = nullptr;
-        heap_.set(n->slot(), never);
-        n.reset();
-    }
-    std::vector<Drive*> fresh;
-    for (const DriveSetup& d : setup.drives) {
-        if (std::ranges::any_of(nodes_, [&](const auto& n) { return n && same(d, n->setup()); })) continue;
-        const auto address = address_of(d.address);
-        if (!address || by_id_[*address]) {
-            out.links.push_back({d.id, false, 0, Duration{},
-                                 !address ? check_address(d.address)
-                                          : fmt::format("ID {} belongs to drive {} already", d.address, by_id_[*address]->name())});
-            continue;
-        }
-        std::size_t slot = 0;
-        while (slot < nodes_.size() && nodes_[slot])
-            ++slot;
-        if (slot == nodes_.size()) nodes_.emplace_back();
-        nodes_[slot] = std::make_unique<Drive>(static_cast<Bus&>(*this), d, *address, slot);
-        by_id_[*address] = nodes_[slot].get();
-        fresh.push_back(nodes_[slot].get());
-    }
-    setup_ = setup;
-    by_axis_.clear();
-    clear_rings();
-    for (auto& n : nodes_) {
-        if (n && n->axis() != no_axis) by_axis_.emplace_back(n->axis(), n.get());
-    }
-    std::ranges::sort(by_axis_, {}, [](const auto& p) { return p.first; });
+    configured_ = true;
+    const auto fresh = roster_.fit(
+        setup,
+        [&](Drive& d) {
+            if (std::ranges::find(joint_.members, &d) != joint_.members.end())
+                end_joint(Outcome::failed, Reason::line_down, fmt::format("drive {} was removed", d.name()), 0, t);
+            d.remove(t, fmt::format("drive {} was removed or changed", d.name()));
+            turns.remove(d.slot());
+            by_id_[d.address()] = nullptr;
+        },
+        [&](const DriveSetup& s) {
+            const auto id = address_of(s.address);
+            if (!id) return check_address(s.address);
+            return by_id_[*id] ? fmt::format("ID {} belongs to drive {} already", s.address, by_id_[*id]->name()) : std::string();
+        },
+        [&](const DriveSetup& s, std::size_t slot) {
+            const auto id = address_of(s.address).value_or(first_node);
+            auto made = std::make_unique<Drive>(static_cast<Bus&>(*this), s, id, slot);
+            by_id_[id] = made.get();
+            return made;
+        },
+        out);
+    turns.forget_wishes();
     if (up_) {
-        for (Drive* n : fresh)
-            n->line_up(t);
+        for (Drive* d : fresh)
+            d->line_up(t);
     }
-    touched_ = true;
-    finish_turn(t);
+    settle_all(t);
 }
 
 void LineAdapter::on_line(bool up, Instant now, Out& out) {
@@ -128,59 +107,42 @@ void LineAdapter::on_line(bool up, Instant now, Out& out) {
     up_ = up;
     framer_.reset();
     other_crc_told_ = false;
-    quiet_until_ = now;
     if (!up && joint_.kind != Joint::Kind::none) end_joint(Outcome::failed, Reason::line_down, "the line went down", 0, t);
-    for (auto& n : nodes_) {
-        if (n) up ? n->line_up(t) : n->line_down(t, "the line is down");
-    }
-    // Nobody waits for a place on a line that is down, and nobody may keep a deadline there; on one that comes up each asks anew.
-    clear_rings();
-    overtaken.clear();
-    touched_ = true;
-    finish_turn(t);
+    roster_.each([&](Drive& d) { up ? d.line_up(t) : d.line_down(t, "the line is down"); });
+    turns.line_changed(now);
+    settle_all(t);
 }
 
-void LineAdapter::clear_rings() noexcept {
-    commands_.clear();
-    polls_.clear();
-    probes_.clear();
-    for (auto& n : nodes_) {
-        if (n) n->in_ring = 0;
-    }
+void LineAdapter::settle_all(Turn& t) {
+    roster_.each([&](const Drive& d) { drive::settle(turns, d, t.now); });
+    serve(t);
 }
 
-void LineAdapter::answer(const Command& c, Outcome outcome, Reason reason, std::string text, Turn& t) {
-    if (c.ticket != no_ticket) t.out.results.push_back({c.ticket, c.axis, outcome, reason, 0, std::move(text), {}, {}});
-}
-
-Drive* LineAdapter::node_of(AxisId axis) const noexcept {
-    const auto it = std::ranges::lower_bound(by_axis_, axis, {}, [](const auto& p) { return p.first; });
-    return it != by_axis_.end() && it->first == axis ? it->second : nullptr;
+void LineAdapter::serve(Turn& t) {
+    if (up_) drive::serve(turns, roster_, t);
 }
 
 void LineAdapter::on_command(const Command& command, Instant now, Out& out) {
     Turn t{now, out};
-    Drive* n = node_of(command.axis);
-    if (!n) {
-        answer(command, Outcome::refused, Reason::line_down,
-               "this axis is not on the line, or its drive's address or channel is wrong (a UIM342 has one axis)", t);
-        return;
+    Drive* d = roster_.of(command.axis);
+    if (!d) {
+        return drive::Tickets::refuse(command, Reason::line_down,
+                                      "this axis is not on the line, or its drive's address or channel is wrong (a UIM342 has one axis)",
+                                      out);
     }
     const auto* together = std::get_if<StartTogether>(&command.body);
     const auto* action = std::get_if<Action>(&command.body);
-    if (!up_) {
-        n->submit(command, t);  // refuses with the reason
-    } else if (together) {
+    if (up_ && together) {
         start_together(command, *together, t);
-    } else if (action && action->name == "start_group") {
+    } else if (up_ && action && action->name == "start_group") {
         start_group(command, action->argument, t);
-    } else if (action && action->name == "global_stop") {
+    } else if (up_ && action && action->name == "global_stop") {
         global_stop(command, t);
     } else {
-        n->submit(command, t);
-        settle(*n, t);
+        d->submit(command, t);
+        drive::settle(turns, *d, now);
     }
-    finish_turn(t);
+    serve(t);
 }
 
 // --- what arrives ----------------------------------------------------------------------------------------------------------------
@@ -205,7 +167,7 @@ void LineAdapter::on_frame(const Frame& frame, Instant now, Out& out) {
         }
         deliver(m->message, t);
     }
-    finish_turn(t);
+    serve(t);
 }
 
 /// Once each time the line comes up: nothing would be heard, and nobody would know why.
@@ -225,17 +187,15 @@ void LineAdapter::tell_other_crc(Turn& t) {
 }
 
 void LineAdapter::deliver(const Message& m, Turn& t) {
-    Drive* n = m.id < by_id_.size() ? by_id_[m.id] : nullptr;
-    if (!n) {
+    Drive* d = m.id < by_id_.size() ? by_id_[m.id] : nullptr;
+    if (!d) {
         ++Bus::counters.unexpected;  // another master, the gateway itself, or a drive that the setup does not name
         return;
     }
-    if (timing.pause > Duration::zero()) quiet_until_ = t.now + timing.pause;
-    n->on_message(m, t);
-    settle(*n, t);
+    turns.heard(t.now);
+    d->on_message(m, t);
+    drive::settle(turns, *d, t.now);
 }
-
-// --- whose turn it is ------------------------------------------------------------------------------------------------------------
 
 void LineAdapter::transmit(const Message& m, Priority priority, Turn& t) {
     if (kind == LineKind::can) {
@@ -251,115 +211,20 @@ void LineAdapter::transmit(const Message& m, Priority priority, Turn& t) {
     t.out.send(Frame::run(to_uimessage(m, mode)), priority);
 }
 
-/// Puts a node where it belongs after anything has happened to it.
-void LineAdapter::settle(Drive& n, Turn& t) {
-    switch (n.wants(t.now)) {
-        case Drive::Want::nothing:
-            break;
-        case Drive::Want::command:
-            if (!(n.in_ring & in_commands)) {
-                n.in_ring |= in_commands;
-                commands_.push(n.slot());
-            }
-            break;
-        case Drive::Want::poll:
-            if (!(n.in_ring & in_polls)) {
-                n.in_ring |= in_polls;
-                polls_.push(n.slot());
-            }
-            break;
-        case Drive::Want::probe:
-            if (!(n.in_ring & in_probes)) {
-                n.in_ring |= in_probes;
-                probes_.push(n.slot());
-            }
-            break;
-    }
-    // A node that waits for a place is not due by its own wish any more.
-    heap_.set(n.slot(), n.in_ring != 0 ? n.due_but_wish() : n.due());
-}
-
-void LineAdapter::pump(Turn& t) {
-    const auto serve = [&](drive::Ring& ring, std::uint8_t mark) {
-        Drive* n = nodes_[ring.pop()].get();
-        n->in_ring &= static_cast<std::uint8_t>(~mark);
-        const auto want = n->wants(t.now);
-        const bool right = mark == in_probes ? want == Drive::Want::probe : want == Drive::Want::command || want == Drive::Want::poll;
-        if (right) n->go(t);
-        settle(*n, t);
-    };
-    while (in_flight < window_ && t.now >= quiet_until_) {
-        // Commands first, but every ninth place is a poll's; polls and probes in turn, so that a busy line still finds new drives.
-        const bool may_probe = !probes_.empty() && probes_in_flight < probe_window_;
-        const bool others_wait = !polls_.empty() || may_probe;
-        if (!commands_.empty() && !(others_wait && commands_in_a_row_ >= commands_per_poll)) {
-            if (commands_in_a_row_ < commands_per_poll) ++commands_in_a_row_;
-            serve(commands_, in_commands);
-        } else if (may_probe && !(probed_last_ && !polls_.empty())) {
-            probed_last_ = true;
-            commands_in_a_row_ = 0;
-            serve(probes_, in_probes);
-        } else if (!polls_.empty() && overtaken.may_begin(t.now)) {
-            probed_last_ = false;
-            commands_in_a_row_ = 0;
-            serve(polls_, in_polls);
-        } else {
-            break;
-        }
-    }
-}
-
-void LineAdapter::finish_turn(Turn& t) {
-    if (!up_) {
-        if (touched_) {
-            for (auto& n : nodes_) {
-                if (n) heap_.set(n->slot(), never);
-            }
-            touched_ = false;
-        }
-        return;
-    }
-    if (touched_) {
-        touched_ = false;
-        for (auto& n : nodes_) {
-            if (n) settle(*n, t);
-        }
-    }
-    pump(t);
-}
-
 void LineAdapter::on_deadline(Instant now, Out& out) {
     Turn t{now, out};
-    // Each due node is looked at once: settle gives it a later instant or a place in a ring.
-    for (std::size_t n = 0; n < drive::slot_limit && heap_.earliest() <= now; ++n) {
-        Drive& node = *nodes_[heap_.first()];
-        node.on_deadline(t);
-        settle(node, t);
-    }
-    finish_turn(t);
+    drive::wake(turns, roster_, t);
+    serve(t);
 }
 
-Instant LineAdapter::deadline() const {
-    const Instant due = heap_.earliest();
-    if (!up_) return due;
-    const bool waiting = !commands_.empty() || !polls_.empty() || !probes_.empty();
-    if (!waiting || in_flight >= window_) return due;
-    // Somebody waits for the silence after an answer to end, or for overtaken ones to have had their chance; else places become free
-    // only by calls.
-    const Instant chance = polls_.empty() ? never : overtaken.deadline();
-    return std::min({due, chance, timing.pause > Duration::zero() ? quiet_until_ : never});
-}
+Instant LineAdapter::deadline() const { return up_ ? turns.deadline() : never; }
 
 // --- questions of nodes ----------------------------------------------------------------------------------------------------------
 
 std::string LineAdapter::user_of(std::uint8_t id, const Drive& but) const {
-    for (const auto& n : nodes_) {
-        if (n && n.get() != &but && n->address() == id) return fmt::format("{}'s node ID", n->name());
-    }
-    for (const auto& n : nodes_) {
-        if (n && n.get() != &but && n->group() == id) return fmt::format("{}'s group ID", n->name());
-    }
-    return {};
+    if (id < by_id_.size() && by_id_[id] && by_id_[id] != &but) return fmt::format("{}'s node ID", by_id_[id]->name());
+    const Drive* member = roster_.find([&](const Drive& d) { return &d != &but && d.group() == id; });
+    return member ? fmt::format("{}'s group ID", member->name()) : std::string();
 }
 
 }  // namespace axisgate::uim342

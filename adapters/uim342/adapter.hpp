@@ -8,13 +8,13 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 #include "adapters/uim342/drive.hpp"
 #include "adapters/uim342/wire_uimessage.hpp"
 #include "gateway/core/adapter.hpp"
-#include "gateway/drive/schedule.hpp"
+#include "gateway/drive/roster.hpp"
+#include "gateway/drive/tickets.hpp"
 
 namespace axisgate::uim342 {
 
@@ -43,12 +43,8 @@ private:
     void take_timing(const LineSetup& setup);
     void deliver(const Message& m, Turn& t);
     void tell_other_crc(Turn& t);
-    void settle(Drive& node, Turn& t);
-    void clear_rings() noexcept;
-    void pump(Turn& t);
-    void finish_turn(Turn& t);
-    [[nodiscard]] Drive* node_of(AxisId axis) const noexcept;
-    static void answer(const Command& command, Outcome outcome, Reason reason, std::string text, Turn& t);
+    void settle_all(Turn& t);
+    void serve(Turn& t);
 
     // joint orders: actions.cpp
     struct Joint {
@@ -71,23 +67,14 @@ private:
     void end_joint(Outcome outcome, Reason reason, std::string text, std::int32_t code, Turn& t);
     [[nodiscard]] std::string whom_to_start(std::uint8_t& id) const;
 
-    LineSetup setup_;
-    bool up_ = false;
+    bool up_ = false, configured_ = false;
     CrcMode crc_ = CrcMode::twelve;
     UiFramer framer_;
     bool try_thirteen_ = false;    ///< auto: the next unproved frame goes out with the other range
     bool other_crc_told_ = false;  ///< since the line came up
-    std::size_t window_ = 16;
-    std::size_t probe_window_ = 4;
-    Instant quiet_until_{};                      ///< the pause after an answer
-    std::vector<std::unique_ptr<Drive>> nodes_;  ///< by slot; empty places are nullptr
+    drive::Roster<Drive> roster_;
     std::array<Drive*, 128> by_id_{};
-    std::vector<std::pair<AxisId, Drive*>> by_axis_;  ///< sorted
-    drive::DeadlineHeap heap_;
-    drive::Ring commands_, polls_, probes_;
-    bool probed_last_ = false;
-    std::uint8_t commands_in_a_row_ = 0;
-    bool touched_ = false;
+    drive::Tickets tickets_;  ///< of joint orders
     Joint joint_;
 };
 

@@ -10,9 +10,9 @@
 #include "adapters/uim342/parameters_points.hpp"
 #include "adapters/uim342/wire_instructions.hpp"
 #include "gateway/core/adapter.hpp"
-#include "gateway/drive/overtaken.hpp"
 #include "gateway/drive/timing.hpp"
 #include "gateway/drive/turn.hpp"
+#include "gateway/drive/turns.hpp"
 
 namespace axisgate::uim342 {
 
@@ -48,9 +48,7 @@ struct Bus {
     drive::Timing timing;
     AdapterCounters counters;
     std::uint32_t bit_rate = 0;
-    std::size_t in_flight = 0;         ///< exchanges that hold a place of the window
-    std::size_t probes_in_flight = 0;  ///< of these: to drives that do not answer
-    drive::Overtaken overtaken;        ///< and of these: who waits in vain
+    drive::Turns turns;  ///< a node says there when an exchange begins and ends
 
 protected:
     ~Bus() = default;

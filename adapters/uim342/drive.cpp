@@ -1,6 +1,6 @@
 // Drive: its exchanges: sending, matching, time-outs, repeats, late answers, and the choice of what is sent next.
 // In: messages of this drive and the passing of time. Out: the answer to whoever asked, or the news that there is none.
-// Never takes a late answer for a new one: an instruction with the same mark waits behind another exchange (drive_exchange.hpp).
+// Never takes a late answer for a new one: an instruction with the same mark waits behind another exchange (LateMarks).
 #include "adapters/uim342/drive.hpp"
 
 #include <fmt/core.h>
@@ -50,7 +50,7 @@ void Drive::line_down(Turn& t, std::string_view why) {
     const bool was_online = online();
     presence_.close();
     late_.clear();  // nothing of before comes through a line that was down
-    next_poll_ = never;
+    poll_.stop();
     if (was_online) presence_.report(std::string(why), t.out);
 }
 
@@ -60,20 +60,19 @@ void Drive::remove(Turn& t, std::string_view why) {
 }
 
 void Drive::fail_all(Reason reason, const std::string& text, Turn& t) {
-    if (exchange_.active) end_exchange();
-    for (Stop& s : stops_) {
-        if (s.active) stop_finished(s, Outcome::failed, reason, text, 0, t);
-    }
+    exchange_.drop();
+    bus_.turns.ended(slot_);
+    stops_.each([&](Stop& s) { stop_finished(s, Outcome::failed, reason, text, 0, t); });
     if (searching()) search_over(false, reason, text, t);
     if (job_.active) job_over(Outcome::failed, reason, text, t);
     end_waits(false, reason, text, t);
+    bool joined = false;
     while (!queue_.empty()) {
-        const Ticket ticket = queue_.front().command.ticket;
-        const bool marker = queue_.front().marker;
-        queue_.pop_front();
-        result(ticket, Outcome::failed, reason, text, t);
-        if (marker) bus_.part_done(*this, {false, reason, 0, text}, t);
+        const Command waiting = queue_.pop();
+        joined = joined || is_place(waiting);
+        (void)tickets_.failed(waiting.ticket, reason, text, t.out);
     }
+    if (joined) bus_.part_done(*this, {false, reason, 0, text}, t);
     confirm_.reset();
     prepared_ = false;
     supervise_at_ = never;
@@ -82,24 +81,14 @@ void Drive::fail_all(Reason reason, const std::string& text, Turn& t) {
 // --- commands ------------------------------------------------------------------------------------------------------------------
 
 void Drive::submit(const Command& command, Turn& t) {
-    if (presence_.is(Phase::down)) return result(command.ticket, Outcome::refused, Reason::line_down, "the line is down", t);
-    if (is_urgent(command.body)) return submit_stop(command, t);
-    if (presence_.is(Phase::absent)) {
-        return result(command.ticket, Outcome::refused, Reason::no_answer,
-                      fmt::format("drive {} (ID {}) does not answer; it is asked again every {} ms", name(), address_,
-                                  milliseconds_of(presence_.retry_pause())),
-                      t);
-    }
-    if (queue_.size() >= queue_limit) {
-        return result(command.ticket, Outcome::refused, Reason::busy, fmt::format("{} commands wait already", queue_limit), t);
-    }
-    queue_.push_back({command, false});
+    const std::string who = fmt::format("{} (ID {})", name(), address_);
+    if (drive::admit(command, who, presence_, queue_, tickets_, t) == drive::Admission::urgent) submit_stop(command, t);
 }
 
 // --- what is sent next -----------------------------------------------------------------------------------------------------------
 
-Drive::Want Drive::wants(Instant now) const noexcept {
-    if (exchange_.active) return Want::nothing;
+drive::Want Drive::wants(Instant now) const noexcept {
+    if (exchange_.active()) return Want::nothing;
     switch (presence_.phase()) {
         case Phase::down:
             return Want::nothing;
@@ -113,31 +102,24 @@ Drive::Want Drive::wants(Instant now) const noexcept {
             break;
     }
     if (confirm_) return Want::command;
-    if (core_pending() && !(job_.active && !job_.waiting)) return Want::poll;
+    if (reading_.core_pending() && !(job_.active && !job_.waiting)) return Want::poll;
     // Commands wait while a stop is on its way: nothing may get between JV=0 and its BG, or start what is being stopped.
     if (!stopping() && ((job_.active && !job_.waiting) || queue_ready() || restore_due() || (search_.check_due && !job_.active)))
         return Want::command;
-    if (poll_speed_ || now >= next_poll_ || read_error_ || startup_pending()) return Want::poll;
+    if (poll_speed_ || poll_.due(now) || read_error_ || reading_.pending()) return Want::poll;
     return Want::nothing;
 }
 
-Instant Drive::due() const noexcept {
-    const Instant due = due_but_wish();
-    if (exchange_.active) return due;
-    return std::min(due, presence_.is(Phase::ready) ? next_poll_ : presence_.deadline());
-}
-
-Instant Drive::due_but_wish() const noexcept {
-    Instant due = std::min(supervise_at_, search_.give_up);
-    if (exchange_.active) due = std::min(due, exchange_.deadline);
-    for (const Stop& s : stops_) {
-        if (s.active && !s.waiting) due = std::min(due, s.deadline);
-    }
+Instant Drive::deadline() const noexcept {
+    Instant due = std::min({supervise_at_, search_.give_up, exchange_.deadline()});
+    stops_.each([&](const Stop& s) { due = std::min(due, s.exchange.deadline()); });
     return due;
 }
 
+Instant Drive::wish() const noexcept { return presence_.is(Phase::ready) ? poll_.deadline() : presence_.deadline(); }
+
 void Drive::go(Turn& t) {
-    if (exchange_.active) return;
+    if (exchange_.active()) return;
     switch (presence_.phase()) {
         case Phase::down:
             return;
@@ -154,22 +136,22 @@ void Drive::go(Turn& t) {
     if (confirm_) {
         const Message m = *confirm_ == StopKind::off ? msg_set(cw::MO, 0) : msg_act(cw::ST);
         confirm_.reset();
-        return send_exchange(m, Purpose::confirm, 0, static_cast<std::uint8_t>(bus_.timing.retries), Priority::command, t);
+        return send_exchange(m, Purpose::confirm, 0, bus_.timing.retries, Priority::command, t);
     }
     const bool may_command = !stopping();
     if (may_command && job_.active && !job_.waiting) return run_job(t);
-    if (core_pending()) return startup_next(t);
+    if (reading_.core_pending()) return startup_next(t);
     // Commands go before polls, but a poll that is a whole period late goes between two commands: the picture stays alive. One poll; on a
     // line that cannot carry all of them every poll is late, and commands would never have their turn.
-    const bool overdue = commanded_last_ && next_poll_ != never && t.now >= next_poll_ + bus_.timing.poll_period;
+    const bool overdue = commanded_last_ && poll_.late(t.now, bus_.timing.poll_period);
     if (may_command && !job_.active && !overdue) {
         if (restore_due()) return plan_restore(t);
         if (search_.check_due) return search_check(t);
-        while (!exchange_.active && queue_ready()) {
+        while (!exchange_.active() && queue_ready()) {
             commanded_last_ = true;
             take_next(t);
         }
-        if (exchange_.active || job_.active) return;
+        if (exchange_.active() || job_.active) return;
     }
     if (read_error_) {
         const Message m = msg_get(cw::ER, 0);
@@ -178,8 +160,8 @@ void Drive::go(Turn& t) {
         return send_exchange(m, Purpose::error, 0, 1, Priority::poll, t);
     }
     // The rest of the reading goes between polls; on a line that is too slow for all of them, in turn with them.
-    const bool poll_due = poll_speed_ || t.now >= next_poll_;
-    if (startup_pending() && (!poll_due || startup_turn_)) {
+    const bool poll_due = poll_speed_ || poll_.due(t.now);
+    if (reading_.pending() && (!poll_due || startup_turn_)) {
         startup_turn_ = false;
         return startup_next(t);
     }
@@ -187,20 +169,14 @@ void Drive::go(Turn& t) {
     if (!poll_due) return;
     commanded_last_ = false;
     const Message m = msg_get(cw::MS, poll_speed_ ? 1 : 0);
-    if (poll_speed_) {
-        poll_speed_ = false;
-    } else {
-        poll_speed_ = true;
-        const Duration period = moving_now() ? bus_.timing.poll_period : 4 * bus_.timing.poll_period;
-        next_poll_ = next_poll_ + period > t.now ? next_poll_ + period : t.now + period;
-        if (next_poll_ > t.now + period) next_poll_ = t.now + period;
-    }
+    if (!poll_speed_) poll_.asked(t.now, (moving_now() ? 1 : 4) * bus_.timing.poll_period);
+    poll_speed_ = !poll_speed_;
     if (late_.has(mark_of(m))) return go_barrier(t);
     send_exchange(m, Purpose::poll, 0, 0, Priority::poll, t);
 }
 
 void Drive::poll_now(Turn& t) noexcept {
-    next_poll_ = t.now;
+    poll_.soon(t.now);
     poll_speed_ = false;
 }
 
@@ -219,27 +195,23 @@ void Drive::go_barrier(Turn& t) {
 
 // --- exchanges -------------------------------------------------------------------------------------------------------------------
 
-void Drive::send_exchange(const Message& m, Purpose p, std::uint8_t mf, std::uint8_t retries, Priority priority, Turn& t) {
-    exchange_.active = true;
-    exchange_.purpose = p;
-    exchange_.message = m;
-    exchange_.mf = mf;
-    exchange_.tries = 1;
-    exchange_.left = retries;
-    exchange_.sent = t.now;
-    exchange_.deadline = t.now + bus_.timing.reply_timeout;
-    exchange_.probe_place = p == Purpose::probe;
-    ++bus_.in_flight;
-    bus_.overtaken.began(static_cast<std::uint8_t>(slot_));
-    if (exchange_.probe_place) ++bus_.probes_in_flight;
+void Drive::send_exchange(const Message& m, Purpose p, std::uint8_t mf, int retries, Priority priority, Turn& t) {
+    exchange_.begin({m, p, mf}, t.now, bus_.timing.reply_timeout, retries);
+    bus_.turns.began(slot_, p == Purpose::probe);
     bus_.transmit(m, priority, t);
 }
 
-void Drive::end_exchange() noexcept {
-    exchange_.active = false;
-    --bus_.in_flight;
-    bus_.overtaken.ended(static_cast<std::uint8_t>(slot_));
-    if (exchange_.probe_place) --bus_.probes_in_flight;
+/// It has got its answer.
+Drive::Request Drive::end_exchange() {
+    bus_.turns.ended(slot_);
+    return exchange_.answered(bus_.counters);
+}
+
+/// The job that waits for this answer is over.
+void Drive::abandon_job_exchange() noexcept {
+    if (!exchange_.active() || exchange_.request().purpose != Purpose::job) return;
+    exchange_.request().purpose = Purpose::orphan;
+    exchange_.no_repeats();
 }
 
 void Drive::on_message(const Message& m, Turn& t) {
@@ -255,28 +227,26 @@ void Drive::on_message(const Message& m, Turn& t) {
     if (m.cw == cw::RT) return on_notification(m, t);
 
     // Whose answer is it? Of several that it fits, the one whose value it repeats, then the one that was sent first.
-    int who = -2;  // -2 nobody, -1 the exchange, 0.. a stop
-    Match how = Match::no;
-    bool fits = false, torn = false;
-    Instant sent = never;
-    const auto consider = [&](int candidate, const Message& request, Instant at) {
-        const Match v = match(request, m);
-        if (v == Match::torn) torn = true;
-        if (v != Match::answer && v != Match::error) return;
-        const bool same = v == Match::error || echoes(request, m);
+    struct {
+        bool found = false, same = false;
+        Match how = Match::no;
+        Stop* stop = nullptr;  // nullptr: the exchange
+        Instant sent = never;
+    } best;
+    bool torn = false;
+    const auto consider = [&](Stop* stop, const Message& request, Instant sent) {
+        const Match how = match(request, m);
+        torn = torn || how == Match::torn;
+        if (how != Match::answer && how != Match::error) return;
+        const bool same = how == Match::error || echoes(request, m);
         if (!same && late_.has(mark_of(request))) return;  // the answer of one that was given up
-        if (who == -2 || (same && !fits) || (same == fits && at < sent)) {
-            who = candidate;
-            how = v;
-            fits = same;
-            sent = at;
-        }
+        if (!best.found || (same && !best.same) || (same == best.same && sent < best.sent)) best = {true, same, how, stop, sent};
     };
-    if (exchange_.active) consider(-1, exchange_.message, exchange_.sent);
-    for (std::size_t i = 0; i < stops_.size(); ++i) {
-        if (stops_[i].active && !stops_[i].waiting) consider(static_cast<int>(i), stops_[i].message, stops_[i].sent);
-    }
-    if (who == -2) {
+    if (exchange_.active()) consider(nullptr, exchange_.request().message, exchange_.sent());
+    stops_.each([&](Stop& s) {
+        if (s.exchange.active()) consider(&s, s.exchange.request(), s.exchange.sent());
+    });
+    if (!best.found) {
         if (torn) {
             ++bus_.counters.garbled;
         } else if (m.cw == cw::ER) {
@@ -289,34 +259,31 @@ void Drive::on_message(const Message& m, Turn& t) {
         return;
     }
     presence_.answered();
-    ++bus_.counters.exchanges;
-    const std::uint8_t tries = who == -1 ? exchange_.tries : stops_[static_cast<std::size_t>(who)].tries;
-    const std::uint16_t mark = mark_of(who == -1 ? exchange_.message : stops_[static_cast<std::size_t>(who)].message);
     late_.clear();
-    if (tries > 1) late_.add(mark);  // the other copies' answers may still come
+    // The other copies' answers may still come.
+    if (best.stop && best.stop->exchange.tries() > 1) late_.add(mark_of(best.stop->exchange.request()));
+    if (!best.stop && exchange_.tries() > 1) late_.add(mark_of(exchange_.request().message));
+    const Match how = best.how;
     if (how == Match::error) {
         ++bus_.counters.refused;
         if (cause_ == Cause::none) cause_ = Cause::own;
         if (const auto report = error_report_of(m)) latest_error_ = report->code;
     }
-    if (who == -1) {
-        how == Match::error ? exchange_refused(m, t) : exchange_answered(m, t);
-    } else {
-        Stop& s = stops_[static_cast<std::size_t>(who)];
-        how == Match::error ? stop_refused(s, m, t) : stop_answered(s, m, t);
-    }
+    if (!best.stop) return how == Match::error ? exchange_refused(m, t) : exchange_answered(m, t);
+    (void)best.stop->exchange.answered(bus_.counters);
+    how == Match::error ? stop_refused(*best.stop, m, t) : stop_answered(*best.stop, m, t);
 }
 
 void Drive::exchange_answered(const Message& m, Turn& t) {
-    const Exchange e = exchange_;
-    end_exchange();
+    const Instant sent = exchange_.sent();
+    const Request e = end_exchange();
     if (e.purpose == Purpose::probe) return probe_answered(m, t);
     if (e.purpose == Purpose::error) {
         on_latest_error(m, t);
     } else {
         learn(e.message, m, e.mf, e.purpose != Purpose::poll, t);
     }
-    if (part_pending_ && m.cw == cw::MS && m.d[0] == 0 && e.sent >= motion_.begun) {
+    if (part_pending_ && m.cw == cw::MS && m.d[0] == 0 && sent >= motion_.begun) {
         // Asked behind the joint BG: had the drive refused that, its report would have come before this.
         part_pending_ = false;
         broadcast_until_ = t.now;
@@ -351,8 +318,7 @@ void Drive::exchange_answered(const Message& m, Turn& t) {
 }
 
 void Drive::exchange_refused(const Message& m, Turn& t) {
-    const Exchange e = exchange_;
-    end_exchange();
+    const Request e = end_exchange();
     if (e.mf != 0 || e.message.function() == cw::MF) mf_unknown_ = true;
     switch (e.purpose) {
         case Purpose::probe:
@@ -381,13 +347,13 @@ void Drive::exchange_refused(const Message& m, Turn& t) {
 
 /// The present exchange got no answer, however often it was sent.
 void Drive::exchange_silent(Turn& t) {
-    const Exchange e = exchange_;
-    end_exchange();
+    bus_.turns.ended(slot_);
+    const Request e = exchange_.request();
     late_.add(mark_of(e.message));
     if (e.mf != 0 || e.message.function() == cw::MF) mf_unknown_ = true;
     switch (e.purpose) {
         case Purpose::startup:
-            ++startup_tries_;
+            reading_.silent();
             break;
         case Purpose::job:
             job_silent(t);
@@ -427,23 +393,28 @@ void Drive::count_silence(Turn& t) {
 }
 
 void Drive::on_deadline(Turn& t) {
-    if (exchange_.active && t.now >= exchange_.deadline) {
-        ++bus_.counters.timeouts;
-        // A value for an input's group must not be repeated alone: its MF is used up, and it would hit group 0.
-        const bool pair = exchange_.purpose == Purpose::job && exchange_.mf != 0;
-        if (exchange_.left > 0 && !pair) {
-            --exchange_.left;
-            ++exchange_.tries;
-            ++bus_.counters.retries;
-            exchange_.deadline = t.now + bus_.timing.reply_timeout;
-            bus_.transmit(exchange_.message, Priority::command, t);
-        } else {
+    switch (exchange_.on_deadline(t.now, bus_.counters)) {
+        case drive::Late::no:
+            break;
+        case drive::Late::repeat:
+            bus_.transmit(exchange_.request().message, Priority::command, t);
+            break;
+        case drive::Late::over:
             exchange_silent(t);
+            break;
+    }
+    stops_.each([&](Stop& s) {
+        switch (s.exchange.on_deadline(t.now, bus_.counters)) {
+            case drive::Late::no:
+                break;
+            case drive::Late::repeat:
+                bus_.transmit(s.exchange.request(), Priority::urgent, t);
+                break;
+            case drive::Late::over:
+                stop_silent(s, t);
+                break;
         }
-    }
-    for (Stop& s : stops_) {
-        if (s.active && !s.waiting && t.now >= s.deadline) stop_silent(s, t);
-    }
+    });
     if (t.now >= supervise_at_) supervision_due(t);
     if (t.now >= search_.give_up) search_deadline(t);
 }
@@ -452,8 +423,7 @@ void Drive::on_deadline(Turn& t) {
 
 void Drive::result(Ticket ticket, Outcome outcome, Reason reason, std::string text, Turn& t, std::int32_t code, Value value,
                    std::vector<std::uint8_t> bytes) {
-    if (ticket == no_ticket) return;
-    t.out.results.push_back({ticket, axis_, outcome, reason, code, std::move(text), std::move(value), std::move(bytes)});
+    (void)tickets_.answer(ticket, outcome, reason, std::move(text), t.out, code, std::move(value), std::move(bytes));
 }
 
 void Drive::notice(Severity severity, std::string_view kind, std::int32_t code, std::string text, Turn& t) {

@@ -6,16 +6,19 @@
 // demand.cpp where the axis should be.
 #pragma once
 
-#include <deque>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "adapters/uim342/adapter_bus.hpp"
-#include "adapters/uim342/drive_exchange.hpp"
 #include "gateway/axis/demand.hpp"
+#include "gateway/drive/command_queue.hpp"
+#include "gateway/drive/exchange.hpp"
 #include "gateway/drive/notices.hpp"
+#include "gateway/drive/polls.hpp"
 #include "gateway/drive/presence.hpp"
+#include "gateway/drive/tickets.hpp"
 
 namespace axisgate::uim342 {
 
@@ -33,6 +36,7 @@ struct DriveOptions {
 
 class Drive {
 public:
+    static constexpr int channels = 1;
     static constexpr std::size_t queue_limit = 64;  ///< waiting commands; one more is refused as busy
     static constexpr std::size_t urgent_limit = 4;  ///< stops on their way at once; one more waits in the queue's place or is refused
     static constexpr std::size_t wait_limit = 16;   ///< commands that wait for "done"
@@ -49,14 +53,12 @@ public:
     void submit(const Command& command, Turn& t);
     void on_message(const Message& m, Turn& t);
     void on_deadline(Turn& t);
-    /// When on_deadline or a place in the window is wanted ...
-    [[nodiscard]] Instant due() const noexcept;
-    /// ... and without the place: it waits for one already.
-    [[nodiscard]] Instant due_but_wish() const noexcept;
-
-    enum class Want : std::uint8_t { nothing, command, poll, probe };
+    /// Of what it waits for: an answer, a stop's acknowledgement, the end of a supervised ramp or search.
+    [[nodiscard]] Instant deadline() const noexcept;
+    /// When it will want a place without being asked: its next poll or probe.
+    [[nodiscard]] Instant wish() const noexcept;
     /// What it would send now if it were given a place.
-    [[nodiscard]] Want wants(Instant now) const noexcept;
+    [[nodiscard]] drive::Want wants(Instant now) const noexcept;
     /// A place in the window: sends the next thing.
     void go(Turn& t);
 
@@ -66,7 +68,7 @@ public:
     [[nodiscard]] bool prepared() const noexcept { return prepared_; }
     /// Stands in the queue like a command, so that order is kept; the adapter is told by part_ready when its turn has come.
     /// False: the queue is full.
-    bool join(Turn& t);
+    bool join();
     /// The joint start has been sent: find out what became of it; the adapter is told by part_done.
     void begun_by_group(bool until_done, Turn& t);
     /// The joint start will not be: goes on with what waits.
@@ -83,10 +85,28 @@ public:
     [[nodiscard]] bool online() const noexcept { return presence_.online(); }
     [[nodiscard]] bool ever_seen() const noexcept { return presence_.ever_found(); }
     [[nodiscard]] std::optional<std::uint8_t> group() const noexcept { return group_; }  ///< in force, as far as known
-    std::uint8_t in_ring = 0;  ///< the adapter's marks: in which waiting rings this node stands
 
 private:
     using Phase = drive::Presence::Phase;
+    using Want = drive::Want;
+
+    /// Why something was asked; decides what its answer does.
+    enum class Purpose : std::uint8_t {
+        probe,     ///< ML: is anybody there
+        startup,   ///< a value read after a drive was found
+        poll,      ///< MS[0] or MS[1]
+        error,     ///< ER[0], because ERR appeared
+        barrier,   ///< any read: separates late answers from new ones
+        clear_mf,  ///< MF=0 after a group exchange whose end is not known
+        job,       ///< a step of the present job
+        confirm,   ///< a stop repeated behind a motion that it may have overtaken
+        orphan     ///< its job has been ended by a stop; the answer is only taken off the line
+    };
+    struct Request {
+        Message message;
+        Purpose purpose = Purpose::poll;
+        std::uint8_t mf = 0;  ///< group that the value belongs to
+    };
 
     // --- jobs: a command taken apart into exchanges ---------------------------------------------------------------------
     enum class JobKind : std::uint8_t { enable, reset, origin, move, begin, together, search, read, write, native, system, restore };
@@ -119,16 +139,11 @@ private:
     // --- stops ----------------------------------------------------------------------------------------------------------
     enum class StopKind : std::uint8_t { quick, off, halt };
     struct Stop {
-        bool active = false;
-        bool waiting = false;  ///< halt: the exchange of a motion in progress has to end first
         StopKind kind = StopKind::quick;
-        bool soft = false;  ///< halt by JV=0 and BG, not (yet) by ST
+        bool waiting = false;  ///< halt: the exchange of a motion in progress has to end first
+        bool soft = false;     ///< halt by JV=0 and BG, not (yet) by ST
         std::uint8_t step = 0;
-        Message message;
-        std::uint8_t left = 0;
-        std::uint8_t tries = 0;
-        Instant sent{};
-        Instant deadline = never;
+        drive::Exchange<Message> exchange;
         bool by_supervision = false;
         bool part = false;  ///< belongs to a joint stop: the adapter is told
         Ticket ticket = no_ticket;
@@ -162,8 +177,9 @@ private:
     enum class Cause : std::uint8_t { none, own, foreign };  ///< of the ERR flag
 
     // drive.cpp: exchanges
-    void send_exchange(const Message& m, Purpose p, std::uint8_t mf, std::uint8_t retries, Priority priority, Turn& t);
-    void end_exchange() noexcept;
+    void send_exchange(const Message& m, Purpose p, std::uint8_t mf, int retries, Priority priority, Turn& t);
+    [[nodiscard]] Request end_exchange();
+    void abandon_job_exchange() noexcept;
     void exchange_answered(const Message& m, Turn& t);
     void exchange_refused(const Message& m, Turn& t);
     void exchange_silent(Turn& t);
@@ -185,8 +201,6 @@ private:
     void core_known(Turn& t);
     void begin_reading(Turn& t, bool from_nothing);
     void reboot_begun(Turn& t);
-    [[nodiscard]] bool startup_pending() const noexcept;
-    [[nodiscard]] bool core_pending() const noexcept;
 
     // feedback.cpp: what the drive says
     void learn(const Message& request, const Message& answer, std::uint8_t mf, bool samples, Turn& t);
@@ -208,9 +222,9 @@ private:
 
     // stop.cpp: what overtakes
     void submit_stop(const Command& command, Turn& t);
-    void add_stop(Stop wanted, Turn& t);
+    void add_stop(const Stop& wanted, Turn& t);
     void begin_stop(Stop& s, Turn& t);
-    void send_stop(Stop& s, const Message& m, std::uint8_t retries, Turn& t);
+    void send_stop(Stop& s, const Message& m, int retries, Turn& t);
     void stop_answered(Stop& s, const Message& m, Turn& t);
     void stop_refused(Stop& s, const Message& m, Turn& t);
     void stop_silent(Stop& s, Turn& t);
@@ -232,6 +246,8 @@ private:
 
     // motion.cpp: the verbs, and the run of jobs
     void take_next(Turn& t);
+    /// A place in a joint start, put into the queue by join(): a StartTogether of nobody.
+    [[nodiscard]] static bool is_place(const Command& command) noexcept;
     void start_job(const Command& command, Turn& t);
     void begin_job(JobKind kind, const Command& command);
     void run_job(Turn& t);
@@ -248,8 +264,7 @@ private:
     void done_move(Turn& t);
     void done_reset(Turn& t);
     void done_origin(Turn& t);
-    [[nodiscard]] bool stopping() const noexcept;
-    [[nodiscard]] bool is_motion(const CommandBody& body) const noexcept;
+    [[nodiscard]] bool stopping() const noexcept { return !stops_.empty(); }
     [[nodiscard]] std::optional<std::uint32_t> ramp(std::int64_t rate, std::int64_t speed, std::string_view name, std::string& text,
                                                     std::string& fault) const;
 
@@ -296,21 +311,17 @@ private:
 
     // presence
     drive::Presence presence_;
-    std::uint8_t startup_at_ = 0;     ///< next value to read; past the end: all are read
-    std::uint8_t startup_tries_ = 0;  ///< times the present one was given up
+    drive::Reading reading_;
     std::string identity_;
 
     // exchanges
-    Exchange exchange_;
-    LateAnswers late_;
-    bool mf_unknown_ = false;  ///< a group may still be selected in the drive: MF=0 goes first
-    std::array<Stop, urgent_limit> stops_;
+    drive::Exchange<Request> exchange_;
+    drive::LateMarks<std::uint16_t> late_;  ///< of instructions that were given up, or sent twice
+    bool mf_unknown_ = false;               ///< a group may still be selected in the drive: MF=0 goes first
+    drive::StopLane<Stop, urgent_limit> stops_;
     Job job_;
-    struct Queued {
-        Command command;
-        bool marker = false;  ///< this node's place in a joint start, put there by join()
-    };
-    std::deque<Queued> queue_;
+    drive::CommandQueue queue_{queue_limit};
+    drive::Tickets tickets_;
     std::vector<Wait> waits_;
     std::optional<std::uint8_t> blind_;  ///< function of an instruction without acknowledgement whose refusal may still come
     std::optional<StopKind> confirm_;    ///< repeat this stop behind the exchange in progress
@@ -319,7 +330,7 @@ private:
     bool part_until_done_ = false;
 
     // polls
-    Instant next_poll_ = never;
+    drive::PollTimer poll_;
     bool poll_speed_ = false;      ///< next is MS[1]
     bool commanded_last_ = false;  ///< a command has begun since the last poll
     bool startup_turn_ = false;    ///< next is a value of the start-up, though a poll is due

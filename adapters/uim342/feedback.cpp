@@ -92,7 +92,7 @@ void Drive::learn(const Message& request, const Message& answer, std::uint8_t mf
             if (index < 3) tg_[index] = static_cast<std::uint16_t>(*value);
             break;
         case cw::PP:
-            if (!startup_pending() || form_of(request) != Form::get) break;  // what is written acts after a restart only [L1064]
+            if (!reading_.pending() || form_of(request) != Form::get) break;  // what is written acts after a restart only [L1064]
             if (index == 8) {
                 group_ = static_cast<std::uint8_t>(*value);
                 if (const auto other = bus_.user_of(*group_, *this);
@@ -240,10 +240,7 @@ void Drive::on_error_report(const Message& m, Turn& t) {
     }
     if (of_blind) {
         // The refusal of an instruction that asked for no acknowledgement: it ends the job that is waiting behind it.
-        if (exchange_.active && exchange_.purpose == Purpose::job) {
-            exchange_.purpose = Purpose::orphan;
-            exchange_.left = 0;
-        }
+        abandon_job_exchange();
         ++bus_.counters.refused;
         job_over(Outcome::refused, Reason::drive_refused,
                  fmt::format("{}: the drive says {}", name_of_request(report->cw, report->index), describe_error(report->code)), t,
@@ -300,7 +297,7 @@ void Drive::on_notification(const Message& m, Turn& t) {
     notice(Severity::info, "motion", n.code, fmt::format("PTP motion finished at {}", n.position), t);
     if (!online()) return;
     // It may still be the end of the motion before: only the target of the present one proves that it is this one.
-    const bool new_one = exchange_.active && exchange_.message.function() == cw::BG;
+    const bool new_one = exchange_.active() && exchange_.request().message.function() == cw::BG;
     if (motion_.kind == Motion::Kind::absolute && motion_.target == n.position && !new_one) {
         motion_.seen_moving = true;
         status_.stop = status_.paif = true;
@@ -322,7 +319,7 @@ void Drive::suspect_restart(Turn& t, bool zero_lost, std::string why) {
     if (zero_lost) fb_.referenced = fb_.homing_attained = false;
     forget_demand();
     notice(Severity::warning, "presence", 0, why + "; its values are read again", t);
-    if (!startup_pending()) begin_reading(t, false);
+    if (!reading_.pending()) begin_reading(t, false);
 }
 
 // --- motions and "done" ----------------------------------------------------------------------------------------------------------

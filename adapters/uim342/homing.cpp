@@ -170,7 +170,7 @@ void Drive::search_check(Turn& t) {
 /// Whether the next command of the queue may begin: during a search only values are read.
 bool Drive::queue_ready() const noexcept {
     if (queue_.empty() || job_.active) return false;
-    return !searching() || (search_.running && std::holds_alternative<ReadParameter>(queue_.front().command.body));
+    return !searching() || (search_.running && std::holds_alternative<ReadParameter>(queue_.front().body));
 }
 
 void Drive::search_deadline(Turn& t) {
@@ -186,10 +186,7 @@ void Drive::search_deadline(Turn& t) {
 
 void Drive::search_over(bool good, Reason reason, std::string text, Turn& t) {
     if (job_.active && job_.kind == JobKind::search) {
-        if (exchange_.active && exchange_.purpose == Purpose::job) {
-            exchange_.purpose = Purpose::orphan;
-            exchange_.left = 0;
-        }
+        abandon_job_exchange();
         job_.active = false;
     }
     const Ticket ticket = search_.command.ticket;

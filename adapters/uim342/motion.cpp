@@ -39,10 +39,6 @@ std::string_view advice(std::uint8_t code, std::uint8_t function) {
 }
 }  // namespace
 
-bool Drive::is_motion(const CommandBody& body) const noexcept {
-    return std::holds_alternative<Move>(body) || std::holds_alternative<Home>(body) || std::holds_alternative<StartTogether>(body);
-}
-
 std::string Drive::not_startable() const {
     if (!presence_.is(Phase::ready)) return fmt::format("{} does not answer", name());
     if (!status_.on) return fmt::format("{} is off", name());
@@ -54,10 +50,9 @@ std::string Drive::not_startable() const {
 // --- jobs ------------------------------------------------------------------------------------------------------------------------
 
 void Drive::take_next(Turn& t) {
-    const Queued next = std::move(queue_.front());
-    queue_.pop_front();
-    if (!next.marker) return start_job(next.command, t);
-    begin_job(JobKind::together, next.command);
+    const Command next = queue_.pop();
+    if (!is_place(next)) return start_job(next, t);
+    begin_job(JobKind::together, next);
     job_.waiting = true;
     bus_.part_ready(*this, t);
 }
@@ -115,7 +110,7 @@ void Drive::start_job(const Command& command, Turn& t) {
 
 /// Sends the present step, or what has to go before it.
 void Drive::run_job(Turn& t) {
-    if (exchange_.active) return;
+    if (exchange_.active()) return;
     while (job_.active && !job_.waiting && job_.at < job_.count) {
         if (job_.again) {
             job_.again = false;
@@ -124,7 +119,7 @@ void Drive::run_job(Turn& t) {
         const Step& step = job_.steps[job_.at];
         const Instruction* i = instruction(step.message.cw);
         if (late_.has(mark_of(step.message)) || (step.select && late_.has(mark_of(job_.steps[job_.at + 1u].message)))) return go_barrier(t);
-        const auto retries = static_cast<std::uint8_t>(bus_.timing.retries);
+        const int retries = bus_.timing.retries;
         if (mf_unknown_ && i && i->takes_mf && step.mf == 0) {
             return send_exchange(msg_set(cw::MF, 0), Purpose::clear_mf, 0, retries, Priority::command, t);
         }
@@ -138,8 +133,9 @@ void Drive::run_job(Turn& t) {
             continue;
         }
         if (step.select) mf_unknown_ = true;
-        const bool repeatable = form_of(step.message) == Form::get || (i && i->repeatable);
-        return send_exchange(step.message, Purpose::job, step.mf, repeatable ? retries : std::uint8_t{0}, Priority::command, t);
+        // A value for an input's group is not repeated alone: its MF is used up, and it would hit group 0.
+        const bool repeatable = step.mf == 0 && (form_of(step.message) == Form::get || (i && i->repeatable));
+        return send_exchange(step.message, Purpose::job, step.mf, repeatable ? retries : 0, Priority::command, t);
     }
     if (job_.active && !job_.waiting && job_.at >= job_.count) job_done(t);
 }
@@ -459,11 +455,11 @@ void Drive::done_move(Turn& t) {
 
 // --- joint start -----------------------------------------------------------------------------------------------------------------
 
-bool Drive::join(Turn& t) {
-    (void)t;
-    if (queue_.size() >= queue_limit) return false;
-    queue_.push_back({Command{no_ticket, axis_, StartTogether{}, false, {}}, true});
-    return true;
+bool Drive::join() { return queue_.push(Command{no_ticket, axis_, StartTogether{}, false, {}}); }
+
+bool Drive::is_place(const Command& command) noexcept {
+    const auto* together = std::get_if<StartTogether>(&command.body);
+    return together && together->axes.empty();
 }
 
 void Drive::begun_by_group(bool until_done, Turn& t) {
@@ -480,10 +476,9 @@ void Drive::begun_by_group(bool until_done, Turn& t) {
 
 void Drive::leave(Turn& t) {
     if (job_.active && job_.kind == JobKind::together) job_.active = false;
-    std::erase_if(queue_, [](const Queued& q) { return q.marker; });
+    (void)queue_.interrupt(is_place, "", tickets_, t);
     part_pending_ = false;
     std::erase_if(waits_, [](const Wait& w) { return w.what == WaitFor::part; });
-    (void)t;
 }
 
 }  // namespace axisgate::uim342

@@ -27,16 +27,13 @@ constexpr Duration boot_time = std::chrono::milliseconds(300);  // not in the ma
 constexpr Read read_at(std::size_t n) { return n < core.size() ? core[n] : rest[n - core.size()]; }
 }  // namespace
 
-bool Drive::startup_pending() const noexcept { return startup_at_ < all; }
-bool Drive::core_pending() const noexcept { return startup_at_ < core.size(); }
-
 void Drive::begin_probing(Turn& t) {
     presence_.begin(t.now);
     stop_polls();
 }
 
 void Drive::stop_polls() noexcept {
-    next_poll_ = never;
+    poll_.stop();
     poll_speed_ = false;
     read_error_ = false;
 }
@@ -85,8 +82,7 @@ void Drive::probe_answered(const Message& m, Turn& t) {
 /// `from_nothing`: nothing of before is trusted. Else the drive goes on being used, but its RAM may have changed.
 void Drive::begin_reading(Turn& t, bool from_nothing) {
     (void)t;
-    startup_at_ = 0;
-    startup_tries_ = 0;
+    reading_.begin(core.size(), all);
     mf_unknown_ = true;
     ac_.reset();
     dc_.reset();
@@ -107,26 +103,23 @@ void Drive::begin_reading(Turn& t, bool from_nothing) {
 }
 
 void Drive::startup_next(Turn& t) {
-    const Read r = read_at(startup_at_);
+    const Read r = read_at(reading_.at());
     const Message m = msg_get(r.cw, r.index);
-    const auto retries = static_cast<std::uint8_t>(bus_.timing.retries);
     if (late_.has(mark_of(m))) return go_barrier(t);
     if (mf_unknown_ && instruction(r.cw)->takes_mf)
-        return send_exchange(msg_set(cw::MF, 0), Purpose::clear_mf, 0, retries, Priority::poll, t);
-    if (startup_tries_ >= 2) {
+        return send_exchange(msg_set(cw::MF, 0), Purpose::clear_mf, 0, bus_.timing.retries, Priority::poll, t);
+    if (reading_.given_up()) {
         // Everything else is answered but not this one: leave it unknown rather than ask for ever.
         notice(Severity::warning, "protocol", 0, fmt::format("{} is not answered; its value stays unknown", describe_request(m)), t);
         startup_step_done(t);
-        if (!startup_pending() || exchange_.active || !presence_.is(Phase::starting)) return;
+        if (!reading_.pending() || exchange_.active() || !presence_.is(Phase::starting)) return;
         return startup_next(t);
     }
-    send_exchange(m, Purpose::startup, 0, retries, Priority::poll, t);
+    send_exchange(m, Purpose::startup, 0, bus_.timing.retries, Priority::poll, t);
 }
 
 void Drive::startup_step_done(Turn& t) {
-    startup_tries_ = 0;
-    if (startup_at_ < all) ++startup_at_;
-    if (startup_at_ == core.size()) core_known(t);
+    if (reading_.done()) core_known(t);
 }
 
 /// Everything is known that commands rest on.
@@ -146,8 +139,7 @@ void Drive::core_known(Turn& t) {
         }
         before_ = {};
         power_expected_ = status_.on;
-        // Spread over the period, so that many drives that start together are not polled together.
-        next_poll_ = t.now + bus_.timing.poll_period * static_cast<std::int64_t>(slot_ % 16) / 16;
+        poll_.begin(t.now, bus_.timing.poll_period, slot_);
     }
     if (options_.absolute_known && absolute_encoder_ == true && battery_ok_ != false) fb_.referenced = true;
     derive(t);

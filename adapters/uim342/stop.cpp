@@ -17,13 +17,6 @@ bool sets_motion(const Message& m) {
 }
 }  // namespace
 
-bool Drive::stopping() const noexcept {
-    for (const Stop& s : stops_) {
-        if (s.active) return true;
-    }
-    return false;
-}
-
 void Drive::submit_stop(const Command& command, Turn& t) {
     Stop s;
     s.kind = std::holds_alternative<Disable>(command.body) ? StopKind::off
@@ -37,40 +30,29 @@ void Drive::submit_stop(const Command& command, Turn& t) {
 
 /// Ends every motion of this axis that waits or runs.
 void Drive::interrupt_motions(std::string_view by, bool power_off, Turn& t) {
-    const std::string text = fmt::format("interrupted by {}", by);
+    const std::string text = drive::CommandQueue::interrupted_by(by);
+    const auto ends = [&](const CommandBody& body) {
+        return drive::is_motion(body) || (power_off && std::holds_alternative<Enable>(body));
+    };
     if (searching()) search_over(false, Reason::interrupted, text, t);
-    if (job_.active && (is_motion(job_.command.body) || job_.kind == JobKind::together ||
-                        (power_off && std::holds_alternative<Enable>(job_.command.body)))) {
-        if (exchange_.active && exchange_.purpose == Purpose::job) {
-            exchange_.purpose = Purpose::orphan;
-            exchange_.left = 0;
-        }
+    if (job_.active && ends(job_.command.body)) {
+        abandon_job_exchange();
         job_over(Outcome::failed, Reason::interrupted, text, t);
     }
-    bool marker = false;
-    for (auto it = queue_.begin(); it != queue_.end();) {
-        const CommandBody& body = it->command.body;
-        if (is_motion(body) || (power_off && std::holds_alternative<Enable>(body))) {
-            const Ticket ticket = it->command.ticket;
-            marker = marker || it->marker;
-            it = queue_.erase(it);
-            result(ticket, Outcome::failed, Reason::interrupted, text, t);
-        } else {
-            ++it;
-        }
-    }
+    bool joined = false;
+    (void)queue_.interrupt(
+        [&](const Command& waiting) {
+            joined = joined || is_place(waiting);
+            return ends(waiting.body);
+        },
+        by, tickets_, t);
     end_waits(true, Reason::interrupted, text, t);
-    if (marker) bus_.part_done(*this, {false, Reason::interrupted, 0, text}, t);
+    if (joined) bus_.part_done(*this, {false, Reason::interrupted, 0, text}, t);
     prepared_ = false;
 }
 
-void Drive::add_stop(Stop wanted, Turn& t) {
-    for (Stop& s : stops_) {
-        if (s.active) continue;
-        s = wanted;
-        s.active = true;
-        return begin_stop(s, t);
-    }
+void Drive::add_stop(const Stop& wanted, Turn& t) {
+    if (Stop* s = stops_.add(wanted)) return begin_stop(*s, t);
     // All places are taken by stops that nobody has acknowledged: this one is sent too, but cannot be watched.
     Message m = wanted.kind == StopKind::off ? msg_set(cw::MO, 0) : msg_act(cw::ST);
     m.cw &= static_cast<std::uint8_t>(~ack_bit);
@@ -82,18 +64,19 @@ void Drive::add_stop(Stop wanted, Turn& t) {
 }
 
 void Drive::begin_stop(Stop& s, Turn& t) {
-    const auto retries = static_cast<std::uint8_t>(bus_.timing.retries);
-    const bool motion_on_its_way = exchange_.active && sets_motion(exchange_.message);
-    const bool start_on_its_way = (exchange_.active && exchange_.message.function() == cw::BG) || t.now < broadcast_until_;
+    const int retries = bus_.timing.retries;
+    const Message& on_its_way = exchange_.request().message;
+    const bool motion_on_its_way = exchange_.active() && sets_motion(on_its_way);
+    const bool start_on_its_way = (exchange_.active() && on_its_way.function() == cw::BG) || t.now < broadcast_until_;
     // A stop that gets between MF and its value may use the selection up: the pair is begun anew.
     if (job_.active && job_.at < job_.count) {
         const Step& step = job_.steps[job_.at];
-        const bool own = exchange_.active && exchange_.purpose == Purpose::job;
+        const bool own = exchange_.active() && exchange_.request().purpose == Purpose::job;
         if ((step.select && own) || (step.mf != 0 && !own)) job_.again = true;
     }
     if (s.kind == StopKind::off) {
-        const Message& m = exchange_.message;
-        if (exchange_.active && m.function() == cw::MO && form_of(m) == Form::set && m.d[0] != 0) confirm_ = StopKind::off;
+        const bool turns_on = on_its_way.function() == cw::MO && form_of(on_its_way) == Form::set && on_its_way.d[0] != 0;
+        if (exchange_.active() && turns_on) confirm_ = StopKind::off;
         return send_stop(s, msg_set(cw::MO, 0), retries, t);
     }
     if (s.kind == StopKind::halt && presence_.is(Phase::ready)) {
@@ -104,7 +87,7 @@ void Drive::begin_stop(Stop& s, Turn& t) {
         if (defined && motion_on_its_way) {
             // JV=0 could overtake a PA that BG would then start: after the exchange in progress, which is not repeated any more.
             s.soft = s.waiting = true;
-            exchange_.left = 0;
+            exchange_.no_repeats();
             return;
         }
         if (defined && fb_.moving && !stop_ramp_) {  // during an SD ramp BG is refused (0x3F)
@@ -119,24 +102,20 @@ void Drive::begin_stop(Stop& s, Turn& t) {
 }
 
 void Drive::waiting_stops(Turn& t) {
-    for (Stop& s : stops_) {
-        if (!s.active || !s.waiting || (exchange_.active && sets_motion(exchange_.message))) continue;
+    stops_.each([&](Stop& s) {
+        if (!s.waiting || (exchange_.active() && sets_motion(exchange_.request().message))) return;
         s.waiting = false;
         begin_stop(s, t);
-    }
+    });
 }
 
-void Drive::send_stop(Stop& s, const Message& m, std::uint8_t retries, Turn& t) {
-    s.message = m;
-    s.tries = 1;
-    s.left = retries;
-    s.sent = t.now;
-    s.deadline = t.now + bus_.timing.reply_timeout;
+void Drive::send_stop(Stop& s, const Message& m, int retries, Turn& t) {
+    s.exchange.begin(m, t.now, bus_.timing.reply_timeout, retries);
     bus_.transmit(m, Priority::urgent, t);
 }
 
 void Drive::stop_answered(Stop& s, const Message& m, Turn& t) {
-    learn(s.message, m, 0, true, t);
+    learn(s.exchange.request(), m, 0, true, t);
     if (s.kind == StopKind::off) {
         if (m.dl > 0 && m.d[0] != 0) {
             return stop_finished(s, Outcome::failed, Reason::drive_refused, "the drive acknowledged MO=0 with MO = 1: it is still on", 0,
@@ -169,27 +148,20 @@ void Drive::stop_answered(Stop& s, const Message& m, Turn& t) {
 void Drive::stop_refused(Stop& s, const Message& m, Turn& t) {
     const auto report = error_report_of(m);
     const std::uint8_t code = report ? report->code : std::uint8_t{0};
-    if (s.soft) return harden(s, fmt::format("{} was refused ({})", describe_request(s.message), describe_error(code)), false, t);
+    if (s.soft)
+        return harden(s, fmt::format("{} was refused ({})", describe_request(s.exchange.request()), describe_error(code)), false, t);
     stop_finished(s, Outcome::refused, Reason::drive_refused,
-                  fmt::format("{}: the drive says {}", describe_request(s.message), describe_error(code)), code, t);
+                  fmt::format("{}: the drive says {}", describe_request(s.exchange.request()), describe_error(code)), code, t);
 }
 
 void Drive::stop_silent(Stop& s, Turn& t) {
-    ++bus_.counters.timeouts;
-    if (s.left > 0) {
-        --s.left;
-        ++s.tries;
-        ++bus_.counters.retries;
-        s.deadline = t.now + bus_.timing.reply_timeout;
-        return bus_.transmit(s.message, Priority::urgent, t);
-    }
-    late_.add(mark_of(s.message));
+    late_.add(mark_of(s.exchange.request()));
     forget_demand();
-    if (s.soft) return harden(s, fmt::format("{} was not acknowledged", describe_request(s.message)), s.step == 1, t);
-    stop_finished(
-        s, Outcome::failed, Reason::no_answer,
-        fmt::format("{} was sent {} times and not acknowledged: whether the axis stops is not known", describe_request(s.message), s.tries),
-        0, t);
+    if (s.soft) return harden(s, fmt::format("{} was not acknowledged", describe_request(s.exchange.request())), s.step == 1, t);
+    stop_finished(s, Outcome::failed, Reason::no_answer,
+                  fmt::format("{} was sent {} times and not acknowledged: whether the axis stops is not known",
+                              describe_request(s.exchange.request()), s.exchange.tries()),
+                  0, t);
     poll_now(t);
     count_silence(t);
 }
@@ -199,12 +171,12 @@ void Drive::harden(Stop& s, std::string_view why, bool late_begin, Turn& t) {
     notice(Severity::warning, "stop", 0, fmt::format("halt: {}; ST is sent instead", why), t);
     s.soft = false;
     if (late_begin) confirm_ = StopKind::quick;
-    send_stop(s, msg_act(cw::ST), static_cast<std::uint8_t>(bus_.timing.retries), t);
+    send_stop(s, msg_act(cw::ST), bus_.timing.retries, t);
 }
 
 void Drive::stop_finished(Stop& s, Outcome outcome, Reason reason, std::string text, std::int32_t code, Turn& t) {
     const Stop was = s;
-    s.active = false;
+    stops_.remove(&s);
     if (was.part) bus_.part_done(*this, {outcome == Outcome::accepted, reason, code, text}, t);
     if (outcome == Outcome::accepted) {
         return accepted(was.ticket, was.until_done, was.kind == StopKind::off ? WaitFor::off : WaitFor::standstill, 0, std::move(text), t);

@@ -123,6 +123,7 @@ void Engine::feedback(Side& side, AxisId id, const AxisFeedback& value, Instant 
             return p.commanded() || p.state() == PowerState::not_ready_to_switch_on;
         });
     }
+    if (a->lost_line) fail_safe(*a, LossCause::line_lost, now);
     if (value.fault != a->was_fault || (value.fault && value.error_code != a->last_error)) {
         Event e;
         e.axis = a->spec.name;

@@ -184,6 +184,7 @@ private:
 
     // loss of command (engine_fail_safe.cpp)
     void fail_safe(Axis& axis, LossCause cause, Instant now);
+    [[nodiscard]] static AtLoss at_loss(const Axis& axis);
     void check_watchdog(Axis& axis, Instant now);
 
     // the site (engine_site.cpp), presence (engine_presence.cpp), time (engine_turn.cpp), questions (engine_ask.cpp)

@@ -9,6 +9,33 @@
 #include "gateway/engine/engine_parts.hpp"
 
 namespace axisgate {
+namespace {
+std::string why_lost(LossCause cause, Duration limit) {
+    switch (cause) {
+        case LossCause::modbus_silent:
+            return fmt::format("has been silent for {} ms", milliseconds_of(limit));
+        case LossCause::set_points_silent:
+            return limit > Duration::zero() ? fmt::format("has not renewed its set-points for {} ms", milliseconds_of(limit))
+                                            : "has closed the connection by which it gave set-points";
+        case LossCause::lease_ended:
+            return "has let its lease expire";
+        case LossCause::enip_closed:
+            return "has lost its EtherNet/IP connection: it was closed";
+        case LossCause::enip_timed_out:
+            return "has lost its EtherNet/IP connection: nothing came for its time-out";
+        case LossCause::enip_idle:
+            return "says that its scanner is idle (program mode)";
+        case LossCause::line_lost:
+            return "the drive could not be reached meanwhile";
+        case LossCause::gateway_ends:
+            return "the gateway ends";
+        case LossCause::none:
+        case LossCause::modbus_closed:
+            break;
+    }
+    return "has closed its last connection";
+}
+}  // namespace
 
 void Engine::on_client_lost(const AuthorityClient& who, LossCause cause, Instant now) {
     now_ = std::max(now_, now);
@@ -22,11 +49,22 @@ void Engine::on_client_lost(const AuthorityClient& who, LossCause cause, Instant
     }
 }
 
-void Engine::fail_safe(Axis& a, LossCause cause, Instant now) {
+AtLoss Engine::at_loss(const Axis& a) {
     const AxisFeedback& f = a.profile.feedback();
-    const bool moving = f.moving || f.homing || a.profile.active_target().has_value();
-    const bool endless = a.run.velocity != 0 || a.stream.on;  // set-points have no end of their own
-    const auto action = a.spec.fail_safe.action(cause, endless, moving || a.run.velocity != 0, a.profile.commanded());
+    AtLoss at;
+    at.endless = a.run.velocity != 0 || a.stream.on;  // set-points have no end of their own
+    at.moving = f.moving || f.homing || a.profile.active_target().has_value() || a.run.velocity != 0;
+    at.powered = a.profile.commanded();
+    return at;
+}
+
+void Engine::fail_safe(Axis& a, LossCause cause, Instant now) {
+    AtLoss at = at_loss(a);
+    if (const auto before = std::exchange(a.lost_line, std::nullopt); before && cause == LossCause::line_lost) {
+        at.endless = at.endless || before->endless;  // it forgets, or does not say at once, what it was about
+        at.powered = at.powered || before->powered;
+    }
+    const auto action = a.spec.fail_safe.action(cause, at);
     if (closing_ || action == FailSafeAction::nothing || a.loss != LossCause::none) return;
     a.loss = cause;
     ++losses_[static_cast<std::size_t>(cause)];
@@ -38,15 +76,12 @@ void Engine::fail_safe(Axis& a, LossCause cause, Instant now) {
     e.kind = "fail_safe";
     e.axis = a.spec.name;
     e.code = static_cast<std::int32_t>(cause);
-    const auto ms = [](Duration d) { return milliseconds_of(d); };
-    const std::string what =
-        cause == LossCause::modbus_silent       ? fmt::format("has been silent for {} ms", ms(a.spec.fail_safe.watchdog(watchdog_)))
-        : cause == LossCause::set_points_silent ? now - a.stream.renewed > a.stream.good_for
-                                                      ? fmt::format("has not renewed its set-points for {} ms", ms(a.stream.good_for))
-                                                      : "has closed the connection by which it gave set-points"
-                                                : "has closed its last connection";
-    e.text = fmt::format("{}: {} commanded the axis and {}", name_of(body),
-                         a.stream.on ? a.stream.who.text() : a.authority.commander().text(), what);
+    const Duration limit = cause == LossCause::modbus_silent ? a.spec.fail_safe.watchdog(watchdog_)
+                           : cause == LossCause::set_points_silent && now - a.stream.renewed > a.stream.good_for ? a.stream.good_for
+                                                                                                                 : Duration::zero();
+    const AuthorityClient& who = a.stream.on ? a.stream.who : a.authority.commander();
+    e.text = fmt::format("{}: {} commanded the axis and {}", name_of(body), who.door == Door::none ? "nobody that is known" : who.text(),
+                         why_lost(cause, limit));
     event(std::move(e), now);
     auto decision = a.profile.on_command(body);
     for (auto& o : decision.orders)

@@ -173,6 +173,7 @@ struct Engine::Axis {
     bool at_limit = false;    ///< a velocity move was ended at a limit, and no motion has begun since
     AxisAuthority authority;
     LossCause loss = LossCause::none;  ///< why it was stopped without a command, until the next command to it
+    std::optional<AtLoss> lost_line;   ///< its drive went silent while this axis was commanded, and has not spoken since
     bool stale = true;
     bool was_fault = false;
     std::string homing_why;  ///< why the last search for a zero failed, by the adapter's notice

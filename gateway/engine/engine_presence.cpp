@@ -51,7 +51,10 @@ void Engine::link(Side& side, const DriveLink& l, Instant now) {
     (side.twin ? d->twin_link : d->device_link) = l;
     if (changed && !l.online && mine) {
         for (const AxisId id : d->axes) {
-            if (axes_[index_of(id)]->profile.commanded()) d->device_lost_while_commanded = !side.twin;
+            Axis& a = *axes_[index_of(id)];
+            if (!a.profile.commanded()) continue;
+            d->device_lost_while_commanded = !side.twin;
+            a.lost_line = at_loss(a);  // nothing can be told to it now: what it does is judged when it has spoken again
         }
     }
     online = l.online;

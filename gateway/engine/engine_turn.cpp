@@ -61,7 +61,11 @@ void Engine::housekeeping(Instant now) {
         check_hold(a, now);
         check_watchdog(a, now);
         check_stream(a, now);
-        if (const auto v = a.authority.expire(now); v.change != AxisAuthority::Change::none) authority_changed(a, v, nullptr, now);
+        const bool led = a.authority.holder() == a.authority.commander();
+        if (const auto v = a.authority.expire(now); v.change != AxisAuthority::Change::none) {
+            if (led) fail_safe(a, LossCause::lease_ended, now);
+            authority_changed(a, v, nullptr, now);
+        }
     }
     for (const auto& slot : drives_) {
         if (!slot) continue;

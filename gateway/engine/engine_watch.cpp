@@ -269,15 +269,8 @@ void Engine::shut_down(Instant now) {
     if (closing_) return;
     for (auto& a : axes_) {
         if (!a || a->drive->serving == Presence::offline) continue;
-        if (!a->profile.feedback().moving) continue;
-        Event e;
-        e.kind = "shutdown";
-        e.axis = a->spec.name;
-        e.text = "the gateway stops: the moving axis is stopped";
-        event(std::move(e), now);
-        auto decision = a->profile.on_command(QuickStop{});
-        for (auto& o : decision.orders)
-            give_order(*a, nullptr, std::move(o), {}, now);
+        a->loss = LossCause::none;  // whatever was lost before: this is the last that can be done
+        fail_safe(*a, LossCause::gateway_ends, now);
     }
     closing_ = true;
 }

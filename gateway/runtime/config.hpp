@@ -35,7 +35,8 @@ struct Config {
     std::int64_t authority_lease_s = 30;         ///< [authority] lease_s, 1..3600: how long a command holds an axis of mode "lease"
     std::string lines_pty_dir = "/tmp";          ///< [lines] pty_dir: folder below which a site's pty: lines may put their links
     std::string modbus_rtu_port;                 ///< [modbus_rtu] port; empty: none
-    std::string enip_bind = "127.0.0.1:44818";   ///< [enip] bind
+    std::string enip_bind;                       ///< [enip] bind, IPv4, TCP and UDP; empty: no EtherNet/IP door
+    std::int64_t enip_io_port = 2222;            ///< [enip] io_port, 0..65535: UDP, implicit data; originators use 2222 unless told
     bool dds_enabled = false;                    ///< [dds] enabled
     std::int64_t dds_domain = 0;                 ///< [dds] domain, 0..232
     std::string log_level = "info";              ///< [log] level: trace debug info warning error off

@@ -16,6 +16,7 @@
 #include <map>
 
 #include "gateway/core/assets.hpp"
+#include "gateway/doors/enip/server.hpp"
 #include "gateway/doors/http/server.hpp"
 #include "gateway/doors/modbus/server.hpp"
 #include "gateway/runtime/access_service.hpp"
@@ -112,6 +113,7 @@ struct Service {
     std::unique_ptr<WarmPorts> ports;
     std::unique_ptr<registers::RegisterImage> image;
     std::unique_ptr<modbus::Server> modbus;
+    std::unique_ptr<enip::Server> enip;
     std::shared_ptr<AccessService> access;
     std::unique_ptr<Services> services;
     std::vector<std::unique_ptr<ServiceDoor>> doors;  // of this thread
@@ -188,6 +190,8 @@ int Service::open_store() {
     answers.fault = [](std::string text) { spdlog::error("store: {}", text); };
     cold = std::make_unique<Cold>(*store, std::move(answers));
     ports = std::make_unique<WarmPorts>(warm, *hot, *cold, families, std::move(*reader));
+    ports->rehearsal.set_times(std::chrono::milliseconds(options.config.modbus_watchdog_ms),
+                               std::chrono::seconds(options.config.authority_lease_s));
     ports->events.listen(&log);
     hot->connect(ports->outlets());
     return exit_good;
@@ -313,6 +317,17 @@ int Service::open_doors() {
         }
         ports->modbus.use(
             {[this] { return modbus_report(*modbus, *hot, options.config); }, [this](bool on) { modbus->responder().set_read_only(on); }});
+    }
+    if (!options.config.enip_bind.empty()) {
+        enip::ServerSettings es;
+        es.io_port = static_cast<std::uint16_t>(options.config.enip_io_port);
+        es.lease_s = options.config.authority_lease_s;
+        es.incarnation = static_cast<std::uint16_t>(unix_now_ns() / 1'000'000'000);
+        enip = std::make_unique<enip::Server>(hot->context(), *hot, *image, es);
+        if (const std::string fault = enip->open(options.config.enip_bind); !fault.empty()) {
+            complain(fault);
+            return exit_failed;
+        }
     }
     if (!options.config.http_bind.empty()) {
         http::Settings hs;

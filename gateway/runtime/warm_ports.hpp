@@ -14,6 +14,7 @@
 #include "gateway/runtime/warm_modbus.hpp"
 #include "gateway/runtime/warm_parameters.hpp"
 #include "gateway/runtime/warm_registers.hpp"
+#include "gateway/runtime/warm_rehearsal.hpp"
 #include "gateway/runtime/warm_site.hpp"
 #include "gateway/runtime/warm_stage.hpp"
 #include "gateway/runtime/warm_status.hpp"
@@ -40,7 +41,8 @@ public:
     WarmPorts& operator=(const WarmPorts&) = delete;
 
     [[nodiscard]] Ports all() {
-        return {axes, backup, clock, documents, drives, events, lines, modbus, parameters, registers, site, snapshots, stage, status};
+        return {axes,       backup,    clock,     documents, drives,    events, lines, modbus,
+                parameters, registers, rehearsal, site,      snapshots, stage,  status};
     }
     /// Where the hot thread puts what is for this one.
     [[nodiscard]] Hot::Outlets outlets() { return {&axes.results(), &parameters.samples(), &threads_.cold.from_hot()}; }
@@ -56,6 +58,7 @@ public:
     WarmDocuments documents{threads_};
     WarmSnapshots snapshots{threads_};
     WarmRegisters registers{threads_};
+    WarmRehearsal rehearsal{threads_, site.families()};
     WarmModbus modbus{threads_, events};
     WarmBackup backup{threads_, events};
     WarmStatus status{threads_, events, site, axes, drives};

@@ -14,6 +14,7 @@
 #include "gateway/services/ports/parameters.hpp"
 #include "gateway/services/ports/port_set.hpp"
 #include "gateway/services/ports/registers.hpp"
+#include "gateway/services/ports/rehearsal.hpp"
 #include "gateway/services/ports/site.hpp"
 #include "gateway/services/ports/snapshots.hpp"
 #include "gateway/services/ports/stage.hpp"
@@ -23,6 +24,6 @@ namespace axisgate {
 
 /// All of them: for whoever puts services and doors together.
 using Ports = PortSet<AxisPort, BackupPort, ClockPort, DocumentPort, DrivePort, EventPort, LinePort, ModbusPort, ParameterPort,
-                      RegisterPort, SitePort, SnapshotPort, StagePort, StatusPort>;
+                      RegisterPort, RehearsalPort, SitePort, SnapshotPort, StagePort, StatusPort>;
 
 }  // namespace axisgate

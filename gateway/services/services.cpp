@@ -9,7 +9,8 @@ namespace axisgate {
 Services::Services(const Ports& ports, std::function<Instant()> clock, std::shared_ptr<AccessPort> access_port)
     : access(std::move(access_port)),
       recipes(std::make_shared<RecipeService>(ports, clock)),
-      alarms(std::make_shared<AlarmService>(ports, clock)) {
+      alarms(std::make_shared<AlarmService>(ports, clock)),
+      rehearsals(std::make_shared<Rehearsals>(ports)) {
     recipes->rearm = [this] {
         if (rearm) rearm();
     };

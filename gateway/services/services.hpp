@@ -14,6 +14,7 @@
 #include "gateway/services/access/access_port.hpp"
 #include "gateway/services/alarms/alarm_service.hpp"
 #include "gateway/services/change_queue.hpp"
+#include "gateway/services/fail_safe/rehearsals.hpp"
 #include "gateway/services/parameters/axis_jobs.hpp"
 #include "gateway/services/ports.hpp"
 #include "gateway/services/recipes/recipe_service.hpp"
@@ -44,6 +45,7 @@ public:
     const std::shared_ptr<AccessPort> access;
     const std::shared_ptr<RecipeService> recipes;
     const std::shared_ptr<AlarmService> alarms;
+    const std::shared_ptr<Rehearsals> rehearsals;                         ///< of loss of command, on models
     const std::shared_ptr<AxisJobs> jobs = std::make_shared<AxisJobs>();  ///< many parameters of one axis, one after the other
     const std::shared_ptr<ChangeQueue> site_changes = std::make_shared<ChangeQueue>();
     const std::shared_ptr<StageOwner> stages = std::make_shared<StageOwner>();  ///< whose the staged site is

@@ -1,4 +1,4 @@
-// Fail-safe: names, and the choice of an action: the site's for that axis and cause, else a halt of a velocity move.
+// Fail-safe: names, and the choice of an action: the site's for that axis and cause, else its default.
 // In: a cause and what the axis does. Out: the action. Never acts by itself.
 #include "gateway/site/fail_safe.hpp"
 
@@ -6,7 +6,9 @@
 
 namespace axisgate {
 namespace {
-constexpr std::array<std::string_view, 4> cause_names{"none", "modbus_closed", "modbus_silent", "set_points_silent"};
+constexpr std::array<std::string_view, loss_causes.size() + 1> cause_names{
+    "none",        "modbus_closed",  "modbus_silent", "set_points_silent", "lease_ended",
+    "enip_closed", "enip_timed_out", "enip_idle",     "line_lost",         "gateway_ends"};
 constexpr std::array<std::string_view, 4> action_names{"nothing", "halt", "quick_stop", "disable"};
 }  // namespace
 
@@ -20,11 +22,15 @@ std::optional<FailSafeAction> fail_safe_action_of(std::string_view name) noexcep
     return static_cast<FailSafeAction>(found - action_names.begin());
 }
 
-FailSafeAction FailSafe::action(LossCause cause, bool endless, bool moving, bool powered) const {
+FailSafeAction FailSafe::action(LossCause cause, const AtLoss& axis) const {
     const auto& wanted = of(cause);
-    if (!wanted) return endless && moving ? FailSafeAction::halt : FailSafeAction::nothing;
-    if (*wanted == FailSafeAction::disable) return powered || moving ? FailSafeAction::disable : FailSafeAction::nothing;
-    return moving ? *wanted : FailSafeAction::nothing;
+    if (!wanted) {
+        if (!axis.moving) return FailSafeAction::nothing;
+        if (cause == LossCause::gateway_ends) return FailSafeAction::quick_stop;
+        return axis.endless ? FailSafeAction::halt : FailSafeAction::nothing;
+    }
+    if (*wanted == FailSafeAction::disable) return axis.powered || axis.moving ? FailSafeAction::disable : FailSafeAction::nothing;
+    return axis.moving ? *wanted : FailSafeAction::nothing;
 }
 
 Duration FailSafe::watchdog(Duration by_default) const noexcept {

@@ -41,6 +41,56 @@ test('the axis page leads here, and the heading names the axis', async () => {
   await other.context().close();
 });
 
+test('what is on the screen is read by itself: no row moves or changes its height, and what has the keyboard is left alone', async () => {
+  const other = await open(browser, `${program.url}/axes/slide.x/parameters`);
+  const rows = other.locator('tr[data-parameter]');
+  await rows.first().waitFor();
+  const places = () => rows.evaluateAll((all) => all.slice(0, 14).map((r) => [r.dataset.parameter, r.offsetTop, r.offsetHeight]));
+  const before = await places();
+  // While the first values come, somebody is typing in the fourth field that can be written.
+  const field = other.locator('tr[data-parameter] input[type=text]').nth(3);
+  await field.pressSequentially('12');
+  await field.evaluate((e) => {
+    globalThis.touched = 0;
+    new MutationObserver((all) => (globalThis.touched += all.length)).observe(e.closest('.edit-row'), { attributes: true, childList: true, subtree: true });
+  });
+  const id = await field.evaluate((e) => e.closest('tr').dataset.parameter);
+  const heard = (p) => other.locator(`tr[data-parameter="${p}"] [data-field=age]`).count();
+  await until('it and those above have been read', async () => (await heard(id)) === 1 && (await heard(before[0][0])) === 1);
+  const age = async () => Number.parseInt(await other.locator(`tr[data-parameter="${id}"] [data-field=age]`).innerText(), 10);
+  await until('it gets old', async () => (await age()) >= 2 || (await age()));
+  await until('it is read again', async () => (await age()) < 2 || (await age()));
+  assert.deepEqual(await places(), before);
+  assert.equal(await field.inputValue(), '12');
+  assert.ok(await field.evaluate((e) => e === document.activeElement), 'the keyboard is where it was');
+  assert.equal(await other.evaluate(() => globalThis.touched), 0);
+  assert.deepEqual(other.faults(), []);
+  await other.context().close();
+});
+
+test('a command makes old what was read before it, and it is read again', async () => {
+  const value = page.locator(`tr[data-parameter="${list.find((p) => p.access !== 'W' && !p.count).id}"] [data-live]`);
+  await becomes('it is live', () => value.getAttribute('data-live'), 'true');
+  await program.command('feeder', { command: 'enable' });
+  await becomes('it is old', () => value.getAttribute('data-live'), 'false');
+  await becomes('it is live again', () => value.getAttribute('data-live'), 'true');
+  await program.command('feeder', { command: 'disable' });
+});
+
+test('a filter shows what it was set to: a value that comes later takes no row away, and says so', async () => {
+  await put(c.id, 1);
+  await page.getByLabel('Show').selectOption('changed');
+  await row(c.id).waitFor();
+  await put(c.id, 0);
+  const again = page.getByRole('button', { name: /^Filter again \(.*1 no longer/ });
+  await again.waitFor();
+  assert.equal(await row(c.id).count(), 1);
+  await again.click();
+  await row(c.id).waitFor({ state: 'detached' });
+  await put(c.id, 1);
+  await page.getByLabel('Show').selectOption('all');
+});
+
 test('a value that is not the default is marked in words, and can be shown alone', async () => {
   await page.getByRole('searchbox', { name: 'Search parameters' }).fill(c.id);
   await until('it is marked', async () => /changed/.test(await row(c.id).locator('[data-field=live]').innerText()) || (await row(c.id).innerText()));

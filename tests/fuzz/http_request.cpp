@@ -62,7 +62,8 @@ void feed_request(std::string_view text) {
                                 recipes,
                                 std::make_shared<AxisJobs>(),
                                 nullptr,
-                                alarms}};
+                                alarms,
+                                std::make_shared<Rehearsals>(gateway)}};
     Request request;
     const auto first = line_of(text);
     request.method = method_named(first.substr(0, first.find(' ')));

@@ -4,7 +4,6 @@
 In: the source tree. Out: one line per fault, one per rule, then "N passed, N failed" of rules. Never changes a file.
 """
 import concurrent.futures
-import fnmatch
 import os
 import pathlib
 import re
@@ -25,6 +24,7 @@ ROOMS = {
     "wire": ("core",),
     "axis": ("core", "site"),
     "protocols/canopen": ("core",),
+    "protocols/cip": ("core",),
     "drive": ("core",),
     "engine": ("core", "site", "axis", "wire"),
     "registers": ("core", "site", "axis", "engine/door.hpp"),
@@ -32,33 +32,24 @@ ROOMS = {
     "lines": ("core", "wire"),
     "store": ("core", "site"),
     "doors/modbus": ("core", "site", "axis", "registers", "engine"),
+    "doors/enip": ("core", "site", "axis", "registers", "engine", "protocols/cip"),
     "doors/http": ("core", "site", "axis", "registers", "services", "engine", "wire"),
 }
-PURE = ("core", "site", "wire", "axis", "protocols/canopen", "drive", "engine", "registers", "services", "adapter", "twin")
+PURE = ("core", "site", "wire", "axis", "protocols/canopen", "protocols/cip", "drive", "engine", "registers", "services", "adapter", "twin")
 
 
 # What a family's files are called, so that who knows one family knows all: see CONTRIBUTING. A role that a family does not need is absent.
 ROLES = ("family", "wire", "decoder", "adapter", "drive", "start", "polls", "feedback", "power", "motion", "homing", "stop", "parameters", "native", "actions", "demand")
 ROLE_PAGES = {"README.md", "ERRATA.md", "vectors.txt"}
 ROLE_FOLDERS = {"twin", "tests", "fuzz"}
-# Families from before the roles. Names may go from here, and none may come: a file that is there no more is a fault of this list.
-BEFORE_ROLES = {
-    "mcode": "aim.cpp aim.hpp framing.cpp framing.hpp jobs.cpp language.cpp language.hpp leaving.cpp node.cpp node.hpp node_next.cpp program.cpp "
-             "program.hpp program_end.cpp rate.cpp scan.cpp state.cpp statement.cpp statement.hpp stops.cpp trouble.cpp trouble.hpp",
-}
 
 
 def role_faults(family, names):
-    """Files and folders of a family that are no role, and names of the list above that are there no more."""
-    before = BEFORE_ROLES.get(family, "").split()
+    """Files and folders of a family that are no role."""
     # A role that would be over 500 lines has parts: wire_instructions.cpp beside wire.cpp.
-    odd = [n for n in names if n not in ROLE_FOLDERS | ROLE_PAGES and not re.fullmatch(f"({'|'.join(ROLES)})(_[a-z0-9]+)?\\.[ch]pp", n)]
-    for name in odd:
-        if not any(fnmatch.fnmatch(name, b) for b in before):
+    for name in names:
+        if name not in ROLE_FOLDERS | ROLE_PAGES and not re.fullmatch(f"({'|'.join(ROLES)})(_[a-z0-9]+)?\\.[ch]pp", name):
             yield f"adapters/{family}/{name}: no role of a family has this name: {', '.join(ROLES)}"
-    for b in before:
-        if not any(fnmatch.fnmatch(name, b) for name in odd):
-            yield f"tests/tidy/rooms.py: BEFORE_ROLES[{family}] names {b}, which is there no more: take it out"
 
 
 def room(path):
@@ -204,7 +195,7 @@ def main():
     for rule, name, text in PROBES:
         if [r for r, _ in faults_of(TOP / name, text)] != [rule]:
             faults.append((rule, f"the rule no longer finds what it is for: {name}"))
-    if not list(role_faults("x", ["adapter.cpp", "node.cpp"])) or not list(role_faults("mcode", ["README.md"])) or list(role_faults("x", ["wire.hpp", "wire_framer.cpp", "twin"])):
+    if not list(role_faults("x", ["adapter.cpp", "node.cpp"])) or list(role_faults("x", ["wire.hpp", "wire_framer.cpp", "twin"])):
         faults.append(("roles", "the rule no longer finds what it is for"))
     for _, what in faults:
         print(what)

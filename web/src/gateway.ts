@@ -9,7 +9,7 @@ import type { Axis } from './api/types';
 import { Commander } from './state/commander';
 import { Jog } from './state/jog';
 import { Session } from './state/session';
-import { kept } from './state/kept';
+import { persisted } from './state/persisted';
 import { Store } from './state/store';
 import { Tab, tabChannel } from './state/tab';
 
@@ -30,7 +30,7 @@ export class Gateway {
   private readonly extra = new Map<string, Set<(m: StreamMessage) => void>>();
 
   constructor(parts: { client?: Client; store?: Store; url?: string } = {}) {
-    this.tab = new Tab(kept('client'), parts.client ? null : tabChannel());
+    this.tab = new Tab(persisted('client'), parts.client ? null : tabChannel());
     this.client = parts.client ?? new Client('/api/v1', undefined, () => this.tab.name.peek());
     this.store = parts.store ?? new Store({ schedule: beforeNextPicture });
     this.commander = new Commander(
@@ -44,7 +44,7 @@ export class Gateway {
       // Another identity: the old stream belongs to the one before.
       this.stream.stop();
       if (!this.session.needed.peek()) this.stream.start();
-    }, parts.client ? null : tabChannel('axisgate.session'), parts.client ? undefined : kept('session.user', '', 'browser'));
+    }, parts.client ? null : tabChannel('axisgate.session'), parts.client ? undefined : persisted('session.user', '', 'browser'));
     this.stream = new Stream({
       url: parts.url ?? streamUrl(location),
       onState: (s) => {

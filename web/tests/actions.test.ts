@@ -1,7 +1,7 @@
 // Actions as forms: every command of every family's catalogue has fields that take a right value, and only right ones; what is sent; the text for recipes.
 import { readdirSync, readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
-import { argumentFault, bodyOf, faultsOf, found, hintOf, isFlag, isText, labelOf, questionOf, rangeOf, recipeText, type CatalogueCommand, type CommandArgument } from '../src/words/action';
+import { argumentFault, bodyOf, faultsOf, found, hintOf, isFlag, isText, labelOf, questionOf, rangeOf, recipeText, type CatalogueCommand, type CommandArgument } from '../src/text/action';
 
 const folder = new URL('../../schema/families/', import.meta.url);
 /** As GET /families/{family}/commands gives them. */

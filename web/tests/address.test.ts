@@ -2,8 +2,8 @@
 import { signal } from '@preact/signals';
 import { describe, expect, it } from 'vitest';
 import { addressBase, addressField, countFrom, forgetAddressField } from '../src/state/address-base';
-import { addressText, doubtText, readAddress, spanText, type Base } from '../src/words/address';
-import { tables, type Table } from '../src/words/mapping';
+import { addressText, doubtText, readAddress, spanText, type Base } from '../src/text/address';
+import { tables, type Table } from '../src/text/mapping';
 
 const read = (text: string, base: Base, table: Table = 'holding_registers') => {
   const r = readAddress(text, table, base);

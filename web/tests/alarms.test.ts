@@ -2,8 +2,8 @@
 import { describe, expect, it } from 'vitest';
 import type { Alarm, Drive, Line } from '../src/api/types';
 import { Store } from '../src/state/store';
-import { alarmWord, canAcknowledge, asked, eventFile, gathered, passes, subjectOf, withoutSubject } from '../src/words/alarm';
-import { offlineReason, whatIsWrong } from '../src/words/wrong';
+import { alarmWord, canAcknowledge, asked, eventFile, gathered, passes, subjectOf, withoutSubject } from '../src/text/alarm';
+import { offlineReason, errorsNow } from '../src/text/errors';
 import { axis, event, world } from './fixtures';
 
 const alarm = (change: Partial<Alarm> = {}): Alarm => ({
@@ -30,10 +30,10 @@ describe('an alarm', () => {
 
 describe('what is wrong', () => {
   it('is nothing when all is well', () => {
-    expect(whatIsWrong([axis()], [line('up')], [drive('twin')], 0)).toEqual([]);
+    expect(errorsNow([axis()], [line('up')], [drive('twin')], 0)).toEqual([]);
   });
   it('is each with a link to where it can be mended', () => {
-    const all = whatIsWrong([axis({ name: 'feeder', fault: true, error: { code: 8, text: 'stalled' } })], [line('down')], [{ ...drive('offline'), line: 'rs485' }], 2);
+    const all = errorsNow([axis({ name: 'feeder', fault: true, error: { code: 8, text: 'stalled' } })], [line('down')], [{ ...drive('offline'), line: 'rs485' }], 2);
     expect(all.map((w) => [w.word.text, w.text, w.path])).toEqual([
       ['Fault', 'Fault 8: stalled', '/axes/feeder'],
       ['Line down', 'no such device', '/lines/can0'],
@@ -48,7 +48,7 @@ describe('an offline axis', () => {
   it('is told with its line, its silent drive, or by itself, with a reason of its own', () => {
     const answers = { ...drive('device'), name: 'pa', line: 'com1', status: { ...drive('device').status, presence: 'device', online: true, text: 'the drive answers' } } as Drive;
     const silent = { ...drive('offline'), name: 'md', line: 'rs485', status: { ...drive('offline').status, online: false } } as Drive;
-    const wrong = whatIsWrong(
+    const wrong = errorsNow(
       [off('a', { line: 'can0', drive: 'x' }), off('b', { line: 'rs485', drive: 'md' }), off('c', { line: 'com1', drive: 'pa' }), off('d', { line: 'com1', drive: 'pa' }), off('e', { line: 'com1', drive: 'pa' }), axis({ name: 'f' })],
       [line('down')], [silent, answers], 0,
       [alarm({ axis: 'e', text: 'the encoder is gone' }), alarm({ axis: 'e', text: 'older', since: '2025-01-01T00:00:00Z' }), alarm({ axis: 'c', text: 'over', active: false }), alarm({ axis: 'other', drive: 'pa', text: 'of another axis' })],

@@ -1,7 +1,7 @@
 // The words of an axis: every state has its own word and icon; nothing old is said as if it were live.
 import { describe, expect, it } from 'vitest';
 import type { AxisStateName } from '../src/api/types';
-import { hex, markOf, motionWord, noticeOf, positionText, stateWord, statusBits } from '../src/words/axis';
+import { hex, markOf, motionWord, noticeOf, positionText, stateWord, statusBits } from '../src/text/axis';
 import { axis } from './fixtures';
 
 const states: AxisStateName[] = ['not_ready_to_switch_on', 'switch_on_disabled', 'ready_to_switch_on', 'switched_on', 'operation_enabled', 'quick_stop_active', 'fault_reaction_active', 'fault'];

@@ -4,7 +4,7 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { MockDoor } from '../dev/mock/door.mjs';
 import type { Role } from '../src/api/types';
-import { kept } from '../src/state/kept';
+import { persisted } from '../src/state/persisted';
 import { openPage, soon, type MockPage } from './mock-page';
 
 let p: MockPage;
@@ -33,7 +33,7 @@ describe('events', () => {
     return saved;
   };
   it('of which there are more than are shown say so, and how to reach further back; the file has exactly what is shown', async () => {
-    kept('events.text').value = '';
+    persisted('events.text').value = '';
     many(1200);
     const saved = files();
     await open('/events');

@@ -4,7 +4,7 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { MockDoor } from '../dev/mock/door.mjs';
 import { axesFilter, axisMatches } from '../src/state/axes-filter';
-import { kept } from '../src/state/kept';
+import { persisted } from '../src/state/persisted';
 import { axis } from './fixtures';
 import { openPage, type MockPage } from './mock-page';
 
@@ -13,7 +13,7 @@ let door: MockDoor;
 beforeEach(() => {
   door = new MockDoor();
   axesFilter.value = '';
-  kept('axes.view').value = '';
+  persisted('axes.view').value = '';
 });
 afterEach(() => {
   p.close();
@@ -132,8 +132,8 @@ describe('a role', () => {
 it('a filter of the events that hides all says so, with how many there are, and is cleared', async () => {
   // More than the page has of its own.
   while (door.world.events.length < 300) door.world.event('info', 'input', { axis: 'feeder' }, 'something');
-  kept('events.text').value = 'no such words';
-  kept('events.severity').value = 'alarm';
+  persisted('events.text').value = 'no such words';
+  persisted('events.severity').value = 'alarm';
   await open('/events');
   await p.see('[data-field=filtered]', 'No event matches the filter; 300 in all.');
   await p.press('Clear the filter');

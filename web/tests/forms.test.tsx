@@ -2,7 +2,7 @@
 // What forms say of what was typed, and what became of it: the whole page over the mock door. Nothing wrong may be sent; nothing typed may be lost.
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { MockDoor } from '../dev/mock/door.mjs';
-import { kept } from '../src/state/kept';
+import { persisted } from '../src/state/persisted';
 import { openPage, soon, type MockPage } from './mock-page';
 
 let p: MockPage;
@@ -29,7 +29,7 @@ const give = (label: string, name: string, text: string) => {
 describe('users', () => {
   it('a first sign-in needs the code, a name, and one password twice; nothing else is sent', async () => {
     door = new MockDoor({ localRole: null });
-    kept('typed.user').value = '';
+    persisted('typed.user').value = '';
     await open('/');
     await p.see('h1', 'First sign-in');
     const told = '[data-field=sign-in-told]';
@@ -55,7 +55,7 @@ describe('users', () => {
   it('a sign-in needs a name', async () => {
     door = new MockDoor({ localRole: null });
     door.access.add({ name: 'anna', role: 'viewer', password });
-    kept('typed.user').value = '';
+    persisted('typed.user').value = '';
     await open('/');
     await p.see('h1', 'Sign in');
     await p.press('Sign in');
@@ -193,7 +193,7 @@ describe('parameters', () => {
     expect(p.text('.compare')).not.toContain('Nothing differs.');
   });
   it('a file to be written says what is wrong with it; what is exported, what is missing in it', async () => {
-    kept('transfer.feeder').value = '';
+    persisted('transfer.feeder').value = '';
     await open('/axes/feeder/parameters');
     await p.see('main', 'No snapshot is kept.');
     const area = p.root.querySelector<HTMLTextAreaElement>('#transfer-text')!;
@@ -220,7 +220,7 @@ describe('the gateway', () => {
     expect(door.configuration.modbus.read_only).toBe(false);
   });
   it('shows an exception with the places that nothing answers for, and follows when it is asked to', async () => {
-    for (const [name, value] of [['unit', '2'], ['table', 'holding_registers'], ['address', '0'], ['count', '4']] as const) kept(`hmi.${name}`).value = value;
+    for (const [name, value] of [['unit', '2'], ['table', 'holding_registers'], ['address', '0'], ['count', '4']] as const) persisted(`hmi.${name}`).value = value;
     await open('/mappings');
     await p.see('.register-grid', 'Nothing is mapped yet.');
     await p.press('Look');

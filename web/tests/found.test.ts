@@ -1,7 +1,7 @@
 // A drive that a scan has found, as an entry of the site: with its family where the line has another one. In: a draft. Out: the edited site.
 import { describe, expect, it } from 'vitest';
 import { addFound } from '../src/components/site-scan';
-import { familyOf } from '../src/words/options';
+import { familyOf } from '../src/text/options';
 
 const line = { name: 'can0', uri: 'can:can0', family: 'uim342' };
 function draftOf(site: Record<string, unknown>) {

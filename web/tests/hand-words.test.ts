@@ -1,6 +1,6 @@
 // Which condition of a twin belongs to which axis: nobody takes the wrong axis in hand. In: items as families describe them. Out: groups.
 import { describe, expect, it } from 'vitest';
-import { handGroups, handLabel, positionInUnit, type HandAxis } from '../src/words/hand';
+import { handGroups, handLabel, positionInUnit, type HandAxis } from '../src/text/hand';
 
 const axis = (name: string, channel: number, unit = 'mm'): HandAxis => ({ name, channel, unit, increments_per_unit: 1000 });
 const item = (name: string, description = name) => ({ name, value: 0, writable: true, description });

@@ -3,8 +3,8 @@ import { beforeEach, describe, expect, it } from 'vitest';
 import { Client } from '../src/api/client';
 import { MappingDoor } from '../src/api/mappings';
 import { MappingBook } from '../src/state/mappings';
-import { columns, type Mapping } from '../src/words/mapping';
-import { rowsOf } from '../src/words/table-text';
+import { columns, type Mapping } from '../src/text/mapping';
+import { rowsOf } from '../src/text/table-text';
 
 let rows: Mapping[];
 let revision: number;

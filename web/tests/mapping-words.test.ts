@@ -1,9 +1,9 @@
 // Mappings in words and numbers: places, conflicts, gaps, checks, live values, raw words. All pure.
 import { describe, expect, it } from 'vitest';
-import { freeBlock, cellsOf, checkTexts, conflictsOf, decodeWords, differenceText, gridOf, neighbourText, nextFree, oneBased, pointUnit, pointValue, registerValue, signWarning, spansOf, textsOf, widthOf, type Known, type Mapping, type Texts } from '../src/words/mapping';
-import { bitName, notMapped } from '../src/words/register-map';
-import { catalogueMissing, csvOfSpecs, readTable } from '../src/words/mapping-table';
-import { csvOf, mostRows, rowsOf } from '../src/words/table-text';
+import { freeBlock, cellsOf, checkTexts, conflictsOf, decodeWords, differenceText, gridOf, neighbourText, nextFree, oneBased, pointUnit, pointValue, registerValue, signWarning, spansOf, textsOf, widthOf, type Known, type Mapping, type Texts } from '../src/text/mapping';
+import { bitName, notMapped } from '../src/text/register-map';
+import { catalogueMissing, csvOfSpecs, readTable } from '../src/text/mapping-table';
+import { csvOf, mostRows, rowsOf } from '../src/text/table-text';
 import { axis } from './fixtures';
 
 const m = (id: string, address: number, type: Mapping['type'] = 'i32', more: Partial<Mapping> = {}): Mapping => ({ id, unit: 2, table: 'holding_registers', address, axis: 'feeder', point: 'position', type, word_order: 'high_first', scale: 1, offset: 0, access: 'R', ...more });

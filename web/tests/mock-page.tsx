@@ -9,7 +9,7 @@ import { Client } from '../src/api/client';
 import { App } from '../src/app';
 import { Gateway, GatewayProvider } from '../src/gateway';
 import { route, routeOf } from '../src/router';
-import { kept } from '../src/state/kept';
+import { persisted } from '../src/state/persisted';
 
 export interface How {
   door?: MockDoor;
@@ -120,8 +120,8 @@ const squeezed = (e: Element | null | undefined) => e?.textContent?.replace(/\s+
 export async function openPage(path: string, { door: made = new MockDoor(), cookie = '', again = false }: How = {}): Promise<MockPage> {
   // What another test has typed or chosen is none of this one's.
   const mine = ['line', 'drive', 'axis'].flatMap((k) => [`wizard.${k}`, `wizard.typed.${k}`]);
-  if (!again) for (const name of ['site.draft', 'site.wizard', ...mine]) kept(name).value = '';
-  if (!again) kept('wizard.step', '0').value = '0';
+  if (!again) for (const name of ['site.draft', 'site.wizard', ...mine]) persisted(name).value = '';
+  if (!again) persisted('wizard.step', '0').value = '0';
   wire = new Wire(made);
   wire.cookie = cookie;
   const here = wire;

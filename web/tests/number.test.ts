@@ -1,7 +1,7 @@
 // Numbers: what is typed and what is shown. Table-driven.
 import { describe, expect, it } from 'vitest';
-import { decimalsOf, formatExact, formatNumber, parseNumber, tickLabels } from '../src/words/number';
-import { clockTime, duration } from '../src/words/time';
+import { decimalsOf, formatExact, formatNumber, parseNumber, tickLabels } from '../src/text/number';
+import { clockTime, duration } from '../src/text/time';
 
 describe('parseNumber', () => {
   it.each([

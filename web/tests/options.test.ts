@@ -1,8 +1,8 @@
 // Options of a family as fields: ranges, defaults, switches, values with commas, what the family does not know; and what an increment is.
 import { describe, expect, it } from 'vitest';
 import { families as told } from '../dev/mock/families.mjs';
-import { familyOf, incrementHint, optionFault, optionField, optionsFor, optionsFrom, optionsTitle, optionTexts, unknownOptions, type Family } from '../src/words/options';
-import { checkEntry, textsOfEntry, type Entry, type Site } from '../src/words/site';
+import { familyOf, incrementHint, optionFault, optionField, optionsFor, optionsFrom, optionsTitle, optionTexts, unknownOptions, type Family } from '../src/text/options';
+import { checkEntry, textsOfEntry, type Entry, type Site } from '../src/text/site';
 
 const families = new Map((told as Family[]).map((f) => [f.name, f]));
 const uim = optionsFor(families.get('uim342'), 'drives');

@@ -3,7 +3,7 @@ import { describe, expect, it } from 'vitest';
 import { Problem } from '../src/api/problem';
 import type { Axis, Command, CommandAnswer } from '../src/api/types';
 import { Commander } from '../src/state/commander';
-import { emptied } from '../src/state/kept';
+import { emptied } from '../src/state/persisted';
 import { signal } from '@preact/signals';
 
 const t0 = Date.parse('2026-03-01T10:00:00Z');

@@ -1,6 +1,6 @@
 // A parameter's range and what is typed for it: out of range tells the range; nothing is bent to fit.
 import { describe, expect, it } from 'vitest';
-import { fieldLines, fieldValue, rangeText, readValue, sameValue, searchRank, unitWords, valueText, withField } from '../src/words/parameter';
+import { fieldLines, fieldValue, rangeText, readValue, sameValue, searchRank, unitWords, valueText, withField } from '../src/text/parameter';
 
 const p = (change: object) => ({ type: 'u32', min: null, max: null, unit: null, allowed: null, ...change }) as Parameters<typeof readValue>[1];
 

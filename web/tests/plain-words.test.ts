@@ -1,12 +1,12 @@
 // Sentences about sites on trial, steps of a unit, recipes without their axis, what a restore leaves out, who commanded last. Pure words.
 import { describe, expect, it } from 'vitest';
 import { scanWords } from '../src/components/scan';
-import { commandedWords } from '../src/words/authority';
-import { plain, plainWord } from '../src/words/plain';
-import { readValue, steppedText, unitWords } from '../src/words/parameter';
-import { doneOf, unknownAxes, unknownWords } from '../src/words/recipe';
-import { leftOut, parametersWords } from '../src/words/transfer';
-import { appliedWords, applyBarred, disturbedWords } from '../src/words/trial';
+import { commandedWords } from '../src/text/authority';
+import { plain, plainWord } from '../src/text/plain';
+import { readValue, steppedText, unitWords } from '../src/text/parameter';
+import { doneOf, unknownAxes, unknownWords } from '../src/text/recipe';
+import { leftOut, parametersWords } from '../src/text/transfer';
+import { appliedWords, applyBarred, disturbedWords } from '../src/text/trial';
 
 describe('a site on trial', () => {
   const anna = { by: 'anna 10.0.0.7', client: 'anna page-1a2b3c' };

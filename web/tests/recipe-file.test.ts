@@ -2,7 +2,7 @@
 import { beforeEach, expect, it } from 'vitest';
 import { Problem } from '../src/api/problem';
 import { RecipeFile } from '../src/state/recipe-file';
-import { recipeDifferences } from '../src/words/recipe';
+import { recipeDifferences } from '../src/text/recipe';
 
 let there: { text: object; tag: string } | null;
 let sent: Record<string, string>[];

@@ -1,7 +1,7 @@
 // Recipes as a tree that is edited: every change is a copy, what is typed becomes the value that it reads as, every step kind has its form.
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
-import { fieldsOfStep, unitOfField, withCommand, added, changed, defaultOf, documentOf, editable, freshStep, kindOf, moved, parameterFault, pointerOf, removed, renamedParameter, runWord, stepKinds, takesTolerance, titleOf, typedOf, valueOf, withoutParameter, withParameter, type RecipeDocument } from '../src/words/recipe';
+import { fieldsOfStep, unitOfField, withCommand, added, changed, defaultOf, documentOf, editable, freshStep, kindOf, moved, parameterFault, pointerOf, removed, renamedParameter, runWord, stepKinds, takesTolerance, titleOf, typedOf, valueOf, withoutParameter, withParameter, type RecipeDocument } from '../src/text/recipe';
 
 const recipe = (): RecipeDocument => ({
   steps: [{ enable: { axis: 'a' } }, { if: { condition: { axis: 'a', point: 'fault', is: true }, then: [{ wait_s: 1 }, { wait_s: 2 }], else: [] } }, { message: 'x' }],

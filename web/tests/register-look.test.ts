@@ -1,7 +1,7 @@
 // What the registers say for each mapping: a span in one request; after an exception each mapping by itself, with its own words.
 import { expect, it } from 'vitest';
 import { lookAt, type Heard } from '../src/state/register-look';
-import type { Mapping } from '../src/words/mapping';
+import type { Mapping } from '../src/text/mapping';
 
 const m = (id: string, address: number): Mapping => ({ id, unit: 2, table: 'holding_registers', address, axis: 'feeder', point: 'position', type: 'i32', word_order: 'high_first', scale: 1, offset: 0, access: 'R' });
 const rows = [m('a', 0), m('b', 2), m('c', 4), m('d', 6), m('e', 8)];

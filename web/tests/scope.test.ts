@@ -2,7 +2,7 @@
 import { describe, expect, it } from 'vitest';
 import { channels, columnOf, crossing, csvOf, needsDemand, Trigger, valueAt, type TriggerSetting } from '../src/state/scope';
 import { Store } from '../src/state/store';
-import { Trail, type DemandSource } from '../src/state/trail';
+import { AxisHistory, type DemandSource } from '../src/state/history';
 import { World } from '../dev/mock/world.mjs';
 import { axis } from './fixtures';
 
@@ -12,8 +12,8 @@ const sample = (at_ms: number, position: number | null, demand: number | null = 
 };
 const rising: TriggerSetting = { mode: 'single', channel: 'position', edge: 'rising', level: 5 };
 
-describe('a trail at 1 kHz', () => {
-  const t = new Trail(4096);
+describe('a history at 1 kHz', () => {
+  const t = new AxisHistory(4096);
   t.keep(131_072);
   for (let i = 0; i < 60_000; i += 1) t.add(sample(1_000_000 + i, i === 31_234 ? 900 : i === 31_240 ? -900 : Math.sin(i / 500)));
   it('keeps a minute of it', () => expect(t.size).toBe(60_000));
@@ -28,7 +28,7 @@ describe('a trail at 1 kHz', () => {
     expect(up).toBeLessThan(down); // in the order in which they came
   });
   it('keeps the peak of the following error too, though demand and position are thinned each by itself', () => {
-    const t = new Trail(4096);
+    const t = new AxisHistory(4096);
     // The error has its peak where neither the demand nor the position has one.
     for (let i = 0; i < 4000; i += 1) t.add(sample(1_000_000 + i, i, i + (i % 40 === 17 ? 9 : 1)));
     const c = t.seen(1_000_000, 1_004_000, 100);
@@ -48,7 +48,7 @@ describe('a trail at 1 kHz', () => {
 
 describe('trigger', () => {
   const ramp = (from_s: number, points: [number, number | null][]) => {
-    const t = new Trail();
+    const t = new AxisHistory();
     for (const [s, p] of points) t.add(sample((from_s + s) * 1000, p));
     return t.since(0);
   };
@@ -84,7 +84,7 @@ describe('trigger', () => {
 });
 
 describe('readings', () => {
-  const t = new Trail();
+  const t = new AxisHistory();
   t.add(sample(1000, 0, 1));
   t.add(sample(2000, 10, 12));
   t.add(sample(3000, null));
@@ -97,7 +97,7 @@ describe('readings', () => {
     expect(valueAt(c, 'position', 3.5)).toBeNull();
   });
   it('of a target are as it was set, never a ramp between two', () => {
-    const steps = new Trail();
+    const steps = new AxisHistory();
     for (const [at, target] of [[1000, 0], [2000, 10]] as const) steps.add({ ...sample(at, at / 1000), target });
     const s = steps.since(0);
     expect(valueAt(s, 'target', 1.99)).toBe(0);
@@ -110,7 +110,7 @@ describe('readings', () => {
     tell(1000, {});
     tell(1100, { demand_known: true, demand_source: 'computed', position_demand: 3.5, following_error: 0.5 });
     tell(1200, {});
-    const c = store.trail('feeder').since(0);
+    const c = store.history('feeder').since(0);
     expect([c.position, c.demand, c.error, c.source]).toEqual([[3, 3, 3], [null, 3.5, null], [null, 0.5, null], [null, 'computed', null]]);
     expect([valueAt(c, 'error', 1.05), valueAt(c, 'error', 1.15), valueAt(c, 'error', 1.25)]).toEqual([null, 0.5, null]);
     expect(channels.filter(needsDemand)).toEqual(['demand', 'error']);
@@ -145,7 +145,7 @@ describe('readings', () => {
 
 describe('a recording as CSV', () => {
   const recorded = (...all: DemandSource[]) => {
-    const t = new Trail();
+    const t = new AxisHistory();
     all.forEach((source, i) => t.add(sample(1000 * (i + 1), 10 * i, source === null ? null : 10 * i + 1, source)));
     return csvOf(t.since(0), 'a,b', 'mm').split('\r\n');
   };

@@ -5,7 +5,7 @@ import { Client } from '../src/api/client';
 import type { SessionInfo } from '../src/api/types';
 import { passwordFault, Session, signInWords, userFault, whoWords } from '../src/state/session';
 import { asProblem, Problem } from '../src/api/problem';
-import { handOverChoices, heldBy, heldWords } from '../src/words/authority';
+import { handOverChoices, heldBy, heldWords } from '../src/text/authority';
 
 const info = (change: Partial<SessionInfo> = {}): SessionInfo => ({ user: 'anna', role: 'engineer', via: 'cookie', csrf: 'c1', expires_at: null, ended: null, first_sign_in: false, roles: ['viewer', 'operator', 'engineer', 'administrator'], ...change });
 const nobody = info({ user: null, role: null, via: 'none', csrf: null });

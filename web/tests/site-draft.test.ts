@@ -3,7 +3,7 @@ import { beforeEach, describe, expect, it } from 'vitest';
 import { Problem } from '../src/api/problem';
 import type { SiteDoor, Stage } from '../src/api/site';
 import { SiteDraft } from '../src/state/site-draft';
-import type { Site } from '../src/words/site';
+import type { Site } from '../src/text/site';
 
 const first: Site = { lines: [{ name: 'can0', uri: 'twin', family: 'uim342' }], drives: [], axes: [], mappings: [] };
 let inForce: Site;

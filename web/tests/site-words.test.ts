@@ -1,6 +1,6 @@
 // A site in words and forms: entries from what was typed, differences, changes put on top of another's. All pure.
 import { describe, expect, it } from 'vitest';
-import { checkEntry, differenceOf, differenceWords, freeName, freeNumber, placeOf, readSite, rebase, sameDocument, textsOfEntry, withEntry, withoutEntry, type Entry, type Room, type Site, type Texts } from '../src/words/site';
+import { checkEntry, differenceOf, differenceWords, freeName, freeNumber, placeOf, readSite, rebase, sameDocument, textsOfEntry, withEntry, withoutEntry, type Entry, type Room, type Site, type Texts } from '../src/text/site';
 
 const site: Site = {
   lines: [{ name: 'can0', uri: 'twin', family: 'uim342', bitrate: 1000000 }, { name: 'rs', uri: 'pty:/tmp/x', family: 'mcode' }],

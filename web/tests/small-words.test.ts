@@ -1,14 +1,14 @@
 // Small words: a restore that waits, a snapshot and its family, an event in the axis' unit, the type and unit that a mapped value has by itself.
 import { describe, expect, it } from 'vitest';
-import { groupsOf, inUnits } from '../src/words/event';
-import { allowedWords } from '../src/words/register-map';
+import { groupsOf, inUnits } from '../src/text/event';
+import { allowedWords } from '../src/text/register-map';
 import type { GatewayEvent } from '../src/api/types';
-import { plain } from '../src/words/plain';
-import { naturalType, valueUnit } from '../src/words/mapping-type';
-import type { Known } from '../src/words/mapping';
-import { pendingWords, sizeWords } from '../src/words/site-files';
-import { axisChoice, foreignWords, snapshotChoice, snapshotWords } from '../src/words/snapshot';
-import { clockTime } from '../src/words/time';
+import { plain } from '../src/text/plain';
+import { naturalType, valueUnit } from '../src/text/mapping-type';
+import type { Known } from '../src/text/mapping';
+import { pendingWords, sizeWords } from '../src/text/site-files';
+import { axisChoice, foreignWords, snapshotChoice, snapshotWords } from '../src/text/snapshot';
+import { clockTime } from '../src/text/time';
 
 const at = '2026-03-01T10:11:12Z';
 const titles = new Map([['uim342', 'UIROBOT UIM342']]);

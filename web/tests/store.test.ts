@@ -110,18 +110,18 @@ describe('drawing', () => {
     flushes[0]!();
     s.axis('a')!.subscribe((e) => seen(e.data.position));
     expect(seen.mock.calls).toEqual([[49]]);
-    expect(s.trail('a').size).toBe(50); // the scope lost none
+    expect(s.history('a').size).toBe(50); // the scope lost none
   });
-  it('makes the trail end in a gap when the connection, the drive or the trust is lost', () => {
+  it('makes the history end in a gap when the connection, the drive or the trust is lost', () => {
     const s = new Store();
     s.setConnection(live());
     tell(s, 'a', axis({ name: 'a', position: 1 }), 1000);
     s.setConnection(lost());
-    expect(s.trail('a').last?.position).toBeNull();
+    expect(s.history('a').last?.position).toBeNull();
     s.setConnection(live(2));
     tell(s, 'a', axis({ name: 'a', position: 2 }), 2000);
     tell(s, 'a', axis({ name: 'a', position: 2, stale: true }), 2100);
-    expect(s.trail('a').last?.position).toBeNull();
+    expect(s.history('a').last?.position).toBeNull();
   });
 });
 

@@ -1,7 +1,7 @@
 // Parameters as CSV and JSON, out and in, and two sets of values side by side. All pure.
 import { describe, expect, it } from 'vitest';
 import type { AxisParameter } from '../src/api/types';
-import { comparedWords, compareWith, csvOfParameters, isMarked, jsonOfParameters, readTransfer, leftOut } from '../src/words/transfer';
+import { comparedWords, compareWith, csvOfParameters, isMarked, jsonOfParameters, readTransfer, leftOut } from '../src/text/transfer';
 import { world } from './fixtures';
 
 const w = world();

@@ -3,17 +3,17 @@
 // another family is barred beforehand, what acts at once is restored only when it is asked for, events count in the unit of their axis.
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import { MockDoor } from '../dev/mock/door.mjs';
-import { kept } from '../src/state/kept';
+import { persisted } from '../src/state/persisted';
 import { openPage, soon, type MockPage } from './mock-page';
 
 let p: MockPage;
 let door: MockDoor;
 beforeEach(() => {
   door = new MockDoor();
-  for (const f of ['point', 'axis', 'address', 'type_by_hand']) kept(`mapping.${f}`).value = '';
-  kept('mapping.type').value = 'i32';
-  kept('mapping.unit').value = '2';
-  kept('mapping.table').value = 'holding_registers';
+  for (const f of ['point', 'axis', 'address', 'type_by_hand']) persisted(`mapping.${f}`).value = '';
+  persisted('mapping.type').value = 'i32';
+  persisted('mapping.unit').value = '2';
+  persisted('mapping.table').value = 'holding_registers';
 });
 afterEach(() => p.close());
 const open = async (path: string) => (p = await openPage(path, { door }));

@@ -272,6 +272,55 @@ TEST(LinmotAdapter, WhatTheDriveSaysOfItself) {
               Reason::not_supported);
 }
 
+/// Everything that the catalogue marks as inferred, whatever it is: with the option off it is refused, says why, and not a byte of it is
+/// sent.
+TEST(LinmotAdapter, WhatIsInferredCanBeSwitchedOffOneByOne) {
+    LineBench b(1, 115200, {{"inferred", "off"}});
+    b.run(1s);
+    ASSERT_TRUE(b.enable());
+    const auto marked = [](const boost::json::value& v) {
+        const auto* mark = v.get_object().if_contains("inferred");
+        return mark && mark->is_bool() && mark->get_bool();
+    };
+    const auto refused = [&](const std::string& what, CommandBody body) {
+        SCOPED_TRACE(what);
+        b.sent.clear();
+        const Result r = b.ask(std::move(body));
+        EXPECT_EQ(r.reason, Reason::not_supported) << r.text;
+        EXPECT_NE(r.text.find("inferred"), std::string::npos) << r.text;
+        for (const Frame& f : b.sent) {
+            const auto bytes = f.data();
+            EXPECT_TRUE(bytes.size() > 5 && bytes[5] == 0)
+                << "something else than a question for its state was sent: group " << int{bytes[5]};
+        }
+    };
+    std::size_t commands = 0, parameters = 0;
+    const auto& document = page().document();
+    for (const auto& v : document.at("commands").get_array()) {
+        if (!marked(v)) continue;
+        ++commands;
+        const std::string id(v.at("id").get_string());
+        std::string arguments;
+        for (const auto& x : page().command(id)->arguments)
+            arguments += fmt::format("{}={} ", x.name, x.type == ValueType::text ? "x" : "1");
+        refused(id, Action{id, arguments});
+    }
+    for (const auto& v : document.at("parameters").get_array()) {
+        if (!marked(v)) continue;
+        ++parameters;
+        const std::string id(v.at("id").get_string());
+        const Parameter* p = nullptr;
+        std::uint16_t i = 0;
+        for (; !p; ++i)
+            if (page().parameters()[i].id == id) p = &page().parameters()[i];
+        const Point point{static_cast<std::uint16_t>(i - 1), p->count ? p->first : std::uint16_t{0}};
+        refused("read " + id, ReadParameter{point});
+        if (p->writable()) refused("write " + id, WriteParameter{point, Value{std::string("VAI Stop: deceleration=1")}});
+    }
+    EXPECT_EQ(commands, 12u) << "8 motion commands, 4 of tables and curves";
+    EXPECT_EQ(parameters, 3u) << "warn word, table, curve";
+}
+
 TEST(LinmotAdapter, ChecksumsWorkAndSayThatTheyAreNotProven) {
     for (const char* kind : {"sum", "crc", "crc_reflected"}) {
         LineBench b(1, 115200, {}, {}, {{"checksum", kind}});
@@ -305,6 +354,93 @@ TEST(LinmotAdapter, StreamedSetPointsAreMovesAndNeverTheDrivesOwnStream) {
         EXPECT_EQ(b.drive().error_code(), 0);
         b.run(1s);
         EXPECT_EQ(b.drive().actual(), 10'000) << "the newest one counts";
+    }
+}
+
+TEST(LinmotAdapter, TheDrivesOwnStreamCarriesSetPointsWhereTheLineHoldsIt) {
+    LineBench b(1, 115'200, {{"set_points", "stream"}});
+    b.run(1s);
+    ASSERT_TRUE(b.enable());
+    double worst = 0;
+    const auto begin = b.now;
+    const auto place = [&](Instant at) { return 100'000 * (1 - std::cos(seconds(at - begin) * 3.14)); };  // +-10 mm
+    for (int i = 0; i < 400; ++i) {
+        b.stream(std::llround(place(b.now)), 1'000'000, 50'000'000);
+        b.run(10ms);
+        ASSERT_EQ(b.drive().error_code(), 0) << i;
+        if (i > 20) ASSERT_EQ(b.drive().ram(0x1DB0) >> 4, 0x031u);
+        if (i > 20) worst = std::max(worst, std::fabs(place(b.now) - b.drive().actual()));
+    }
+    EXPECT_LT(worst, 314'000 * 0.030) << "a period of the client, and 1.5 of the drive, behind at 314,000 increments/s";
+    EXPECT_TRUE(b.stream_ends.empty());
+    // Nobody renews: the last one is held, without an error of the drive.
+    b.stream(50'000, 1'000'000, 50'000'000);
+    b.run(1s);
+    EXPECT_EQ(b.drive().error_code(), 0);
+    EXPECT_EQ(b.drive().actual(), 50'000);
+    // Other exchanges have no room, and say so.
+    const Ticket t = b.submit(ReadParameter{*page().find("14BEh")});
+    b.run(50ms);
+    ASSERT_EQ(b.results[t].size(), 1u);
+    EXPECT_EQ(b.results[t].front().reason, Reason::busy);
+    // A halt leaves the stream; then everything is as before.
+    b.stream(500'000, 1'000'000, 50'000'000);
+    b.run(100ms);
+    EXPECT_TRUE(b.ask(Halt{}).outcome == Outcome::accepted);
+    b.run(500ms);
+    EXPECT_EQ(b.drive().error_code(), 0);
+    const auto rest = b.drive().actual();
+    EXPECT_LT(rest, 400'000);
+    b.run(500ms);
+    EXPECT_EQ(b.drive().actual(), rest);
+    EXPECT_EQ(b.drive().ram(0x1DB0) >> 4, 0x017u);
+    EXPECT_EQ(b.ask(ReadParameter{*page().find("14BEh")}).outcome, Outcome::done);
+    Move m;
+    m.target = 10'000;
+    m.velocity = 1'000'000;
+    m.acceleration = m.deceleration = 50'000'000;
+    EXPECT_EQ(b.ask(m).outcome, Outcome::accepted);
+    b.run(2s);
+    EXPECT_EQ(b.drive().actual(), 10'000);
+}
+
+TEST(LinmotAdapter, AStreamThatTheDriveEndsIsSaid) {
+    LineBench b(1, 115'200, {{"set_points", "stream"}});
+    b.run(1s);
+    ASSERT_TRUE(b.enable());
+    for (int i = 0; i < 20; ++i) {
+        b.stream(i * 100);
+        b.run(10ms);
+    }
+    ASSERT_EQ(b.hand("silent", Value{true}), "");
+    b.run(30ms);
+    ASSERT_EQ(b.hand("silent", Value{false}), "");
+    b.run(100ms);
+    EXPECT_TRUE(b.stream_ends.empty()) << "answers that are lost are no gap: the drive has heard all of it";
+    b.now += 30ms;  // the host is held up: a gap for the drive
+    b.run(300ms);
+    ASSERT_FALSE(b.stream_ends.empty());
+    EXPECT_NE(b.stream_ends.front().text.find("0083h"), std::string::npos) << b.stream_ends.front().text;
+    EXPECT_TRUE(b.feedback.begin()->second.fault);
+}
+
+TEST(LinmotAdapter, AStreamIsNotBegunWhereItsPeriodCannotBeHeld) {
+    struct Case {
+        std::size_t drives;
+        std::uint32_t bit_rate;
+    };
+    for (const Case c : {Case{1, 0}, Case{1, 57'600}, Case{2, 115'200}}) {
+        SCOPED_TRACE(testing::Message() << c.drives << " at " << c.bit_rate);
+        LineBench b(c.drives, c.bit_rate, {{"set_points", "stream"}});
+        EXPECT_TRUE(std::ranges::any_of(b.notices, [](const Notice& n) { return n.text.find("cannot hold") != std::string::npos; }));
+        b.run(1s);
+        ASSERT_TRUE(b.enable());
+        for (int i = 1; i <= 50; ++i) {
+            b.stream(i * 100);
+            b.run(10ms);
+        }
+        EXPECT_EQ(b.drive().ram(0x1DB0) >> 4, 0x010u) << "moves";
+        EXPECT_EQ(b.drive().error_code(), 0);
     }
 }
 

@@ -27,6 +27,8 @@ public:
     std::vector<Notice> notices;
     std::map<DriveId, DriveLink> links;
     std::vector<Sample> samples;
+    std::vector<Out::StreamEnd> stream_ends;
+    std::vector<Frame> sent;  ///< by the adapter, since the test cleared it
     std::uint64_t answers = 0;
 
     explicit LineBench(std::size_t drives = 1, std::uint32_t bit_rate = 115200, std::map<std::string, std::string> options = {},
@@ -93,10 +95,12 @@ public:
         return t;
     }
     /// A streamed set-point of position.
-    void stream(std::int64_t place, std::size_t axis = 0) {
+    void stream(std::int64_t place, std::optional<std::int64_t> velocity = {}, std::optional<std::int64_t> ramp = {}) {
         SetPoint p;
-        p.axis = AxisId{static_cast<std::uint16_t>(axis)};
+        p.axis = AxisId{0};
         p.value = place;
+        p.velocity = velocity;
+        p.acceleration = p.deceleration = ramp;
         p.at = now;
         Out out;
         adapter->on_set_point(p, now, out);
@@ -118,7 +122,7 @@ public:
 private:
     void take(const Out& out) {
         for (const auto& f : out.frames)
-            (void)bus->send(f.frame, f.priority, now);
+            sent.push_back(f.frame), (void)bus->send(f.frame, f.priority, now);
         for (const auto& f : out.feedback)
             feedback[f.axis] = f.value;
         for (const auto& r : out.results)
@@ -127,6 +131,7 @@ private:
             links[l.drive] = l;
         notices.insert(notices.end(), out.notices.begin(), out.notices.end());
         samples.insert(samples.end(), out.samples.begin(), out.samples.end());
+        stream_ends.insert(stream_ends.end(), out.stream_ends.begin(), out.stream_ends.end());
     }
     void on_frame(const Frame& frame) override {
         ++answers;

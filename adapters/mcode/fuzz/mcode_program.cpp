@@ -1,7 +1,7 @@
 // Fuzz: program text for MCode as a person writes it, before a drive's memory is touched, and what a drive might list of it.
 // In: the fuzzer's bytes: the text, and behind a zero a listing. Out: nothing; laws: lines to send or a fault that names its line; what is
 // sent are whole lines of the language within its bounds; a program that was checked lists without a difference.
-#include "adapters/mcode/program.hpp"
+#include "adapters/mcode/native_program.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 using namespace axisgate;

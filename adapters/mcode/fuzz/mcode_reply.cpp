@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-#include "adapters/mcode/framing.hpp"
+#include "adapters/mcode/wire_reply.hpp"
 
 using namespace axisgate::mcode;
 

@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "adapters/mcode/program.hpp"
+#include "adapters/mcode/native_program.hpp"
 #include "adapters/mcode/tests/line_bench.hpp"
 
 namespace axisgate::mcode::test {

@@ -1,11 +1,11 @@
 // Program texts judged without a drive: faults with their lines, and that nothing is refused which the manual prints as good.
 // In: texts, the manual's listings, the golden lines of vectors.txt, the texts of the twin's tests. Out: faults, lines to be sent.
 // Never speaks to a drive: downloads are in download_test.cpp.
-#include "adapters/mcode/program.hpp"
+#include "adapters/mcode/native_program.hpp"
 
 #include <fmt/core.h>
 
-#include "adapters/mcode/statement.hpp"
+#include "adapters/mcode/native_statement.hpp"
 #include "adapters/mcode/tests/fake_drive.hpp"
 #include "adapters/mcode/tests/printed_listings.hpp"
 #include "adapters/mcode/twin/statement.hpp"

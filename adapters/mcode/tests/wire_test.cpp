@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "adapters/mcode/decoder.hpp"
-#include "adapters/mcode/framing.hpp"
 #include "adapters/mcode/wire.hpp"
+#include "adapters/mcode/wire_reply.hpp"
 
 namespace axisgate::mcode {
 namespace {

@@ -49,6 +49,7 @@ struct Context {
     std::shared_ptr<AxisJobs> jobs = std::make_shared<AxisJobs>();          ///< many parameters of one axis, one after the other
     std::shared_ptr<AccessPort> access = nullptr;                           ///< users; without it this machine alone is let in
     std::shared_ptr<AlarmService> alarms{};                                 ///< the list of alarms; as with recipes
+    std::shared_ptr<Rehearsals> rehearsals{};                               ///< of loss of command; as with recipes
     std::shared_ptr<AxisTexts> axis_texts = std::make_shared<AxisTexts>();  ///< what GET /axes/{name} answers
     std::shared_ptr<StageOwner> stages = std::make_shared<StageOwner>();    ///< whose the staged site is
     std::shared_ptr<ClientsSeen> clients = std::make_shared<ClientsSeen>();       ///< to whom an axis can be handed over
@@ -171,6 +172,12 @@ Handled set_hand(Call&, DrivePort&, const SitePort&);
 Handled get_trace(Call&, const LinePort&, const SitePort&);
 Handled list_events(Call&, EventPort&);
 
+// --- handlers_fail_safe.cpp -------------------------------------------------------------------------------------------
+Handled get_fail_safe(Call&, const AxisPort&, const RehearsalPort&, const SitePort&);
+Handled get_axis_fail_safe(Call&, AxisPort&, RehearsalPort&, SitePort&);
+Handled put_axis_fail_safe(Call&, AxisPort&, RehearsalPort&, SitePort&, const StagePort&);
+Handled get_rehearsal(Call&);
+Handled start_rehearsal(Call&);
 // --- handlers_alarms.cpp ----------------------------------------------------------------------------------------------
 Handled list_alarms(Call&);
 Handled acknowledge_alarm(Call&);

@@ -128,6 +128,7 @@ void end_leases_of(AxisPort& axes, const SitePort& sites, std::string_view clien
         wish.kind = HoldAxis::Kind::release;
         command.body = wish;
         (void)axes.submit(std::move(command), [](const Result&) {});
+        axes.client_lost({Door::http, holder}, LossCause::lease_ended);
     }
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "gateway/axis/image.hpp"
 #include "gateway/services/ports/clock.hpp"
 #include "gateway/services/recipes/recipe_run.hpp"
 

@@ -8,6 +8,7 @@
 #include "tests/unit/http/fake_documents.hpp"
 #include "tests/unit/http/fake_events.hpp"
 #include "tests/unit/http/fake_lines.hpp"
+#include "tests/unit/http/fake_rehearsal.hpp"
 #include "tests/unit/http/fake_site.hpp"
 #include "tests/unit/http/fake_stage.hpp"
 
@@ -25,6 +26,7 @@ class FakeGateway final : public FakeClock,
                           public FakeSnapshots,
                           public FakeStage,
                           public FakeRegisters,
+                          public FakeRehearsal,
                           public FakeModbus,
                           public FakeBackup {
 public:

@@ -25,6 +25,7 @@ Harness::Harness()
             {"schema/openapi.yaml", "openapi: 3.0.3\n"}},
       recipes(std::make_shared<RecipeService>(gateway, [this] { return clock; })),
       alarms(std::make_shared<AlarmService>(gateway, [this] { return clock; })),
+      rehearsals(std::make_shared<Rehearsals>(gateway)),
       router(Context{
           gateway, settings,
           [this](std::string_view path) {
@@ -32,7 +33,7 @@ Harness::Harness()
               return it == files.end() ? std::string_view() : it->second.empty() ? std::string_view("", 0) : std::string_view(it->second);
           },
           [] { return std::string("axisgate_http_own 1\n"); }, std::make_shared<ChangeQueue>(), recipes, std::make_shared<AxisJobs>(),
-          nullptr, alarms}) {}
+          nullptr, alarms, rehearsals}) {}
 Harness::~Harness() = default;
 
 Router Harness::with_users(std::shared_ptr<AccessPort> access) {
@@ -42,7 +43,8 @@ Router Harness::with_users(std::shared_ptr<AccessPort> access) {
                           .own_metrics = {},
                           .recipes = recipes,
                           .access = std::move(access),
-                          .alarms = alarms}};
+                          .alarms = alarms,
+                          .rehearsals = rehearsals}};
 }
 
 HttpTest::HttpTest() = default;

@@ -15,7 +15,7 @@
 
 namespace axisgate::modbus::test {
 
-class FakePort final : public DoorPort {
+class FakePort : public DoorPort {
 public:
     /// Adds (or replaces) the axis with that number of the register map. The picture can be changed through edit().
     AxisId add_axis(std::uint16_t number, const Catalogue* catalogue = nullptr) {

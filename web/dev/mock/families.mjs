@@ -1,7 +1,7 @@
 // Mock families: what the catalogues say of whole families, as far as the page reads it. In: nothing. Out: documents of GET /families.
 // A stand-in for the page's author: a few options of each kind, no catalogue.
 
-/** @type {import('../../src/words/options').Family[]} */
+/** @type {import('../../src/text/options').Family[]} */
 export const families = [
   {
     name: 'mcode', title: 'Schneider Electric Lexium MCode', position_unit: 'step',
@@ -27,7 +27,7 @@ export const families = [
 ];
 
 const argument = { unit: null, scale: 1, min: null, max: null, default: null, description: null };
-/** Actions that every mock family has: one that takes nothing, one with numbers, one with a text and a switch. @type {import('../../src/words/action').CatalogueCommand[]} */
+/** Actions that every mock family has: one that takes nothing, one with numbers, one with a text and a switch. @type {import('../../src/text/action').CatalogueCommand[]} */
 export const commands = [
   { id: 'save', name: 'save', description: 'Keeps the settings.', completes: 'acknowledged', confirm: 'What has been saved is replaced.', arguments: [] },
   {

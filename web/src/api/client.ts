@@ -2,8 +2,8 @@
 // A browser opens at most six connections to one host. Ordinary requests use at most four at once and wait here for their turn;
 // urgent ones (stop, halt, disable) never wait behind them. At most 200 wait; beyond that a call is refused in words.
 // Never retries a command: a move that was perhaps taken must not be said twice. Only what is urgent and was refused for its token goes again, once.
-import type { CatalogueCommand } from '../words/action';
-import type { Family } from '../words/options';
+import type { CatalogueCommand } from '../text/action';
+import type { Family } from '../text/options';
 import { asProblem, Problem, problemOf } from './problem';
 import type {
   Action,

@@ -1,5 +1,5 @@
 // Mappings at the HTTP door: list, change, tables, lists for printing, registers as the Modbus door answers them. In: a client. Out: documents.
-import type { Mapping, MappingPoint, MappingSpec, Table } from '../words/mapping';
+import type { Mapping, MappingPoint, MappingSpec, Table } from '../text/mapping';
 import type { components } from './schema';
 import type { Client } from './client';
 

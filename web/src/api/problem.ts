@@ -1,6 +1,6 @@
 // Problem: what went wrong with a request, always with a sentence for people.
 // In: a response that is not good, or what fetch threw. Out: a Problem. Never shows a status number where the gateway gave words.
-import { plain } from '../words/plain';
+import { plain } from '../text/plain';
 import type { ProblemDocument } from './types';
 
 export type ProblemKind =

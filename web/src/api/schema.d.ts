@@ -516,6 +516,70 @@ export interface paths {
         patch: operations["changeModbus"];
         trace?: never;
     };
+    "/api/v1/fail_safe": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** What happens to each axis when whoever commands it is lost, by cause */
+        get: operations["getFailSafe"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/fail_safe/{axis}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+            };
+            cookie?: never;
+        };
+        /** The same of one axis */
+        get: operations["getAxisFailSafe"];
+        /**
+         * Says what happens to one axis; what is left out or null is the default again. A change of the site
+         * @description The path of an axis that is called `rehearsal` is taken; its choice is changed with `PATCH /api/v1/axes/rehearsal`.
+         */
+        put: operations["putAxisFailSafe"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/fail_safe/rehearsal": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The last rehearsal's report, and how far one that runs has come */
+        get: operations["getFailSafeRehearsal"];
+        put?: never;
+        /**
+         * Plays every cause on models of the axes and measures what comes of it; nothing real moves
+         * @description Each cell sets the model of the axis in motion (at `velocity_max` where the site has it), takes its client away, and measures until it
+         *     stands. The engine, the adapters and the wire times are those of the gateway; the drives are models in a time of their own. One
+         *     rehearsal at a time; the last 20 reports are kept.
+         */
+        post: operations["rehearseFailSafe"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/axes/{axis}/parameters": {
         parameters: {
             query?: never;
@@ -2260,11 +2324,99 @@ export interface components {
             modbus_closed?: components["schemas"]["FailSafeAction"];
             modbus_silent?: components["schemas"]["FailSafeAction"];
             set_points_silent?: components["schemas"]["FailSafeAction"];
+            lease_ended?: components["schemas"]["FailSafeAction"];
+            enip_closed?: components["schemas"]["FailSafeAction"];
+            enip_timed_out?: components["schemas"]["FailSafeAction"];
+            enip_idle?: components["schemas"]["FailSafeAction"];
+            line_lost?: components["schemas"]["FailSafeAction"];
+            gateway_ends?: components["schemas"]["FailSafeAction"];
             /** @description how long a connected Modbus client may ask nothing; 0: for ever; left out: [modbus] watchdog_ms */
             watchdog_ms?: number;
         };
         /** @enum {string} */
         FailSafeAction: "nothing" | "halt" | "quick_stop" | "disable";
+        /**
+         * @description null: the default
+         * @enum {string|null}
+         */
+        FailSafeWish: "nothing" | "halt" | "quick_stop" | "disable" | null;
+        /** @description as `fail_safe` of the axis in the site, with null for what it does not name */
+        FailSafeChoice: {
+            modbus_closed?: components["schemas"]["FailSafeWish"];
+            modbus_silent?: components["schemas"]["FailSafeWish"];
+            set_points_silent?: components["schemas"]["FailSafeWish"];
+            lease_ended?: components["schemas"]["FailSafeWish"];
+            enip_closed?: components["schemas"]["FailSafeWish"];
+            enip_timed_out?: components["schemas"]["FailSafeWish"];
+            enip_idle?: components["schemas"]["FailSafeWish"];
+            line_lost?: components["schemas"]["FailSafeWish"];
+            gateway_ends?: components["schemas"]["FailSafeWish"];
+            watchdog_ms?: number | null;
+        };
+        FailSafeRow: {
+            axis: string;
+            fail_safe: components["schemas"]["FailSafeChoice"];
+            /** @description for how long a connected Modbus client may ask nothing; 0: for ever */
+            watchdog_ms_in_force: number;
+            /** @description why the gateway stopped the axis without a command, until the next command to it */
+            last_cause: string | null;
+        };
+        FailSafeMatrix: {
+            causes: {
+                /** @enum {string} */
+                cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | "lease_ended" | "enip_closed" | "enip_timed_out" | "enip_idle" | "line_lost" | "gateway_ends";
+                /** @description as register 22 of the axis has it */
+                number: number;
+                description: string;
+                default_endless: components["schemas"]["FailSafeAction"];
+                default_to_a_target: components["schemas"]["FailSafeAction"];
+            }[];
+            axes: components["schemas"]["FailSafeRow"][];
+        };
+        /** @description times in ms from the loss; for silence, a lease and a lost drive from the last that was heard */
+        FailSafeCell: {
+            axis: string;
+            /** @enum {string} */
+            cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | "lease_ended" | "enip_closed" | "enip_timed_out" | "enip_idle" | "line_lost" | "gateway_ends";
+            /** @description what the site names; null: the default */
+            chosen: string | null;
+            taken: components["schemas"]["FailSafeAction"];
+            /** @description velocity, position or set_points: what the axis did at the loss */
+            motion: string;
+            /** @description unit/s at the loss */
+            speed: number;
+            /** @description the gateway acted; null: it did not */
+            noticed_ms: number | null;
+            /** @description the motor was a tenth slower */
+            reaction_ms: number | null;
+            /** @description it stood; null: it still moved when watching ended */
+            standstill_ms: number | null;
+            watched_ms: number;
+            /** @description from the loss on, in `unit` */
+            travel: number;
+            /** @description the same in words */
+            text: string;
+        };
+        FailSafeRehearsal: {
+            /** @enum {string} */
+            state: "none" | "running" | "done";
+            done: number;
+            total: number;
+            report: {
+                /** Format: date-time */
+                at: string;
+                /** Format: date-time */
+                ended_at: string;
+                who: string;
+                site_revision: number;
+                /** @description what it was played on */
+                on: string;
+                without_figures: number;
+                /** @description axes whose drives follow no streamed set-points */
+                without_set_points: string[];
+                cells: components["schemas"]["FailSafeCell"][];
+            } | null;
+        };
         AxisSpec: components["schemas"]["AxisFields"] & Record<string, never>;
         /** @description a whole axis; `name` may be left out, and the members that only tell the state are ignored */
         AxisChange: components["schemas"]["AxisFields"] & Record<string, never>;
@@ -2330,7 +2482,7 @@ export interface components {
              * @description why the gateway stopped the axis without a command, until the next command to it; null - it did not
              * @enum {string|null}
              */
-            readonly fail_safe_cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | null;
+            readonly fail_safe_cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | "lease_ended" | "enip_closed" | "enip_timed_out" | "enip_idle" | "line_lost" | "gateway_ends" | null;
             /** @description in `unit`; null until the drive has said it */
             readonly position: number | null;
             /** @description whether somebody says where the axis should be now; if not, position_demand and following_error are null */
@@ -5131,6 +5283,157 @@ export interface operations {
             503: components["responses"]["Unavailable"];
             504: components["responses"]["NoAnswer"];
             507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getFailSafe: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the causes with their defaults, and what the site names for each axis */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FailSafeMatrix"];
+                };
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    getAxisFailSafe: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description its row */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FailSafeRow"];
+                };
+            };
+            404: components["responses"]["NotFound"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    putAxisFailSafe: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
+                "If-Match"?: components["parameters"]["ifMatch"];
+            };
+            path: {
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "modbus_closed": "quick_stop",
+                 *       "line_lost": "disable",
+                 *       "watchdog_ms": 1000
+                 *     }
+                 */
+                "application/json": components["schemas"]["FailSafeChoice"];
+            };
+        };
+        responses: {
+            /** @description its row */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FailSafeRow"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            412: components["responses"]["PreconditionFailed"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            503: components["responses"]["Unavailable"];
+            504: components["responses"]["NoAnswer"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getFailSafeRehearsal: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description state and report */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FailSafeRehearsal"];
+                };
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    rehearseFailSafe: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /** @example {} */
+                "application/json": {
+                    /** @description names; left out: all */
+                    axes?: string[];
+                };
+            };
+        };
+        responses: {
+            /** @description it has begun; GET tells the rest */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FailSafeRehearsal"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            409: components["responses"]["Conflict"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
             default: components["responses"]["Problem"];
         };
     };

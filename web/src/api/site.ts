@@ -1,6 +1,6 @@
 // The site at the HTTP door: the document, the staged change, history, scan of a line, backup. In: a client. Out: documents.
 // `revision` is the entity tag that If-Match takes: a change against an older site is refused with 412.
-import type { Site } from '../words/site';
+import type { Site } from '../text/site';
 import type { Client } from './client';
 import type { components } from './schema';
 

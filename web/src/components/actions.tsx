@@ -5,9 +5,9 @@ import { useSignal } from '@preact/signals';
 import { asProblem } from '../api/problem';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
-import { kept } from '../state/kept';
-import { plain } from '../words/plain';
-import { bodyOf, nameOf, questionOf, faultsOf, found, hintOf, isFlag, labelOf, recipeText, type CatalogueCommand } from '../words/action';
+import { persisted } from '../state/persisted';
+import { plain } from '../text/plain';
+import { bodyOf, nameOf, questionOf, faultsOf, found, hintOf, isFlag, labelOf, recipeText, type CatalogueCommand } from '../text/action';
 import { Ask } from './ask';
 import { Choice, notOffered, quiet, Tell, TextField, type Told } from './form';
 import { Gate } from './gate';
@@ -16,8 +16,8 @@ import { useLoaded } from './loaded';
 export function Actions({ axis, family }: { axis: string; family: string }) {
   const { client } = useGateway();
   const commands = useSignal<CatalogueCommand[] | null>(null);
-  const sought = kept(`typed.action.sought.${axis}`);
-  const chosen = kept(`typed.action.name.${axis}`);
+  const sought = persisted(`typed.action.sought.${axis}`);
+  const chosen = persisted(`typed.action.name.${axis}`);
   const why = useLoaded(async () => void (commands.value = await client.familyCommands(family)), [client, family], (p) => (p.status === 404 ? notOffered('actions of this family') : p.words));
   if (commands.value === null) return <p class="where">{why}</p>;
   const offered = found(commands.value, sought.value);
@@ -28,7 +28,7 @@ export function Actions({ axis, family }: { axis: string; family: string }) {
       <div class="form card" data-part="actions">
         <div class="form-grid">
           <TextField label="Find" value={sought.value} onText={(t) => (sought.value = t)} hint={`${offered.length} of ${commands.value.length}`} />
-          <Choice label="Action" value={chosen.value} onChoice={(id) => (chosen.value = id)} choices={listed.map((c) => ({ value: c.id, text: c.id === c.name ? c.name : `${c.name} (${c.id})` }))} />
+          <Choice label="Action" value={chosen.value} onChoice={(id) => (chosen.value = id)} choices={listed.map((c) => ({ value: c.id, text: c.id === c.name ? nameOf(c) : `${nameOf(c)} (${c.id})` }))} />
         </div>
         {command && <ActionForm key={`${axis} ${command.id}`} axis={axis} command={command} />}
       </div>
@@ -38,8 +38,8 @@ export function Actions({ axis, family }: { axis: string; family: string }) {
 
 function ActionForm({ axis, command }: { axis: string; command: CatalogueCommand }) {
   const { client } = useGateway();
-  const typed = kept(`typed.action.values.${axis}.${command.id}`, '{}');
-  const text = kept(`typed.action.text.${axis}.${command.id}`);
+  const typed = persisted(`typed.action.values.${axis}.${command.id}`, '{}');
+  const text = persisted(`typed.action.text.${axis}.${command.id}`);
   const told = useSignal<Told>(quiet);
   const tried = useSignal(false);
   /** What was asked about: it alone is sent when the answer is yes. */
@@ -67,7 +67,7 @@ function ActionForm({ axis, command }: { axis: string; command: CatalogueCommand
     told.value = { tone: 'busy', text: 'Sent…' };
     try {
       const a = await client.act(axis, body);
-      told.value = { tone: 'good', text: capital(plain(a.text || `${command.name}: ${a.result}`)) };
+      told.value = { tone: 'good', text: capital(plain(a.text || `${nameOf(command)}: ${a.result}`)) };
     } catch (error) {
       told.value = { tone: 'refused', text: capital(asProblem(error).words) };
     }

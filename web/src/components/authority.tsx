@@ -8,7 +8,7 @@ import { useGateway } from '../gateway';
 import { tick } from '../state/clock';
 import { barred } from '../state/session';
 import type { AxisEntry } from '../state/store';
-import { handOverChoices, heldBy, heldWords, holderName } from '../words/authority';
+import { handOverChoices, heldBy, heldWords, holderName } from '../text/authority';
 import { quiet, Tell, TextField, type Told } from './form';
 
 const ttl_s = 30;

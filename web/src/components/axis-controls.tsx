@@ -4,9 +4,9 @@ import { signal, useSignal, type Signal } from '@preact/signals';
 import { useId, useMemo } from 'preact/hooks';
 import type { Axis, Command } from '../api/types';
 import { useGateway } from '../gateway';
-import { kept } from '../state/kept';
-import { setPositionWords, unitOf } from '../words/axis';
-import { parseQuantity } from '../words/number';
+import { persisted } from '../state/persisted';
+import { setPositionWords, unitOf } from '../text/axis';
+import { parseQuantity } from '../text/number';
 import { Ask } from './ask';
 import { Field } from './field';
 import { Icon } from './icon';
@@ -22,7 +22,7 @@ export function useControls(axis: Axis) {
   const { commander } = useGateway();
   const name = axis.name;
   const fields = useMemo(() => {
-    const f = (w: Which, first = '') => kept(`typed.${name}.${w}`, first);
+    const f = (w: Which, first = '') => persisted(`typed.${name}.${w}`, first);
     return { target: f('target'), distance: f('distance'), speed: f('speed', gentle(axis)), acceleration: f('acceleration'), deceleration: f('deceleration'), zero: f('zero') };
   }, [name]);
   const wrong: Signal<Which | ''> = useMemo(() => signal(''), [name]);

@@ -2,7 +2,7 @@
 // In: the axis' name. Out: a row. Everything else that can be told to it is on its page.
 import { useGateway } from '../gateway';
 import { axisPath } from '../router';
-import { markOf, positionText, unitOf } from '../words/axis';
+import { markOf, positionText, unitOf } from '../text/axis';
 import { ResultLine, resultId } from './axis-controls';
 import { Notice, StatePills } from './axis-tile';
 import { Mark } from './pill';

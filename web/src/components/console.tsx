@@ -5,7 +5,7 @@ import { useEffect, useRef } from 'preact/hooks';
 import { asProblem } from '../api/problem';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
-import { kept } from '../state/kept';
+import { persisted } from '../state/persisted';
 
 interface Exchange {
   id: number;
@@ -27,7 +27,7 @@ let counter = 0;
 export function Console({ drive }: { drive: string }) {
   const { client } = useGateway();
   const log = logOf(drive);
-  const typed = kept(`typed.native.${drive}`);
+  const typed = persisted(`typed.native.${drive}`);
   const asHex = useSignal(false);
   const place = useRef(0);
   const view = useRef<HTMLDivElement>(null);

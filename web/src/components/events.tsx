@@ -1,12 +1,12 @@
 // Events, newest first: severity in words and icon, what happened, to what, by whom. In: events. Out: a list.
 // Severity is a word and a shape before it is a colour.
 import type { GatewayEvent, Severity } from '../api/types';
-import { withoutSubject } from '../words/alarm';
-import { plainWord } from '../words/plain';
-import { clockTime } from '../words/time';
+import { withoutSubject } from '../text/alarm';
+import { plainWord } from '../text/plain';
+import { clockTime } from '../text/time';
 import { useComputed } from '@preact/signals';
 import { useGateway } from '../gateway';
-import { groupsOf, inUnits, type Scale } from '../words/event';
+import { groupsOf, inUnits, type Scale } from '../text/event';
 import { Icon, type IconName } from './icon';
 import { memo } from './memo';
 import { AxisName, DriveName } from './name';

@@ -7,7 +7,7 @@ import { route, type Route } from '../router';
 import { axesFilter } from '../state/axes-filter';
 import { tick } from '../state/clock';
 import { dark, nextTheme } from '../state/theme';
-import { duration } from '../words/time';
+import { duration } from '../text/time';
 import { Icon, type IconName } from './icon';
 import { lastKnownWords } from './axis-tile';
 import { StopAll } from './stop';

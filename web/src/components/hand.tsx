@@ -7,9 +7,9 @@ import { asProblem } from '../api/problem';
 import type { HandItem, Value } from '../api/types';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
-import { handGroups, handLabel, positionInUnit, type HandAxis, type HandGroup } from '../words/hand';
-import { editText } from '../words/parameter';
-import { parseNumber } from '../words/number';
+import { handGroups, handLabel, positionInUnit, type HandAxis, type HandGroup } from '../text/hand';
+import { editText } from '../text/parameter';
+import { parseNumber } from '../text/number';
 import { Empty } from './lines';
 
 const period_ms = 2_000;

@@ -3,8 +3,8 @@
 import { useGateway } from '../gateway';
 import { linePath } from '../router';
 import type { Drive, Line } from '../api/types';
-import type { Word } from '../words/axis';
-import { formatExact } from '../words/number';
+import type { Word } from '../text/axis';
+import { formatExact } from '../text/number';
 import { Icon } from './icon';
 import { AxisName } from './name';
 import { Pill } from './pill';

@@ -5,17 +5,17 @@ import { signal, useSignal, type Signal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import { useGateway } from '../gateway';
 import { addressBase, addressField, forgetAddressField } from '../state/address-base';
-import { emptied, kept } from '../state/kept';
+import { emptied, persisted } from '../state/persisted';
 import type { Clash, MappingBook } from '../state/mappings';
-import { checkTexts, conflictsOf, emptyTexts, fields, neighbourText, nextFree, placeText, signWarning, tables, textsOf, types, widthOf, type Field, type Known, type Mapping, type Table, type Texts } from '../words/mapping';
-import { addressText, doubtText, otherText, readAddress, spanText } from '../words/address';
-import { naturalType } from '../words/mapping-type';
+import { checkTexts, conflictsOf, emptyTexts, fields, neighbourText, nextFree, placeText, signWarning, tables, textsOf, types, widthOf, type Field, type Known, type Mapping, type Table, type Texts } from '../text/mapping';
+import { addressText, doubtText, otherText, readAddress, spanText } from '../text/address';
+import { naturalType } from '../text/mapping-type';
 import { Choice, quiet, Tell, TextField, toldOf, type Told } from './form';
 import { useNamed } from './name';
 import { Section } from './section';
 
 type Draft = Record<Field, Signal<string>>;
-const keptDraft = (): Draft => Object.fromEntries(fields.map((f) => [f, kept(`mapping.${f}`, emptyTexts[f])])) as Draft;
+const keptDraft = (): Draft => Object.fromEntries(fields.map((f) => [f, persisted(`mapping.${f}`, emptyTexts[f])])) as Draft;
 const draftOf = (m: Mapping): Draft => {
   const d = Object.fromEntries(Object.entries(textsOf(m)).map(([f, t]) => [f, signal(t)])) as Draft;
   d.address.value = addressText(m.table, m.address, addressBase());
@@ -27,7 +27,7 @@ const read = (d: Draft): Texts => Object.fromEntries(fields.map((f) => [f, d[f].
 const adding = keptDraft();
 addressField(adding.address, () => adding.table.peek() as Table);
 /** Not empty: the type was chosen by hand, and stays whatever the point is. Of an entry that is changed: unless its type is its point's own. */
-const byHand = new WeakMap<Draft, Signal<string>>([[adding, kept('mapping.type_by_hand')]]);
+const byHand = new WeakMap<Draft, Signal<string>>([[adding, persisted('mapping.type_by_hand')]]);
 /** Puts a free place into the form for adding. */
 export function addAt(unit: number, table: Table, address: number): void {
   adding.unit.value = String(unit);
@@ -140,7 +140,7 @@ export function MappingForm({ book, known, editing, done }: MappingFormProps) {
       >
         <div class="form-grid">
           <Choice label="Axis" value={texts.axis} onChoice={set('axis')} fault={shown('axis')} choices={[{ value: '', text: 'choose' }, ...store.axisNames.value.map((n) => ({ value: n, text: named(n) }))]} />
-          <TextField label="Point or parameter" class="wide" value={texts.point} onText={set('point')} fault={shown('point')} offers={offers} placeholder="position_units, MT[1] …" hint={known.points.find((p) => p.point === texts.point)?.description} />
+          <TextField label="Point or parameter" class="wide" value={texts.point} onText={set('point')} fault={shown('point')} offers={offers} placeholder="position, MT[1] …" hint={known.points.find((p) => p.point === texts.point)?.description} />
           <TextField label="Unit ID" number value={texts.unit} onText={set('unit')} fault={shown('unit')} />
           <Choice label="Table" value={texts.table} onChoice={set('table')} fault={shown('table')} choices={tables.map((t) => ({ value: t.id, text: t.name }))} />
           <TextField

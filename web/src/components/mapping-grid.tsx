@@ -4,9 +4,9 @@
 import { useSignal, type ReadonlySignal } from '@preact/signals';
 import { useGateway } from '../gateway';
 import { addressBase } from '../state/address-base';
-import { gridOf, placeText, pointUnit, pointValue, tableOf, type Mapping, type Table } from '../words/mapping';
-import { addressText, otherText, spanText } from '../words/address';
-import { formatExact } from '../words/number';
+import { gridOf, placeText, pointUnit, pointValue, tableOf, type Mapping, type Table } from '../text/mapping';
+import { addressText, otherText, spanText } from '../text/address';
+import { formatExact } from '../text/number';
 import type { Heard } from '../state/register-look';
 import { useBarred } from './gate';
 import { Icon } from './icon';

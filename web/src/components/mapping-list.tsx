@@ -2,8 +2,8 @@
 // Out: what the printer sees; on the screen it is not drawn. And the links to the lists that the gateway makes itself.
 import { listAddress, type MappingDoor } from '../api/mappings';
 import { useGateway } from '../gateway';
-import { endOf, oneBased, tables, type Known, type Mapping } from '../words/mapping';
-import { valueUnit } from '../words/mapping-type';
+import { endOf, oneBased, tables, type Known, type Mapping } from '../text/mapping';
+import { valueUnit } from '../text/mapping-type';
 import { notOffered } from './form';
 import { useLoaded, waiting } from './loaded';
 import { scaleText } from './mapping-grid';
@@ -51,7 +51,7 @@ export function PrintedList({ rows, known, hash }: { rows: readonly Mapping[]; k
                     <td>{endOf(m) === m.address ? m.address : `${m.address}–${endOf(m)}`}</td>
                     <td>{oneBased(m.table, m.address)}</td>
                     <td>{named(m.axis)}</td>
-                    <td>{m.point}</td>
+                    <td class="mono">{m.point}</td>
                     <td>{m.type}</td>
                     <td>{endOf(m) === m.address ? '' : m.word_order.replace('_', ' ')}</td>
                     <td>{unitOf(m)}</td>

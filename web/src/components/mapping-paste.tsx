@@ -4,14 +4,14 @@ import { useSignal } from '@preact/signals';
 import { useMemo } from 'preact/hooks';
 import { Problem } from '../api/problem';
 import { useGateway } from '../gateway';
-import { emptied, kept } from '../state/kept';
+import { emptied, persisted } from '../state/persisted';
 import type { MappingBook } from '../state/mappings';
-import { catalogueMissing, csvOfSpecs, readTable } from '../words/mapping-table';
-import { placeText, tableOf, type Known } from '../words/mapping';
+import { catalogueMissing, csvOfSpecs, readTable } from '../text/mapping-table';
+import { placeText, tableOf, type Known } from '../text/mapping';
 import { quiet, Tell, toldOf, type Told } from './form';
 import { Section } from './section';
 
-const text = kept('mappings.paste');
+const text = persisted('mappings.paste');
 const mostShown = 200;
 const largest = 2_000_000;
 

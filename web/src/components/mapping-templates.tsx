@@ -5,18 +5,18 @@ import { MappingDoor } from '../api/mappings';
 import { asProblem } from '../api/problem';
 import { useGateway } from '../gateway';
 import { addressBase, addressField } from '../state/address-base';
-import { emptied, kept } from '../state/kept';
+import { emptied, persisted } from '../state/persisted';
 import type { MappingBook } from '../state/mappings';
-import { addressText, readAddress, spanText } from '../words/address';
-import { freeBlock, placeText, type Mapping } from '../words/mapping';
-import { parseNumber } from '../words/number';
+import { addressText, readAddress, spanText } from '../text/address';
+import { freeBlock, placeText, type Mapping } from '../text/mapping';
+import { parseNumber } from '../text/number';
 import { Choice, notOffered, quiet, Tell, TextField, toldOf, type Told } from './form';
 import { useNamed } from './name';
 import { Section } from './section';
 
-const axis = kept('template.axis');
-const unit = kept('template.unit', '2');
-const address = addressField(kept('template.address'), () => 'holding_registers');
+const axis = persisted('template.axis');
+const unit = persisted('template.unit', '2');
+const address = addressField(persisted('template.address'), () => 'holding_registers');
 /** Registers of the standard map of one axis. */
 const blockWidth = 64;
 

@@ -5,7 +5,7 @@ import { asProblem } from '../api/problem';
 import type { ModbusDoor as Door } from '../api/types';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
-import { allowedWords, functionWords } from '../words/register-map';
+import { allowedWords, functionWords } from '../text/register-map';
 import { quiet, Tell, type Told } from './form';
 import { useBarred, Why } from './gate';
 import { Empty } from './lines';

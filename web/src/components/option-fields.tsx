@@ -2,8 +2,8 @@
 // In: the family's catalogue, the texts. Out: what is typed. Nothing is left out unseen: an option that the family does not know is shown, and says so.
 import { useSignal } from '@preact/signals';
 import { useRef } from 'preact/hooks';
-import { optionField, optionFault, optionPrefix, optionsTitle, unknownOptions, type OptionSpec } from '../words/options';
-import type { Room, Texts } from '../words/site';
+import { optionField, optionFault, optionPrefix, optionsTitle, unknownOptions, type OptionSpec } from '../text/options';
+import type { Room, Texts } from '../text/site';
 import { Choice, TextField } from './form';
 
 interface Props {

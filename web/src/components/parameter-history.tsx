@@ -5,8 +5,8 @@ import { asProblem } from '../api/problem';
 import type { AxisParameter } from '../api/types';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
-import { valueText } from '../words/parameter';
-import { clockTime } from '../words/time';
+import { valueText } from '../text/parameter';
+import { clockTime } from '../text/time';
 
 const most = 20;
 

@@ -6,8 +6,8 @@ import type { AxisParameter } from '../api/types';
 import { useGateway } from '../gateway';
 import { tick } from '../state/clock';
 import { isLive } from '../state/reread';
-import { valueText } from '../words/parameter';
-import { clockTime, duration } from '../words/time';
+import { valueText } from '../text/parameter';
+import { clockTime, duration } from '../text/time';
 
 /** What was read before this is old: a command, or a lost connection, has come since. The gateway's clock. */
 export type Since = ReadonlySignal<number>;
@@ -19,7 +19,7 @@ export function LiveValue({ p, since, differs }: { p: AxisParameter; since: Sinc
   void tick.value;
   const live = store.connected.value && isLive(heardAt(p), store.gatewayNow_ms(), since.value);
   return (
-    <span class={`mono value${differs ? ' differs' : ''}${live ? '' : ' is-old-value'}`} data-live={live} title={p.at ? `The drive said it at ${clockTime(p.at)}` : 'Not read yet'}>
+    <span class={`mono value${differs ? ' differs' : ''}${live ? '' : ' is-old-value'}`} data-live={live} title={p.at ? `${valueText(p.value, p)}, as the drive said at ${clockTime(p.at)}` : 'Not read yet'}>
       {valueText(p.value, p)}
     </span>
   );
@@ -31,14 +31,13 @@ export function Age({ p }: { p: AxisParameter }) {
   if (at_ms === null) return null;
   return (
     <span class="age" data-field="age">
-      {' '}
       {duration(store.gatewayNow_ms() - at_ms)} ago
     </span>
   );
 }
 
-/** The ids of the rows that are on the screen now. */
-export function useOnScreen(body: { current: HTMLElement | null }): ReadonlySet<string> {
+/** The ids of the rows that are on the screen now. `rows`: looked at anew when these are others. */
+export function useOnScreen(body: { current: HTMLElement | null }, rows: unknown): ReadonlySet<string> {
   const seen = useMemo(() => new Set<string>(), []);
   const eye = useMemo(
     () =>
@@ -57,7 +56,7 @@ export function useOnScreen(body: { current: HTMLElement | null }): ReadonlySet<
     eye?.disconnect();
     seen.clear();
     for (const row of body.current?.children ?? []) eye?.observe(row);
-  });
+  }, [rows, body.current]);
   useEffect(() => () => eye?.disconnect(), []);
   return seen;
 }

@@ -7,9 +7,9 @@ import { asProblem } from '../api/problem';
 import type { AxisParameter } from '../api/types';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
-import { emptied, kept } from '../state/kept';
-import { editText, steppedText, unitWords, valueText } from '../words/parameter';
-import { csvOfParameters, jsonOfParameters, parametersWords, readTransfer } from '../words/transfer';
+import { emptied, persisted } from '../state/persisted';
+import { editText, steppedText, unitWords, valueText } from '../text/parameter';
+import { csvOfParameters, jsonOfParameters, parametersWords, readTransfer } from '../text/transfer';
 import { quiet, Tell, type Told } from './form';
 import { Section } from './section';
 
@@ -29,7 +29,7 @@ export function saveText(name: string, type: string, text: string): void {
 export function ParameterTransfer({ axis }: { axis: string }) {
   const { client, store } = useGateway();
   const no = useBarred('engineer');
-  const text = kept(`transfer.${axis}`);
+  const text = persisted(`transfer.${axis}`);
   const list = useSignal<AxisParameter[]>([]);
   const told = useSignal<Told>(quiet);
   const sending = useRef<{ stop: boolean } | null>(null);

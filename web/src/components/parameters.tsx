@@ -1,43 +1,26 @@
-// Parameters of one axis: live, stored and default value, range, who wrote last; read from the drive, write with a check before.
-// In: REST. Out: a table. What is on the screen is read again, one value at a time, unless that is switched off; each value tells its age, and
-// grey ones are old. Reading all goes one by one and can be ended; a slow drive is not flooded. What was typed stays until the drive took it.
-// At most 100 rows are drawn at once; more on demand.
-import { useBarred, Why } from './gate';
-import { signal, useSignal, type Signal } from '@preact/signals';
-import { useEffect, useId, useMemo, useRef } from 'preact/hooks';
+// Parameters of one axis: the table, its search and filters, reading and writing. In: REST. Out: rows of parameter-row.tsx.
+// What is on the screen is read again, one value at a time, unless that is switched off; after a command first what was read before it. A value that
+// comes changes the text of its cell alone: no row moves, comes or goes by it. Reading all goes one by one and can be ended; a slow drive is not
+// flooded. What was typed stays until the drive took it. At most 100 rows are drawn at once; more on demand.
+import { effect, signal, useSignal, type Signal } from '@preact/signals';
+import { useEffect, useMemo, useRef } from 'preact/hooks';
 import { asProblem } from '../api/problem';
-import type { AxisParameter } from '../api/types';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
-import { kept } from '../state/kept';
+import { persisted } from '../state/persisted';
 import { dueNext, pauseAfter } from '../state/reread';
-import { isApart, isChanged, isMarked, marks, type Marked } from '../words/transfer';
-import { addressingWords, editText, fieldLines, fieldValue, rangeText, readValue, sameValue, searchRank, steppedText, unitWords, valueText, withField } from '../words/parameter';
-import { Ask } from './ask';
-import { Icon } from './icon';
+import { readValue, sameValue, searchRank, valueText } from '../text/parameter';
+import { isMarked, marks, type Marked } from '../text/transfer';
+import { Why } from './gate';
 import { Empty } from './lines';
-import { memo } from './memo';
-import { Written } from './parameter-history';
-import { Age, heardAt, LiveValue, useOnScreen, type Since } from './parameter-live';
+import { heardAt, useOnScreen } from './parameter-live';
+import { isLongArray, newRow, ParameterRow, type Row } from './parameter-row';
 import { Section } from './section';
 
 const rowsAtOnce = 100;
 const idle_ms = 400;
 /** Whether what is on the screen is read again. */
-const keep = kept('parameters.keep', 'no', 'browser');
-
-interface Row {
-  data: Signal<AxisParameter>;
-  note: Signal<{ tone: 'none' | 'busy' | 'good' | 'refused'; text: string }>;
-  /** What is typed; null: the field shows nothing of its own. */
-  typed: Signal<string | null>;
-  /** The value that was asked about before it is written: the drive is reached by this parameter. */
-  asked: Signal<string | null>;
-  /** When reading it without being asked was last refused, by the gateway's clock. */
-  refused_ms: number | null;
-}
-
-const isLongArray = (p: AxisParameter) => p.count !== null && p.count > 0 && !/\]$/.test(p.id);
+const keep = persisted('parameters.keep', 'yes', 'browser');
 
 export function Parameters({ axis }: { axis: string }) {
   const { client, store } = useGateway();
@@ -47,6 +30,8 @@ export function Parameters({ axis }: { axis: string }) {
   const group = useSignal('');
   const mark = useSignal<Marked>('all');
   const most = useSignal(rowsAtOnce);
+  /** How often the filter was asked again. */
+  const asked = useSignal(0);
   const progress = useSignal<{ done: number; of: number } | null>(null);
   const reading = useRef<AbortController | null>(null);
   const epoch = store.connection.value.epoch;
@@ -79,7 +64,42 @@ export function Parameters({ axis }: { axis: string }) {
     if (epoch !== 0) since.value = store.gatewayNow_ms();
   }, [axis, epoch]);
   useEffect(() => store.onEvent((e) => void (e.axis === axis && e.kind === 'command' && (since.value = store.gatewayNow_ms()))), [axis]);
-  const onScreen = useOnScreen(table);
+  // A command's end changes values as its beginning does: power, motion, who answers.
+  useEffect(() => {
+    let before: string | undefined;
+    return effect(() => {
+      const a = store.axis(axis)?.value.data;
+      const now = a && `${a.state} ${a.moving} ${a.referenced} ${a.presence}`;
+      if (now !== undefined && before !== undefined && now !== before) since.value = store.gatewayNow_ms();
+      before = now;
+    });
+  }, [axis]);
+  // Somebody else wrote: look again at what is known.
+  useEffect(
+    () =>
+      store.onEvent((e) => {
+        if (e.axis !== axis || !e.parameter) return;
+        // The parameter itself, and those whose unit and range hang on it.
+        const touched = rows.peek().filter((r) => r.data.peek().id === e.parameter || r.data.peek().alternate?.parameter === e.parameter);
+        for (const row of touched) void client.parameter(axis, row.data.peek().id, { cached: true }).then((p) => (row.data.value = p), () => undefined);
+      }),
+    [axis],
+  );
+
+  const groups = [...new Set(rows.value.map((r) => r.data.peek().group))].filter(Boolean);
+  // What a filter shows is settled when it is set: a value that comes later takes no row away and brings none.
+  const matching = useMemo(
+    () =>
+      rows.value
+        .map((row) => ({ row, rank: searchRank(row.data.peek(), search.value) }))
+        .filter(({ row, rank }) => rank !== null && (group.value === '' || row.data.peek().group === group.value) && isMarked(row.data.peek(), mark.value))
+        .sort((x, y) => (x.rank ?? 0) - (y.rank ?? 0)) // stable: equals keep the order of the manual
+        .map(({ row }) => row),
+    [rows.value, search.value, group.value, mark.value, asked.value],
+  );
+  const shown = useMemo(() => matching.slice(0, most.value), [matching, most.value]);
+  const onScreen = useOnScreen(table, shown);
+
   useEffect(() => {
     if (keep.value !== 'yes') return;
     const end = new AbortController();
@@ -99,29 +119,6 @@ export function Parameters({ axis }: { axis: string }) {
       clearTimeout(timer);
     };
   }, [axis, keep.value]);
-  // Somebody else wrote: look again at what is known.
-  useEffect(
-    () =>
-      store.onEvent((e) => {
-        if (e.axis !== axis || !e.parameter) return;
-        // The parameter itself, and those whose unit and range hang on it.
-        const touched = rows.peek().filter((r) => r.data.peek().id === e.parameter || r.data.peek().alternate?.parameter === e.parameter);
-        for (const row of touched) void client.parameter(axis, row.data.peek().id, { cached: true }).then((p) => (row.data.value = p), () => undefined);
-      }),
-    [axis],
-  );
-
-  const groups = [...new Set(rows.value.map((r) => r.data.peek().group))].filter(Boolean);
-  const matching = rows.value
-    .map((row) => ({ row, rank: searchRank(row.data.peek(), search.value) }))
-    .filter(({ row, rank }) => {
-      const p = row.data.peek();
-      if (rank === null || (group.value && p.group !== group.value)) return false;
-      return mark.value === 'all' || isMarked(row.data.value, mark.value);
-    })
-    .sort((x, y) => (x.rank ?? 0) - (y.rank ?? 0)) // stable: equals keep the order of the manual
-    .map(({ row }) => row);
-  const shown = matching.slice(0, most.value);
 
   const readAll = async () => {
     const end = (reading.current = new AbortController());
@@ -274,6 +271,7 @@ export function Parameters({ axis }: { axis: string }) {
               ))}
             </tbody>
           </table>
+          {mark.value !== 'all' && <Elsewise rows={rows.value} shown={matching} mark={mark.value} again={() => (asked.value += 1)} within={(r) => searchRank(r.data.peek(), search.value) !== null && (group.value === '' || r.data.peek().group === group.value)} />}
           {matching.length > shown.length && (
             <button type="button" class="button more" onClick={() => (most.value += rowsAtOnce)}>
               Show more ({matching.length - shown.length} are not shown)
@@ -285,172 +283,15 @@ export function Parameters({ axis }: { axis: string }) {
   );
 }
 
-const newRow = (p: AxisParameter): Row => ({ data: signal(p), note: signal({ tone: 'none', text: '' }), typed: signal(null), asked: signal(null), refused_ms: null });
-
-interface RowProps {
-  axis: string;
-  row: Row;
-  since: Since;
-  read: (row: Row) => void;
-  write: (row: Row) => void;
-  open: (row: Row) => void;
-}
-
-function RowView({ axis, row, since, read, write, open }: RowProps) {
-  const note = useId();
-  const p = row.data.value;
-  const n = row.note.value;
-  const differs = isChanged(p);
-  const apart = isApart(p);
-  const long = isLongArray(p);
+/** Values that came since a filter was set may fit it otherwise: said, and done on demand. */
+function Elsewise({ rows, shown, mark, within, again }: { rows: Row[]; shown: Row[]; mark: Marked; within: (row: Row) => boolean; again: () => void }) {
+  const fits = new Set(rows.filter((r) => isMarked(r.data.value, mark) && within(r)));
+  const gone = shown.filter((r) => !fits.has(r)).length;
+  const come = fits.size - (shown.length - gone);
+  if (gone === 0 && come === 0) return null;
   return (
-    <tr data-parameter={p.id} class={p.quality === 'good' ? '' : 'is-not-good'}>
-      <th scope="row" title={p.description}>
-        <span class="both">
-          <span class="mono id">{p.id}</span>
-          <span class="name">{p.name.replaceAll('_', ' ')}</span>
-        </span>
-      </th>
-      <td class="num" data-label="Live" data-field="live">
-        {long ? (
-          <span class="where">{p.count} elements</span>
-        ) : (
-          <>
-            <LiveValue p={p} since={since} differs={differs} />{' '}
-            <span class="unit">{p.value !== null && !p.allowed ? `${unitWords(p.unit)} ${steppedText(p.value, p.unit)}`.trim() : ''}</span>
-            {differs && <span class="flag changed" title="Not the default of the family"> changed</span>}
-            {p.quality === 'stale' && <span class="flag"> stale</span>}
-            <Age p={p} />
-            {p.quality === 'unknown' && <span class="visually-hidden"> not read yet</span>}
-            {fieldLines(p.value, p).map((line) => (
-              <span key={line} class="part">
-                {line}
-              </span>
-            ))}
-          </>
-        )}
-      </td>
-      <td class="num mono" data-label="Stored">
-        {valueText(p.stored, p)}
-        {apart && <span class="flag" title="The drive has another value than the one written last"> differs</span>}
-      </td>
-      <td class="num mono" data-label="Default">{valueText(p.default, p)}</td>
-      <td class="range" data-label="Range">
-        <span class="mono">{rangeText(p)}</span> <span class="unit">{unitWords(p.unit)}</span>
-      </td>
-      <td class="edit" data-label="New value">
-        <div class="edit-row">
-          {long ? (
-            <button type="button" class="button small" onClick={() => open(row)}>
-              List elements
-            </button>
-          ) : (
-            <>
-              {p.access !== 'R' && <Editor row={row} describedBy={note} write={() => write(row)} />}
-              {p.access !== 'W' && (
-                <button type="button" class="button small quiet square" aria-label={`Read ${p.id} from the drive`} title="Read from the drive" onClick={() => read(row)}>
-                  <Icon name="refresh" size={14} />
-                </button>
-              )}
-              {p.access === 'R' && <span class="where">read only</span>}
-            </>
-          )}
-        </div>
-        {row.asked.value !== null && (
-          <Ask
-            field="addressing-question"
-            words={addressingWords(axis, p, row.asked.value)}
-            yes={`Write ${p.id}`}
-            onNo={() => (row.asked.value = null)}
-            onYes={() => {
-              row.typed.value = row.asked.peek();
-              write(row);
-            }}
-          />
-        )}
-        <p class={`row-note result-${n.tone}`} id={note} role="status">
-          {n.text || typedText(row.typed.value, p)}
-        </p>
-      </td>
-      <td class="written" data-label="Last written">
-        <Written axis={axis} p={p} />
-      </td>
-    </tr>
-  );
-}
-/** What is typed for a unit that is counted in steps, as a quantity: the field itself takes the drive's own number. */
-function typedText(typed: string | null, p: AxisParameter): string {
-  const value = typed === null || typed.trim() === '' || p.allowed ? null : readValue(typed, p);
-  const text = value?.good ? steppedText(value.value, p.unit) : '';
-  return text && `${typed?.trim()} ${unitWords(p.unit)} ${text}`;
-}
-
-const ParameterRow = memo(RowView, (a, b) => a.row === b.row);
-
-function Editor({ row, describedBy, write }: { row: Row; describedBy: string; write: () => void }) {
-  const no = useBarred('engineer');
-  const p = row.data.value;
-  const wrong = row.note.value.tone === 'refused' && row.typed.value !== null;
-  const text = row.typed.value ?? '';
-  const parts = p.access === 'RW' && p.fields?.every((f) => f.allowed) ? p.fields : null;
-  const choices = p.type === 'bool' ? [{ value: 0, meaning: 'off' }, { value: 1, meaning: 'on' }] : p.allowed && p.allowed.length > 0 ? p.allowed : null;
-  return (
-    <>
-      {parts && parts.length > 0 && p.alternate === null ? (
-        <span class="parts">
-          {parts.map((f) => {
-            const whole = typeof p.value === 'number' && text === '' ? p.value : Number(text || 0);
-            return (
-              <label key={f.name}>
-                <span>{f.name.replaceAll('_', ' ')}</span>
-                <select
-                  aria-label={`New ${f.name.replaceAll('_', ' ')} of ${p.id}`}
-                  aria-describedby={describedBy}
-                  value={String(fieldValue(whole, f))}
-                  onChange={(e) => (row.typed.value = String(withField(whole, f, Number(e.currentTarget.value))))}
-                >
-                  {f.allowed?.map((c) => (
-                    <option key={c.value} value={String(c.value)}>
-                      {c.value} {c.meaning}
-                    </option>
-                  ))}
-                </select>
-              </label>
-            );
-          })}
-        </span>
-      ) : choices ? (
-        <select aria-label={`New value of ${p.id}`} aria-describedby={describedBy} value={text} onChange={(e) => (row.typed.value = e.currentTarget.value)}>
-          <option value="" disabled>
-            choose
-          </option>
-          {choices.map((c) => (
-            <option key={c.value} value={String(c.value)}>
-              {c.value} {c.meaning}
-            </option>
-          ))}
-        </select>
-      ) : (
-        <input
-          type="text"
-          class={wrong ? 'is-wrong' : ''}
-          inputMode={p.type === 'text' || p.type === 'bytes' ? 'text' : 'decimal'}
-          autocomplete="off"
-          spellcheck={false}
-          aria-label={`New value of ${p.id}`}
-          aria-describedby={describedBy}
-          aria-invalid={wrong || undefined}
-          placeholder={editText(p.value)}
-          value={text}
-          onInput={(e) => (row.typed.value = e.currentTarget.value)}
-          onKeyDown={(e) => {
-            if (e.key === 'Enter' && !e.repeat && !no.disabled) write();
-          }}
-        />
-      )}
-      <button type="button" class="button small" aria-label={`Write ${p.id}`} {...no} onClick={write}>
-        Write
-      </button>
-    </>
+    <button type="button" class="button more" onClick={again}>
+      Filter again ({[come > 0 && `${come} more ${come === 1 ? 'fits' : 'fit'} now`, gone > 0 && `${gone} no longer`].filter(Boolean).join(', ')})
+    </button>
   );
 }

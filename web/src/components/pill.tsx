@@ -1,5 +1,5 @@
 // Pill: a state in words with an icon and a tone. Its width is kept while the words change, so that nothing beside it moves.
-import type { Word } from '../words/axis';
+import type { Word } from '../text/axis';
 import { Icon } from './icon';
 
 export function Pill({ word, label, id }: { word: Word; label: string; id?: string }) {

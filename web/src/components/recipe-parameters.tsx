@@ -1,7 +1,7 @@
 // Parameters of a recipe as a form: name, type, default, bounds, unit, what each is for. In: the document and the faults found in it.
 // Out: a changed copy. A new name is taken over in every step that uses the old one. Never checks by itself: the gateway does.
 import { useSignal } from '@preact/signals';
-import { defaultOf, parameterFault, parameterTypes, renamedParameter, typedOf, valueOf, withParameter, withoutParameter, type Json, type RecipeDocument, type RecipeParameter } from '../words/recipe';
+import { defaultOf, parameterFault, parameterTypes, renamedParameter, typedOf, valueOf, withParameter, withoutParameter, type Json, type RecipeDocument, type RecipeParameter } from '../text/recipe';
 import { Icon } from './icon';
 import type { Fault } from './recipe-steps';
 import { Typed } from './typed';

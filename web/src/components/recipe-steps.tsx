@@ -3,9 +3,9 @@
 import { createContext } from 'preact';
 import { useContext } from 'preact/hooks';
 import type { components } from '../api/schema';
-import { added, at, axisMeant, changed, commands, comparisons, fieldsOfStep, freshStep, kindOf, moved, pointerOf, points, removed, stepKinds, takesTolerance, titleOf, unknownAxes, unknownWords, typedOf, unitOfField, valueOf, withCommand, type Json, type Path, type RecipeDocument, type Step, type StepField, type StepKind } from '../words/recipe';
+import { added, at, axisMeant, changed, commands, comparisons, fieldsOfStep, freshStep, kindOf, moved, pointerOf, points, removed, stepKinds, takesTolerance, titleOf, unknownAxes, unknownWords, typedOf, unitOfField, valueOf, withCommand, type Json, type Path, type RecipeDocument, type Step, type StepField, type StepKind } from '../text/recipe';
 import { capital } from '../state/commander';
-import { plainWord } from '../words/plain';
+import { plainWord } from '../text/plain';
 import { Icon } from './icon';
 import { SimulatedMark } from './name';
 import { Typed } from './typed';
@@ -151,7 +151,7 @@ function StepInput({ field, path, value, title, unit }: { field: StepField; path
         >
           {choices.map((c) => (
             <option key={c} value={c}>
-              {c === '' ? 'as mapped' : field.kind === 'command' ? capital(plainWord(c)) : c}
+              {c === '' ? 'as mapped' : field.kind === 'command' ? capital(plainWord(c)) : plainWord(c)}
             </option>
           ))}
         </select>
@@ -218,10 +218,10 @@ function ConditionFields({ kind, path, title }: { kind: StepKind; path: Path; ti
         >
           {points.map((p) => (
             <option key={p} value={p}>
-              {p}
+              {plainWord(p)}
             </option>
           ))}
-          {typeof c['point'] === 'string' && !points.includes(c['point']) && <option value={c['point']}>{c['point']}</option>}
+          {typeof c['point'] === 'string' && !points.includes(c['point']) && <option value={c['point']}>{plainWord(c['point'])}</option>}
           <option value="(parameter)">a parameter…</option>
         </select>
       </label>

@@ -1,4 +1,4 @@
-// Scope: position, demand, velocity, following error and target over time. In: the axis' trail. Out: plots on one time axis, newest at the
+// Scope: position, demand, velocity, following error and target over time. In: the axis' history. Out: plots on one time axis, newest at the
 // right; two cursors with their readings; a trigger; the picture as CSV. Follows the gateway's clock; holds still when told to, or when the
 // trigger has fired; a gap stays a gap. Redrawn at most 20 times a second (once with reduced motion), with at most two rows per pixel.
 import { useEffect, useRef } from 'preact/hooks';
@@ -6,16 +6,16 @@ import { computed, signal, useComputed, type Signal } from '@preact/signals';
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
 import { useGateway } from '../gateway';
-import { kept } from '../state/kept';
+import { persisted } from '../state/persisted';
 import { channels, columnOf, csvOf, needsDemand, Trigger, valueAt, type Channel, type TriggerSetting } from '../state/scope';
 import { dark } from '../state/theme';
-import type { Trail, TrailColumns } from '../state/trail';
-import { demandWords } from '../words/axis';
-import { formatNumber, parseNumber, tickLabels } from '../words/number';
+import type { AxisHistory, HistoryColumns } from '../state/history';
+import { demandWords } from '../text/axis';
+import { formatNumber, parseNumber, tickLabels } from '../text/number';
 
 const windows = [2, 10, 30, 120] as const;
-const chosen = kept('scope.window', '30', 'browser');
-const shown = kept('scope.channels', 'position,velocity,target', 'browser');
+const chosen = persisted('scope.window', '30', 'browser');
+const shown = persisted('scope.channels', 'position,velocity,target', 'browser');
 const visible = computed(() => new Set(shown.value.split(',')));
 /** Enough for two minutes at 1 kHz. */
 const closeCapacity = 131_072;
@@ -40,14 +40,14 @@ class View {
   heldAt_s = 0;
 
   /** The part of time that the picture shows. */
-  look(trail: Trail, now_s: number, window_s: number): [number, number] {
+  look(history: AxisHistory, now_s: number, window_s: number): [number, number] {
     const setting = this.trigger.peek();
     if (this.paused.peek()) return [this.heldAt_s - window_s, this.heldAt_s];
     if (setting.mode === 'off') {
       this.triggerState.value = 'off';
       return [now_s - window_s, now_s];
     }
-    const left = this.machine.look(trail.since((now_s - 2 * window_s) * 1000), setting, now_s, window_s);
+    const left = this.machine.look(history.since((now_s - 2 * window_s) * 1000), setting, now_s, window_s);
     this.triggerState.value = this.machine.state;
     return left === null ? [now_s - window_s, now_s] : [left, left + window_s];
   }
@@ -73,14 +73,14 @@ export function Scope({ axis, unit }: { axis: string; unit: string }) {
   useEffect(() => {
     const host = box.current;
     if (!host || !document.createElement('canvas').getContext('2d')) return; // a browser that forbids canvases shows no plot
-    store.trail(axis).keep(closeCapacity);
+    store.history(axis).keep(closeCapacity);
     const plot = new uPlot(optionsFor(host, drawn.filter((c) => seen.has(c)), v, unit), [[]], host);
     const draw = () => {
       if (document.hidden) return;
       const now_s = now();
-      const [from, to] = v.look(store.trail(axis), now_s, seconds());
+      const [from, to] = v.look(store.history(axis), now_s, seconds());
       v.range.value = [from, to];
-      const t = store.trail(axis).seen(from * 1000, to * 1000, Math.max(200, host.clientWidth));
+      const t = store.history(axis).seen(from * 1000, to * 1000, Math.max(200, host.clientWidth));
       const entry = store.axis(axis)?.peek();
       if (entry && store.trustOf(entry) === 'live' && t.at.length > 0 && to >= now_s) extend(t, now_s);
       plot.batch(() => {
@@ -124,7 +124,7 @@ export function Scope({ axis, unit }: { axis: string; unit: string }) {
   };
   const save = () => {
     const [from, to] = v.range.peek();
-    const url = URL.createObjectURL(new Blob([csvOf(store.trail(axis).since(from * 1000, to * 1000), axis, unit)], { type: 'text/csv' }));
+    const url = URL.createObjectURL(new Blob([csvOf(store.history(axis).since(from * 1000, to * 1000), axis, unit)], { type: 'text/csv' }));
     const a = document.createElement('a');
     a.href = url;
     a.download = `${axis}-${new Date(to * 1000).toISOString().replaceAll(':', '').slice(0, 17)}.csv`;
@@ -165,7 +165,7 @@ export function Scope({ axis, unit }: { axis: string; unit: string }) {
         onKeyDown={move}
       />
       <DemandLine axis={axis} seen={seen} view={v} />
-      <Cursors view={v} trail={() => store.trail(axis)} unit={unit} seen={seen} />
+      <Cursors view={v} history={() => store.history(axis)} unit={unit} seen={seen} />
       <TriggerBar view={v} unit={unit} now={now} />
     </div>
   );
@@ -179,7 +179,7 @@ function toggle(c: Channel): void {
 }
 
 /** The newest values hold until now. */
-function extend(t: TrailColumns, now_s: number): void {
+function extend(t: HistoryColumns, now_s: number): void {
   t.at.push(now_s);
   for (const column of [t.position, t.velocity, t.target, t.demand, t.error]) column.push(column.at(-1) ?? null);
   t.source.push(t.source.at(-1) ?? null);
@@ -266,7 +266,7 @@ function wideEnough(): (u: uPlot, figures: string[] | null, axis: number, cycle:
 }
 
 /** What the two cursors read, and the difference. */
-function Cursors({ view, trail, unit, seen }: { view: View; trail: () => Trail; unit: string; seen: ReadonlySet<string> }) {
+function Cursors({ view, history, unit, seen }: { view: View; history: () => AxisHistory; unit: string; seen: ReadonlySet<string> }) {
   const [a, b] = [view.cursors[0].value, view.cursors[1].value];
   const buttons = (
     <div class="group" role="group" aria-label="Cursor that a click or the arrow keys place">
@@ -289,7 +289,7 @@ function Cursors({ view, trail, unit, seen }: { view: View; trail: () => Trail; 
     );
   }
   const times = [a, b].filter((t) => t !== null) as number[];
-  const c = trail().since(Math.min(...times) * 1000 - 60_000, Math.max(...times) * 1000 + 60_000);
+  const c = history().since(Math.min(...times) * 1000 - 60_000, Math.max(...times) * 1000 + 60_000);
   const read = (t: number | null, channel: Channel) => (t === null ? null : valueAt(c, channel, t));
   const shownChannels = channels.filter((x) => seen.has(x));
   const clock = (t: number | null) => (t === null ? '–' : new Date(t * 1000).toISOString().slice(11, 23));

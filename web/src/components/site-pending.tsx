@@ -6,7 +6,7 @@ import { asProblem } from '../api/problem';
 import type { Pending, SiteDoor } from '../api/site';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
-import { pendingWords } from '../words/site-files';
+import { pendingWords } from '../text/site-files';
 import { quiet, Tell, type Told } from './form';
 import { Icon } from './icon';
 import { useLoaded } from './loaded';

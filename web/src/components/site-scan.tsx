@@ -5,7 +5,7 @@ import { useEffect, useRef } from 'preact/hooks';
 import { asProblem } from '../api/problem';
 import type { Scan, SiteDoor } from '../api/site';
 import type { SiteDraft } from '../state/site-draft';
-import { freeName, freeNumber, withEntry, type Entry } from '../words/site';
+import { freeName, freeNumber, withEntry, type Entry } from '../text/site';
 import { useBarred } from './gate';
 import { notOffered, quiet, Tell, TextField, type Told } from './form';
 

@@ -3,18 +3,18 @@
 import { useSignal } from '@preact/signals';
 import { useGateway } from '../gateway';
 import { stagerOf, type SiteDraft } from '../state/site-draft';
-import { kept } from '../state/kept';
+import { persisted } from '../state/persisted';
 import { barred } from '../state/session';
-import { differenceWords, sameDocument, type Difference } from '../words/site';
+import { differenceWords, sameDocument, type Difference } from '../text/site';
 import type { StageDiff } from '../api/site';
-import { parseNumber } from '../words/number';
+import { parseNumber } from '../text/number';
 import { Tell, TextField } from './form';
 import { useBarred } from './gate';
 import { Icon } from './icon';
 import { keepBarred, useTrialRest } from './trial';
-import { appliedWords, applyBarred, disturbedWords } from '../words/trial';
+import { appliedWords, applyBarred, disturbedWords } from '../text/trial';
 
-const within = kept('site.within_s', '60');
+const within = persisted('site.within_s', '60');
 const mostShown = 200;
 
 export function DifferenceList({ list, label }: { list: readonly (Difference | StageDiff)[]; label: string }) {

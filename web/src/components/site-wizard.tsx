@@ -5,9 +5,9 @@ import { useSignal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import type { SiteDoor } from '../api/site';
 import { useGateway } from '../gateway';
-import { kept } from '../state/kept';
+import { persisted } from '../state/persisted';
 import type { SiteDraft } from '../state/site-draft';
-import { checkEntry, fieldsOf, freeName, freeNumber, sameDocument, withEntry, type Room, type Texts } from '../words/site';
+import { checkEntry, fieldsOf, freeName, freeNumber, sameDocument, withEntry, type Room, type Texts } from '../text/site';
 import { quiet, Tell } from './form';
 import { AxisTile } from './axis-tile';
 import { ScanPanel } from './site-scan';
@@ -22,10 +22,10 @@ const kinds = [
   { id: 'udp', text: 'Network, UDP', uri: 'udp:192.0.2.10:503' },
 ];
 const steps = ['Line', 'Drive', 'Axis', 'Apply', 'Move'] as const;
-const step = kept('wizard.step', '0');
-const chosen = { lines: kept('wizard.line'), drives: kept('wizard.drive'), axes: kept('wizard.axis') };
+const step = persisted('wizard.step', '0');
+const chosen = { lines: persisted('wizard.line'), drives: persisted('wizard.drive'), axes: persisted('wizard.axis') };
 /** What stands in the fields of a step that is not finished, as JSON. */
-const typed = { lines: kept('wizard.typed.line'), drives: kept('wizard.typed.drive'), axes: kept('wizard.typed.axis') };
+const typed = { lines: persisted('wizard.typed.line'), drives: persisted('wizard.typed.drive'), axes: persisted('wizard.typed.axis') };
 const order: Room[] = ['lines', 'drives', 'axes'];
 
 export function SiteWizard({ draft, door, leave }: { draft: SiteDraft; door: SiteDoor; leave: () => void }) {

@@ -9,10 +9,10 @@ import { SnapshotDoor, type RestoreReport, type Snapshot } from '../api/snapshot
 import type { AxisParameter, MaybeValue } from '../api/types';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
-import { emptied, kept } from '../state/kept';
-import { steppedText, unitWords, valueText } from '../words/parameter';
-import { foreignWords, snapshotWords } from '../words/snapshot';
-import { leftOut, parametersWords } from '../words/transfer';
+import { emptied, persisted } from '../state/persisted';
+import { steppedText, unitWords, valueText } from '../text/parameter';
+import { foreignWords, snapshotWords } from '../text/snapshot';
+import { leftOut, parametersWords } from '../text/transfer';
 import { Choice, notOffered, quiet, Tell, TextField, type Told } from './form';
 import { Empty } from './lines';
 import { useLoaded } from './loaded';
@@ -27,8 +27,8 @@ export function Snapshots({ axis, family, onList }: { axis: string; family: stri
   const door = useMemo(() => new SnapshotDoor(client, axis), [client, axis]);
   const list = useSignal<Snapshot[]>([]);
   const told = useSignal<Told>(quiet);
-  const name = kept(`snapshot.${axis}.name`);
-  const comment = kept(`snapshot.${axis}.comment`);
+  const name = persisted(`snapshot.${axis}.name`);
+  const comment = persisted(`snapshot.${axis}.comment`);
   const from = useSignal('device');
   const wrong = useSignal(false);
   const removing = useSignal<number | null>(null);

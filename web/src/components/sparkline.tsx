@@ -1,4 +1,4 @@
-// Sparkline: the position of the last 30 s, on a canvas. In: the axis' trail. Out: a line; a gap where nothing was known.
+// Sparkline: the position of the last 30 s, on a canvas. In: the axis' history. Out: a line; a gap where nothing was known.
 // Drawn at most ten times a second, once a second where motion is to be reduced, and not at all while it is off the screen.
 import { useEffect, useRef } from 'preact/hooks';
 import { useGateway } from '../gateway';
@@ -32,11 +32,11 @@ export function Sparkline({ axis }: { axis: string }) {
       color = getComputedStyle(c).color;
       g.clearRect(0, 0, width, height);
       const now = Date.now() + store.clockOffset_ms;
-      const trail = store.trail(axis).since(now - window_ms);
-      if (trail.at.length === 0) return;
+      const history = store.history(axis).since(now - window_ms);
+      if (history.at.length === 0) return;
       let low = Infinity;
       let high = -Infinity;
-      for (const p of trail.position) {
+      for (const p of history.position) {
         if (p === null) continue;
         low = Math.min(low, p);
         high = Math.max(high, p);
@@ -52,13 +52,13 @@ export function Sparkline({ axis }: { axis: string }) {
       g.beginPath();
       let pen = false;
       let lastY = 0;
-      for (let i = 0; i < trail.at.length; i += 1) {
-        const p = trail.position[i];
+      for (let i = 0; i < history.at.length; i += 1) {
+        const p = history.position[i];
         if (p === null || p === undefined) {
           pen = false;
           continue;
         }
-        const px = x(trail.at[i] as number);
+        const px = x(history.at[i] as number);
         lastY = y(p);
         if (pen) g.lineTo(px, lastY);
         else g.moveTo(px, lastY);

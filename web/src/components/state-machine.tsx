@@ -2,7 +2,7 @@
 // In: the axis. Out: a drawing whose content is also said in words. Old values are not shown as the present state.
 import type { Axis, AxisStateName } from '../api/types';
 import type { Trust } from '../state/store';
-import { hex, stateName, statusBits } from '../words/axis';
+import { hex, stateName, statusBits } from '../text/axis';
 
 const width = 140;
 const height = 32;

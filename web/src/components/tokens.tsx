@@ -5,7 +5,7 @@ import { asProblem } from '../api/problem';
 import type { MadeToken, Token } from '../api/types';
 import { useGateway } from '../gateway';
 import { barred, roles } from '../state/session';
-import { clockTime } from '../words/time';
+import { clockTime } from '../text/time';
 import { useLoaded } from './loaded';
 import { Choice, quiet, Tell, TextField, type Told } from './form';
 

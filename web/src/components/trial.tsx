@@ -6,7 +6,7 @@ import { useGateway } from '../gateway';
 import { draftOf, type SiteDraft } from '../state/site-draft';
 import { tick } from '../state/clock';
 import type { Session } from '../state/session';
-import { personOf } from '../words/authority';
+import { personOf } from '../text/authority';
 import { Icon } from './icon';
 
 /** Somebody else may have kept it or taken it back: that changes no revision that the page is told of. */

@@ -22,8 +22,8 @@ import { StateMachine } from '../components/state-machine';
 import { StopButton } from '../components/stop';
 import { useGateway } from '../gateway';
 import { linePath, parametersPath } from '../router';
-import { commandedWords } from '../words/authority';
-import { markOf, unitOf } from '../words/axis';
+import { commandedWords } from '../text/authority';
+import { markOf, unitOf } from '../text/axis';
 
 const Controls = memo(FullControls, (a, b) => a.axis.name === b.axis.name && a.axis.unit === b.axis.unit);
 

@@ -8,14 +8,14 @@ import { EventList } from '../components/events';
 import { useNamed } from '../components/name';
 import { Section } from '../components/section';
 import { useGateway } from '../gateway';
-import { kept } from '../state/kept';
-import { asked, eventFile, gathered } from '../words/alarm';
-import { plainWord } from '../words/plain';
+import { persisted } from '../state/persisted';
+import { asked, eventFile, gathered } from '../text/alarm';
+import { plainWord } from '../text/plain';
 
-const least = kept('events.severity', 'info');
-const axis = kept('events.axis');
-const kind = kept('events.kind');
-const text = kept('events.text');
+const least = persisted('events.severity', 'info');
+const axis = persisted('events.axis');
+const kind = persisted('events.kind');
+const text = persisted('events.text');
 /** As many as the gateway gives at once. */
 const most = 1000;
 

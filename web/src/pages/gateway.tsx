@@ -4,7 +4,7 @@ import { ModbusDoor } from '../components/modbus-door';
 import { Section } from '../components/section';
 import { useGateway } from '../gateway';
 import { setTheme, theme, type Theme } from '../state/theme';
-import { duration } from '../words/time';
+import { duration } from '../text/time';
 
 export function GatewayPage() {
   const { store } = useGateway();

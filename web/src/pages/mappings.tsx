@@ -18,14 +18,14 @@ import { MappingTemplates } from '../components/mapping-templates';
 import { Section } from '../components/section';
 import { useGateway } from '../gateway';
 import { addressBase, countFrom } from '../state/address-base';
-import { kept } from '../state/kept';
+import { persisted } from '../state/persisted';
 import { MappingBook, uncapital } from '../state/mappings';
 import { lookAt, type Heard } from '../state/register-look';
-import type { ParameterShape } from '../words/mapping-type';
-import { spansOf, tables, type Known, type Mapping, type Table } from '../words/mapping';
+import type { ParameterShape } from '../text/mapping-type';
+import { spansOf, tables, type Known, type Mapping, type Table } from '../text/mapping';
 
-const unitShown = kept('mappings.unit', '2');
-const tableShown = kept('mappings.table', 'holding_registers');
+const unitShown = persisted('mappings.unit', '2');
+const tableShown = persisted('mappings.table', 'holding_registers');
 const poll_ms = 1000;
 const spansAtOnce = 8;
 

@@ -3,18 +3,18 @@ import { useComputed } from '@preact/signals';
 import { AxisRow } from '../components/axis-row';
 import { useGateway } from '../gateway';
 import { AxisTile } from '../components/axis-tile';
-import { WrongList } from '../components/wrong';
+import { ErrorList } from '../components/errors';
 import { EventList } from '../components/events';
 import { Why } from '../components/gate';
 import { DriveList, Empty, LineList } from '../components/lines';
 import { Section } from '../components/section';
 import { axesFilter, axisMatches } from '../state/axes-filter';
-import { kept } from '../state/kept';
+import { persisted } from '../state/persisted';
 
 /** '': as many as there are axes say. */
-const view = kept('axes.view');
+const view = persisted('axes.view');
 const mostTiles = 12;
-const bare = kept('axes.controls', 'shown', 'browser');
+const bare = persisted('axes.controls', 'shown', 'browser');
 
 export function Overview() {
   const { store } = useGateway();
@@ -24,7 +24,7 @@ export function Overview() {
         Overview
       </h1>
       <div class="overview-main">
-        <WrongList />
+        <ErrorList />
         <Axes />
         <div class="side-by-side">
           <Section title="Lines">
@@ -125,7 +125,7 @@ function NoAxis() {
       {why ? (
         why
       ) : (
-        <a href="/site" onClick={() => (kept('site.wizard').value = 'open')}>
+        <a href="/site" onClick={() => (persisted('site.wizard').value = 'open')}>
           Begin with the wizard: from a line to a moving axis
         </a>
       )}

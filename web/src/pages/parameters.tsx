@@ -10,7 +10,7 @@ import { Snapshots } from '../components/snapshots';
 import { StopButton } from '../components/stop';
 import { useGateway } from '../gateway';
 import { axisPath } from '../router';
-import { markOf } from '../words/axis';
+import { markOf } from '../text/axis';
 
 export function ParametersPage({ name }: { name: string }) {
   const { store } = useGateway();

@@ -17,9 +17,9 @@ import { useGateway } from '../gateway';
 import { go, recipePath } from '../router';
 import { capital } from '../state/commander';
 import { RecipeFile, type RecipeClash } from '../state/recipe-file';
-import { axisMeant, documentOf, recipeDifferences, runWord, unknownAxes, unknownWords, valueOf, type RecipeDocument } from '../words/recipe';
-import { unitOf } from '../words/axis';
-import { clockTime } from '../words/time';
+import { axisMeant, documentOf, recipeDifferences, runWord, unknownAxes, unknownWords, valueOf, type RecipeDocument } from '../text/recipe';
+import { unitOf } from '../text/axis';
+import { clockTime } from '../text/time';
 
 const checkAfter_ms = 300;
 const goodName = /^[A-Za-z0-9_.-]{1,64}$/;

@@ -4,14 +4,14 @@ import { useEffect, useRef, useState } from 'preact/hooks';
 import { quiet, Tell, TextField, type Told } from '../components/form';
 import { useGateway } from '../gateway';
 import { go, route } from '../router';
-import { kept } from '../state/kept';
+import { persisted } from '../state/persisted';
 import { passwordFault, signInWords, userFault } from '../state/session';
 
 export function SignInPage() {
   const { session } = useGateway();
   const first = session.info.value?.first_sign_in ?? false;
   const ended = session.ended.value;
-  const user = kept('typed.user');
+  const user = persisted('typed.user');
   const [code, setCode] = useState('');
   const [password, setPassword] = useState('');
   const [second, setSecond] = useState('');

@@ -13,11 +13,11 @@ import { ScanPanel } from '../components/site-scan';
 import { SiteStage } from '../components/site-stage';
 import { SiteWizard } from '../components/site-wizard';
 import { useGateway } from '../gateway';
-import { kept } from '../state/kept';
+import { persisted } from '../state/persisted';
 import { barred } from '../state/session';
 import { draftOf } from '../state/site-draft';
 
-const wizard = kept('site.wizard');
+const wizard = persisted('site.wizard');
 const lookAgain_ms = 3_000;
 export function SitePage() {
   const { client, session, store } = useGateway();

@@ -1,11 +1,11 @@
 // Address base: whether this page writes register addresses from 0 or from 1, for all of its parts at once. In: one switch, kept in the browser.
 // Out: a signal; what stands in the fields is written anew when the switch is turned, so that it means the same place.
 import type { Signal } from '@preact/signals';
-import { addressText, readAddress, type Base } from '../words/address';
-import type { Table } from '../words/mapping';
-import { kept } from './kept';
+import { addressText, readAddress, type Base } from '../text/address';
+import type { Table } from '../text/mapping';
+import { persisted } from './persisted';
 
-const chosen = kept('address.base', '0', 'browser');
+const chosen = persisted('address.base', '0', 'browser');
 export const addressBase = (): Base => (chosen.value === '1' ? '1' : '0');
 
 const fields = new Map<Signal<string>, () => Table>();

@@ -2,7 +2,7 @@
 // Not kept over a reload: whoever opens the page sees every axis.
 import { signal } from '@preact/signals';
 import type { Axis } from '../api/types';
-import { motionWord, stateWord } from '../words/axis';
+import { motionWord, stateWord } from '../text/axis';
 import type { Trust } from './store';
 
 export const axesFilter = signal('');

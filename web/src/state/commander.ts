@@ -6,8 +6,8 @@ import { signal, type Signal } from '@preact/signals';
 import type { Client } from '../api/client';
 import { asProblem, Problem } from '../api/problem';
 import type { Axis, Command, CommandAnswer } from '../api/types';
-import { causeOf, isWatched, outcomeOf, type Watched } from '../words/outcome';
-import { plain } from '../words/plain';
+import { causeOf, isWatched, outcomeOf, type Watched } from '../text/outcome';
+import { plain } from '../text/plain';
 
 /** `partly`: taken, but not by all who were meant. */
 export type NoteTone = 'none' | 'busy' | 'good' | 'partly' | 'refused';

@@ -4,8 +4,8 @@
 import { signal, type Signal } from '@preact/signals';
 import type { MappingDoor, MappingImport, MappingList } from '../api/mappings';
 import { asProblem, Problem } from '../api/problem';
-import { cellsOf, columns, differenceText, sameMapping, type Mapping, type MappingPoint, type MappingSpec } from '../words/mapping';
-import { csvOf } from '../words/table-text';
+import { cellsOf, columns, differenceText, sameMapping, type Mapping, type MappingPoint, type MappingSpec } from '../text/mapping';
+import { csvOf } from '../text/table-text';
 
 const mostUndo = 50;
 

@@ -3,7 +3,7 @@
 // A gateway that names no states (no ETag) takes the last one that is saved, as it always did.
 import type { Client } from '../api/client';
 import { asProblem, Problem } from '../api/problem';
-import { editable, type RecipeDocument } from '../words/recipe';
+import { editable, type RecipeDocument } from '../text/recipe';
 
 export interface RecipeClash {
   /** null: it is not there any more. */

@@ -2,7 +2,7 @@
 // and what they mean, or its own exception. An exception for a whole span says nothing about each of it: the span is halved until every mapping
 // has its own answer. At most `most` requests for one look; what was not reached keeps what was said before.
 import type { MappingDoor, Registers } from '../api/mappings';
-import { widthOf, type Mapping } from '../words/mapping';
+import { widthOf, type Mapping } from '../text/mapping';
 
 export interface Heard {
   words: number[] | null;

@@ -1,11 +1,11 @@
-// Scope's rules: what a trigger is, where it fires, what the cursors read, and a recording as CSV. In: columns of a trail. Out: values.
+// Scope's rules: what a trigger is, where it fires, what the cursors read, and a recording as CSV. In: columns of a history. Out: values.
 // Never draws and never asks for the time: both are the component's.
-import type { TrailColumns } from './trail';
+import type { HistoryColumns } from './history';
 
 export const channels = ['position', 'demand', 'velocity', 'error', 'target'] as const;
 export type Channel = (typeof channels)[number];
 
-export const columnOf = (c: TrailColumns, channel: Channel): (number | null)[] => c[channel];
+export const columnOf = (c: HistoryColumns, channel: Channel): (number | null)[] => c[channel];
 
 export interface TriggerSetting {
   mode: 'off' | 'single' | 'again';
@@ -18,7 +18,7 @@ export interface TriggerSetting {
 export const before = 0.25;
 
 /** The first instant after `after_s` at which the channel crosses the level, between two neighbouring samples that are both known. */
-export function crossing(c: TrailColumns, setting: TriggerSetting, after_s: number): number | null {
+export function crossing(c: HistoryColumns, setting: TriggerSetting, after_s: number): number | null {
   const v = columnOf(c, setting.channel);
   for (let i = 1; i < v.length; i += 1) {
     const t1 = c.at[i] as number;
@@ -48,7 +48,7 @@ export class Trigger {
   }
 
   /** The instant at the left edge of the picture that is held; null: none yet. */
-  look(c: TrailColumns, setting: TriggerSetting, now_s: number, window_s: number): number | null {
+  look(c: HistoryColumns, setting: TriggerSetting, now_s: number, window_s: number): number | null {
     if (setting.mode === 'off') return null;
     if (this.fired_s === null && !(setting.mode === 'single' && this.shown_s !== null)) this.fired_s = crossing(c, setting, this.armedAt_s);
     if (this.fired_s !== null && now_s >= this.fired_s + window_s * (1 - before)) {
@@ -69,7 +69,7 @@ export class Trigger {
 export const needsDemand = (c: Channel): boolean => c === 'demand' || c === 'error';
 
 /** What a channel was at an instant: on the straight line between its neighbours, a target as it was set; null in a gap or outside the recording. */
-export function valueAt(c: TrailColumns, channel: Channel, t: number): number | null {
+export function valueAt(c: HistoryColumns, channel: Channel, t: number): number | null {
   const n = c.at.length;
   if (n === 0 || t < (c.at[0] as number)) return null;
   let low = 0;
@@ -90,14 +90,14 @@ export function valueAt(c: TrailColumns, channel: Channel, t: number): number | 
 }
 
 /** What stands behind the names of the two columns that need a demand; empty: all of it is the drive's word, or none was known. */
-function demandMark(c: TrailColumns): string {
+function demandMark(c: HistoryColumns): string {
   const kinds = [...new Set(c.source)].filter((s) => s !== null).map((s) => s.replace('_', ' '));
   if (kinds.length > 1) return ` (mixed: ${kinds.sort().join(' and ')})`;
   return kinds.length === 0 || kinds[0] === 'drive' ? '' : ` (${kinds[0]})`;
 }
 
 /** A recording as CSV (RFC 4180): a full stop as decimal sign, empty where nothing was known. The last column tells of each row whose word its demand is. */
-export function csvOf(c: TrailColumns, axis: string, unit: string): string {
+export function csvOf(c: HistoryColumns, axis: string, unit: string): string {
   const quote = (s: string) => (/[",\r\n]/.test(s) ? `"${s.replaceAll('"', '""')}"` : s);
   const begin = c.at[0] ?? 0;
   const mark = demandMark(c);

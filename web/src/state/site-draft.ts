@@ -5,10 +5,10 @@ import { computed, effect, signal, type ReadonlySignal } from '@preact/signals';
 import { asProblem, type Problem } from '../api/problem';
 import type { Client } from '../api/client';
 import { SiteDoor, type SiteFault, type Stage } from '../api/site';
-import { differenceOf, rebase, sameDocument, withEntry, withoutEntry, type Difference, type Entry, type Room, type Site } from '../words/site';
-import { holderName, personOf } from '../words/authority';
+import { differenceOf, rebase, sameDocument, withEntry, withoutEntry, type Difference, type Entry, type Room, type Site } from '../text/site';
+import { holderName, personOf } from '../text/authority';
 import { capital } from './commander';
-import { kept } from './kept';
+import { persisted } from './persisted';
 
 export interface Told {
   tone: 'none' | 'busy' | 'good' | 'refused';
@@ -49,7 +49,7 @@ export class SiteDraft {
   private shown = '';
   private applied: Site | null = null;
   private moving = false;
-  private readonly store = kept('site.draft');
+  private readonly store = persisted('site.draft');
 
   constructor(private readonly door: SiteDoor) {
     this.changes = computed(() => differenceOf(this.base.value, this.draft.value));

@@ -5,8 +5,8 @@
 import { batch, computed, signal, type ReadonlySignal, type Signal } from '@preact/signals';
 import type { StreamMessage, StreamState } from '../api/stream';
 import type { About, AlarmList, Axis, Drive, GatewayEvent, Line } from '../api/types';
-import type { Families } from '../words/options';
-import { Trail } from './trail';
+import type { Families } from '../text/options';
+import { AxisHistory } from './history';
 
 export interface Known<T> {
   data: T;
@@ -112,7 +112,7 @@ export class Store {
   private readonly axisShelf = new Shelf<Axis>((a, b) => a.number - b.number || a.name.localeCompare(b.name));
   private readonly driveShelf = new Shelf<Drive>(byOrder);
   private readonly lineShelf = new Shelf<Line>(byOrder);
-  private readonly trails = new Map<string, Trail>();
+  private readonly histories = new Map<string, AxisHistory>();
   private readonly simulations = new Map<string, Signal<boolean>>();
   private readonly eventListeners = new Set<(event: GatewayEvent) => void>();
   private pendingEvents: GatewayEvent[] = [];
@@ -168,9 +168,9 @@ export class Store {
     for (const [key, s] of this.simulations) s.value = this.isSimulated(key);
   }
 
-  trail(axis: string): Trail {
-    let t = this.trails.get(axis);
-    if (!t) this.trails.set(axis, (t = new Trail()));
+  history(axis: string): AxisHistory {
+    let t = this.histories.get(axis);
+    if (!t) this.histories.set(axis, (t = new AxisHistory()));
     return t;
   }
 
@@ -196,7 +196,7 @@ export class Store {
     this.flush();
     this.connection.value = state;
     if (before.phase === 'live' && state.phase !== 'live') {
-      for (const t of this.trails.values()) t.gap();
+      for (const t of this.histories.values()) t.gap();
       this.clockKnown = false;
     }
   }
@@ -208,7 +208,7 @@ export class Store {
       this.driveShelf.list(lists.drives, epoch);
       this.lineShelf.list(lists.lines, epoch);
       this.lookAtSimulations();
-      for (const name of this.trails.keys()) if (!this.axisShelf.entries.has(name)) this.trails.delete(name);
+      for (const name of this.histories.keys()) if (!this.axisShelf.entries.has(name)) this.histories.delete(name);
       this.listed.value = true;
     });
   }
@@ -267,11 +267,11 @@ export class Store {
     const axis = message.data as Axis | null;
     this.axisShelf.put(name, axis, epoch);
     if (axis === null) {
-      this.trails.delete(name);
+      this.histories.delete(name);
     } else if (axis.online && !axis.stale) {
-      this.trail(name).add({ at_ms: message.at / 1e6, position: axis.position, velocity: axis.velocity, target: axis.target_position, demand: axis.position_demand, error: axis.following_error, source: axis.demand_source });
+      this.history(name).add({ at_ms: message.at / 1e6, position: axis.position, velocity: axis.velocity, target: axis.target_position, demand: axis.position_demand, error: axis.following_error, source: axis.demand_source });
     } else {
-      this.trail(name).gap();
+      this.history(name).gap();
     }
   }
 

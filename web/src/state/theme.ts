@@ -1,9 +1,9 @@
 // Theme: as the system has it, or light, or dark. In: the choice. Out: the attribute that the styles look at, and a signal for canvases.
 import { computed, effect, signal } from '@preact/signals';
-import { kept } from './kept';
+import { persisted } from './persisted';
 
 export type Theme = 'system' | 'light' | 'dark';
-const choice = kept('theme', 'system', 'browser');
+const choice = persisted('theme', 'system', 'browser');
 const media = globalThis.matchMedia?.('(prefers-color-scheme: dark)');
 const systemDark = signal(media?.matches ?? false);
 media?.addEventListener?.('change', (e) => (systemDark.value = e.matches));

@@ -1,0 +1,114 @@
+// Adapter of CiA 402 drives: the line.
+// In: calls from outside. Out: what the drives say of them. Every call ends with end(): free places are given away, the next SYNC is set.
+#include "adapters/cia402/adapter.hpp"
+
+namespace axisgate::cia402_drive {
+
+void LineAdapter::configure(const LineSetup& setup, Instant now, Out& out) {
+    Turn t{now, out};
+    line_.take(setup);
+    const auto fault = [&](const DriveSetup& s) -> std::string {
+        const auto* other = drives_.find([&](const Drive& d) { return d.node() == node_of(s.address); });
+        return other ? "node " + s.address + " belongs to drive " + other->setup().name : check_address(s.address);
+    };
+    const auto fresh = drives_.fit(
+        setup,
+        [&](Drive& d) {
+            d.line_down("the drive was removed or changed", t);
+            line_.turns.remove(d.slot());
+        },
+        fault, [&](const DriveSetup& s, std::size_t slot) { return std::make_unique<Drive>(line_, s, slot); }, out);
+    by_node_.fill(nullptr);
+    drives_.each([&](Drive& d) { by_node_[d.node()] = &d; });
+    for (Drive* d : fresh)
+        if (up_) d->line_up(t);
+    end(t);
+}
+
+void LineAdapter::on_line(bool up, Instant now, Out& out) {
+    if (std::exchange(up_, up) == up) return;
+    Turn t{now, out};
+    line_.turns.line_changed(now);
+    drives_.each([&](Drive& d) { up ? d.line_up(t) : d.line_down("the line is down", t); });
+    end(t);
+}
+
+void LineAdapter::on_command(const Command& command, Instant now, Out& out) {
+    Turn t{now, out};
+    Drive* d = drives_.of(command.axis);
+    if (!d) return drive::Tickets::refuse(command, Reason::line_down, "this axis is not on the line", out);
+    d->submit(command, t);
+    drive::settle(line_.turns, *d, now);
+    drive::serve(line_.turns, drives_, t);
+    plan_sync(now);
+}
+
+void LineAdapter::on_set_point(const SetPoint& p, Instant now, Out& out) {
+    Turn t{now, out};
+    Drive* d = drives_.of(p.axis);
+    if (!d) return;
+    d->follow(p);
+    drive::settle(line_.turns, *d, now);
+    drive::serve(line_.turns, drives_, t);
+    plan_sync(now);
+}
+
+void LineAdapter::on_frame(const Frame& f, Instant now, Out& out) {
+    if (!up_ || f.kind != Frame::Kind::can || f.extended) return;
+    Turn t{now, out};
+    const auto role = canopen::role_of(f.id);
+    Drive* d = role.node != 0 && role.node < by_node_.size() ? by_node_[role.node] : nullptr;
+    if (!d) {
+        if (role.service == canopen::Service::other) ++line_.counters.garbled;
+        return;
+    }
+    d->on_frame(f, t);
+    drive::settle(line_.turns, *d, now);
+    drive::serve(line_.turns, drives_, t);
+    plan_sync(now);
+}
+
+void LineAdapter::on_deadline(Instant now, Out& out) {
+    Turn t{now, out};
+    if (up_ && now >= next_sync_) {
+        drives_.each([&](Drive& d) { d.before_sync(line_.cycle, t); });
+        out.send(canopen::data_frame(canopen::sync_id, {}), Priority::command);
+        last_sync_ = now;
+        next_sync_ = never;
+        drives_.each([&](Drive& d) { d.after_sync(now); });
+    }
+    drive::wake(line_.turns, drives_, t);
+    end(t);
+}
+
+void LineAdapter::end(Turn& t) {
+    drives_.each([&](Drive& d) { drive::settle(line_.turns, d, t.now); });
+    drive::serve(line_.turns, drives_, t);
+    plan_sync(t.now);
+}
+
+Duration LineAdapter::cycle() const {
+    std::int64_t ready = 0;
+    bool quick = false;
+    drives_.each([&](const Drive& d) {
+        ready += d.listens() ? 1 : 0;
+        quick = quick || d.quick();
+    });
+    if (ready == 0) return Duration::zero();
+    // Two PDOs of each at a SYNC, and one to those that are led: 0.4 ms of a bus at 1 Mbit/s, half of which is for others.
+    const Duration least = ready * 3 * 2 * wire_time(140, line_.bit_rate == 0 ? 1'000'000 : line_.bit_rate);
+    const Duration whole = std::max(line_.timing.poll_period, least) + std::chrono::microseconds(999);
+    const Duration ms = std::max<Duration>(std::chrono::milliseconds(1), std::chrono::milliseconds(milliseconds_of(whole)));
+    return quick ? ms : 4 * ms;
+}
+void LineAdapter::plan_sync(Instant now) {
+    const Duration period = up_ ? cycle() : Duration::zero();
+    if (period == Duration::zero()) {
+        next_sync_ = never;
+        return;
+    }
+    line_.cycle = period;
+    next_sync_ = std::max(now, last_sync_ + period);
+}
+
+}  // namespace axisgate::cia402_drive

@@ -1,0 +1,35 @@
+// Adapter of CiA 402 drives: the CAN line: who is on it, whose turn it is, what arrives, and the SYNC of all of them.
+// In: setup, line state, commands, set-points, frames, time. Out: frames; feedback, results, links, notices.
+// Never sends a message to all nodes but the SYNC.
+#pragma once
+
+#include "adapters/cia402/drive.hpp"
+#include "gateway/drive/roster.hpp"
+
+namespace axisgate::cia402_drive {
+
+class LineAdapter final : public Adapter {
+public:
+    explicit LineAdapter(const Catalogue& catalogue) : line_(catalogue) {}
+    void configure(const LineSetup& setup, Instant now, Out& out) override;
+    void on_line(bool up, Instant now, Out& out) override;
+    void on_command(const Command& command, Instant now, Out& out) override;
+    void on_set_point(const SetPoint& set_point, Instant now, Out& out) override;
+    void on_frame(const Frame& frame, Instant now, Out& out) override;
+    void on_deadline(Instant now, Out& out) override;
+    [[nodiscard]] Instant deadline() const override { return std::min(line_.turns.deadline(), next_sync_); }
+    [[nodiscard]] AdapterCounters counters() const override { return line_.counters; }
+
+private:
+    void end(Turn& t);
+    /// Often while something moves, seldom at rest, never while nobody listens; never more than half of what the bus carries.
+    [[nodiscard]] Duration cycle() const;
+    void plan_sync(Instant now);
+    Line line_;
+    drive::Roster<Drive> drives_;
+    std::array<Drive*, 128> by_node_{};
+    bool up_ = false;
+    Instant next_sync_ = never, last_sync_{};
+};
+
+}  // namespace axisgate::cia402_drive

@@ -1,0 +1,51 @@
+// Family cia402: any drive with that profile on CANopen: the table of its makers, and its scan.
+// In: a catalogue, a line, an address. Out: adapter, twin, decoder. Never decides anything about a drive.
+#include "adapters/cia402/adapter.hpp"
+#include "adapters/cia402/decoder.hpp"
+#include "adapters/cia402/twin/twin.hpp"
+
+namespace axisgate {
+namespace cia402_drive {
+namespace {
+ScanPlan scan_nodes(const ScanWish& wish) {
+    ScanPlan plan;
+    for (const std::string* end : {&wish.from, &wish.to})
+        if (!end->empty() && plan.fault.empty()) plan.fault = check_address(*end);
+    const int from = wish.from.empty() ? 1 : node_of(wish.from), to = wish.to.empty() ? 127 : node_of(wish.to);
+    if (plan.fault.empty() && from > to) plan.fault = "from is above to";
+    for (int n = from; n <= to && plan.fault.empty(); ++n)
+        plan.addresses.push_back(std::to_string(n));
+    plan.at_once = 8;
+    return plan;
+}
+/// The lower seven bits of what a node sends and is sent are its number. NMT and SYNC are nobody's: other CANopen families send them, too.
+std::vector<CanIdentifiers> identifiers(std::span<const std::string> addresses) {
+    std::vector<CanIdentifiers> list;
+    for (const std::string& a : addresses)
+        if (const int n = node_of(a); n != 0) list.push_back({false, 0x7F, static_cast<std::uint32_t>(n)});
+    return list;
+}
+}  // namespace
+}  // namespace cia402_drive
+
+const Family& family_cia402() {
+    static const Family family{
+        "cia402",
+        [](const Catalogue& c, LineKind) -> std::unique_ptr<Adapter> { return std::make_unique<cia402_drive::LineAdapter>(c); },
+        [](const Catalogue&, const TwinSetup& setup) -> std::unique_ptr<Twin> { return cia402_drive::twin::make_twin(setup); },
+        [](const Catalogue& c, LineKind) -> std::unique_ptr<Decoder> { return std::make_unique<cia402_drive::CanDecoder>(c); },
+        cia402_drive::check_address,
+        "1",
+        0,
+        "",
+        true,
+        false,
+        1'000'000,
+        cia402_drive::scan_nodes,
+        nullptr,
+        cia402_drive::identifiers,
+    };
+    return family;
+}
+
+}  // namespace axisgate

@@ -1,0 +1,88 @@
+// Drive, part native: parameters of the catalogue, objects by their numbers, and the actions of the family.
+// In: points, texts, names. Out: steps, or why not.
+#include <fmt/core.h>
+
+#include <charconv>
+
+#include "adapters/cia402/drive.hpp"
+
+namespace axisgate::cia402_drive {
+
+std::string Drive::plan_parameter(Job& job, Reason& reason) const {
+    const auto* read = std::get_if<ReadParameter>(&job.command.body);
+    const auto* to = std::get_if<WriteParameter>(&job.command.body);
+    const Point point = read ? read->point : to->point;
+    reason = Reason::unknown_point;
+    const Parameter* p = catalogue().parameter(point);
+    const auto place = p ? place_of(*p, point) : std::nullopt;
+    if (!place) return "no object of the drive";
+    if (read) return job.steps.push_back({Step::Kind::read, *place, {}}), "";
+    const auto type = type_of(p->type);
+    auto bytes = type ? canopen::encode(*type, to->value) : std::nullopt;
+    reason = Reason::out_of_range;
+    if (!bytes) return fmt::format("{}: {} is no value of its type", p->id, to_text(to->value));
+    job.steps.push_back({Step::Kind::write, *place, std::move(*bytes)});
+    return {};
+}
+
+/// "6064:00?", "6081:00=20000" where the catalogue has the type, "2100:01=x01FF" in bytes, as they are on the wire.
+std::string Drive::plan_native(Job& job, const Native& native, Reason& reason) const {
+    reason = Reason::out_of_range;
+    constexpr const char* help =
+        "write 6064:00? to read an object, 6081:00=20000 to write one of the catalogue, 2100:01=x01FF for bytes of any";
+    const std::string_view s(reinterpret_cast<const char*>(native.send.data()), native.send.size());
+    unsigned index = 0, sub = 0;
+    const auto hex = [](std::string_view text, unsigned& n) {
+        const auto [p, ec] = std::from_chars(text.data(), text.data() + text.size(), n, 16);
+        return ec == std::errc{} && p == text.data() + text.size();
+    };
+    if (s.size() < 8 || s[4] != ':' || !hex(s.substr(0, 4), index) || !hex(s.substr(5, 2), sub)) return help;
+    const Address a{static_cast<std::uint16_t>(index), static_cast<std::uint8_t>(sub)};
+    if (s[7] == '?' && s.size() == 8) return job.steps.push_back({Step::Kind::read, a, {}}), "";
+    if (s[7] != '=' || s.size() > 300) return help;
+    const std::string_view text = s.substr(8);
+    std::vector<std::uint8_t> bytes;
+    if (text.starts_with('x')) {
+        for (std::size_t i = 1; i < text.size(); i += 2) {
+            unsigned b = 0;
+            if (i + 2 > text.size() || !hex(text.substr(i, 2), b)) return help;
+            bytes.push_back(static_cast<std::uint8_t>(b));
+        }
+    } else {
+        const Parameter* p = parameter_at(catalogue(), a);
+        const auto value = p ? parse_value(text, p->type) : std::nullopt;
+        auto encoded = value ? canopen::encode(*type_of(p->type), *value) : std::nullopt;
+        if (!encoded) return help;
+        bytes = std::move(*encoded);
+    }
+    if (bytes.empty()) return help;
+    job.steps.push_back({Step::Kind::write, a, std::move(bytes)});
+    return {};
+}
+
+std::string Drive::plan_action(Job& job, const Action& action, Reason& reason) const {
+    static constexpr std::pair<std::string_view, canopen::NmtCommand> commands[] = {
+        {"nmt_start", canopen::NmtCommand::start},
+        {"nmt_reset_node", canopen::NmtCommand::reset_node},
+        {"nmt_reset_communication", canopen::NmtCommand::reset_communication}};
+    const bool is_known = catalogue().command(action.name) != nullptr;
+    if (!is_known) return "a CiA 402 drive has no " + action.name;
+    reason = Reason::out_of_range;
+    if (!action.argument.empty()) return action.name + " takes no argument";
+    if (action.name == "store_parameters") return write(job, object::store, 0x65766173, 4), "";
+    if (action.name == "restore_defaults") return write(job, object::restore, 0x64616F6C, 4), "";
+    for (const auto& [name, command] : commands) {
+        if (name != action.name) continue;
+        reason = Reason::wrong_state;
+        if (command != canopen::NmtCommand::start && fb_.moving) return "the axis moves: stop it first";
+        Step s;
+        s.kind = Step::Kind::nmt;
+        s.nmt = command;
+        job.steps.push_back(s);
+        return {};
+    }
+    reason = Reason::not_supported;
+    return action.name + " cannot be done on this line";
+}
+
+}  // namespace axisgate::cia402_drive

@@ -1,0 +1,71 @@
+// Twin bench: one simulated CiA 402 drive at its wire, as a master would have it: SDO by hand, PDOs, time.
+// In: objects and values. Out: what the node said. Never goes round the wire but for the hand and the mechanics.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <memory>
+
+#include "adapters/cia402/twin/twin.hpp"
+#include "gateway/protocols/canopen/nmt.hpp"
+#include "gateway/protocols/canopen/pdo.hpp"
+#include "gateway/protocols/canopen/sdo.hpp"
+
+namespace axisgate::cia402_drive::twin::test {
+
+struct Bench {
+    std::unique_ptr<Twin> twin;
+    Out out;
+    Instant now = at_ns(1'000'000'000);
+    std::uint8_t node = 5;
+
+    explicit Bench(std::map<std::string, std::string> options = {}, const canopen::Eds* eds = nullptr, NonVolatile memory = {}) {
+        TwinSetup setup;
+        setup.address = "5";
+        setup.kind = LineKind::can;
+        setup.options = std::move(options);
+        twin = make_twin(setup, eds);
+        twin->power_on(memory, now, out);
+    }
+    void pass(Duration d) {
+        now += d;
+        twin->on_deadline(now, out);
+    }
+    void send(const Frame& f) { twin->on_frame(f, now, out); }
+    /// The last answer of the SDO server.
+    Frame sdo(std::uint8_t command, canopen::Address a, std::uint32_t value = 0) {
+        out.clear();
+        send(canopen::sdo_frame(0x600u + node, command, a, value));
+        for (const auto& tx : out.frames)
+            if (tx.frame.id == 0x580u + node) return tx.frame;
+        ADD_FAILURE() << "no answer about " << canopen::to_text(a);
+        return canopen::sdo_frame(0, 0, a);
+    }
+    canopen::Abort write(std::uint16_t index, std::uint8_t sub, std::int64_t v, int size) {
+        const Frame f = sdo(static_cast<std::uint8_t>(0x23 | (4 - size) << 2), {index, sub}, static_cast<std::uint32_t>(v));
+        return f.storage[0] == 0x80 ? static_cast<canopen::Abort>(canopen::value_of(f)) : canopen::Abort::none;
+    }
+    std::int64_t read(std::uint16_t index, std::uint8_t sub = 0) {
+        const Frame f = sdo(0x40, {index, sub});
+        EXPECT_NE(f.storage[0], 0x80) << std::hex << index << ": " << canopen::value_of(f);
+        const int size = 4 - (f.storage[0] >> 2 & 3);
+        return canopen::as_signed(canopen::value_of(f), static_cast<std::uint8_t>(8 * size));
+    }
+    [[nodiscard]] unsigned status() { return static_cast<unsigned>(read(0x6041)) & 0xFFFFu; }
+    void word(unsigned cw) { ASSERT_EQ(write(0x6040, 0, cw, 2), canopen::Abort::none); }
+    void enable(int mode) {
+        ASSERT_EQ(write(0x6060, 0, mode, 1), canopen::Abort::none);
+        for (const unsigned cw : {6u, 7u, 0xFu})
+            word(cw);
+        ASSERT_EQ(status() & 0x6Fu, 0x27u);
+    }
+    [[nodiscard]] std::size_t count(std::uint32_t id) const {
+        return static_cast<std::size_t>(
+            std::count_if(out.frames.begin(), out.frames.end(), [&](const auto& tx) { return tx.frame.id == id; }));
+    }
+};
+
+}  // namespace axisgate::cia402_drive::twin::test

@@ -1,0 +1,317 @@
+// Node: what frames and time do.
+// In: frames. Out: answers. Never applies half a PDO; never sends more than a bounded number of frames for time that has passed.
+#include "adapters/cia402/twin/node.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "adapters/cia402/twin/objects.hpp"
+
+namespace axisgate::cia402_drive::twin {
+using canopen::Abort;
+using canopen::Address;
+using canopen::NmtCommand;
+using canopen::NmtState;
+using canopen::PdoDirection;
+
+namespace {
+constexpr std::int64_t save_word = 0x65766173, load_word = 0x64616F6C;  // "save", "load"
+constexpr int most_events = 100'000;                                    // of one call: what is more was hours ago, and nobody saw it
+std::string key_of(Address a) {
+    std::array<char, 16> text{};
+    std::snprintf(text.data(), text.size(), "%04X:%02X", unsigned{a.index}, unsigned{a.sub});
+    return text.data();
+}
+}  // namespace
+
+Node::Node(std::uint8_t node, canopen::Dictionary dictionary, double travel)
+    : node_(node), factory_(std::move(dictionary)), d_(factory_), servo_(d_, travel), server_(node, d_) {
+    d_.on_write([this](Address a, std::span<const std::uint8_t> bytes) { return on_write(a, bytes); });
+    d_.on_read([this](Address) {
+        servo_.refresh(now_);
+        return Abort::none;
+    });
+}
+
+void Node::send(Frame f, Instant at, Out& out) const {
+    if (silent_ || !powered_) return;
+    f.at = at;
+    out.send(f);
+}
+
+void Node::load() {
+    for (const auto& [address, entry] : factory_.entries()) {
+        if (!is_stored(address, entry)) {
+            (void)d_.set_bytes(address, entry.bytes);
+            continue;
+        }
+        const auto kept = stored_.find(key_of(address));
+        if (kept == stored_.end() || !d_.set(address, kept->second)) (void)d_.set_bytes(address, entry.bytes);
+    }
+}
+void Node::save() {
+    NonVolatile now;
+    for (const auto& [address, entry] : factory_.entries())
+        if (is_stored(address, entry) && d_.find(address)->bytes != entry.bytes) now[key_of(address)] = d_.value(address);
+    if (now != stored_) ++revision_;
+    stored_ = std::move(now);
+}
+
+void Node::power_on(const NonVolatile& memory, Instant now, Out& out) {
+    now_ = now;
+    if (memory != stored_) stored_ = memory;
+    powered_ = true;
+    reset(true, now, out);
+}
+void Node::power_off(Instant now) {
+    servo_.power_off(now);
+    (void)servo_.take_told();
+    powered_ = false;
+    state_ = NmtState::boot_up;
+    heartbeat_.set_period({}, now);
+    guard_.set({}, 0);
+    server_.reset();
+    for (auto* list : {&receive_, &transmit_})
+        for (Pdo& p : *list)
+            p = {};
+}
+
+void Node::reset(bool all, Instant now, Out& out) {
+    if (std::exchange(restore_, false)) {
+        ++revision_;
+        stored_.clear();
+    }
+    if (all) {
+        if (servo_.mechanics(now).powered) servo_.power_off(now);
+        load();
+        servo_.power_on(now);
+    } else {
+        for (const auto& [address, entry] : factory_.entries()) {
+            if (address.index >= 0x2000) break;
+            const auto kept = stored_.find(key_of(address));
+            if (kept == stored_.end() || !d_.set(address, kept->second)) (void)d_.set_bytes(address, entry.bytes);
+        }
+    }
+    server_.reset();
+    guard_.reset();
+    boot(now, out);
+}
+void Node::boot(Instant now, Out& out) {
+    state_ = NmtState::pre_operational;
+    send(canopen::heartbeat_frame(node_, NmtState::boot_up), now, out);
+    heartbeat_.set_period(std::chrono::milliseconds(d_.integer({0x1017, 0}).value_or(0)), now);
+    guard_.set(std::chrono::milliseconds(d_.integer({0x100C, 0}).value_or(0)),
+               static_cast<std::uint8_t>(d_.integer({0x100D, 0}).value_or(0)));
+    read_pdos(now);
+}
+
+void Node::read_pdos(Instant now) {
+    for (std::uint16_t n = 1; n <= pdos; ++n)
+        for (const auto direction : {PdoDirection::receive, PdoDirection::transmit}) {
+            Pdo& p = (direction == PdoDirection::receive ? receive_ : transmit_)[n - 1u];
+            Abort fault = Abort::none;
+            const auto read = canopen::pdo_of(d_, direction, n, fault);
+            const bool valid = read && read->settings.valid;
+            if (valid && p.valid && p.pdo == *read) continue;
+            p = {};
+            p.valid = valid;
+            if (read) p.pdo = *read;
+            if (valid && direction == PdoDirection::transmit && p.pdo.settings.event_ms > 0)
+                p.event = now + std::chrono::milliseconds(p.pdo.settings.event_ms);
+        }
+}
+
+Abort Node::on_write(Address a, std::span<const std::uint8_t> bytes) {
+    const auto v = static_cast<std::int64_t>(canopen::low_first(bytes));
+    if (a.index == 0x1010 && v != save_word) return Abort::transfer;
+    if (a.index == 0x1011 && v != load_word) return Abort::transfer;
+    const bool receive_map = a.index >= 0x1600 && a.index < 0x1604, transmit_map = a.index >= 0x1A00 && a.index < 0x1A04;
+    if ((receive_map || transmit_map) && a.sub == 0 && v > 8) return Abort::pdo_length;
+    if ((receive_map || transmit_map) && a.sub > 0 && v != 0) {
+        const auto direction = receive_map ? PdoDirection::receive : PdoDirection::transmit;
+        const Abort fault = canopen::fault_of({canopen::mapped_entry(static_cast<std::uint32_t>(v))}, direction, d_);
+        if (fault != Abort::none) return fault;
+    }
+    if ((receive_map || transmit_map) && a.sub == 0 && v > 0) {
+        canopen::PdoMapping all;
+        for (std::uint8_t i = 1; i <= v; ++i)
+            all.push_back(canopen::mapped_entry(static_cast<std::uint32_t>(d_.integer({a.index, i}).value_or(0))));
+        if (canopen::bits_of(all) > canopen::pdo_bits) return Abort::pdo_length;
+    }
+    const canopen::Entry* e = d_.find(a);
+    const bool is_signed = e && canopen::is_signed(e->type);
+    const Abort refused =
+        servo_.may_write(a, is_signed ? canopen::as_signed(static_cast<std::uint64_t>(v), static_cast<std::uint8_t>(8 * bytes.size())) : v);
+    if (refused == Abort::none) writes_.push_back(a);
+    return refused;
+}
+
+void Node::take_writes(Instant now, Out& out) {
+    for (const Address a : std::exchange(writes_, {})) {
+        servo_.written(a, now);
+        if (a.index == 0x1017) heartbeat_.set_period(std::chrono::milliseconds(d_.integer(a).value_or(0)), now);
+        if (a.index == 0x100C || a.index == 0x100D)
+            guard_.set(std::chrono::milliseconds(d_.integer({0x100C, 0}).value_or(0)),
+                       static_cast<std::uint8_t>(d_.integer({0x100D, 0}).value_or(0)));
+        if (a.index >= 0x1400 && a.index < 0x1C00) read_pdos(now);
+        if (a.index == 0x1003) {
+            for (std::uint8_t i = 1; i <= 4; ++i)
+                (void)d_.set({0x1003, i}, Value{std::int64_t{0}});
+        }
+        if (a.index == 0x1010) {
+            (void)d_.set(a, Value{std::int64_t{1}});
+            save();
+        }
+        if (a.index == 0x1011) {
+            (void)d_.set(a, Value{std::int64_t{1}});
+            restore_ = true;
+        }
+    }
+    events(now, out);
+}
+
+void Node::nmt(NmtCommand command, Instant now, Out& out) {
+    switch (command) {
+        case NmtCommand::start:
+            state_ = NmtState::operational;
+            for (Pdo& p : transmit_)
+                if (p.valid && p.pdo.settings.event_ms > 0) p.event = now + std::chrono::milliseconds(p.pdo.settings.event_ms);
+            return events(now, out);
+        case NmtCommand::stop:
+            state_ = NmtState::stopped;
+            servo_.connection_lost(now);
+            return events(now, out);
+        case NmtCommand::pre_operational:
+            state_ = NmtState::pre_operational;
+            return;
+        case NmtCommand::reset_node:
+            return reset(true, now, out);
+        case NmtCommand::reset_communication:
+            return reset(false, now, out);
+    }
+}
+
+void Node::on_frame(const Frame& f, Instant now, Out& out) {
+    if (!powered_) return;
+    advance(now, out);
+    now_ = now;
+    if (f.kind != Frame::Kind::can || f.extended) return;
+    if (const auto command = canopen::nmt_for(f, node_)) return nmt(*command, now, out);
+    if (const auto answer = guard_.on_frame(f, now, node_, state_)) return send(*answer, now, out);
+    if (state_ == NmtState::stopped) return;
+    const auto sync = static_cast<std::uint32_t>(d_.integer({0x1005, 0}).value_or(0x80)) & 0x7FFu;
+    if (canopen::is_data(f, sync)) return on_sync(now, out);
+    std::vector<Frame> answers;
+    if (server_.on_frame(f, now, answers)) {
+        for (const Frame& a : answers)
+            send(a, now, out);
+        return take_writes(now, out);
+    }
+    if (state_ != NmtState::operational) return;
+    for (Pdo& p : receive_)
+        if (p.valid && canopen::is_data(f, p.pdo.settings.id)) return receive(p, f.data(), now, out);
+    for (Pdo& p : transmit_)
+        if (p.valid && p.pdo.settings.remote_allowed && canopen::is_remote(f, p.pdo.settings.id)) return transmit(p, now, out);
+}
+
+void Node::receive(Pdo& p, std::span<const std::uint8_t> bytes, Instant now, Out& out) {
+    std::vector<std::uint64_t> values;
+    const auto length = canopen::unpack(p.pdo.mapping, bytes, values);
+    if (length == canopen::PdoLength::shorter) {
+        return send(canopen::emergency_frame(node_, {0x8210, 0x11, {}}), now, out);
+    }
+    if (p.pdo.settings.transmission <= 240) {
+        p.waiting.assign(bytes.begin(), bytes.end());
+        return;
+    }
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const auto& m = p.pdo.mapping[i];
+        std::vector<std::uint8_t> raw(m.bits / 8);
+        canopen::put_low_first(values[i], raw);
+        (void)d_.write(m.address, raw, true);
+    }
+    take_writes(now, out);
+}
+
+void Node::on_sync(Instant now, Out& out) {
+    if (state_ != NmtState::operational) return;
+    for (Pdo& p : transmit_) {
+        const auto every = p.pdo.settings.transmission;
+        if (!p.valid || every > 240) continue;
+        if (every == 0) {
+            if (packed(p, now) != p.sent) transmit(p, now, out);
+        } else if (++p.syncs >= every) {
+            p.syncs = 0;
+            transmit(p, now, out);
+        }
+    }
+    for (Pdo& p : receive_) {
+        if (p.waiting.empty()) continue;
+        std::vector<std::uint64_t> values;
+        (void)canopen::unpack(p.pdo.mapping, std::exchange(p.waiting, {}), values);
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            std::vector<std::uint8_t> raw(p.pdo.mapping[i].bits / 8);
+            canopen::put_low_first(values[i], raw);
+            (void)d_.write(p.pdo.mapping[i].address, raw, true);
+        }
+    }
+    take_writes(now, out);
+    servo_.on_sync(now);
+}
+
+std::vector<std::uint8_t> Node::packed(const Pdo& p, Instant at) {
+    servo_.refresh(at);
+    std::vector<std::uint64_t> values;
+    for (const auto& m : p.pdo.mapping) {
+        const canopen::Entry* e = d_.find(m.address);
+        values.push_back(e ? canopen::low_first(e->bytes) : 0);
+    }
+    return canopen::pack(p.pdo.mapping, values).value_or(std::vector<std::uint8_t>{});
+}
+void Node::transmit(Pdo& p, Instant at, Out& out) {
+    p.sent = packed(p, at);
+    if (p.pdo.settings.event_ms > 0) p.event = at + std::chrono::milliseconds(p.pdo.settings.event_ms);
+    send(canopen::data_frame(p.pdo.settings.id, p.sent), at, out);
+}
+
+void Node::events(Instant at, Out& out) {
+    for (const auto& told : servo_.take_told())
+        if (state_ != NmtState::stopped) send(canopen::emergency_frame(node_, told.emergency), told.at, out);
+    if (state_ != NmtState::operational) return;
+    for (Pdo& p : transmit_) {
+        if (!p.valid || p.pdo.settings.transmission < 254) continue;
+        // By event is what states, inputs and modes do; what is measured goes with them.
+        const bool has_state =
+            std::ranges::any_of(p.pdo.mapping, [](const auto& m) { return m.address.index == 0x6041 || m.address.index == 0x60FD; });
+        if (has_state && packed(p, at) != p.sent) transmit(p, at, out);
+    }
+}
+
+Instant Node::deadline() const {
+    if (!powered_) return never;
+    Instant next = std::min({servo_.next_event(now_), heartbeat_.deadline(), server_.deadline(), guard_.deadline()});
+    if (state_ == NmtState::operational)
+        for (const Pdo& p : transmit_)
+            next = std::min(next, p.event);
+    return next;
+}
+
+void Node::advance(Instant now, Out& out) {
+    for (int i = 0; i < most_events && deadline() <= now; ++i) {
+        const Instant at = std::max(deadline(), now_);
+        now_ = at;
+        servo_.on_event(at);
+        if (const auto beat = heartbeat_.on_deadline(at, node_, state_)) send(*beat, at, out);
+        if (guard_.on_deadline(at)) servo_.connection_lost(at);
+        std::vector<Frame> answers;
+        server_.on_deadline(at, answers);
+        for (const Frame& f : answers)
+            send(f, at, out);
+        for (Pdo& p : transmit_)
+            if (state_ == NmtState::operational && p.event <= at) transmit(p, at, out);
+        events(at, out);
+    }
+    now_ = std::max(now_, now);
+}
+
+}  // namespace axisgate::cia402_drive::twin

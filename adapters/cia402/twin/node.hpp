@@ -1,0 +1,75 @@
+// Node: the CANopen side of the simulated drive: SDO server, NMT, error control, PDOs as they are mapped, SYNC, EMCY, memory.
+// In: frames, time. Out: frames with the instant of their cause. Never answers while it is silent or without power.
+#pragma once
+
+#include <array>
+#include <map>
+
+#include "adapters/cia402/twin/servo.hpp"
+#include "gateway/protocols/canopen/nmt.hpp"
+#include "gateway/protocols/canopen/pdo.hpp"
+#include "gateway/protocols/canopen/sdo_server.hpp"
+
+namespace axisgate::cia402_drive::twin {
+
+class Node {
+public:
+    static constexpr std::uint16_t pdos = 4;  ///< of each direction
+    Node(std::uint8_t node, canopen::Dictionary dictionary, double travel);
+
+    void power_on(const NonVolatile& memory, Instant now, Out& out);
+    void power_off(Instant now);
+    void on_frame(const Frame& frame, Instant now, Out& out);
+    /// Everything that happens by itself until then, in order, each with its own instant.
+    void advance(Instant now, Out& out);
+    [[nodiscard]] Instant deadline() const;
+
+    [[nodiscard]] NonVolatile stored() const { return stored_; }
+    [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
+    Servo& servo() noexcept { return servo_; }
+    [[nodiscard]] const Servo& servo() const noexcept { return servo_; }
+    [[nodiscard]] const canopen::Dictionary& dictionary() const noexcept { return d_; }
+    void set_silent(bool silent) noexcept { silent_ = silent; }
+    [[nodiscard]] bool silent() const noexcept { return silent_; }
+    [[nodiscard]] bool powered() const noexcept { return powered_; }
+    void after_hand(Instant now, Out& out) { events(now, out); }
+
+private:
+    struct Pdo {
+        canopen::Pdo pdo;
+        bool valid = false;
+        int syncs = 0;
+        std::vector<std::uint8_t> sent, waiting;
+        Instant event = never;
+    };
+    void send(Frame frame, Instant at, Out& out) const;
+    void boot(Instant now, Out& out);
+    void reset(bool all, Instant now, Out& out);
+    void load();
+    void save();
+    [[nodiscard]] canopen::Abort on_write(canopen::Address address, std::span<const std::uint8_t> bytes);
+    void take_writes(Instant now, Out& out);
+    void read_pdos(Instant now);
+    void nmt(canopen::NmtCommand command, Instant now, Out& out);
+    void receive(Pdo& p, std::span<const std::uint8_t> bytes, Instant now, Out& out);
+    void transmit(Pdo& p, Instant at, Out& out);
+    [[nodiscard]] std::vector<std::uint8_t> packed(const Pdo& p, Instant at);
+    void on_sync(Instant now, Out& out);
+    void events(Instant at, Out& out);  ///< EMCY, and PDOs that are sent by event
+
+    std::uint8_t node_;
+    canopen::Dictionary factory_, d_;
+    Servo servo_;
+    canopen::SdoServer server_;
+    canopen::NmtState state_ = canopen::NmtState::boot_up;
+    canopen::HeartbeatProducer heartbeat_;
+    canopen::GuardSlave guard_;
+    std::array<Pdo, pdos> receive_, transmit_;
+    std::vector<canopen::Address> writes_;
+    Instant now_{};
+    NonVolatile stored_;
+    std::uint64_t revision_ = 0;
+    bool powered_ = false, silent_ = false, restore_ = false;
+};
+
+}  // namespace axisgate::cia402_drive::twin

@@ -1,0 +1,109 @@
+// Twin of any CiA 402 drive: setup, memory and hand.
+// In: what a tester sets. Out: the node told. Never sets what the wire alone may set.
+#include "adapters/cia402/twin/twin.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "adapters/cia402/twin/node.hpp"
+#include "adapters/cia402/twin/objects.hpp"
+
+namespace axisgate::cia402_drive::twin {
+namespace {
+
+/// The built-in dictionary with what a description says; how many of its entries the model does not know.
+canopen::Dictionary described(std::uint8_t node, const canopen::Eds* eds, std::int64_t& unmodelled) {
+    canopen::Dictionary d = factory_dictionary(node);
+    if (eds == nullptr) return d;
+    const canopen::Dictionary own = canopen::dictionary_of(*eds, node);
+    for (const auto& [address, entry] : own.entries()) {
+        const canopen::Entry* known = d.find(address);
+        if (known == nullptr) ++unmodelled;
+        // Another type than the standard's would be another object: the model keeps its own, with the description's value.
+        if (known == nullptr || known->type == entry.type) d.add(address, entry);
+    }
+    return d;
+}
+
+class CanServo final : public Twin {
+public:
+    CanServo(const TwinSetup& setup, const canopen::Eds* eds)
+        : node_(number(setup), described(number(setup), eds, unmodelled_), std::atof(option(setup.options, "travel", "0").c_str())) {}
+
+    void on_frame(const Frame& f, Instant now, Out& out) override { node_.on_frame(f, now, out); }
+    void on_deadline(Instant now, Out& out) override {
+        if (node_.powered()) node_.advance(now, out);
+    }
+    [[nodiscard]] Instant deadline() const override { return node_.deadline(); }
+    void power_on(const NonVolatile& memory, Instant now, Out& out) override { node_.power_on(memory, now, out); }
+    [[nodiscard]] NonVolatile non_volatile() const override { return node_.stored(); }
+    [[nodiscard]] std::uint64_t non_volatile_revision() const override { return node_.revision(); }
+
+    [[nodiscard]] std::vector<HandItem> hand() const override {
+        const Servo& s = node_.servo();
+        return {
+            {"power", Value{node_.powered()}, true, "supply of the drive"},
+            {"silent", Value{node_.silent()}, true, "it hears and does not answer"},
+            {"stall", Value{stalled_}, true, "the shaft is held"},
+            {"inputs", Value{static_cast<std::int64_t>(s.inputs >> 16)}, true, "digital inputs, bit mask; they are bits 16 to 31 of 60FDh"},
+            {"limit_positive", Value{s.limit_positive}, true, "the upper limit switch"},
+            {"limit_negative", Value{s.limit_negative}, true, "the lower limit switch"},
+            {"home_switch", Value{s.home_switch}, true, "the home switch"},
+            {"inject_error", Value{std::int64_t{0}}, true,
+             "an error code of CiA 402 (8976: short circuit at the output); 0: its cause is gone"},
+            {"unmodelled", Value{unmodelled_}, false, "entries of the description that are stored and do nothing here"}};
+    }
+    [[nodiscard]] std::string set_hand(const std::string& name, const Value& value, Instant now, Out& out) override {
+        const auto n = as_integer(value);
+        if (!n) return name + ": write true, false or a whole number";
+        if (node_.powered()) node_.advance(now, out);
+        Servo& s = node_.servo();
+        const bool on = *n != 0, flag = *n == 0 || *n == 1;
+        if (name == "inject_error") {
+            const auto& codes = Servo::error_codes();
+            if (on && std::ranges::find(codes, *n) == codes.end())
+                return "inject_error: write one of the error codes of the catalogue, or 0";
+            if (!node_.powered()) return "inject_error: the drive is off";
+            s.set_cause(static_cast<std::uint16_t>(*n));
+            if (on) s.fail(static_cast<std::uint16_t>(*n), now);
+        } else if (name == "inputs") {
+            if (*n < 0 || *n > 0xFFFF) return "inputs: write a bit mask, 0 to 65535";
+            s.inputs = static_cast<std::uint32_t>(*n) << 16;
+            s.inputs_changed(now);
+        } else if (!flag) {
+            return name + ": write true or false";
+        } else if (name == "power") {
+            if (!on && node_.powered()) node_.power_off(now);
+            if (on && !node_.powered()) node_.power_on(node_.stored(), now, out);
+        } else if (name == "silent") {
+            node_.set_silent(on);
+        } else if (name == "stall") {
+            stalled_ = on;
+            s.hold(on, now);
+        } else if (name == "limit_positive" || name == "limit_negative" || name == "home_switch") {
+            (name == "limit_positive" ? s.limit_positive : name == "limit_negative" ? s.limit_negative : s.home_switch) = on;
+            s.inputs_changed(now);
+        } else {
+            return name + " is nothing that a hand can do here";
+        }
+        if (node_.powered()) node_.after_hand(now, out);
+        return {};
+    }
+    [[nodiscard]] TwinMechanics mechanics(int, Instant now) const override { return node_.servo().mechanics(now); }
+
+private:
+    static std::uint8_t number(const TwinSetup& setup) {
+        return static_cast<std::uint8_t>(std::clamp(std::atoi(setup.address.c_str()), 1, 127));
+    }
+    std::int64_t unmodelled_ = 0;  ///< counted while the node is made
+    Node node_;
+    bool stalled_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Twin> make_twin(const TwinSetup& setup, const canopen::Eds* description) {
+    return std::make_unique<CanServo>(setup, description);
+}
+
+}  // namespace axisgate::cia402_drive::twin

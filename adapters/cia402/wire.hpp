@@ -1,0 +1,49 @@
+// Wire of a CiA 402 drive on CANopen: node numbers, the objects that the gateway uses, the PDOs that it sets up, types of the catalogue.
+// In: texts, values. Out: node numbers, bytes, mappings. CANopen itself is gateway/protocols/canopen.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gateway/core/catalogue.hpp"
+#include "gateway/protocols/canopen/pdo.hpp"
+
+namespace axisgate::cia402_drive {
+using canopen::Address;
+
+/// 1..127; 0: the text is no node number.
+[[nodiscard]] int node_of(std::string_view address) noexcept;
+/// Empty, or what would be right.
+[[nodiscard]] std::string check_address(std::string_view address);
+
+namespace object {
+inline constexpr Address device_type{0x1000, 0}, error_register{0x1001, 0}, heartbeat{0x1017, 0}, vendor{0x1018, 1}, product{0x1018, 2},
+    revision{0x1018, 3}, store{0x1010, 1}, restore{0x1011, 1}, error_code{0x603F, 0}, controlword{0x6040, 0}, statusword{0x6041, 0},
+    quick_stop_option{0x605A, 0}, mode{0x6060, 0}, position{0x6064, 0}, velocity{0x606C, 0}, target_torque{0x6071, 0},
+    target_position{0x607A, 0}, home_offset{0x607C, 0}, profile_velocity{0x6081, 0}, profile_acceleration{0x6083, 0},
+    profile_deceleration{0x6084, 0}, homing_method{0x6098, 0}, cycle{0x60C2, 1}, cycle_index{0x60C2, 2}, target_velocity{0x60FF, 0},
+    modes{0x6502, 0};
+}  // namespace object
+
+/// TPDO 1: status word, position, mode shown. TPDO 2: velocity, demand. Both at each SYNC.
+/// RPDO 1, 2, 3: target position, velocity, torque; taken over at the SYNC. Control words go by SDO: each is acknowledged.
+[[nodiscard]] canopen::Pdo status_pdo(std::uint8_t node);
+[[nodiscard]] canopen::Pdo motion_pdo(std::uint8_t node);
+[[nodiscard]] canopen::Pdo target_pdo(std::uint8_t node, std::uint16_t number);
+inline constexpr std::uint32_t status_base = 0x180, motion_base = 0x280;
+
+/// Bytes of an object from a whole number, low byte first.
+[[nodiscard]] std::vector<std::uint8_t> bytes_of(std::int64_t value, std::size_t size);
+[[nodiscard]] std::int64_t signed_of(std::span<const std::uint8_t> bytes) noexcept;
+
+/// Where a point of the catalogue stands in the dictionary; nothing: it does not.
+[[nodiscard]] std::optional<Address> place_of(const Parameter& parameter, Point point);
+[[nodiscard]] std::optional<canopen::DataType> type_of(ValueType type) noexcept;
+/// The entry of the catalogue for an object; nullptr: none.
+[[nodiscard]] const Parameter* parameter_at(const Catalogue& catalogue, Address address);
+
+}  // namespace axisgate::cia402_drive

@@ -1,0 +1,264 @@
+// Jobs: the exchanges of all axes' commands in turn, and the end of processing that bars the line.
+// In: what the verbs ask. Out: exchanges, results. What has no answer and may not be repeated reads the position back, and has failed.
+#include "adapters/pacontrol/drive_jobs.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "adapters/pacontrol/wire_number.hpp"
+
+namespace axisgate::pacontrol {
+namespace {
+constexpr std::uint8_t frame_tries = 4;  // of one request that the control could not read (10h, 11h, 12h)
+constexpr Duration processing_period = std::chrono::milliseconds(20);
+constexpr Duration mode_pause = std::chrono::seconds(2);  // until the status tells what became of a change of mode
+
+bool moves_and_tells(std::uint16_t c) { return c == code::move_absolute_wait || c == code::move_relative_wait; }
+}  // namespace
+
+// --- for the verbs ---------------------------------------------------------------------------------------------------------------
+
+void Jobs::ask(Axis& a, Request request) {
+    a.job.request = std::move(request);
+    a.job.want = Job::Want::send;
+    a.job.tries = 0;
+}
+
+void Jobs::ask(Axis& a, std::uint16_t what, std::string data) {
+    const CommandInfo* c = command_info(what);
+    ask(a, request_for(what, c && c->parameter == Takes::nothing ? 0 : a.number(), std::move(data)));
+}
+
+void Jobs::ask_poll(Axis& a) {
+    a.job.poll = true;
+    a.job.want = Job::Want::send;
+}
+
+void Jobs::wait(Axis& a, Instant limit) {
+    a.job.want = Job::Want::wait;
+    a.job.limit = limit;
+}
+
+void Jobs::over(Axis& a, Outcome outcome, Reason reason, std::string text, Turn& t, std::int32_t code, Value value,
+                std::vector<std::uint8_t> bytes) {
+    if (!a.job.active()) return;
+    const Ticket ticket = std::exchange(a.job, Job{}).command.ticket;
+    pac_.tickets.answer(ticket, outcome, reason, std::move(text), t.out, code, std::move(value), std::move(bytes));
+}
+
+void Jobs::finished(Axis& a, Turn& t) { over(a, a.job.command.until_done ? Outcome::done : Outcome::accepted, Reason::none, "", t); }
+
+void Jobs::accepted(Axis& a, Wait::For what, std::int64_t value, std::string text, Turn& t) {
+    const Command c = std::exchange(a.job, Job{}).command;
+    feedback_.accepted(a, c, what, value, std::move(text), t);
+}
+
+bool Jobs::ended_by_quit(Axis& a, const Reply& reply, Turn& t, std::string_view advice, Reason reason) {
+    if (reply.quit == 0) return false;
+    ++pac_.counters.refused;
+    if (a.job.request.code == code::abort_online) pac_.leaving = false;
+    if (reply.quit == quit::not_switched_on && a.on) {
+        a.on = false;  // the control says IDLE or SAFE [L4071]: switched off at the control
+        feedback_.publish(a, t);
+    }
+    std::string text = fmt::format("{}: {}", describe(a.job.request), describe_quit(reply.quit));
+    if (reply.quit == quit::inadmissible) text += fmt::format(", which is {}", status_text(reply.status));
+    if (reply.error != 0) text += fmt::format("; PA-CONTROL error E{}", reply.error);
+    if (!advice.empty()) text += fmt::format(": {}", advice);
+    over(a, Outcome::refused, reason, std::move(text), t, reply.quit);
+    return true;
+}
+
+bool Jobs::ended_by_state(Axis& a, Turn& t) {
+    std::string why = pac_.why_not_movable(a);
+    if (why.empty()) return false;
+    refuse(a, Reason::wrong_state, std::move(why), t);
+    return true;
+}
+
+// --- exchanges -------------------------------------------------------------------------------------------------------------------
+
+void Jobs::wake(Turn& t) {
+    if (!std::exchange(pac_.wake, false)) return;
+    for (Axis& a : pac_.axes) {
+        if (!a.job.waits()) continue;
+        a.job.want = Job::Want::nothing;
+        run(a, nullptr, t);
+    }
+}
+
+void Jobs::send_of(Axis& a, Turn& t) {
+    Job& j = a.job;
+    j.in_flight = true;
+    j.want = Job::Want::nothing;
+    ++j.tries;
+    if (j.request.code == code::abort_online) pac_.leaving = true;  // whoever asks for it here, it is no surprise
+    const Sent sent{Purpose::job, a.place(), j.request, j.poll};
+    j.raw.empty() ? port_.send(sent, Priority::command, t) : port_.send_raw(sent, j.raw, t);
+}
+
+bool Jobs::send(Turn& t) {
+    for (std::size_t n = 0; n < Control::channels; ++n) {
+        Axis& a = pac_.axes[std::exchange(next_, (next_ + 1) % Control::channels)];
+        if (a.job.want != Job::Want::send || a.job.in_flight) continue;
+        send_of(a, t);
+        return true;
+    }
+    return false;
+}
+
+/// A poll that a client asked for is the one thing of a client that may cross the line while a command is being processed.
+bool Jobs::send_native_poll(Turn& t) {
+    const auto a = std::ranges::find_if(pac_.axes, [](const Axis& x) { return x.job.poll && x.job.want == Job::Want::send; });
+    if (a == pac_.axes.end()) return false;
+    send_of(*a, t);
+    return true;
+}
+
+void Jobs::answered(Axis& a, const Reply& reply, Turn& t) {
+    Job& j = a.job;
+    const bool orphan = !j.active() || !j.in_flight;  // a stop has ended it meanwhile
+    j.in_flight = false;
+    if (!orphan && j.poll && pac_.processing.active) {
+        run(a, &reply, t);
+        if (reply.end && !pac_.processing.hidden) processing_over(reply, t);
+        return;
+    }
+    const bool on = reply.quit == 0 && !reply.end;
+    if (orphan) {
+        if (on) pac_.begin_processing(a.place(), 0, true, t.now);
+        return;
+    }
+    if (on) {
+        pac_.begin_processing(a.place(), j.request.code, false, t.now);
+        if (j.kind == Job::Kind::single && !j.places.empty()) pac_.processing.axis = j.places[j.at];
+    }
+    if (j.unknown) {
+        if (reply.quit == 0) feedback_.learn_position(a, reply, t);
+        return over(a, Outcome::failed, Reason::no_answer,
+                    fmt::format("{}; the position read back is {}", j.text, reply.quit == 0 ? reply.data : "not known"), t);
+    }
+    on ? goes_on(a, reply, t) : run(a, &reply, t);
+}
+
+void Jobs::goes_on(Axis& a, const Reply& reply, Turn& t) {
+    Job& j = a.job;
+    j.processing = j.begun = true;
+    if (reply.real && moves_and_tells(j.request.code)) feedback_.learn_position(a, reply, t);
+    if (j.kind == Job::Kind::home || (j.kind == Job::Kind::single && !j.places.empty())) {
+        feedback_.begin_motion(pac_.axes[pac_.processing.axis], {Motion::Kind::reference}, t);
+        if (!j.command.until_done) pac_.tickets.accepted(j.command.ticket, t.out);  // nobody waits for the end: it has begun
+    }
+    if (j.kind == Job::Kind::native) run(a, &reply, t);  // the answer is the answer; the polls go on without it
+}
+
+void Jobs::not_read(Axis& a, const Reply& reply, Turn& t) {
+    Job& j = a.job;
+    if (!j.active() || !j.in_flight) return;
+    j.in_flight = false;
+    if (j.tries < frame_tries && j.raw.empty()) {
+        j.want = Job::Want::send;
+    } else if (j.kind == Job::Kind::native) {
+        run(a, &reply, t);
+    } else {
+        ended_by_quit(a, reply, t, "the line is disturbed, or check is set wrongly (option check)");
+    }
+}
+
+/// No answer to the present request.
+void Jobs::silent(Axis& a, Turn& t) {
+    Job& j = a.job;
+    if (!j.active() || !j.in_flight) return;
+    j.in_flight = false;
+    const CommandInfo* c = command_info(j.request.code);
+    const bool repeatable = c && c->repeatable && j.kind != Job::Kind::native;
+    if (repeatable && j.tries <= pac_.line.timing.retries) {
+        ++pac_.counters.retries;
+        j.want = Job::Want::send;
+        return;
+    }
+    const bool changes_mode = j.kind == Job::Kind::enable || j.kind == Job::Kind::reset || j.kind == Job::Kind::mode;
+    if (changes_mode && ++j.rounds <= pac_.line.timing.retries) return wait(a, t.now + mode_pause);
+    if (j.unknown) return over(a, Outcome::failed, Reason::no_answer, j.text + "; the position could not be read back", t);
+    std::string text = fmt::format("{} was not acknowledged{}", j.poll ? "the poll" : describe(j.request),
+                                   repeatable ? "" : ": whether the control carries it out is not known");
+    if (!repeatable && c && c->online_only && c->parameter == Takes::axis && j.kind != Job::Kind::native) {
+        j.unknown = true;
+        j.text = std::move(text);
+        a.reached = false;
+        return ask(a, code::position);
+    }
+    over(a, Outcome::failed, Reason::no_answer, std::move(text), t);
+}
+
+// --- what is being processed -----------------------------------------------------------------------------------------------------
+
+void Jobs::send_processing_poll(Turn& t) {
+    Processing& p = pac_.processing;
+    if (p.next_poll > t.now) return;
+    p.next_poll = t.now + processing_period;
+    port_.send({Purpose::processing, p.axis, request_for(code::status_axis, static_cast<std::uint32_t>(p.axis) + 1), !p.hidden},
+               Priority::command, t);
+}
+
+void Jobs::processing_answered(const Sent& sent, const Reply& reply, Turn& t) {
+    if (!pac_.processing.active) return;
+    Axis& a = pac_.axes[sent.axis];
+    if (!sent.eot) {                  // hidden: the status of the axis
+        if (reply.quit != 0) return;  // still barred
+        feedback_.learn_status(a, static_cast<int>(number_of(reply).value_or(-1)), t);
+        if (a.status != 1) processing_over(reply, t);
+        return;
+    }
+    if (reply.real && number_of(reply) && moves_and_tells(pac_.processing.code)) feedback_.learn_position(a, reply, t);
+    if (!reply.end) a.running_at = t.now;
+    feedback_.publish_all(t);
+    if (reply.end) processing_over(reply, t);
+}
+
+/// BE = 1 for what was being processed.
+void Jobs::processing_over(const Reply& reply, Turn& t) {
+    const Processing was = std::exchange(pac_.processing, Processing{});
+    feedback_.hurry(t.now);
+    Axis& a = pac_.axes[was.owner];
+    if (!a.job.active() || !a.job.processing || was.foreign) return;  // the next cycle sees what became of it
+    a.job.processing = false;
+    run(a, &reply, t);
+}
+
+void Jobs::processing_late(Turn& t) {
+    const Processing was = std::exchange(pac_.processing, Processing{});
+    port_.lose_step();
+    Axis& a = pac_.axes[was.axis];
+    Axis& owner = pac_.axes[was.owner];
+    const std::string text = fmt::format("{:04X}: end of processing was not reported within {} s: what became of it is not known", was.code,
+                                         milliseconds_of(pac_.options.processing_limit) / 1000);
+    pac_.notice(Severity::warning, "protocol", 0, text, t, a.id);
+    if (a.motion.active()) feedback_.end_motion(a, false, Reason::no_answer, text, t);
+    if (owner.job.processing) over(owner, Outcome::failed, Reason::no_answer, text, t);
+}
+
+// --- time ------------------------------------------------------------------------------------------------------------------------
+
+void Jobs::late(Axis& a, Turn& t) {
+    over(a, a.job.of_parameter() ? Outcome::refused : Outcome::failed, Reason::wrong_state,
+         fmt::format("{}the control did not get there in time; {}", a.job.text.empty() ? "" : a.job.text + ": ", pac_.mode_text()), t);
+}
+
+void Jobs::on_deadline(Turn& t) {
+    for (Axis& a : pac_.axes) {
+        if (a.job.waits() && a.job.limit <= t.now) late(a, t);
+    }
+    if (pac_.processing.active && pac_.processing.limit <= t.now) processing_late(t);
+}
+
+Instant Jobs::deadline() const noexcept {
+    Instant d = pac_.processing.active ? pac_.processing.limit : never;
+    for (const Axis& a : pac_.axes) {
+        if (a.job.waits()) d = std::min(d, a.job.limit);
+    }
+    return d;
+}
+
+}  // namespace axisgate::pacontrol

@@ -1,0 +1,188 @@
+// Port: one exchange after the other, the check's form, and the way back into step.
+// In: frames found among the bytes, deadlines. Out: what the drive is told of each.
+// Never repeats by itself: after a silence the barrier comes first, and whoever asked decides anew.
+#include "adapters/pacontrol/drive_port.hpp"
+
+#include <fmt/core.h>
+
+#include "gateway/core/wire_time.hpp"
+
+namespace axisgate::pacontrol {
+namespace {
+constexpr std::size_t reply_bytes = 48;  // of the longest acknowledgement but rare ones
+constexpr std::uint8_t misfit_limit = 2;
+constexpr Duration protocol_notice_period = std::chrono::seconds(10);
+
+bool could_not_read(std::uint16_t q) { return q == quit::check_wrong || q == quit::frame_order || q == quit::frame_begin; }
+bool asks_input(const Request& r) { return r.code == 0x1900 || r.code == 0x1901; }
+}  // namespace
+
+Port::Port(Control& control, User& user) : pac_(control), user_(user) {
+    if (pac_.line.check == CheckMode::zero) form_ = CheckForm::zero;
+}
+
+void Port::forget() {
+    exchange_.drop();
+    framer_.reset();
+    out_of_step_ = true;
+    answered_in_barrier_ = look_due_ = false;
+}
+
+void Port::begin(Sent what, std::span<const std::uint8_t> bytes, Priority priority, Turn& t) {
+    t.out.send(Frame::run(bytes), priority);
+    const LineForm& line = pac_.line;
+    const Duration patience = line.timing.reply_timeout + wire_time((bytes.size() + reply_bytes) * line.bits_per_byte, line.bit_rate);
+    exchange_.begin(std::move(what), t.now, patience, 0);
+    ++pac_.exchanges;
+    framer_.reset();
+}
+
+void Port::send(Sent what, Priority priority, Turn& t) {
+    const CheckForm form = pac_.line.check == CheckMode::zero ? CheckForm::zero : form_;
+    const auto bytes = what.eot ? std::vector<std::uint8_t>{EOT} : framed(text_of(what.request), form);
+    begin(std::move(what), bytes, priority, t);
+}
+
+void Port::send_raw(Sent what, std::span<const std::uint8_t> bytes, Turn& t) { begin(std::move(what), bytes, Priority::command, t); }
+
+/// Input 0 does not exist: the answer is "inadmissible input", which nothing else that is sent gives. What comes before it is late.
+bool Port::send_barrier(Turn& t) {
+    if (look_due_) {
+        send({.purpose = Purpose::look, .eot = true}, Priority::command, t);
+    } else if (out_of_step_) {
+        send({Purpose::barrier, 0, request_for(code::get_input)}, Priority::command, t);
+    }
+    return busy();
+}
+
+void Port::on_bytes(std::span<const std::uint8_t> bytes, Turn& t) {
+    const Framer::Sink sink{[&](std::string_view text, std::string_view digits) { on_text(text, digits, t); },
+                            [&] { garbled("an EOT outside a frame", t); },
+                            [&](FrameFault fault, std::span<const std::uint8_t>) { garbled(name_of(fault), t); }};
+    framer_.push(bytes, sink);
+}
+
+/// Counted always; published at most every ten seconds.
+void Port::garbled(std::string_view what, Turn& t) {
+    ++pac_.counters.garbled;
+    if (t.now < next_protocol_notice_) return;
+    next_protocol_notice_ = t.now + protocol_notice_period;
+    pac_.notice(Severity::warning, "protocol", 0, fmt::format("not an acknowledgement: {}", what), t);
+}
+
+void Port::on_text(std::string_view text, std::string_view digits, Turn& t) {
+    const auto form = form_of_check(text, digits, reply_form_.value_or(CheckForm::with_etx));
+    std::string fault;
+    std::optional<Reply> reply;
+    if (!form) {
+        fault = fmt::format("check {} is wrong, {} would be right: {}", digits.empty() ? "(none)" : digits,
+                            check_of(text, CheckForm::with_etx), text);
+    } else if (pac_.line.strict && *form == CheckForm::text) {
+        fault = fmt::format("check {} leaves the ETX out, {} would be right (strict = off takes both): {}", digits,
+                            check_of(text, CheckForm::with_etx), text);
+    } else if (*form == CheckForm::zero && reply_form_) {
+        fault = fmt::format("check 0 from a control that computes it: {}", text);
+    } else {
+        reply = reply_of(text, fault);
+    }
+    if (!reply) {
+        garbled(fault, t);
+        // A whole frame came, so the answer is here and cannot come late; what it says is not known.
+        if (!busy()) return;
+        exchange_.drop();
+        ++pac_.counters.timeouts;
+        return silent(t);
+    }
+    if (*form != CheckForm::zero) reply_form_ = pac_.line.strict ? CheckForm::with_etx : *form;
+    raw_reply_ = framed(text, *form);
+    on_reply(*reply, t);
+}
+
+void Port::unasked(const Reply& reply, Turn& t) {
+    ++pac_.counters.unexpected;
+    if (t.now >= next_protocol_notice_) {
+        next_protocol_notice_ = t.now + protocol_notice_period;
+        pac_.notice(Severity::info, "protocol", reply.quit, fmt::format("an acknowledgement that nobody waits for: {}", describe(reply)),
+                    t);
+    }
+    user_.unasked(reply, t);
+}
+
+bool Port::is_of_another(const Sent& sent, const Reply& reply) {
+    // Of a barrier that was sent twice.
+    if (reply.quit == quit::input_unknown && sent.purpose != Purpose::barrier &&
+        (sent.eot ? sent.purpose != Purpose::job : !asks_input(sent.request)))
+        return true;
+    // A get command whose answer has the other type: this is another one's answer. At the third time running the control is like that.
+    const CommandInfo* asked = sent.eot ? nullptr : command_info(sent.request.code);
+    if (!asked || asked->code < 0x1000 || reply.quit != 0 || sent.purpose == Purpose::barrier) return false;
+    std::uint8_t& misfits = misfits_[static_cast<std::size_t>(asked - all_commands().data())];
+    if ((asked->answer == Carries::real) == reply.real) {
+        misfits = 0;
+        return false;
+    }
+    if (misfits >= misfit_limit) return false;
+    ++misfits;
+    return out_of_step_ = true;
+}
+
+void Port::on_reply(const Reply& reply, Turn& t) {
+    if (!busy()) return unasked(reply, t);
+    if (is_of_another(exchange_.request(), reply)) {
+        ++pac_.counters.unexpected;
+        return;
+    }
+    pac_.presence.answered();
+    if (could_not_read(reply.quit) && !exchange_.request().eot) {
+        exchange_.drop();
+        ++pac_.counters.retries;
+        const Sent sent = exchange_.request();
+        check_refused(reply, t);
+        return user_.not_read(sent, reply, t);
+    }
+    check_refusals_ = 0;
+    form_proved_ = true;
+    if (exchange_.request().purpose == Purpose::barrier && reply.quit != quit::input_unknown && reply.quit != quit::inadmissible) {
+        ++pac_.counters.unexpected;  // late: the barrier's own answer is still to come
+        answered_in_barrier_ = true;
+        return;
+    }
+    const Sent sent = exchange_.answered(pac_.counters);
+    quiet_until_ = t.now + pac_.line.timing.pause;
+    user_.answered(sent, reply, t);
+    if (sent.purpose == Purpose::look) return regain_step();
+    if (sent.purpose != Purpose::barrier) return;
+    if (reply.quit == quit::input_unknown) return regain_step();
+    look_due_ = true;  // refused as such: something is being processed, or the answer was late; a poll tells
+}
+
+void Port::check_refused(const Reply& reply, Turn& t) {
+    if (reply.quit != quit::check_wrong || pac_.line.check != CheckMode::learn || ++check_refusals_ < (form_proved_ ? 3 : 2)) return;
+    check_refusals_ = 0;
+    form_ = form_ == CheckForm::text ? CheckForm::with_etx : form_ == CheckForm::with_etx ? CheckForm::zero : CheckForm::text;
+    pac_.notice(Severity::warning, "protocol", reply.quit,
+                fmt::format("the control answers that the check is wrong; now sent: {}", name_of(form_)), t);
+}
+
+void Port::on_deadline(Turn& t) {
+    if (exchange_.on_deadline(t.now, pac_.counters) == drive::Late::over) silent(t);
+}
+
+/// The exchange has had no answer that could be read.
+void Port::silent(Turn& t) {
+    const Sent sent = exchange_.request();
+    out_of_step_ = true;
+    if (sent.purpose == Purpose::barrier && answered_in_barrier_) {
+        regain_step();  // answers came, then silence for a whole time-out: nothing is on its way any more
+        pac_.presence.answered();
+        return;
+    }
+    user_.silent(sent, t);
+}
+
+void Port::regain_step() {
+    out_of_step_ = answered_in_barrier_ = look_due_ = false;
+    user_.in_step();
+}
+
+}  // namespace axisgate::pacontrol

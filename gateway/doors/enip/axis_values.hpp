@@ -1,0 +1,106 @@
+// Axis values: the axes behind the EtherNet/IP objects: inputs from the register image, outputs into lanes, parameters by the drive.
+// In: what connections and messages bring, results of commands. Out: data, commands, set-points, the word that an owner is gone.
+// Never a second way to an axis: everything passes the DoorPort. Bounds: `most_asked` parameters on their way, an answer within `patience`.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+
+#include "gateway/core/counter.hpp"
+#include "gateway/doors/enip/layout.hpp"
+#include "gateway/doors/enip/output_lane.hpp"
+#include "gateway/engine/door.hpp"
+#include "gateway/registers/register_image.hpp"
+#include "gateway/registers/writer.hpp"
+
+namespace axisgate::enip {
+
+class AxisValues final : public cip::Values {
+public:
+    static constexpr std::size_t most_asked = 1024;
+    static constexpr Duration patience = std::chrono::seconds(30), lease_renewal = std::chrono::seconds(5);
+    using Told = std::function<void(cip::Token, cip::General, cip::View)>;
+    struct Counters {
+        Counter commands, set_points, set_points_refused, parameters;
+    };
+
+    /// `told`: where values of parameters go; not called from inside ask() or set().
+    AxisValues(DoorPort& port, registers::RegisterImage& image, std::int64_t lease_s);
+    void use_number(DoorNumber number) noexcept { number_ = number; }
+    void use(Told told) { told_ = std::move(told); }
+    /// The layout of the site in force. `anew`: it is another one; its connections have been closed.
+    void use(Layout layout, bool anew);
+    [[nodiscard]] const Layout& layout() const noexcept { return layout_; }
+
+    void on_result(const Result& result);
+    /// Now and then: what the drives have not answered, leases of who goes on commanding.
+    void sweep(Instant now);
+
+    // --- cip::Values
+    [[nodiscard]] const cip::Device& device() const override { return layout_.device(); }
+    [[nodiscard]] std::optional<cip::AssemblyInfo> assembly(std::uint32_t instance) const override { return layout_.assembly(instance); }
+    [[nodiscard]] const std::vector<std::uint32_t>& assemblies() const override { return layout_.assemblies(); }
+    [[nodiscard]] std::uint32_t parameters() const override { return layout_.parameters(); }
+    [[nodiscard]] const cip::ParameterInfo* parameter(std::uint32_t instance) const override { return layout_.parameter(instance); }
+    void read(std::uint32_t instance, Instant now, cip::Bytes& to) override;
+    [[nodiscard]] std::uint64_t revision(std::uint32_t instance) const override;
+    [[nodiscard]] cip::General write(std::uint32_t instance, cip::View data, const cip::Peer& who, Instant now) override;
+    [[nodiscard]] bool overlap(std::uint32_t a, std::uint32_t b) const override;
+    [[nodiscard]] bool held_by_another(std::uint32_t output, const cip::Peer& who, Instant now) const override;
+    void opened(std::uint32_t output, const cip::Peer& who, Duration time_out, Instant now) override;
+    void consumed(std::uint32_t output, cip::View data, const cip::Peer& who, Instant now) override;
+    void idle(std::uint32_t output, const cip::Peer& who, Instant now) override;
+    void ended(std::uint32_t output, const cip::Peer& who, cip::End why, Instant now) override;
+    [[nodiscard]] cip::General ask(std::uint32_t instance, cip::Token token, const cip::Peer& who, Instant now) override;
+    [[nodiscard]] cip::General set(std::uint32_t instance, cip::View value, cip::Token token, const cip::Peer& who, Instant now) override;
+
+    [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
+
+private:
+    struct Owner {
+        Origin origin;
+        Duration good_for{};
+        std::map<AxisId, OutputLane> lanes;
+    };
+    struct Asked {
+        cip::Token token = 0;  ///< 0: a command of an output
+        std::uint32_t instance = 0;
+        std::uint32_t output = 0;
+        AxisId axis = no_axis;
+        bool read = false;
+        Origin origin;
+        ProcessData data;
+        Instant until{};
+    };
+    [[nodiscard]] Origin origin_of(std::uint32_t output, const cip::Peer& who) const;
+    /// Of a message: the connection's own where it commands this axis, so that one controller is one client.
+    [[nodiscard]] Origin origin_for(AxisId axis, const cip::Peer& who) const;
+    [[nodiscard]] bool submit(AxisId axis, CommandBody body, Asked asked, Instant now);
+    void carry_out(std::uint32_t output, Owner& owner, AxisId axis, OutputLane::Step step, Instant now);
+    void refused(const Asked& asked, const Result& result, Instant now);
+    void lose(std::uint32_t output, LossCause cause);
+    template <class Each>
+    void each_axis(std::uint32_t instance, Each&& each) const;
+
+    DoorPort& port_;
+    registers::RegisterImage& image_;
+    registers::RegisterWriter refusals_;  // its log and registers 20 and 21
+    std::int64_t lease_s_;
+    DoorNumber number_ = 0;
+    Told told_;
+    Layout layout_;
+    std::map<std::uint32_t, Owner> owners_;  // by output assembly
+    std::map<Ticket, Asked> asked_;
+    std::size_t questions_ = 0;
+    std::uint64_t tickets_ = 0;
+    Instant renewed_{};
+    Counters counters_;
+};
+
+/// "192.0.2.7:51123", and without the port.
+[[nodiscard]] std::string text_of(cip::Endpoint endpoint);
+[[nodiscard]] std::string address_text(std::uint32_t address);
+[[nodiscard]] cip::General general_of(Reason reason) noexcept;
+
+}  // namespace axisgate::enip

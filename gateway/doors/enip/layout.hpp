@@ -1,0 +1,85 @@
+// Layout: what the EtherNet/IP device is made of by the site in force: its name and revision, its assemblies, its parameters.
+// In: axes with their catalogues, the revision of the mapping, facts of the host. Out: the description that objects and EDS show.
+// Never a value of an axis. Parameters are numbered through, axis after axis; 65535 at most, those beyond are not served.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gateway/core/catalogue.hpp"
+#include "gateway/protocols/cip/values.hpp"
+
+namespace axisgate::enip {
+
+/// CONTRACT of the instances: 100+n and 150+n up to axis 40, 1000+n and 2000+n above; 100 and 150 all axes together.
+inline constexpr std::uint32_t all_inputs = 100, all_outputs = 150, far_inputs = 1000, far_outputs = 2000, listen_heartbeat = 197,
+                               input_heartbeat = 198, configuration = 199;
+inline constexpr std::uint16_t last_near_axis = 40;
+inline constexpr std::uint16_t bytes_per_axis = 32;
+
+struct LayoutAxis {
+    std::uint16_t number = 0;  ///< 1..1024
+    AxisId id = no_axis;
+    std::string name;
+    const Catalogue* catalogue = nullptr;  ///< outlives the layout; nullptr: no parameters
+};
+struct HostFacts {
+    std::string host_name;
+    std::uint32_t address = 0, mask = 0, router = 0;  ///< as numbers of the host
+    std::array<std::uint8_t, 6> mac{};
+    std::uint32_t serial = 1;
+    std::uint16_t port = 44818, io_port = 2222;
+};
+
+class Layout final : public cip::Description {
+public:
+    Layout() = default;
+    Layout(std::vector<LayoutAxis> axes, std::uint32_t mapping_revision, const HostFacts& host);
+
+    [[nodiscard]] const cip::Device& device() const override { return device_; }
+    [[nodiscard]] std::optional<cip::AssemblyInfo> assembly(std::uint32_t instance) const override;
+    [[nodiscard]] const std::vector<std::uint32_t>& assemblies() const override { return assemblies_; }
+    [[nodiscard]] std::uint32_t parameters() const override { return parameters_; }
+    [[nodiscard]] const cip::ParameterInfo* parameter(std::uint32_t instance) const override;
+
+    struct ParameterPlace {
+        const LayoutAxis* axis = nullptr;
+        Point point;
+    };
+    [[nodiscard]] ParameterPlace place_of(std::uint32_t instance) const;
+    /// Axes that an assembly shows or commands, by number from `first` on; numbers that no axis has are gaps.
+    struct Range {
+        std::uint16_t first = 0, count = 0;
+    };
+    [[nodiscard]] Range range_of(std::uint32_t instance) const;
+    /// nullptr: no axis has this number.
+    [[nodiscard]] const LayoutAxis* axis(std::uint16_t number) const;
+    [[nodiscard]] const std::vector<LayoutAxis>& axes() const noexcept { return axes_; }
+    [[nodiscard]] std::uint32_t mapping_revision() const noexcept { return mapping_revision_; }
+    /// For people: "axis feeder to the originator".
+    [[nodiscard]] std::string name_of(std::uint32_t instance) const;
+
+private:
+    struct Entry {
+        Point point;
+        cip::ParameterInfo info;
+    };
+    using List = std::vector<Entry>;
+    [[nodiscard]] static List list_of(const Catalogue& catalogue);
+
+    std::vector<LayoutAxis> axes_;  // by number
+    std::uint32_t mapping_revision_ = 0;
+    cip::Device device_;
+    std::vector<std::uint32_t> assemblies_;
+    std::map<const Catalogue*, std::shared_ptr<const List>> lists_;
+    std::vector<std::uint32_t> first_parameter_;  // of each of axes_
+    std::uint32_t parameters_ = 0;
+};
+
+/// A value as CIP has it, and back. Nothing: it does not fit its type.
+[[nodiscard]] std::optional<cip::Bytes> to_bytes(const Value& value, cip::DataType type);
+[[nodiscard]] std::optional<Value> from_bytes(cip::View bytes, cip::DataType type);
+
+}  // namespace axisgate::enip

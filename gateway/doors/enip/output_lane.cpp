@@ -1,0 +1,102 @@
+// Output lane: the last word that was sent is compared with the newest one; between them nothing is kept.
+// In: wanted registers. Out: what has changed. Never sends a value without a mode or word that uses it.
+#include "gateway/doors/enip/output_lane.hpp"
+
+#include "gateway/axis/cia402.hpp"
+
+namespace axisgate::enip {
+namespace {
+constexpr std::uint16_t edges = cia402::cw_new_setpoint | cia402::cw_fault_reset;
+constexpr std::int16_t velocity_mode = 3, streamed_position = 8, streamed_velocity = 9;
+constexpr std::uint16_t enabled = cia402::cw_switch_on | cia402::cw_enable_voltage | cia402::cw_quick_stop | cia402::cw_enable_operation;
+
+bool streams(const Wanted& w) noexcept { return w.mode == streamed_position || w.mode == streamed_velocity; }
+bool is_enabled(const AxisPicture& axis) noexcept { return (axis.statusword & 0x6F) == 0x27; }  // operation enabled
+}  // namespace
+
+Wanted read_wanted(cip::View bytes) noexcept {
+    cip::Reader r(bytes);
+    Wanted w;
+    w.controlword = r.u16();
+    w.mode = static_cast<std::int16_t>(r.u16());
+    w.target_position = static_cast<std::int32_t>(r.u32());
+    w.profile_velocity = r.u32();
+    w.profile_acceleration = r.u32();
+    w.profile_deceleration = r.u32();
+    w.target_velocity = static_cast<std::int32_t>(r.u32());
+    w.homing_method = static_cast<std::int16_t>(r.u16());
+    return w;
+}
+
+ProcessData all_of(const Wanted& w) noexcept {
+    ProcessData d;
+    d.controlword = w.controlword;
+    d.mode = w.mode;
+    d.target_position = w.target_position;
+    d.profile_velocity = w.profile_velocity;
+    d.profile_acceleration = w.profile_acceleration;
+    d.profile_deceleration = w.profile_deceleration;
+    d.target_velocity = w.target_velocity;
+    d.homing_method = w.homing_method;
+    return d;
+}
+
+OutputLane::Step OutputLane::take(const Wanted& wanted, const AxisPicture& axis) {
+    if (!any_) held_ = wanted.controlword & edges;
+    any_ = true;
+    held_ &= wanted.controlword;
+    wanted_ = wanted;
+    wanted_.controlword = static_cast<std::uint16_t>(wanted.controlword & ~held_);
+    Step step = next();
+    const bool follows = streams(wanted_) && (wanted_.controlword & enabled) == enabled && !(wanted_.controlword & cia402::cw_halt);
+    if (follows && is_enabled(axis)) {
+        SetPoint p;
+        const bool position = wanted_.mode == streamed_position;
+        p.mode = position ? SetPoint::Mode::position : SetPoint::Mode::velocity;
+        p.value = position ? wanted_.target_position : wanted_.target_velocity;
+        if (position && wanted_.profile_velocity != 0) p.velocity = wanted_.profile_velocity;
+        if (wanted_.profile_acceleration != 0) p.acceleration = wanted_.profile_acceleration;
+        if (wanted_.profile_deceleration != 0) p.deceleration = wanted_.profile_deceleration;
+        step.set_point = p;
+    }
+    return step;
+}
+
+OutputLane::Step OutputLane::done() {
+    if (on_their_way_ > 0) --on_their_way_;
+    return any_ ? next() : Step{};
+}
+
+OutputLane::Step OutputLane::next() {
+    const bool word = wanted_.controlword != sent_.controlword;
+    const bool streamed = streams(wanted_);
+    const bool mode = wanted_.mode != sent_.mode && !streamed;
+    // A profile takes its values with an edge; a speed is followed as it changes.
+    Wanted now = wanted_;
+    if (streamed) {
+        now = sent_;
+        now.controlword = wanted_.controlword;
+    } else if (!word && !mode) {
+        if (wanted_.mode != velocity_mode || on_their_way_ > 0) return {};
+        now.target_position = sent_.target_position;
+        now.homing_method = sent_.homing_method;
+    }
+    if (now == sent_) return {};
+    ProcessData d;
+    const auto put = [](auto& into, const auto& value, auto& before) {
+        if (value == before) return;
+        into = value;
+        before = value;
+    };
+    put(d.controlword, now.controlword, sent_.controlword);
+    put(d.mode, now.mode, sent_.mode);
+    put(d.target_position, now.target_position, sent_.target_position);
+    put(d.profile_velocity, now.profile_velocity, sent_.profile_velocity);
+    put(d.profile_acceleration, now.profile_acceleration, sent_.profile_acceleration);
+    put(d.profile_deceleration, now.profile_deceleration, sent_.profile_deceleration);
+    put(d.target_velocity, now.target_velocity, sent_.target_velocity);
+    put(d.homing_method, now.homing_method, sent_.homing_method);
+    return {d, std::nullopt};
+}
+
+}  // namespace axisgate::enip

@@ -1,0 +1,325 @@
+// Server: what a socket brings goes to the adapter; what the adapter says goes out at once; one timer rings at its next deadline.
+// In: sockets, results, sites, time. Out: bytes. Never lets the adapter be called from inside one of its own calls.
+#include "gateway/doors/enip/server.hpp"
+
+#include <fmt/core.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <array>
+#include <boost/asio/basic_socket_acceptor.hpp>
+#include <boost/asio/basic_waitable_timer.hpp>
+#include <boost/asio/ip/udp.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <map>
+
+#include "gateway/doors/enip/counters.hpp"
+#include "gateway/doors/enip/host_facts.hpp"
+#include "gateway/doors/enip/tcp_session.hpp"
+#include "gateway/site/site_state.hpp"
+
+namespace axisgate::enip {
+namespace {
+namespace asio = boost::asio;
+using tcp = asio::ip::tcp;
+using udp = asio::ip::udp;
+using Acceptor = asio::basic_socket_acceptor<tcp, asio::io_context::executor_type>;
+using UdpSocket = asio::basic_datagram_socket<udp, asio::io_context::executor_type>;
+
+constexpr Duration sweep_period = std::chrono::seconds(1);
+
+struct BindAddress {
+    std::uint32_t address = 0;
+    std::uint16_t port = 0;
+    std::string fault;
+};
+BindAddress parse_bind(const std::string& text) {
+    BindAddress b;
+    const auto colon = text.rfind(':');
+    const std::string host = text.substr(0, colon == std::string::npos ? 0 : colon) == "localhost" ? "127.0.0.1" : text.substr(0, colon);
+    boost::system::error_code ec;
+    const auto address = asio::ip::make_address_v4(host, ec);
+    const char* const end = text.data() + text.size();
+    if (colon == std::string::npos || ec || std::from_chars(text.data() + colon + 1, end, b.port).ptr != end) {
+        b.fault = fmt::format("[enip] bind \"{}\": write ADDRESS:PORT with an IPv4 address of this host, such as 127.0.0.1:44818", text);
+        return b;
+    }
+    b.address = address.to_uint();
+    return b;
+}
+
+cip::Endpoint endpoint_of(const sockaddr_in& a) { return {ntohl(a.sin_addr.s_addr), ntohs(a.sin_port)}; }
+sockaddr_in sockaddr_of(cip::Endpoint e) {
+    sockaddr_in a{};
+    a.sin_family = AF_INET;
+    a.sin_addr.s_addr = htonl(e.address);
+    a.sin_port = htons(e.port);
+    return a;
+}
+}  // namespace
+
+class Server::Impl final : public HotDoor, public cip::Output, public std::enable_shared_from_this<Server::Impl> {
+public:
+    Impl(asio::io_context& io, DoorPort& port, registers::RegisterImage& image, ServerSettings settings)
+        : io_(io),
+          port_(port),
+          settings_(settings),
+          values_(port, image, settings.lease_s),
+          adapter_(values_, *this, settings.incarnation),
+          acceptor_(io.get_executor()),
+          explicit_(io.get_executor()),
+          implicit_(io.get_executor()),
+          timer_(io) {
+        values_.use([this](cip::Token token, cip::General general, cip::View value) { adapter_.told(token, general, value); });
+        values_.use_number(port_.attach(*this));
+    }
+    ~Impl() override { port_.detach(*this); }
+
+    // --- HotDoor
+    [[nodiscard]] std::string_view name() const override { return "enip"; }
+    [[nodiscard]] std::vector<std::string> addresses() const override {
+        return open_ ? std::vector<std::string>{fmt::format("{}:{}", address_text(bound_), facts_.port)} : std::vector<std::string>{};
+    }
+    void on_result(const Result& result) override {
+        values_.on_result(result);
+        arm();
+    }
+    void on_site(const SiteState& site) override;
+    [[nodiscard]] std::string metrics() const override { return metrics_text(adapter_, values_.counters()); }
+
+    // --- cip::Output
+    void implicit(cip::Endpoint to, cip::View bytes, std::uint8_t dscp) override {
+        if (std::exchange(dscp_, dscp) != dscp) {
+            const int tos = dscp << 2;
+            (void)::setsockopt(implicit_.native_handle(), IPPROTO_IP, IP_TOS, &tos, sizeof tos);
+        }
+        send(implicit_, to, bytes);
+    }
+    void datagram(cip::Endpoint to, cip::View bytes) override { send(explicit_, to, bytes); }
+    void stream(cip::SessionKey key, cip::View bytes) override {
+        if (const auto it = sessions_.find(key); it != sessions_.end()) it->second->send(bytes);
+    }
+    void hang_up(cip::SessionKey key) override {
+        if (const auto it = sessions_.find(key); it != sessions_.end()) it->second->hang_up();
+    }
+
+    std::string open(const std::string& text);
+    void close();
+    [[nodiscard]] const cip::Adapter& adapter() const noexcept { return adapter_; }
+
+private:
+    static void send(UdpSocket& socket, cip::Endpoint to, cip::View bytes) {
+        const sockaddr_in a = sockaddr_of(to);
+        // A full queue drops it: the next one is newer.
+        (void)::sendto(socket.native_handle(), bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL,
+                       reinterpret_cast<const sockaddr*>(&a), sizeof a);
+    }
+    std::string bind_udp(UdpSocket& socket, std::uint16_t& port);
+    void accept();
+    void admit();
+    void listen(UdpSocket& socket, void (Impl::*take)(cip::View, cip::Endpoint, bool));
+    void take_explicit(cip::View bytes, cip::Endpoint from, bool broadcast) { adapter_.on_datagram(bytes, from, broadcast, port_.now()); }
+    void take_implicit(cip::View bytes, cip::Endpoint from, bool) { adapter_.on_implicit(bytes, from, port_.now()); }
+    void arm();
+    void on_timer();
+
+    asio::io_context& io_;
+    DoorPort& port_;
+    ServerSettings settings_;
+    AxisValues values_;
+    cip::Adapter adapter_;
+    Acceptor acceptor_;
+    UdpSocket explicit_, implicit_;
+    asio::steady_timer timer_;
+    Instant armed_ = never, next_sweep_{};
+    std::map<cip::SessionKey, std::shared_ptr<TcpSession>> sessions_;
+    cip::SessionKey newest_ = 0;
+    HostFacts facts_;
+    std::uint32_t bound_ = 0;
+    std::uint8_t dscp_ = 0;
+    bool open_ = false;
+    std::array<std::uint8_t, 65536> buffer_;
+};
+
+std::string Server::Impl::bind_udp(UdpSocket& socket, std::uint16_t& port) {
+    boost::system::error_code ec;
+    (void)socket.open(udp::v4(), ec);
+    if (!ec) (void)socket.bind({asio::ip::address_v4(bound_), port}, ec);
+    if (!ec) (void)socket.native_non_blocking(true, ec);
+    if (!ec) port = socket.local_endpoint(ec).port();
+    if (ec) {
+        return fmt::format("[enip] UDP {}:{}: cannot listen: {}; stop the program that has this port, or choose another",
+                           address_text(bound_), port, ec.message());
+    }
+    const int on = 1;
+    (void)::setsockopt(socket.native_handle(), IPPROTO_IP, IP_PKTINFO, &on, sizeof on);
+    return {};
+}
+
+std::string Server::Impl::open(const std::string& text) {
+    const BindAddress b = parse_bind(text);
+    if (!b.fault.empty()) return b.fault;
+    bound_ = b.address;
+    facts_ = host_facts(b.address);
+    boost::system::error_code ec;
+    (void)acceptor_.open(tcp::v4(), ec);
+    if (!ec) (void)acceptor_.set_option(Acceptor::reuse_address(true), ec);
+    if (!ec) (void)acceptor_.bind({asio::ip::address_v4(bound_), b.port}, ec);
+    if (!ec) (void)acceptor_.listen(256, ec);
+    if (!ec) (void)acceptor_.native_non_blocking(true, ec);
+    if (!ec) facts_.port = acceptor_.local_endpoint(ec).port();
+    if (ec) return fmt::format("[enip] bind \"{}\": cannot listen: {}; choose another address or port", text, ec.message());
+    facts_.io_port = settings_.io_port;
+    if (auto fault = bind_udp(explicit_, facts_.port); !fault.empty()) return fault;
+    if (auto fault = bind_udp(implicit_, facts_.io_port); !fault.empty()) return fault;
+    const int several_hops = 1, priority = 6;
+    (void)::setsockopt(implicit_.native_handle(), IPPROTO_IP, IP_MULTICAST_TTL, &several_hops, sizeof several_hops);
+    (void)::setsockopt(implicit_.native_handle(), SOL_SOCKET, SO_PRIORITY, &priority, sizeof priority);
+    open_ = true;
+    accept();
+    listen(explicit_, &Impl::take_explicit);
+    listen(implicit_, &Impl::take_implicit);
+    arm();
+    return {};
+}
+
+void Server::Impl::close() {
+    open_ = false;
+    boost::system::error_code ignored;
+    acceptor_.close(ignored);
+    explicit_.close(ignored);
+    implicit_.close(ignored);
+    timer_.cancel();
+    for (auto& [key, session] : std::exchange(sessions_, {}))
+        session->hang_up();
+}
+
+void Server::Impl::on_site(const SiteState& site) {
+    const std::uint32_t revision = port_.image().mapping_revision;
+    std::vector<LayoutAxis> axes;
+    for (std::size_t i = 0; i < site.axis_ids.size(); ++i) {
+        const AxisId id = site.axis_ids[i];
+        axes.push_back({port_.image().picture(id).number, id, site.site.axes[i].name, port_.catalogue(id)});
+    }
+    Layout layout(std::move(axes), revision, facts_);
+    // An axis that was made anew is another one, though it looks the same.
+    const bool changed = revision != values_.layout().mapping_revision() ||
+                         !std::ranges::equal(layout.axes(), values_.layout().axes(), {}, &LayoutAxis::id, &LayoutAxis::id);
+    if (changed) adapter_.close_all(port_.now());
+    values_.use(std::move(layout), changed);
+    arm();
+}
+
+void Server::Impl::accept() {
+    acceptor_.async_wait(Acceptor::wait_read, [weak = weak_from_this()](boost::system::error_code ec) {
+        const auto self = weak.lock();
+        if (!self || ec || !self->open_) return;
+        self->admit();
+        self->arm();
+        self->accept();
+    });
+}
+
+void Server::Impl::admit() {
+    sockaddr_in peer{};
+    socklen_t length = sizeof peer;
+    const int fd = ::accept4(acceptor_.native_handle(), reinterpret_cast<sockaddr*>(&peer), &length, SOCK_NONBLOCK | SOCK_CLOEXEC);
+    if (fd < 0) return;
+    const int on = 1;
+    (void)::setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+    (void)::setsockopt(fd, SOL_SOCKET, SO_KEEPALIVE, &on, sizeof on);
+    TcpSession::Socket socket(io_.get_executor(), tcp::v4(), fd);
+    const cip::SessionKey key = ++newest_;
+    if (!adapter_.on_connected(key, endpoint_of(peer), port_.now())) return;
+    auto session = std::make_shared<TcpSession>(
+        std::move(socket), most_unsent,
+        [weak = weak_from_this(), key](cip::View bytes) {
+            const auto self = weak.lock();
+            if (!self) return;
+            self->adapter_.on_stream(key, bytes, self->port_.now());
+            self->arm();
+        },
+        [weak = weak_from_this(), key] {
+            const auto self = weak.lock();
+            if (!self) return;
+            self->sessions_.erase(key);
+            self->adapter_.on_disconnected(key);
+        });
+    sessions_.emplace(key, session);
+    session->begin();
+}
+
+void Server::Impl::listen(UdpSocket& socket, void (Impl::*take)(cip::View, cip::Endpoint, bool)) {
+    socket.async_wait(UdpSocket::wait_read, [weak = weak_from_this(), &socket, take](boost::system::error_code ec) {
+        const auto self = weak.lock();
+        if (!self || ec || !self->open_) return;
+        for (int i = 0; i < datagrams_per_turn; ++i) {
+            sockaddr_in from{};
+            alignas(cmsghdr) std::array<char, 128> control;
+            iovec place{self->buffer_.data(), self->buffer_.size()};
+            msghdr m{};
+            m.msg_name = &from;
+            m.msg_namelen = sizeof from;
+            m.msg_iov = &place;
+            m.msg_iovlen = 1;
+            m.msg_control = control.data();
+            m.msg_controllen = control.size();
+            const auto n = ::recvmsg(socket.native_handle(), &m, MSG_DONTWAIT);
+            if (n < 0) break;
+            bool everybody = false;
+            for (cmsghdr* c = CMSG_FIRSTHDR(&m); c; c = CMSG_NXTHDR(&m, c)) {
+                if (c->cmsg_level != IPPROTO_IP || c->cmsg_type != IP_PKTINFO) continue;
+                in_pktinfo info{};
+                std::memcpy(&info, CMSG_DATA(c), sizeof info);
+                everybody = info.ipi_addr.s_addr != info.ipi_spec_dst.s_addr;
+            }
+            if ((m.msg_flags & MSG_TRUNC) == 0)
+                ((*self).*take)({self->buffer_.data(), static_cast<std::size_t>(n)}, endpoint_of(from), everybody);
+        }
+        self->arm();
+        self->listen(socket, take);
+    });
+}
+
+void Server::Impl::arm() {
+    if (!open_) return;
+    const Instant due = std::min(adapter_.deadline(), next_sweep_);
+    if (due == armed_) return;
+    armed_ = due;
+    timer_.expires_at(
+        std::chrono::steady_clock::time_point(std::chrono::duration_cast<std::chrono::steady_clock::duration>(due.time_since_epoch())));
+    timer_.async_wait([weak = weak_from_this()](boost::system::error_code ec) {
+        const auto self = weak.lock();
+        if (self && !ec) self->on_timer();
+    });
+}
+
+void Server::Impl::on_timer() {
+    armed_ = never;
+    const Instant now = port_.now();
+    adapter_.on_deadline(now);
+    if (next_sweep_ <= now) {
+        values_.sweep(now);
+        next_sweep_ = now + sweep_period;
+    }
+    arm();
+}
+
+Server::Server(asio::io_context& io, DoorPort& port, registers::RegisterImage& image, ServerSettings settings)
+    : impl_(std::make_shared<Impl>(io, port, image, settings)) {}
+Server::~Server() { impl_->close(); }
+std::string Server::open(const std::string& bind) {
+    std::string fault = impl_->open(bind);
+    if (!fault.empty()) impl_->close();
+    return fault;
+}
+std::vector<std::string> Server::addresses() const { return impl_->addresses(); }
+void Server::close() { impl_->close(); }
+const cip::Adapter& Server::adapter() const noexcept { return impl_->adapter(); }
+
+}  // namespace axisgate::enip

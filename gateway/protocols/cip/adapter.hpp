@@ -1,0 +1,115 @@
+// Adapter: one EtherNet/IP device: its sessions, its objects, its connections.
+// In: what arrives on TCP and on the two UDP ports, values that were asked for, time. Out: bytes by `Output`; the next deadline.
+// Never has a socket or a clock. Bounds: `most_sessions` (then one that is not registered, or else does nothing, gives way),
+// `most_waiting` messages that wait for values (then 0x02), `most_late` answers to broadcasts that wait for their delay (then none).
+#pragma once
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "gateway/protocols/cip/connection_manager.hpp"
+#include "gateway/protocols/cip/router.hpp"
+
+namespace axisgate::cip {
+
+struct Output : Carrier {
+    virtual void stream(SessionKey session, View bytes) = 0;
+    /// From the explicit port.
+    virtual void datagram(Endpoint to, View bytes) = 0;
+    /// Closes the TCP connection once what was sent is out. on_disconnected() follows, not from inside this call.
+    virtual void hang_up(SessionKey session) = 0;
+};
+
+class Adapter {
+public:
+    static constexpr std::size_t most_sessions = 256, most_waiting = 256, most_late = 32;
+    static constexpr Duration unregistered_time_out = std::chrono::seconds(10);
+
+    struct Counters {
+        Counter requests, wrong_packets, sessions_opened, sessions_refused, sessions_evicted, sessions_silent;
+    };
+
+    Adapter(Values& values, Output& output, std::uint16_t incarnation);
+    Adapter(const Adapter&) = delete;
+    Adapter& operator=(const Adapter&) = delete;
+
+    /// `key`: any number but 0 that no other session has. False: there is no room; close it.
+    [[nodiscard]] bool on_connected(SessionKey key, Endpoint from, Instant now);
+    void on_stream(SessionKey key, View bytes, Instant now);
+    void on_disconnected(SessionKey key);
+    /// On the explicit UDP port. `broadcast`: it was sent to everybody, whose answers shall not come at once.
+    void on_datagram(View bytes, Endpoint from, bool broadcast, Instant now);
+    void on_implicit(View datagram, Endpoint from, Instant now) { manager_.on_implicit(datagram, from, now); }
+    /// The value that was asked for under this token, or why there is none. Of a written one: no value.
+    void told(Token token, General general, View value);
+
+    void on_deadline(Instant now);
+    [[nodiscard]] Instant deadline() const;
+
+    /// Every connection is closed: what they were opened for is no more.
+    void close_all(Instant now) { manager_.close_all(End::by_gateway, now); }
+    [[nodiscard]] const ConnectionManager& connections() const noexcept { return manager_; }
+    [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
+    [[nodiscard]] std::size_t sessions() const noexcept { return sessions_.size(); }
+
+private:
+    struct Session {
+        Framer framer;
+        Endpoint from;
+        std::uint32_t handle = 0;  ///< 0: not registered
+        Instant heard{};
+        bool leaving = false;
+    };
+    /// Where an answer goes.
+    struct Route {
+        SessionKey session = 0;
+        Header header;
+        std::uint32_t connection = 0;  ///< O->T id of explicit messages; 0: unconnected
+        std::uint16_t count = 0;
+        Bytes items;  ///< beside the two that every answer has
+        std::uint16_t extra = 0;
+        std::size_t most = 0;
+    };
+    struct Waiting {
+        Route route;
+        Router::Parts parts;
+    };
+    struct Late {
+        Instant due{};
+        Endpoint to;
+        Bytes bytes;
+    };
+
+    void packet_from(SessionKey key, Session& session, const Header& header, View data, Instant now);
+    [[nodiscard]] bool listing(const Header& header, View data, Bytes& answer) const;
+    void register_session(SessionKey key, Session& session, const Header& header, View data);
+    void rr_data(SessionKey key, Session& session, const Header& header, View data, Instant now);
+    void unit_data(SessionKey key, const Header& header, View data, Instant now);
+    void message(View bytes, Route route, Context context);
+    void answer(const Route& route, const Router::Parts& parts);
+    void say(SessionKey key, const Header& header, PacketStatus status, View data = {});
+    [[nodiscard]] bool make_room(Instant now);
+    void hang_up(SessionKey key, Session& session);
+
+    Values& values_;
+    Output& output_;
+    ConnectionManager manager_;
+    IdentityObject identity_;
+    AssemblyObject assembly_;
+    ParameterObject parameter_;
+    TcpIpObject tcp_ip_;
+    EthernetLinkObject ethernet_link_;
+    QosObject qos_;
+    ConnectionConfigurationObject configuration_;
+    Router router_;
+    std::map<SessionKey, Session> sessions_;
+    std::map<std::uint64_t, Waiting> waiting_;  // by the upper bits of their tokens
+    std::vector<Late> late_;
+    std::uint64_t exchanges_ = 0;
+    std::uint32_t handles_;
+    Instant next_look_ = never;  // at sessions that are silent
+    Counters counters_;
+};
+
+}  // namespace axisgate::cip

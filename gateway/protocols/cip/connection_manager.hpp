@@ -1,0 +1,121 @@
+// Connection manager: the connections that originators have with this device, their data, their time-outs and their ends.
+// In: Forward_Open and its like, implicit datagrams, time. Out: answers, implicit datagrams by `Carrier`, word to `Values`.
+// Never opens more than `most_connections`: then 0x0113. Data from a wrong address, old, or of a wrong size is dropped and counted.
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "gateway/core/counter.hpp"
+#include "gateway/protocols/cip/encapsulation.hpp"
+#include "gateway/protocols/cip/forward_open.hpp"
+#include "gateway/protocols/cip/objects.hpp"
+
+namespace axisgate::cip {
+
+/// What carries bytes to others.
+struct Carrier {
+    /// A datagram of implicit data. `dscp`: its mark.
+    virtual void implicit(Endpoint to, View datagram, std::uint8_t dscp) = 0;
+    virtual ~Carrier() = default;
+};
+
+struct Connection {
+    enum class Kind : std::uint8_t { exclusive_owner, input_only, listen_only, explicit_messages };
+    Kind kind = Kind::exclusive_owner;
+    std::uint16_t number = 0;  ///< 1.. , of its place
+    OpenRequest request;
+    IoPlan plan;
+    Peer peer;            ///< the originator's address; the connection's own id as Values know it
+    Endpoint produce_to;  ///< where its data go
+    SessionKey session = 0;
+    std::uint32_t ot_id = 0, to_id = 0;
+    bool sends = false;   ///< of a multicast group one connection does
+    Duration interval{};  ///< at which it sends
+    Duration look{};      ///< at which it looks for a change; zero: it is cyclic
+    Instant expires = never, next = never, next_look = never;
+    std::uint32_t sent = 0;
+    std::uint16_t sent_count = 0;
+    std::uint64_t sent_revision = 0;
+    bool heard = false, running = false;
+    std::uint32_t received = 0;
+    std::uint16_t received_count = 0;
+    std::uint16_t asked = 0;  ///< class 3: count of the newest request ...
+    bool asked_any = false;
+    Bytes answered;  ///< ... and its answer, for a repetition
+
+    [[nodiscard]] bool is_io() const noexcept { return kind != Kind::explicit_messages; }
+    [[nodiscard]] bool multicasts() const noexcept { return is_io() && request.to.type == Half::Type::multicast; }
+};
+
+class ConnectionManager final : public Object, public Connections {
+public:
+    static constexpr std::size_t most_connections = 128;
+    static constexpr Duration first_data = std::chrono::seconds(10);  ///< until the first datagram, if the time-out is shorter
+
+    struct Counters {
+        Counter opened, open_format, open_resource, open_other, closed, close_format, close_other, timed_out;
+        Counter received, sent, from_wrong_address, stale, wrong_size, unknown_connection;
+    };
+
+    /// `incarnation`: another number after each start, so that ids of before mean nothing.
+    ConnectionManager(Values& values, Carrier& carrier, std::uint16_t incarnation);
+
+    [[nodiscard]] std::uint32_t class_id() const noexcept override { return class_id::connection_manager; }
+    [[nodiscard]] std::uint16_t last_attribute() const override { return 8; }
+    [[nodiscard]] std::span<const std::uint16_t> all(std::uint32_t instance) const override;
+    [[nodiscard]] General get(std::uint32_t instance, std::uint32_t attribute, const Context& context, Bytes& to) override;
+    [[nodiscard]] Response other(std::uint8_t service, std::uint32_t instance, View data, Context& context) override;
+
+    void on_implicit(View datagram, Endpoint from, Instant now);
+    void on_deadline(Instant now);
+    [[nodiscard]] Instant deadline() const;
+    /// A TCP connection has ended: its explicit connections go with it; implicit ones live on their own.
+    void on_session_gone(SessionKey session);
+
+    /// Of explicit messages; nullptr: there is none with this id by this session.
+    [[nodiscard]] Connection* explicit_connection(std::uint32_t ot_id, SessionKey session);
+    void touch(Connection& connection, Instant now);
+    [[nodiscard]] bool uses(SessionKey session) const;
+
+    [[nodiscard]] std::size_t open() const override;
+    [[nodiscard]] std::size_t most() const override { return most_connections; }
+    [[nodiscard]] std::vector<std::uint16_t> numbers() const override;
+    [[nodiscard]] bool io_open() const override;
+    [[nodiscard]] bool owned() const override;
+    [[nodiscard]] bool running() const override;
+    [[nodiscard]] bool owned_by_other(std::uint32_t output, const Peer& than) const override;
+    void close_all(End why, Instant now) override;
+
+    [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
+    [[nodiscard]] const Connection* at(std::size_t place) const noexcept { return places_[place].get(); }
+
+private:
+    [[nodiscard]] Response open_one(const OpenRequest& request, Context& context);
+    [[nodiscard]] Response open_null(const OpenRequest& request);
+    [[nodiscard]] Response open_io(const OpenRequest& request, Context& context);
+    [[nodiscard]] Response open_explicit(const OpenRequest& request, Context& context);
+    [[nodiscard]] Response forward_open(View data, bool large, Context& context);
+    [[nodiscard]] Response forward_close(View data, const Context& context);
+    [[nodiscard]] Response connection_data(std::uint8_t service, View data) const;
+    [[nodiscard]] std::optional<Extended> wrong_owner(const IoPlan& plan, const Peer& who, Instant now) const;
+    [[nodiscard]] Response opened(const Connection& connection) const;
+    [[nodiscard]] Connection* place_for(const OpenRequest& request, const Context& context);
+    [[nodiscard]] Connection* find(const Triad& triad) const;
+    [[nodiscard]] Connection* group_of(std::uint32_t produced, const Connection* but) const;
+    [[nodiscard]] Endpoint group_address(std::uint16_t number) const;
+    void join_group(Connection& connection, Context& context);
+    void close(Connection& connection, End why, Instant now);
+    void consume(Connection& connection, View data, Instant now);
+    void produce(Connection& connection, Instant now);
+    void look(Connection& connection, Instant now);
+
+    Values& values_;
+    Carrier& carrier_;
+    std::uint16_t generation_;
+    std::array<std::unique_ptr<Connection>, most_connections> places_;
+    Counters counters_;
+    Bytes data_, datagram_;  // kept for their room
+};
+
+}  // namespace axisgate::cip

@@ -1,0 +1,20 @@
+// EDS: the electronic data sheet by which engineering tools know the device (CIP volume 1, chapter 7).
+// In: the description that the objects show. Out: the text. Never a value, never a date of its own making: it changes with the layout
+// alone.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "gateway/protocols/cip/values.hpp"
+
+namespace axisgate::cip {
+
+struct EdsNames {
+    std::string vendor, device_type, catalog;
+    std::function<std::string(std::uint32_t instance)> assembly, parameter;
+};
+[[nodiscard]] std::string eds_text(const Description& device, const EdsNames& names);
+
+}  // namespace axisgate::cip

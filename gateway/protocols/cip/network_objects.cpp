@@ -1,0 +1,103 @@
+// TCP/IP Interface, Ethernet Link and QoS: what a tool shows of the device's port.
+// In: the device. Out: attributes. Never changes how the host is reached: that is its operating system's.
+#include "gateway/protocols/cip/objects.hpp"
+
+namespace axisgate::cip {
+
+std::span<const std::uint16_t> TcpIpObject::all(std::uint32_t) const {
+    static constexpr std::uint16_t list[] = {1, 2, 3, 4, 5, 6};
+    return list;
+}
+
+General TcpIpObject::get(std::uint32_t, std::uint32_t attribute, const Context&, Bytes& to) {
+    const Device& d = values_.device();
+    switch (attribute) {
+        case 1:
+            put32(to, 1);  // the configuration is valid
+            break;
+        case 2:
+            put32(to, 0);
+            break;
+        case 3:
+            put32(to, 0);  // as it was stored: by the host
+            break;
+        case 4:
+            put16(to, 2);
+            put_class(to, class_id::ethernet_link);
+            put_instance(to, 1);
+            break;
+        case 5:
+            put32(to, d.address);
+            put32(to, d.mask);
+            put32(to, d.router);
+            put32(to, 0);
+            put32(to, 0);
+            put_string(to, "");
+            break;
+        case 6: {
+            const std::string_view name = std::string_view(d.host_name).substr(0, 64);
+            put_string(to, name);
+            if (name.size() % 2 != 0) put8(to, 0);
+            break;
+        }
+        case 13:
+            put16(to, inactivity_s_);
+            break;
+        default:
+            return General::attribute_not_supported;
+    }
+    return General::success;
+}
+
+General TcpIpObject::set(std::uint32_t instance, std::uint32_t attribute, const Context& context, Reader& data) {
+    if (attribute != 13) return Object::set(instance, attribute, context, data);
+    if (data.left() < 2) return General::not_enough_data;
+    const std::uint16_t wanted = data.u16();
+    if (wanted > 3600) return General::invalid_attribute_value;
+    inactivity_s_ = wanted;
+    return General::success;
+}
+
+std::span<const std::uint16_t> EthernetLinkObject::all(std::uint32_t) const {
+    static constexpr std::uint16_t list[] = {1, 2, 3};
+    return list;
+}
+
+General EthernetLinkObject::get(std::uint32_t, std::uint32_t attribute, const Context&, Bytes& to) {
+    const Device& d = values_.device();
+    switch (attribute) {
+        case 1:
+            put32(to, d.speed_mbit);
+            break;
+        case 2:
+            put32(to, 1u | 1u << 1 | 3u << 2);  // link, full duplex, negotiated
+            break;
+        case 3:
+            put_bytes(to, d.mac);
+            break;
+        case 7:
+            put8(to, 2);  // twisted pair
+            break;
+        case 8:
+            put8(to, 1);  // enabled
+            break;
+        case 9:
+            put8(to, 1);  // by its administrator, too
+            break;
+        case 10:
+            put_short_string(to, "Port 1");
+            break;
+        default:
+            return General::attribute_not_supported;
+    }
+    return General::success;
+}
+
+General QosObject::get(std::uint32_t, std::uint32_t attribute, const Context&, Bytes& to) {
+    static constexpr std::uint8_t values[] = {0, 59, 47, dscp_urgent, dscp_scheduled, dscp_high, dscp_low, dscp_explicit};
+    if (attribute < 1 || attribute > 8) return General::attribute_not_supported;
+    put8(to, values[attribute - 1]);
+    return General::success;
+}
+
+}  // namespace axisgate::cip

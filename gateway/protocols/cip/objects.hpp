@@ -1,0 +1,130 @@
+// Objects: Identity, Assembly, Parameter, TCP/IP Interface, Ethernet Link, QoS and Connection Configuration of an adapter.
+// In: the device's values, the state of its connections. Out: attributes (CIP volume 1, chapter 5; volume 2, chapter 5).
+// Never holds a value of its own.
+#pragma once
+
+#include "gateway/protocols/cip/object.hpp"
+
+namespace axisgate::cip {
+
+/// What objects show of the connections, and the one thing that they may do to them.
+struct Connections {
+    [[nodiscard]] virtual std::size_t open() const = 0;
+    [[nodiscard]] virtual std::size_t most() const = 0;
+    [[nodiscard]] virtual std::vector<std::uint16_t> numbers() const = 0;
+    [[nodiscard]] virtual bool io_open() const = 0;  ///< one with implicit data
+    [[nodiscard]] virtual bool owned() const = 0;    ///< one commands
+    [[nodiscard]] virtual bool running() const = 0;  ///< its originator is in run mode
+    /// The output is commanded by a connection of another originator than this; `output` 0: any output.
+    [[nodiscard]] virtual bool owned_by_other(std::uint32_t output, const Peer& than) const = 0;
+    virtual void close_all(End why, Instant now) = 0;
+    virtual ~Connections() = default;
+};
+
+class IdentityObject final : public Object {
+public:
+    IdentityObject(const Values& values, Connections& connections) : values_(values), connections_(connections) {}
+    [[nodiscard]] std::uint32_t class_id() const noexcept override { return class_id::identity; }
+    [[nodiscard]] std::uint16_t last_attribute() const override { return 9; }
+    [[nodiscard]] std::span<const std::uint16_t> all(std::uint32_t instance) const override;
+    [[nodiscard]] General get(std::uint32_t instance, std::uint32_t attribute, const Context& context, Bytes& to) override;
+    [[nodiscard]] Response other(std::uint8_t service, std::uint32_t instance, View data, Context& context) override;
+    /// The item of ListIdentity.
+    [[nodiscard]] Bytes item() const;
+    [[nodiscard]] std::uint16_t status() const;
+
+private:
+    const Values& values_;
+    Connections& connections_;
+};
+
+class AssemblyObject final : public Object {
+public:
+    AssemblyObject(Values& values, const Connections& connections) : values_(values), connections_(connections) {}
+    [[nodiscard]] std::uint32_t class_id() const noexcept override { return class_id::assembly; }
+    [[nodiscard]] std::uint16_t revision() const noexcept override { return 2; }
+    [[nodiscard]] bool has(std::uint32_t instance) const override { return values_.assembly(instance).has_value(); }
+    [[nodiscard]] std::uint32_t last_instance() const override;
+    [[nodiscard]] std::uint32_t instances() const override;
+    [[nodiscard]] std::uint16_t last_attribute() const override { return 4; }
+    [[nodiscard]] General get(std::uint32_t instance, std::uint32_t attribute, const Context& context, Bytes& to) override;
+    [[nodiscard]] General set(std::uint32_t instance, std::uint32_t attribute, const Context& context, Reader& data) override;
+
+private:
+    Values& values_;
+    const Connections& connections_;
+};
+
+/// Attribute 1, the value, is the drive's: it comes when the drive has told it.
+class ParameterObject final : public Object {
+public:
+    explicit ParameterObject(Values& values) : values_(values) {}
+    [[nodiscard]] std::uint32_t class_id() const noexcept override { return class_id::parameter; }
+    [[nodiscard]] bool has(std::uint32_t instance) const override { return instance >= 1 && instance <= values_.parameters(); }
+    [[nodiscard]] std::uint32_t last_instance() const override { return values_.parameters(); }
+    [[nodiscard]] std::uint16_t last_attribute() const override { return 21; }
+    [[nodiscard]] std::span<const std::uint16_t> all(std::uint32_t instance) const override;
+    [[nodiscard]] General get(std::uint32_t instance, std::uint32_t attribute, const Context& context, Bytes& to) override;
+    [[nodiscard]] General set(std::uint32_t instance, std::uint32_t attribute, const Context& context, Reader& data) override;
+    [[nodiscard]] General get_of_class(std::uint32_t attribute, const Context& context, Bytes& to) override;
+    [[nodiscard]] Response other(std::uint8_t service, std::uint32_t instance, View data, Context& context) override;
+    [[nodiscard]] bool is_late(std::uint32_t attribute) const noexcept override { return attribute == 1; }
+    [[nodiscard]] General ask(std::uint32_t instance, const Context& context) override;
+    /// Attribute 4: enumerated, read only.
+    [[nodiscard]] static std::uint16_t descriptor(const ParameterInfo& p) noexcept;
+
+private:
+    Values& values_;
+};
+
+class TcpIpObject final : public Object {
+public:
+    explicit TcpIpObject(const Values& values) : values_(values) {}
+    [[nodiscard]] std::uint32_t class_id() const noexcept override { return class_id::tcp_ip; }
+    [[nodiscard]] std::uint16_t revision() const noexcept override { return 4; }
+    [[nodiscard]] std::uint16_t last_attribute() const override { return 13; }
+    [[nodiscard]] std::span<const std::uint16_t> all(std::uint32_t instance) const override;
+    [[nodiscard]] General get(std::uint32_t instance, std::uint32_t attribute, const Context& context, Bytes& to) override;
+    [[nodiscard]] General set(std::uint32_t instance, std::uint32_t attribute, const Context& context, Reader& data) override;
+    /// Attribute 13: a session that sends nothing for so long is closed; 0: none is. Not while a connection uses it.
+    [[nodiscard]] std::uint16_t inactivity_s() const noexcept { return inactivity_s_; }
+
+private:
+    const Values& values_;
+    std::uint16_t inactivity_s_ = 120;
+};
+
+class EthernetLinkObject final : public Object {
+public:
+    explicit EthernetLinkObject(const Values& values) : values_(values) {}
+    [[nodiscard]] std::uint32_t class_id() const noexcept override { return class_id::ethernet_link; }
+    [[nodiscard]] std::uint16_t revision() const noexcept override { return 4; }
+    [[nodiscard]] std::uint16_t last_attribute() const override { return 10; }
+    [[nodiscard]] std::span<const std::uint16_t> all(std::uint32_t instance) const override;
+    [[nodiscard]] General get(std::uint32_t instance, std::uint32_t attribute, const Context& context, Bytes& to) override;
+
+private:
+    const Values& values_;
+};
+
+/// What a connection's datagrams are marked with, by the priority that its originator asked for.
+class QosObject final : public Object {
+public:
+    static constexpr std::uint8_t dscp_urgent = 55, dscp_scheduled = 47, dscp_high = 43, dscp_low = 31, dscp_explicit = 27;
+    [[nodiscard]] std::uint32_t class_id() const noexcept override { return class_id::qos; }
+    [[nodiscard]] std::uint16_t last_attribute() const override { return 8; }
+    [[nodiscard]] General get(std::uint32_t instance, std::uint32_t attribute, const Context& context, Bytes& to) override;
+};
+
+/// The list of connections that a device originates: an adapter has none.
+class ConnectionConfigurationObject final : public Object {
+public:
+    [[nodiscard]] std::uint32_t class_id() const noexcept override { return class_id::connection_configuration; }
+    [[nodiscard]] std::uint16_t revision() const noexcept override { return 3; }
+    [[nodiscard]] bool has(std::uint32_t) const override { return false; }
+    [[nodiscard]] std::uint32_t last_instance() const override { return 0; }
+    [[nodiscard]] std::uint16_t last_attribute() const override { return 0; }
+    [[nodiscard]] General get(std::uint32_t, std::uint32_t, const Context&, Bytes&) override { return General::attribute_not_supported; }
+};
+
+}  // namespace axisgate::cip

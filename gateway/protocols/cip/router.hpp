@@ -1,0 +1,49 @@
+// Router: finds the object that a request names (CIP volume 1, 5-1), and takes apart what carries several requests or one for further on.
+// In: requests. Out: answers, one for each. Never goes deeper than one Multiple_Service_Packet in one Unconnected_Send.
+#pragma once
+
+#include <vector>
+
+#include "gateway/protocols/cip/objects.hpp"
+
+namespace axisgate::cip {
+
+class Router final : public Object {
+public:
+    static constexpr std::size_t most_parts = 64;  ///< requests in one Multiple_Service_Packet
+
+    explicit Router(const Connections& connections) : connections_(connections) { add(*this); }
+    /// The object outlives the router.
+    void add(Object& object);
+
+    struct Part {
+        std::uint8_t service = 0;
+        Response response;
+    };
+    /// One message and all that it holds.
+    struct Parts {
+        std::uint8_t service = 0;  ///< of the whole
+        bool multiple = false;
+        std::vector<Part> parts;
+        std::size_t pending = 0;  ///< parts whose value comes later
+    };
+    /// `context.token` is that of the first part; each further one counts it up. 0: nothing can come later.
+    [[nodiscard]] Parts handle(View message, Context& context);
+    /// When nothing is pending.
+    [[nodiscard]] static Bytes answer(const Parts& parts, std::size_t most);
+
+    [[nodiscard]] std::uint32_t class_id() const noexcept override { return class_id::message_router; }
+    [[nodiscard]] std::uint16_t last_attribute() const override { return 4; }
+    [[nodiscard]] std::span<const std::uint16_t> all(std::uint32_t instance) const override;
+    [[nodiscard]] General get(std::uint32_t instance, std::uint32_t attribute, const Context& context, Bytes& to) override;
+
+private:
+    [[nodiscard]] Response route(const Request& request, const Path& path, Context& context);
+    [[nodiscard]] Response one(View message, std::uint8_t& service, Context& context);
+    void several(View data, Parts& into, Context& context);
+
+    const Connections& connections_;
+    std::vector<Object*> objects_;  // by class
+};
+
+}  // namespace axisgate::cip

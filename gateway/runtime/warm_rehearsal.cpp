@@ -1,0 +1,42 @@
+// Warm rehearsal: one cell is one job. In: the site and what the storage knows of its twins. Out: the cell.
+// Never shares anything with the gateway's own engine: the job has copies.
+#include "gateway/runtime/warm_rehearsal.hpp"
+
+#include <sched.h>
+
+#include <boost/asio/post.hpp>
+
+#include "gateway/engine/rehearsal.hpp"
+#include "gateway/runtime/site_file.hpp"
+
+namespace axisgate {
+namespace {
+/// Whatever else wants the processor has it. Refused, it is played all the same.
+void stand_back() {
+    const sched_param none{};
+    (void)sched_setscheduler(0, SCHED_IDLE, &none);
+}
+}  // namespace
+
+WarmRehearsal::~WarmRehearsal() {
+    thread_.stop();
+    thread_.join();
+}
+
+void WarmRehearsal::rehearse(std::shared_ptr<const SiteState> site, std::string axis, LossCause cause,
+                             std::function<void(RehearsalCell)> then) {
+    RehearsalWish wish;
+    wish.axis = std::move(axis);
+    wish.cause = cause;
+    wish.watchdog = watchdog_;
+    wish.lease = lease_;
+    auto memory = read_site_memory(threads_.reader, site->site);
+    boost::asio::post(thread_,
+                      [this, site = std::move(site), memory = std::move(memory), wish = std::move(wish), then = std::move(then)]() mutable {
+                          stand_back();
+                          auto cell = axisgate::rehearse(families_, site->site, memory, wish);
+                          threads_.answer([then = std::move(then), cell = std::move(cell)]() mutable { then(std::move(cell)); });
+                      });
+}
+
+}  // namespace axisgate

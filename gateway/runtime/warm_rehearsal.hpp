@@ -1,0 +1,36 @@
+// Warm rehearsal: the rehearsal port: plays each cell on a thread of its own, which gives way to all others.
+// In: cells that are wished for. Out: cells, on the service thread. Never holds up the service: at its end it waits for one cell at most.
+#pragma once
+
+#include <boost/asio/thread_pool.hpp>
+
+#include "gateway/runtime/warm_threads.hpp"
+#include "gateway/services/ports/rehearsal.hpp"
+#include "gateway/site/site.hpp"
+
+namespace axisgate {
+
+class WarmRehearsal final : public RehearsalPort {
+public:
+    WarmRehearsal(const WarmThreads& threads, const Families& families) : threads_(threads), families_(families) {}
+    ~WarmRehearsal() override;
+    WarmRehearsal(const WarmRehearsal&) = delete;
+    WarmRehearsal& operator=(const WarmRehearsal&) = delete;
+
+    /// As the gateway's configuration has them.
+    void set_times(Duration watchdog, Duration lease) {
+        watchdog_ = watchdog;
+        lease_ = lease;
+    }
+    void rehearse(std::shared_ptr<const SiteState> site, std::string axis, LossCause cause,
+                  std::function<void(RehearsalCell)> then) override;
+    [[nodiscard]] Duration watchdog() const override { return watchdog_; }
+
+private:
+    const WarmThreads& threads_;
+    const Families& families_;
+    Duration watchdog_ = std::chrono::seconds(5), lease_ = std::chrono::seconds(30);
+    boost::asio::thread_pool thread_{1};
+};
+
+}  // namespace axisgate

@@ -1,0 +1,85 @@
+// Conformance, rehearsal: every family on every wire, every cause and action: each cell of the report has its figures, and they fit what
+// was chosen. In: all_families(). Out: laws over RehearsalCell. Never names a family.
+#include "gateway/engine/rehearsal.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/conformance/laws.hpp"
+
+namespace axisgate::test {
+namespace {
+using namespace std::chrono_literals;
+
+class Rehearsals : public Laws {
+protected:
+    Site site_with(LossCause cause, std::optional<FailSafeAction> action) {
+        Site s = world->twins(e, 2);
+        for (AxisSpec& a : s.axes) {
+            a.fail_safe.of(cause) = action;
+            a.fail_safe.watchdog_ms = 300;
+        }
+        return s;
+    }
+    RehearsalCell play(LossCause cause, std::optional<FailSafeAction> action) {
+        RehearsalWish w;
+        w.axis = "a1";
+        w.cause = cause;
+        w.lease = 2s;
+        return rehearse(families(), site_with(cause, action), {}, w);
+    }
+};
+
+TEST_P(Rehearsals, EachCellHasItsFigures) {
+    for (const LossCause cause : loss_causes) {
+        std::vector<std::optional<FailSafeAction>> choices{std::nullopt};
+        choices.insert(choices.end(), fail_safe_actions.begin(), fail_safe_actions.end());
+        for (const auto& choice : choices) {
+            SCOPED_TRACE(std::string(name_of(cause)) + " " + (choice ? std::string(name_of(*choice)) : "by default"));
+            const RehearsalCell cell = play(cause, choice);
+            if (cause == LossCause::set_points_silent && !e.catalogue->offers_mode(8) && !e.catalogue->offers_mode(9)) {
+                EXPECT_NE(cell.fault.find("does not follow"), std::string::npos) << cell.fault;
+                continue;
+            }
+            ASSERT_EQ(cell.fault, "");
+            EXPECT_GT(cell.speed, 0);
+            EXPECT_GE(cell.travel, 0);
+            const double wait_ms = cause == LossCause::lease_ended         ? 2000
+                                   : cause == LossCause::modbus_silent     ? 300
+                                   : cause == LossCause::line_lost         ? 2000
+                                   : cause == LossCause::set_points_silent ? 500
+                                                                           : 0;
+            if (choice == FailSafeAction::nothing) {
+                EXPECT_FALSE(cell.noticed_ms) << "nobody acts";
+                EXPECT_EQ(cell.taken, FailSafeAction::nothing);
+                EXPECT_TRUE(cell.standstill_ms || cell.watched_ms >= 15000);
+                continue;
+            }
+            ASSERT_TRUE(cell.noticed_ms || cell.motion == "position") << "by default a motion to a target goes on";
+            ASSERT_TRUE(cell.standstill_ms || !choice);
+            if (!cell.noticed_ms || !cell.standstill_ms) continue;
+            EXPECT_GE(*cell.noticed_ms, wait_ms - 1);
+            EXPECT_LE(*cell.noticed_ms, wait_ms + 2500);
+            ASSERT_TRUE(cell.reaction_ms);
+            EXPECT_LE(*cell.reaction_ms, *cell.standstill_ms);
+            EXPECT_LE(*cell.standstill_ms - *cell.noticed_ms, 3000);
+        }
+    }
+}
+
+TEST_P(Rehearsals, TheSameSiteGivesTheSameFigures) {
+    const RehearsalCell a = play(LossCause::modbus_closed, FailSafeAction::halt), b = play(LossCause::modbus_closed, FailSafeAction::halt);
+    EXPECT_EQ(a.standstill_ms, b.standstill_ms);
+    EXPECT_EQ(a.travel, b.travel);
+    EXPECT_TRUE(a.standstill_ms);
+}
+
+TEST_P(Rehearsals, AnAxisThatIsNotThereIsSaid) {
+    RehearsalWish w;
+    w.axis = "nobody";
+    EXPECT_EQ(rehearse(families(), site_with(w.cause, std::nullopt), {}, w).fault, "there is no such axis");
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, Rehearsals, testing::ValuesIn(subjects()), name_of_subject);
+
+}  // namespace
+}  // namespace axisgate::test

@@ -1,0 +1,202 @@
+"""EtherNet/IP from outside: a small originator of plain sockets browses the device, holds a class 1 connection and moves an axis by it.
+
+In: the real program with the door switched on. Out: what an engineering tool and a controller see. tshark reads every frame, if it is there.
+"""
+import contextlib
+import socket
+import struct
+import subprocess
+import threading
+import time
+
+from harness import DEMO, Gateway, until
+
+
+class Originator:
+    """One session, and one class 1 connection if it is opened."""
+
+    def __init__(self, host, port, io_port):
+        self.host, self.io_port = host, io_port
+        self.tcp = socket.create_connection((host, port), timeout=5)
+        self.session = 0
+        self.udp = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.udp.bind((host, 0))
+        self.udp.settimeout(1)
+        self.session = struct.unpack("<I", self.order(0x65, struct.pack("<HH", 1, 0))[4:8])[0]
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.stop()
+        self.tcp.close()
+        self.udp.close()
+
+    def read(self, n):
+        data = b""
+        while len(data) < n:
+            part = self.tcp.recv(n - len(data))
+            assert part, "the device has closed the session"
+            data += part
+        return data
+
+    def order(self, command, data):
+        self.tcp.sendall(struct.pack("<HHII8sI", command, len(data), self.session, 0, b"originat", 0) + data)
+        head = self.read(24)
+        return head + self.read(struct.unpack("<H", head[2:4])[0])
+
+    def ask(self, service, path, data=b"", items=b"", more=0):
+        """(general status, extended words, data)"""
+        message = bytes([service, len(path) // 2]) + path + data
+        answer = self.order(0x6F, struct.pack("<IHHHHHH", 0, 0, 2 + more, 0, 0, 0xB2, len(message)) + message + items)
+        assert struct.unpack("<I", answer[8:12])[0] == 0, answer
+        size = struct.unpack("<H", answer[38:40])[0]
+        body = answer[40:40 + size]
+        words = body[3]
+        return body[2], struct.unpack(f"<{words}H", body[4:4 + 2 * words]), body[4 + 2 * words:]
+
+    def get(self, class_id, instance, attribute):
+        status, _, data = self.ask(0x0E, bytes([0x20, class_id, 0x25, 0]) + struct.pack("<H", instance) + bytes([0x30, attribute]))
+        assert status == 0, (class_id, instance, attribute, status)
+        return data
+
+    def open(self, output, given, serial=1, rpi_us=5000, path_head=b""):
+        path = path_head + bytes([0x20, 0x04, 0x24, 199, 0x2C, output, 0x2C, given])
+        sockaddr = struct.pack(">HHI8x", 2, self.udp.getsockname()[1], 0)
+        data = struct.pack("<BBIIHHIB3xIHIHBB", 10, 14, 0, 0x7000 + serial, serial, 0x4242, 99, 0, rpi_us, 0x4800 | 38, rpi_us, 0x4800 | 34, 1, len(path) // 2) + path
+        status, extended, answer = self.ask(0x54, bytes([0x20, 6, 0x24, 1]), data, struct.pack("<HH", 0x8001, 16) + sockaddr, 1)
+        if status == 0:
+            self.id = struct.unpack("<I", answer[:4])[0]
+        return status, extended
+
+    def start(self, rpi_s=0.005):
+        """Renews `self.output` until stop(); the newest input is in `self.input`."""
+        self.output, self.input, self.run, self.sending = bytearray(32), b"", 1, True
+
+        def go():
+            n = 0
+            while self.sending:
+                n += 1
+                data = struct.pack("<HI", n & 0xFFFF, self.run) + bytes(self.output)
+                frame = struct.pack("<HHHIIHH", 2, 0x8002, 8, self.id, n, 0xB1, len(data)) + data
+                self.udp.sendto(frame, (self.host, self.io_port))
+                time.sleep(rpi_s)
+        self.thread = threading.Thread(target=go)
+        self.thread.start()
+
+    def stop(self):
+        if getattr(self, "sending", False):
+            self.sending = False
+            self.thread.join()
+
+    def inputs(self):
+        """The newest 32 bytes that the device has sent."""
+        self.udp.setblocking(False)
+        newest = None
+        end = time.monotonic() + 2
+        while time.monotonic() < end:
+            try:
+                newest = self.udp.recv(2048)
+            except BlockingIOError:
+                if newest:
+                    break
+                time.sleep(0.002)
+        assert newest, "the device sends nothing"
+        kind, size = struct.unpack("<HH", newest[14:18])
+        assert kind == 0xB1 and size == 34, newest
+        return newest[20:]
+
+    def write(self, word, mode=1, position=0, velocity=0):
+        struct.pack_into("<HhiIIIih", self.output, 0, word, mode, position, velocity, velocity * 10, velocity * 10, 0, 0)
+
+
+@contextlib.contextmanager
+def device(folder):
+    """The gateway, and what an Originator needs to reach it."""
+    # A free port for implicit data: others on this machine may have 2222.
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as s:
+        s.bind(("127.0.0.1", 0))
+        io_port = s.getsockname()[1]
+    with Gateway(folder, DEMO, "--set", "enip.bind=127.0.0.1:0", "--set", f"enip.io_port={io_port}") as g:
+        host, port = g.word("enip").rsplit(":", 1)
+        yield g, (host, int(port), io_port)
+
+
+def statusword(inputs):
+    return struct.unpack("<H", inputs[:2])[0]
+
+
+def test_a_tool_browses_the_device(folder):
+    with device(folder) as (_, at), Originator(*at) as o:
+        assert o.get(1, 1, 7) == b"\x08axisgate"
+        assert struct.unpack("<H", o.get(4, 101, 4))[0] == 32
+        assert struct.unpack("<H", o.get(4, 100, 4))[0] == 64
+        assert struct.unpack("<H", o.get(0x0F, 0, 2))[0] > 10
+        name = o.get(0x0F, 1, 7)
+        assert name[0] == len(name) - 1
+        statuses = [o.ask(0x0E, bytes([0x20, 0x0F, 0x24, instance, 0x30, 1]))[0] for instance in range(1, 30)]
+        assert 0 in statuses, f"no parameter's value came: {statuses}"
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as u:
+            u.settimeout(2)
+            u.sendto(struct.pack("<HHII8sI", 0x63, 0, 0, 0, b"whois   ", 0), at[:2])
+            assert b"axisgate" in u.recv(1024)
+
+
+def test_a_class_1_connection_moves_an_axis_and_its_loss_stops_it(folder):
+    with device(folder) as (g, at), Originator(*at) as o:
+        assert o.open(151, 101) == (0, ())
+        o.start()
+        for word, state in ((0x06, 0x21), (0x07, 0x23), (0x0F, 0x27)):
+            o.write(word)
+            until(lambda: statusword(o.inputs()) & 0x6F == state, what=f"state {state:#x}")
+        target = struct.unpack("<i", o.inputs()[4:8])[0] + 3200
+        o.write(0x0F, 1, target, 3200)
+        time.sleep(0.05)
+        o.write(0x1F, 1, target, 3200)
+        until(lambda: struct.unpack("<i", o.inputs()[4:8])[0] == target, what="the target")
+        assert g.get("/axes/feeder")["position_increments"] == target
+        with Originator(*at) as second:
+            assert second.open(151, 101, serial=2) == (1, (0x0106,)), "one owner of an axis"
+        # A motion without an end ends with its owner.
+        o.write(0x0F, 3, target, 3200)
+        time.sleep(0.1)
+        struct.pack_into("<i", o.output, 20, 3200)
+        until(lambda: g.get("/axes/feeder")["moving"], what="the motion")
+        o.stop()
+        until(lambda: not g.get("/axes/feeder")["moving"], what="the stop")
+        text = str(g.get("/events?limit=50"))
+        assert "silent for its time-out" in text, text
+        status, metrics, _ = g.request("GET", "/metrics")
+        assert status == 200 and b"axisgate_enip_connection_timeouts_total 1" in metrics, metrics
+
+
+def test_every_frame_is_what_a_dissector_knows(folder):
+    with device(folder) as (_, at):
+        _, port, io_port = at
+        capture = folder / "enip.pcapng"
+        dump = subprocess.Popen(["dumpcap", "-q", "-i", "lo", "-w", str(capture), "-f", f"port {port} or port {io_port}"], stderr=subprocess.DEVNULL)
+        try:
+            until(lambda: capture.exists() and capture.stat().st_size > 0, what="the capture")
+            time.sleep(0.5)
+            with Originator(*at) as o:
+                for class_id in (1, 2, 6, 0xF5, 0xF6):
+                    o.ask(1, bytes([0x20, class_id, 0x24, 1]))
+                o.get(0x0F, 1, 7)
+                o.order(0x04, b"")
+                o.order(0x63, b"")
+                assert o.open(151, 101) == (0, ())
+                assert o.open(151, 101, serial=2)[0] == 1
+                o.ask(0x56, bytes([0x20, 6, 0x24, 1]), struct.pack("<H", 1))
+                o.start()
+                time.sleep(0.2)
+                o.stop()
+            time.sleep(0.5)
+        finally:
+            dump.terminate()
+            dump.wait(5)
+        seen = subprocess.run(["tshark", "-r", str(capture), "-d", f"tcp.port=={port},enip", "-d", f"udp.port=={io_port},enip", "-V"],
+                              capture_output=True, text=True, check=True).stdout
+        assert "EtherNet/IP" in seen and "Forward Open" in seen, seen[-2000:]
+        for bad in ("Malformed", "[Expert Info (Warning", "[Expert Info (Error"):
+            place = seen.find(bad)
+            assert place < 0, seen[max(0, place - 2000):place + 500]

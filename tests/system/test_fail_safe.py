@@ -1,0 +1,80 @@
+# Loss of command from outside: the matrix over REST, a drive that could not be reached, the gateway's own end, and a rehearsal of all
+# cells of a site with drives of several families. In: the program with its twins. Out: answers, axis states, a report without gaps.
+import time
+
+from harness import Gateway, until
+
+SITE = {
+    "lines": [{"name": "can0", "uri": "twin", "family": "uim342"}, {"name": "rs", "uri": "twin", "family": "linmot"},
+              {"name": "m", "uri": "twin", "family": "mcode"}, {"name": "pa", "uri": "twin", "family": "pacontrol"}],
+    "drives": [{"name": "lift", "line": "can0", "address": 5}, {"name": "press", "line": "rs", "address": 17}, {"name": "table", "line": "m"}, {"name": "arm", "line": "pa"}],
+    "axes": [{"name": n, "drive": n, "number": i + 1, "unit": "mm", "increments_per_unit": 100, "velocity_max": 50, "acceleration_max": 500}
+             for i, n in enumerate(("lift", "press", "table", "arm"))],
+    "mappings": [],
+}
+CAUSES = ["modbus_closed", "modbus_silent", "set_points_silent", "lease_ended", "enip_closed", "enip_timed_out", "enip_idle", "line_lost", "gateway_ends"]
+
+
+def test_the_matrix_is_read_and_changed_axis_by_axis(folder):
+    with Gateway(folder, SITE) as g:
+        matrix = g.get("/fail_safe")
+        assert [c["cause"] for c in matrix["causes"]] == CAUSES
+        assert [c["number"] for c in matrix["causes"]] == list(range(1, 10))
+        status, row, _ = g.request("PUT", "/api/v1/fail_safe/lift", {"line_lost": "disable", "watchdog_ms": 700})
+        assert status == 200, row
+        assert g.get("/fail_safe/lift")["fail_safe"]["line_lost"] == "disable"
+        assert g.get("/fail_safe/lift")["watchdog_ms_in_force"] == 700
+        assert g.get("/axes/lift")["fail_safe"] == {"line_lost": "disable", "watchdog_ms": 700}
+        status, row, _ = g.request("PUT", "/api/v1/fail_safe/lift", {})
+        assert status == 200 and g.get("/fail_safe/lift")["fail_safe"]["line_lost"] is None
+
+
+def test_a_drive_that_could_not_be_reached_is_stopped_when_it_answers_again(folder):
+    with Gateway(folder, SITE) as g:
+        until(lambda: g.axis("lift")["online"], 10, "online")
+        assert g.command("lift", {"command": "enable"})["result"] == "done"
+        assert g.command("lift", {"command": "move_velocity", "velocity": 10})["result"] == "done"
+        status, answer, _ = g.request("PUT", "/api/v1/drives/lift/hand", {"silent": True})
+        assert status == 200, answer
+        until(lambda: not g.axis("lift")["online"], 10, "silent")
+        g.request("PUT", "/api/v1/drives/lift/hand", {"silent": False})
+        until(lambda: g.axis("lift")["online"] and not g.axis("lift")["moving"], 10, "halted")
+        axis = g.axis("lift")
+        assert axis["fail_safe_cause"] == "line_lost" and axis["state"] == "operation_enabled", axis
+
+
+def test_a_lease_that_expires_ends_a_velocity_move(folder):
+    site = dict(SITE, axes=[dict(a, authority_mode="lease") for a in SITE["axes"]])
+    with Gateway(folder, site, "--set", "authority.lease_s=2") as g:
+        until(lambda: g.axis("table")["online"], 10, "online")
+        status, answer, _ = g.request("PUT", "/api/v1/axes/table/authority", {"ttl_s": 2})
+        assert status == 200, answer
+        assert g.command("table", {"command": "enable"})["result"] == "done"
+        assert g.command("table", {"command": "move_velocity", "velocity": 10})["result"] == "done"
+        until(lambda: g.axis("table")["fail_safe_cause"] == "lease_ended", 40, "its lease ends")
+        until(lambda: not g.axis("table")["moving"], 5, "halted")
+
+
+def test_a_rehearsal_leaves_no_cell_without_a_figure(folder):
+    with Gateway(folder, SITE) as g:
+        before = {n: g.axis(n)["position_increments"] for n in ("lift", "press", "table", "arm")}
+        g.request("PUT", "/api/v1/fail_safe/press", {"modbus_closed": "nothing"})
+        status, state, _ = g.request("POST", "/api/v1/fail_safe/rehearsal", {})
+        assert status == 202 and state["state"] == "running" and state["total"] == 33, state
+        assert g.request("POST", "/api/v1/fail_safe/rehearsal", {})[0] == 409
+        until(lambda: g.get("/fail_safe/rehearsal")["state"] == "done", 60, "the rehearsal's end")
+        report = g.get("/fail_safe/rehearsal")["report"]
+        cells = {(c["axis"], c["cause"]): c for c in report["cells"]}
+        assert set(cells) == {(a, c) for a in before for c in CAUSES if c != "set_points_silent" or a == "press"}
+        assert report["without_set_points"] == ["lift", "table", "arm"]
+        assert report["without_figures"] == 0, [c for c in report["cells"] if c["text"].startswith("no figures")]
+        for cell in report["cells"]:
+            assert cell["standstill_ms"] is not None, cell
+        assert cells["press", "modbus_closed"]["taken"] == "nothing" and cells["press", "modbus_closed"]["motion"] == "position"
+        assert cells["lift", "modbus_silent"]["noticed_ms"] >= 5000
+        assert cells["lift", "enip_timed_out"]["noticed_ms"] < 5
+        time.sleep(0.2)
+        assert before == {n: g.axis(n)["position_increments"] for n in before}, "nothing real has moved"
+        assert g.get("/events?kind=rehearsal")
+    with Gateway(folder, None) as g:
+        assert g.get("/fail_safe/rehearsal")["report"] == report, "it is kept"

@@ -1,0 +1,99 @@
+// Output lane: what an originator's renewed bytes become: edges, values with their edge, streamed set-points, nothing at the start.
+#include "gateway/doors/enip/output_lane.hpp"
+
+#include <gtest/gtest.h>
+
+namespace axisgate::enip {
+namespace {
+
+AxisPicture enabled_axis() {
+    AxisPicture p;
+    p.statusword = 0x0027;
+    return p;
+}
+Wanted wanted(std::uint16_t word, std::int16_t mode = 1, std::int32_t target = 0) {
+    Wanted w;
+    w.controlword = word;
+    w.mode = mode;
+    w.target_position = target;
+    return w;
+}
+
+TEST(EnipOutputLane, NothingAtTheStartWhereAllIsZero) {
+    OutputLane lane;
+    EXPECT_FALSE(lane.take({}, {}).command);
+}
+
+TEST(EnipOutputLane, AnEdgeCarriesWhatHasChanged) {
+    OutputLane lane;
+    auto step = lane.take(wanted(0x0F), {});
+    ASSERT_TRUE(step.command);
+    EXPECT_EQ(step.command->controlword, 0x0F);
+    EXPECT_EQ(step.command->mode, std::int16_t{1});
+    EXPECT_FALSE(step.command->target_position);
+    EXPECT_FALSE(lane.take(wanted(0x0F), {}).command) << "renewed, not changed";
+    EXPECT_FALSE(lane.take(wanted(0x0F, 1, 500), {}).command) << "a target waits for its edge";
+    step = lane.take(wanted(0x1F, 1, 500), {});
+    ASSERT_TRUE(step.command);
+    EXPECT_EQ(step.command->controlword, 0x1F);
+    EXPECT_EQ(step.command->target_position, 500);
+}
+
+TEST(EnipOutputLane, BitsThatWereSetFromTheStartAreNoEdges) {
+    OutputLane lane;
+    auto step = lane.take(wanted(0x9F, 1, 500), {});
+    ASSERT_TRUE(step.command);
+    EXPECT_EQ(step.command->controlword, 0x0F);
+    EXPECT_FALSE(lane.take(wanted(0x9F, 1, 500), {}).command);
+    (void)lane.take(wanted(0x0F, 1, 500), {});
+    step = lane.take(wanted(0x1F, 1, 500), {});
+    ASSERT_TRUE(step.command) << "low once: now it is one";
+    EXPECT_EQ(step.command->controlword, 0x1F);
+    lane.reset();
+    EXPECT_EQ(lane.take(wanted(0x1F, 1, 500), {}).command->controlword, 0x0F) << "after a loss as at the start";
+}
+
+TEST(EnipOutputLane, ASpeedIsFollowedOneCommandAtATimeAndAStopWaitsForNone) {
+    OutputLane lane;
+    Wanted w = wanted(0x0F, 3);
+    ASSERT_TRUE(lane.take(w, {}).command);
+    lane.begun();
+    w.target_velocity = 100;
+    EXPECT_FALSE(lane.take(w, {}).command) << "the command before it has no result yet";
+    w.target_velocity = 200;
+    EXPECT_FALSE(lane.take(w, {}).command);
+    auto step = lane.done();
+    ASSERT_TRUE(step.command);
+    EXPECT_EQ(step.command->target_velocity, 200) << "the newest counts";
+    lane.begun();
+    w.controlword = 0x10F;
+    step = lane.take(w, {});
+    ASSERT_TRUE(step.command);
+    EXPECT_EQ(step.command->controlword, 0x10F);
+}
+
+TEST(EnipOutputLane, StreamedModesBecomeSetPointsOfAnEnabledAxis) {
+    OutputLane lane;
+    Wanted w = wanted(0x0F, 8, 1000);
+    auto step = lane.take(w, {});
+    ASSERT_TRUE(step.command);
+    EXPECT_FALSE(step.command->mode) << "the set-point says it";
+    EXPECT_FALSE(step.set_point) << "not enabled yet";
+    step = lane.take(w, enabled_axis());
+    EXPECT_FALSE(step.command);
+    ASSERT_TRUE(step.set_point);
+    EXPECT_EQ(step.set_point->value, 1000);
+    w.controlword = 0x10F;
+    step = lane.take(w, enabled_axis());
+    EXPECT_TRUE(step.command);
+    EXPECT_FALSE(step.set_point) << "halt";
+    w.controlword = 0x0F;
+    w.mode = 9;
+    w.target_velocity = -7;
+    step = lane.take(w, enabled_axis());
+    ASSERT_TRUE(step.set_point);
+    EXPECT_EQ(step.set_point->mode, SetPoint::Mode::velocity);
+    EXPECT_EQ(step.set_point->value, -7);
+}
+}  // namespace
+}  // namespace axisgate::enip

@@ -1,0 +1,107 @@
+// HTTP, loss of command: the matrix is shown with its defaults, changed axis by axis, and rehearsed into a dated report.
+// In: requests, cells. Out: answers, documents, events. Never plays a cell.
+#include <gtest/gtest.h>
+
+#include "tests/unit/http/harness.hpp"
+
+namespace axisgate::http::test {
+namespace {
+class FailSafeTest : public HttpTest {
+protected:
+    static void good(RehearsalCell& cell) {
+        cell.motion = "velocity";
+        cell.speed = 10;
+        cell.taken = FailSafeAction::halt;
+        cell.noticed_ms = 0.25;
+        cell.reaction_ms = 3;
+        cell.standstill_ms = 41.5;
+        cell.watched_ms = 141.5;
+        cell.travel = 0.3;
+    }
+};
+
+TEST_F(FailSafeTest, EachCauseIsToldWithItsDefaults) {
+    const auto a = call("GET", "/api/v1/fail_safe");
+    ASSERT_EQ(a.status, 200);
+    const auto& o = a.json.get_object();
+    ASSERT_EQ(o.at("causes").get_array().size(), loss_causes.size());
+    for (const auto& v : o.at("causes").get_array()) {
+        const auto& cause = v.get_object();
+        EXPECT_GT(cause.at("description").get_string().size(), 10u);
+        const bool ends = cause.at("cause") == boost::json::value("gateway_ends");
+        EXPECT_EQ(cause.at("default_endless").get_string(), ends ? "quick_stop" : "halt");
+        EXPECT_EQ(cause.at("default_to_a_target").get_string(), ends ? "quick_stop" : "nothing");
+    }
+    const auto& row = o.at("axes").get_array().at(0).get_object();
+    EXPECT_TRUE(row.at("fail_safe").get_object().at("line_lost").is_null());
+    EXPECT_EQ(row.at("watchdog_ms_in_force").to_number<int>(), 5000);
+}
+
+TEST_F(FailSafeTest, OneAxisIsChangedAsAWhole) {
+    const std::string axis(gateway.site()->site.axes.at(0).name);
+    const std::string path = "/api/v1/fail_safe/" + axis;
+    auto a = call("PUT", path, R"({"modbus_closed": "quick_stop", "line_lost": "disable", "watchdog_ms": 250, "enip_idle": null})");
+    ASSERT_EQ(a.status, 200) << json_text(a.json);
+    EXPECT_EQ(gateway.site()->site.axes.at(0).fail_safe.of(LossCause::line_lost), FailSafeAction::disable);
+    EXPECT_EQ(a.json.get_object().at("watchdog_ms_in_force").to_number<int>(), 250);
+    a = call("PUT", path, R"({"enip_idle": "halt"})");
+    ASSERT_EQ(a.status, 200) << json_text(a.json);
+    const FailSafe& now = gateway.site()->site.axes.at(0).fail_safe;
+    EXPECT_FALSE(now.of(LossCause::line_lost)) << "what is not named is the default again";
+    EXPECT_EQ(now.of(LossCause::enip_idle), FailSafeAction::halt);
+    EXPECT_EQ(call("GET", path).json.get_object().at("fail_safe").get_object().at("enip_idle"), boost::json::value("halt"));
+}
+
+TEST_F(FailSafeTest, WhatIsWrongIsSaidWithItsPlace) {
+    const std::string axis(gateway.site()->site.axes.at(0).name);
+    auto a = call("PUT", "/api/v1/fail_safe/" + axis, R"({"modbus_closed": "explode"})");
+    EXPECT_EQ(a.status, 422);
+    EXPECT_EQ(a.fault().at("pointer").get_string(), "/modbus_closed");
+    a = call("PUT", "/api/v1/fail_safe/" + axis, R"({"the_dog_ate_it": "halt"})");
+    EXPECT_EQ(a.status, 422);
+    EXPECT_EQ(call("PUT", "/api/v1/fail_safe/nobody", R"({})").status, 404);
+    EXPECT_EQ(call("GET", "/api/v1/fail_safe/nobody").status, 404);
+}
+
+TEST_F(FailSafeTest, ARehearsalBecomesADatedReport) {
+    EXPECT_EQ(call("GET", "/api/v1/fail_safe/rehearsal").at("state"), "none");
+    auto a = call("POST", "/api/v1/fail_safe/rehearsal", "{}");
+    ASSERT_EQ(a.status, 202) << json_text(a.json);
+    EXPECT_EQ(a.at("state"), "running");
+    EXPECT_EQ(call("POST", "/api/v1/fail_safe/rehearsal", "{}").status, 409) << "one at a time";
+    gateway.give_all(good);
+    a = call("GET", "/api/v1/fail_safe/rehearsal");
+    ASSERT_EQ(a.at("state"), "done");
+    const auto& report = a.json.get_object().at("report").get_object();
+    EXPECT_EQ(report.at("cells").get_array().size(), gateway.site()->site.axes.size() * (loss_causes.size() - 1));
+    EXPECT_EQ(report.at("without_set_points").get_array().size(), gateway.site()->site.axes.size()) << "these drives follow none";
+    EXPECT_EQ(report.at("without_figures").to_number<int>(), 0);
+    const auto& cell = report.at("cells").get_array().at(0).get_object();
+    EXPECT_EQ(cell.at("standstill_ms").to_number<double>(), 41.5);
+    EXPECT_EQ(cell.at("text").get_string(), "halt after 0.2 ms, at rest after 41.5 ms");
+    EXPECT_EQ(gateway.documents("rehearsal").size(), 1u);
+}
+
+TEST_F(FailSafeTest, ACellWithoutFiguresIsCountedAndSaysWhy) {
+    const std::string axis(gateway.site()->site.axes.at(0).name);
+    ASSERT_EQ(call("POST", "/api/v1/fail_safe/rehearsal", R"({"axes": [")" + axis + R"("]})").status, 202);
+    gateway.give_all([](RehearsalCell& cell) { cell.fault = "it does not move"; });
+    const auto a = call("GET", "/api/v1/fail_safe/rehearsal");
+    const auto& report = a.json.get_object().at("report").get_object();
+    EXPECT_EQ(report.at("without_figures").to_number<std::size_t>(), loss_causes.size() - 1);
+    EXPECT_EQ(report.at("cells").get_array().at(0).get_object().at("text").get_string(), "no figures: it does not move");
+    EXPECT_EQ(call("POST", "/api/v1/fail_safe/rehearsal", R"({"axes": ["nobody"]})").status, 409);
+    EXPECT_EQ(call("POST", "/api/v1/fail_safe/rehearsal", R"({"axes": "all"})").status, 422);
+}
+
+TEST_F(FailSafeTest, TheOldestReportsMakeRoom) {
+    for (std::size_t i = 0; i < Rehearsals::kept + 3; ++i) {
+        gateway.now_ns += 1'000'000'000;
+        ASSERT_EQ(call("POST", "/api/v1/fail_safe/rehearsal", "{}").status, 202);
+        gateway.give_all(good);
+    }
+    EXPECT_EQ(gateway.documents("rehearsal").size(), Rehearsals::kept);
+}
+
+}  // namespace
+}  // namespace axisgate::http::test

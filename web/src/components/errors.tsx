@@ -1,0 +1,77 @@
+// What is wrong: a compact list at the top of the overview, each entry a link to where it can be mended. In: the store. Out: a list, or nothing.
+// Old values are no news: without a connection the strip says what there is to say. What there is no room for is one press away, never only counted.
+import { useSignal } from '@preact/signals';
+import { useGateway } from '../gateway';
+import { withoutSubject } from '../text/alarm';
+import { plain } from '../text/plain';
+import { errorsNow, type ErrorEntry } from '../text/errors';
+import { Icon } from './icon';
+import { AxisName, SimulatedMark } from './name';
+import { Section } from './section';
+
+const most = 12;
+const mostAxes = 8;
+
+export function ErrorList() {
+  const { store } = useGateway();
+  const whole = useSignal(false);
+  if (!store.connected.value || !store.listed.value) return null;
+  const alarms = store.alarms.value;
+  const all = errorsNow(
+    store.axisNames.value.flatMap((n) => store.axis(n)?.value.data ?? []),
+    store.lineNames.value.flatMap((n) => store.line(n)?.value.data ?? []),
+    store.driveNames.value.flatMap((n) => store.drive(n)?.value.data ?? []),
+    alarms?.unacknowledged ?? 0,
+    alarms?.alarms ?? [],
+  );
+  if (all.length === 0) return null;
+  const shown = whole.value ? all : all.slice(0, most);
+  return (
+    <Section title="What is wrong" class="wrong">
+      <ul class="card" aria-label="What is wrong" data-field="wrong">
+        {shown.map((w) => (
+          <li key={w.key}>
+            <a class={`wrong-item tone-${w.word.tone}`} href={w.path} data-wrong={w.key}>
+              <span class="wrong-word">
+                <Icon name={w.word.icon} size={14} /> {w.word.text}
+              </span>
+              {w.about && (
+                <b>
+                  {w.about}
+                  <SimulatedMark of={w.about} kind={w.path.startsWith('/axes/') ? 'axis' : 'drive'} lead=" " />
+                </b>
+              )}
+              <span class="wrong-text">{plain(withoutSubject(w.text, w.about))}</span>
+            </a>
+            {w.axes.length > 0 && <ErrorAxes of={w} />}
+          </li>
+        ))}
+        {all.length > most && (
+          <li class="wrong-item">
+            <button type="button" class="link" aria-expanded={whole.value} data-field="wrong-more" onClick={() => (whole.value = !whole.value)}>
+              {whole.value ? 'Show less' : `and ${all.length - most} more`}
+            </button>
+          </li>
+        )}
+      </ul>
+    </Section>
+  );
+}
+
+function ErrorAxes({ of }: { of: ErrorEntry }) {
+  const whole = useSignal(false);
+  const shown = whole.value ? of.axes : of.axes.slice(0, mostAxes);
+  return (
+    <p class="wrong-axes" data-wrong-axes={of.key}>
+      <span>{of.axes.length === 1 ? 'Axis:' : 'Axes:'}</span>
+      {shown.map((n) => (
+        <AxisName key={n} name={n} />
+      ))}
+      {of.axes.length > mostAxes && (
+        <button type="button" class="link" aria-expanded={whole.value} onClick={() => (whole.value = !whole.value)}>
+          {whole.value ? 'show less' : `and ${of.axes.length - mostAxes} more`}
+        </button>
+      )}
+    </p>
+  );
+}

@@ -1,0 +1,44 @@
+// @vitest-environment happy-dom
+// Words of the API never reach people: every part of the page over the mock door, searched for words with an underscore. What stands in a fixed-width
+// face is a name that one types, and no text.
+import { afterEach, expect, it } from 'vitest';
+import { plain, plainWord } from '../src/text/plain';
+import { openPage, type MockPage } from './mock-page';
+
+let p: MockPage;
+afterEach(() => p?.close());
+
+const underscored = (root: HTMLElement): string[] => {
+  const found: string[] = [];
+  const look = (text: string | null, where: string) => {
+    for (const m of text?.match(/\b[a-z0-9]+(?:_[a-z0-9]+)+\b/g) ?? []) found.push(`${m} in ${where}`);
+  };
+  for (const e of root.querySelectorAll('*')) {
+    if (e.closest('code, pre, kbd, textarea, .mono')) continue;
+    for (const n of e.childNodes) if (n.nodeType === 3) look(n.textContent, `<${e.localName}> ${n.textContent}`);
+    for (const a of ['aria-label', 'title', 'placeholder', 'aria-description']) look(e.getAttribute(a), `${a} of <${e.localName}>`);
+  }
+  return [...new Set(found)];
+};
+
+const ready: [string, string, RegExp][] = [
+  ['/', '[data-axis=feeder]', /feeder/], ['/axes/feeder', '.parameters', /Read all/], ['/axes/feeder/parameters', '[data-part=snapshots], main', /No snapshot is kept/],
+  ['/lines', 'main', /feeder/], ['/lines/can0', 'main', /can0/], ['/mappings', '#mapping-form', /gantry-x/], ['/site', 'main', /feeder/], ['/recipes', 'main', /Recipes/],
+  ['/events', 'main', /Events/], ['/gateway', 'main', /Modbus/], ['/users', 'main', /Users/],
+];
+for (const [path, where, words] of ready) {
+  it(`${path}: no word of the API`, async () => {
+    p = await openPage(path);
+    p.other('PATCH', '/axes/feeder', { velocity_max: 90 });
+    await p.see(where, words);
+    await p.drawn();
+    expect(underscored(p.root)).toEqual([]);
+  });
+}
+
+it('states, reasons, points and settings have plain words, behind an axis and a dot too; a unit at the end is told as one', () => {
+  expect(plain('axis x: velocity_max not set -> 360')).toBe('axis x: velocity max not set -> 360');
+  expect(plain('mapping m1 (unit 2 holding_registers 0, feeder.position_units): added')).toBe('mapping m1 (unit 2 holding registers 0, feeder.position in units): added');
+  expect([plainWord('retry_pause_min_ms'), plainWord('timeout_s'), plainWord('target_reached'), plainWord('wrong_state')]).toEqual(['retry pause min in ms', 'timeout in s', 'target reached', 'not possible in this state']);
+  expect(plain('line slide.move_absolute is up')).toBe('line slide.move_absolute is up');
+});

@@ -194,7 +194,7 @@ def test_every_frame_is_what_a_dissector_knows(folder):
         finally:
             dump.terminate()
             dump.wait(5)
-        seen = subprocess.run(["tshark", "-r", str(capture), "-d", f"tcp.port=={port},enip", "-d", f"udp.port=={io_port},enip", "-V"],
+        seen = subprocess.run(["tshark", "-r", str(capture), "-d", f"tcp.port=={port},enip", "-d", f"udp.port=={io_port},cipio", "-V"],
                               capture_output=True, text=True, check=True).stdout
         assert "EtherNet/IP" in seen and "Forward Open" in seen, seen[-2000:]
         for bad in ("Malformed", "[Expert Info (Warning", "[Expert Info (Error"):

@@ -8,6 +8,7 @@
 #include <array>
 
 #include "adapters/linmot/drive.hpp"
+#include "adapters/linmot/inferred.hpp"
 #include "adapters/linmot/parameters_tables.hpp"
 #include "gateway/core/command_arguments.hpp"
 
@@ -40,11 +41,11 @@ void Drive::begin_action(Turn& t) {
         return begin_motion(*m, action.values, t);
     }
     action.name = command->id;
-    static constexpr std::array<std::string_view, 4> carried{"table.read", "table.write", "curve.read", "curve.write"};
-    if (std::ranges::find(carried, action.name) == carried.end()) return;
-    if (!inferred_)
+    if (!inferred_ && inferred(bus_.catalogue, action.name))
         return refuse(Reason::not_supported,
                       fmt::format("{} rests on messages that are inferred, and the drive option inferred is off", action.name));
+    static constexpr std::array<std::string_view, 4> carried{"table.read", "table.write", "curve.read", "curve.write"};
+    if (std::ranges::find(carried, action.name) == carried.end()) return;
     const auto number = static_cast<std::uint16_t>(whole(action.values, 0));
     if (action.name == "table.read" || action.name == "curve.read") return begin_transfer(action.name == "curve.read", false, number);
     // The whole entry, the whole curve is made before anything is sent.
@@ -84,8 +85,8 @@ std::optional<Telegram> Drive::action_request(Turn& t) {
     if (name == "table.delete_all") return request(id_, Main::table, 1);
     if (name == "table.save") return request(id_, Main::table, 0);
     if (name == "curve.delete") return request16(id_, Main::curves, 2, number);
-    if (name == "curve.delete_all") return request16(id_, Main::curves, 1, 0);
-    if (name == "curve.save") return request16(id_, Main::curves, 0, 0);
+    if (name == "curve.delete_all") return request(id_, Main::curves, 1);
+    if (name == "curve.save") return request(id_, Main::curves, 0);
     end_job(Outcome::refused, Reason::not_supported, fmt::format("{} is not carried out by this gateway", name), t);
     return std::nullopt;
 }
@@ -145,6 +146,10 @@ void Drive::rows_answered(const Telegram& telegram, Turn& t) {
         else
             add(is_signed ? fmt::format("{} {}", what[step], static_cast<std::int32_t>(a->value))
                           : fmt::format("{} {}", what[step], a->value));
+        if (step == 3 && !inferred_) {
+            add("default not asked: the message is inferred, and the drive option inferred is off");
+            return accept(job_.text);
+        }
         if (step == 4) return accept(job_.text);
         return;
     }

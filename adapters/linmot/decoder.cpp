@@ -6,6 +6,8 @@
 
 #include <iterator>
 
+#include "adapters/linmot/inferred.hpp"
+
 namespace axisgate::linmot {
 namespace {
 std::string hex(std::span<const std::uint8_t> data) {
@@ -33,7 +35,7 @@ std::string LineDecoder::parameter_name(std::uint16_t upid) const {
 std::string LineDecoder::request_text(const Telegram& t) const {
     switch (static_cast<Main>(t.main)) {
         case Main::response:
-            return t.sub == 1 ? "asks for the default response" : fmt::format("asks for response {:02X}h [inferred]", t.sub);
+            return t.sub == 1 ? "asks for the default response" : fmt::format("asks for response {:02X}h", t.sub);
         case Main::control_word:
             return fmt::format("control word {:04X}h: {}", t.u16(0), bits(catalogue_.document(), "control_bits", t.u16(0)));
         case Main::motion:
@@ -107,8 +109,8 @@ std::string LineDecoder::answer_text(const Telegram& t) const {
 
 std::string LineDecoder::describe(const Telegram& t, std::optional<bool> to_drive) const {
     const bool request = to_drive.value_or(t.main != 0 || t.size == 0);
-    return fmt::format("ID {}  {}  {}{}", t.id, request ? "to the drive" : "from the drive", request ? request_text(t) : answer_text(t),
-                       to_drive ? "" : " (direction by its form)");
+    return fmt::format("ID {}  {}  {}{}{}", t.id, request ? "to the drive" : "from the drive", request ? request_text(t) : answer_text(t),
+                       request && inferred(t.main, t.sub) ? " [inferred]" : "", to_drive ? "" : " (direction by its form)");
 }
 
 std::vector<std::string> LineDecoder::on_frame(const Frame& frame, std::optional<bool> to_drive) {

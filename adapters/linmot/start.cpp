@@ -21,7 +21,12 @@ Drive::Drive(Bus& bus, const DriveSetup& setup, std::uint8_t id, std::size_t slo
     warn_inferred_ = options.word("warn_word", {"off", "inferred"}) == "inferred";
     inferred_ = options.flag("inferred", true);
     stop_by_off3_ = options.word("quick_stop", {"abort", "off3"}) == "off3";
-    streams_ = options.word("set_points", {"moves", "stream"}) == "stream";
+    const auto set_points = options.word("set_points", {"moves", "auto", "stream"});
+    streams_ = set_points != "moves";
+    if (set_points == "stream" && stream_period() <= Duration{})
+        options.fault(
+            "set_points: a stream needs a set-point every 2 to 5 ms, which this line cannot hold (a bit rate of 115200 or more, and "
+            "no other drive): set-points are sent as moves");
     option_faults_ = options.take_faults();
 }
 
@@ -31,12 +36,6 @@ void Drive::begin(Turn& t) {
     for (auto& fault : option_faults_)
         notices_.tell(Severity::warning, axis_, "setup", 0, std::move(fault), t.now, t.out);
     option_faults_.clear();
-    if (streams_ && stream_period() <= Duration{})
-        notices_.tell(
-            Severity::warning, axis_, "setup", 0,
-            "set_points: a stream needs a set-point every 2 to 5 ms, which this line cannot hold (a bit rate of 115200 or more, and "
-            "no other drive): set-points are sent as moves",
-            t.now, t.out);
 }
 
 void Drive::line_up(Turn& t) {

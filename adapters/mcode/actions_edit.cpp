@@ -1,4 +1,4 @@
-// Drive: part of a program changed: from a label or an address on, what the drive has is replaced by other lines, and the lines before
+// Programs: part of a program changed: from a label or an address on, what the drive has is replaced by other lines, and the lines before
 // stay. In: the action's argument, the drive's listings. Out: steps of CP, PG and lines, behind which a download's own checks run. Never
 // reckons an address: how many a line takes the reference does not say (E-37), so the listing gives each.
 #include <fmt/core.h>
@@ -21,57 +21,54 @@ std::pair<std::string, std::string> place_and_text(const std::string& argument) 
 bool is_address(std::string_view s) { return !s.empty() && s.find_first_not_of("0123456789") == std::string_view::npos; }
 }  // namespace
 
-void Drive::plan_edit(const Action& a, Turn& t) {
-    const auto refuse = [&](Reason r, std::string why) { job_over(Outcome::refused, r, std::move(why), t); };
-    const auto [place, text] = place_and_text(a.argument);
+void Programs::edit(const std::string& argument, Turn& t) {
+    const auto [place, text] = place_and_text(argument);
     if (place.empty() || place.size() > 9 || (!is_address(place) && normal_form(place) != normal_form(word_of(place)))) {
         return refuse(Reason::out_of_range,
                       "program.edit: write the label or the address from which on the program is replaced in the first line, and the "
-                      "new lines behind it; none clear it from there on");
+                      "new lines behind it; none clear it from there on",
+                      t);
     }
-    if (running_) return refuse(Reason::wrong_state, fmt::format("a program runs in {}: end it first (program.end)", name()));
+    if (feedback().running())
+        return refuse(Reason::wrong_state, fmt::format("a program runs in {}: end it first (program.end)", name()), t);
     if (!wait_for_rest(t)) return;
-    job_.kind = JobKind::edit;
+    work_.doing = Doing::edit;
     tidy_ = false;
-    job_.add(Step::What::block, "PR UV");  // what the program may name without declaring it
-    job_.add(Step::What::block, "L");
+    job().list("PR UV").list("L");  // the first: what the program may name without declaring it
 }
 
 /// One of the listings of an edit.
-void Drive::edit_listed(const std::string& text, Turn& t) {
-    if (job_.steps[job_.at].text != "L") {
-        job_.globals = global_variables(text);
-        return step_done(t);
+void Programs::edit_listed(const std::string& text, Turn& t) {
+    if (job().steps[job().at].text != "L") {
+        work_.globals = global_variables(text);
+        return drive_.jobs.step_done(t);
     }
     const auto rows = addressed_lines(text);
-    if (job_.from.empty() && !begin_edit(rows, t)) return;
-    if (clear_from(rows, t)) return step_done(t);
-    if (job_.kind == JobKind::none) return;
+    if (work_.from.empty() && !begin_edit(rows, t)) return;
+    if (clear_from(rows, t)) return drive_.jobs.step_done(t);
+    if (!drive_.jobs.is(*this)) return;
     // From here on it is a download behind lines that stay.
-    job_.kind = JobKind::download;
-    mode_doubt_ = false;
-    const std::size_t head = job_.program.size();
-    if (!job_.fresh.empty()) {
-        job_.program.push_back({ProgramLine::Kind::frame, "PG " + job_.from, 0});
-        for (auto& line : job_.fresh)
-            job_.program.push_back(std::move(line));
-        job_.program.push_back({ProgramLine::Kind::frame, "PG", 0});
-        for (std::size_t i = head; i < job_.program.size(); ++i) {
-            job_.add(Step::What::bare, job_.program[i].text, false);
-            job_.steps.back().line = job_.program[i].number;
-        }
+    work_.doing = Doing::download;
+    drive_.mode.doubt(false);
+    const std::size_t head = work_.program.size();
+    if (!work_.fresh.empty()) {
+        work_.program.push_back({ProgramLine::Kind::frame, "PG " + work_.from, 0});
+        for (auto& line : work_.fresh)
+            work_.program.push_back(std::move(line));
+        work_.program.push_back({ProgramLine::Kind::frame, "PG", 0});
+        add_lines({work_.program.begin() + static_cast<std::ptrdiff_t>(head), work_.program.end()});
     }
-    job_.add(Step::What::block, "L");
-    step_done(t);
+    job().list("L");
+    drive_.jobs.step_done(t);
 }
 
 /// Finds the place and checks the whole of what stays and what comes. false: it is refused, and nothing has been changed.
-bool Drive::begin_edit(const std::vector<ListedLine>& rows, Turn& t) {
-    const auto refuse = [&](std::string why) {
-        job_over(Outcome::refused, Reason::out_of_range, fmt::format("{}: {}; nothing was changed", name(), why), t);
+bool Programs::begin_edit(const std::vector<ListedLine>& rows, Turn& t) {
+    const auto refused = [&](std::string why) {
+        refuse(Reason::out_of_range, fmt::format("{}: {}; nothing was changed", name(), why), t);
         return false;
     };
-    const auto* action = std::get_if<Action>(&job_.command.body);
+    const auto* action = std::get_if<Action>(&job().command.body);
     const auto parts = place_and_text(action ? action->argument : std::string());
     const std::string &place = parts.first, &text = parts.second;
     const std::string label = "LB" + normal_form(place);
@@ -79,61 +76,55 @@ bool Drive::begin_edit(const std::vector<ListedLine>& rows, Turn& t) {
         return is_address(place) ? l.address == std::atol(place.c_str()) : normal_form(l.text) == label;
     });
     if (start == rows.end())
-        return refuse(is_address(place) ? fmt::format("no line of its program begins at address {}: see program.list", place)
-                                        : fmt::format("its program has no label {}: see program.list", place));
+        return refused(is_address(place) ? fmt::format("no line of its program begins at address {}: see program.list", place)
+                                         : fmt::format("its program has no label {}: see program.list", place));
     std::string whole;
     std::size_t before = 1;
-    for (const auto& v : job_.globals)
+    for (const auto& v : work_.globals)
         whole += fmt::format("VA {}\n", v), ++before;
     whole += "PG 1\n";
     for (auto row = rows.begin(); row != start; ++row)
         whole += row->text + '\n', ++before;
     if (text.find_first_not_of(" \r\n\t") == std::string::npos && start == rows.begin())
-        return refuse("this would clear the whole program: that is the action program.clear");
-    auto checked = check_program(whole + text + (text.ends_with('\n') || text.empty() ? "PG\n" : "\nPG\n"), Language(catalogue_));
+        return refused("this would clear the whole program: that is the action program.clear");
+    auto checked = check_program(whole + text + (text.ends_with('\n') || text.empty() ? "PG\n" : "\nPG\n"), Language(drive_.bus.catalogue));
     if (!checked.fault.empty()) {
         // "line 12: ..." of the whole; the user's text begins in the second line of the argument.
         std::size_t line = 0;
         const auto [rest, fault] = std::from_chars(checked.fault.data() + 5, checked.fault.data() + checked.fault.size(), line);
-        if (fault != std::errc{}) return refuse(checked.fault);
+        if (fault != std::errc{}) return refused(checked.fault);
         const std::string why(static_cast<const char*>(rest), static_cast<std::size_t>(checked.fault.data() + checked.fault.size() - rest));
-        return refuse(line > before ? fmt::format("line {}{}", line - before + 1, why) : "the part that stays does not fit any more" + why);
+        return refused(line > before ? fmt::format("line {}{}", line - before + 1, why)
+                                     : "the part that stays does not fit any more" + why);
     }
     if (std::ranges::count(checked.lines, ProgramLine::Kind::frame, &ProgramLine::kind) != 2)
-        return refuse("write the lines between PG and PG alone");
-    job_.from = std::to_string(start->address);
-    job_.program.push_back({ProgramLine::Kind::frame, "PG 1", 0});
+        return refused("write the lines between PG and PG alone");
+    work_.from = std::to_string(start->address);
+    work_.program.push_back({ProgramLine::Kind::frame, "PG 1", 0});
     for (auto row = rows.begin(); row != start; ++row) {
-        job_.program.push_back({ProgramLine::Kind::stored, row->text, 0});
-        if (word_of(row->text) != "VA") job_.stays.push_back(normal_form(row->text));
+        work_.program.push_back({ProgramLine::Kind::stored, row->text, 0});
+        if (word_of(row->text) != "VA") work_.stays.push_back(normal_form(row->text));
     }
     for (auto& l : checked.lines) {
         if (l.kind == ProgramLine::Kind::stored && l.number > before)
-            job_.fresh.push_back({l.kind, std::move(l.text), l.number - before + 1});
+            work_.fresh.push_back({l.kind, std::move(l.text), l.number - before + 1});
     }
     return true;
 }
 
-std::string Drive::memory_is_half() const {
-    return job_.from.empty() ? "the program memory is cleared or incomplete: download again"
-                             : fmt::format("the program is cleared or incomplete from address {} on: edit again", job_.from);
-}
-
-/// Removes what is listed from job_.from on; CP with a place takes one program away, to its end, so it is said until nothing is left.
+/// Removes what is listed from work_.from on; CP with a place takes one program away, to its end, so it is said until nothing is left.
 /// false: nothing is left, or the job is over.
-bool Drive::clear_from(const std::vector<ListedLine>& rows, Turn& t) {
-    const long from = std::atol(job_.from.c_str());
+bool Programs::clear_from(const std::vector<ListedLine>& rows, Turn& t) {
+    const long from = std::atol(work_.from.c_str());
     const auto first = std::ranges::find_if(rows, [&](const ListedLine& l) { return l.address >= from; });
     const auto left = static_cast<std::size_t>(rows.end() - first);
     if (left == 0) return false;
-    if (job_.left != 0 && left >= job_.left) {
-        job_over(Outcome::failed, Reason::drive_refused,
-                 fmt::format("{}: CP 0,{} leaves {} lines where they are", name(), first->address, left), t);
+    if (work_.left != 0 && left >= work_.left) {
+        fail(Reason::drive_refused, fmt::format("{}: CP 0,{} leaves {} lines where they are", name(), first->address, left), t);
         return false;
     }
-    job_.left = left;
-    job_.add(Step::What::send, fmt::format("CP 0,{}", first->address), false);
-    job_.add(Step::What::block, "L");
+    work_.left = left;
+    job().send(fmt::format("CP 0,{}", first->address), false).list("L");
     return true;
 }
 

@@ -5,16 +5,19 @@
 #pragma once
 
 #include <array>
-#include <memory>
-#include <vector>
+#include <string>
+#include <string_view>
 
 #include "adapters/mcode/drive.hpp"
+#include "gateway/drive/exchange.hpp"
+#include "gateway/drive/roster.hpp"
+#include "gateway/drive/turns.hpp"
 
 namespace axisgate::mcode {
 
 class LineAdapter final : public Adapter {
 public:
-    explicit LineAdapter(const Catalogue& catalogue) : catalogue_(catalogue) {}
+    explicit LineAdapter(const Catalogue& catalogue) : bus_(catalogue) {}
 
     void configure(const LineSetup& setup, Instant now, Out& out) override;
     void on_line(bool up, Instant now, Out& out) override;
@@ -22,37 +25,41 @@ public:
     void on_frame(const Frame& frame, Instant now, Out& out) override;
     void on_deadline(Instant now, Out& out) override;
     [[nodiscard]] Instant deadline() const override;
-    [[nodiscard]] AdapterCounters counters() const override { return counters_; }
+    [[nodiscard]] AdapterCounters counters() const override { return bus_.counters; }
 
 private:
-    void take_manners(const LineSetup& setup, Turn& t);
+    void take_timing(const LineSetup& setup, Turn& t);
+    [[nodiscard]] std::string fault_of(const DriveSetup& drive, bool alone) const;
+    void removed(Drive& drive, Turn& t);
     [[nodiscard]] Duration wire(std::size_t bytes) const noexcept;
+    // whose turn it is
     void pump(Turn& t);
-    void start(Drive& node, Turn& t);
-    void finish(Verdict v, Turn& t);
-    [[nodiscard]] bool close_block(Turn& t);
+    void settle(Instant now);
+    [[nodiscard]] bool held(const Drive& drive, Instant now) const noexcept;
     [[nodiscard]] bool stop_all_at_once(Turn& t);
+    // one exchange
+    void start(Drive& drive, Turn& t);
+    void send(std::string_view bytes, Priority priority, Turn& t) const;
+    [[nodiscard]] std::string next_mark();
+    [[nodiscard]] bool close_block(Turn& t);
+    void finish(Verdict v, Turn& t);
+    // what comes beside answers
     void stray(std::string_view bytes, Turn& t);
     void stray_line(Turn& t);
-    void gather(const ReplyReader& reader, Verdict v, Turn& t);
+    void gather(Verdict v, Turn& t);
     [[nodiscard]] bool marked(std::string_view line, Turn& t);
-    [[nodiscard]] bool held(const Drive& n, Instant now) const noexcept;
 
-    const Catalogue& catalogue_;
+    Bus bus_;
     LineSetup setup_;
-    Manners manners_;
-    AdapterCounters counters_;
     bool up_ = false;
-    std::vector<std::unique_ptr<Drive>> nodes_;
-    std::size_t turn_ = 0;         ///< whose turn is next
-    std::size_t urgent_turn_ = 0;  ///< among those with a stop
+    drive::Roster<Drive> drives_;
+    drive::Turns turns_;
 
     struct Flight {
-        Drive* node = nullptr;  ///< null: the line is free
-        Request::Purpose purpose = Request::Purpose::poll;
+        Drive* drive = nullptr;  ///< null: the line is free
         Expect::Kind kind = Expect::Kind::query;
         std::string sent;     ///< what its echo would be
-        bool to_all = false;  ///< a line to `*`: nobody answers; `node` only keeps the line busy
+        bool to_all = false;  ///< a line to `*`: nobody answers; `drive` only keeps the line busy
         bool ends = false;    ///< a block that a question closes
         int closings = 0;     ///< such questions so far
         Instant deadline = never;
@@ -62,15 +69,13 @@ private:
     unsigned mark_ = 0;
     std::string answered_mark_;  ///< of the last question that was answered: seen again, two drives answer to one name
     Drive* answered_ = nullptr;  ///< by whom
-    Instant quiet_until_{};      ///< LineManners::pause
-    Instant looked_at_{};        ///< when the nodes were asked last what they want: the deadline asks them for no earlier time
-    Instant next_listing_{};     ///< when the next drive that comes may list its variables
-    Instant dirty_until_{};      ///< answers of an exchange that was given up may come until then
-    const Drive* dirty_ = nullptr;
+    Instant looked_at_{};        ///< when the drives were asked last what they want: the deadline is no earlier time
+    drive::LateTime late_;       ///< answers of an exchange that was given up may come until then
+    const Drive* late_drive_ = nullptr;
     std::string stray_;    ///< text that nobody asked for, up to its line end, at most 256
     bool resync_ = false;  ///< a line end may be lost: the next request on a party line begins with one
     struct Missed {
-        Drive* node = nullptr;
+        Drive* drive = nullptr;
         Instant at{};
     };
     std::array<Missed, 62> missed_{};  ///< by mark: questions that were given up

@@ -68,7 +68,7 @@ DemandRamps AxisDemand::ramps() const noexcept {
     return {static_cast<double>(values_.a), static_cast<double>(values_.d), static_cast<double>(values_.vi)};
 }
 
-void AxisDemand::said(std::string_view line, Instant at, bool own) {
+void AxisDemand::published(std::string_view line, Instant at, bool own) {
     before_ = Before{demand_, values_, plain_, still_};
     const std::string word = word_of(line);
     order(word, field_of(line), at, own);

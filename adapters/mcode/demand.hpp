@@ -45,10 +45,10 @@ public:
     [[nodiscard]] bool wants_shape() const noexcept { return values_.encoder && !plain_; }
 
     /// A line was acknowledged that the drive had at `at`. `own`: this gateway's move or stop, not somebody's text.
-    void said(std::string_view line, Instant at, bool own);
+    void published(std::string_view line, Instant at, bool own);
     /// Nobody knows whether the drive took this line.
     void doubt(std::string_view line);
-    /// What was said last was refused after all.
+    /// What was published last was refused after all.
     void withdraw() noexcept;
     /// A line was refused at once: nothing has changed.
     void refused() noexcept { before_.reset(); }
@@ -82,7 +82,7 @@ private:
     bool moving_ = false;           ///< as last read: MV
     bool stalled_ = false;          ///< as last read: ST
     bool stall_is_new_ = false;     ///< ST came with the present order
-    bool ordered_ = false;          ///< something was said since the last reading
+    bool ordered_ = false;          ///< something was published since the last reading
     int strange_ = 0;               ///< readings in a row with a speed that is not this order's
     int way_ = 1;                   ///< sign of the last speed that was read: LL counts lag in that direction
     std::int64_t position_ = 0;     ///< as last read

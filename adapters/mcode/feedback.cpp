@@ -1,6 +1,10 @@
-// Drive: what is shown of its axis: the feedback that its polls and its own commands add up to.
-// In: flags, positions and errors as they were read, the motion that this gateway began. Out: one feedback per reading.
-// Never calls a target reached that the position has not reached.
+// Feedback: what is shown of the axis: what its polls and this gateway's own commands add up to; and what its error codes mean for it.
+// In: answers to polls and ER. Out: feedback, notices. What an answer lacks makes all of it no answer.
+// Never takes AS, LR, ST or IF for granted: only models that have them are asked.
+#include "adapters/mcode/feedback.hpp"
+
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -8,129 +12,295 @@
 #include "adapters/mcode/drive.hpp"
 
 namespace axisgate::mcode {
+using namespace std::chrono_literals;
 
 bool is_fault_code(int code) noexcept {
-    switch (code) {
-        case 13:
-        case 14:
-        case 70:
-        case 72:
-        case 75:
-        case 78:
-        case 79:
-        case 82:
-        case 86:
-        case 92:
-        case 96:
-        case 98:
-        case 99:
-        case 104:
-        case 105:
-        case 111:
-            return true;
-        default:
-            return false;
-    }
+    constexpr std::array faults{13, 14, 70, 72, 75, 78, 79, 82, 86, 92, 96, 98, 99, 104, 105, 111};
+    return std::ranges::find(faults, code) != faults.end();
 }
 
-void Drive::derive(Turn& t) {
-    if (!de_) enabled_ = false;
-    fb_.power = de_ && enabled_ ? AxisFeedback::Power::on : AxisFeedback::Power::off;
+// --- errors ----------------------------------------------------------------------------------------------------------------------
+
+std::string Errors::text_of(int code) const {
+    const ErrorCode* e = drive_.bus.catalogue.error(code);
+    return fmt::format("error {}{}", code, e ? ", " + e->text : std::string());
+}
+
+void Errors::learn(int code, bool ours, Turn& t) {
+    last_ = code;
+    if (!ours && code != 0) drive_.program.told(code);
+    if (is_fault_code(code)) fault_ = code;
+    // SM says whether a stall (86) ends the motion, and the flags tell that.
+    if (!ours && code != 86 && (is_fault_code(code) || code == 83 || code == 84 || code == 91)) feedback().demand.ended(t.now);
+    const bool no_news = std::exchange(by_search_, false) && !is_fault_code(code);
+    if (!ours && !no_news && code != 0) {
+        const ErrorCode* e = drive_.bus.catalogue.error(code);
+        note(is_fault_code(code) ? Severity::alarm : Severity::warning, "error", code,
+             fmt::format("{}: error {}, {}", name(), code, e ? e->text : "a code that the catalogue does not have"), t);
+    }
+    feedback().show(t);
+}
+
+void Errors::answered(Verdict v, const std::string& data, Turn& t) {
+    const bool waits = drive_.confirms();
+    const auto code = v == Verdict::answered ? whole(data) : std::nullopt;
+    if (!code) {
+        if (v == Verdict::waiting) drive_.start.silent(t);
+        if (v == Verdict::refused || !drive_.ready()) wanted_ = false;
+        if (!wanted_ || ++tries_ <= drive_.bus.timing.retries) return;  // asked again
+        // What is no number stays none: the polls go on, and who waits for it hears so.
+        wanted_ = false;
+        tries_ = 0;
+        if (drive_.confirms()) drive_.unconfirmed(fmt::format("{} has an error and its code cannot be read", name()), t);
+        return;
+    }
+    wanted_ = false;
+    tries_ = 0;
+    feedback().error_read();
+    // With a line to all nobody says whose error it is: a fault is told, and the stop is judged by what is read.
+    const bool ours = waits && ours_ && !(drive_.stops.told_to_all() && is_fault_code(static_cast<int>(*code)));
+    learn(static_cast<int>(*code), ours, t);
+    if (!waits) return;
+    const int keep = last_;
+    if (!ours) last_ = 0;
+    drive_.confirmed(t);
+    if (last_ == 0) last_ = keep;
+    if (!ours) drive_.program.told_first(keep);
+}
+
+// --- the questions ---------------------------------------------------------------------------------------------------------------
+
+std::string Feedback::poll_items(Instant now) {
+    std::string s = R"(P,",",V,",",MV,MP,VC,DE,EF,BY)";
+    if (has.encoder) s += ",ST";
+    if (has.hmt) s += ",LR,AS";
+    if (has.input) s += ",IF";
+    // Only where it means something: LL is 0 or not measured in the other modes [L3872].
+    asks_lag_ = (hmt_mode_ == 1 || hmt_mode_ == 2) && (lag_misses_ < 2 || now >= lag_again_);
+    if (asks_lag_) s += R"(,",",LL)";
+    return s;
+}
+
+void Feedback::poll_missed(Instant now) noexcept {
+    if (!asks_lag_) return;
+    lag_misses_ = std::min(lag_misses_ + 1, 2);
+    lag_again_ = now + 10s;
+}
+
+std::string Feedback::value_items() const { return std::string(R"(VI,",",VM,",",A,",",D)") + (has.encoder ? R"(,",",EE)" : ""); }
+
+void Feedback::learn_values(std::string_view data) {
+    const auto f = split(data);
+    if (f.size() != (has.encoder ? 5U : 4U)) return;
+    const auto number = [&](std::size_t i) { return whole(f[i]).value_or(0); };
+    const auto vi = number(0);
+    const auto user_vi = vi != values.vi ? vi : values.user_vi;  // else it is as a slow move has left it
+    values = {vi, user_vi, number(1), number(2), number(3), has.encoder && number(4) == 1};
+    demand.knows({values.vi, values.vm, values.a, values.d, values.encoder});
+}
+
+void Feedback::learn_value(std::string_view word, std::int64_t value) noexcept {
+    demand.value(word, value);
+    if (word == "VI") values.vi = values.user_vi = value;
+    if (word == "VM") values.vm = value;
+    if (word == "A") values.a = value;
+    if (word == "D") values.d = value;
+    if (word == "EE") values.encoder = value == 1;
+}
+
+void Feedback::values_unknown() noexcept {
+    values = {0, 0, 0, 0, 0, values.encoder};
+    relearn = true;
+}
+
+bool Feedback::learn_poll(const std::string& data, Turn& t) {
+    const auto f = split(data);
+    const std::size_t lr = 6U + (has.encoder ? 1U : 0U), as = lr + 1U;
+    const std::size_t count = lr + (has.hmt ? 2U : 0U) + (has.input ? 1U : 0U);
+    bool fits = f.size() == (asks_lag_ ? 4U : 3U) && f[2].size() == count;
+    for (std::size_t i = 0; fits && i < count; ++i)
+        fits = f[2][i] >= '0' && f[2][i] <= (has.hmt && i == as ? '3' : '1');
+    const auto number = [&](std::size_t i) { return fits ? whole(f[i]) : std::nullopt; };
+    const auto p = number(0), v = number(1), lag = asks_lag_ ? number(3) : std::nullopt;
+    if (!p || !v || (asks_lag_ && !lag)) {
+        poll_missed(t.now);
+        ++drive_.bus.counters.garbled;
+        return false;
+    }
+    const auto flag = [&](std::size_t i) { return f[2][i] == '1'; };
+    const bool waited = flags_.input;
+    read_at_ = std::min(heard_at, t.now);
+    fb_.position = *p;
+    fb_.velocity = *v;
+    flags_ = {
+        flag(0), flag(1), flag(2), flag(3), flag(4), flag(5), has.encoder && flag(6), has.hmt && flag(lr), has.input && flag(count - 1)};
+    hmt_mode_ = has.hmt ? f[2][as] - '0' : 0;
+    if (flags_.by) prints_until_ = t.now + 2s;
+    if (!flags_.mv) stopping_ = false;
+    if (asks_lag_) lag_misses_ = 0;
+    read_demand(lag);
+    program_ran_ = program_ran_ || flags_.by;
+    if (!flags_.by && std::exchange(program_ran_, false)) relearn = true;
+    if (flags_.input && !waited) {
+        // No poll can be the number: it begins with PR. What is sent as native text and begins with a digit or a sign is.
+        note(Severity::info, "input", 0, fmt::format("{}: its program waits for a number (IV): send it as a native line", name()), t);
+    }
+    if (!std::exchange(seen_, true) && flags_.by) {
+        note(Severity::info, "program", 0,
+             fmt::format("{}: a program runs in it already: it is left alone; quick stop ends it, halt stops its motion only", name()), t);
+    }
+    drive_.poll.soon(t.now + drive_.bus.timing.poll_period);
+    show(t);
+    drive_.program.watch(t);
+    drive_.jobs.watch(t);
+    return true;
+}
+
+// --- what it is shown as ---------------------------------------------------------------------------------------------------------
+
+void Feedback::derive() {
+    const auto& [mv, mp, vc, de, ef, by, stalled, locked, input] = flags_;
+    const Errors& errors = drive_.errors;
+    if (!de) enabled_ = false;
+    fb_.power = de && enabled_ ? AxisFeedback::Power::on : AxisFeedback::Power::off;
     // In torque mode V reads 0 whatever the shaft does [L5995].
-    fb_.moving = mv_ && (fb_.velocity != 0 || vc_ || encoder_mode() || torque_ || motion_.kind == Motion::Kind::home);
-    fb_.fault = fault_ != 0 || stalled_ || locked_;
-    fb_.error_code = static_cast<std::uint16_t>(fault_ != 0 ? fault_ : stalled_ ? 86 : locked_ ? 104 : last_error_);
-    fb_.internal_limit = last_error_ == 83 || last_error_ == 84;
-    fb_.warning = last_error_ == 71 || fb_.internal_limit;
-    fb_.native_status = (mv_ ? 1U : 0U) | (mp_ ? 2U : 0U) | (vc_ ? 4U : 0U) | (de_ ? 8U : 0U) | (ef_ ? 16U : 0U) | (running_ ? 32U : 0U) |
-                        (stalled_ ? 64U : 0U) | (locked_ ? 128U : 0U) | (input_ ? 256U : 0U);
+    fb_.moving = mv && (fb_.velocity != 0 || vc || encoder_mode() || torque() || motion_.kind == Motion::Kind::home);
+    fb_.fault = errors.fault() != 0 || stalled || locked;
+    fb_.error_code = static_cast<std::uint16_t>(errors.fault() != 0 ? errors.fault() : stalled ? 86 : locked ? 104 : errors.last());
+    fb_.internal_limit = errors.last() == 83 || errors.last() == 84;
+    fb_.warning = errors.last() == 71 || fb_.internal_limit;
+    fb_.native_status = 0;
+    for (std::uint32_t bit = 1; const bool f : {mv, mp, vc, de, ef, by, stalled, locked, input}) {
+        if (f) fb_.native_status |= bit;
+        bit <<= 1;
+    }
     if (motion_.ended) {
         if (fb_.moving) fb_.target_reached = false;  // a program, or somebody else, moves it
         return;
     }
-    if (motion_.kind == Motion::Kind::position && !fb_.moving && (!encoder_mode() || !mv_)) {
-        if (fb_.position == motion_.target ||
-            (encoder_mode() && !fb_.fault && std::llabs(fb_.position - motion_.target) <= 65000 && !mv_ && !ef_)) {
-            fb_.target_reached = true;
-            motion_.ended = true;
-        } else if (!mv_) {
-            motion_.ended = true;
-        }
-    } else if (motion_.kind == Motion::Kind::home && !mv_) {
+    if (motion_.kind == Motion::Kind::position && !fb_.moving && !(encoder_mode() && mv)) {
+        const bool near = encoder_mode() && !fb_.fault && !ef && std::llabs(fb_.position - motion_.target) <= 65000;
+        if (fb_.position == motion_.target || near) fb_.target_reached = motion_.ended = true;
+        if (!mv) motion_.ended = true;
+    } else if (motion_.kind == Motion::Kind::home && !mv) {
         motion_.ended = true;
-        if (ef_ || fb_.fault) {
+        if (ef || fb_.fault)
             fb_.homing_error = true;
-        } else {
-            zero_after_home_ = true;
-            Command c;
-            c.axis = axis_;
-            c.body = SetPosition{0};
-            queue_.push_front(std::move(c));
-        }
+        else
+            zero_after_home_ = zero_wanted_ = true;
     }
-    (void)t;
 }
 
-/// Bridges that a fault has switched off hold nothing, although DE is 1 [L3983, L8452].
-void Drive::take_demand(std::optional<std::int64_t> lag) {
-    const bool bridges_off =
-        (locked_ && !torque_) || fault_ == 13 || fault_ == 14 || fault_ == 72 || fault_ == 75 || fault_ == 79 || fault_ == 96;
-    AxisDemand::Reading r;
-    r.at = heard_at_;
-    r.position = fb_.position;
-    r.velocity = fb_.velocity;
-    r.lag = lag;
-    r.hmt = hmt_mode_;
-    r.energised = de_ && !bridges_off;
-    r.moving = mv_;
-    r.changing = vc_;
-    r.stalled = stalled_;
-    r.program = running_;
-    r.homing = motion_.kind == Motion::Kind::home && !motion_.ended;
-    if (old_firmware_ && demand_.wants_shape()) demand_.shape(true);
-    demand_.read(r, fb_);
-}
-
-void Drive::demand_lost() noexcept {
-    demand_.lost();
-    fb_.demand_source = DemandSource::none;
-    hmt_mode_ = 0;
-    shape_refused_ = program_ran_ = false;
-}
-
-/// A step's line: the drive took it, or nobody knows, or it was refused. Somebody's text may be known too, but its moves are not ours.
-void Drive::step_said(const Step& step, Verdict v) {
-    if (v == Verdict::refused) return demand_.refused();
-    program_told(step.text);
-    if (v == Verdict::waiting || v == Verdict::garbled) return demand_.doubt(step.text);
-    const bool ours =
-        job_.kind == JobKind::move || job_.kind == JobKind::home || job_.kind == JobKind::set_position || job_.kind == JobKind::write;
-    demand_.said(step.text, heard_at_, ours);
-    const auto w = word_of(step.text);
-    if (w == "EX") program_ran_ = true;
-    // Said by somebody: what the next move would find is read anew.
-    constexpr std::array<std::string_view, 10> values{"VI", "VM", "A", "D", "EE", "AS", "MS", "IP", "IC", "DC"};
-    if (!ours && std::ranges::find(values, w) != values.end()) relearn_ = true;
-}
-
-/// LL is a luxury: a drive that does not answer such polls is asked without it, before it counts as away.
-void Drive::lag_missed(Instant now) noexcept {
-    if (!asks_lag_) return;
-    lag_misses_ = std::min(lag_misses_ + 1, 2);
-    lag_again_ = now + std::chrono::seconds(10);
-}
-
-void Drive::emit(Turn& t) {
-    if (axis_ == no_axis || !seen_) return;
+void Feedback::emit(Turn& t) {
+    if (drive_.axis() == no_axis || !seen_) return;
     fb_.at = read_at_;  // what an acknowledgement or an error code adds is newer
     fb_.homing = motion_.kind == Motion::Kind::home && (!motion_.ended || zero_after_home_);
-    t.out.feedback.push_back({axis_, fb_});
+    t.out.feedback.push_back({drive_.axis(), fb_});
     if (fb_.power != AxisFeedback::Power::on) {
         // DE is 1 from the factory: as long as this gateway has not enabled it the axis is shown as off, and nobody wants it anywhere.
         AxisFeedback& shown = t.out.feedback.back().value;
         shown.demand_source = DemandSource::none;
         shown.position_demand = shown.position;
     }
+}
+
+void Feedback::show(Turn& t) {
+    derive();
+    emit(t);
+}
+
+bool Feedback::goes() const noexcept {
+    const bool homes = motion_.kind == Motion::Kind::home && !motion_.ended;
+    return torque() || homes || (!stopping_ && (fb_.velocity != 0 || flags_.vc));
+}
+
+/// Bridges that a fault has switched off hold nothing, although DE is 1 [L3983, L8452].
+void Feedback::read_demand(std::optional<std::int64_t> lag) {
+    constexpr std::array off{13, 14, 72, 75, 79, 96};
+    const bool bridges_off = (flags_.locked && !torque()) || std::ranges::find(off, drive_.errors.fault()) != off.end();
+    if (has.old_firmware && demand.wants_shape()) demand.shape(true);
+    demand.read({.at = heard_at,
+                 .position = fb_.position,
+                 .velocity = fb_.velocity,
+                 .lag = lag,
+                 .hmt = hmt_mode_,
+                 .energised = flags_.de && !bridges_off,
+                 .moving = flags_.mv,
+                 .changing = flags_.vc,
+                 .stalled = flags_.stalled,
+                 .program = flags_.by,
+                 .homing = motion_.kind == Motion::Kind::home && !motion_.ended},
+                fb_);
+}
+
+void Feedback::demand_lost() noexcept {
+    demand.lost();
+    fb_.demand_source = DemandSource::none;
+    hmt_mode_ = 0;
+    shape_refused = program_ran_ = false;
+}
+
+// --- what has happened to it -----------------------------------------------------------------------------------------------------
+
+void Feedback::found() noexcept {
+    enabled_ = seen_ = false;
+    motion_ = {};
+    fb_.target_reached = fb_.homing_error = false;
+    demand_lost();
+    demand.knows({values.vi, values.vm, values.a, values.d, values.encoder});
+}
+
+void Feedback::lost() noexcept {
+    enabled_ = false;
+    fb_.referenced = fb_.homing_attained = false;
+    motion_ = {};
+    no_zero();
+    demand_lost();
+}
+
+void Feedback::line_lost() noexcept {
+    seen_ = enabled_ = false;
+    no_zero();
+    demand_lost();
+}
+
+void Feedback::restarted(Turn& t) {
+    lost();
+    fb_.target_reached = false;
+    show(t);
+}
+
+void Feedback::powered(Turn& t) {
+    enabled_ = flags_.de;
+    show(t);
+}
+
+/// Before the acknowledgement of the command is told: the old "reached" must not stand for the new target.
+void Feedback::began(Motion motion, Turn& t) {
+    motion_ = motion;
+    stopping_ = false;
+    drive_.errors.clear_last();
+    if (motion.kind == Motion::Kind::home) fb_.homing_attained = fb_.homing_error = fb_.referenced = false;
+    fb_.target_reached = fb_.internal_limit = false;
+    emit(t);
+    derive();
+}
+
+void Feedback::homed(bool here, Turn& t) {
+    fb_.referenced = true;
+    if (here || zero_after_home_) {
+        fb_.homing_attained = fb_.target_reached = true;
+        fb_.homing_error = false;
+    }
+    no_zero();
+    show(t);
+}
+
+void Feedback::stopped(bool power_off, Turn& t) {
+    fb_.target_reached = false;
+    motion_.ended = stopping_ = true;
+    if (power_off) enabled_ = false;
+    show(t);
 }
 
 }  // namespace axisgate::mcode

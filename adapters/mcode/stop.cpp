@@ -1,251 +1,206 @@
-// Drive: stops and confirmations, and what leaves a node: results, notices.
-// In: the end of a stop's exchange, the poll or error code that confirms a line. Out: the next line of a stop, results, notices.
-// Never takes an acknowledgement alone for a stop: a poll, and ER if it says that there is one, come behind it.
+// Stops: which lines stop this drive now, how often each is said, and by what is read whether it was heard.
+// In: the drive's mode, acknowledgements, polls, error codes. Out: lines, results.
+// Never ends a stop by what the drive said before it.
+#include "adapters/mcode/stop.hpp"
+
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <utility>
 
 #include "adapters/mcode/drive.hpp"
 
 namespace axisgate::mcode {
-using namespace std::chrono_literals;
 
-void Drive::stop_ended(Verdict v, const ReplyReader&, Turn& t) {
-    if (stops_.empty()) return;
-    Stop& s = stops_.front();
-    if (phase_ == Phase::absent) {
-        return stop_over(Outcome::failed, Reason::no_answer,
-                         fmt::format("{} does not answer to {}; {} was sent all the same, whether it was heard is not known", name(),
-                                     setup_.address, s.lines.back()),
-                         t);
+void Stops::add(const Command& c, Turn& t) {
+    // A drive that is being looked for or set up again may be moving: its stop waits for that, which ends in `ready` or `absent`.
+    Stop fresh;
+    fresh.command = c;
+    Stop* s = lane_.add(std::move(fresh));
+    if (!s) {
+        tickets.refused(c.ticket, Reason::busy, "too many stops wait", t.out);
+        return;
     }
-    const std::string& line = s.lines[s.at];
-    if (v == Verdict::refused) demand_.refused();
-    if (v != Verdict::refused) program_told(line);
-    if (v == Verdict::waiting || v == Verdict::garbled) demand_.doubt(line);
-    if (v == Verdict::acknowledged || v == Verdict::answered) demand_.said(line, heard_at_, true);
-    s.said = v == Verdict::answered ? Verdict::acknowledged : v;
-    s.confirming = true;
-    s.to_all = false;
-    if (v == Verdict::waiting) count_silence(t);
-}
-
-std::string_view Drive::stop_line() const noexcept {
-    if (phase_ != Phase::ready || leaving() || stops_.empty()) return {};
-    const Stop& s = stops_.front();
-    return s.at == 0 && s.lines[0] != escape_key ? std::string_view(s.lines[0]) : std::string_view();
+    const bool off = std::holds_alternative<Disable>(c.body);
+    drive_.jobs.cancel_motions(name_of(c.body), off, t);
+    // Within PG every line would become part of the program: the mode is left before this stop.
+    drive_.programs.interrupt(name_of(c.body), t);
+    if (off) {
+        s->lines = {"DE=0"};
+    } else if (feedback().torque()) {
+        s->lines = out_of_torque();
+    } else if (std::holds_alternative<QuickStop>(c.body) && feedback().running()) {
+        // A program would start the next motion: it is ended, and what it started meanwhile is stopped.
+        s->lines = {"SL 0", "E", "SL 0"};
+    } else {
+        s->lines = {"SL 0"};
+    }
 }
 
 /// What stops without a ramp: the escape character if it can be meant for one drive alone, else the bridges.
-std::string_view Drive::stop_at_once() const noexcept { return link().party() && es_ != 3 ? std::string_view("DE=0") : escape_key; }
-
-/// AS = 3 presses until AS is another mode, and AS changes at rest only [L7495, E-26].
-std::vector<std::string> Drive::stop_of_torque() const { return {std::string(stop_at_once()), "AS=0"}; }
-
-bool Drive::stop_unsent() const noexcept {
-    return phase_ == Phase::ready && (leaving() || (!stops_.empty() && !stops_.front().confirming));
+std::string_view Stops::at_once() const noexcept {
+    return drive_.link().party() && drive_.words.es != 3 ? std::string_view("DE=0") : escape_key;
 }
 
-void Drive::told_by_all(Instant heard) {
-    if (stops_.empty() || stops_.front().confirming) return;
-    Stop& s = stops_.front();
-    demand_.said(s.lines[s.at], heard, true);  // who proves not to have heard it loses its demand
+/// AS = 3 presses until AS is another mode, and AS changes at rest only [L7495, E-26].
+std::vector<std::string> Stops::out_of_torque() const { return {std::string(at_once()), "AS=0"}; }
+
+Request Stops::next(Instant now) {
+    if (confirming()) return drive_.confirming_question(now);
+    const Stop& s = *lane_.first();
+    Request r = Request::say(Request::Purpose::stop, s.lines[s.at]);
+    if (r.text == escape_key) {
+        r.raw = escape(drive_.link());
+        r.kind = Expect::Kind::nothing;
+    }
+    return r;
+}
+
+Request Stops::unheard() {
+    const Stop& s = *lane_.first();
+    const LinkWords& w = drive_.words;
+    Request r = Request::say(Request::Purpose::stop, s.lines.front());
+    for (const auto& line : s.lines) {
+        for (const bool sums : {w.known_sums, !w.known_sums}) {
+            if (sums && drive_.bus.ethernet) continue;
+            r.raw += line == escape_key ? escape(drive_.link()) : request({drive_.link().name, sums}, line);
+        }
+    }
+    r.kind = Expect::Kind::nothing;
+    r.wake = true;
+    return r;
+}
+
+void Stops::ended(Verdict v, Turn& t) {
+    if (empty()) return;
+    Stop& s = *lane_.first();
+    if (drive_.away()) {
+        return over(Outcome::failed, Reason::no_answer,
+                    fmt::format("{} does not answer to {}; {} was sent all the same, whether it was heard is not known", name(),
+                                drive_.address(), s.lines.back()),
+                    t);
+    }
+    drive_.line_ended(s.lines[s.at], v, true);
+    s.acknowledgement = v == Verdict::answered ? Verdict::acknowledged : v;
+    s.confirming = true;
+    s.to_all = false;
+    if (v == Verdict::waiting) drive_.start.silent(t);
+}
+
+void Stops::say_again() noexcept {
+    lane_.each([](Stop& s) { s.confirming = s.to_all = false; });
+}
+
+void Stops::fail_all(Reason reason, std::string_view why, Turn& t) {
+    lane_.clear();
+    tickets.fail_all(reason, why, t.out);
+}
+
+// --- a line to every drive at once -----------------------------------------------------------------------------------------------
+
+std::string_view Stops::line() const noexcept {
+    if (!drive_.ready() || drive_.mode.leaving() || empty()) return {};
+    const Stop& s = *lane_.first();
+    return s.at == 0 && s.lines[0] != escape_key ? std::string_view(s.lines[0]) : std::string_view();
+}
+
+/// Its stop's line has gone to all drives, who say nothing: reading tells what became of it.
+void Stops::told_by_all(Instant heard) {
+    if (empty() || confirming()) return;
+    Stop& s = *lane_.first();
+    feedback().demand.published(s.lines[s.at], heard, true);  // who proves not to have heard it loses its demand
     s.confirming = s.to_all = true;
-    s.said = Verdict::acknowledged;
+    s.acknowledgement = Verdict::acknowledged;
     s.speed.reset();
 }
 
-/// Whether a line to all has reached this drive, by what was just read: off, at rest, or slower than a reading ago while its speed
-/// changes. Nothing: read again. false: it is said to this drive alone, with an acknowledgement.
-std::optional<bool> Drive::heard_all(Stop& s, const std::string& line) const {
-    if (line == "DE=0") return !de_;
-    const std::int64_t speed = std::llabs(fb_.velocity);
-    if (speed == 0 && !vc_) return true;
-    if (const auto before = std::exchange(s.speed, speed)) return vc_ && speed < *before;
-    return vc_ ? std::nullopt : std::optional(false);
+/// By what was just read: off, at rest, or slower than a reading ago while its speed changes. Nothing: read again. false: it is said to
+/// this drive alone, with an acknowledgement.
+std::optional<bool> Stops::reached(Stop& s) const {
+    const auto& flags = feedback().flags();
+    if (s.lines[s.at] == "DE=0") return !flags.de;
+    const std::int64_t speed = std::llabs(feedback().velocity());
+    if (speed == 0 && !flags.vc) return true;
+    if (const auto before = std::exchange(s.speed, speed)) return flags.vc && speed < *before;
+    return flags.vc ? std::nullopt : std::optional(false);
 }
 
-void Drive::stop_over(Outcome o, Reason r, std::string text, Turn& t, std::int32_t code) {
-    const Command c = stops_.front().command;
-    stops_.pop_front();
-    result(c, o, r, std::move(text), t, code);
+// --- what confirms it ------------------------------------------------------------------------------------------------------------
+
+void Stops::over(Outcome o, Reason r, std::string text, Turn& t, std::int32_t code) {
+    Stop* s = lane_.first();
+    const Ticket ticket = s->command.ticket;
+    lane_.remove(s);
+    tickets.answer(ticket, o, r, std::move(text), t.out, code);
 }
 
-void Drive::confirmed(Turn& t) {
-    if (!stops_.empty() && stops_.front().confirming) {
-        Stop& s = stops_.front();
-        const std::string line = s.lines[s.at];
-        if (last_error_ == 85 && line == "SL 0") {
-            // During a homing only the escape character stops [L4106].
-            s.lines[s.at] = stop_at_once();
-            s.confirming = false;
-            return;
-        }
-        if (torque_ && line == "SL 0") {
-            // It went into torque mode since it was last asked: a program did that, or a native line.
-            s.lines = stop_of_torque();
-            s.at = 0;
-            s.confirming = s.to_all = false;
-            return;
-        }
-        if (s.to_all && last_error_ == 0) {
-            const auto heard = heard_all(s, line);
-            if (!heard) return;
-            s.to_all = false;
-            if (!*heard) {
-                demand_.forget();
-                ++counters_.retries;
-                s.confirming = false;
-                return;
-            }
-        }
-        if (last_error_ != 0) demand_.withdraw();
-        const bool off = line == "DE=0" && !de_;
-        const bool harmless = last_error_ == 40 || last_error_ == 94;  // no program ran; nothing can move with the drive off
-        const bool taken = s.said == Verdict::acknowledged && last_error_ == 0 && (line != "DE=0" || off);
-        if (taken || off || harmless) {
-            s.tries = 0;
-            s.confirming = false;
-            if (++s.at < s.lines.size()) return;
-            fb_.target_reached = false;
-            motion_.ended = true;
-            stopping_ = true;
-            if (s.lines[0] == "DE=0") enabled_ = false;
-            if (line == "AS=0") {
-                vi_ = user_vi_ = vm_ = a_ = d_ = 0;  // the drive may have scaled them
-                relearn_ = true;
-                note(Severity::warning, "torque", 0,
-                     fmt::format("{}: the stop has ended its torque mode: AS is 0 now, and 3 starts it again", name()), t);
-            }
-            derive(t);
-            emit(t);
-            return stop_over(std::holds_alternative<Disable>(s.command.body) ? Outcome::done : Outcome::accepted, Reason::none, {}, t);
-        }
-        if (last_error_ != 0 && s.tries >= manners_.retries) {
-            return stop_over(Outcome::refused, Reason::drive_refused,
-                             fmt::format("{}: {} was refused with error {}", name(), line, last_error_), t, last_error_);
-        }
-        if (++s.tries > manners_.retries) {
-            return stop_over(Outcome::failed, Reason::no_answer, fmt::format("{} did not take {}", name(), line), t);
-        }
-        ++counters_.retries;
+void Stops::unconfirmed(std::string why, Turn& t) { over(Outcome::failed, Reason::no_answer, std::move(why), t); }
+
+void Stops::missed(Turn& t) {
+    if (++lane_.first()->tries > drive_.bus.timing.retries + 3) unconfirmed(fmt::format("{} did not confirm the stop", name()), t);
+}
+
+/// SL 0 is not what stops this drive now: what does comes instead.
+bool Stops::changed_way(Stop& s) const {
+    if (s.lines[s.at] != "SL 0") return false;
+    if (drive_.errors.last() == 85) {
+        // During a homing only the escape character stops [L4106].
+        s.lines[s.at] = at_once();
         s.confirming = false;
-        return;
+        return true;
     }
-    if (job_.kind == JobKind::none || !job_.confirming) return;
-    job_.confirming = false;
-    if (last_error_ != 0) demand_.withdraw();
-    const std::string& line = job_.steps[job_.at].text;
-    if (last_error_ == 6 && job_.kind == JobKind::write && (line.starts_with("IS=") || line.starts_with("OS="))) {
-        // Another point has the type, or this one has it: what is read tells.
-        last_error_ = 0;
-        job_.text = already_typed;
-        return step_done(t);
-    }
-    if (job_.kind == JobKind::download && job_.steps[job_.at].line != 0) {
-        if (last_error_ == 6) {
-            // A point has this type: perhaps as the line wants it. What is read tells.
-            last_error_ = 0;
-            Step s = job_.steps[job_.at];
-            s.what = Step::What::query;
-            s.text = word_of(line);
-            s.end_mark = true;
-            job_.steps.insert(job_.steps.begin() + static_cast<std::ptrdiff_t>(job_.at) + 1, std::move(s));
-            return step_done(t);
+    if (!feedback().torque()) return false;
+    // It went into torque mode since it was last asked: a program did that, or a native line.
+    s.lines = out_of_torque();
+    s.at = 0;
+    s.confirming = s.to_all = false;
+    return true;
+}
+
+void Stops::confirmed(Turn& t) {
+    Stop& s = *lane_.first();
+    const std::string line = s.lines[s.at];
+    const int error = drive_.errors.last();
+    AxisDemand& demand = feedback().demand;
+    if (changed_way(s)) return;
+    if (s.to_all && error == 0) {
+        const auto heard = reached(s);
+        if (!heard) return;
+        s.to_all = false;
+        if (!*heard) {
+            demand.forget();
+            ++drive_.bus.counters.retries;
+            s.confirming = false;
+            return;
         }
-        const bool again = last_error_ == 28 && job_.tries > 0;  // VA that was done, and whose acknowledgement was lost
-        if (last_error_ != 0 && !again) return setting_refused(fmt::format("was refused with error {}", last_error_), t);
-        if (again) last_error_ = 0, job_.said = Verdict::acknowledged;
     }
-    if (const auto hint = variable_hint(); last_error_ == 20 && !hint.empty()) {
-        return job_over(Outcome::refused, Reason::drive_refused, hint, t, last_error_);
+    if (error != 0) demand.withdraw();
+    const bool off = line == "DE=0" && !feedback().flags().de;
+    const bool harmless = error == 40 || error == 94;  // no program ran; nothing can move with the drive off
+    const bool taken = s.acknowledgement == Verdict::acknowledged && error == 0 && (line != "DE=0" || off);
+    if (taken || off || harmless) return line_taken(s, t);
+    if (error != 0 && s.tries >= drive_.bus.timing.retries) {
+        return over(Outcome::refused, Reason::drive_refused, fmt::format("{}: {} was refused with error {}", name(), line, error), t,
+                    error);
     }
-    if (last_error_ != 0) {
-        const ErrorCode* e = catalogue_.error(last_error_);
-        const bool changed = job_.at > 0 && job_.kind == JobKind::move;
-        return job_over(Outcome::refused, Reason::drive_refused,
-                        fmt::format("{}: {} was refused with error {}{}{}", name(), line, last_error_, e ? ", " + e->text : std::string(),
-                                    changed ? "; values set before it stay" : ""),
-                        t, last_error_);
-    }
-    if (job_.steps[job_.at].what == Step::What::block) return block_ended(t);
-    if (job_.said == Verdict::acknowledged || job_.said == Verdict::answered) return step_done(t);
-    if (job_.steps[job_.at].repeatable && ++job_.tries <= manners_.retries) {
-        ++counters_.retries;
-        return;
-    }
-    if (job_.kind == JobKind::download && job_.steps[job_.at].line != 0) return setting_refused("was not acknowledged", t);
-    job_over(Outcome::failed, Reason::no_answer, fmt::format("{} did not acknowledge {}", name(), line), t);
+    if (++s.tries > drive_.bus.timing.retries)
+        return over(Outcome::failed, Reason::no_answer, fmt::format("{} did not take {}", name(), line), t);
+    ++drive_.bus.counters.retries;
+    s.confirming = false;
 }
 
-// --- results and notices ---------------------------------------------------------------------------------------------------------
-
-void Drive::result(const Command& c, Outcome o, Reason r, std::string text, Turn& t, std::int32_t code, Value value) {
-    if (c.ticket == no_ticket) return;
-    t.out.results.push_back({c.ticket, axis_, o, r, code, std::move(text), std::move(value), {}});
-}
-
-void Drive::fail_all(Reason reason, const std::string& text, Turn& t) {
-    program_lost(reason, text, t);
-    while (!stops_.empty()) {
-        const Command c = std::move(stops_.front().command);
-        stops_.pop_front();
-        result(c, Outcome::failed, reason, text, t);
+void Stops::line_taken(Stop& s, Turn& t) {
+    s.tries = 0;
+    s.confirming = false;
+    const bool out_of_torque = s.lines[s.at] == "AS=0";
+    if (++s.at < s.lines.size()) return;
+    if (out_of_torque) {
+        feedback().values_unknown();  // the drive may have scaled them
+        note(Severity::warning, "torque", 0,
+             fmt::format("{}: the stop has ended its torque mode: AS is 0 now, and 3 starts it again", name()), t);
     }
-    if (job_.kind != JobKind::none) {
-        std::string said = text;
-        if (job_.memory_touched) said += "; " + memory_is_half();
-        if (job_.kind == JobKind::named) said += "; no fresh drive took the name, or more than one did: power up one alone";
-        if (job_.memory_touched) keep_half();
-        if (job_.kind == JobKind::clear) clear_half_ = true;
-        const Command c = job_.command;
-        job_ = {};
-        result(c, Outcome::failed, reason, std::move(said), t);
-    }
-    while (!queue_.empty()) {
-        const Command c = std::move(queue_.front());
-        queue_.pop_front();
-        result(c, Outcome::failed, reason, text, t);
-    }
-}
-
-/// At most 20 at once and 10 in a second, alarms excepted.
-void Drive::note(Severity severity, std::string_view kind, std::int32_t code, std::string text, Turn& t) {
-    if (severity != Severity::alarm) {
-        const auto earned = (t.now - notice_refilled_) / 100ms;
-        if (earned > 0) {
-            notice_tokens_ = static_cast<int>(std::min<std::int64_t>(20, notice_tokens_ + earned));
-            notice_refilled_ = t.now;
-        }
-        if (notice_tokens_ == 0) return;
-        --notice_tokens_;
-    }
-    t.out.notices.push_back({severity, setup_.id, axis_, std::string(kind), code, std::move(text), t.now});
-}
-
-void Drive::trouble(Trouble::Kind kind, Turn& t) {
-    const bool doubled = kind == Trouble::Kind::twice;
-    const std::string counts = (doubled ? twice_ : trouble_).add(kind, t.now);
-    if (counts.empty()) return;
-    note(
-        Severity::warning, "protocol", 0,
-        doubled
-            ? fmt::format("{} answered the same question twice ({}): two drives may have the same name {}", name(), counts, setup_.address)
-            : fmt::format("{}: answers of the drive at {} are spoiled again and again ({}): look at its cable, its rate and its reply time",
-                          name(), setup_.address, counts),
-        t);
-}
-
-void Drive::foreign(std::string_view text, Turn& t) {
-    ++counters_.unexpected;
-    std::string shown;
-    for (const char c : text) {
-        if (c >= 0x20 && c <= 0x7E) shown += c;
-    }
-    if (shown.size() < 2 || shown.find("PR \"#") != std::string::npos || shown.size() > 200) return;
-    note(Severity::info, "output", 0, fmt::format("{}: {}", name(), shown), t);
+    feedback().stopped(s.lines[0] == "DE=0", t);
+    over(std::holds_alternative<Disable>(s.command.body) ? Outcome::done : Outcome::accepted, Reason::none, {}, t);
 }
 
 }  // namespace axisgate::mcode

@@ -70,8 +70,7 @@ public:
 
     /// A site is in force: all doors look it up anew. Hot thread, or before start().
     void publish_site(const SiteState& site);
-    /// The doors of this thread; before start(), or on the hot thread.
-    /// Those that are attached now.
+    /// The doors of this thread that are attached; before start(), or when no door comes or goes.
     [[nodiscard]] std::vector<HotDoor*> doors() const;
 
     void start();

@@ -1,5 +1,7 @@
 // The adapter: what commands become on the wire and what is told of them: counts, refusals, stops, parameters, actions, tables; speed.
 // In: commands, twins behind a simulated RS-485 line. Out: results with reasons; nothing that was merely taken is called done.
+#include <fmt/core.h>
+
 #include "adapters/linmot/tests/line_bench.hpp"
 #include "gateway/core/command_arguments.hpp"
 
@@ -272,55 +274,6 @@ TEST(LinmotAdapter, WhatTheDriveSaysOfItself) {
               Reason::not_supported);
 }
 
-/// Everything that the catalogue marks as inferred, whatever it is: with the option off it is refused, says why, and not a byte of it is
-/// sent.
-TEST(LinmotAdapter, WhatIsInferredCanBeSwitchedOffOneByOne) {
-    LineBench b(1, 115200, {{"inferred", "off"}});
-    b.run(1s);
-    ASSERT_TRUE(b.enable());
-    const auto marked = [](const boost::json::value& v) {
-        const auto* mark = v.get_object().if_contains("inferred");
-        return mark && mark->is_bool() && mark->get_bool();
-    };
-    const auto refused = [&](const std::string& what, CommandBody body) {
-        SCOPED_TRACE(what);
-        b.sent.clear();
-        const Result r = b.ask(std::move(body));
-        EXPECT_EQ(r.reason, Reason::not_supported) << r.text;
-        EXPECT_NE(r.text.find("inferred"), std::string::npos) << r.text;
-        for (const Frame& f : b.sent) {
-            const auto bytes = f.data();
-            EXPECT_TRUE(bytes.size() > 5 && bytes[5] == 0)
-                << "something else than a question for its state was sent: group " << int{bytes[5]};
-        }
-    };
-    std::size_t commands = 0, parameters = 0;
-    const auto& document = page().document();
-    for (const auto& v : document.at("commands").get_array()) {
-        if (!marked(v)) continue;
-        ++commands;
-        const std::string id(v.at("id").get_string());
-        std::string arguments;
-        for (const auto& x : page().command(id)->arguments)
-            arguments += fmt::format("{}={} ", x.name, x.type == ValueType::text ? "x" : "1");
-        refused(id, Action{id, arguments});
-    }
-    for (const auto& v : document.at("parameters").get_array()) {
-        if (!marked(v)) continue;
-        ++parameters;
-        const std::string id(v.at("id").get_string());
-        const Parameter* p = nullptr;
-        std::uint16_t i = 0;
-        for (; !p; ++i)
-            if (page().parameters()[i].id == id) p = &page().parameters()[i];
-        const Point point{static_cast<std::uint16_t>(i - 1), p->count ? p->first : std::uint16_t{0}};
-        refused("read " + id, ReadParameter{point});
-        if (p->writable()) refused("write " + id, WriteParameter{point, Value{std::string("VAI Stop: deceleration=1")}});
-    }
-    EXPECT_EQ(commands, 12u) << "8 motion commands, 4 of tables and curves";
-    EXPECT_EQ(parameters, 3u) << "warn word, table, curve";
-}
-
 TEST(LinmotAdapter, ChecksumsWorkAndSayThatTheyAreNotProven) {
     for (const char* kind : {"sum", "crc", "crc_reflected"}) {
         LineBench b(1, 115200, {}, {}, {{"checksum", kind}});
@@ -405,7 +358,7 @@ TEST(LinmotAdapter, TheDrivesOwnStreamCarriesSetPointsWhereTheLineHoldsIt) {
 }
 
 TEST(LinmotAdapter, AStreamThatTheDriveEndsIsSaid) {
-    LineBench b(1, 115'200, {{"set_points", "stream"}});
+    LineBench b(1, 115'200, {{"set_points", "auto"}});  // the line holds it
     b.run(1s);
     ASSERT_TRUE(b.enable());
     for (int i = 0; i < 20; ++i) {
@@ -431,8 +384,12 @@ TEST(LinmotAdapter, AStreamIsNotBegunWhereItsPeriodCannotBeHeld) {
     };
     for (const Case c : {Case{1, 0}, Case{1, 57'600}, Case{2, 115'200}}) {
         SCOPED_TRACE(testing::Message() << c.drives << " at " << c.bit_rate);
+        const auto told = [](const LineBench& of) {
+            return std::ranges::any_of(of.notices, [](const Notice& n) { return n.text.find("cannot hold") != std::string::npos; });
+        };
+        EXPECT_FALSE(told(LineBench(c.drives, c.bit_rate, {{"set_points", "auto"}}))) << "it may be so";
         LineBench b(c.drives, c.bit_rate, {{"set_points", "stream"}});
-        EXPECT_TRUE(std::ranges::any_of(b.notices, [](const Notice& n) { return n.text.find("cannot hold") != std::string::npos; }));
+        EXPECT_TRUE(told(b));
         b.run(1s);
         ASSERT_TRUE(b.enable());
         for (int i = 1; i <= 50; ++i) {
@@ -462,21 +419,32 @@ TEST(LinmotAdapter, ReadingAllParametersTakesTheTimeOfTheWire) {
     calm.poll_period = 1s;
     LineBench b(1, 115200, {}, calm);
     b.run(1s);
+    for (const char* n : {"1", "2", "3"})
+        ASSERT_TRUE(good(b.ask(WriteParameter{*page().find(fmt::format("table[{}]", n)), Value{std::string("VAI Stop: deceleration=1")}})));
+    ASSERT_TRUE(good(b.ask(WriteParameter{*page().find("curve[1]"), Value{std::string("x=time; length=0.5; points=0 1 4 10 20 30")}})));
     const Instant begin = b.now;
     double bytes = 0;
+    std::size_t elements = 0;
     std::vector<Ticket> open;
     for (std::uint16_t i = 0; i < page().parameters().size(); ++i) {
         const Parameter& p = page().parameters()[i];
         const bool rom = p.id.ends_with(".rom");
         if (p.id == "WarnWord") continue;
-        bytes += p.wire.contains("item") ? 7 + 16 : rom ? 9 + 14 : 9 + 20;
-        open.push_back(b.submit(ReadParameter{{i, 0}}));
-        if (open.size() < 32) continue;
-        for (const Ticket t : open) {
-            while (b.results[t].empty())
-                b.run(100us);
+        for (std::uint16_t n = 0; n < std::max<std::uint16_t>(p.count, 1); ++n) {
+            const auto element = static_cast<std::uint16_t>(p.count ? p.first + n : 0);
+            // Of what is there: its size, then 4 bytes at a time: 64 of an entry; 70 of a curve's description, 4 of each of its points.
+            const double exchanges = p.count == 0 || element > 3 ? 1 : p.count == 255 ? 1 + 16 : element == 1 ? 1 + 18 + 6 : 1;
+            bytes += p.count ? exchanges * (9 + 14) : p.wire.contains("item") ? 7 + 16 : rom ? 9 + 14 : 9 + 20;
+            ++elements;
+            open.push_back(b.submit(ReadParameter{{i, element}}));
+            if (open.size() < 32) continue;
+            for (const Ticket t : open) {
+                while (b.results[t].empty())
+                    b.run(100us);
+                EXPECT_NE(b.results[t][0].reason, Reason::busy);
+            }
+            open.clear();
         }
-        open.clear();
     }
     for (const Ticket t : open) {
         while (b.results[t].empty())
@@ -484,6 +452,8 @@ TEST(LinmotAdapter, ReadingAllParametersTakesTheTimeOfTheWire) {
     }
     const double took = seconds(b.now - begin), wire = bytes * 10 / 115200;
     EXPECT_LE(took, wire * 1.1) << "of " << wire << " s";
+    EXPECT_GE(took, wire) << "the time of the wire itself";
+    EXPECT_GT(elements, 350u) << "each of the 255 entries and 100 curves";
 }
 
 }  // namespace

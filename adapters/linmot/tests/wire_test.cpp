@@ -213,6 +213,8 @@ TEST(LinmotDecoder, NamesTheMotionCommandAndWhatTheDriveSays) {
               std::string::npos);
     EXPECT_NE(line("01 11 0C 02 00 00 00 08 00 86 04 00 00 00 00 04", false).find("error 86h (Motion Cmd In Wrong St)"), std::string::npos);
     EXPECT_NE(line("01 11 05 02 00 05 A6 13 04", true).find("reads the ROM value of 13A6h (max_current_a)"), std::string::npos);
+    EXPECT_NE(line("01 11 05 02 05 08 01 00 04", true).find("command table message 05h, entry 1 [inferred]"), std::string::npos);
+    EXPECT_EQ(line("01 11 05 02 07 08 00 00 04", true).find("[inferred]"), std::string::npos) << "printed, LR-21";
     EXPECT_NE(line("FF 05", true).find("unknown: no telegram begins here"), std::string::npos);
     (void)d.on_frame(Frame::run(test::bytes_of("01 11 0C")), false);
     EXPECT_EQ(d.finish().size(), 1u);

@@ -66,7 +66,8 @@ TEST(LinmotAdapter, WhatIsInferredCanBeSwitchedOffOneByOne) {
 TEST(LinmotAdapter, MarksOfTheCatalogueAreThoseOfTheMessages) {
     const std::map<std::string, boost::json::object> given{
         {"table.write", {{"entry", 1}, {"command", "VAI Stop"}, {"arguments", "deceleration=1"}, {"next", 0}, {"label", "stop"}}},
-        {"curve.write", {{"curve", 1}, {"content", "x=time; length=0.5; points=0 1 4 10"}}}};
+        {"curve.write", {{"curve", 1}, {"content", "x=time; length=0.5; points=0 1 4 10"}}},
+        {"parameter.info", {{"upid", 0x13A2}}}};
     std::size_t actions = 0, sent_inferred = 0;
     for (const auto& v : page().document().at("commands").get_array()) {
         const auto& o = v.get_object();

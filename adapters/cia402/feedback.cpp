@@ -64,6 +64,7 @@ void Drive::learnt(Turn& t) {
     status_new_ = motion_new_ = false;
     deaf_ = 0;
     presence_.answered();
+    ++line_.counters.exchanges;  // a SYNC is the question, both PDOs are the answer
     check_at_ = t.now + std::max<Duration>(3 * line_.cycle, std::chrono::milliseconds(150));
     judge(t);
 }

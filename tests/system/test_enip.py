@@ -63,7 +63,7 @@ class Originator:
     def open(self, output, given, serial=1, rpi_us=5000, path_head=b""):
         path = path_head + bytes([0x20, 0x04, 0x24, 199, 0x2C, output, 0x2C, given])
         sockaddr = struct.pack(">HHI8x", 2, self.udp.getsockname()[1], 0)
-        data = struct.pack("<BBIIHHIB3xIHIHBB", 10, 14, 0, 0x7000 + serial, serial, 0x4242, 99, 0, rpi_us, 0x4800 | 38, rpi_us, 0x4800 | 34, 1, len(path) // 2) + path
+        data = struct.pack("<BBIIHHIB3xIHIHBB", 10, 14, 0, 0x7000 + serial, serial, 0x4242, 99, 5, rpi_us, 0x4800 | 38, rpi_us, 0x4800 | 34, 1, len(path) // 2) + path
         status, extended, answer = self.ask(0x54, bytes([0x20, 6, 0x24, 1]), data, struct.pack("<HH", 0x8001, 16) + sockaddr, 1)
         if status == 0:
             self.id = struct.unpack("<I", answer[:4])[0]

@@ -184,7 +184,12 @@ const std::vector<Key>& keys() {
              c.enip_bind_named = true;
              return set_bind(c.enip_bind, s);
          }},
-        {"enip", "io_port", [](Config& c, const std::string& s) { return set_integer(c.enip_io_port, s, 0, 65535); }, Written::as_number},
+        {"enip", "io_port",
+         [](Config& c, const std::string& s) {
+             c.enip_io_port_named = true;
+             return set_integer(c.enip_io_port, s, 0, 65535);
+         },
+         Written::as_number},
         {"dds", "enabled", [](Config& c, const std::string& s) { return set_bool(c.dds_enabled, s); }, Written::as_switch},
         {"dds", "domain", [](Config& c, const std::string& s) { return set_integer(c.dds_domain, s, 0, 232); }, Written::as_number},
         {"log", "level",

@@ -38,6 +38,7 @@ struct Config {
     std::string enip_bind = "127.0.0.1:44818";   ///< [enip] bind, IPv4, TCP and UDP; empty: no EtherNet/IP door
     bool enip_bind_named = false;                ///< somebody chose it: then a port that is taken is a fault
     std::int64_t enip_io_port = 2222;            ///< [enip] io_port, 0..65535: UDP, implicit data; originators use 2222 unless told
+    bool enip_io_port_named = false;             ///< as enip_bind_named
     bool dds_enabled = false;                    ///< [dds] enabled
     std::int64_t dds_domain = 0;                 ///< [dds] domain, 0..232
     std::string log_level = "info";              ///< [log] level: trace debug info warning error off

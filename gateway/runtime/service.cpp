@@ -321,6 +321,7 @@ int Service::open_doors() {
     if (!options.config.enip_bind.empty()) {
         enip::ServerSettings es;
         es.io_port = static_cast<std::uint16_t>(options.config.enip_io_port);
+        es.another_io_port = !options.config.enip_io_port_named;
         es.lease_s = options.config.authority_lease_s;
         es.incarnation = static_cast<std::uint16_t>(unix_now_ns() / 1'000'000'000);
         enip = std::make_unique<enip::Server>(hot->context(), *hot, *image, es);
@@ -332,6 +333,9 @@ int Service::open_doors() {
             }
             // Another gateway on this host has the usual ports: nobody has asked for them here.
             spdlog::warn("{}; there is no EtherNet/IP door: name an address with [enip] bind, or \"off\"", fault);
+        } else if (enip->io_port() != es.io_port) {
+            spdlog::warn("[enip] UDP {} is taken by another program: implicit data come on UDP {}, which each Forward_Open is told",
+                         es.io_port, enip->io_port());
         }
     }
     if (!options.config.http_bind.empty()) {

@@ -111,6 +111,7 @@ public:
     std::string open(const std::string& text);
     void close();
     [[nodiscard]] const cip::Adapter& adapter() const noexcept { return adapter_; }
+    [[nodiscard]] std::uint16_t io_port() const noexcept { return facts_.io_port; }
 
 private:
     static void send(UdpSocket& socket, cip::Endpoint to, cip::View bytes) {
@@ -176,7 +177,12 @@ std::string Server::Impl::open(const std::string& text) {
     if (ec) return fmt::format("[enip] bind \"{}\": cannot listen: {}; choose another address or port", text, ec.message());
     facts_.io_port = settings_.io_port;
     if (auto fault = bind_udp(explicit_, facts_.port); !fault.empty()) return fault;
-    if (auto fault = bind_udp(implicit_, facts_.io_port); !fault.empty()) return fault;
+    if (auto fault = bind_udp(implicit_, facts_.io_port); !fault.empty()) {
+        if (!settings_.another_io_port) return fault;
+        implicit_.close(ec);
+        facts_.io_port = 0;
+        if (fault = bind_udp(implicit_, facts_.io_port); !fault.empty()) return fault;
+    }
     const int several_hops = 1, priority = 6;
     (void)::setsockopt(implicit_.native_handle(), IPPROTO_IP, IP_MULTICAST_TTL, &several_hops, sizeof several_hops);
     (void)::setsockopt(implicit_.native_handle(), SOL_SOCKET, SO_PRIORITY, &priority, sizeof priority);
@@ -319,6 +325,7 @@ std::string Server::open(const std::string& bind) {
     return fault;
 }
 std::vector<std::string> Server::addresses() const { return impl_->addresses(); }
+std::uint16_t Server::io_port() const noexcept { return impl_->io_port(); }
 void Server::close() { impl_->close(); }
 const cip::Adapter& Server::adapter() const noexcept { return impl_->adapter(); }
 

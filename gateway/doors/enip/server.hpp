@@ -17,8 +17,10 @@ namespace axisgate::enip {
 
 struct ServerSettings {
     std::uint16_t io_port = cip::default_io_port;  ///< UDP, implicit data; 0: any
-    std::int64_t lease_s = 30;                     ///< with which a held axis is held on
-    std::uint16_t incarnation = 1;                 ///< another one at each start
+    /// Nobody chose it: where another program has it, any other is taken, which each Forward_Open is told.
+    bool another_io_port = false;
+    std::int64_t lease_s = 30;      ///< with which a held axis is held on
+    std::uint16_t incarnation = 1;  ///< another one at each start
 };
 
 class Server {
@@ -35,6 +37,8 @@ public:
     /// Listens on "ADDRESS:PORT" (IPv4), TCP and UDP, and on the port for implicit data. Empty: good; else why not, and what to do.
     [[nodiscard]] std::string open(const std::string& bind);
     [[nodiscard]] std::vector<std::string> addresses() const;
+    /// Of implicit data, as it is open.
+    [[nodiscard]] std::uint16_t io_port() const noexcept;
     void close();
     [[nodiscard]] const cip::Adapter& adapter() const noexcept;
 

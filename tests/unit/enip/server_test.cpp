@@ -156,5 +156,19 @@ TEST(EnipServer, WhatCannotBeListenedOnIsSaid) {
     EXPECT_NE(server.open("[::1]:44818").find("IPv4"), std::string::npos);
     EXPECT_NE(server.open("192.0.2.1:44818").find("cannot listen"), std::string::npos);
 }
+TEST(EnipServer, AnotherPortForImplicitDataWhereNobodyChoseTheOneThatIsTaken) {
+    asio::io_context io;
+    modbus::test::FakePort port;
+    registers::RegisterImage image(port, {});
+    asio::ip::udp::socket taken(io, {asio::ip::address_v4::loopback(), 0});
+    const std::uint16_t busy = taken.local_endpoint().port();
+    Server chosen(io, port, image, {.io_port = busy});
+    EXPECT_NE(chosen.open("127.0.0.1:0").find("cannot listen"), std::string::npos);
+    Server other(io, port, image, {.io_port = busy, .another_io_port = true});
+    EXPECT_EQ(other.open("127.0.0.1:0"), "");
+    EXPECT_NE(other.io_port(), busy);
+    EXPECT_NE(other.io_port(), 0);
+}
+
 }  // namespace
 }  // namespace axisgate::enip

@@ -165,6 +165,7 @@ private:
     std::array<std::int64_t, 3> profile_{10'000, 50'000, 50'000};  ///< 6081h, 6083h, 6084h
     enum class Order : std::uint8_t { none, position, velocity, homing } order_ = Order::none;
     bool status_new_ = false, motion_new_ = false, need_code_ = false;
+    int fresh_ = 0;  ///< status words since a new set-point that do not tell of it yet
     Instant check_at_ = never;
     int deaf_ = 0;  ///< answers by SDO in a row without a PDO between them
 

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <cstdlib>
+#include <utility>
 
 #include "adapters/cia402/drive.hpp"
 
@@ -93,7 +94,9 @@ void Drive::judge(Turn& t) {
             order_ = Order::none;
         }
     }
-    fb_.target_reached = order_ == Order::position && mode_ == 1 && (sw & 0x400u);
+    // Bit 10 of the motion before may stand in the first status after a new set-point: it counts from the second one on.
+    const bool fresh = std::exchange(fresh_, fresh_ > 0 ? fresh_ - 1 : 0) > 0;
+    fb_.target_reached = order_ == Order::position && mode_ == 1 && (sw & 0x400u) && !fresh;
     const bool on_its_way = (order_ == Order::position && !fb_.target_reached) || fb_.homing;
     fb_.moving = fb_.velocity != 0 || on_its_way || (stream_ >= Stream::position && led_.velocity() != 0);
     if (fb_.power != AxisFeedback::Power::on) fb_.moving = fb_.velocity != 0;

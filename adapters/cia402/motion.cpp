@@ -207,6 +207,7 @@ void Drive::finish(Job& job, Turn& t) {
     if (is_urgent(body)) order_ = Order::none;
     if (const auto* m = std::get_if<Move>(&body)) {
         order_ = m->kind == Move::Kind::velocity ? Order::velocity : Order::position;
+        fresh_ = 1;
         fb_.target_reached = false;  // the old "reached" must not stand for the new target
         fb_.moving = true;
         if (m->velocity && order_ == Order::position) profile_[0] = *m->velocity;

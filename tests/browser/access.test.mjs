@@ -93,10 +93,10 @@ for (const widths of [[390, 320], [768, 1024, 1440]]) {
   test(`at ${widths.join(', ')} px no page scrolls sideways and the stops are in sight`, async () => {
     const fingers = widths[0] < 500;
     const page = await open(browser, program.url, { viewport: { width: widths[0], height: 844 }, hasTouch: fingers, isMobile: fingers });
-    for (const path of ['/', '/axes/feeder', '/axes/slide.x/', '/lines', '/lines/can0', '/events', '/gateway', '/mappings', '/site', '/axes/feeder/parameters']) {
+    for (const path of ['/', '/axes/feeder', '/axes/slide.x/', '/axes/feeder/scope', '/axes/feeder/drive', '/axes/feeder/simulation', '/axes/feeder/events', '/lines', '/lines/can0', '/events', '/gateway', '/mappings', '/site', '/axes/feeder/parameters']) {
       await page.goto(program.url + path);
       await settled(page);
-      if (path.startsWith('/axes')) await page.locator('[data-parameter]').first().waitFor();
+      if (path.endsWith('/parameters')) await page.locator('[data-parameter]').first().waitFor();
       await quiet(page);
       for (const width of widths) {
         await page.setViewportSize({ width, height: 844 });

@@ -8,8 +8,8 @@
 #include <array>
 
 #include "adapters/linmot/drive.hpp"
-#include "adapters/linmot/inferred.hpp"
 #include "adapters/linmot/parameters_tables.hpp"
+#include "adapters/linmot/wire_inferred.hpp"
 #include "gateway/core/command_arguments.hpp"
 
 namespace axisgate::linmot {

@@ -6,7 +6,7 @@
 
 #include <iterator>
 
-#include "adapters/linmot/inferred.hpp"
+#include "adapters/linmot/wire_inferred.hpp"
 
 namespace axisgate::linmot {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <map>
 
-#include "adapters/linmot/inferred.hpp"
 #include "adapters/linmot/tests/line_bench.hpp"
+#include "adapters/linmot/wire_inferred.hpp"
 #include "gateway/core/command_arguments.hpp"
 
 namespace axisgate::linmot::test {

@@ -1,0 +1,147 @@
+// The adapter on a simulated CAN line with nodes behind it, in virtual time.
+// In: commands, frames of a test's own. Out: results, feedback, notices as they came. Never sleeps.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "adapters/cia402/adapter.hpp"
+#include "adapters/cia402/twin/twin.hpp"
+#include "gateway/protocols/canopen/message.hpp"
+#include "gateway/wire/twin_bus.hpp"
+
+namespace axisgate::cia402_drive::test {
+using namespace std::chrono_literals;
+
+inline const Catalogue& page() {
+    static const Catalogue c = [] {
+        std::vector<std::string> faults;
+        std::ifstream in(AXISGATE_SOURCE_DIR "/schema/families/cia402.json");
+        std::stringstream text;
+        text << in.rdbuf();
+        auto read = Catalogue::parse(text.str(), faults);
+        if (!read) std::abort();
+        return std::move(*read);
+    }();
+    return c;
+}
+
+class LineBench final : private LineEvents {
+public:
+    Instant now = at_ns(1'000'000'000);
+    std::unique_ptr<TwinBus> bus;
+    LineSetup setup;
+    LineAdapter adapter{page()};
+    std::map<Ticket, std::vector<Result>> results;
+    AxisFeedback axis;
+    std::vector<AxisFeedback> feedback;
+    std::vector<Notice> notices;
+    std::vector<Out::StreamEnd> stream_ends;
+    DriveLink link;
+
+    /// One node; `twins` of the same number stand on the bus.
+    explicit LineBench(int twins = 1) {
+        TwinBusOptions o;
+        o.kind = LineKind::can;
+        o.bit_rate = 1'000'000;
+        bus = std::make_unique<TwinBus>(o);
+        setup.id = LineId{0};
+        setup.name = "can0";
+        setup.kind = LineKind::can;
+        setup.bit_rate = o.bit_rate;
+        DriveSetup d;
+        d.id = DriveId{0};
+        d.name = "servo";
+        d.address = "5";
+        d.axes = {{AxisId{0}, 1}};
+        setup.drives.push_back(d);
+        TwinSetup t;
+        t.address = "5";
+        t.kind = LineKind::can;
+        for (int i = 0; i < twins; ++i)
+            bus->add(DriveId{static_cast<std::uint16_t>(i)}, twin::make_twin(t), {}, now);
+        Out out;
+        adapter.configure(setup, now, out);
+        take(out);
+        bus->open(*this, now);
+    }
+    ~LineBench() override { bus->close(); }
+
+    void run(Duration d) {
+        const Instant end = now + d;
+        for (;;) {
+            const Instant at = std::min(bus->deadline(), adapter.deadline());
+            if (at > end) break;
+            now = std::max(now, at);
+            if (bus->deadline() <= now) bus->on_deadline(now);
+            if (adapter.deadline() > now) continue;
+            Out out;
+            adapter.on_deadline(now, out);
+            take(out);
+        }
+        now = end;
+    }
+    /// A frame that no node of the bench has sent.
+    void inject(const Frame& f) {
+        Out out;
+        adapter.on_frame(f, now, out);
+        take(out);
+    }
+    Result ask(CommandBody body, Duration limit = 10s) {
+        Command c;
+        c.ticket = ++tickets_;
+        c.axis = AxisId{0};
+        c.body = std::move(body);
+        const Ticket t = c.ticket;
+        Out out;
+        adapter.on_command(c, now, out);
+        take(out);
+        for (const Instant end = now + limit; results[t].empty() && now < end;)
+            run(1ms);
+        EXPECT_EQ(results[t].size(), 1u) << "one command, one result";
+        return results[t].empty() ? Result{} : results[t][0];
+    }
+    [[nodiscard]] std::ptrdiff_t told(std::string_view kind) const { return std::ranges::count(notices, kind, &Notice::kind); }
+    [[nodiscard]] bool enable() { return good(ask(Enable{})); }
+    static Move to(std::int64_t target) {
+        Move m;
+        m.target = target;
+        m.velocity = 10'000;
+        m.acceleration = m.deceleration = 50'000;
+        return m;
+    }
+
+private:
+    void take(const Out& out) {
+        for (const auto& f : out.frames)
+            (void)bus->send(f.frame, f.priority, now);
+        for (const auto& f : out.feedback)
+            feedback.push_back(axis = f.value);
+        for (const auto& r : out.results)
+            results[r.ticket].push_back(r);
+        for (const auto& l : out.links)
+            link = l;
+        notices.insert(notices.end(), out.notices.begin(), out.notices.end());
+        stream_ends.insert(stream_ends.end(), out.stream_ends.begin(), out.stream_ends.end());
+    }
+    void on_frame(const Frame& f) override {
+        now = std::max(now, f.at);
+        inject(f);
+    }
+    void on_line_state(bool up, const std::string&) override {
+        Out out;
+        adapter.on_line(up, now, out);
+        take(out);
+    }
+    void on_sent(const Frame&) override {}
+    Ticket tickets_ = 0;
+};
+
+}  // namespace axisgate::cia402_drive::test

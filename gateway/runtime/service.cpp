@@ -289,6 +289,20 @@ void Service::arm_services() {
     });
 }
 
+/// Made of the site as the door's own layout is, but on the thread that asks.
+static std::string data_sheet(const SiteState& state, const Families& families, const enip::HostFacts& facts) {
+    std::vector<std::shared_ptr<const Catalogue>> kept;
+    std::vector<enip::LayoutAxis> axes;
+    for (std::size_t i = 0; i < state.site.axes.size() && i < state.axis_ids.size(); ++i) {
+        const AxisSpec& a = state.site.axes[i];
+        const auto drive = std::ranges::find(state.site.drives, a.drive, &DriveSpec::name);
+        if (drive == state.site.drives.end()) continue;
+        kept.push_back(catalogue_of(state.site, *drive, families));
+        axes.push_back({static_cast<std::uint16_t>(a.number), state.axis_ids[i], a.name, kept.back().get()});
+    }
+    return enip::eds_of(enip::Layout(std::move(axes), mapping_revision(state.site), facts));
+}
+
 int Service::open_doors() {
     registers::RegisterImage::Settings rs;
     rs.word_order = options.config.modbus_low_word_first ? MapWordOrder::low_first : MapWordOrder::high_first;
@@ -333,9 +347,9 @@ int Service::open_doors() {
             }
             // Another gateway on this host has the usual ports: nobody has asked for them here.
             spdlog::warn("{}; there is no EtherNet/IP door: name an address with [enip] bind, or \"off\"", fault);
-        } else if (enip->io_port() != es.io_port) {
+        } else if (enip->facts().io_port != es.io_port) {
             spdlog::warn("[enip] UDP {} is taken by another program: implicit data come on UDP {}, which each Forward_Open is told",
-                         es.io_port, enip->io_port());
+                         es.io_port, enip->facts().io_port);
         }
     }
     if (!options.config.http_bind.empty()) {
@@ -369,6 +383,7 @@ int Service::open_doors() {
     for (const auto& door : doors)
         open.push_back({std::string(door->name()), door->address()});
     ports->status.set_doors(std::move(open));
+    ports->status.door_eds = [this] { return enip ? data_sheet(*ports->site.site(), families, enip->facts()) : std::string(); };
     ports->status.door_metrics = [this] {
         std::string text;
         for (const HotDoor* door : hot->doors())

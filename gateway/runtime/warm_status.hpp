@@ -20,11 +20,14 @@ public:
     void set_doors(std::vector<DoorInfo> doors) { doors_ = std::move(doors); }
     /// More lines for metrics, of the doors of the hot thread.
     std::function<std::string()> door_metrics;
+    /// Of the EtherNet/IP door, where it is open.
+    std::function<std::string()> door_eds;
 
     [[nodiscard]] std::vector<DoorInfo> doors() const override { return doors_; }
     [[nodiscard]] double uptime_s() const override { return seconds(monotonic_now() - started_); }
     [[nodiscard]] std::vector<std::string> not_ready() const override;
     [[nodiscard]] std::string metrics() const override;
+    [[nodiscard]] std::string eds() const override { return door_eds ? door_eds() : std::string(); }
 
 private:
     const WarmThreads& threads_;

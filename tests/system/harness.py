@@ -107,7 +107,7 @@ class Folder:
 
 class Gateway(Process):
     def __init__(self, folder, site=DEMO, *more):
-        arguments = ["serve", "--data", str(folder / "data"), "--set", "http.bind=127.0.0.1:0", "--set", "modbus.bind=127.0.0.1:0"]
+        arguments = ["serve", "--data", str(folder / "data"), "--set", "http.bind=127.0.0.1:0", "--set", "modbus.bind=127.0.0.1:0", "--set", "enip.bind=127.0.0.1:0"]
         if site is not None:
             (folder / "site.json").write_text(json.dumps(site))
             arguments += ["--site", str(folder / "site.json")]

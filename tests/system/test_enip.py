@@ -3,6 +3,7 @@
 In: the real program with the door switched on. Out: what an engineering tool and a controller see. tshark reads every frame, if it is there.
 """
 import contextlib
+import re
 import socket
 import struct
 import subprocess
@@ -140,6 +141,26 @@ def test_a_tool_browses_the_device(folder):
             u.settimeout(2)
             u.sendto(struct.pack("<HHII8sI", 0x63, 0, 0, 0, b"whois   ", 0), at[:2])
             assert b"axisgate" in u.recv(1024)
+
+
+def test_the_data_sheet_says_what_the_device_is(folder):
+    with device(folder) as (g, at), Originator(*at) as o:
+        status, sheet, headers = g.request("GET", "/api/v1/eds")
+        sheet = sheet.decode() if isinstance(sheet, bytes) else sheet
+        assert status == 200 and "[Device]" in sheet and "[Assembly]" in sheet and "[Connection Manager]" in sheet, (status, sheet[:300])
+
+        def number(key):
+            return int(re.search(rf"{key} = (\d+);", sheet).group(1))
+        assert number("VendCode") == struct.unpack("<H", o.get(1, 1, 1))[0]
+        assert number("ProdCode") == struct.unpack("<H", o.get(1, 1, 3))[0]
+        assert (number("MajRev"), number("MinRev")) == tuple(o.get(1, 1, 4))
+        assert "Assem101" in sheet and "Assem151" in sheet and "feeder" in sheet, sheet[:2000]
+        before = headers["Mapping-Revision"]
+        g.send("POST", "/mappings", {"unit": 9, "address": 0, "axis": "feeder", "point": "position", "type": "i32"}, 201)
+        status, other, headers = g.request("GET", "/api/v1/eds")
+        assert headers["Mapping-Revision"] != before
+    with Gateway(folder, None, "--set", "enip.bind=off") as g:
+        assert g.request("GET", "/api/v1/eds")[0] == 404
 
 
 def test_a_class_1_connection_moves_an_axis_and_its_loss_stops_it(folder):

@@ -6,6 +6,8 @@
 #include <bit>
 #include <cmath>
 
+#include "gateway/protocols/cip/eds.hpp"
+
 namespace axisgate::enip {
 namespace {
 using cip::AssemblyInfo;
@@ -252,6 +254,11 @@ const cip::ParameterInfo* Layout::parameter(std::uint32_t instance) const {
     const auto it = std::ranges::upper_bound(first_parameter_, instance) - 1;
     const LayoutAxis& a = axes_[static_cast<std::size_t>(it - first_parameter_.begin())];
     return &lists_.at(a.catalogue)->at(instance - *it).info;
+}
+
+std::string eds_of(const Layout& layout) {
+    return cip::eds_text(layout, {"axisgate", "Communications Adapter", "axisgate", [&](std::uint32_t i) { return layout.name_of(i); },
+                                  [&](std::uint32_t i) { return layout.place_of(i).axis->name + " " + layout.parameter(i)->name; }});
 }
 
 }  // namespace axisgate::enip

@@ -78,6 +78,9 @@ private:
     std::uint32_t parameters_ = 0;
 };
 
+/// The electronic data sheet of a layout.
+[[nodiscard]] std::string eds_of(const Layout& layout);
+
 /// A value as CIP has it, and back. Nothing: it does not fit its type.
 [[nodiscard]] std::optional<cip::Bytes> to_bytes(const Value& value, cip::DataType type);
 [[nodiscard]] std::optional<Value> from_bytes(cip::View bytes, cip::DataType type);

@@ -111,7 +111,7 @@ public:
     std::string open(const std::string& text);
     void close();
     [[nodiscard]] const cip::Adapter& adapter() const noexcept { return adapter_; }
-    [[nodiscard]] std::uint16_t io_port() const noexcept { return facts_.io_port; }
+    [[nodiscard]] const HostFacts& facts() const noexcept { return facts_; }
 
 private:
     static void send(UdpSocket& socket, cip::Endpoint to, cip::View bytes) {
@@ -325,7 +325,7 @@ std::string Server::open(const std::string& bind) {
     return fault;
 }
 std::vector<std::string> Server::addresses() const { return impl_->addresses(); }
-std::uint16_t Server::io_port() const noexcept { return impl_->io_port(); }
+const HostFacts& Server::facts() const noexcept { return impl_->facts(); }
 void Server::close() { impl_->close(); }
 const cip::Adapter& Server::adapter() const noexcept { return impl_->adapter(); }
 

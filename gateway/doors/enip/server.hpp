@@ -37,8 +37,8 @@ public:
     /// Listens on "ADDRESS:PORT" (IPv4), TCP and UDP, and on the port for implicit data. Empty: good; else why not, and what to do.
     [[nodiscard]] std::string open(const std::string& bind);
     [[nodiscard]] std::vector<std::string> addresses() const;
-    /// Of implicit data, as it is open.
-    [[nodiscard]] std::uint16_t io_port() const noexcept;
+    /// Of this host and the open ports; does not change while it is open. Any thread.
+    [[nodiscard]] const HostFacts& facts() const noexcept;
     void close();
     [[nodiscard]] const cip::Adapter& adapter() const noexcept;
 

@@ -103,6 +103,7 @@ Handled get_health(Call&, const StatusPort&);
 Handled get_ready(Call&, const StatusPort&);
 Handled get_metrics(Call&, const StatusPort&);
 Handled get_description(Call&);
+Handled get_eds(Call&, const SitePort&, const StatusPort&);
 Handled get_about(Call&, const ClockPort&, const SitePort&, const StatusPort&);
 Handled open_stream(Call&);
 // --- handlers_catalogue.cpp -------------------------------------------------------------------------------------------

@@ -47,6 +47,16 @@ Handled get_description(Call& c) {
     return r;
 }
 
+Handled get_eds(Call&, const SitePort& sites, const StatusPort& status) {
+    Response r;
+    r.body = status.eds();
+    if (r.body.empty()) return problem(404, "not_found", "the EtherNet/IP door is shut: see [enip] bind, and the log for why");
+    r.headers.set("Content-Type", "text/plain; charset=us-ascii");
+    r.headers.set("Content-Disposition", "attachment; filename=\"axisgate.eds\"");
+    r.headers.set("Mapping-Revision", fmt::format("{:08x}", mapping_revision(sites.site()->site)));
+    return r;
+}
+
 Handled get_about(Call& c, const ClockPort& clock, const SitePort& sites, const StatusPort& status) {
     const auto site = sites.site();
     json::array families, doors;

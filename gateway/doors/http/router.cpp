@@ -107,6 +107,7 @@ constexpr std::array routes{
     Route{"/api/v1/backup", Method::put, take<put_backup>, Takes::bytes}.needs(Role::administrator),
     Route{"/api/v1/backup/pending", Method::get, take<get_waiting_backup>}.needs(Role::administrator),
     Route{"/api/v1/backup/pending", Method::remove, take<cancel_waiting_backup>, Takes::nothing, Gives::nothing}.needs(Role::administrator),
+    Route{"/api/v1/eds", Method::get, take<get_eds>, Takes::nothing, Gives::own},
     Route{"/api/v1/fail_safe", Method::get, take<get_fail_safe>},
     Route{"/api/v1/fail_safe/rehearsal", Method::get, take<get_rehearsal>},
     Route{"/api/v1/fail_safe/rehearsal", Method::post, take<start_rehearsal>, Takes::json},

@@ -22,6 +22,8 @@ public:
     [[nodiscard]] virtual std::vector<std::string> not_ready() const = 0;
     /// Prometheus text of everything but the asking door's own counters.
     [[nodiscard]] virtual std::string metrics() const = 0;
+    /// The electronic data sheet by which EtherNet/IP tools know this gateway, as the site in force makes it; empty: that door is shut.
+    [[nodiscard]] virtual std::string eds() const = 0;
 };
 
 }  // namespace axisgate

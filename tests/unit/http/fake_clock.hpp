@@ -22,6 +22,8 @@ public:
     std::vector<DoorInfo> doors() const override { return {{"http", "127.0.0.1:8080"}, {"modbus", "127.0.0.1:1502"}}; }
     double uptime_s() const override { return 12.5; }
     std::vector<std::string> not_ready() const override { return missing; }
+    std::string sheet = "[File]\r\n";
+    std::string eds() const override { return sheet; }
     std::string metrics() const override { return "# HELP axisgate_up 1\n# TYPE axisgate_up gauge\naxisgate_up 1\n"; }
 };
 

@@ -516,6 +516,23 @@ export interface paths {
         patch: operations["changeModbus"];
         trace?: never;
     };
+    "/api/v1/eds": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The electronic data sheet by which EtherNet/IP tools know this gateway, made of the site in force */
+        get: operations["getEds"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/fail_safe": {
         parameters: {
             query?: never;
@@ -5285,6 +5302,30 @@ export interface operations {
             503: components["responses"]["Unavailable"];
             504: components["responses"]["NoAnswer"];
             507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getEds: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the sheet, as a file; its revision and that of the identity object come from the mapping */
+            200: {
+                headers: {
+                    /** @description registers 18 and 19, eight hex digits */
+                    "Mapping-Revision"?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/plain": string;
+                };
+            };
+            404: components["responses"]["NotFound"];
             default: components["responses"]["Problem"];
         };
     };

@@ -178,7 +178,20 @@ const std::vector<Key>& keys() {
          [](Config& c, const std::string& s) -> Fault {
              return s.starts_with('/') ? set_text(c.lines_pty_dir, s) : Fault("name a folder by its whole path, such as /run/axisgate");
          }},
-        {"modbus_rtu", "port", [](Config& c, const std::string& s) { return set_text(c.modbus_rtu_port, s); }},
+        {"modbus_rtu", "port", [](Config& c, const std::string& s) { return set_text(c.modbus_rtu_port, s == "off" ? "" : s); }},
+        {"modbus_rtu", "baud",
+         [](Config& c, const std::string& s) {
+             return set_integer(c.modbus_rtu_baud, s, SerialSettings::min_baud, SerialSettings::max_baud);
+         },
+         Written::as_number},
+        {"modbus_rtu", "format",
+         [](Config& c, const std::string& s) -> Fault {
+             const auto format = parse_serial_format(s);
+             if (!format || format->data_bits != 8) return "write 8E1, 8O1, 8N1 or 8N2: Modbus RTU has 8 data bits";
+             return set_text(c.modbus_rtu_format, s);
+         }},
+        {"modbus_rtu", "unit", [](Config& c, const std::string& s) { return set_integer(c.modbus_rtu_unit, s, 1, 247); },
+         Written::as_number},
         {"enip", "bind",
          [](Config& c, const std::string& s) {
              c.enip_bind_named = true;
@@ -412,11 +425,12 @@ Config read_config(const ConfigSources& sources, std::vector<ConfigFault>& fault
         apply(o.substr(0, dot), o.substr(dot + 1, equals - dot - 1), o.substr(equals + 1), "--set " + o.substr(0, equals));
     }
     // Doors that the contract names and this version has not: never silently left out.
-    if (!c.modbus_rtu_port.empty())
-        faults.push_back(
-            {places[find_key("modbus_rtu", "port")], "modbus_rtu.port: this version has no Modbus RTU door", "leave the key out"});
     if (c.dds_enabled)
         faults.push_back({places[find_key("dds", "enabled")], "dds.enabled: this version has no DDS door", "set it to false"});
+    if (const RtuPort port = rtu_port(c); !port.fault.empty()) {
+        faults.push_back({places[find_key("modbus_rtu", "port")], "modbus_rtu.port: " + port.fault,
+                          "write the path of a serial port, such as /dev/ttyUSB0, or off"});
+    }
     if (c.http_tls_cert.empty() != c.http_tls_key.empty()) {
         faults.push_back({sources.file_name.empty() ? "configuration" : sources.file_name, "http.tls_cert and http.tls_key go together",
                           "give both or none"});
@@ -426,6 +440,30 @@ Config read_config(const ConfigSources& sources, std::vector<ConfigFault>& fault
                           "http.tls = self_signed and http.tls_cert are both there", "leave one of them out"});
     }
     return c;
+}
+
+RtuPort rtu_port(const Config& c) {
+    RtuPort r;
+    if (c.modbus_rtu_port.empty()) return r;
+    r.used = true;
+    const bool is_path = c.modbus_rtu_port.starts_with('/');
+    const LineUriResult parsed = parse_line_uri(is_path ? "serial:" + c.modbus_rtu_port : c.modbus_rtu_port,
+                                                static_cast<std::uint32_t>(c.modbus_rtu_baud), c.modbus_rtu_format);
+    r.uri = parsed.uri;
+    r.name = c.modbus_rtu_port.substr(0, c.modbus_rtu_port.find('?'));
+    if (r.name.starts_with("serial:")) r.name = r.uri.path;
+    r.fault = parsed.fault;
+    if (!r.fault.empty()) return r;
+    using Kind = LineUri::Kind;
+    const bool says_rate = r.uri.kind == Kind::serial || (r.uri.kind == Kind::pty && r.uri.serial.baud != 0);
+    r.baud = says_rate ? r.uri.serial.baud : static_cast<std::uint32_t>(c.modbus_rtu_baud);
+    r.format = says_rate ? r.uri.serial.format : parse_serial_format(c.modbus_rtu_format).value_or(SerialFormat{});
+    if (r.uri.kind == Kind::can || r.uri.kind == Kind::twin || r.uri.kind == Kind::udp || r.uri.kind == Kind::udp_listen) {
+        r.fault = "Modbus RTU needs a line that carries bytes in order";
+    } else if (r.format.data_bits != 8) {
+        r.fault = "Modbus RTU has 8 data bits";
+    }
+    return r;
 }
 
 }  // namespace axisgate

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "gateway/core/line_uri.hpp"
 #include "gateway/site/site.hpp"
 
 namespace axisgate {
@@ -34,7 +35,6 @@ struct Config {
     MapGaps modbus_gaps = MapGaps::zero;         ///< [modbus] gaps = "zero" | "refuse": reads of user maps where nothing is mapped
     std::int64_t authority_lease_s = 30;         ///< [authority] lease_s, 1..3600: how long a command holds an axis of mode "lease"
     std::string lines_pty_dir = "/tmp";          ///< [lines] pty_dir: folder below which a site's pty: lines may put their links
-    std::string modbus_rtu_port;                 ///< [modbus_rtu] port; empty: none
     std::string enip_bind = "127.0.0.1:44818";   ///< [enip] bind, IPv4, TCP and UDP; empty: no EtherNet/IP door
     bool enip_bind_named = false;                ///< somebody chose it: then a port that is taken is a fault
     std::int64_t enip_io_port = 2222;            ///< [enip] io_port, 0..65535: UDP, implicit data; originators use 2222 unless told
@@ -52,6 +52,11 @@ struct Config {
     std::int64_t users_session_max_h = 12;     ///< [users] session_max_h, 1..720
     bool users_new_code = false;               ///< [users] new_code: print another code for the first sign-in, while there is no user
     std::int64_t trace_frames = 4096;          ///< [limits] trace_frames per line
+    /// [modbus_rtu] port: path of a serial port, or the URI of a byte line (serial:, tcp:, tcp-listen:, pty:); empty: no Modbus RTU door
+    std::string modbus_rtu_port;
+    std::int64_t modbus_rtu_baud = 19200;   ///< [modbus_rtu] baud, 50..12000000 bit/s, where the URI does not say
+    std::string modbus_rtu_format = "8E1";  ///< [modbus_rtu] format, 8 data bits, where the URI does not say
+    std::int64_t modbus_rtu_unit = 1;       ///< [modbus_rtu] unit, 1..247: slave address of this gateway
 };
 
 struct ConfigFault {
@@ -70,6 +75,17 @@ struct ConfigSources {
 
 /// Reads all sources. Unknown sections, keys and values are faults.
 [[nodiscard]] Config read_config(const ConfigSources& sources, std::vector<ConfigFault>& faults);
+
+/// The serial port of the Modbus RTU door.
+struct RtuPort {
+    bool used = false;
+    LineUri uri;
+    std::string name;        ///< for people: "/dev/ttyUSB0"; of other kinds of line the URI without options
+    std::uint32_t baud = 0;  ///< bit/s, for the silence between frames; also where the line itself has no rate
+    SerialFormat format;
+    std::string fault;  ///< why it cannot be, and what would be right
+};
+[[nodiscard]] RtuPort rtu_port(const Config& config);
 
 /// "HOST:PORT" or "[V6]:PORT" taken apart; nothing if it is not one.
 struct HostPort {

@@ -18,7 +18,6 @@
 #include "gateway/core/assets.hpp"
 #include "gateway/doors/enip/server.hpp"
 #include "gateway/doors/http/server.hpp"
-#include "gateway/doors/modbus/server.hpp"
 #include "gateway/runtime/access_service.hpp"
 #include "gateway/runtime/catalogues.hpp"
 #include "gateway/runtime/clock.hpp"
@@ -26,6 +25,7 @@
 #include "gateway/runtime/config_host.hpp"
 #include "gateway/runtime/files.hpp"
 #include "gateway/runtime/hot.hpp"
+#include "gateway/runtime/modbus_doors.hpp"
 #include "gateway/runtime/site_file.hpp"
 #include "gateway/runtime/site_names.hpp"
 #include "gateway/runtime/site_trial.hpp"
@@ -76,32 +76,6 @@ struct LogListener final : EventListener {
     void on_event(const Event& event) override { log_event(event); }
 };
 
-ModbusReport modbus_report(modbus::Server& server, Hot& hot, const Config& config) {
-    ModbusReport r;
-    const auto addresses = server.addresses();
-    if (!addresses.empty()) r.bind = addresses.front();
-    r.allow = config.modbus_allow;
-    r.functions = config.modbus_functions;
-    r.read_only = server.responder().access().read_only;
-    const auto& site = *hot.engine().site();
-    for (auto& c : server.connections()) {
-        ModbusConnection x;
-        x.requests = c.requests;
-        x.writes = c.writes;
-        x.exceptions = c.exceptions;
-        x.since_unix_ns = unix_ns_of(c.since);
-        const auto host = std::string_view(c.peer).substr(0, c.peer.rfind(':'));
-        for (std::size_t i = 0; i < site.axis_ids.size(); ++i) {
-            const AxisPicture& p = hot.image().picture(site.axis_ids[i]);
-            if (p.authority == Door::modbus && p.authority_holder[0] != 0 && host == p.authority_holder.data())
-                x.holds.push_back(site.site.axes[i].name);
-        }
-        x.peer = std::move(c.peer);
-        r.connections.push_back(std::move(x));
-    }
-    return r;
-}
-
 /// Everything that lives while the service runs; destroyed from the last to the first.
 struct Service {
     const ServeOptions& options;
@@ -113,7 +87,7 @@ struct Service {
     std::unique_ptr<Cold> cold;
     std::unique_ptr<WarmPorts> ports;
     std::unique_ptr<registers::RegisterImage> image;
-    std::unique_ptr<modbus::Server> modbus;
+    std::unique_ptr<ModbusDoors> modbus;
     std::unique_ptr<enip::Server> enip;
     std::shared_ptr<AccessService> access;
     std::unique_ptr<Services> services;
@@ -311,29 +285,15 @@ int Service::open_doors() {
     rs.languages = languages;
     image = std::make_unique<registers::RegisterImage>(*hot, rs);
     ports->registers.use(*image);
-    if (!options.config.modbus_bind.empty()) {
-        modbus::ServerSettings ms;
-        ms.responder.version = AXISGATE_VERSION;
-        for (const auto& text : options.config.modbus_allow) {
-            if (const auto network = modbus::parse_network(text)) ms.responder.access.allow.push_back(*network);
-        }
-        for (const auto& text : options.config.modbus_functions)
-            ms.responder.access.functions.set(static_cast<std::size_t>(std::stoi(text)));
-        ms.responder.access.read_only = options.config.modbus_read_only;
-        // What was switched while it ran is newer than the file.
-        if (const auto kept = store->document("setting", "modbus.read_only"); kept && *kept)
-            ms.responder.access.read_only = (*kept)->text == "true";
-        ms.max_connections = static_cast<std::size_t>(options.config.modbus_max_connections);
-        ms.idle_timeout = std::chrono::seconds(options.config.modbus_idle_timeout_s);
-        modbus = std::make_unique<modbus::Server>(hot->context(), *hot, *image, ms);
-        const std::string binds[] = {options.config.modbus_bind};
-        if (const std::string fault = modbus->open(binds); !fault.empty()) {
-            complain(fault);
-            return exit_failed;
-        }
-        ports->modbus.use(
-            {[this] { return modbus_report(*modbus, *hot, options.config); }, [this](bool on) { modbus->responder().set_read_only(on); }});
+    bool read_only = options.config.modbus_read_only;
+    // What was switched while it ran is newer than the file.
+    if (const auto kept = store->document("setting", "modbus.read_only"); kept && *kept) read_only = (*kept)->text == "true";
+    modbus = std::make_unique<ModbusDoors>(*hot, *image, options.config, read_only);
+    if (const std::string fault = modbus->open(); !fault.empty()) {
+        complain(fault);
+        return exit_failed;
     }
+    if (modbus->any()) ports->modbus.use({[this] { return modbus->report(); }, [this](bool on) { modbus->set_read_only(on); }});
     if (!options.config.enip_bind.empty()) {
         enip::ServerSettings es;
         es.io_port = static_cast<std::uint16_t>(options.config.enip_io_port);

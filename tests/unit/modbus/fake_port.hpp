@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "gateway/core/event.hpp"
 #include "gateway/engine/door.hpp"
 
 namespace axisgate::modbus::test {

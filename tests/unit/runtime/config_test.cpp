@@ -100,7 +100,7 @@ TEST(Config, WhatThisVersionHasNotAndWhatIsWrittenAsAnotherKindIsAFault) {
     ConfigSources s;
     s.file_name = "f.toml";
     s.file_text = "[data]\ndir = 7\n[log]\nfile = 3\n[modbus_rtu]\nport = 5\n[dds]\nenabled = true\n[http]\nallowed_hosts = 4\n";
-    s.environment = {"AXISGATE_MODBUS_RTU_PORT=/dev/y"};
+    s.environment = {"AXISGATE_MODBUS_RTU_PORT=udp:h:1"};
     std::vector<ConfigFault> faults;
     (void)read_config(s, faults);
     std::vector<std::string> places;
@@ -117,6 +117,37 @@ TEST(Config, WhatThisVersionHasNotAndWhatIsWrittenAsAnotherKindIsAFault) {
     faults.clear();
     EXPECT_EQ(read_config(s, faults).data_dir, "7") << "on the command line all is text";
     EXPECT_TRUE(faults.empty()) << "what is overridden does not count";
+}
+
+TEST(Config, TheSerialPortOfModbusRtuIsAPathOrALine) {
+    const auto port_of = [](std::vector<std::string> overrides, std::size_t wrong = 0) {
+        ConfigSources s;
+        s.overrides = std::move(overrides);
+        std::vector<ConfigFault> faults;
+        const Config c = read_config(s, faults);
+        EXPECT_EQ(faults.size(), wrong) << (faults.empty() ? s.overrides[0] : faults[0].text);
+        return rtu_port(c);
+    };
+    EXPECT_FALSE(port_of({"modbus_rtu.port=off"}).used);
+    RtuPort p = port_of({"modbus_rtu.port=/dev/ttyUSB0"});
+    EXPECT_TRUE(p.used);
+    EXPECT_EQ(p.name, "/dev/ttyUSB0");
+    EXPECT_EQ(to_text(p.uri), "serial:/dev/ttyUSB0?baud=19200&format=8E1") << "the specification's defaults";
+    p = port_of({"modbus_rtu.port=serial:/dev/ttyS1?baud=38400&rs485=1", "modbus_rtu.baud=9600", "modbus_rtu.format=8N2"});
+    EXPECT_EQ(p.name, "/dev/ttyS1");
+    EXPECT_EQ(p.baud, 38400u);
+    EXPECT_EQ(to_text(p.format), "8N2");
+    p = port_of({"modbus_rtu.port=tcp:192.0.2.9:4001", "modbus_rtu.baud=57600"});
+    EXPECT_EQ(p.name, "tcp:192.0.2.9:4001");
+    EXPECT_EQ(p.baud, 57600u) << "behind the network stands a wire with a rate";
+    p = port_of({"modbus_rtu.port=pty:/tmp/x?baud=4800&format=8N1"});
+    EXPECT_EQ(p.name, "pty:/tmp/x");
+    EXPECT_EQ(p.baud, 4800u);
+    for (const auto* bad : {"can:can0", "twin", "udp:h:1", "ttyUSB0", "serial:/dev/ttyS1?format=7E1", "serial:/dev/ttyS1?what=1"})
+        EXPECT_FALSE(port_of({std::string("modbus_rtu.port=") + bad}, 1).fault.empty()) << bad;
+    for (const auto* bad :
+         {"modbus_rtu.unit=0", "modbus_rtu.unit=248", "modbus_rtu.baud=10", "modbus_rtu.format=7E1", "modbus_rtu.format=9N1"})
+        (void)port_of({bad}, 1);
 }
 
 TEST(Config, ADoorBeyondThisMachineWithoutNamesIsWarnedOf) {

@@ -2880,7 +2880,7 @@ export interface components {
             id: number;
             at: components["schemas"]["Time"];
             severity: components["schemas"]["Severity"];
-            /** @description alarm, write, line, presence, site, command, refused (over Modbus), input, snapshot, ... */
+            /** @description alarm, write, line, presence, site, command, refused (over Modbus), modbus_rtu (its port), input, snapshot, ... */
             kind: string;
             axis: string | null;
             drive: string | null;

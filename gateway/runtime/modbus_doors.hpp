@@ -1,0 +1,38 @@
+// Modbus doors: Modbus/TCP and Modbus RTU as the configuration wants them, under one lock and in one report.
+// In: the configuration. Out: open doors on the hot thread; what they tell the service thread. Never reads a request.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "gateway/core/line_uri.hpp"
+#include "gateway/doors/modbus/rtu_door.hpp"
+#include "gateway/doors/modbus/server.hpp"
+#include "gateway/runtime/config.hpp"
+#include "gateway/runtime/hot.hpp"
+#include "gateway/services/ports/modbus.hpp"
+
+namespace axisgate {
+
+class ModbusDoors {
+public:
+    /// Both are called before the hot thread starts. `read_only` as it was switched last.
+    ModbusDoors(Hot& hot, registers::RegisterImage& image, const Config& config, bool read_only);
+    /// Empty: Modbus/TCP listens, and the serial port is being opened; where that fails it is told and tried again.
+    [[nodiscard]] std::string open();
+    [[nodiscard]] bool any() const noexcept { return tcp_ || rtu_; }
+
+    /// On the hot thread.
+    [[nodiscard]] ModbusReport report() const;
+    void set_read_only(bool on);
+
+private:
+    void add(ModbusReport& report, ModbusConnection connection, std::string_view host) const;
+
+    Hot& hot_;
+    const Config& config_;
+    std::unique_ptr<modbus::Server> tcp_;
+    std::unique_ptr<modbus::RtuDoor> rtu_;
+};
+
+}  // namespace axisgate

@@ -265,7 +265,7 @@ function(axisgate_test_suites)
   axisgate_test_program(test_lines tests/unit/lines LINKS axisgate::lines)
   axisgate_test_program(test_store tests/unit/store LINKS axisgate::store axisgate_assets)
   axisgate_test_program(test_modbus tests/unit/modbus LINKS axisgate::door_modbus)
-  axisgate_test_program(test_registers tests/unit/registers LINKS axisgate::door_modbus)  # asked as a client of the Modbus door asks
+  axisgate_test_program(test_registers tests/unit/registers LINKS axisgate::door_modbus axisgate_assets)  # asked as a client of the Modbus door asks
   axisgate_test_program(test_enip tests/unit/enip LINKS axisgate::door_enip)
   axisgate_test_program(test_http tests/unit/http LINKS axisgate::door_http axisgate_assets)
   axisgate_test_program(test_runtime tests/unit/runtime LINKS axisgate::runtime axisgate_assets)
@@ -274,7 +274,7 @@ function(axisgate_test_suites)
     axisgate_test_program(test_${f} adapters/${f}/tests NOT twin*.cpp LINKS axisgate_${f} axisgate_${f}_twin axisgate::wire)
     axisgate_test_program(test_${f}_twin adapters/${f}/tests ONLY twin*.cpp LINKS axisgate_${f}_twin axisgate::wire)
   endforeach()
-  axisgate_test_program(test_conformance tests/conformance LINKS axisgate::families_tested axisgate::engine axisgate::services axisgate_assets_tested)
+  axisgate_test_program(test_conformance tests/conformance LINKS axisgate::families_tested axisgate::engine axisgate::registers axisgate::services axisgate_assets_tested)
   axisgate_test_program(test_world tests/world LINKS axisgate::families_tested axisgate::engine axisgate::services axisgate_assets_tested)
 endfunction()
 

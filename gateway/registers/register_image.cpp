@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "gateway/registers/profiles/cia402_block.hpp"
 #include "gateway/site/site_state.hpp"
 
 namespace axisgate::registers {
@@ -56,6 +57,75 @@ void RegisterImage::on_site(const SiteState& state) {
         placed.push_back({m, state.axis_ids[it->second], state.site.axes[it->second].increments_per_unit});
     }
     set_mappings(std::move(placed), state.site.gaps);
+    set_profiles(state);
+}
+
+namespace {
+/// Counts of a language for one unit of the axis, where the site does not say.
+double own_counts(ProfileLanguage language, const AxisSpec& axis) {
+    if (language == ProfileLanguage::pacontrol) return 1;
+    if (language != ProfileLanguage::linmot) return axis.increments_per_unit;
+    return axis.unit == "m" ? 1e7 : axis.unit == "um" ? 10 : 1e4;  // 0.1 um, of an axis in mm unless it says otherwise
+}
+
+PlacedProfileAxis placed_axis(const ProfileAxis& given, ProfileLanguage language, const AxisSpec& axis, AxisId id) {
+    PlacedProfileAxis a;
+    a.id = id;
+    a.number = axis.number;
+    a.name = axis.name;
+    a.counts_per_unit = given.counts_per_unit.value_or(own_counts(language, axis));
+    a.increments_per_count = axis.increments_per_unit / a.counts_per_unit;
+    const auto counts = [&](const std::optional<double>& first, const std::optional<double>& second) {
+        const auto& x = first ? first : second;
+        return x ? std::optional(*x * a.counts_per_unit) : std::nullopt;
+    };
+    a.velocity = counts(given.velocity, axis.velocity_max);
+    a.acceleration = counts(given.acceleration, axis.acceleration_max);
+    a.lowest = counts(axis.position_min, std::nullopt);
+    a.highest = counts(axis.position_max, std::nullopt);
+    return a;
+}
+}  // namespace
+
+void RegisterImage::set_profiles(const SiteState& state) {
+    std::vector<PlacedProfileAxis> axes;
+    std::vector<std::vector<PlacedProfileAxis>> by_profile;
+    for (const auto& spec : state.site.profiles) {
+        auto& list = by_profile.emplace_back();
+        for (const auto& given : spec.axes) {
+            const auto it = std::ranges::find(state.site.axes, given.axis, &AxisSpec::name);
+            const auto i = static_cast<std::size_t>(it - state.site.axes.begin());
+            if (it != state.site.axes.end() && i < state.axis_ids.size())
+                list.push_back(placed_axis(given, spec.language, *it, state.axis_ids[i]));
+        }
+        axes.insert(axes.end(), list.begin(), list.end());
+    }
+    // Modes, toggles and kept registers outlive a change of the site that does not concern them.
+    if (state.site.profiles == profile_specs_ && axes == profile_axes_ && state.site.gaps == profile_gaps_) return;
+    std::map<std::uint8_t, std::unique_ptr<UnitMap>> made;
+    for (const auto& [unit, map] : profiles_) {
+        if (maps_[unit] == map.get()) set_map(unit, nullptr);
+    }
+    for (std::size_t p = 0; p < by_profile.size(); ++p) {
+        const ProfileSpec& spec = state.site.profiles[p];
+        if (by_profile[p].empty()) continue;
+        std::unique_ptr<UnitMap> map;
+        if (spec.language == ProfileLanguage::cia402) {
+            map = std::make_unique<Cia402Block>(standard_, static_cast<std::uint16_t>(by_profile[p].front().number));
+        } else if (const auto& page = settings_.languages[static_cast<std::size_t>(spec.language)]) {
+            const auto gaps = state.site.gaps.find(spec.unit);
+            map = make_profile(spec.language, port_,
+                               {page, spec.word_order.value_or(page->word_order), std::move(by_profile[p]),
+                                gaps == state.site.gaps.end() ? settings_.gaps : gaps->second});
+        }
+        if (!map) continue;
+        set_map(spec.unit, map.get());
+        made.emplace(spec.unit, std::move(map));
+    }
+    profiles_ = std::move(made);
+    profile_specs_ = state.site.profiles;
+    profile_axes_ = std::move(axes);
+    profile_gaps_ = state.site.gaps;
 }
 
 void RegisterImage::on_sample(const Sample& sample) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gateway/engine/door.hpp"
+#include "gateway/registers/profiles/profile_map.hpp"
 #include "gateway/registers/standard_map.hpp"
 #include "gateway/registers/ticket_table.hpp"
 #include "gateway/registers/user_map.hpp"
@@ -27,6 +28,7 @@ public:
     struct Settings {
         WordOrder word_order = WordOrder::high_first;  ///< of the standard map
         MapGaps gaps = MapGaps::zero;                  ///< of units that the site does not name
+        Languages languages{};                         ///< of the site's profiles; one whose page is absent is not served
     };
     /// Readings of mapped parameters on their way at once, of all units; what is beyond waits for the next request.
     static constexpr std::size_t most_readings = 2048;
@@ -50,6 +52,8 @@ public:
     void set_map(std::uint8_t unit, UnitMap* map);
     /// The user maps of a site, instead of those of before.
     void set_mappings(std::vector<PlacedMapping> mappings, const std::map<std::uint8_t, MapGaps>& gaps);
+    /// The profiles of a site, instead of those of before; they go on as they were where nothing of them has changed.
+    void set_profiles(const SiteState& site);
     /// A command that a map gives by itself; its result comes to map.on_own_result(note). False: no place is free.
     [[nodiscard]] bool ask_for(UnitMap& map, PlannedCommand command);
     /// Who keeps pointers to maps. It must be removed before it ends.
@@ -69,6 +73,10 @@ private:
     StandardMap standard_;
     std::array<UnitMap*, 256> maps_{};
     std::map<std::uint8_t, std::unique_ptr<UserMap>> user_maps_;
+    std::map<std::uint8_t, std::unique_ptr<UnitMap>> profiles_;
+    std::vector<ProfileSpec> profile_specs_;  ///< those that profiles_ was made of ...
+    std::map<std::uint8_t, MapGaps> profile_gaps_;
+    std::vector<PlacedProfileAxis> profile_axes_;  ///< ... and their axes, one after another
     TicketTable readings_{most_readings};
     std::vector<MapUser*> users_;
 };

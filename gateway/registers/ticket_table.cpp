@@ -21,10 +21,13 @@ Ticket TicketTable::open(const Waiting& waiting, Instant deadline) {
     ++e.generation;
     e.waiting = waiting;
     e.deadline = deadline;
-    e.older = youngest_;
-    e.younger = none;
-    (youngest_ == none ? oldest_ : entries_[youngest_].younger) = index;
-    youngest_ = index;
+    std::uint16_t before = youngest_;
+    while (before != none && entries_[before].deadline > deadline)
+        before = entries_[before].older;
+    e.older = before;
+    e.younger = before == none ? oldest_ : entries_[before].younger;
+    (before == none ? oldest_ : entries_[before].younger) = index;
+    (e.younger == none ? youngest_ : entries_[e.younger].older) = index;
     ++used_;
     return make_ticket(number_, (e.generation << 16) | index);
 }

@@ -26,6 +26,7 @@ public:
     struct Waiting {
         WriteOwner* owner = nullptr;  ///< nullptr with map nullptr: the one who asked has gone
         UnitMap* map = nullptr;
+        bool own = false;        ///< asked by the map: the client does not wait for it
         std::uint32_t note = 0;  ///< for the map
         std::uint8_t slot = 0;   ///< for the owner
         AxisId axis = no_axis;
@@ -39,11 +40,11 @@ public:
 
     [[nodiscard]] std::size_t free() const noexcept { return entries_.size() - used_; }
     [[nodiscard]] std::size_t used() const noexcept { return used_; }
-    /// There must be a free place. Deadlines must not go back from call to call.
+    /// There must be a free place. Looks at the open ones with a later deadline, of which there should be few.
     [[nodiscard]] Ticket open(const Waiting& waiting, Instant deadline);
     /// Takes the entry out; nothing if the ticket is not (or no longer) known.
     [[nodiscard]] std::optional<Waiting> close(Ticket ticket);
-    /// Takes out the oldest entry if its deadline has come.
+    /// Takes out the entry with the earliest deadline if that has come.
     [[nodiscard]] std::optional<Waiting> expired(Instant now);
     [[nodiscard]] Instant next_deadline() const noexcept { return oldest_ == none ? never : entries_[oldest_].deadline; }
     /// The results of everything that `owner` or `map` waits for go to nobody.
@@ -56,7 +57,7 @@ private:
         std::uint64_t generation = 0;  // counts up with each use of the place; odd while it is used
         Waiting waiting;
         Instant deadline{};
-        std::uint16_t older = none, younger = none;  // by age while used; `younger` chains the free places
+        std::uint16_t older = none, younger = none;  // by deadline while used; `younger` chains the free places
     };
     Waiting take(std::uint16_t index);
 

@@ -5,6 +5,10 @@
 #include <utility>
 
 namespace axisgate::registers {
+namespace {
+/// What is answered when it is done may take as long as the machine does.
+constexpr Duration task_timeout = std::chrono::hours(24);
+}  // namespace
 
 RegisterWriter::RegisterWriter(DoorPort& port, RegisterImage& image, Settings settings)
     : port_(port),
@@ -29,7 +33,7 @@ RegisterWriter::Begun RegisterWriter::write(const Client& client, std::uint8_t s
         refused.outcome = Outcome::refused;
         refused.reason = Reason::busy;
         for (const auto& c : plan_.commands) {
-            if (c.own) map.on_own_result(c.note, refused);
+            if (c.own || c.told) map.on_own_result(c.note, refused);
         }
         return {Verdict::busy, 0};
     }
@@ -38,10 +42,12 @@ RegisterWriter::Begun RegisterWriter::write(const Client& client, std::uint8_t s
     for (auto& c : plan_.commands) {
         TicketTable::Waiting waiting;
         waiting.axis = c.axis;
-        if (c.own) {
+        if (c.own || c.told) {
             waiting.map = &map;
             waiting.note = c.note;
-        } else {
+            waiting.own = c.own;
+        }
+        if (!c.own) {
             waiting.owner = client.owner;
             waiting.slot = slot;
             ++begun.outstanding;
@@ -49,7 +55,8 @@ RegisterWriter::Begun RegisterWriter::write(const Client& client, std::uint8_t s
         waiting.who = client.who;
         waiting.request = note;
         Command command;
-        command.ticket = tickets_.open(waiting, deadline);
+        command.ticket = tickets_.open(waiting, c.until_done ? now + task_timeout : deadline);
+        command.until_done = c.until_done;
         command.axis = c.axis;
         command.body = std::move(c.body);
         command.origin = {settings_.door, client.who};
@@ -66,7 +73,8 @@ void RegisterWriter::refused(const std::string& who, Refused why, const RequestN
 
 void RegisterWriter::on_result(const Result& result) {
     auto waiting = tickets_.close(result.ticket);
-    if (waiting && waiting->who && !waiting->map && !good(result)) {  // also where the client has gone meanwhile
+    if (waiting && waiting->map && !waiting->own) waiting->map->on_own_result(waiting->note, result);
+    if (waiting && waiting->who && !waiting->own && !good(result)) {  // also where the client has gone meanwhile
         const Verdict verdict = verdict_of(result);
         std::string text = !result.text.empty()            ? result.text
                            : verdict == Verdict::no_answer ? std::string("the drive did not answer in time")
@@ -81,7 +89,7 @@ void RegisterWriter::on_result(const Result& result) {
     }
     if (waiting->owner) {
         waiting->owner->on_written(waiting->slot, waiting->axis, verdict_of(result));
-    } else {
+    } else if (waiting->own) {
         own_result(*waiting, result);
     }
 }
@@ -99,13 +107,14 @@ void RegisterWriter::sweep(Instant now) {
         result.axis = waiting->axis;
         result.outcome = Outcome::failed;
         result.reason = Reason::no_answer;
-        if (waiting->who && !waiting->map) {
+        if (waiting->map && !waiting->own) waiting->map->on_own_result(waiting->note, result);
+        if (waiting->who && !waiting->own) {
             refused(*waiting->who, {waiting->axis, Reason::no_answer, "the drive did not answer in time", {}, {}}, waiting->request,
                     settings_.answer(Verdict::no_answer), now);
         }
         if (waiting->owner) {
             waiting->owner->on_written(waiting->slot, waiting->axis, Verdict::no_answer);
-        } else if (waiting->map) {
+        } else if (waiting->map && waiting->own) {
             own_result(*waiting, result);
         }
     }

@@ -24,4 +24,15 @@ Families load_families(std::vector<std::string>& faults) {
     return families;
 }
 
+registers::Languages load_languages(std::vector<std::string>& faults) {
+    registers::Languages all;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const std::string path = "schema/profiles/" + std::string(name_of(static_cast<ProfileLanguage>(i))) + ".json";
+        std::string fault;
+        all[i] = registers::read_language(asset(path), fault);
+        if (!all[i]) faults.push_back(path + ": " + fault);
+    }
+    return all;
+}
+
 }  // namespace axisgate

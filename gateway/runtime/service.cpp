@@ -43,6 +43,7 @@ constexpr auto ready_limit = std::chrono::seconds(5);
 struct Service {
     const ServeOptions& options;
     Families families;
+    registers::Languages languages{};
     std::unique_ptr<Store> store;
     boost::asio::io_context warm{1};
     std::unique_ptr<Hot> hot;
@@ -244,6 +245,7 @@ int Service::open_doors() {
     registers::RegisterImage::Settings rs;
     rs.word_order = options.config.modbus_low_word_first ? MapWordOrder::low_first : MapWordOrder::high_first;
     rs.gaps = options.config.modbus_gaps;
+    rs.languages = languages;
     image = std::make_unique<registers::RegisterImage>(*hot, rs);
     ports->registers.use(*image);
     bool read_only = options.config.modbus_read_only;
@@ -280,6 +282,7 @@ int Service::open_doors() {
         hs.version = AXISGATE_VERSION;
         hs.bind = options.config.http_bind;
         hs.map_gaps = options.config.modbus_gaps;
+        hs.languages = languages;
         hs.low_word_first = options.config.modbus_low_word_first;
         hs.allowed_hosts = options.config.http_allowed_hosts;
         hs.max_connections = static_cast<std::size_t>(options.config.max_http_connections);
@@ -378,6 +381,7 @@ int command_serve(const ServeOptions& options) {
     std::vector<std::string> faults;
     Service s(options);
     s.families = load_families(faults);
+    s.languages = load_languages(faults);
     for (const auto& f : faults)
         complain(f);
     if (!faults.empty()) return exit_failed;

@@ -179,6 +179,10 @@ json::object to_json(const Site& site) {
     for (const auto& [unit, gaps] : site.gaps)
         units.push_back(json::object{{"unit", std::int64_t{unit}}, {"gaps", name_of(gaps)}});
     if (!units.empty()) o["modbus_units"] = std::move(units);
+    json::array profiles;
+    for (const auto& p : site.profiles)
+        profiles.push_back(to_json(p));
+    if (!profiles.empty()) o["profiles"] = std::move(profiles);
     return o;
 }
 
@@ -272,6 +276,13 @@ std::vector<std::string> differences(const Site& from, const Site& to) {
                    after = y == to.gaps.end() ? "not set" : name_of(y->second);
         if (before != after) out.push_back(fmt::format("modbus unit {}: gaps {} -> {}", unit, before, after));
     }
+    for (unsigned unit = 2; unit <= 254 && from.profiles != to.profiles; ++unit) {
+        const auto x = std::ranges::find(from.profiles, unit, &ProfileSpec::unit),
+                   y = std::ranges::find(to.profiles, unit, &ProfileSpec::unit);
+        const auto before = x == from.profiles.end() ? "not set" : json::serialize(to_json(*x)),
+                   after = y == to.profiles.end() ? "not set" : json::serialize(to_json(*y));
+        if (before != after) out.push_back(fmt::format("profile of unit {}: {} -> {}", unit, before, after));
+    }
     if (from.mappings != to.mappings) compare_mappings(from.mappings, to.mappings, out);
     return out;
 }
@@ -302,6 +313,8 @@ std::uint32_t mapping_revision(const Site& site) noexcept {
     mix(json::serialize(site.mappings));
     for (const auto& [unit, gaps] : site.gaps)
         mix(fmt::format("{} {}", unit, name_of(gaps)));
+    for (const auto& p : site.profiles)
+        mix(json::serialize(to_json(p)));
     return h;
 }
 

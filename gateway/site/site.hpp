@@ -19,6 +19,7 @@
 #include "gateway/core/setup.hpp"
 #include "gateway/site/authority_mode.hpp"
 #include "gateway/site/fail_safe.hpp"
+#include "gateway/site/profile.hpp"
 
 namespace axisgate {
 
@@ -83,6 +84,7 @@ struct Site {
     /// The same, checked; made by parse_site, absent in a site that was put together by hand.
     std::shared_ptr<const std::vector<Mapping>> parsed_mappings;
     [[nodiscard]] const std::vector<Mapping>& map() const noexcept;
+    std::vector<ProfileSpec> profiles;     ///< units that speak another device's language
     std::map<std::uint8_t, MapGaps> gaps;  ///< "modbus_units": by unit 2..254, where it is not as `[modbus] gaps` has it
 
     /// By drive, where it is not its family's page: made by parse_site, a function of the document.

@@ -12,106 +12,12 @@
 #include <tuple>
 
 #include "gateway/core/line_uri.hpp"
+#include "gateway/site/document_fields.hpp"
 #include "gateway/site/mapping.hpp"
 
 namespace axisgate {
 namespace {
 namespace json = boost::json;
-
-std::string quoted_list(const std::vector<std::string_view>& words) {
-    std::string s;
-    for (const auto w : words)
-        s += (s.empty() ? "" : ", ") + std::string(w);
-    return s;
-}
-
-/// Reads one object of the document; collects faults; remembers which keys were asked for, so that unknown ones can be named.
-class Fields {
-public:
-    Fields(const json::value& v, std::string pointer, std::vector<SiteFault>& faults) : pointer_(std::move(pointer)), faults_(faults) {
-        if (v.is_object()) {
-            object_ = &v.get_object();
-        } else {
-            fault("", "this must be an object", "write {...}");
-        }
-    }
-    void fault(std::string_view key, std::string text, std::string remedy) {
-        faults_.push_back({key.empty() ? pointer_ : pointer_ + "/" + std::string(key), std::move(text), std::move(remedy)});
-    }
-    const json::value* get(std::string_view key) {
-        known_.push_back(key);
-        if (!object_) return nullptr;
-        const auto* v = object_->if_contains(key);
-        return v && !v->is_null() ? v : nullptr;
-    }
-    std::string text(std::string_view key, bool required, std::string_view example) {
-        const auto* v = get(key);
-        if (v && v->is_string() && (!required || !v->get_string().empty())) return std::string(v->get_string());
-        if (v || required) {
-            fault(key, v ? fmt::format("{} must be a text", key) : fmt::format("{} is missing", key),
-                  fmt::format("write \"{}\": \"{}\"", key, example));
-        }
-        return {};
-    }
-    std::optional<double> number(std::string_view key, std::string_view example) {
-        const auto* v = get(key);
-        if (!v) return std::nullopt;
-        if (v->is_number()) {
-            const double d = v->to_number<double>();
-            if (std::isfinite(d)) return d;
-        }
-        fault(key, fmt::format("{} must be a number", key), fmt::format("write \"{}\": {}", key, example));
-        return std::nullopt;
-    }
-    std::optional<std::int64_t> integer(std::string_view key, std::int64_t low, std::int64_t high) {
-        const auto* v = get(key);
-        if (!v) return std::nullopt;
-        std::optional<std::int64_t> i;
-        if (v->is_int64()) i = v->get_int64();
-        if (v->is_uint64() && v->get_uint64() <= INT64_MAX) i = static_cast<std::int64_t>(v->get_uint64());
-        if (v->is_double() && std::nearbyint(v->get_double()) == v->get_double() && std::fabs(v->get_double()) < 9e15) {
-            i = static_cast<std::int64_t>(v->get_double());
-        }
-        if (i && *i >= low && *i <= high) return i;
-        fault(key, fmt::format("{} must be a whole number", key), fmt::format("write a value from {} to {}", low, high));
-        return std::nullopt;
-    }
-    std::map<std::string, std::string> options(std::string_view key) {
-        std::map<std::string, std::string> out;
-        const auto* v = get(key);
-        if (!v) return out;
-        if (!v->is_object()) {
-            fault(key, fmt::format("{} must be an object of names and values", key), "write {\"name\": \"value\"}");
-            return out;
-        }
-        for (const auto& [k, x] : v->get_object()) {
-            if (x.is_string()) {
-                out[std::string(k)] = std::string(x.get_string());
-            } else if (x.is_bool()) {
-                out[std::string(k)] = x.get_bool() ? "true" : "false";
-            } else if (x.is_number()) {
-                out[std::string(k)] = json::serialize(x);
-            } else {
-                fault(std::string(key) + "/" + std::string(k), "an option is a text, a number, true or false", "write one of them");
-            }
-        }
-        return out;
-    }
-    void unknown_keys() {
-        if (!object_) return;
-        for (const auto& [k, v] : *object_) {
-            if (std::ranges::find(known_, std::string_view(k)) == known_.end()) {
-                fault(k, fmt::format("{} is not known here", std::string_view(k)), "remove it, or use one of: " + quoted_list(known_));
-            }
-        }
-    }
-
-private:
-    const json::object* object_ = nullptr;
-    std::string pointer_;
-    std::vector<SiteFault>& faults_;
-    std::vector<std::string_view> known_;
-};
 
 bool good_name(std::string_view s) {
     if (s.empty() || s.size() > 64) return false;
@@ -120,7 +26,7 @@ bool good_name(std::string_view s) {
     });
 }
 
-std::string read_name(Fields& f, std::string_view example) {
+std::string read_name(DocumentFields& f, std::string_view example) {
     std::string name = f.text("name", true, example);
     if (!name.empty() && !good_name(name)) {
         f.fault("name", fmt::format("\"{}\" cannot be a name", name), "use 1 to 64 letters, digits, - _ and .");
@@ -129,7 +35,7 @@ std::string read_name(Fields& f, std::string_view example) {
 }
 
 /// Empty: left out. An empty text names no family.
-std::string read_family(Fields& f, std::string_view example) {
+std::string read_family(DocumentFields& f, std::string_view example) {
     std::string name = f.text("family", false, example);
     if (const auto* v = f.get("family"); v && v->is_string() && name.empty())
         f.fault("family", "family is an empty text", fmt::format("write the name of a family, as {}, or leave it out", example));
@@ -139,7 +45,7 @@ std::string read_family(Fields& f, std::string_view example) {
 LineManners read_manners(const json::value* v, const std::string& pointer, std::vector<SiteFault>& faults) {
     LineManners m;
     if (!v) return m;
-    Fields f(*v, pointer, faults);
+    DocumentFields f(*v, pointer, faults);
     using std::chrono::milliseconds;
     if (const auto x = f.integer("reply_timeout_ms", 0, 60'000)) m.reply_timeout = milliseconds(*x);
     if (const auto x = f.integer("poll_period_ms", 0, 60'000)) m.poll_period = milliseconds(*x);
@@ -159,7 +65,7 @@ LineManners read_manners(const json::value* v, const std::string& pointer, std::
 FailSafe read_fail_safe(const json::value* v, const std::string& pointer, std::vector<SiteFault>& faults) {
     FailSafe s;
     if (!v) return s;
-    Fields f(*v, pointer, faults);
+    DocumentFields f(*v, pointer, faults);
     for (const LossCause cause : loss_causes) {
         const auto* entry = f.get(name_of(cause));
         if (!entry) continue;
@@ -190,7 +96,7 @@ void read_list(const json::object& document, std::string_view key, std::vector<T
     std::set<std::string> names;
     for (std::size_t i = 0; i < v->get_array().size(); ++i) {
         const std::string pointer = fmt::format("{}/{}", base, i);
-        Fields f(v->get_array()[i], pointer, faults);
+        DocumentFields f(v->get_array()[i], pointer, faults);
         T item = read(f, pointer);
         f.unknown_keys();
         if (!item.name.empty() && !names.insert(item.name).second) {
@@ -373,7 +279,7 @@ void read_units(const json::value* list, Site& site, std::vector<SiteFault>& fau
         return;
     }
     for (std::size_t i = 0; i < list->get_array().size(); ++i) {
-        Fields f(list->get_array()[i], fmt::format("/modbus_units/{}", i), faults);
+        DocumentFields f(list->get_array()[i], fmt::format("/modbus_units/{}", i), faults);
         if (!f.get("unit")) f.fault("unit", "unit is missing", "write \"unit\": 2, a Modbus unit with a map of its own");
         const auto unit = f.integer("unit", 2, 254);
         const auto gaps = map_gaps_named(f.text("gaps", true, "refuse"));
@@ -395,13 +301,13 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
     }
     const auto& o = document.get_object();
     for (const auto& [k, v] : o) {
-        if (k != "lines" && k != "drives" && k != "axes" && k != "mappings" && k != "modbus_units") {
+        if (k != "lines" && k != "drives" && k != "axes" && k != "mappings" && k != "modbus_units" && k != "profiles") {
             faults.push_back({"/" + std::string(k), fmt::format("{} is not known here", std::string_view(k)),
-                              "a site has lines, drives, axes, mappings and modbus_units"});
+                              "a site has lines, drives, axes, mappings, modbus_units and profiles"});
         }
     }
     Site site;
-    read_list(o, "lines", site.lines, faults, [&](Fields& f, const std::string& pointer) {
+    read_list(o, "lines", site.lines, faults, [&](DocumentFields& f, const std::string& pointer) {
         LineSpec l;
         l.name = read_name(f, "can0");
         l.uri = f.text("uri", true, "twin");
@@ -411,7 +317,7 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
         l.manners = read_manners(f.get("manners"), pointer + "/manners", faults);
         return l;
     });
-    read_list(o, "drives", site.drives, faults, [&](Fields& f, const std::string&) {
+    read_list(o, "drives", site.drives, faults, [&](DocumentFields& f, const std::string&) {
         DriveSpec d;
         d.name = read_name(f, "feeder");
         d.line = f.text("line", true, "can0");
@@ -450,7 +356,7 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
         }
         return d;
     });
-    read_list(o, "axes", site.axes, faults, [&](Fields& f, const std::string& pointer) {
+    read_list(o, "axes", site.axes, faults, [&](DocumentFields& f, const std::string& pointer) {
         AxisSpec a;
         a.name = read_name(f, "feeder");
         a.drive = f.text("drive", true, "feeder");
@@ -493,6 +399,7 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
         }
     }
     read_units(o.if_contains("modbus_units"), site, faults);
+    read_profiles(o.if_contains("profiles"), site, faults);
     check_relations(site, families, faults);
     // In their full form from here on: ids that were given, defaults that were chosen.
     if (auto mappings = parse_mappings(site.mappings, site, families, faults)) {
@@ -501,6 +408,7 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
             site.mappings.push_back(to_json(mapping));
         site.parsed_mappings = std::make_shared<const std::vector<Mapping>>(std::move(*mappings));
     }
+    check_profile_units(site, faults);
     if (faults.size() != before) return std::nullopt;
     return site;
 }

@@ -121,7 +121,7 @@ const json::object* find_in(const json::array& list, std::string_view key) {
 json::array site_diff(const Site& from, const Site& to) {
     json::array out;
     const json::object a = to_json(from), b = to_json(to);
-    for (const char* list : {"lines", "drives", "axes", "mappings", "modbus_units"}) {
+    for (const char* list : {"lines", "drives", "axes", "mappings", "modbus_units", "profiles"}) {
         const auto* before = a.if_contains(list);
         const auto* after = b.if_contains(list);
         const json::array none;

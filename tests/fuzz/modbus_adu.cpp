@@ -8,15 +8,31 @@
 #include <span>
 #include <vector>
 
+#include "gateway/core/assets.hpp"
 #include "gateway/doors/modbus/session.hpp"
+#include "gateway/registers/profiles/profile_map.hpp"
 #include "tests/unit/modbus/desk.hpp"
 
 namespace {
 using namespace axisgate;
 using namespace axisgate::modbus;
+using namespace axisgate::registers;
 
 void require(bool holds) {
     if (!holds) std::abort();
+}
+
+const std::shared_ptr<const Language>& page(ProfileLanguage language) {
+    static const Languages all = [] {
+        Languages pages;
+        for (std::size_t i = 0; i < pages.size(); ++i) {
+            std::string fault;
+            pages[i] = read_language(asset("schema/profiles/" + std::string(name_of(static_cast<ProfileLanguage>(i))) + ".json"), fault);
+            require(pages[i] != nullptr);
+        }
+        return pages;
+    }();
+    return all[static_cast<std::size_t>(language)];
 }
 
 struct Script {
@@ -39,6 +55,18 @@ struct World : SessionWaker {
     explicit World(WordOrder order) : door(port, order) {
         for (std::uint16_t n = 1; n <= 3; ++n)
             axes.push_back(port.add_axis(n, &test::catalogue()));
+        // Units 10 to 12 speak other devices' languages.
+        for (const auto language : {ProfileLanguage::lexium, ProfileLanguage::pacontrol, ProfileLanguage::linmot}) {
+            ProfileMap::Setup setup{page(language), order, {}, MapGaps::zero};
+            for (std::size_t i = 0; i < std::min(most_axes(language), axes.size()); ++i) {
+                setup.axes.emplace_back();
+                setup.axes.back().id = axes[i];
+                setup.axes.back().name = "a";
+                setup.axes.back().increments_per_count = 0.37;
+            }
+            profiles.push_back(make_profile(language, port, std::move(setup)));
+            door.image.set_map(static_cast<std::uint8_t>(9 + profiles.size()), profiles.back().get());
+        }
     }
     void wake(Session&) override {}
 
@@ -74,7 +102,8 @@ struct World : SessionWaker {
                 answers = answers.subspan(6 + length);
             }
         } while (last == Session::Work::output_full);
-        require(session.in_flight() <= Session::max_in_flight && port.commands.size() <= 32 + axes.size());
+        require(session.in_flight() <= Session::max_in_flight &&
+                port.commands.size() <= 4096);  // what profiles ask for does not keep its client waiting
     }
 
     test::FakePort port;
@@ -83,6 +112,7 @@ struct World : SessionWaker {
     Session session{responder, *this, nullptr};
     std::unique_ptr<AnswerBuffer> out = std::make_unique<AnswerBuffer>();
     std::vector<AxisId> axes;
+    std::vector<std::unique_ptr<ProfileMap>> profiles;
     Session::Work last = Session::Work::need_bytes;
     std::vector<std::uint8_t> stream;
     bool worthless = false;

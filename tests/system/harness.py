@@ -149,8 +149,8 @@ class Gateway(Process):
     def modbus(self):
         return Modbus(self.modbus_port)
 
-    def mbpoll(self, *arguments):
-        p = subprocess.run(["mbpoll", "-m", "tcp", "-p", str(self.modbus_port), "-a", "1", "-B", "-0", "-1", "-q", *arguments, "127.0.0.1"], capture_output=True, text=True, timeout=20)
+    def mbpoll(self, *arguments, values=()):
+        p = subprocess.run(["mbpoll", "-m", "tcp", "-p", str(self.modbus_port), "-a", "1", "-B", "-0", "-1", "-q", *arguments, "127.0.0.1", *map(str, values)], capture_output=True, text=True, timeout=20)
         return p.returncode, p.stdout + p.stderr
 
 

@@ -118,6 +118,10 @@ constexpr std::array routes{
     Route{"/api/v1/mappings/next-free", Method::get, take<get_next_free>}.asks("unit table words align"),
     Route{"/api/v1/mappings/units", Method::get, take<list_mapping_units>},
     Route{"/api/v1/mappings/units/{unit}", Method::put, take<change_mapping_unit>, Takes::json},
+    Route{"/api/v1/profiles", Method::get, take<list_profiles>},
+    Route{"/api/v1/profiles/{unit}", Method::get, take<get_profile>},
+    Route{"/api/v1/profiles/{unit}", Method::put, take<put_profile>, Takes::json},
+    Route{"/api/v1/profiles/{unit}", Method::remove, take<remove_profile>, Takes::nothing, Gives::nothing},
     Route{"/api/v1/mappings/template", Method::post, take<add_mapping_template>, Takes::json},
     Route{"/api/v1/events", Method::get, take<list_events>, Takes::nothing, Gives::own}.asks(
         "since axis severity kind state before limit order format"),

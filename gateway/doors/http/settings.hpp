@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gateway/registers/profiles/language.hpp"
 #include "gateway/site/site.hpp"
 
 namespace axisgate::http {
@@ -24,6 +25,7 @@ struct Settings {
     /// `bind` is: a page of another site may bind its own name to this machine, and its requests would come from this machine.
     std::vector<std::string> allowed_hosts;
     MapGaps map_gaps = MapGaps::zero;  ///< [modbus] gaps: of units that the site does not name
+    registers::Languages languages{};  ///< what the profiles of registers speak, for the list of their registers
     bool low_word_first = false;       ///< of the standard map, as `[modbus] word_order` has it: for what shows and describes its registers
     bool require_if_match = false;     ///< true: PUT /site without If-Match is refused with 428
 

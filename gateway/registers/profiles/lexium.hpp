@@ -1,0 +1,57 @@
+// Lexium: the registers of a Schneider Lexium drive with MCode in front of any axis: each is a variable or an instruction of the language.
+// In: reads and writes of registers. Out: values of the axis in counts; commands. Reference: the MCode manual, per instruction "networking
+// protocol equivalents"; word order is a setting since that manual leaves it open.
+// A refusal is answered twice: to the client by its door, and in EF and ER as the drive itself would say it.
+#pragma once
+
+#include <vector>
+
+#include "gateway/registers/profiles/profile_map.hpp"
+
+namespace axisgate::registers {
+
+class LexiumMap final : public ProfileMap {
+public:
+    LexiumMap(const DoorPort& port, Setup setup);
+    void on_own_result(std::uint32_t note, const Result& result) override;
+
+private:
+    enum class Meaning : std::uint8_t {
+        acceleration,
+        deceleration,
+        maximum_velocity,
+        velocity,
+        position,
+        counter,
+        moving,
+        moving_to_position,
+        enable,
+        error_flag,
+        error,
+        move_absolute,
+        move_relative,
+        move_velocity,
+        home,
+        home_index,
+        nothing,
+        kept,
+        fixed,
+        none
+    };
+    [[nodiscard]] static Meaning meaning_of(const LanguageRow& row);
+    bool shown(std::size_t row, Instant now, std::uint32_t& bits) override;
+    Verdict taken(std::span<const Written> rows, WritePlan& plan) override;
+    void instruct(const Written& w, Meaning meaning, WritePlan& plan);
+    Verdict refuse_with(Reason reason, std::string text);
+    /// ER as it reads now: the language's own, else a fault of the axis.
+    [[nodiscard]] int error() const;
+    [[nodiscard]] Move move(Move::Kind kind, double counts) const;
+
+    std::vector<Meaning> meanings_;                                           // by row
+    std::vector<std::uint32_t> values_;                                       // by row, of what is kept
+    std::size_t acceleration_ = 0, deceleration_ = 0, maximum_velocity_ = 0;  // rows
+    double run_ = 0;                                                          // SL as it was written last
+    int error_ = 0;
+};
+
+}  // namespace axisgate::registers

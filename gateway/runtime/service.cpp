@@ -1,8 +1,6 @@
 // Service: `axisgate serve`: assembles store, hot, cold and warm threads and doors, says `ready`, and takes it all down again in order.
 // In: the configuration, a site. Out: the running gateway; an exit code. Never starts a door before what it shows is there.
 #include <fmt/core.h>
-#include <spdlog/sinks/basic_file_sink.h>
-#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -25,6 +23,7 @@
 #include "gateway/runtime/config_host.hpp"
 #include "gateway/runtime/files.hpp"
 #include "gateway/runtime/hot.hpp"
+#include "gateway/runtime/log.hpp"
 #include "gateway/runtime/modbus_doors.hpp"
 #include "gateway/runtime/site_file.hpp"
 #include "gateway/runtime/site_names.hpp"
@@ -39,42 +38,6 @@ namespace axisgate {
 namespace {
 /// Longest wait for lines and drives before `ready` is said all the same; what is missing is then named in it.
 constexpr auto ready_limit = std::chrono::seconds(5);
-
-bool open_log(const Config& c) {
-    try {
-        std::shared_ptr<spdlog::logger> log;
-        if (c.log_file.empty()) {
-            log = std::make_shared<spdlog::logger>("axisgate", std::make_shared<spdlog::sinks::stderr_sink_mt>());
-        } else {
-            log = std::make_shared<spdlog::logger>("axisgate", std::make_shared<spdlog::sinks::basic_file_sink_mt>(c.log_file));
-        }
-        log->set_pattern("%Y-%m-%dT%H:%M:%S.%f%z %l %v");
-        log->set_level(spdlog::level::from_str(c.log_level));
-        log->flush_on(spdlog::level::info);
-        spdlog::set_default_logger(std::move(log));
-        return true;
-    } catch (const spdlog::spdlog_ex& e) {
-        complain(
-            fmt::format("cannot open the log file {}: {}; check the folder and its rights, or leave log.file empty", c.log_file, e.what()));
-        return false;
-    }
-}
-
-void log_event(const Event& e) {
-    const auto level = e.severity == Severity::alarm     ? spdlog::level::err
-                       : e.severity == Severity::warning ? spdlog::level::warn
-                                                         : spdlog::level::info;
-    std::string where;
-    if (!e.line.empty()) where += " line=" + e.line;
-    if (!e.drive.empty()) where += " drive=" + e.drive;
-    if (!e.axis.empty()) where += " axis=" + e.axis;
-    if (!e.door.empty()) where += " by=" + e.door + (e.who.empty() ? "" : "/" + e.who);
-    spdlog::log(level, "{}{}: {}", e.kind, where, e.text);
-}
-
-struct LogListener final : EventListener {
-    void on_event(const Event& event) override { log_event(event); }
-};
 
 /// Everything that lives while the service runs; destroyed from the last to the first.
 struct Service {

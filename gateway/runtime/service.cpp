@@ -61,6 +61,7 @@ struct Service {
     boost::asio::steady_timer tick{warm};
     Instant started = monotonic_now();
     bool ready_reported = false;
+    std::string manager_status;  ///< as it was told last
     std::string first_code;  ///< to be shown
     int code = exit_good;
 
@@ -74,6 +75,7 @@ struct Service {
     void arm_services();
     int open_doors();
     void watch();
+    void tell_manager();
     void report_ready();
     void take_down();
 };
@@ -332,7 +334,7 @@ void Service::report_ready() {
         text += "; " + c;
     fmt::print("{}\n", text);
     std::fflush(stdout);
-    notify_manager("READY=1\nSTATUS=serving");
+    notify_manager("READY=1");
     spdlog::info("{}", text);
 }
 
@@ -340,6 +342,7 @@ void Service::report_ready() {
 void Service::watch() {
     if (!ready_reported) report_ready();
     const auto interval = watchdog_interval();
+    if (ready_reported) tell_manager();
     if (interval && monotonic_now() - hot->last_turn() < std::chrono::seconds(1)) notify_manager("WATCHDOG=1");
     auto next = ready_reported ? std::chrono::milliseconds(500) : std::chrono::milliseconds(2);
     if (interval) next = std::min(next, std::chrono::duration_cast<std::chrono::milliseconds>(*interval));
@@ -347,6 +350,21 @@ void Service::watch() {
     tick.async_wait([this](const boost::system::error_code& ec) {
         if (!ec) watch();
     });
+}
+
+/// What `systemctl status` shows, and what an upgrade waits for.
+void Service::tell_manager() {
+    std::size_t online = 0, moving = 0;
+    const auto site = ports->site.site();
+    for (const AxisId id : site->axis_ids) {
+        const AxisPicture p = hot->image().cell(id).read();
+        online += (p.flags & flag_online) != 0;
+        moving += (p.flags & flag_moving) != 0;
+    }
+    std::string status = fmt::format("STATUS={} axes, {} online, {} moving", site->axis_ids.size(), online, moving);
+    if (status == manager_status) return;
+    manager_status = std::move(status);
+    notify_manager(manager_status);
 }
 
 void Service::take_down() {

@@ -92,6 +92,7 @@ def test_the_manager_is_told_when_it_is_ready_what_moves_and_that_it_lives():
                 time.sleep(1.2)
                 assert len([1 for _, text in manager.read() if text == "WATCHDOG=1"]) == before
                 os.kill(g.process.pid, 18)
+                assert g.stop() == 0
         finally:
             del os.environ["NOTIFY_SOCKET"], os.environ["WATCHDOG_USEC"]
         until(lambda: manager.last("STOPPING=1"), 5, "STOPPING")

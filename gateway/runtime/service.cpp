@@ -62,7 +62,7 @@ struct Service {
     Instant started = monotonic_now();
     bool ready_reported = false;
     std::string manager_status;  ///< as it was told last
-    std::string first_code;  ///< to be shown
+    std::string first_code;      ///< to be shown
     int code = exit_good;
 
     explicit Service(const ServeOptions& o) : options(o) {}

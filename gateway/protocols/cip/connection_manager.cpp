@@ -233,7 +233,7 @@ Response ConnectionManager::forward_close(View data, const Context& context) {
         counters_.close_other.add();
         return refuse_open(triad, Response::refused(Extended::connection_not_found));
     }
-    if (!same_places(*places, c->request.path)) {
+    if (!same_places(*places, c->request.path) && !names_router(*places)) {
         counters_.close_other.add();
         return refuse_open(triad, Response::refused(Extended::close_path_mismatch));
     }

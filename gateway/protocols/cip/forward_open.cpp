@@ -85,6 +85,10 @@ bool same_places(const Path& a, const Path& b) {
                               [](const Place& x, const Place& y) { return x.class_id == y.class_id && x.instance == y.instance; });
 }
 
+bool names_router(const Path& path) {
+    return path.places.size() == 1 && path.places[0].class_id == class_id::message_router && path.places[0].instance == 1;
+}
+
 std::optional<Extended> wrong_route(const Path& path) {
     if (path.ports.empty()) return std::nullopt;
     const Port& p = path.ports.front();

@@ -53,6 +53,8 @@ struct OpenRequest {
 [[nodiscard]] std::optional<Extended> wrong_key(const ElectronicKey& key, const Device& device);
 /// They name the same objects; route, key and configuration data of a path say nothing about that.
 [[nodiscard]] bool same_places(const Path& a, const Path& b);
+/// Nothing but the message router: who closes so goes by the three numbers of the connection.
+[[nodiscard]] bool names_router(const Path& path);
 /// A route to somebody else.
 [[nodiscard]] std::optional<Extended> wrong_route(const Path& path);
 

@@ -136,7 +136,7 @@ Verdict LexiumMap::taken(std::span<const Written> rows, WritePlan& plan) {
     for (const Written& w : rows) {
         const LanguageRow& row = language().rows[w.row];
         const Meaning meaning = meanings_[w.row];
-        if (meaning == Meaning::none || meaning == Meaning::counter)
+        if (meaning == Meaning::none)
             return refuse_with(Reason::not_supported, fmt::format("axis {}: {}", axis(0).name, row.name + ": " + row.description));
         if (const double n = number_of(row.type, w.bits); meaning == Meaning::home_index && n != 1 && n != 3)
             return refuse_with(Reason::not_supported, fmt::format("axis {}: HI {}: 1 and 3 search the index", axis(0).name, n));

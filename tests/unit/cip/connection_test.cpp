@@ -193,6 +193,10 @@ TEST(CipConnections, ForwardCloseNamesThePathOfTheConnection) {
     EXPECT_EQ(b.adapter.connections().open(), 0u);
     EXPECT_EQ(b.adapter.connections().counters().close_other.value(), 2u);
     EXPECT_EQ(b.adapter.connections().counters().close_format.value(), 1u);
+    ASSERT_NE(b.opened({}), 0u);
+    Open router;
+    router.path = "20 02 24 01";
+    EXPECT_EQ(b.ask(router.close()).general, General::success) << "by the three numbers alone, as some clients close";
 }
 
 TEST(CipConnections, MessagesNeverTakeTheLastPlaceOfAnOwner) {

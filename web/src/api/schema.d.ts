@@ -1296,6 +1296,45 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/profiles": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Units that speak another device's language, and what stands where in each language */
+        get: operations["listProfiles"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/profiles/{unit}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Modbus unit, 2 to 254 */
+                unit: string;
+            };
+            cookie?: never;
+        };
+        /** The profile of a unit */
+        get: operations["getProfile"];
+        /** Lets a unit speak another device's language */
+        put: operations["putProfile"];
+        post?: never;
+        /** Takes the profile of a unit away */
+        delete: operations["removeProfile"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/mappings/units": {
         parameters: {
             query?: never;
@@ -2956,6 +2995,75 @@ export interface components {
             mappings?: components["schemas"]["MappingSpec"][];
             /** @description units that answer otherwise than the host's `[modbus]` section has it */
             modbus_units?: components["schemas"]["ModbusUnitSpec"][];
+            /** @description units that speak another device's language, whatever drives are behind their axes */
+            profiles?: components["schemas"]["ProfileSpec"][];
+        };
+        ProfileSpec: {
+            /** @description one that has neither mappings nor another profile */
+            unit: number;
+            language: components["schemas"]["ProfileLanguage"];
+            /**
+             * @description of 32-bit values; left out: as the language has it
+             * @enum {string|null}
+             */
+            word_order?: "high_first" | "low_first" | null;
+            /** @description in the order in which the language numbers them; pacontrol takes up to eight, the others one */
+            axes: components["schemas"]["ProfileAxisSpec"][];
+        };
+        /** @description as ProfileSpec; the unit is the path's */
+        ProfileEntry: {
+            unit?: number;
+            language: components["schemas"]["ProfileLanguage"];
+            /** @enum {string|null} */
+            word_order?: "high_first" | "low_first" | null;
+            axes: components["schemas"]["ProfileAxisSpec"][];
+        };
+        Profiles: {
+            languages: components["schemas"]["LanguagePage"][];
+            profiles: components["schemas"]["ProfileSpec"][];
+        };
+        LanguagePage: {
+            language: components["schemas"]["ProfileLanguage"];
+            title: string;
+            description: string;
+            /** @description where the device's own list of registers stands */
+            source: string;
+            /** @enum {string} */
+            word_order: "high_first" | "low_first";
+            /** @description that one unit has at most */
+            axes: number;
+            registers: components["schemas"]["LanguageRegister"][];
+        };
+        LanguageRegister: {
+            tables: ("holding_registers" | "input_registers")[];
+            /** @description counted from 0 */
+            address: number;
+            /** @enum {string} */
+            type: "u16" | "i16" | "u32" | "i32" | "f32";
+            /** @enum {string} */
+            access: "R" | "W" | "RW";
+            /** @description as the device's manual writes it */
+            name: string;
+            description: string;
+            /** @description which axis of the profile it belongs to; null: to the unit, or to its one axis */
+            axis: number | null;
+            min: number | null;
+            max: number | null;
+            object: {
+                class: number;
+                attribute: number;
+            } | null;
+        };
+        /** @enum {string} */
+        ProfileLanguage: "cia402" | "lexium" | "pacontrol" | "linmot";
+        ProfileAxisSpec: {
+            axis: string;
+            /** @description counts of the language for one unit of the axis; left out: increments (cia402, lexium), the unit itself (pacontrol), 0.1 micrometre of an axis in mm (linmot) */
+            counts_per_unit?: number | null;
+            /** @description unit/s: what the language starts from, and its 100 % */
+            velocity?: number | null;
+            /** @description unit/s^2 */
+            acceleration?: number | null;
         };
         ModbusUnitSpec: {
             /** @description each at most once */
@@ -7252,6 +7360,131 @@ export interface operations {
                 };
             };
             400: components["responses"]["BadRequest"];
+            409: components["responses"]["Conflict"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    listProfiles: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description all languages with their registers, and the site's profiles */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Profiles"];
+                };
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    getProfile: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Modbus unit, 2 to 254 */
+                unit: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the entry */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ProfileSpec"];
+                };
+            };
+            404: components["responses"]["NotFound"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    putProfile: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
+                "If-Match"?: components["parameters"]["ifMatch"];
+            };
+            path: {
+                /** @description Modbus unit, 2 to 254 */
+                unit: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "language": "lexium",
+                 *       "axes": [
+                 *         {
+                 *           "axis": "feeder",
+                 *           "counts_per_unit": 51200
+                 *         }
+                 *       ]
+                 *     }
+                 */
+                "application/json": components["schemas"]["ProfileEntry"];
+            };
+        };
+        responses: {
+            /** @description the entry as it is now */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ProfileSpec"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            422: components["responses"]["Unprocessable"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    removeProfile: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
+                "If-Match"?: components["parameters"]["ifMatch"];
+            };
+            path: {
+                /** @description Modbus unit, 2 to 254 */
+                unit: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description it is gone */
+            204: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
             409: components["responses"]["Conflict"];
             default: components["responses"]["Problem"];
         };

@@ -15,6 +15,7 @@ import { ListLinks, PrintedList } from '../components/mapping-list';
 import { MappingPaste } from '../components/mapping-paste';
 import { MappingUnit } from '../components/mapping-unit';
 import { MappingTemplates } from '../components/mapping-templates';
+import { Profiles } from '../components/profiles';
 import { Section } from '../components/section';
 import { useGateway } from '../gateway';
 import { addressBase, countFrom } from '../state/address-base';
@@ -48,6 +49,7 @@ export function MappingsPage() {
   const table = tableShown.value as Table;
   const rows = book.rows.value;
   const units = [...new Set([...rows.map((m) => m.unit), unit])].sort((a, b) => a - b);
+  const mapped = useMemo(() => new Set(rows.map((m) => m.unit)), [rows]);
   const shown = useMemo(() => rows.filter((m) => m.unit === unit && m.table === table), [rows, unit, table]);
 
   useEffect(() => {
@@ -194,6 +196,7 @@ export function MappingsPage() {
         <MappingTemplates book={book} door={door} />
         <MappingPaste book={book} known={{ ...known, base: '0' }} />
       </Gate>
+      <Profiles mapped={mapped} revision={revision} />
       <HmiView door={door} rows={rows} />
       <PrintedList rows={rows} known={known} hash={book.hash.value} />
     </main>

@@ -1,0 +1,173 @@
+// Profiles: units that speak another device's language: which there are, what stands at their registers, adding and taking away.
+// In: the HTTP door, the revision of the site, units that have mappings. Out: a section. Asks before a profile is taken away.
+import { useSignal } from '@preact/signals';
+import { useMemo } from 'preact/hooks';
+import { asProblem } from '../api/problem';
+import { ProfileDoor, type Profile, type Profiles as Listed } from '../api/profiles';
+import { useGateway } from '../gateway';
+import { addressBase } from '../state/address-base';
+import { persisted } from '../state/persisted';
+import { profileWords, readProfile, registerRows, type ProfileFaults } from '../text/profile';
+import { Ask } from './ask';
+import { Choice, notOffered, quiet, Tell, TextField, type Told } from './form';
+import { useBarred } from './gate';
+import { useLoaded } from './loaded';
+import { useNamed } from './name';
+import { Section } from './section';
+
+const unit = persisted('profile.unit');
+const language = persisted('profile.language', 'lexium');
+const counts = persisted('profile.counts');
+const velocity = persisted('profile.velocity');
+const acceleration = persisted('profile.acceleration');
+
+export function Profiles({ mapped, revision }: { mapped: ReadonlySet<number>; revision: unknown }) {
+  const { client, store } = useGateway();
+  const door = useMemo(() => new ProfileDoor(client), [client]);
+  const listed = useSignal<Listed | null>(null);
+  const axes = useSignal<readonly string[]>(['']);
+  const told = useSignal<Told>(quiet);
+  const faults = useSignal<ProfileFaults>({});
+  const asking = useSignal<number | null>(null);
+  const named = useNamed();
+  const no = useBarred('engineer');
+  const load = async () => void (listed.value = await door.all());
+  const why = useLoaded(load, [door, revision], (p) => (p.status === 404 ? notOffered('profiles') : p.words));
+  if (!listed.value) return why ? <Section title="Profiles: another device's registers">{<p class="where">{why}</p>}</Section> : null;
+  const { languages, profiles } = listed.value;
+  const chosen = languages.find((l) => l.language === language.value);
+  const title = (p: Profile) => languages.find((l) => l.language === p.language)?.title ?? p.language;
+
+  const send = async (what: string, how: () => Promise<unknown>, good: string) => {
+    told.value = { tone: 'busy', text: what };
+    try {
+      await how();
+      told.value = { tone: 'good', text: good };
+      await load();
+      return true;
+    } catch (error) {
+      told.value = { tone: 'refused', text: asProblem(error).words };
+      return false;
+    }
+  };
+  const add = async () => {
+    const taken = new Map<number, string>([...[...mapped].map((u) => [u, 'mappings'] as const), ...profiles.map((p) => [p.unit, `the profile ${title(p)}`] as const)]);
+    const read = readProfile({ unit: unit.value, language: language.value, axes: axes.value, counts: counts.value, velocity: velocity.value, acceleration: acceleration.value }, languages, taken);
+    faults.value = 'faults' in read ? read.faults : {};
+    if ('faults' in read) {
+      told.value = { tone: 'refused', text: 'Mend the fields that are marked.' };
+      return;
+    }
+    if (await send('Adding …', () => door.put(read.unit, read.entry), `Unit ${read.unit} speaks ${chosen?.title} now.`)) unit.value = '';
+  };
+  const place = (i: number, value: string) => {
+    const next = axes.value.map((a, k) => (k === i ? value : a)).filter((a, k) => a !== '' || k === 0);
+    axes.value = (chosen?.axes ?? 1) > next.length && next.at(-1) !== '' ? [...next, ''] : next;
+  };
+  return (
+    <Section title="Profiles: another device's registers" class="profiles">
+      <p class="where">A unit of its own speaks the registers that a machine's program was written for, whatever drive is behind.</p>
+      {profiles.map((p) => (
+        <details key={p.unit} class="card profile" data-profile={p.unit}>
+          <summary>
+            Unit {p.unit}: <strong>{title(p)}</strong> in front of {profileWords(p)}
+          </summary>
+          <RegisterList profile={p} listed={listed.value!} />
+          <div class="form-foot">
+            {asking.value === p.unit ? (
+              <Ask
+                words={`Take the profile of unit ${p.unit} away? Clients of this unit are refused from then on.`}
+                yes="Take it away"
+                field="profile-ask"
+                onYes={() => {
+                  asking.value = null;
+                  void send('Removing …', () => door.remove(p.unit), `Unit ${p.unit} has no profile now.`);
+                }}
+                onNo={() => (asking.value = null)}
+              />
+            ) : (
+              <button type="button" class="button" {...no} onClick={() => (asking.value = p.unit)}>
+                Take it away
+              </button>
+            )}
+          </div>
+        </details>
+      ))}
+      <form
+        class="card form"
+        noValidate
+        aria-label="Add a profile"
+        onSubmit={(e) => {
+          e.preventDefault();
+          if (!no.disabled) void add();
+        }}
+      >
+        <div class="form-grid">
+          <TextField label="Unit ID" number value={unit.value} onText={(t) => (unit.value = t)} fault={faults.value.unit} hint="2 to 254, without mappings" />
+          <Choice
+            label="Speaks"
+            value={language.value}
+            onChoice={(v) => {
+              language.value = v;
+              axes.value = axes.value.slice(0, 1);
+            }}
+            choices={languages.map((l) => ({ value: l.language, text: l.title }))}
+            fault={faults.value.language}
+            hint={chosen?.description}
+          />
+          {axes.value.map((a, i) => (
+            <Choice
+              key={i}
+              label={(chosen?.axes ?? 1) > 1 ? `Axis ${i + 1}` : 'Axis'}
+              value={a}
+              onChoice={(v) => place(i, v)}
+              choices={[{ value: '', text: i === 0 ? 'choose' : 'none' }, ...store.axisNames.value.map((n) => ({ value: n, text: named(n) }))]}
+              fault={i === 0 ? faults.value.axes : undefined}
+            />
+          ))}
+          <TextField label="Counts per unit" number value={counts.value} onText={(t) => (counts.value = t)} fault={faults.value.counts} hint="of the program, for one unit of the axis; empty: as the language has it" />
+          <TextField label="Full speed" number value={velocity.value} onText={(t) => (velocity.value = t)} fault={faults.value.velocity} hint="units/s; empty: the axis' limit" />
+          <TextField label="Full acceleration" number value={acceleration.value} onText={(t) => (acceleration.value = t)} fault={faults.value.acceleration} hint="units/s²; empty: the axis' limit" />
+        </div>
+        <div class="form-foot">
+          <button type="submit" class="button primary" {...no}>
+            Add the profile
+          </button>
+          <Tell told={told.value} field="profile-told" />
+        </div>
+      </form>
+    </Section>
+  );
+}
+
+function RegisterList({ profile, listed }: { profile: Profile; listed: Listed }) {
+  const page = listed.languages.find((l) => l.language === profile.language);
+  const base = addressBase();
+  const rows = useMemo(() => (page ? registerRows(page, profile.axes.length, base) : []), [page, profile.axes.length, base]);
+  return (
+    <div class="table-scroll" tabIndex={0} role="region" aria-label={`Registers of unit ${profile.unit}`}>
+      <table class="table profile-registers">
+        <thead>
+          <tr>
+            <th scope="col">Register</th>
+            <th scope="col">Name</th>
+            <th scope="col">Type</th>
+            <th scope="col">Access</th>
+            <th scope="col">What it is</th>
+          </tr>
+        </thead>
+        <tbody>
+          {rows.map((r) => (
+            <tr key={r.key}>
+              <td class="mono">{r.where}</td>
+              <th scope="row">{r.name}</th>
+              <td class="mono">{r.type}</td>
+              <td>{r.access}</td>
+              <td>{r.text}</td>
+            </tr>
+          ))}
+        </tbody>
+      </table>
+    </div>
+  );
+}

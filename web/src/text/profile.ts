@@ -1,0 +1,81 @@
+// Profile texts: what a person types into the form of a profile, as an entry of the site, or what is wrong with it. In: texts. Out: an entry, or
+// faults by field; the registers of a language as rows to read. Pure.
+import type { Language, LanguageRegister, Profile, ProfileEntry } from '../api/profiles';
+import { addressText, type Base } from './address';
+import { parseNumber } from './number';
+
+export interface ProfileDraft {
+  unit: string;
+  language: string;
+  axes: readonly string[];
+  counts: string;
+  velocity: string;
+  acceleration: string;
+}
+export type ProfileFaults = Partial<Record<keyof ProfileDraft, string>>;
+
+const above = (text: string): number | null | 'wrong' => {
+  if (text.trim() === '') return null;
+  const p = parseNumber(text);
+  return p.good && p.value > 0 ? p.value : 'wrong';
+};
+
+/** `taken`: units that have mappings, or a profile of another one. */
+export function readProfile(d: ProfileDraft, languages: readonly Language[], taken: ReadonlyMap<number, string>): { unit: number; entry: ProfileEntry } | { faults: ProfileFaults } {
+  const faults: ProfileFaults = {};
+  const unit = parseNumber(d.unit);
+  const n = unit.good && Number.isInteger(unit.value) && unit.value >= 2 && unit.value <= 254 ? unit.value : null;
+  if (n === null) faults.unit = 'A whole number from 2 to 254.';
+  else if (taken.has(n)) faults.unit = `Unit ${n} has ${taken.get(n)}.`;
+  const language = languages.find((l) => l.language === d.language);
+  if (!language) faults.language = 'Choose a language.';
+  const axes = d.axes.filter((a) => a !== '');
+  if (axes.length === 0) faults.axes = 'Choose an axis.';
+  else if (language && axes.length > language.axes) faults.axes = language.axes === 1 ? `${language.title} has one axis.` : `${language.title} has at most ${language.axes} axes.`;
+  else if (new Set(axes).size < axes.length) faults.axes = 'Each axis once.';
+  const numbers = { counts: above(d.counts), velocity: above(d.velocity), acceleration: above(d.acceleration) };
+  for (const k of ['counts', 'velocity', 'acceleration'] as const) if (numbers[k] === 'wrong') faults[k] = 'A number above 0, or nothing.';
+  if (Object.keys(faults).length > 0 || n === null || !language) return { faults };
+  const number = (v: number | null | 'wrong') => (typeof v === 'number' ? v : undefined);
+  const more = { counts_per_unit: number(numbers.counts), velocity: number(numbers.velocity), acceleration: number(numbers.acceleration) };
+  const given = Object.fromEntries(Object.entries(more).filter(([, v]) => v !== undefined));
+  return { unit: n, entry: { language: language.language, axes: axes.map((axis) => ({ axis, ...given })) } };
+}
+
+/** Counts, speed and ramp of the axes, where the entry says them. */
+export function profileWords(p: Profile): string {
+  return p.axes
+    .map((a) => {
+      const more = [a.counts_per_unit != null && `${a.counts_per_unit} counts per unit`, a.velocity != null && `${a.velocity} units/s`, a.acceleration != null && `${a.acceleration} units/s²`].filter(Boolean);
+      return more.length > 0 ? `${a.axis} (${more.join(', ')})` : a.axis;
+    })
+    .join(', ');
+}
+
+const accessWords = { R: 'read', W: 'write', RW: 'read and write' } as const;
+export interface RegisterRow {
+  key: string;
+  where: string;
+  name: string;
+  type: string;
+  access: string;
+  text: string;
+}
+/** The registers of a language that a profile of so many axes has. */
+export function registerRows(language: Language, axes: number, base: Base): RegisterRow[] {
+  const width = (r: LanguageRegister) => (r.type === 'u16' || r.type === 'i16' ? 1 : 2);
+  return language.registers
+    .filter((r) => (r.axis ?? 0) <= axes)
+    .map((r) => {
+      const table = r.tables[0] ?? 'holding_registers';
+      const from = addressText(table, r.address, base);
+      return {
+        key: `${table}${r.address}`,
+        where: width(r) === 1 ? from : `${from}, ${addressText(table, r.address + 1, base)}`,
+        name: r.name,
+        type: r.type,
+        access: `${accessWords[r.access]}${r.tables.length === 1 && table === 'input_registers' ? ', input register' : ''}`,
+        text: r.description,
+      };
+    });
+}

@@ -109,6 +109,13 @@ int Service::open_store() {
         complain(reader.error().text);
         return exit_failed;
     }
+    families.descriptions = std::make_shared<DescriptionShelf>();
+    std::string unread;
+    fill_shelf(**reader, *families.descriptions, unread);
+    if (!unread.empty()) {
+        complain(unread);
+        return exit_failed;
+    }
     HotSettings hs;
     hs.spin_us = options.config.spin_us;
     hs.cpu = static_cast<int>(options.config.hot_cpu);

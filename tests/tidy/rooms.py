@@ -28,7 +28,7 @@ ROOMS = {
     "drive": ("core",),
     "engine": ("core", "site", "axis", "wire"),
     "registers": ("core", "site", "axis", "engine/door.hpp"),
-    "services": ("core", "site", "axis", "registers", "engine"),
+    "services": ("core", "site", "axis", "registers", "engine", "protocols/canopen"),
     "lines": ("core", "wire"),
     "store": ("core", "site"),
     "doors/modbus": ("core", "site", "axis", "registers", "engine"),

@@ -54,7 +54,8 @@ Response ConnectionManager::forward_open(View data, bool large, Context& context
     answer = open_one(request, context);
     if (answer.good()) return answer;
     const auto why = static_cast<Extended>(answer.extended.empty() ? 0 : answer.extended.front());
-    (why == Extended::out_of_connections ? counters_.open_resource : counters_.open_other).add();
+    const bool full = why == Extended::out_of_connections || why == Extended::object_out_of_connections;
+    (full ? counters_.open_resource : counters_.open_other).add();
     return refuse_open(request.triad, std::move(answer));
 }
 

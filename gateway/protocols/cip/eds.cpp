@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <bit>
+#include <cmath>
 #include <iterator>
 
 #include "gateway/protocols/cip/path.hpp"
@@ -45,8 +46,10 @@ std::string number_of(const Bytes& bytes, DataType type) {
     for (std::size_t i = bytes.size(); i-- > 0;)
         raw = raw << 8 | bytes[i];
     if (bytes.empty()) return {};
-    if (type == DataType::real) return fmt::format("{}", std::bit_cast<float>(static_cast<std::uint32_t>(raw)));
-    if (type == DataType::lreal) return fmt::format("{}", std::bit_cast<double>(raw));
+    // What is no number has no form in a sheet.
+    const auto finite = [](auto n) { return std::isfinite(n) ? fmt::format("{}", n) : std::string(); };
+    if (type == DataType::real) return finite(std::bit_cast<float>(static_cast<std::uint32_t>(raw)));
+    if (type == DataType::lreal) return finite(std::bit_cast<double>(raw));
     const bool is_signed = type == DataType::sint || type == DataType::int16 || type == DataType::dint || type == DataType::lint;
     const unsigned shift = 64 - 8 * static_cast<unsigned>(bytes.size());
     return is_signed ? fmt::format("{}", static_cast<std::int64_t>(raw << shift) >> shift) : fmt::format("{}", raw);

@@ -5,7 +5,7 @@ import { useEffect, useMemo } from 'preact/hooks';
 import { asProblem } from '../api/problem';
 import { FailSafeDoor, type FailSafeRow, type Matrix, type Rehearsal } from '../api/fail-safe';
 import { useGateway } from '../gateway';
-import { actionChoices, causeText, cellRow, changed, namedWords } from '../text/fail-safe';
+import { actionChoices, causeHint, causeText, cellRow, changed, namedWords } from '../text/fail-safe';
 import { clockTime } from '../text/time';
 import { Choice, notOffered, quiet, Tell, type Told } from './form';
 import { useBarred } from './gate';
@@ -49,7 +49,7 @@ export function FailSafe({ revision }: { revision: unknown }) {
           </summary>
           <div class="form-grid">
             {causes.map((c) => (
-              <Choice key={c.cause} label={causeText(c.cause)} value={row.fail_safe[c.cause] ?? ''} choices={actionChoices(c)} disabled={Boolean(no.disabled)} onChoice={(v) => void put(row, c.cause, v)} hint={c.description} />
+              <Choice key={c.cause} label={causeText(c.cause)} value={row.fail_safe[c.cause] ?? ''} choices={actionChoices(c)} disabled={Boolean(no.disabled)} onChoice={(v) => void put(row, c.cause, v)} hint={causeHint(c)} />
             ))}
           </div>
           <p class="where">Modbus clients count as silent after {row.watchdog_ms_in_force === 0 ? 'no time at all: they are not watched' : `${row.watchdog_ms_in_force} ms`}.</p>
@@ -106,10 +106,10 @@ function RehearsalPart({ door }: { door: FailSafeDoor }) {
                   <th scope="col">Axis</th>
                   <th scope="col">Cause</th>
                   <th scope="col">Action</th>
-                  <th scope="col">Gateway acted</th>
-                  <th scope="col">Motor slower</th>
-                  <th scope="col">Stood</th>
-                  <th scope="col">Way</th>
+                  <th scope="col" class="num">Gateway acted</th>
+                  <th scope="col" class="num">Motor slower</th>
+                  <th scope="col" class="num">Stood</th>
+                  <th scope="col" class="num">Way</th>
                 </tr>
               </thead>
               <tbody>

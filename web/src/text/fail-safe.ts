@@ -18,9 +18,15 @@ const actions: Record<Action, string> = { nothing: 'Nothing', halt: 'Halt', quic
 export const causeText = (cause: string): string => causes[cause as Cause] ?? cause.replaceAll('_', ' ');
 export const actionText = (action: Action): string => actions[action];
 export const actionChoices = (cause: Matrix['causes'][number]) => [
-  { value: '', text: cause.default_endless === cause.default_to_a_target ? `as by default: ${actionText(cause.default_endless).toLowerCase()}` : `as by default: ${actionText(cause.default_endless).toLowerCase()} of an endless motion` },
+  { value: '', text: `default: ${actionText(cause.default_endless).toLowerCase()}` },
   ...(Object.keys(actions) as Action[]).map((a) => ({ value: a as string, text: actionText(a) })),
 ];
+
+/** What stands below a cause: when it is, and what its default spares. */
+export function causeHint(cause: Matrix['causes'][number]): string {
+  const when = cause.description.replace('watchdog_ms', 'the time below');
+  return cause.default_endless === cause.default_to_a_target ? when : `${when}. By default a motion to a target goes on.`;
+}
 
 /** What an axis has named, in one line. */
 export function namedWords(row: FailSafeRow): string {

@@ -33,6 +33,7 @@ ROOMS = {
     "store": ("core", "site"),
     "doors/modbus": ("core", "site", "axis", "registers", "engine"),
     "doors/enip": ("core", "site", "axis", "registers", "engine", "protocols/cip"),
+    "doors/dds": ("core", "site", "axis", "services"),
     "doors/http": ("core", "site", "axis", "registers", "services", "engine", "wire"),
 }
 PURE = ("core", "site", "wire", "axis", "protocols/canopen", "protocols/cip", "drive", "engine", "registers", "services", "adapter", "twin")

@@ -1,7 +1,8 @@
 // The page of an axis: parameters with their range, the native console, the twin's hand, the state machine, the scope.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { becomes, launch, open, shot, until } from './lib/browser.mjs';
+import { join } from 'node:path';
+import { artefacts, becomes, launch, open, shot, until } from './lib/browser.mjs';
 import { Program, isMock } from './lib/program.mjs';
 
 let program, browser, page, list;
@@ -156,9 +157,29 @@ test('each tab has an address, a heading and a way back', async () => {
   await page.locator('.scope canvas').waitFor();
 });
 
+test('every state in the drawing stands whole inside its box, also where the mark of the present one is', async () => {
+  for (const width of [320, 390, 1440]) {
+    const other = await open(browser, `${program.url}/axes/feeder`, { viewport: { width, height: 844 } });
+    await other.locator('.machine .node.is-now').waitFor();
+    const wrong = await other.evaluate(() => {
+      const svg = document.querySelector('.machine svg').viewBox.baseVal;
+      return [...document.querySelectorAll('.machine .node')].flatMap((node) => {
+        const [box, text] = [node.querySelector('rect').getBBox(), node.querySelector('text').getBBox()];
+        const at = node.transform.baseVal.consolidate().matrix.e;
+        const free = box.x + box.width - (text.x + text.width);
+        const word = node.textContent.trim();
+        return [...(text.x < 18 || free < 4 ? [`${word}: begins at ${text.x}, ${free} free`] : []), ...(at < 0 || at + box.width > svg.width ? [`${word} is outside`] : [])];
+      });
+    });
+    assert.deepEqual(wrong, [], `${width} px`);
+    await other.locator('.machine').screenshot({ path: join(artefacts, `machine-${width}.png`) });
+    await other.context().close();
+  }
+});
+
 test('on a phone no tab is higher than three screens', async () => {
   const phone = await open(browser, program.url, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
-  for (const [path, ready] of [['/axes/feeder', '.machine'], ['/axes/feeder/scope', '.scope canvas'], ['/axes/feeder/drive', '[data-part=actions]'], ['/axes/feeder/simulation', '[data-hand]'], ['/axes/feeder/events', '.event']]) {
+  for (const [path, ready] of [['/axes/feeder', '.machine'], ['/axes/feeder/scope', '.scope canvas'], ['/axes/feeder/parameters', 'tr[data-parameter]'], ['/axes/feeder/drive', '[data-part=actions]'], ['/axes/feeder/simulation', '[data-hand]'], ['/axes/feeder/events', '.event']]) {
     await phone.goto(program.url + path);
     await phone.locator(ready).first().waitFor();
     const height = await phone.evaluate(() => document.querySelector('main').getBoundingClientRect().height);

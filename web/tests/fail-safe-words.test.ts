@@ -1,7 +1,7 @@
 // Fail-safe in words: causes, what an axis has named, one change, the cells of a rehearsal. All pure.
 import { describe, expect, it } from 'vitest';
 import type { Cell, FailSafeRow } from '../src/api/fail-safe';
-import { actionChoices, causeHint, causeText, cellRow, changed, namedWords } from '../src/text/fail-safe';
+import { actionChoices, causeHint, causeText, cellRow, changed, namedWords, readWatchdog } from '../src/text/fail-safe';
 
 const row = (fail_safe: FailSafeRow['fail_safe']): FailSafeRow => ({ axis: 'feeder', fail_safe, watchdog_ms_in_force: 5000, last_cause: null });
 const cell: Cell = { axis: 'feeder', cause: 'modbus_closed', chosen: null, taken: 'halt', motion: 'velocity', speed: 10, noticed_ms: 0.12, reaction_ms: 14.6, standstill_ms: 105, watched_ms: 2000, travel: 1.23456, text: '' };
@@ -25,6 +25,10 @@ describe('words', () => {
   it('changes one member and leaves the others', () => {
     expect(changed(row({ modbus_closed: 'halt', line_lost: 'disable' }), 'modbus_closed', '')).toEqual({ modbus_closed: null, line_lost: 'disable' });
     expect(changed(row({}), 'line_lost', 'halt')).toEqual({ line_lost: 'halt' });
+  });
+  it('reads the time of a silent client: a number, the default, or why not', () => {
+    expect([readWatchdog(' 800 '), readWatchdog('0'), readWatchdog('')].map((r) => r.good && r.value)).toEqual([800, 0, null]);
+    for (const wrong of ['-1', '1.5', '1e3', 'soon', '600001']) expect(readWatchdog(wrong).good).toBe(false);
   });
   it('shows a cell, and says where it has no figure', () => {
     expect(cellRow(cell, 'mm')).toMatchObject({ action: 'Halt, by default', acted: '0.1 ms', slower: '15 ms', stood: '105 ms', way: '1.235 mm' });

@@ -8,7 +8,7 @@ import { naturalType, valueUnit } from '../src/text/mapping-type';
 import type { Known } from '../src/text/mapping';
 import { pendingWords, sizeWords } from '../src/text/site-files';
 import { axisChoice, foreignWords, snapshotChoice, snapshotWords } from '../src/text/snapshot';
-import { clockTime } from '../src/text/time';
+import { clockTime, dateTime } from '../src/text/time';
 
 const at = '2026-03-01T10:11:12Z';
 const titles = new Map([['uim342', 'UIROBOT UIM342']]);
@@ -74,3 +74,9 @@ it.each([
   [[], '0.0.0.0:502', 'everywhere'], [['10.0.0.0/8', '::1'], '0.0.0.0:502', '10.0.0.0/8, ::1'], [[], '127.0.0.1:1502', 'this machine alone: the door listens at 127.0.0.1:1502'],
   [[], '[::1]:502', 'this machine alone: the door listens at [::1]:502'], [['10.0.0.0/8'], '127.0.0.1:502', 'this machine alone: the door listens at 127.0.0.1:502'], [[], '[::]:502', 'everywhere'],
 ])('allowed %j at %s: %s', (allow, bind, words) => expect(allowedWords(allow, bind)).toBe(words));
+
+it('says the day of what is kept, also of today', () => {
+  const now = new Date();
+  expect(clockTime(now.toISOString(), now)).toMatch(/^\d\d:\d\d:\d\d$/);
+  expect(dateTime(now.toISOString())).toMatch(new RegExp(`^${now.getFullYear()}-\\d\\d-\\d\\d \\d\\d:\\d\\d:\\d\\d$`));
+});

@@ -3,16 +3,24 @@
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
 import { asProblem } from '../api/problem';
-import { FailSafeDoor, type FailSafeRow, type Matrix, type Rehearsal } from '../api/fail-safe';
+import { FailSafeDoor, type Choice as Wish, type FailSafeRow, type Matrix, type Rehearsal } from '../api/fail-safe';
 import { useGateway } from '../gateway';
-import { actionChoices, causeHint, causeText, cellRow, changed, namedWords } from '../text/fail-safe';
-import { clockTime } from '../text/time';
-import { Choice, notOffered, quiet, Tell, type Told } from './form';
+import { actionChoices, causeHint, causeText, cellRow, changed, namedWords, readWatchdog } from '../text/fail-safe';
+import { dateTime } from '../text/time';
+import { Choice, notOffered, quiet, Tell, TextField, type Told } from './form';
 import { useBarred } from './gate';
 import { useLoaded } from './loaded';
 import { Section } from './section';
 
 const look_ms = 1_000;
+
+/** The report alone on paper; the mark goes when the browser has done. */
+function printReport() {
+  const root = document.documentElement;
+  addEventListener('afterprint', () => delete root.dataset.print, { once: true });
+  root.dataset.print = 'rehearsal';
+  print();
+}
 
 export function FailSafe({ revision }: { revision: unknown }) {
   const { client } = useGateway();
@@ -24,12 +32,12 @@ export function FailSafe({ revision }: { revision: unknown }) {
   const why = useLoaded(load, [door, revision], (p) => (p.status === 404 ? notOffered('fail-safe actions') : p.words));
   if (!matrix.value) return why ? <Section title="When who commands is lost">{<p class="where">{why}</p>}</Section> : null;
   const { causes, axes } = matrix.value;
-  const put = async (row: FailSafeRow, cause: Matrix['causes'][number]['cause'], action: string) => {
+  const put = async (row: FailSafeRow, choice: Wish, what: string) => {
     told.value = { tone: 'busy', text: 'Changing …' };
     try {
-      await door.put(row.axis, changed(row, cause, action));
+      await door.put(row.axis, choice);
       await load();
-      told.value = { tone: 'good', text: `${row.axis}: ${causeText(cause)} is in force as chosen.` };
+      told.value = { tone: 'good', text: `${row.axis}: ${what} is in force as chosen.` };
     } catch (error) {
       told.value = { tone: 'refused', text: asProblem(error).words };
     }
@@ -49,14 +57,52 @@ export function FailSafe({ revision }: { revision: unknown }) {
           </summary>
           <div class="form-grid">
             {causes.map((c) => (
-              <Choice key={c.cause} label={causeText(c.cause)} value={row.fail_safe[c.cause] ?? ''} choices={actionChoices(c)} disabled={Boolean(no.disabled)} onChoice={(v) => void put(row, c.cause, v)} hint={causeHint(c)} />
+              <Choice key={c.cause} label={causeText(c.cause)} value={row.fail_safe[c.cause] ?? ''} choices={actionChoices(c)} disabled={Boolean(no.disabled)} onChoice={(v) => void put(row, changed(row, c.cause, v), causeText(c.cause))} hint={causeHint(c)} />
             ))}
           </div>
-          <p class="where">Modbus clients count as silent after {row.watchdog_ms_in_force === 0 ? 'no time at all: they are not watched' : `${row.watchdog_ms_in_force} ms`}.</p>
+          <Watchdog row={row} put={(value) => void put(row, { ...row.fail_safe, watchdog_ms: value }, 'the time of a silent Modbus client')} />
         </details>
       ))}
       <RehearsalPart door={door} />
     </Section>
+  );
+}
+
+/** How long a Modbus client of this axis may ask nothing. */
+function Watchdog({ row, put }: { row: FailSafeRow; put: (value: number | null) => void }) {
+  const no = useBarred('engineer');
+  const typed = useSignal<string | null>(null);
+  const read = readWatchdog(typed.value ?? '');
+  const own = row.fail_safe.watchdog_ms ?? null;
+  const inForce = row.watchdog_ms_in_force;
+  return (
+    <form
+      class="form-grid"
+      noValidate
+      aria-label={`Silent Modbus client of ${row.axis}`}
+      onSubmit={(e) => {
+        e.preventDefault();
+        if (typed.value === null || !read.good) return;
+        put(read.value);
+        typed.value = null;
+      }}
+    >
+      <TextField
+        label="Silent after, ms"
+        number
+        disabled={Boolean(no.disabled)}
+        value={typed.value ?? (own === null ? '' : String(own))}
+        placeholder={`default: ${inForce}`}
+        onText={(t) => (typed.value = t)}
+        fault={read.good ? undefined : read.why}
+        hint={inForce === 0 ? 'Modbus clients are not watched now.' : `In force: ${inForce} ms. 0: never; empty: as the gateway is set.`}
+      />
+      <div class="form-foot">
+        <button type="submit" class="button" disabled={Boolean(no.disabled) || typed.value === null || !read.good} title={no.title}>
+          Set
+        </button>
+      </div>
+    </form>
   );
 }
 
@@ -91,12 +137,18 @@ function RehearsalPart({ door }: { door: FailSafeDoor }) {
         <span class="where" role="status" data-field="rehearsal-state">
           {running ? `Playing ${now.value!.done} of ${now.value!.total} …` : 'Plays every cause for every axis on models of the drives, and measures. No machine moves.'}
         </span>
+        {report && (
+          <button type="button" class="button" onClick={printReport}>
+            Print the report
+          </button>
+        )}
         <Tell told={told.value} field="rehearsal-told" />
       </div>
       {report && (
         <>
+          <h3 class="print-only">Fail-safe rehearsal</h3>
           <p data-field="rehearsal-report">
-            Rehearsed {clockTime(report.ended_at)} by {report.who}, revision {report.site_revision} of the site, on {report.on}. {report.cells.length} cells
+            Rehearsed {dateTime(report.ended_at)} by {report.who}, revision {report.site_revision} of the site, on {report.on}. {report.cells.length} cells
             {report.without_figures > 0 ? `, ${report.without_figures} without figures` : ''}.{report.without_set_points.length > 0 && ` Follow no streamed set-points: ${report.without_set_points.join(', ')}.`}
           </p>
           <div class="table-scroll" tabIndex={0} role="region" aria-label="Report of the rehearsal">

@@ -5,18 +5,22 @@ import type { Axis, AxisStateName } from '../api/types';
 import type { Trust } from '../state/store';
 import { controlBits, hex, stateName, statusBits } from '../text/axis';
 
-const width = 140;
+const width = 150;
 const height = 32;
+/** Where the right column begins. */
+const far = 181;
+/** Every text begins behind the place of the mark, so that the longest fits whether its state is the present one or not. */
+const indent = 20;
 interface Place { x: number; y: number; text: string }
 const places: Record<AxisStateName, Place> = {
-  not_ready_to_switch_on: { x: 8, y: 8, text: 'Not ready' },
-  switch_on_disabled: { x: 8, y: 66, text: 'Switch on disabled' },
-  ready_to_switch_on: { x: 8, y: 124, text: 'Ready to switch on' },
-  switched_on: { x: 8, y: 182, text: 'Switched on' },
-  operation_enabled: { x: 8, y: 240, text: 'Operation enabled' },
-  quick_stop_active: { x: 192, y: 240, text: 'Quick stop active' },
-  fault_reaction_active: { x: 192, y: 124, text: 'Fault reaction' },
-  fault: { x: 192, y: 66, text: 'Fault' },
+  not_ready_to_switch_on: { x: 1, y: 8, text: 'Not ready' },
+  switch_on_disabled: { x: 1, y: 66, text: 'Switch on disabled' },
+  ready_to_switch_on: { x: 1, y: 124, text: 'Ready to switch on' },
+  switched_on: { x: 1, y: 182, text: 'Switched on' },
+  operation_enabled: { x: 1, y: 240, text: 'Operation enabled' },
+  quick_stop_active: { x: far, y: 240, text: 'Quick stop active' },
+  fault_reaction_active: { x: far, y: 124, text: 'Fault reaction' },
+  fault: { x: far, y: 66, text: 'Fault' },
 };
 const mid = (s: AxisStateName) => ({ x: places[s].x + width / 2, y: places[s].y + height / 2 });
 
@@ -28,10 +32,10 @@ export function StateMachine({ axis, trust }: { axis: Axis; trust: Trust }) {
   const live = trust === 'live' || trust === 'stale';
   const now = live ? axis.state : null;
   const x = mid('ready_to_switch_on').x;
-  const right = 8 + width;
+  const right = 1 + width;
   return (
     <figure class="machine card">
-      <svg viewBox="0 0 340 280" role="img" aria-label={now ? `Present state: ${stateName(now)}` : 'The present state is not known'}>
+      <svg viewBox="0 0 332 280" role="img" aria-label={now ? `Present state: ${stateName(now)}` : 'The present state is not known'}>
         <defs>
           <marker id="arrow" viewBox="0 0 8 8" refX="7" refY="4" markerWidth="7" markerHeight="7" orient="auto-start-reverse">
             <path d="M0 0.5L7 4L0 7.5z" class="edge-head" />
@@ -44,16 +48,16 @@ export function StateMachine({ axis, trust }: { axis: Axis; trust: Trust }) {
         <Arrow d={`M${x + 16} 182V157`} />
         <Arrow d={`M${x - 16} 214V239`} />
         <Arrow d={`M${x + 16} 240V215`} />
-        <Arrow d={`M${right} 250H191`} />
-        <Arrow d={`M192 262H${right + 1}`} />
-        <Arrow d={`M${right} 244L212 157`} />
+        <Arrow d={`M${right} 250H${far - 1}`} />
+        <Arrow d={`M${far} 262H${right + 1}`} />
+        <Arrow d={`M${right} 244L${far + 20} 157`} />
         <Arrow d={`M${mid('fault').x} 124V99`} />
-        <Arrow d={`M192 82H${right + 1}`} />
+        <Arrow d={`M${far} 82H${right + 1}`} />
         {(Object.keys(places) as AxisStateName[]).map((s) => (
           <g key={s} class={`node${s === now ? ' is-now' : ''}${s.startsWith('fault') ? ' is-fault' : ''}`} transform={`translate(${places[s].x} ${places[s].y})`}>
             <rect width={width} height={height} rx="6" />
-            {s === now && <circle cx="14" cy={height / 2} r="4" />}
-            <text x={s === now ? 24 : 12} y={height / 2 + 4}>
+            {s === now && <circle cx="11" cy={height / 2} r="4" />}
+            <text x={indent} y={height / 2 + 4}>
               {places[s].text}
             </text>
           </g>

@@ -41,6 +41,14 @@ export function namedWords(row: FailSafeRow): string {
 /** The choice with one member changed, as PUT takes it: null is the default. */
 export const changed = (row: FailSafeRow, cause: Cause, action: string): Choice => ({ ...row.fail_safe, [cause]: action === '' ? null : (action as Action) });
 
+/** What is typed for the silence of a Modbus client: a whole number of ms, null (the gateway's own) for nothing typed, or why it is none. */
+export function readWatchdog(text: string): { good: true; value: number | null } | { good: false; why: string } {
+  const t = text.trim();
+  if (t === '') return { good: true, value: null };
+  const n = Number(t);
+  return /^\d+$/.test(t) && n <= 600_000 ? { good: true, value: n } : { good: false, why: 'A whole number of ms from 0 (never) to 600000; empty: as the gateway is set.' };
+}
+
 const ms = (n: number | null): string => (n === null ? '' : n < 10 ? `${n.toFixed(1)} ms` : `${Math.round(n)} ms`);
 export interface CellRow {
   key: string;

@@ -12,6 +12,9 @@ export function duration(ms: number): string {
 
 const pad = (n: number) => String(n).padStart(2, '0');
 
+/** "2026-01-02 14:03:27", today as well: for what is printed and kept. */
+export const dateTime = (iso: string): string => clockTime(iso, new Date(0));
+
 /** "14:03:27" today, "2026-01-02 14:03:27" on other days; local time. */
 export function clockTime(iso: string, now = new Date()): string {
   const d = new Date(iso);

@@ -115,6 +115,21 @@ function(axisgate_room name folder)
   add_library(axisgate::${name} ALIAS axisgate_${name})
 endfunction()
 
+# axisgate_idl(TARGET FILE.idl): the C types of a DDS description, made by Cyclone's idlc; its header is a system header, so that nobody's
+# warnings but its own maker's are asked of it.
+function(axisgate_idl target file)
+  find_program(IDLC idlc REQUIRED)
+  get_filename_component(name ${file} NAME_WE)
+  set(dir ${PROJECT_BINARY_DIR}/generated/idl)
+  file(MAKE_DIRECTORY ${dir})
+  add_custom_command(OUTPUT ${dir}/${name}.c ${dir}/${name}.h COMMAND ${IDLC} -o ${dir} ${PROJECT_SOURCE_DIR}/${file}
+    DEPENDS ${PROJECT_SOURCE_DIR}/${file} VERBATIM)
+  add_library(${target} STATIC ${dir}/${name}.c ${dir}/${name}.h)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)
+  target_include_directories(${target} SYSTEM PUBLIC ${dir})
+  target_link_libraries(${target} PUBLIC CycloneDDS::ddsc)
+endfunction()
+
 # One family per folder that has a family.cpp. Two targets each: the twin does not link the adapter's packing code.
 # NOT_SHIPPED: families that the suites have (axisgate::families_tested) and the program has not (axisgate::families).
 function(axisgate_families)
@@ -267,6 +282,10 @@ function(axisgate_test_suites)
   axisgate_test_program(test_modbus tests/unit/modbus LINKS axisgate::door_modbus)
   axisgate_test_program(test_registers tests/unit/registers LINKS axisgate::door_modbus axisgate_assets)  # asked as a client of the Modbus door asks
   axisgate_test_program(test_enip tests/unit/enip LINKS axisgate::door_enip)
+  axisgate_test_program(test_dds tests/unit/dds LINKS axisgate::door_dds)
+  if(TARGET test_dds)
+    target_sources(test_dds PRIVATE tests/unit/http/fake_gateway.cpp)  # the ports' doubles
+  endif()
   axisgate_test_program(test_http tests/unit/http LINKS axisgate::door_http axisgate_assets)
   axisgate_test_program(test_runtime tests/unit/runtime LINKS axisgate::runtime axisgate_assets)
   target_sources(test_runtime PRIVATE tests/unit/store/fault_vfs.cpp)  # the disk that fails

@@ -26,7 +26,8 @@ Drive::Drive(Line& line, const DriveSetup& setup, std::size_t slot)
       notices_(setup.id),
       // An answer waits for the SYNC's PDOs of all nodes in the worst case.
       sdo_(node_, {.patience = line.timing.reply_timeout + 64 * wire_time(140, line.bit_rate)}),
-      heartbeat_(node_) {
+      heartbeat_(node_),
+      expected_(expected_identity(catalogue())) {
     drive::OptionReader options(setup_.options);
     keep_quick_stop_ = options.flag("quick_stop_stays", true, "yes", "no");
     heartbeat_period_ = options.milliseconds("heartbeat_ms", 0, 60'000, heartbeat_period_);

@@ -7,6 +7,7 @@
 #include <array>
 #include <optional>
 
+#include "adapters/cia402/parameters.hpp"
 #include "adapters/cia402/wire.hpp"
 #include "gateway/core/wire_time.hpp"
 #include "gateway/drive/command_queue.hpp"
@@ -156,6 +157,8 @@ private:
     std::vector<Step> start_;
     std::size_t start_at_ = 0;
     std::string identity_;
+    ExpectedIdentity expected_;  ///< of the description, if the site names one
+    Identity told_;
 
     AxisFeedback fb_;
     std::uint16_t cw_ = 0;  ///< as the drive has it

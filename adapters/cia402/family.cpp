@@ -2,6 +2,7 @@
 // In: a catalogue, a line, an address. Out: adapter, twin, decoder. Never decides anything about a drive.
 #include "adapters/cia402/adapter.hpp"
 #include "adapters/cia402/decoder.hpp"
+#include "adapters/cia402/parameters.hpp"
 #include "adapters/cia402/twin/twin.hpp"
 
 namespace axisgate {
@@ -32,7 +33,10 @@ const Family& family_cia402() {
     static const Family family{
         "cia402",
         [](const Catalogue& c, LineKind) -> std::unique_ptr<Adapter> { return std::make_unique<cia402_drive::LineAdapter>(c); },
-        [](const Catalogue&, const TwinSetup& setup) -> std::unique_ptr<Twin> { return cia402_drive::twin::make_twin(setup); },
+        [](const Catalogue& c, const TwinSetup& setup) -> std::unique_ptr<Twin> {
+            const auto described = cia402_drive::description_of(c);
+            return cia402_drive::twin::make_twin(setup, described ? &*described : nullptr);
+        },
         [](const Catalogue& c, LineKind) -> std::unique_ptr<Decoder> { return std::make_unique<cia402_drive::CanDecoder>(c); },
         cia402_drive::check_address,
         "1",
@@ -42,8 +46,9 @@ const Family& family_cia402() {
         false,
         1'000'000,
         cia402_drive::scan_nodes,
-        nullptr,
+        cia402_drive::own_catalogue,
         cia402_drive::identifiers,
+        true,
     };
     return family;
 }

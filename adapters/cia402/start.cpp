@@ -16,6 +16,7 @@ void Drive::probed(const canopen::SdoEnd& end, Turn& t) {
     }
     presence_.found();
     identity_.clear();
+    told_ = {};
     start(t);
 }
 
@@ -58,6 +59,9 @@ void Drive::next_start(Turn& t) {
         start_.clear();
         presence_.made_ready();
         presence_.report("CiA 402 drive, " + identity_, t.out);
+        // It is served all the same: what is safe with another model of the same maker, the plant knows and the gateway does not.
+        if (const std::string fault = differs(expected_, told_); !fault.empty())
+            notices_.tell(Severity::warning, axis_, "identity", 0, fmt::format("{}: {}", setup_.name, fault), t.now, t.out);
         heartbeat_.set_time(3 * heartbeat_period_);
         check_at_ = t.now + std::max<Duration>(8 * line_.cycle, std::chrono::milliseconds(200));
         return;
@@ -83,6 +87,8 @@ void Drive::started(const Step& step, const canopen::SdoEnd& end, Turn& t) {
     if (a == object::vendor) identity_ = fmt::format("vendor {:X}h", raw);
     if (a == object::product) identity_ += fmt::format(", product {:X}h", raw);
     if (a == object::revision) identity_ += fmt::format(", revision {:X}h", raw);
+    for (const auto& [place, i] : {std::pair{object::vendor, 0u}, {object::product, 1u}, {object::revision, 2u}})
+        if (a == place && end.done()) told_[i] = static_cast<std::uint32_t>(raw);
     if (a == object::modes) modes_ = static_cast<std::uint32_t>(raw);
     if (a == object::controlword && step.kind == Step::Kind::read) cw_ = static_cast<std::uint16_t>(raw);
     if (a == object::homing_method) homing_method_ = signed_of(end.data);

@@ -20,10 +20,17 @@ namespace axisgate {
 
 class Catalogue;
 
+/// A maker's description of a drive as a text (an EDS or DCF file), under the name by which sites know it.
+struct DescriptionText {
+    std::string name;
+    std::string text;
+};
+
 /// What a drive's own catalogue is made from: its family's page and what the site says of it.
 struct CatalogueWish {
     const Catalogue& page;
     const std::map<std::string, std::string>& options;  ///< the drive's "options" of the site
+    const DescriptionText* description = nullptr;       ///< that the site names for it; nullptr: none
 };
 struct OwnCatalogue {
     std::shared_ptr<const Catalogue> catalogue{};  ///< null: the family's page is the drive's
@@ -68,6 +75,8 @@ struct Family {
     /// frames and no others (reports of the controller apart), and by them a recorded frame finds its decoder. nullptr: every frame of the
     /// line; such a family cannot share a CAN line with another one.
     std::vector<CanIdentifiers> (*can_identifiers)(std::span<const std::string> addresses) = nullptr;
+    /// A drive of the site may name a maker's description; own_catalogue makes the drive's catalogue of it.
+    bool takes_description = false;
 };
 
 /// Every family that was found at configure time, in order of name. (Generated.)

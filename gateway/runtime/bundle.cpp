@@ -15,7 +15,6 @@
 #include <boost/json/serialize.hpp>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <tuple>
 #include <vector>
 
@@ -77,10 +76,17 @@ Page fetch(const HostPort& where, std::string_view path) {
     return {answer.substr(body + 4), {}};
 }
 
-std::string text_of(const std::string& path, std::size_t most = most_log) {
+/// The last bytes of a file; files of /proc have no length and are read from their beginning.
+std::string tail_of_file(const std::string& path, std::size_t most = most_log) {
     std::ifstream file(path, std::ios::binary);
-    std::string all{std::istreambuf_iterator<char>(file), {}};
-    return all.size() > most ? all.substr(all.size() - most) : all;
+    file.seekg(0, std::ios::end);
+    const auto size = static_cast<std::int64_t>(file.tellg());
+    file.clear();
+    file.seekg(std::max<std::int64_t>(0, size - static_cast<std::int64_t>(most)));
+    std::string text(most, '\0');
+    file.read(text.data(), static_cast<std::streamsize>(most));
+    text.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, file.gcount())));
+    return text;
 }
 
 class Bundle {
@@ -110,7 +116,7 @@ private:
         (void)::uname(&u);
         std::string s = fmt::format("axisgate {}\nmade {}\nkernel {} {} {}\n", AXISGATE_VERSION, format_time(unix_now_ns()), u.sysname,
                                     u.release, u.machine);
-        s += text_of("/etc/os-release");
+        s += tail_of_file("/etc/os-release");
         add("version.txt", s, "program, time, kernel, distribution");
     }
     void configuration() {
@@ -124,7 +130,7 @@ private:
     void machine() {
         std::string s;
         for (const auto* path : {"/proc/uptime", "/proc/loadavg", "/proc/meminfo", "/proc/net/dev", "/proc/interrupts"})
-            s += fmt::format("== {}\n{}\n", path, text_of(path, 64u << 10));
+            s += fmt::format("== {}\n{}\n", path, tail_of_file(path, 64u << 10));
         for (const auto* folder : {"/dev/serial/by-id", "/sys/class/net", "/sys/class/tty"}) {
             s += fmt::format("== {}\n", folder);
             std::error_code ec;
@@ -191,7 +197,7 @@ private:
     }
     void log() {
         if (config_.log_file.empty()) return missing("axisgate.log", "the log goes to standard error: see journalctl -u axisgate");
-        add("axisgate.log", text_of(config_.log_file), "the last 1 MiB of the log");
+        add("axisgate.log", tail_of_file(config_.log_file), "the last 1 MiB of the log");
     }
     void pages() {
         const auto where = parse_host_port(config_.http_bind);

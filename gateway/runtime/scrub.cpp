@@ -52,7 +52,7 @@ std::size_t value_length(std::string_view s) {
     if (s[0] == '"' || s[0] == '\'') {
         std::size_t i = 1;
         while (i < s.size() && s[i] != s[0] && s[i] != '\n')
-            i += s[i] == '\\' ? 2 : 1;
+            i += s[i] == '\\' && i + 1 < s.size() && s[i + 1] != '\n' ? 2 : 1;
         return std::min(i + 1, s.size());
     }
     if (s[0] == '{' || s[0] == '[') return 0;  // what is in it has names of its own

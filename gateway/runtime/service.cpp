@@ -62,7 +62,7 @@ struct Service {
     Instant started = monotonic_now();
     bool ready_reported = false;
     std::string manager_status;  ///< as it was told last
-    std::string first_code;  ///< to be shown
+    std::string first_code;      ///< to be shown
     int code = exit_good;
 
     explicit Service(const ServeOptions& o) : options(o) {}
@@ -107,6 +107,13 @@ int Service::open_store() {
     auto reader = StoreReader::open(so);
     if (!reader) {
         complain(reader.error().text);
+        return exit_failed;
+    }
+    families.descriptions = std::make_shared<DescriptionShelf>();
+    std::string unread;
+    fill_shelf(**reader, *families.descriptions, unread);
+    if (!unread.empty()) {
+        complain(unread);
         return exit_failed;
     }
     HotSettings hs;

@@ -8,6 +8,7 @@
 #include "gateway/runtime/clock.hpp"
 #include "gateway/runtime/warm_axes.hpp"
 #include "gateway/runtime/warm_backup.hpp"
+#include "gateway/runtime/warm_descriptions.hpp"
 #include "gateway/runtime/warm_documents.hpp"
 #include "gateway/runtime/warm_events.hpp"
 #include "gateway/runtime/warm_lines.hpp"
@@ -41,8 +42,8 @@ public:
     WarmPorts& operator=(const WarmPorts&) = delete;
 
     [[nodiscard]] Ports all() {
-        return {axes,       backup,    clock,     documents, drives,    events, lines, modbus,
-                parameters, registers, rehearsal, site,      snapshots, stage,  status};
+        return {axes,   backup,     clock,     descriptions, documents, drives,    events, lines,
+                modbus, parameters, registers, rehearsal,    site,      snapshots, stage,  status};
     }
     /// Where the hot thread puts what is for this one.
     [[nodiscard]] Hot::Outlets outlets() { return {&axes.results(), &parameters.samples(), &threads_.cold.from_hot()}; }
@@ -55,6 +56,7 @@ public:
     WarmParameters parameters{threads_, axes};
     WarmLines lines{threads_, events};
     WarmDrives drives{threads_};
+    WarmDescriptions descriptions{threads_, site.families().descriptions};
     WarmDocuments documents{threads_};
     WarmSnapshots snapshots{threads_};
     WarmRegisters registers{threads_};

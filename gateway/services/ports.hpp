@@ -6,6 +6,7 @@
 #include "gateway/services/ports/axes.hpp"
 #include "gateway/services/ports/backup.hpp"
 #include "gateway/services/ports/clock.hpp"
+#include "gateway/services/ports/descriptions.hpp"
 #include "gateway/services/ports/documents.hpp"
 #include "gateway/services/ports/drives.hpp"
 #include "gateway/services/ports/events.hpp"
@@ -23,7 +24,7 @@
 namespace axisgate {
 
 /// All of them: for whoever puts services and doors together.
-using Ports = PortSet<AxisPort, BackupPort, ClockPort, DocumentPort, DrivePort, EventPort, LinePort, ModbusPort, ParameterPort,
-                      RegisterPort, RehearsalPort, SitePort, SnapshotPort, StagePort, StatusPort>;
+using Ports = PortSet<AxisPort, BackupPort, ClockPort, DescriptionPort, DocumentPort, DrivePort, EventPort, LinePort, ModbusPort,
+                      ParameterPort, RegisterPort, RehearsalPort, SitePort, SnapshotPort, StagePort, StatusPort>;
 
 }  // namespace axisgate

@@ -146,6 +146,7 @@ json::object to_json(const DriveSpec& d) {
         o["address"] = d.address;
     }
     put_options(o, "options", d.options);
+    if (!d.description.empty()) o["description"] = d.description;
     return o;
 }
 

@@ -18,6 +18,7 @@
 #include "gateway/core/family.hpp"
 #include "gateway/core/setup.hpp"
 #include "gateway/site/authority_mode.hpp"
+#include "gateway/site/descriptions.hpp"
 #include "gateway/site/fail_safe.hpp"
 #include "gateway/site/profile.hpp"
 
@@ -47,6 +48,7 @@ struct DriveSpec {
     std::string address;  ///< number or text in the document; text here
     PresenceRule presence = PresenceRule::automatic;
     std::map<std::string, std::string> options;
+    std::string description{};  ///< name of the maker's description (EDS, DCF) that is its catalogue; empty: none
     bool operator==(const DriveSpec&) const = default;
 };
 
@@ -87,7 +89,7 @@ struct Site {
     std::vector<ProfileSpec> profiles;     ///< units that speak another device's language
     std::map<std::uint8_t, MapGaps> gaps;  ///< "modbus_units": by unit 2..254, where it is not as `[modbus] gaps` has it
 
-    /// By drive, where it is not its family's page: made by parse_site, a function of the document.
+    /// By drive, where it is not its family's page: made by parse_site, a function of the document and the descriptions that it names.
     std::map<std::string, std::shared_ptr<const Catalogue>, std::less<>> own_catalogues;
 
     [[nodiscard]] const LineSpec* line(std::string_view name) const noexcept;
@@ -113,6 +115,7 @@ struct FamilyEntry {
 /// Looks a family up by name; an entry of nullptrs if there is none. Also lists the names for messages.
 struct Families {
     std::vector<FamilyEntry> entries;
+    std::shared_ptr<DescriptionShelf> descriptions{};  ///< that drives of a site may name; null: none
     [[nodiscard]] FamilyEntry find(std::string_view name) const noexcept;
     [[nodiscard]] std::string names() const;
 };

@@ -291,6 +291,24 @@ void read_units(const json::value* list, Site& site, std::vector<SiteFault>& fau
             f.fault("unit", fmt::format("unit {} is there twice", *unit), "keep one of the two entries");
     }
 }
+
+/// The description that the drive names, if it is there; d.description is its name.
+std::shared_ptr<const Description> read_description(DocumentFields& f, DriveSpec& d, const Family* family, const Families& families) {
+    if (!f.get("description")) return nullptr;
+    d.description = f.text("description", false, "maker-model-1.eds");
+    if (d.description.empty()) return nullptr;
+    if (family && !family->takes_description) {
+        f.fault("description", fmt::format("drive {}: drives of the family {} are known by its page alone", d.name, family->name),
+                "leave it out");
+        return nullptr;
+    }
+    auto found = families.descriptions ? families.descriptions->find(d.description) : nullptr;
+    if (!found)
+        f.fault("description", fmt::format("drive {}: there is no description {}", d.name, d.description),
+                fmt::format("there are: {}. Add one with POST /api/v1/descriptions",
+                            families.descriptions ? families.descriptions->names() : "none"));
+    return found;
+}
 }  // namespace
 
 std::optional<Site> parse_site(const json::value& document, const Families& families, std::vector<SiteFault>& faults) {
@@ -349,9 +367,17 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
             f.fault("presence", fmt::format("\"{}\" is not a presence", presence), "use device, twin or auto");
         }
         d.options = f.options("options");
+        const auto description = read_description(f, d, family.family, families);
         if (family.family && family.family->own_catalogue) {
-            auto own = family.family->own_catalogue({*family.catalogue, d.options});
-            if (!own.fault.empty()) f.fault("options", fmt::format("drive {}: {}", d.name, own.fault), "mend the option, or leave it out");
+            OwnCatalogue own;
+            if (description) own.catalogue = families.descriptions->made(family.catalogue, description.get(), d.options);
+            if (!own.catalogue) {
+                own = family.family->own_catalogue({*family.catalogue, d.options, description.get()});
+                if (description && own.catalogue) families.descriptions->keep(family.catalogue, description, d.options, own.catalogue);
+            }
+            if (!own.fault.empty())
+                f.fault(description ? "description" : "options", fmt::format("drive {}: {}", d.name, own.fault),
+                        "mend it, or leave it out");
             if (own.catalogue) site.own_catalogues[d.name] = std::move(own.catalogue);
         }
         return d;

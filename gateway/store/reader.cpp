@@ -124,6 +124,19 @@ StoreResult<std::vector<StoreDocument>> StoreReader::documents(std::string_view 
     }
 }
 
+// --- descriptions -----------------------------------------------------------------------------------------------------------
+
+StoreResult<std::vector<StoredDescription>> StoreReader::descriptions() {
+    std::vector<StoredDescription> list;
+    Query q(*db_, "SELECT name, text, who, at_unix_ns FROM description ORDER BY name");
+    for (;;) {
+        const auto row = q.row();
+        if (!row) return fail(row, "the descriptions of drives could not be read");
+        if (!*row) return list;
+        list.push_back({q.text(0), q.text(1), q.text(2), q.integer(3)});
+    }
+}
+
 // --- the file ---------------------------------------------------------------------------------------------------------------
 
 StoreResult<> StoreReader::check() {

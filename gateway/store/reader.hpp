@@ -66,6 +66,10 @@ public:
     /// With their texts, in order of name.
     [[nodiscard]] StoreResult<std::vector<StoreDocument>> documents(std::string_view kind);
 
+    // --- descriptions ------------------------------------------------------------------------------------------------------
+    /// With their texts, in order of name.
+    [[nodiscard]] StoreResult<std::vector<StoredDescription>> descriptions();
+
     // --- the file ----------------------------------------------------------------------------------------------------------
     /// SQLite's integrity check, references between tables, structure. Good, or `corrupt` with what was found. Reads the whole file.
     [[nodiscard]] StoreResult<> check();

@@ -38,7 +38,9 @@ inline constexpr std::size_t max_event_text_bytes = 8192;  ///< longer ones are 
 inline constexpr std::size_t max_comment_bytes = 65'536;
 inline constexpr std::size_t max_site_bytes = 16u << 20;
 inline constexpr std::size_t max_document_bytes = 1u << 20;
-inline constexpr std::size_t max_documents = 10'000;        ///< per kind
+inline constexpr std::size_t max_documents = 10'000;  ///< per kind
+inline constexpr std::size_t max_description_bytes = 1u << 20;
+inline constexpr std::size_t max_descriptions = 200;
 inline constexpr std::size_t max_batch_rows = 10'000;       ///< writes, events and seen values of one batch, each
 inline constexpr std::size_t max_snapshot_values = 65'536;  ///< also of one twin's memory
 inline constexpr std::size_t max_snapshots = 1'000;         ///< per axis
@@ -118,6 +120,14 @@ struct AxisRecord {
 /// A small named text of the gateway's own (a recipe, a token's record).
 struct StoreDocument {
     std::string kind;
+    std::string name;
+    std::string text;
+    std::string who;
+    std::int64_t at_unix_ns = 0;
+};
+
+/// A maker's description of a drive (EDS, DCF): its text as it came.
+struct StoredDescription {
     std::string name;
     std::string text;
     std::string who;

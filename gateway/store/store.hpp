@@ -74,6 +74,11 @@ public:
     [[nodiscard]] StoreResult<> save_document(const StoreDocument& document);
     [[nodiscard]] StoreResult<> delete_document(std::string_view kind, std::string_view name);
 
+    // --- descriptions ------------------------------------------------------------------------------------------------------
+    /// `conflict` if there is one of that name, or there are max_descriptions: the sites that name one rest on its text.
+    [[nodiscard]] StoreResult<> save_description(const StoredDescription& description);
+    [[nodiscard]] StoreResult<> delete_description(std::string_view name);
+
     // --- upkeep ------------------------------------------------------------------------------------------------------------
     /// Moves the log into the file and deletes one piece beyond each bound. For quiet moments (once a minute); commits do both when
     /// they must.

@@ -1,4 +1,4 @@
-// Store: snapshots of an axis' parameters, the twins' non-volatile memory, small documents.
+// Store: snapshots of an axis' parameters, the twins' non-volatile memory, small documents, descriptions of drives.
 // In: named values and texts. Out: one transaction each.
 // Never writes what is already there: flash wears out by writing.
 #include <fmt/core.h>
@@ -187,6 +187,45 @@ StoreResult<> Store::delete_document(std::string_view kind, std::string_view nam
         return {};
     });
     if (!done) return fail(done, fmt::format("{} {} is not deleted", kind, name));
+    return {};
+}
+
+// --- descriptions -----------------------------------------------------------------------------------------------------------
+
+StoreResult<> Store::save_description(const StoredDescription& d) {
+    const std::string what = fmt::format("description {} is not saved", d.name);
+    if (auto r = check_name("description", d.name); !r) return fail(r, what);
+    if (d.text.size() > max_description_bytes)
+        return fail(Kind::invalid,
+                    fmt::format("{}: it has {} bytes; at most {} can be stored", what, d.text.size(), max_description_bytes));
+    auto done = db_->transaction([&]() -> StoreResult<> {
+        for (const bool same_name : {true, false}) {
+            Query count(*db_, same_name ? "SELECT count(*) FROM description WHERE name = ?1" : "SELECT count(*) FROM description");
+            if (same_name) count.bind(d.name);
+            const auto row = count.row();
+            if (!row) return fail(row);
+            if (same_name && count.integer(0) != 0) return fail(Kind::conflict, "there is one of that name");
+            if (count.integer(0) >= static_cast<std::int64_t>(max_descriptions))
+                return fail(Kind::conflict, fmt::format("there are {}. Delete those that no drive names", max_descriptions));
+        }
+        return Query(*db_, "INSERT INTO description (name, text, who, at_unix_ns) VALUES (?, ?, ?, ?)")
+            .bind(d.name)
+            .bind(d.text)
+            .bind(cut(d.who, max_name_bytes))
+            .bind(d.at_unix_ns)
+            .run();
+    });
+    if (!done) return fail(done, what);
+    return {};
+}
+
+StoreResult<> Store::delete_description(std::string_view name) {
+    auto done = db_->transaction([&]() -> StoreResult<> {
+        if (auto r = Query(*db_, "DELETE FROM description WHERE name = ?").bind(name).run(); !r) return r;
+        if (db_->changes() == 0) return fail(Kind::not_found, "there is none of this name");
+        return {};
+    });
+    if (!done) return fail(done, fmt::format("description {} is not deleted", name));
     return {};
 }
 

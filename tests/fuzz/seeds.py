@@ -63,6 +63,7 @@ def main():
             if target.stem == f"{family}_program":
                 seeds[target.stem] = listings(text) + words
     seeds["canopen_eds"] = [p.read_bytes() for p in sorted((TOP / "tests/unit/canopen/eds").iterdir())]
+    seeds["descriptions"] = [p.read_bytes() for folder in ("tests/unit/canopen/eds", "adapters/cia402/tests/eds") for p in sorted((TOP / folder).iterdir())]
     written = 0
     for target, list_ in seeds.items():
         folder = out / target

@@ -22,7 +22,8 @@ from openapi import Description, sample, strict_json
 TOP = pathlib.Path(__file__).resolve().parents[2]
 TEXT = (TOP / "schema/openapi.yaml").read_text()
 API = Description(TEXT)
-NAMES = {"family": ["uim342"], "line": ["can0"], "drive": ["feeder", "slide"], "axis": ["feeder", "slide"], "parameter": ["AC", "PP[5]", "node_id"], "mapping": ["m1"], "recipe": ["warm-up"], "run": ["1"], "snapshot": ["1"], "revision": ["1"], "user": ["anna"], "token": ["none"], "alarm": ["1"], "unit": ["2", "40"]}
+NAMES = {"family": ["uim342"], "line": ["can0"], "drive": ["feeder", "slide"], "axis": ["feeder", "slide"], "parameter": ["AC", "PP[5]", "node_id"], "mapping": ["m1"], "recipe": ["warm-up"], "run": ["1"], "snapshot": ["1"], "revision": ["1"], "user": ["anna"], "token": ["none"], "alarm": ["1"], "unit": ["2", "40"], "description": ["plain.eds"]}
+EDS = (TOP / "adapters/cia402/tests/eds/plain.eds").read_text()
 RECIPE = {"description": "on and off", "parameters": {"pause": {"type": "number", "default": 0.05}}, "steps": [{"enable": {"axis": "slide"}}, {"wait_s": "${pause}"}, {"disable": {"axis": "slide"}}]}
 
 
@@ -166,6 +167,7 @@ def read_everything(gateway, client, state):
 
 def test_every_get_answers_as_described_in_every_state_of_an_axis(gateway):
     client = Client(gateway, 30).sign_in(gateway)
+    gateway.send("POST", "/descriptions", {"name": "plain.eds", "text": EDS}, 201)
     gateway.send("PUT", "/recipes/warm-up", RECIPE, 201)
     gateway.send("POST", "/recipes/warm-up/run", {}, 202)
     gateway.send("PUT", "/profiles/40", {"language": "lexium", "axes": [{"axis": "feeder"}]})
@@ -291,7 +293,9 @@ def test_every_write_answers_as_described(gateway):
         ("addUser", {}, {"name": "Ben X", "password": "short", "role": "king"}, 422), ("changeUser", {"user": "ben"}, {"role": "operator"}, 200), ("changeUser", {"user": "anna"}, {"enabled": False}, 409),
         ("removeUser", {"user": "ben"}, None, 204), ("removeUser", {"user": "ben"}, None, 404), ("addToken", {}, {"name": "line3", "role": "viewer", "expires_in_s": 60}, 201),
         ("firstSignIn", {}, {"code": gateway.code, "user": "x", "password": "a-long-sentence-1"}, 409), ("signIn", {}, {"user": "anna", "password": "wrong"}, 401),
-        ("changePassword", {"user": "anna"}, {"old": "wrong", "new": "a-long-sentence-2"}, 403)]
+        ("changePassword", {"user": "anna"}, {"old": "wrong", "new": "a-long-sentence-2"}, 403),
+        ("addDescription", {}, {"name": "plain.eds", "text": EDS}, 201), ("addDescription", {}, {"name": "plain.eds", "text": EDS}, 200), ("addDescription", {}, {"name": "plain.eds", "text": EDS + "\n"}, 409),
+        ("addDescription", {}, {"name": "b.eds", "text": "x"}, 422), ("addDescription", {}, EDS, 415), ("removeDescription", {"description": "plain.eds"}, None, 204), ("removeDescription", {"description": "plain.eds"}, None, 404)]
     actions = [c["id"] for c in gateway.get("/families/uim342/commands")]
     seen = alarm_answers(gateway, client)
     for name, names, body, wanted in steps:

@@ -28,11 +28,12 @@ ROOMS = {
     "drive": ("core",),
     "engine": ("core", "site", "axis", "wire"),
     "registers": ("core", "site", "axis", "engine/door.hpp"),
-    "services": ("core", "site", "axis", "registers", "engine"),
+    "services": ("core", "site", "axis", "registers", "engine", "protocols/canopen"),
     "lines": ("core", "wire"),
     "store": ("core", "site"),
     "doors/modbus": ("core", "site", "axis", "registers", "engine"),
     "doors/enip": ("core", "site", "axis", "registers", "engine", "protocols/cip"),
+    "doors/dds": ("core", "site", "axis", "services"),
     "doors/http": ("core", "site", "axis", "registers", "services", "engine", "wire"),
 }
 PURE = ("core", "site", "wire", "axis", "protocols/canopen", "protocols/cip", "drive", "engine", "registers", "services", "adapter", "twin")

@@ -193,6 +193,11 @@ Handled unshelve_alarm(Call&);
 Handled start_scan(Call&, LinePort&, const SitePort&);
 Handled get_scan(Call&, LinePort&, const SitePort&);
 Handled cancel_scan(Call&, LinePort&, const SitePort&);
+// --- handlers_descriptions.cpp ----------------------------------------------------------------------------------------
+Handled list_descriptions(Call&, const DescriptionPort&, const SitePort&, const StagePort&);
+Handled get_drive_description(Call&, const DescriptionPort&, const SitePort&, const StagePort&);
+Handled add_description(Call&, const ClockPort&, DescriptionPort&, EventPort&, const SitePort&, const StagePort&);
+Handled remove_description(Call&, DescriptionPort&, EventPort&, const SitePort&, const StagePort&);
 // --- handlers_recipes.cpp ---------------------------------------------------------------------------------------------
 Handled list_recipes(Call&, const DocumentPort&);
 Handled get_recipe(Call&, const DocumentPort&);
@@ -206,7 +211,7 @@ Handled cancel_recipe_run(Call&);
 Handled list_snapshots(Call&, const SitePort&, const SnapshotPort&);
 Handled take_snapshot(Call&, AxisPort&, const ClockPort&, EventPort&, const ParameterPort&, const SitePort&, SnapshotPort&);
 Handled get_snapshot_progress(Call&, const SitePort&);
-Handled get_snapshot(Call&, const SitePort&, const SnapshotPort&);
+Handled get_snapshot(Call&, const DescriptionPort&, const SitePort&, const SnapshotPort&);
 Handled remove_snapshot(Call&, EventPort&, const SitePort&, SnapshotPort&);
 Handled diff_snapshot(Call&, AxisPort&, const ParameterPort&, const SitePort&, const SnapshotPort&);
 Handled restore_snapshot(Call&, AxisPort&, const ParameterPort&, const SitePort&, const SnapshotPort&);

@@ -8,6 +8,7 @@
 
 #include "gateway/core/parameter_form.hpp"
 #include "gateway/doors/http/parameter_jobs.hpp"
+#include "gateway/services/descriptions/description.hpp"
 #include "gateway/services/documents.hpp"
 #include "gateway/services/parameters/axis_jobs.hpp"
 
@@ -204,6 +205,32 @@ std::map<std::string, Value> as_map(const std::vector<SnapshotValue>& list) {
         out[v.parameter] = v.value;
     return out;
 }
+
+/// The values in the maker's description of the drive, as a file that CANopen tools read.
+Response as_dcf(const Found& found, const DescriptionPort& port, const SiteState& state, const Families& families) {
+    const auto& axis = found.axis.spec();
+    const DriveSpec* drive = state.site.drive(axis.drive);
+    const auto description = drive ? port.descriptions().find(drive->description) : nullptr;
+    if (!description || !found.axis.catalogue)
+        return problem(409, "conflict",
+                       fmt::format("a DCF is made of a maker's description, and the drive of axis {} names none", axis.name));
+    if (auto refusal = refuse_foreign(found.snapshot, found.axis.family, "axis " + axis.name, axis.name)) return *std::move(refusal);
+    const auto read = descriptions::read(description->text);
+    if (!read.eds) return problem(409, "conflict", fmt::format("description {} cannot be read any more", description->name));
+    const LineSpec* line = state.site.line(drive->line);
+    const Family* family = families.find(found.axis.family).family;
+    const auto bit_rate = line && line->bitrate != 0 ? line->bitrate : family ? family->default_can_bit_rate : 0;
+    const auto node = parse_whole(drive->address, 1, 127).value_or(0);
+    auto dcf =
+        descriptions::dcf_of(*read.eds, *found.axis.catalogue, found.snapshot, static_cast<std::uint8_t>(node), drive->name, bit_rate);
+    Response r;
+    r.headers.set("Content-Type", "text/plain; charset=utf-8");
+    r.headers.set("Content-Disposition", fmt::format("attachment; filename=\"{}-{}.dcf\"", axis.name, found.snapshot.n));
+    r.headers.set("Vary", "Accept");
+    r.headers.set("Left-Out", std::to_string(dcf.left_out.size()));
+    r.body = std::move(dcf.text);
+    return r;
+}
 }  // namespace
 
 Handled list_snapshots(Call& c, const SitePort& sites, const SnapshotPort& snapshots) {
@@ -285,10 +312,17 @@ Handled take_snapshot(Call& c, AxisPort& axes, const ClockPort& clock, EventPort
     return started ? job_later(c.names[0]) : Handled(job_busy(c.names[0]));
 }
 
-Handled get_snapshot(Call& c, const SitePort& sites, const SnapshotPort& snapshots) {
+Handled get_snapshot(Call& c, const DescriptionPort& descriptions, const SitePort& sites, const SnapshotPort& snapshots) {
     std::optional<Response> fault;
     const auto found = find_snapshot(c, sites, snapshots, fault);
-    return fault ? *fault : json_response(snapshot_document(sites, found->snapshot, found->axis));
+    if (fault) return *fault;
+    const auto format = c.target.query.get("format");
+    if (format && *format != "dcf" && *format != "json") return problem(400, "bad_request", "format must be dcf or json");
+    static constexpr std::string_view media[] = {"application/json", "text/plain"};
+    const auto liked = best_accepted(c.request.headers.get("Accept"), media);
+    if (!format && !liked) return problem(406, "not_acceptable", "this is application/json or text/plain");
+    if (format ? *format == "json" : *liked == 0) return json_response(snapshot_document(sites, found->snapshot, found->axis));
+    return as_dcf(*found, descriptions, *sites.site(), sites.families());
 }
 
 Handled remove_snapshot(Call& c, EventPort& events, const SitePort& sites, SnapshotPort& snapshots) {

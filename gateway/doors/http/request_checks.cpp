@@ -30,6 +30,10 @@ std::optional<Response> check_media(const Request& request, Takes takes) {
         case Takes::csv:
             if (media == "text/csv") return std::nullopt;
             return refused("Accept-Post", "text/csv", fmt::format("send a table with Content-Type: text/csv in UTF-8, not \"{}\"", given));
+        case Takes::eds:
+            if (media == "text/plain" || media == "application/octet-stream" || media == "application/json") return std::nullopt;
+            return refused("Accept-Post", "text/plain, application/octet-stream, application/json",
+                           fmt::format("send the file with Content-Type: text/plain, or JSON with name and text, not \"{}\"", given));
         case Takes::json:
             if (media == "application/json") return std::nullopt;
             return refused("Accept-Post", "application/json",
@@ -61,7 +65,8 @@ std::optional<Response> check_coding(const Request& request, Takes takes) {
 
 /// Reads the body where the route takes JSON; what is wrong with it otherwise. Tables and files are read by their handlers.
 std::optional<Response> read_body(const Request& request, Takes takes, json::value& into) {
-    if (takes != Takes::json && takes != Takes::patch) return std::nullopt;
+    const bool json_file = takes == Takes::eds && media_of(request.headers.get("Content-Type")) == "application/json";
+    if (takes != Takes::json && takes != Takes::patch && !json_file) return std::nullopt;
     JsonFault unread;
     auto value = read_json(request.body, unread);
     if (!value && unread.twice) {

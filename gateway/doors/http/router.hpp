@@ -19,8 +19,9 @@ struct Route {
         json,
         patch,
         csv,
-        bytes
-    };  ///< patch: also application/merge-patch+json; csv, bytes: the handler reads it
+        bytes,
+        eds
+    };  ///< patch: also application/merge-patch+json; csv, bytes: the handler reads it; eds: a file as it is, or JSON that holds it
     enum class Gives : std::uint8_t { json, text, yaml, nothing, own };  ///< own: the handler looks at Accept itself
 
     std::string_view path;  ///< as the description writes it: "/api/v1/axes/{axis}/commands"

@@ -1,4 +1,4 @@
-// The document and the snapshot port of tests of the HTTP door: a disk that the test may hold up or make full.
+// The document, the description and the snapshot port of tests of the HTTP door: a disk that the test may hold up or make full.
 // In: texts and snapshots. Out: the same again, and how often something was saved. Changes of a disk that is behind wait for catch_up().
 #pragma once
 
@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "gateway/services/ports/descriptions.hpp"
 #include "gateway/services/ports/documents.hpp"
 #include "gateway/services/ports/snapshots.hpp"
 
@@ -55,6 +56,21 @@ public:
     }
     std::map<std::pair<std::string, std::string>, Document> stored_documents;
     std::string document_fault;
+};
+
+class FakeDescriptions : public DescriptionPort {
+public:
+    DescriptionShelf shelf;
+    std::string description_fault;
+    const DescriptionShelf& descriptions() const override { return shelf; }
+    void add_description(Description d, std::function<void(std::string)> then) override {
+        if (description_fault.empty()) shelf.put(std::move(d));
+        then(description_fault);
+    }
+    void remove_description(const std::string& name, std::function<void(std::string)> then) override {
+        if (description_fault.empty()) shelf.remove(name);
+        then(description_fault);
+    }
 };
 
 class FakeSnapshots : public SnapshotPort {

@@ -54,7 +54,7 @@ TEST(Migrations, FromTheFirstFormNothingIsLost) {
 /// A file as each program since the first has left it: with rows in every table that it had then.
 TEST(Migrations, EveryFormThatWasReleasedOpensWithAllItsRows) {
     const std::size_t newest = program_migrations().size();
-    ASSERT_EQ(newest, 3u) << "a new step: give the file of the form before it rows of its own below";
+    ASSERT_EQ(newest, 4u) << "a new step: give the file of the form before it rows of its own below";
     for (std::size_t form = 1; form <= newest; ++form) {
         SCOPED_TRACE(form);
         const TempDir dir;
@@ -84,11 +84,14 @@ TEST(Migrations, EveryFormThatWasReleasedOpensWithAllItsRows) {
                 "', '{}', 'me', 4);"
                 "INSERT INTO site_revision (id, at_unix_ns, " +
                 (families ? "bytes, " : "") + "who, text) VALUES (12, 2, " + (families ? std::to_string(site.size()) + ", " : "") +
-                "'me', '" + site + "')");
+                "'me', '" + site + "')" + (form < 4 ? "" : ";INSERT INTO description VALUES ('a.eds', '[FileInfo]', 'me', 5)"));
         const auto store = open_store(dir);
         ASSERT_NE(store, nullptr);
         must(store->check());
         EXPECT_EQ(must(store->facts()).version, static_cast<int>(newest));
+        const auto descriptions = must(store->descriptions());
+        ASSERT_EQ(descriptions.size(), form < 4 ? 0u : 1u);
+        if (form >= 4) EXPECT_EQ(descriptions[0].text, "[FileInfo]");
         EXPECT_EQ(std::filesystem::exists(dir / ("axisgate.db.before-" + std::to_string(newest))), form < newest) << "a copy from before";
         EXPECT_EQ(must(store->load_site())->text, site);
         EXPECT_EQ(must(store->stored("feeder", "AC"))->value, Value{std::int64_t{5}});

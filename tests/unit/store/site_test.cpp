@@ -294,5 +294,31 @@ TEST(Documents, AreReplacedListedAndDeleted) {
     EXPECT_EQ(refused(store->save_document({"recipe", "b", std::string(max_document_bytes + 1, 'x'), "you", 4})).kind, Kind::invalid);
 }
 
+// --- descriptions of drives ----------------------------------------------------------------------------------------------------
+
+TEST(Descriptions, AreKeptListedAndDeletedAndNeverOverwritten) {
+    const TempDir dir;
+    {
+        const auto store = open_store(dir);
+        must(store->save_description({"b.eds", "[FileInfo]\r\nb\xE4\n", "me", 1}));
+        must(store->save_description({"a.dcf", "a", "you", 2}));
+        EXPECT_EQ(refused(store->save_description({"a.dcf", "another", "you", 3})).kind, Kind::conflict);
+        EXPECT_EQ(refused(store->save_description({"", "x", "you", 3})).kind, Kind::invalid);
+        EXPECT_EQ(refused(store->save_description({"c", std::string(max_description_bytes + 1, 'x'), "you", 4})).kind, Kind::invalid);
+    }
+    const auto store = open_store(dir);
+    const auto list = must(store->descriptions());
+    ASSERT_EQ(list.size(), 2u);
+    EXPECT_EQ(list[0].name, "a.dcf");
+    EXPECT_EQ(list[0].text, "a");
+    EXPECT_EQ(list[1].text, "[FileInfo]\r\nb\xE4\n") << "byte by byte";
+    EXPECT_EQ(list[1].who, "me");
+    must(store->delete_description("a.dcf"));
+    EXPECT_EQ(refused(store->delete_description("a.dcf")).kind, Kind::not_found);
+    for (std::size_t i = 1; i < max_descriptions; ++i)
+        must(store->save_description({"d" + std::to_string(i), "x", "me", 5}));
+    EXPECT_EQ(refused(store->save_description({"one more", "x", "me", 6})).kind, Kind::conflict);
+}
+
 }  // namespace
 }  // namespace axisgate::test

@@ -533,6 +533,52 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/descriptions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The makers' descriptions (EDS and DCF files) that drives may name */
+        get: operations["listDescriptions"];
+        put?: never;
+        /**
+         * Keeps an EDS or DCF file, checked as a whole
+         * @description The file itself with `?name=`, or JSON with name and text. Faults name the line, and nothing is kept then. A description is never
+         *     changed: a name that is taken by another text is refused. Files of other coding than UTF-8 are read as Latin-1.
+         */
+        post: operations["addDescription"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/descriptions/{description}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                description: components["parameters"]["description"];
+            };
+            cookie?: never;
+        };
+        /** What is in a description, or the file itself */
+        get: operations["getDriveDescription"];
+        put?: never;
+        post?: never;
+        /**
+         * Removes a description that no drive names
+         * @description Drives of the site in force count, of the one that is staged, and of the one that a trial goes back to. An older revision of the site
+         *     that names it cannot be restored any more.
+         */
+        delete: operations["removeDescription"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/fail_safe": {
         parameters: {
             query?: never;
@@ -982,7 +1028,7 @@ export interface paths {
             };
             cookie?: never;
         };
-        /** One snapshot */
+        /** One snapshot, also as a DCF file */
         get: operations["getSnapshot"];
         put?: never;
         post?: never;
@@ -2322,6 +2368,55 @@ export interface components {
              */
             presence?: "device" | "twin" | "auto";
             options?: components["schemas"]["FamilyOptions"];
+            /** @description name of the maker's description that is the drive's catalogue (family cia402) */
+            description?: components["schemas"]["DescriptionName"];
+        };
+        /** @example maker-model-1.eds */
+        DescriptionName: string;
+        /** @description what the file does not say is null */
+        DescriptionEntry: {
+            name: components["schemas"]["DescriptionName"];
+            bytes: number;
+            /** Format: date-time */
+            added_at: string;
+            added_by: string | null;
+            vendor: string | null;
+            /** @description as 1018h:01 of the drive */
+            vendor_number: number | null;
+            product: string | null;
+            /** @description as 1018h:02 */
+            product_number: number | null;
+            /** @description as 1018h:03 */
+            revision_number: number | null;
+            order_code: string | null;
+            bit_rates_kbit: number[];
+            objects: number;
+            /** @description subindices of all objects, a variable counted as one */
+            entries: number;
+            /** @description drives that name it */
+            used_by: string[];
+        };
+        Description: components["schemas"]["DescriptionEntry"] & {
+            /** @description PDOs as the file has them mapped; the gateway maps its own when the drive boots */
+            pdos: {
+                /**
+                 * @description as the drive sees it
+                 * @enum {string}
+                 */
+                direction: "receive" | "transmit";
+                number: number;
+                mapped: {
+                    /** @example 6040h */
+                    object: string;
+                    name: string | null;
+                    bits: number;
+                }[];
+            }[];
+            /** @description what is odd in the file and can be used all the same */
+            warnings: {
+                line: number;
+                text: string;
+            }[];
         };
         DriveSpec: components["schemas"]["DriveFields"] & Record<string, never>;
         /** @description a whole drive; `name` may be left out, and `axes` and `status` are ignored */
@@ -3808,6 +3903,7 @@ export interface components {
         };
     };
     parameters: {
+        description: components["schemas"]["DescriptionName"];
         snapshot: number;
         revision: number;
         /** @example uim342 */
@@ -5437,6 +5533,134 @@ export interface operations {
             default: components["responses"]["Problem"];
         };
     };
+    listDescriptions: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description in order of name */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DescriptionEntry"][];
+                };
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    addDescription: {
+        parameters: {
+            query?: {
+                /** @description of the description, with its ending; not needed with JSON */
+                name?: components["schemas"]["DescriptionName"];
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "text/plain": string;
+                "application/octet-stream": string;
+                "application/json": {
+                    name?: components["schemas"]["DescriptionName"];
+                    /** @description the file */
+                    text: string;
+                };
+            };
+        };
+        responses: {
+            /** @description the same text is there under this name already */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Description"];
+                };
+            };
+            /** @description kept */
+            201: {
+                headers: {
+                    /** @description where it is */
+                    Location?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Description"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            409: components["responses"]["Conflict"];
+            413: components["responses"]["TooLarge"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getDriveDescription: {
+        parameters: {
+            query?: {
+                /** @description eds - the file as it came; left out - by Accept */
+                format?: "json" | "eds";
+            };
+            header?: never;
+            path: {
+                description: components["parameters"]["description"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description facts, or the file byte by byte */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Description"];
+                    "text/plain": string;
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            404: components["responses"]["NotFound"];
+            406: components["responses"]["NotAcceptable"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    removeDescription: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                description: components["parameters"]["description"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description removed */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
     getFailSafe: {
         parameters: {
             query?: never;
@@ -6676,7 +6900,10 @@ export interface operations {
     };
     getSnapshot: {
         parameters: {
-            query?: never;
+            query?: {
+                /** @description dcf - its values in the maker's description that the drive names, as a file for tools of CANopen */
+                format?: "json" | "dcf";
+            };
             header?: never;
             path: {
                 /** @example feeder */
@@ -6690,13 +6917,19 @@ export interface operations {
             /** @description the snapshot */
             200: {
                 headers: {
+                    /** @description of a DCF: values of the snapshot that it cannot hold */
+                    "Left-Out"?: number;
                     [name: string]: unknown;
                 };
                 content: {
                     "application/json": components["schemas"]["Snapshot"];
+                    "text/plain": string;
                 };
             };
+            400: components["responses"]["BadRequest"];
             404: components["responses"]["NotFound"];
+            406: components["responses"]["NotAcceptable"];
+            409: components["responses"]["Conflict"];
             default: components["responses"]["Problem"];
         };
     };

@@ -1,0 +1,107 @@
+// Bus: the edge to Cyclone DDS: one participant with the topics of schema/axisgate.idl, their quality of service in one table.
+// In: samples to write; wishes to take what has come. Out: samples, in batches; a call when there is something to take.
+// Never hands a library thread through: `wake` is all that is called there, and what came waits in the readers' bounded caches.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "axisgate.h"
+
+namespace axisgate::dds {
+
+struct BusSettings {
+    std::uint32_t domain = 0;           ///< 0..232
+    std::string partition = "plant";    ///< who does not name the same sees nothing of it
+    std::string interface_name = "lo";  ///< network interface; "lo": this machine alone, without multicast
+};
+
+enum class Topic : std::uint8_t { gateway_state, axis_state, event, axis_command, command_result, parameter_write, set_point };
+inline constexpr std::size_t topic_count = 7;
+
+template <class T>
+inline constexpr Topic topic_of = Topic{topic_count};
+template <>
+inline constexpr Topic topic_of<axisgate_GatewayState> = Topic::gateway_state;
+template <>
+inline constexpr Topic topic_of<axisgate_AxisState> = Topic::axis_state;
+template <>
+inline constexpr Topic topic_of<axisgate_Event> = Topic::event;
+template <>
+inline constexpr Topic topic_of<axisgate_AxisCommand> = Topic::axis_command;
+template <>
+inline constexpr Topic topic_of<axisgate_CommandResult> = Topic::command_result;
+template <>
+inline constexpr Topic topic_of<axisgate_ParameterWrite> = Topic::parameter_write;
+template <>
+inline constexpr Topic topic_of<axisgate_SetPoint> = Topic::set_point;
+
+/// A lease within which a gateway that is gone is noticed.
+inline constexpr std::int64_t lease_ms = 2000;
+
+class Bus {
+public:
+    /// `wake` is called on the library's threads when something can be taken: it may only tell another thread.
+    explicit Bus(std::function<void()> wake) : wake_(std::move(wake)) {}
+    ~Bus() { close(); }
+    Bus(const Bus&) = delete;
+    Bus& operator=(const Bus&) = delete;
+
+    /// Joins the domain, writing and reading these topics. Empty: it is open; else what is wrong and what to do.
+    [[nodiscard]] std::string open(const BusSettings& settings, std::initializer_list<Topic> writes, std::initializer_list<Topic> reads);
+    /// Leaves it: others see its states end at once.
+    void close();
+    [[nodiscard]] bool is_open() const noexcept { return participant_ > 0; }
+
+    /// False: it could not be written (a reader that is too slow, for longer than a millisecond).
+    template <class T>
+    bool write(const T& sample) {
+        return write_raw(topic_of<T>, &sample, false);
+    }
+    /// The instance with this sample's key has ended.
+    template <class T>
+    bool dispose(const T& key) {
+        return write_raw(topic_of<T>, &key, true);
+    }
+    /// What is known beside a sample.
+    struct Seen {
+        bool valid = true;  ///< false: only the key is; the instance has ended
+        bool alive = true;  ///< false: disposed, or nobody writes it any more
+        std::uint64_t writer = 0;
+    };
+    /// Takes at most `most` (64 at once) samples that have come; how many there were. `each` must not take of the same topic.
+    template <class T, class Each>
+    std::size_t take(std::size_t most, Each each) {
+        return take_raw(topic_of<T>, most, [&each](const void* sample, const Seen& seen) { each(*static_cast<const T*>(sample), seen); });
+    }
+    /// Called by the library, through its listener.
+    void on_data() const { wake_(); }
+
+private:
+    [[nodiscard]] std::string add(Topic topic, const BusSettings& settings, bool writes, bool reads);
+    bool write_raw(Topic topic, const void* sample, bool ended);
+    std::size_t take_raw(Topic topic, std::size_t most, const std::function<void(const void*, const Seen&)>& each);
+
+    std::function<void()> wake_;
+    using Entity = std::int32_t;  // dds_entity_t: greater than 0, or an error
+    Entity domain_ = 0, participant_ = 0, publisher_ = 0, subscriber_ = 0;
+    std::array<Entity, topic_count> writers_{}, readers_{};
+};
+
+/// A text into one of the IDL's bounded ones; what does not fit is cut off, never inside a UTF-8 character.
+template <std::size_t n>
+void put_text(char (&into)[n], std::string_view text) {
+    std::size_t length = text.size() < n ? text.size() : n - 1;
+    while (length > 0 && length < text.size() && (static_cast<unsigned char>(text[length]) & 0xC0u) == 0x80u)
+        --length;
+    text.copy(into, length);
+    into[length] = 0;
+}
+
+}  // namespace axisgate::dds

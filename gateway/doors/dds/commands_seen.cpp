@@ -1,0 +1,28 @@
+// Commands seen: a map by source and id, and the order in which results came, for forgetting the oldest.
+// In: names, results, time. Out: what is known. Never looks at a clock.
+#include "gateway/doors/dds/commands_seen.hpp"
+
+namespace axisgate::dds {
+
+CommandsSeen::Seen CommandsSeen::begin(const std::string& source, const std::string& id, Instant now) {
+    while (!ended_.empty() && now - ended_.front().first >= keep_for) {
+        kept_.erase(ended_.front().second);
+        ended_.pop_front();
+    }
+    std::string key = key_of(source, id);
+    if (const auto it = kept_.find(key); it != kept_.end())
+        return it->second.answered ? Seen{Told::answered, &it->second.result} : Seen{Told::under_way, nullptr};
+    if (kept_.size() >= most) return {Told::no_room, nullptr};
+    kept_.emplace(std::move(key), Kept{});
+    return {};
+}
+
+void CommandsSeen::end(const std::string& source, const std::string& id, Result result, Instant now) {
+    std::string key = key_of(source, id);
+    const auto it = kept_.find(key);
+    if (it == kept_.end() || it->second.answered) return;
+    it->second = {true, std::move(result)};
+    ended_.emplace_back(now, std::move(key));
+}
+
+}  // namespace axisgate::dds

@@ -1,0 +1,44 @@
+// Commands seen: which commands came over DDS, and the one result of each, so that one that is sent again is answered and not carried out.
+// In: names of commands, results, time. Out: whether it is new, under way, or what it was answered.
+// Never forgets one within `keep_for`: where there is no room without that, a new one is turned away.
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+#include "gateway/core/command.hpp"
+
+namespace axisgate::dds {
+
+class CommandsSeen {
+public:
+    static constexpr std::size_t most = 4096;
+    static constexpr Duration keep_for = std::chrono::minutes(10);  ///< after its result; a command's own lifespan is 2 s
+
+    enum class Told : std::uint8_t { is_new, under_way, answered, no_room };
+    struct Seen {
+        Told told = Told::is_new;
+        const Result* result = nullptr;  ///< of one that was answered; good until the next call
+    };
+    /// A command has come. `is_new`: it is noted as under way, and end() follows.
+    [[nodiscard]] Seen begin(const std::string& source, const std::string& id, Instant now);
+    /// Its one result.
+    void end(const std::string& source, const std::string& id, Result result, Instant now);
+    [[nodiscard]] std::size_t size() const noexcept { return kept_.size(); }
+
+private:
+    struct Kept {
+        bool answered = false;
+        Result result;
+    };
+    /// Neither part can have the other's separator: texts of the IDL end at a zero.
+    [[nodiscard]] static std::string key_of(const std::string& source, const std::string& id) { return source + '\0' + id; }
+
+    std::unordered_map<std::string, Kept> kept_;
+    std::deque<std::pair<Instant, std::string>> ended_;  // in order of their results
+};
+
+}  // namespace axisgate::dds

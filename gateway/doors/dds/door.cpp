@@ -1,0 +1,415 @@
+// Door: a turn each 20 ms tells what has changed; what has come is read when the bus says so, some of each topic at a time.
+// In: samples, pictures, events. Out: samples, commands. A stranger's flood costs its turn's share: the readers' caches are bounded.
+#include "gateway/doors/dds/door.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <boost/asio/post.hpp>
+#include <cmath>
+
+#include "gateway/core/parameter_form.hpp"
+#include "gateway/services/command_reader.hpp"
+
+namespace axisgate::dds {
+namespace json = boost::json;
+namespace {
+constexpr std::size_t at_a_time = 64;  ///< samples of a topic, before others have their turn
+
+void put_number(json::object& o, const char* name, const double* value) {
+    if (value) o[name] = *value;
+}
+void put_number(json::object& o, const char* name, const std::int32_t* value) {
+    if (value) o[name] = *value;
+}
+
+/// The same members as over HTTP, so that one reader checks both.
+json::object body_of(const axisgate_AxisCommand& s) {
+    json::object o{{"command", s.command}};
+    put_number(o, "position", s.position);
+    put_number(o, "velocity", s.velocity);
+    put_number(o, "acceleration", s.acceleration);
+    put_number(o, "deceleration", s.deceleration);
+    put_number(o, "method", s.method);
+    put_number(o, "hold_ms", s.hold_ms);
+    if (s.prepare) o["prepare"] = true;
+    if (s.renew) o["renew"] = true;
+    return o;
+}
+
+/// Not a number and infinity are no JSON, and no reader of commands need know of them.
+bool is_finite(const axisgate_AxisCommand& s) {
+    return std::ranges::all_of(std::array{s.position, s.velocity, s.acceleration, s.deceleration},
+                               [](const double* d) { return !d || std::isfinite(*d); });
+}
+}  // namespace
+
+struct DdsDoor::Asked {
+    std::string axis, source, id;
+    std::uint64_t instance = 0;
+};
+
+DdsDoor::DdsDoor(boost::asio::io_context& context, const Needs& ports, std::function<Instant()> clock, DoorSettings settings)
+    : context_(context), ports_(ports), clock_(std::move(clock)), settings_(std::move(settings)), timer_(context), bus_([this] {
+          if (!woken_.exchange(true, std::memory_order_acq_rel)) boost::asio::post(context_, [this] { read(); });
+      }) {}
+
+DdsDoor::~DdsDoor() {
+    if (open_) ports_.get<EventPort>().unlisten(this);
+}
+
+std::string DdsDoor::start() {
+    std::string fault = bus_.open(settings_.bus, {Topic::gateway_state, Topic::axis_state, Topic::event, Topic::command_result},
+                                  {Topic::gateway_state, Topic::axis_command, Topic::parameter_write, Topic::set_point});
+    if (!fault.empty()) return fault;
+    open_ = true;
+    ports_.get<EventPort>().listen(this);
+    on_turn();
+    return {};
+}
+
+std::string DdsDoor::address() const {
+    if (!open_) return {};
+    return fmt::format("{}@{}:{}%{}", settings_.name, settings_.bus.partition, settings_.bus.domain, settings_.bus.interface_name);
+}
+
+void DdsDoor::stop(std::function<void()> done) {
+    if (open_) {
+        open_ = false;
+        timer_.cancel();
+        ports_.get<EventPort>().unlisten(this);
+        bus_.close();  // its states are disposed with their writers
+    }
+    boost::asio::post(context_, std::move(done));
+}
+
+std::string DdsDoor::metrics() const {
+    std::string s;
+    const auto put = [&s](std::string_view name, std::string_view help, std::uint64_t value) {
+        s += fmt::format("# HELP axisgate_dds_{0} {1}\n# TYPE axisgate_dds_{0} counter\naxisgate_dds_{0} {2}\n", name, help, value);
+    };
+    put("commands_total", "Commands and parameter writes that came.", counters_.commands);
+    put("commands_repeated_total", "Those of them that had come before.", counters_.repeated);
+    put("commands_refused_total", "Those of them that this door refused.", counters_.refused);
+    put("set_points_total", "Streamed set-points that came.", counters_.set_points);
+    put("set_points_wrong_total", "Those of them that could not be read or had no axis.", counters_.set_points_wrong);
+    put("unsent_total", "States, events and results that could not be sent at once.", counters_.unsent);
+    return s;
+}
+
+// --- telling ----------------------------------------------------------------------------------------------------------
+
+void DdsDoor::on_turn() {
+    if (!open_) return;
+    const Instant now = clock_();
+    if (!gateway_told_.time_since_epoch().count() || now - gateway_told_ >= told_again) tell_gateway(now);
+    tell_axes(now);
+    timer_.expires_after(std::chrono::duration_cast<std::chrono::steady_clock::duration>(turn));
+    timer_.async_wait([this](const boost::system::error_code& ec) {
+        if (!ec) on_turn();
+    });
+}
+
+void DdsDoor::tell_gateway(Instant now) {
+    gateway_told_ = now;
+    const auto site = ports_.get<SitePort>().site();
+    axisgate_GatewayState s{};
+    put_text(s.gateway, settings_.name);
+    s.instance = settings_.instance;
+    put_text(s.version, settings_.version);
+    s.at_unix_ns = ports_.get<ClockPort>().now_unix_ns();
+    s.uptime_ms = static_cast<std::uint64_t>(ports_.get<StatusPort>().uptime_s() * 1000);
+    s.site_revision = static_cast<std::uint32_t>(site->revision);
+    s.axes = static_cast<std::uint32_t>(site->site.axes.size());
+    for (const AxisId id : site->axis_ids)
+        s.axes_online += (ports_.get<AxisPort>().picture(id).flags & flag_online) != 0 ? 1u : 0u;
+    if (settings_.page) put_text(s.http, settings_.page());
+    if (!bus_.write(s)) ++counters_.unsent;
+}
+
+void DdsDoor::tell_axes(Instant now) {
+    const auto site = ports_.get<SitePort>().site();
+    if (site != site_) {
+        for (const auto& old : axes_) {
+            if (index_of_name(site->site.axes, old.name)) continue;
+            axisgate_AxisState gone{};
+            put_text(gone.gateway, settings_.name);
+            put_text(gone.axis, old.name);
+            (void)bus_.dispose(gone);
+        }
+        axes_.assign(site->site.axes.size(), {});
+        for (std::size_t i = 0; i < axes_.size(); ++i)
+            axes_[i].name = site->site.axes[i].name;
+        site_ = site;
+    }
+    for (std::size_t i = 0; i < axes_.size() && i < site->axis_ids.size(); ++i) {
+        Told& t = axes_[i];
+        const auto revision = ports_.get<AxisPort>().picture_revision(site->axis_ids[i]);
+        if (t.ever && t.revision == revision && now - t.at < told_again) continue;
+        axisgate_AxisState s{};
+        fill(s, axis_at(ports_.get<SitePort>(), site, i));
+        if (!bus_.write(s)) {
+            ++counters_.unsent;
+            continue;  // the next turn tries again
+        }
+        t.ever = true;
+        t.revision = revision;
+        t.at = now;
+    }
+}
+
+void DdsDoor::fill(axisgate_AxisState& s, const AxisPlace& place) const {
+    const AxisPicture p = ports_.get<AxisPort>().picture(place.id());
+    const auto flag = [&p](std::uint16_t bit) { return (p.flags & bit) != 0; };
+    put_text(s.gateway, settings_.name);
+    put_text(s.axis, place.spec().name);
+    s.instance = settings_.instance;
+    s.number = p.number;
+    put_text(s.family, place.family);
+    put_text(s.unit, place.spec().unit);
+    s.increments_per_unit = place.spec().increments_per_unit;
+    s.online = flag(flag_online);
+    s.simulated = flag(flag_simulated);
+    s.stale = flag(flag_stale);
+    s.referenced = flag(flag_referenced);
+    s.moving = flag(flag_moving);
+    s.target_reached = flag(flag_target_reached);
+    s.fault = flag(flag_fault);
+    s.warning = flag(flag_warning);
+    s.statusword = p.statusword;
+    s.mode = p.mode_display;
+    s.position = p.position;
+    s.velocity = p.velocity;
+    s.error_code = p.error_code;
+    s.fail_safe_cause = p.fail_safe_cause;
+    put_text(s.authority, axisgate::name_of(p.authority));
+    put_text(s.authority_holder, p.authority_holder.data());
+    s.at_unix_ns = p.ever_seen ? ports_.get<ClockPort>().to_unix_ns(p.at) : 0;
+    s.streaming = p.streaming;
+    s.set_points = p.set_points;
+    s.set_points_refused = p.set_points_refused;
+    put_text(s.set_point_refusal, axisgate::name_of(p.set_point_refusal));
+}
+
+void DdsDoor::on_event(const Event& e) {
+    axisgate_Event s{};
+    put_text(s.gateway, settings_.name);
+    s.id = e.id;
+    s.at_unix_ns = e.at_unix_ns;
+    put_text(s.severity, axisgate::name_of(e.severity));
+    put_text(s.kind, e.kind);
+    put_text(s.axis, e.axis);
+    put_text(s.drive, e.drive);
+    put_text(s.line, e.line);
+    s.code = e.code;
+    put_text(s.text, e.text);
+    put_text(s.who, e.who);
+    put_text(s.door, e.door);
+    put_text(s.parameter, e.parameter);
+    put_text(s.old_value, e.old_value);
+    put_text(s.new_value, e.new_value);
+    if (!bus_.write(s)) ++counters_.unsent;
+}
+
+// --- reading ----------------------------------------------------------------------------------------------------------
+
+void DdsDoor::read() {
+    // An exchange, not a store: what was announced before is seen below.
+    (void)woken_.exchange(false, std::memory_order_acq_rel);
+    if (!open_) return;
+    bool more = false;
+    const auto all = [this, &more](auto* kind, auto each) {
+        using Sample = std::remove_pointer_t<decltype(kind)>;
+        more = bus_.take<Sample>(at_a_time, each) == at_a_time || more;
+    };
+    const auto mine = [this](const auto& s) { return settings_.name == s.gateway; };
+    all(static_cast<axisgate_GatewayState*>(nullptr), [this](const auto& s, const Bus::Seen& seen) { on_gateway(s, seen); });
+    all(static_cast<axisgate_AxisCommand*>(nullptr), [this, mine](const auto& s, const Bus::Seen& seen) {
+        if (seen.valid && mine(s)) on_command(s);
+    });
+    all(static_cast<axisgate_ParameterWrite*>(nullptr), [this, mine](const auto& s, const Bus::Seen& seen) {
+        if (seen.valid && mine(s)) on_parameter_write(s);
+    });
+    all(static_cast<axisgate_SetPoint*>(nullptr), [this, mine](const auto& s, const Bus::Seen& seen) {
+        if (mine(s)) on_set_point(s, seen);
+    });
+    // What is left has its turn after everything else that waits.
+    if (more && !woken_.exchange(true, std::memory_order_acq_rel)) boost::asio::post(context_, [this] { read(); });
+}
+
+void DdsDoor::on_gateway(const axisgate_GatewayState& s, const Bus::Seen& seen) {
+    if (settings_.name != s.gateway || s.instance == settings_.instance) return;
+    if (!seen.alive) {
+        namesakes_.erase(s.instance);
+        return;
+    }
+    if (namesakes_.size() >= 64 || !namesakes_.insert(s.instance).second) return;
+    Event e;
+    e.severity = Severity::warning;
+    e.kind = "fleet";
+    e.door = "dds";
+    e.text = fmt::format(
+        "another gateway of the domain is called {} as well (its page: {}): commands over DDS must name the instance that they are for; "
+        "give one of them another name ([dds] name)",
+        settings_.name, s.http[0] ? s.http : "none");
+    ports_.get<EventPort>().note(std::move(e));
+}
+
+Origin DdsDoor::origin_of(const std::string& source) {
+    auto who = std::make_shared<const std::string>(source);
+    return {Door::dds, who, who};
+}
+
+bool DdsDoor::to_be_done(const Asked& a) {
+    if (a.source.empty() || a.id.empty()) {
+        refuse(a, Reason::out_of_range, "a command over DDS has a source and an id, so that it is never carried out twice; name both");
+        return false;
+    }
+    const auto seen = seen_.begin(a.source, a.id, clock_());
+    switch (seen.told) {
+        case CommandsSeen::Told::under_way:
+            ++counters_.repeated;
+            return false;  // its result is still to come
+        case CommandsSeen::Told::answered:
+            ++counters_.repeated;
+            answer(a, *seen.result, true);
+            return false;
+        case CommandsSeen::Told::no_room:
+            refuse(a, Reason::busy, "too many commands came over DDS in the last minutes; send it again later");
+            return false;
+        case CommandsSeen::Told::is_new:
+            break;
+    }
+    const auto no = [this, &a](Outcome outcome, Reason reason, std::string text) {
+        Result r;
+        r.outcome = outcome;
+        r.reason = reason;
+        r.text = std::move(text);
+        ++counters_.refused;
+        seen_.end(a.source, a.id, r, clock_());
+        answer(a, r, false);
+        return false;
+    };
+    if (a.instance != 0 && a.instance != settings_.instance) {
+        return no(
+            Outcome::failed, Reason::no_answer,
+            fmt::format("{} has been started anew since the command was made, and does not know whether it was carried out before; look "
+                        "at the axis, and give a new command if it is still wanted",
+                        settings_.name));
+    }
+    if (a.instance == 0 && !namesakes_.empty()) {
+        return no(Outcome::refused, Reason::wrong_state,
+                  fmt::format("two gateways of the domain are called {}; name the instance that the command is for", settings_.name));
+    }
+    return true;
+}
+
+void DdsDoor::on_command(const axisgate_AxisCommand& s) {
+    const Asked a{s.axis, s.source, s.id, s.instance};
+    ++counters_.commands;
+    if (!to_be_done(a)) return;
+    const auto place = find_axis(ports_.get<SitePort>(), a.axis);
+    if (!place) return refuse(a, Reason::unknown_point, fmt::format("{} has no axis {}", settings_.name, a.axis));
+    if (!is_finite(s)) return refuse(a, Reason::out_of_range, fmt::format("{}: a value is infinite or not a number", s.command));
+    auto read = read_command(body_of(s), place->spec().increments_per_unit, place->spec().unit);
+    if (!read.body) {
+        const auto& f = read.faults.front();
+        return refuse(a, Reason::out_of_range, f.text + (f.remedy.empty() ? "" : "; " + f.remedy));
+    }
+    carry_out(a, *place, std::move(*read.body), s.until_done);
+}
+
+void DdsDoor::on_parameter_write(const axisgate_ParameterWrite& s) {
+    const Asked a{s.axis, s.source, s.id, s.instance};
+    ++counters_.commands;
+    if (!to_be_done(a)) return;
+    const auto place = find_axis(ports_.get<SitePort>(), a.axis);
+    if (!place || !place->catalogue) return refuse(a, Reason::unknown_point, fmt::format("{} has no axis {}", settings_.name, a.axis));
+    const auto point = place->catalogue->find(s.parameter);
+    const Parameter* parameter = point ? place->catalogue->parameter(*point) : nullptr;
+    if (!parameter) return refuse(a, Reason::unknown_point, fmt::format("{} has no parameter {}", a.axis, s.parameter));
+    if (!parameter->writable()) return refuse(a, Reason::not_writable, fmt::format("{} can only be read", s.parameter));
+    const auto value = parse_value(s.value, parameter->type);
+    if (!value)
+        return refuse(a, Reason::out_of_range,
+                      fmt::format("{}: {} is no value of its type ({})", s.parameter, s.value, axisgate::name_of(parameter->type)));
+    const auto& parameters = ports_.get<ParameterPort>();
+    auto checked = check_write_now(*place->catalogue, *point, *value,
+                                   [&parameters, id = place->id()](Point p) { return parameters.live(id, p).value; });
+    if (!checked.fault.empty()) return refuse(a, Reason::out_of_range, checked.fault);
+    carry_out(a, *place, WriteParameter{*point, std::move(checked.value)}, false);
+}
+
+void DdsDoor::carry_out(const Asked& asked, const AxisPlace& place, CommandBody body, bool until_done) {
+    Command c;
+    c.axis = place.id();
+    c.body = std::move(body);
+    c.until_done = until_done;
+    c.origin = origin_of(asked.source);
+    (void)ports_.get<AxisPort>().submit(std::move(c), [this, asked](const Result& r) {
+        seen_.end(asked.source, asked.id, r, clock_());
+        answer(asked, r, false);
+    });
+}
+
+void DdsDoor::refuse(const Asked& asked, Reason reason, std::string text) {
+    ++counters_.refused;
+    Result r;
+    r.outcome = Outcome::refused;
+    r.reason = reason;
+    r.text = std::move(text);
+    // What was turned away for want of room is not known as a command, and may come again.
+    seen_.end(asked.source, asked.id, r, clock_());
+    answer(asked, r, false);
+}
+
+void DdsDoor::answer(const Asked& asked, const Result& r, bool repeated) {
+    axisgate_CommandResult s{};
+    put_text(s.gateway, settings_.name);
+    put_text(s.axis, asked.axis);
+    put_text(s.source, asked.source);
+    put_text(s.id, asked.id);
+    s.instance = settings_.instance;
+    put_text(s.outcome, axisgate::name_of(r.outcome));
+    put_text(s.reason, axisgate::name_of(r.reason));
+    s.code = r.code;
+    put_text(s.text, r.text);
+    s.repeated = repeated;
+    if (!bus_.write(s)) ++counters_.unsent;  // whoever misses it sends the command again
+}
+
+void DdsDoor::on_set_point(const axisgate_SetPoint& s, const Bus::Seen& seen) {
+    if (!seen.alive) {
+        // Nobody writes it any more, or its writer's machine is gone: what it streamed is stopped as the axis' fail-safe entry says.
+        if (const auto it = set_points_.find(s.axis); it != set_points_.end()) {
+            ports_.get<AxisPort>().client_lost(AuthorityClient::of(origin_of(it->second)), LossCause::set_points_silent);
+            set_points_.erase(it);
+        }
+    }
+    if (!seen.valid) return;
+    ++counters_.set_points;
+    const auto place = find_axis(ports_.get<SitePort>(), s.axis);
+    const bool numbers = std::ranges::all_of(std::array<const double*, 4>{&s.value, s.velocity, s.acceleration, s.deceleration},
+                                             [](const double* d) { return !d || std::isfinite(*d); });
+    if (!place || s.source[0] == 0 || !numbers) {
+        ++counters_.set_points_wrong;
+        return;
+    }
+    json::object body{{"axis", s.axis}, {"mode", s.mode}, {"value", s.value}};
+    put_number(body, "velocity", s.velocity);
+    put_number(body, "acceleration", s.acceleration);
+    put_number(body, "deceleration", s.deceleration);
+    if (s.good_for_ms != 0) body["good_for_ms"] = s.good_for_ms;
+    auto read = read_set_point(body, place->spec().increments_per_unit, place->spec().unit);
+    if (!read.set_point) {
+        ++counters_.set_points_wrong;
+        return;
+    }
+    read.set_point->axis = place->id();
+    read.set_point->at = clock_();
+    read.set_point->origin = origin_of(s.source);
+    if (set_points_.size() < set_point_clients_most || set_points_.contains(s.axis)) set_points_[s.axis] = s.source;
+    ports_.get<AxisPort>().set_point(std::move(*read.set_point));
+}
+
+}  // namespace axisgate::dds

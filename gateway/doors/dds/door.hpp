@@ -1,0 +1,100 @@
+// Door: the DDS door: tells the domain this gateway's states and events, takes commands, parameter writes and set-points for its axes.
+// In: the ports, samples of the bus, time. Out: states, events, one result per command; commands with the door `dds` as their origin, under
+// the same authority as every other door's. Never touches the hot thread, and never carries out a command twice.
+#pragma once
+
+#include <atomic>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/json/object.hpp>
+#include <functional>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "gateway/doors/dds/bus.hpp"
+#include "gateway/doors/dds/commands_seen.hpp"
+#include "gateway/services/axis_place.hpp"
+#include "gateway/services/door.hpp"
+#include "gateway/services/ports.hpp"
+
+namespace axisgate::dds {
+
+struct DoorSettings {
+    BusSettings bus;
+    std::string name;                   ///< of this gateway, 1..63 bytes
+    std::string version;                ///< of the program
+    std::function<std::string()> page;  ///< where its page is; empty: it has none
+    std::uint64_t instance = 0;         ///< another one at each start, never 0
+};
+
+class DdsDoor final : public ServiceDoor, public EventListener {
+public:
+    using Needs = PortSet<AxisPort, ClockPort, EventPort, ParameterPort, SitePort, StatusPort>;
+    static constexpr Duration turn = std::chrono::milliseconds(20);         ///< a state is told at most once in it
+    static constexpr Duration told_again = std::chrono::milliseconds(500);  ///< a state that does not change
+    static constexpr std::size_t set_point_clients_most = 1024;             ///< axes that are streamed to, as far as this door knows
+
+    DdsDoor(boost::asio::io_context& context, const Needs& ports, std::function<Instant()> clock, DoorSettings settings);
+    ~DdsDoor() override;
+    DdsDoor(const DdsDoor&) = delete;
+    DdsDoor& operator=(const DdsDoor&) = delete;
+
+    [[nodiscard]] std::string_view name() const override { return "dds"; }
+    [[nodiscard]] std::string start() override;
+    /// NAME@PARTITION:DOMAIN%INTERFACE: "hall-1@plant:0%lo".
+    [[nodiscard]] std::string address() const override;
+    void stop(std::function<void()> done) override;
+    void on_event(const Event& event) override;
+
+    struct Counters {
+        std::uint64_t commands = 0, repeated = 0, refused = 0, set_points = 0, set_points_wrong = 0, unsent = 0;
+    };
+    [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
+    /// They as Prometheus text.
+    [[nodiscard]] std::string metrics() const;
+
+private:
+    struct Told {
+        std::string name;
+        std::uint64_t revision = 0;
+        Instant at{};
+        bool ever = false;
+    };
+    struct Asked;  // a command or a parameter write, as far as they are the same
+
+    void on_turn();
+    void tell_gateway(Instant now);
+    void tell_axes(Instant now);
+    void fill(axisgate_AxisState& s, const AxisPlace& place) const;
+    void read();
+    void on_gateway(const axisgate_GatewayState& s, const Bus::Seen& seen);
+    void on_command(const axisgate_AxisCommand& s);
+    void on_parameter_write(const axisgate_ParameterWrite& s);
+    void on_set_point(const axisgate_SetPoint& s, const Bus::Seen& seen);
+    [[nodiscard]] bool to_be_done(const Asked& asked);
+    void carry_out(const Asked& asked, const AxisPlace& place, CommandBody body, bool until_done);
+    void refuse(const Asked& asked, Reason reason, std::string text);
+    void answer(const Asked& asked, const Result& result, bool repeated);
+    [[nodiscard]] static Origin origin_of(const std::string& source);
+
+    boost::asio::io_context& context_;
+    Needs ports_;
+    std::function<Instant()> clock_;
+    DoorSettings settings_;
+    std::atomic<bool> woken_{false};
+    boost::asio::steady_timer timer_;
+    CommandsSeen seen_;
+    std::vector<Told> axes_;
+    std::shared_ptr<const SiteState> site_;
+    Instant gateway_told_{};
+    std::set<std::uint64_t> namesakes_;              // instances of other gateways with this one's name
+    std::map<std::string, std::string> set_points_;  // who streams, by axis
+    Counters counters_;
+    bool open_ = false;
+    Bus bus_;  // last: its threads end first
+};
+
+}  // namespace axisgate::dds

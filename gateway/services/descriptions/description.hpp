@@ -1,0 +1,49 @@
+// Descriptions of drives: a maker's EDS or DCF file becomes a description that sites may name, and is shown as facts.
+// In: texts of any origin, names. Out: what is in it, or all faults with their lines. Never takes half of a file, and keeps nothing.
+#pragma once
+
+#include <boost/json/object.hpp>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gateway/core/catalogue.hpp"
+#include "gateway/core/records.hpp"
+#include "gateway/protocols/canopen/eds.hpp"
+#include "gateway/services/fault.hpp"
+#include "gateway/site/descriptions.hpp"
+
+namespace axisgate::descriptions {
+
+inline constexpr std::size_t most_bytes = 1u << 20;    ///< of one file
+inline constexpr std::size_t most_entries = 8'000;     ///< of one file: each is a parameter of every axis that is described by it
+inline constexpr std::size_t most_descriptions = 200;  ///< of one gateway
+
+/// Empty, or what is wrong with the name of a description: letters, digits, - _ and . , up to 64, with the ending .eds or .dcf.
+[[nodiscard]] std::string check_name(std::string_view name);
+
+struct Read {
+    std::optional<canopen::Eds> eds;  ///< nothing if there is a fault
+    std::vector<canopen::FileFault> faults, notes;
+};
+/// Beside what read_eds finds: too long, too many entries, and a device that is no drive of CiA 402 (its 1000h says so, or it has no
+/// controlword and statusword).
+[[nodiscard]] Read read(std::string_view text);
+/// "line 12: ..." each; the remedy is the same for all.
+[[nodiscard]] std::vector<Fault> faults_of(const Read& read);
+
+/// Name, vendor, product, ..., PDO mapping, warnings; null where there are faults.
+[[nodiscard]] std::shared_ptr<const boost::json::object> facts(const Description& d, const Read& read);
+
+/// A DCF of one drive: its description with the values of a snapshot. `left_out`: values that a DCF of this description cannot hold.
+struct Dcf {
+    std::string text;
+    std::vector<std::string> left_out;
+};
+[[nodiscard]] Dcf dcf_of(const canopen::Eds& eds, const Catalogue& catalogue, const AxisSnapshot& snapshot, std::uint8_t node,
+                         std::string_view node_name, std::uint32_t bit_rate);
+
+}  // namespace axisgate::descriptions

@@ -1,0 +1,246 @@
+// DDS door: one gateway's door and a stranger with a bus of his own, over the loopback interface: states, events, commands, set-points.
+#include "gateway/doors/dds/door.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <functional>
+#include <vector>
+
+#include "tests/unit/http/fake_gateway.hpp"
+
+namespace axisgate::dds {
+namespace {
+using http::test::FakeGateway;
+using http::test::standing;
+using std::chrono::steady_clock;
+
+class DdsDoorTest : public ::testing::Test {
+protected:
+    boost::asio::io_context context{1};
+    FakeGateway gateway;
+    Instant now = at_ns(1'000'000'000);
+    std::unique_ptr<DdsDoor> door;
+    Bus peer{[] {}};
+    std::vector<axisgate_CommandResult> results;
+    bool found = false;          ///< the probe of SetUp was answered: its later answers do not count
+    std::uint64_t repeated = 0;  ///< counted before the test
+
+    void SetUp() override {
+        gateway.set_picture("feeder", standing(6400));
+        door = make("hall", 7);
+        ASSERT_EQ(door->start(), "");
+        ASSERT_EQ(peer.open({79, "plant", "lo"}, {Topic::gateway_state, Topic::axis_command, Topic::parameter_write, Topic::set_point},
+                            {Topic::gateway_state, Topic::axis_state, Topic::event, Topic::command_result}),
+                  "");
+        // Found each other: the door's state has come, and a command that nobody can carry out is answered.
+        ASSERT_TRUE(until([this] {
+            (void)peer.write(command("probe", "nobody", "halt"));
+            take_results();
+            return !results.empty();
+        }));
+        results.clear();
+        found = true;
+        // A probe that is still on its way is behind this one no more.
+        ASSERT_TRUE(peer.write(command("last", "nobody", "halt")));
+        ASSERT_TRUE(answered());
+        results.clear();
+        repeated = door->counters().repeated;
+    }
+    void TearDown() override {
+        peer.close();
+        bool stopped = false;
+        door->stop([&stopped] { stopped = true; });
+        EXPECT_TRUE(until([&stopped] { return stopped; }));
+    }
+    std::unique_ptr<DdsDoor> make(const char* name, std::uint64_t instance) {
+        return std::make_unique<DdsDoor>(
+            context, gateway.ports(), [this] { return now; },
+            DoorSettings{{79, "plant", "lo"}, name, "0.1", [] { return std::string("http://127.0.0.1:8080/"); }, instance});
+    }
+    /// Runs the door until something holds; false after 10 s.
+    bool until(const std::function<bool()>& holds) {
+        const auto limit = steady_clock::now() + std::chrono::seconds(10);
+        while (!holds()) {
+            if (steady_clock::now() > limit) return false;
+            now += std::chrono::milliseconds(20);
+            (void)context.run_for(std::chrono::milliseconds(20));
+            context.restart();
+        }
+        return true;
+    }
+    void take_results() {
+        (void)peer.take<axisgate_CommandResult>(64, [this](const auto& r, const Bus::Seen& seen) {
+            if (seen.valid && (!found || std::string_view(r.id) != "probe")) results.push_back(r);
+        });
+    }
+    bool answered(std::size_t n = 1) {
+        return until([this, n] {
+            take_results();
+            return results.size() >= n;
+        });
+    }
+    static axisgate_AxisCommand command(const char* id, const char* axis, const char* word, std::uint64_t instance = 0) {
+        axisgate_AxisCommand c{};
+        put_text(c.gateway, "hall");
+        put_text(c.axis, axis);
+        put_text(c.source, "yard anna");
+        put_text(c.id, id);
+        put_text(c.command, word);
+        c.instance = instance;
+        return c;
+    }
+};
+
+TEST_F(DdsDoorTest, SaysWhereItIs) { EXPECT_EQ(door->address(), "hall@plant:79%lo"); }
+
+TEST_F(DdsDoorTest, TellsTheStateOfTheGatewayAndOfEachAxisAndItsEvents) {
+    std::vector<axisgate_GatewayState> gateways;
+    std::vector<axisgate_AxisState> axes;
+    std::vector<axisgate_Event> events;
+    gateway.tell(http::test::event("it stands", "feeder", Severity::warning, "alarm"));
+    ASSERT_TRUE(until([&] {
+        (void)peer.take<axisgate_GatewayState>(64, [&](const auto& s, const auto&) { gateways.push_back(s); });
+        (void)peer.take<axisgate_AxisState>(64, [&](const auto& s, const auto&) {
+            if (std::string_view(s.axis) == "feeder") axes.push_back(s);
+        });
+        (void)peer.take<axisgate_Event>(64, [&](const auto& s, const auto&) { events.push_back(s); });
+        return !gateways.empty() && !axes.empty() && !events.empty();
+    }));
+    EXPECT_STREQ(gateways[0].gateway, "hall");
+    EXPECT_EQ(gateways[0].instance, 7u);
+    EXPECT_STREQ(gateways[0].http, "http://127.0.0.1:8080/");
+    EXPECT_EQ(gateways[0].axes, 2u);
+    EXPECT_EQ(gateways[0].axes_online, 1u);
+    EXPECT_EQ(axes[0].position, 6400);
+    EXPECT_EQ(axes[0].increments_per_unit, 3200);
+    EXPECT_STREQ(axes[0].unit, "mm");
+    EXPECT_STREQ(axes[0].authority, "http");
+    EXPECT_TRUE(axes[0].online && axes[0].simulated && axes[0].referenced && axes[0].target_reached && !axes[0].moving);
+    EXPECT_STREQ(events[0].text, "it stands");
+    EXPECT_STREQ(events[0].severity, "warning");
+    // What changes is told.
+    gateway.set_picture("feeder", standing(9600));
+    ASSERT_TRUE(until([&] {
+        (void)peer.take<axisgate_AxisState>(64, [&](const auto& s, const auto&) {
+            if (std::string_view(s.axis) == "feeder") axes.push_back(s);
+        });
+        return axes.back().position == 9600;
+    }));
+}
+
+TEST_F(DdsDoorTest, ACommandIsCarriedOutOnceAndAnsweredOnceMoreWhenItIsSentAgain) {
+    auto c = command("1", "feeder", "move_absolute");
+    double position = 2, velocity = 1;
+    c.position = &position;
+    c.velocity = &velocity;
+    c.until_done = true;
+    ASSERT_TRUE(peer.write(c));
+    ASSERT_TRUE(peer.write(c)) << "while it is under way";
+    ASSERT_TRUE(until([this] { return door->counters().repeated == repeated + 1; }));
+    ASSERT_EQ(gateway.submitted.size(), 1u);
+    const Command& done = gateway.submitted[0];
+    EXPECT_EQ(std::get<Move>(done.body).target, 6400);
+    EXPECT_EQ(std::get<Move>(done.body).velocity, 3200);
+    EXPECT_TRUE(done.until_done);
+    EXPECT_EQ(done.origin.door, Door::dds);
+    EXPECT_EQ(AuthorityClient::of(done.origin).text(), "dds yard anna");
+    Result r;
+    r.outcome = Outcome::done;
+    r.text = "there";
+    gateway.finish(r);
+    ASSERT_TRUE(answered());
+    EXPECT_STREQ(results[0].outcome, "done");
+    EXPECT_STREQ(results[0].text, "there");
+    EXPECT_STREQ(results[0].id, "1");
+    EXPECT_EQ(results[0].instance, 7u);
+    EXPECT_FALSE(results[0].repeated);
+    ASSERT_TRUE(peer.write(c)) << "after it: a requester that came back";
+    ASSERT_TRUE(answered(2));
+    EXPECT_TRUE(results[1].repeated);
+    EXPECT_NE(door->metrics().find("axisgate_dds_commands_repeated_total " + std::to_string(door->counters().repeated)), std::string::npos);
+    EXPECT_STREQ(results[1].text, "there");
+    EXPECT_EQ(gateway.submitted.size(), 1u);
+}
+
+TEST_F(DdsDoorTest, WhatCannotBeCarriedOutIsRefusedInWords) {
+    auto late = command("a", "feeder", "enable", 6);  // made for an earlier start of the gateway
+    auto wrong = command("b", "feeder", "move_absolute");
+    auto none = command("", "feeder", "enable");
+    ASSERT_TRUE(peer.write(late));
+    ASSERT_TRUE(answered(1));
+    ASSERT_TRUE(peer.write(wrong));
+    ASSERT_TRUE(answered(2));
+    ASSERT_TRUE(peer.write(none));
+    ASSERT_TRUE(answered(3));
+    EXPECT_STREQ(results[0].outcome, "failed");
+    EXPECT_STREQ(results[0].reason, "no_answer");
+    EXPECT_NE(std::string(results[0].text).find("started anew"), std::string::npos);
+    EXPECT_STREQ(results[1].outcome, "refused");
+    EXPECT_NE(std::string(results[1].text).find("position"), std::string::npos) << results[1].text;
+    EXPECT_NE(std::string(results[2].text).find("source and an id"), std::string::npos);
+    EXPECT_TRUE(gateway.submitted.empty());
+}
+
+TEST_F(DdsDoorTest, AParameterIsWrittenAsItsTypeAndWithinItsRange) {
+    axisgate_ParameterWrite w{};
+    put_text(w.gateway, "hall");
+    put_text(w.axis, "feeder");
+    put_text(w.source, "yard");
+    put_text(w.id, "p1");
+    put_text(w.parameter, "AC");
+    put_text(w.value, "0");
+    ASSERT_TRUE(peer.write(w));
+    ASSERT_TRUE(answered(1));
+    EXPECT_STREQ(results[0].reason, "out_of_range");
+    put_text(w.id, "p2");
+    put_text(w.value, "30000");
+    ASSERT_TRUE(peer.write(w));
+    ASSERT_TRUE(until([this] { return gateway.submitted.size() == 1; }));
+    EXPECT_EQ(as_integer(std::get<WriteParameter>(gateway.submitted[0].body).value), 30000);
+    put_text(w.id, "p3");
+    put_text(w.parameter, "ML");
+    put_text(w.value, "x");
+    ASSERT_TRUE(peer.write(w));
+    ASSERT_TRUE(answered(2));
+    EXPECT_STREQ(results[1].reason, "not_writable");
+}
+
+TEST_F(DdsDoorTest, TwoGatewaysWithOneNameAreToldApartByTheirInstances) {
+    axisgate_GatewayState s{};
+    put_text(s.gateway, "hall");
+    s.instance = 99;
+    ASSERT_TRUE(peer.write(s));
+    ASSERT_TRUE(until([this] { return !gateway.noted.empty(); }));
+    EXPECT_EQ(gateway.noted[0].severity, Severity::warning);
+    EXPECT_NE(gateway.noted[0].text.find("called hall as well"), std::string::npos);
+    ASSERT_TRUE(peer.write(command("n1", "feeder", "enable")));
+    ASSERT_TRUE(answered(1));
+    EXPECT_STREQ(results[0].outcome, "refused");
+    EXPECT_TRUE(gateway.submitted.empty());
+    ASSERT_TRUE(peer.write(command("n2", "feeder", "enable", 7)));
+    ASSERT_TRUE(until([this] { return gateway.submitted.size() == 1; }));
+}
+
+TEST_F(DdsDoorTest, SetPointsGoTheirWayAndTheirEndIsALostClient) {
+    axisgate_SetPoint s{};
+    put_text(s.gateway, "hall");
+    put_text(s.axis, "feeder");
+    put_text(s.source, "streamer");
+    put_text(s.mode, "velocity");
+    s.value = 2;
+    ASSERT_TRUE(until([&] {
+        (void)peer.write(s);
+        return !gateway.set_points.empty();
+    }));
+    EXPECT_EQ(gateway.set_points[0].value, 6400);
+    EXPECT_EQ(gateway.set_points[0].mode, SetPoint::Mode::velocity);
+    EXPECT_EQ(gateway.set_points[0].origin.door, Door::dds);
+    EXPECT_TRUE(gateway.lost.empty());
+    peer.close();
+    ASSERT_TRUE(until([this] { return !gateway.lost.empty(); }));
+    EXPECT_EQ(gateway.lost[0].first, (AuthorityClient{Door::dds, "streamer"}));
+    EXPECT_EQ(gateway.lost[0].second, LossCause::set_points_silent);
+}
+}  // namespace
+}  // namespace axisgate::dds

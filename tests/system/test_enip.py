@@ -70,9 +70,9 @@ class Originator:
             self.id = struct.unpack("<I", answer[:4])[0]
         return status, extended
 
-    def start(self, rpi_s=0.005):
-        """Renews `self.output` until stop(); the newest input is in `self.input`."""
-        self.output, self.input, self.run, self.sending = bytearray(32), b"", 1, True
+    def start(self, rpi_s=0.005, output=None):
+        """Renews `self.output` until stop(); `output` is the first image, zeros without it."""
+        self.output, self.run, self.sending = output or bytearray(32), 1, True
 
         def go():
             n = 0
@@ -189,6 +189,33 @@ def test_a_class_1_connection_moves_an_axis_and_its_loss_stops_it(folder):
         assert "silent for its time-out" in text, text
         status, metrics, _ = g.request("GET", "/metrics")
         assert status == 200 and b"axisgate_enip_connection_timeouts_total 1" in metrics, metrics
+
+
+def test_the_first_image_moves_nothing_at_the_start_and_after_idle(folder):
+    def image(speed):
+        return bytearray(struct.pack("<HhiIIIi8x", 0x0F, 3, 0, 3200, 32000, 32000, speed))
+
+    def stands(g, what):
+        end = time.monotonic() + 0.4
+        while time.monotonic() < end:
+            axis = g.get("/axes/feeder")
+            assert not axis["moving"], f"{what}: {axis}"
+    with device(folder) as (g, at), Originator(*at) as o:
+        assert g.command("feeder", {"command": "enable"})["result"] == "done"
+        assert o.open(151, 101) == (0, ())
+        o.start(output=image(3200))
+        until(lambda: struct.unpack("<h", o.inputs()[2:4])[0] == 3, what="mode 3: the image has come")
+        stands(g, "the first image")
+        o.output = image(1600)
+        until(lambda: g.get("/axes/feeder")["moving"], what="another speed")
+        o.run = 0
+        until(lambda: not g.get("/axes/feeder")["moving"], what="the stop of idle")
+        assert g.command("feeder", {"command": "enable"})["result"] == "done"
+        until(lambda: statusword(o.inputs()) & 0x6F == 0x27, what="enabled again")
+        o.run = 1
+        stands(g, "the first image after idle")
+        o.output = image(1700)
+        until(lambda: g.get("/axes/feeder")["moving"], what="another speed after idle")
 
 
 def test_every_frame_is_what_a_dissector_knows(folder):

@@ -66,7 +66,7 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     app.fallthrough(false);
 
-    Common serve_common, check_common, backup_common, restore_common;
+    Common serve_common, check_common, backup_common, restore_common, bundle_common;
     auto* serve = app.add_subcommand("serve", "run the gateway");
     add_config(*serve, serve_common, true);
 
@@ -110,13 +110,18 @@ int main(int argc, char** argv) {
     auto* check = app.add_subcommand("check", "find all faults of configuration and site");
     add_config(*check, check_common, true);
 
-    std::string backup_file, restore_file;
+    std::string backup_file, restore_file, bundle_file;
     auto* backup = app.add_subcommand("backup", "copy the database into one file; the gateway may run");
     backup->add_option("file", backup_file)->required()->type_name("FILE");
     add_config(*backup, backup_common, false);
     auto* restore = app.add_subcommand("restore", "put a backup in place of the database; the gateway must not run");
     restore->add_option("file", restore_file)->required()->type_name("FILE");
     add_config(*restore, restore_common, false);
+
+    auto* bundle =
+        app.add_subcommand("bundle", "gather what somebody needs who is to help, without secrets, in one tar; the gateway may run");
+    bundle->add_option("file", bundle_file)->required()->type_name("FILE.tar");
+    add_config(*bundle, bundle_common, false);
 
     auto* version = app.add_subcommand("version", "print the version");
     auto* help = app.add_subcommand("help", "print this text");
@@ -163,6 +168,11 @@ int main(int argc, char** argv) {
         return command_serve(o);
     }
     Config config;
+    if (*bundle) {
+        if (!config_of(bundle_common, config)) complain("the bundle is made all the same, with what could be read");
+        bool read = true;
+        return command_bundle(sources_of(bundle_common, read), config, bundle_file);
+    }
     if (*backup) return config_of(backup_common, config) ? command_backup(config, backup_file) : exit_usage;
     if (*restore) return config_of(restore_common, config) ? command_restore(config, restore_file) : exit_usage;
     return exit_usage;

@@ -61,7 +61,14 @@ void Engine::Side::on_frame(const Frame& frame) {
     }
 }
 
-void Engine::Side::on_sent(const Frame& frame) { unit.log->record(frame, true, twin); }
+void Engine::Side::on_sent(const Frame& frame) {
+    unit.log->record(frame, true, twin);
+    if (followed.handed_on && followed.frame.same(frame)) {
+        engine.write_to_frame_.observe(frame.at - followed.since);
+        followed.ticket = no_ticket;
+        followed.handed_on = false;
+    }
+}
 
 void Engine::Side::on_line_state(bool now_up, const std::string& text) { engine.line_state(*this, now_up, text, engine.now_); }
 
@@ -74,7 +81,11 @@ void Engine::drain(Speaker& by, Out& out, Instant now) {
     }
     for (auto& tx : out.frames) {
         tx.frame.sender = by.number;
-        (void)side.line->send(tx.frame, tx.priority, now);  // a full queue is counted there
+        const bool taken = side.line->send(tx.frame, tx.priority, now);  // a full queue is counted there
+        if (auto& f = side.followed; taken && f.ticket != no_ticket && !f.handed_on && tx.priority != Priority::poll) {
+            f.handed_on = true;
+            f.frame = tx.frame;
+        }
     }
     for (const auto& l : out.links)
         link(side, l, now);
@@ -271,11 +282,20 @@ void Engine::give_order(Axis& a, Client* client, CommandBody body, Origin origin
     order.until_done = client && client->until_done && std::holds_alternative<Action>(body);
     order.body = std::move(body);
     order.origin = std::move(origin);
+    if (!side->twin && side->followed.ticket == no_ticket) {
+        side->followed.ticket = ticket;
+        side->followed.since = now;
+    }
     Speaker& by = speaker_of(*side, *a.drive);
     ask(by, now, [&](Out& out) { by.adapter->on_command(order, now, out); });
 }
 
 void Engine::order_result(const Result& given, Instant now) {
+    for (Side* s : sides_) {  // it has ended: with a frame that was seen to leave, or without one
+        if (s->followed.ticket != given.ticket) continue;
+        s->followed.ticket = no_ticket;
+        s->followed.handed_on = false;
+    }
     const auto it = orders_.find(given.ticket);
     if (it == orders_.end()) return;  // answered already: the adapter broke its law, the client is not told twice
     if (it->second.handback != no_drive) {

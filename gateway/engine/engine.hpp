@@ -15,6 +15,7 @@
 #include "gateway/axis/cia402.hpp"
 #include "gateway/axis/guard.hpp"
 #include "gateway/core/event.hpp"
+#include "gateway/core/histogram.hpp"
 #include "gateway/core/line.hpp"
 #include "gateway/core/scan.hpp"
 #include "gateway/core/twin.hpp"
@@ -86,6 +87,8 @@ public:
     /// it streamed: only what it streams is.
     void on_client_lost(const AuthorityClient& who, LossCause cause, Instant now);
     /// How often axes were stopped since the start because of this cause.
+    /// From a command's being taken to its first frame having left on a real line; any thread. One command per line at a time is measured.
+    [[nodiscard]] const Histogram& write_to_frame() const noexcept { return write_to_frame_; }
     [[nodiscard]] std::uint64_t losses(LossCause cause) const noexcept { return losses_[static_cast<std::size_t>(cause)]; }
     /// The store has (`fault` empty) or has not recorded an order.
     void on_stored(Ticket order, const std::string& fault, Instant now);
@@ -238,7 +241,8 @@ private:
     std::vector<std::unique_ptr<Axis>> axes_;                             // by AxisId
     std::vector<Side*> sides_;                                            // all that exist, for the deadline scan
     std::unordered_map<std::uint64_t, std::unique_ptr<Client>> clients_;  // by own number
-    std::unordered_map<Ticket, OrderRecord> orders_;                      // by the ticket that the adapter or the store has
+    Histogram write_to_frame_;
+    std::unordered_map<Ticket, OrderRecord> orders_;  // by the ticket that the adapter or the store has
     std::vector<Out> spare_;
     std::unique_ptr<Change> change_;
     std::uint64_t next_ = 1;

@@ -72,6 +72,14 @@ struct Engine::Side final : LineEvents {
     void on_frame(const Frame& frame) override;
     void on_line_state(bool now_up, const std::string& text) override;
     void on_sent(const Frame& frame) override;
+
+    /// One command at a time is followed until its frame has left, for the histogram; those that come meanwhile are not. Real lines alone.
+    struct Followed {
+        Ticket ticket = no_ticket;  ///< none: the next command is
+        Instant since{};
+        bool handed_on = false;  ///< `frame` is in the line's queue
+        Frame frame;
+    } followed;
 };
 
 /// One search for drives on a line; kept for its report until the next. Its families are searched for side by side.

@@ -132,7 +132,9 @@ void Cold::write_batch() {
         it->id = fault.empty() ? next_event_id_ - back : 0;  // 0: streamed, but not kept
     }
     batches_.fetch_add(1, std::memory_order_relaxed);
-    write_ns_.fetch_add(static_cast<std::uint64_t>((monotonic_now() - begun).count()), std::memory_order_relaxed);
+    const Duration took = monotonic_now() - begun;
+    write_ns_.fetch_add(static_cast<std::uint64_t>(took.count()), std::memory_order_relaxed);
+    batch_times_.observe(took);
     if (!orders.empty()) {
         std::vector<Stored> stored;
         for (const auto& o : orders)

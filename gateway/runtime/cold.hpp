@@ -15,6 +15,7 @@
 #include <variant>
 #include <vector>
 
+#include "gateway/core/histogram.hpp"
 #include "gateway/engine/engine.hpp"
 #include "gateway/runtime/mailbox.hpp"
 #include "gateway/store/store.hpp"
@@ -63,6 +64,8 @@ public:
     [[nodiscard]] std::uint64_t batches() const noexcept { return batches_.load(std::memory_order_relaxed); }
     [[nodiscard]] std::uint64_t faults() const noexcept { return faults_.load(std::memory_order_relaxed); }
     [[nodiscard]] std::uint64_t write_ns() const noexcept { return write_ns_.load(std::memory_order_relaxed); }
+    /// Of each transaction. Any thread.
+    [[nodiscard]] const Histogram& batch_times() const noexcept { return batch_times_; }
     [[nodiscard]] bool healthy() const noexcept { return healthy_.load(std::memory_order_relaxed); }
 
 private:
@@ -85,6 +88,7 @@ private:
     bool stopping_ = false;
     std::uint64_t next_event_id_ = 1;
     std::atomic<std::uint64_t> batches_{0}, faults_{0}, write_ns_{0};
+    Histogram batch_times_;
     std::atomic<bool> healthy_{true};
     std::thread thread_;
 };

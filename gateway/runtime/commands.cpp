@@ -9,9 +9,11 @@
 #include <cstdio>
 
 #include "gateway/core/assets.hpp"
+#include "gateway/runtime/bundle.hpp"
 #include "gateway/runtime/catalogues.hpp"
 #include "gateway/runtime/clock.hpp"
 #include "gateway/runtime/config_host.hpp"
+#include "gateway/runtime/files.hpp"
 #include "gateway/runtime/site_file.hpp"
 #include "gateway/runtime/tls_files.hpp"
 #include "gateway/services/documents.hpp"
@@ -208,6 +210,15 @@ int command_check(const ConfigSources& sources, const std::string& site_file, bo
 int command_backup(const Config& config, const std::string& file) {
     if (const auto done = backup_database(config.data_dir, file); !done) {
         complain(done.error().text);
+        return exit_failed;
+    }
+    fmt::print("{}\n", file);
+    return exit_good;
+}
+
+int command_bundle(const ConfigSources& sources, const Config& config, const std::string& file) {
+    if (const std::string fault = write_file(file, make_bundle(sources, config)); !fault.empty()) {
+        complain(fault);
         return exit_failed;
     }
     fmt::print("{}\n", file);

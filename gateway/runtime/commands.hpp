@@ -25,6 +25,8 @@ struct ServeOptions {
 /// could not be read, which has been said already.
 [[nodiscard]] int command_check(const ConfigSources& sources, const std::string& site_file, bool all_read = true);
 [[nodiscard]] int command_backup(const Config& config, const std::string& file);
+/// Writes a support bundle; `sources` are those that `config` was read from.
+[[nodiscard]] int command_bundle(const ConfigSources& sources, const Config& config, const std::string& file);
 [[nodiscard]] int command_restore(const Config& config, const std::string& file);
 
 struct TwinOptions {

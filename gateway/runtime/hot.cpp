@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 #include <pthread.h>
 #include <sched.h>
+#include <time.h>
 
 #include <algorithm>
 
@@ -63,8 +64,12 @@ void Hot::run() {
     const auto spin = std::chrono::microseconds(settings_.spin_us);
     Instant stop_by = never;
     bool stopping = false;
+    turn_began_ = now();
     while (!finished_) {
         end_turn();
+        const Instant ended = now();
+        turn_times_.observe(ended - turn_began_);
+        turn_began_ = ended;  // as it goes on, unless it sleeps first
         std::size_t ran = io_.poll_one();
         // The other threads hear of it when this one has nothing more to send: to wake them first would put a system call, and on a busy
         // processor their work, between a command and its frame.
@@ -75,10 +80,11 @@ void Hot::run() {
             for (unsigned i = 0; ran == 0; ++i) {
                 const Instant t = now();
                 if (t >= until || t >= armed_) break;
+                turn_began_ = t;
                 ran = serve_doors() ? 1 : (i % 4 == 3 || doors_.empty()) ? io_.poll_one() : 0;
             }
         }
-        if (ran == 0) io_.run_one();
+        if (ran == 0) sleep();
         for (int n = 0; n < handlers_per_turn && io_.poll_one() > 0; ++n) {
         }
         if (stopping_.load(std::memory_order_relaxed)) {
@@ -96,6 +102,18 @@ void Hot::run() {
     }
     end_turn();
     announce();
+}
+
+/// Waits for the next handler and runs it. It runs within the wait: its share of the turn is the processor time that the wait has cost.
+void Hot::sleep() {
+    const auto used = [] {
+        timespec t{};
+        (void)clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+        return Duration(std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec);
+    };
+    const Duration before = used();
+    io_.run_one();
+    turn_began_ = now() - (used() - before);
 }
 
 void Hot::announce() {
@@ -147,8 +165,10 @@ void Hot::arm(Instant deadline) {
     }
     timer_.expires_at(std::chrono::steady_clock::time_point(
         std::chrono::duration_cast<std::chrono::steady_clock::duration>(deadline.time_since_epoch())));
-    timer_.async_wait([this](const boost::system::error_code& ec) {
-        if (!ec) armed_ = never;
+    timer_.async_wait([this, deadline](const boost::system::error_code& ec) {
+        if (ec) return;
+        armed_ = never;
+        wake_delays_.observe(now() - deadline);
     });
 }
 

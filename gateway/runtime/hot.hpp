@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "gateway/core/histogram.hpp"
 #include "gateway/engine/door.hpp"
 #include "gateway/engine/engine.hpp"
 #include "gateway/lines/pty_line.hpp"
@@ -79,6 +80,10 @@ public:
     /// Instant of the last turn: the watchdog looks at it.
     [[nodiscard]] Instant last_turn() const noexcept { return at_ns(last_turn_ns_.load(std::memory_order_relaxed)); }
     [[nodiscard]] std::uint64_t turns() const noexcept { return turns_.load(std::memory_order_relaxed); }
+    /// Work between two sleeps, and how long after its time a timer of the loop rang. Any thread.
+    [[nodiscard]] const Histogram& turn_times() const noexcept { return turn_times_; }
+    [[nodiscard]] const Histogram& wake_delays() const noexcept { return wake_delays_; }
+    [[nodiscard]] const Histogram& write_to_frame() const noexcept { return engine_.write_to_frame(); }
     [[nodiscard]] std::uint64_t lost_events() const noexcept { return events_.lost(); }
 
     // DoorPort (hot thread)
@@ -106,6 +111,7 @@ private:
     void end_turn();
     bool serve_doors();
     void announce();
+    void sleep();
     void arm(Instant deadline);
     void publish_reports(Instant now);
 
@@ -131,6 +137,8 @@ private:
     Instant next_reports_{};
     std::atomic<std::int64_t> last_turn_ns_{0};
     std::atomic<std::uint64_t> turns_{0};
+    Histogram turn_times_, wake_delays_;
+    Instant turn_began_{};
     std::atomic<bool> stopping_{false};
     bool finished_ = false;
     bool settled_ = false;

@@ -1,8 +1,6 @@
 // Service: `axisgate serve`: assembles store, hot, cold and warm threads and doors, says `ready`, and takes it all down again in order.
 // In: the configuration, a site. Out: the running gateway; an exit code. Never starts a door before what it shows is there.
 #include <fmt/core.h>
-#include <spdlog/sinks/basic_file_sink.h>
-#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -25,6 +23,7 @@
 #include "gateway/runtime/config_host.hpp"
 #include "gateway/runtime/files.hpp"
 #include "gateway/runtime/hot.hpp"
+#include "gateway/runtime/log.hpp"
 #include "gateway/runtime/modbus_doors.hpp"
 #include "gateway/runtime/site_file.hpp"
 #include "gateway/runtime/site_names.hpp"
@@ -39,42 +38,6 @@ namespace axisgate {
 namespace {
 /// Longest wait for lines and drives before `ready` is said all the same; what is missing is then named in it.
 constexpr auto ready_limit = std::chrono::seconds(5);
-
-bool open_log(const Config& c) {
-    try {
-        std::shared_ptr<spdlog::logger> log;
-        if (c.log_file.empty()) {
-            log = std::make_shared<spdlog::logger>("axisgate", std::make_shared<spdlog::sinks::stderr_sink_mt>());
-        } else {
-            log = std::make_shared<spdlog::logger>("axisgate", std::make_shared<spdlog::sinks::basic_file_sink_mt>(c.log_file));
-        }
-        log->set_pattern("%Y-%m-%dT%H:%M:%S.%f%z %l %v");
-        log->set_level(spdlog::level::from_str(c.log_level));
-        log->flush_on(spdlog::level::info);
-        spdlog::set_default_logger(std::move(log));
-        return true;
-    } catch (const spdlog::spdlog_ex& e) {
-        complain(
-            fmt::format("cannot open the log file {}: {}; check the folder and its rights, or leave log.file empty", c.log_file, e.what()));
-        return false;
-    }
-}
-
-void log_event(const Event& e) {
-    const auto level = e.severity == Severity::alarm     ? spdlog::level::err
-                       : e.severity == Severity::warning ? spdlog::level::warn
-                                                         : spdlog::level::info;
-    std::string where;
-    if (!e.line.empty()) where += " line=" + e.line;
-    if (!e.drive.empty()) where += " drive=" + e.drive;
-    if (!e.axis.empty()) where += " axis=" + e.axis;
-    if (!e.door.empty()) where += " by=" + e.door + (e.who.empty() ? "" : "/" + e.who);
-    spdlog::log(level, "{}{}: {}", e.kind, where, e.text);
-}
-
-struct LogListener final : EventListener {
-    void on_event(const Event& event) override { log_event(event); }
-};
 
 /// Everything that lives while the service runs; destroyed from the last to the first.
 struct Service {
@@ -98,7 +61,8 @@ struct Service {
     boost::asio::steady_timer tick{warm};
     Instant started = monotonic_now();
     bool ready_reported = false;
-    std::string first_code;  ///< to be shown
+    std::string manager_status;  ///< as it was told last
+    std::string first_code;      ///< to be shown
     int code = exit_good;
 
     explicit Service(const ServeOptions& o) : options(o) {}
@@ -111,6 +75,7 @@ struct Service {
     void arm_services();
     int open_doors();
     void watch();
+    void tell_manager();
     void report_ready();
     void take_down();
 };
@@ -369,7 +334,7 @@ void Service::report_ready() {
         text += "; " + c;
     fmt::print("{}\n", text);
     std::fflush(stdout);
-    notify_manager("READY=1\nSTATUS=serving");
+    notify_manager("READY=1");
     spdlog::info("{}", text);
 }
 
@@ -377,6 +342,7 @@ void Service::report_ready() {
 void Service::watch() {
     if (!ready_reported) report_ready();
     const auto interval = watchdog_interval();
+    if (ready_reported) tell_manager();
     if (interval && monotonic_now() - hot->last_turn() < std::chrono::seconds(1)) notify_manager("WATCHDOG=1");
     auto next = ready_reported ? std::chrono::milliseconds(500) : std::chrono::milliseconds(2);
     if (interval) next = std::min(next, std::chrono::duration_cast<std::chrono::milliseconds>(*interval));
@@ -384,6 +350,21 @@ void Service::watch() {
     tick.async_wait([this](const boost::system::error_code& ec) {
         if (!ec) watch();
     });
+}
+
+/// What `systemctl status` shows, and what an upgrade waits for.
+void Service::tell_manager() {
+    std::size_t online = 0, moving = 0;
+    const auto site = ports->site.site();
+    for (const AxisId id : site->axis_ids) {
+        const AxisPicture p = hot->image().cell(id).read();
+        online += (p.flags & flag_online) != 0;
+        moving += (p.flags & flag_moving) != 0;
+    }
+    std::string status = fmt::format("STATUS={} axes, {} online, {} moving", site->axis_ids.size(), online, moving);
+    if (status == manager_status) return;
+    manager_status = std::move(status);
+    notify_manager(manager_status);
 }
 
 void Service::take_down() {

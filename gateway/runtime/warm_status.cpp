@@ -1,13 +1,14 @@
 // Warm status: metrics are written topic by topic: the program, lines, drives, axes, doors.
-// In: reports, counters. Out: text. Reads /proc/self/statm and nothing else outside the process.
+// In: reports, counters. Out: text. Never waits.
 #include "gateway/runtime/warm_status.hpp"
 
 #include <fmt/core.h>
-#include <unistd.h>
 
-#include <fstream>
+#include <utility>
 
+#include "gateway/core/histogram.hpp"
 #include "gateway/runtime/axis_metrics.hpp"
+#include "gateway/runtime/process_metrics.hpp"
 
 namespace axisgate {
 
@@ -28,14 +29,28 @@ std::string WarmStatus::metrics() const {
     s += fmt::format("axisgate_uptime_seconds {:.3f}\n", uptime_s());
     head("axisgate_mapping_info", "gauge", "Revision of the register mapping (register 18).");
     s += fmt::format("axisgate_mapping_info{{revision=\"{:08x}\"}} 1\n", mapping_revision(site_.site()->site));
-    if (std::ifstream statm("/proc/self/statm"); statm) {
-        std::uint64_t size = 0, resident = 0;
-        statm >> size >> resident;
-        head("axisgate_resident_memory_bytes", "gauge", "Resident memory of the process.");
-        s += fmt::format("axisgate_resident_memory_bytes {}\n", resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)));
-    }
+    s += process_metrics();
     head("axisgate_hot_turns_total", "counter", "Turns of the hot loop.");
     s += fmt::format("axisgate_hot_turns_total {}\n", threads_.hot.turns());
+    const auto spread = [&](std::string_view name, std::string_view help, const Histogram& h) {
+        const auto reading = h.read();
+        s += metric_head(name, "histogram", help) + metric_lines(name, reading);
+        return reading;
+    };
+    const auto turns = spread("axisgate_hot_turn_seconds", "Work of the hot loop between two sleeps.", threads_.hot.turn_times());
+    head("axisgate_hot_turn_p999_seconds", "gauge", "99.9 % of all turns of the hot loop took no longer.");
+    s += fmt::format("axisgate_hot_turn_p999_seconds {:.9f}\n", turns.quantile(0.999));
+    (void)spread("axisgate_hot_wake_delay_seconds", "How long after its time a timer of the hot loop rang.", threads_.hot.wake_delays());
+    (void)spread("axisgate_write_to_frame_seconds",
+                 "From a command's being taken to its first frame having left on a real line (one command per line at a time is measured).",
+                 threads_.hot.write_to_frame());
+    (void)spread("axisgate_store_batch_seconds", "Transactions written to the database.", threads_.cold.batch_times());
+    head("axisgate_queue_full_total", "counter", "Items that found the queue between two threads full.");
+    for (const auto& [queue, full] : {std::pair{"commands", threads_.hot.commands().full()},
+                                      {"jobs", threads_.hot.jobs().full()},
+                                      {"store_from_hot", threads_.cold.from_hot().full()},
+                                      {"store_from_service", threads_.cold.from_service().full()}})
+        s += fmt::format("axisgate_queue_full_total{{queue=\"{}\"}} {}\n", queue, full);
     head("axisgate_store_batches_total", "counter", "Transactions written to the database.");
     s += fmt::format("axisgate_store_batches_total {}\n", threads_.cold.batches());
     head("axisgate_store_write_seconds_total", "counter", "Time spent writing to the database.");
@@ -66,6 +81,9 @@ std::string WarmStatus::metrics() const {
              [](const LineReport& r) { return r.status.frames_out; });
     per_line("axisgate_line_dropped_total", "counter", "Frames that found the send queue full.",
              [](const LineReport& r) { return r.status.dropped; });
+    per_line("axisgate_line_queued", "gauge", "Frames that wait to be sent.", [](const LineReport& r) { return r.status.queued; });
+    per_line("axisgate_line_received_bytes_total", "counter", "Bytes that arrived.", [](const LineReport& r) { return r.status.bytes_in; });
+    per_line("axisgate_line_sent_bytes_total", "counter", "Bytes that left.", [](const LineReport& r) { return r.status.bytes_out; });
     per_line("axisgate_line_errors_total", "counter", "Errors of the line or its controller.",
              [](const LineReport& r) { return r.status.errors; });
     per_line("axisgate_line_reopened_total", "counter", "Times the line came back.", [](const LineReport& r) { return r.status.reopened; });
@@ -93,6 +111,11 @@ std::string WarmStatus::metrics() const {
               [](const DriveStatus& d) { return d.presence != Presence::offline ? 1 : 0; });
     per_drive("axisgate_drive_simulated", "1: the embedded twin serves the axes.",
               [](const DriveStatus& d) { return d.presence == Presence::twin ? 1 : 0; });
+    per_drive("axisgate_drive_device_online", "1: the real drive answers.", [](const DriveStatus& d) { return d.device_online ? 1 : 0; });
+    per_drive("axisgate_drive_silent_exchanges", "Exchanges in a row that the drive has not answered.",
+              [](const DriveStatus& d) { return d.silent_exchanges; });
+    per_drive("axisgate_drive_retry_pause_seconds", "Pause before a silent drive is asked again; 0: it is asked as usual.",
+              [](const DriveStatus& d) { return fmt::format("{:.3f}", static_cast<double>(d.retry_pause_ms) * 1e-3); });
     std::vector<AxisPicture> pictures;
     pictures.reserve(site.axis_ids.size());
     for (const AxisId id : site.axis_ids)

@@ -279,3 +279,31 @@ def test_a_port_that_comes_late_and_is_pulled_out(folder):
             until(lambda: metric(g, "axisgate_modbus_rtu_up") == 0, 10, "the port pulled out")
         assert len(said("is shut")) == 3, [e["text"] for e in said("")]
         assert g.process.poll() is None
+
+
+def test_a_master_that_moves_an_axis_and_falls_silent_or_is_pulled_out_is_lost(folder):
+    wire = Wire(folder / "tty").plug()
+    with rtu_gateway(folder, wire.path, "--set", "modbus.watchdog_ms=600") as g:
+        until(lambda: metric(g, "axisgate_modbus_rtu_up") == 1, 10, "the port")
+
+        def run():
+            for word in ("060021" + "0003", "060020" + "0006", "060020" + "0007", "060020" + "000F"):
+                wire.ask(1, bytes.fromhex(word), 8)
+            wire.ask(1, bytes.fromhex("10002A000204" + "00002EE0"), 8)
+            until(lambda: g.axis()["velocity"] > 1, 5, "speed")
+        run()
+        holder = g.get("/axes/feeder/authority")
+        assert f"modbus {wire.path}"[:60] in str(holder), holder
+        begun = time.monotonic()
+        while time.monotonic() < begun + 1.2:  # any request keeps the master alive
+            wire.ask(1, bytes.fromhex("03000E0001"), 7)
+            time.sleep(0.1)
+        assert g.axis()["moving"]
+        until(lambda: not g.axis()["moving"], 5, "the watchdog's halt")
+        assert [e for e in g.get("/events?kind=fail_safe") if e["axis"] == "feeder"]
+        assert wire.ask(1, bytes.fromhex("0300160001"), 7)[4] == 2, "cause 2: silent"
+        run()
+        wire.pull()
+        until(lambda: not g.axis()["moving"], 5, "the halt of a lost master")
+        with g.modbus() as m:
+            assert m.read(22, 1)[0] == 1, "cause 1: closed"

@@ -250,5 +250,5 @@ def test_health_ready_metrics(gateway):
             assert name not in names, f"{name} twice"
             names.add(name)
         elif line and not line.startswith("#"):
-            assert re.match(r'^axisgate_[a-z0-9_]+(\{([a-z_]+="[^"]*",?)*\})? -?[0-9.e+-]+$', line), line
+            assert re.match(r'^(axisgate|process)_[a-z0-9_]+(\{([a-z_]+="[^"]*",?)*\})? -?[0-9.e+-]+$', line), line
     assert {"axisgate_build_info", "axisgate_line_exchanges_total", "axisgate_modbus_requests_total"} <= names

@@ -41,14 +41,39 @@ ProcessData all_of(const Wanted& w) noexcept {
     return d;
 }
 
+/// What the first image wanted counts when it wants something else, or when the originator itself enables the axis or ends its halt.
+void OutputLane::compare(const Wanted& image, const AxisPicture& axis) {
+    constexpr std::uint16_t halt = cia402::cw_halt;
+    if (!any_) {
+        base_ = newest_ = image;
+        held_ = image.controlword & edges;
+        halt_held_ = is_enabled(axis) && (axis.controlword & halt) && !(image.controlword & halt);
+        any_ = true;
+    }
+    held_ &= image.controlword;
+    const bool another_mode = image.mode != base_.mode;
+    const bool enables = (image.controlword & ~newest_.controlword & cia402::cw_enable_operation) != 0;
+    const bool releases = (newest_.controlword & ~image.controlword & halt) != 0;
+    if (!speed_counts_ && (another_mode || image.target_velocity != base_.target_velocity || enables || releases)) {
+        speed_counts_ = true;
+        speed_due_ = image.mode == velocity_mode;
+    }
+    const bool another_place =
+        image.mode == streamed_position ? image.target_position != base_.target_position : image.target_velocity != base_.target_velocity;
+    stream_counts_ = stream_counts_ || another_mode || (streams(image) && another_place);
+    const bool begins = (image.controlword & ~held_ & cia402::cw_new_setpoint) || (image.mode == velocity_mode && speed_counts_) ||
+                        (streams(image) && stream_counts_);
+    halt_held_ = halt_held_ && !(image.controlword & halt) && !begins;
+    newest_ = image;
+}
+
 OutputLane::Step OutputLane::take(const Wanted& wanted, const AxisPicture& axis) {
-    if (!any_) held_ = wanted.controlword & edges;
-    any_ = true;
-    held_ &= wanted.controlword;
+    compare(wanted, axis);
     wanted_ = wanted;
-    wanted_.controlword = static_cast<std::uint16_t>(wanted.controlword & ~held_);
+    wanted_.controlword = static_cast<std::uint16_t>((wanted.controlword & ~held_) | (halt_held_ ? cia402::cw_halt : 0));
     Step step = next();
-    const bool follows = streams(wanted_) && (wanted_.controlword & enabled) == enabled && !(wanted_.controlword & cia402::cw_halt);
+    const bool follows =
+        streams(wanted_) && stream_counts_ && (wanted_.controlword & enabled) == enabled && !(wanted_.controlword & cia402::cw_halt);
     if (follows && is_enabled(axis)) {
         SetPoint p;
         const bool position = wanted_.mode == streamed_position;
@@ -73,6 +98,7 @@ OutputLane::Step OutputLane::next() {
     const bool mode = wanted_.mode != sent_.mode && !streamed;
     // A profile takes its values with an edge; a speed is followed as it changes.
     Wanted now = wanted_;
+    if (!speed_counts_) now.target_velocity = sent_.target_velocity;
     if (streamed) {
         now = sent_;
         now.controlword = wanted_.controlword;
@@ -81,8 +107,13 @@ OutputLane::Step OutputLane::next() {
         now.target_position = sent_.target_position;
         now.homing_method = sent_.homing_method;
     }
-    if (now == sent_) return {};
+    const bool due = speed_due_ && now.mode == velocity_mode;
+    if (now == sent_ && !due) return {};
     ProcessData d;
+    if (due) {
+        d.target_velocity = sent_.target_velocity = now.target_velocity;
+        speed_due_ = false;
+    }
     const auto put = [](auto& into, const auto& value, auto& before) {
         if (value == before) return;
         into = value;

@@ -1,7 +1,7 @@
 // Output lane: what becomes of the 32 bytes that an originator renews for one axis: edges are commands, what is streamed are set-points.
 // In: registers 32..45 as they were sent, the axis' picture. Out: a ProcessData where something has changed, a SetPoint in modes 8 and 9.
-// Never begins anything because it was begun itself: bits 4 and 7 of the first control word count as held until they were low once, and
-// what is 0 from the start is not sent. Values wait while a command is on its way; a control word does not.
+// Never moves anything by the first image: bits 4 and 7 of its control word count as held until they were low once, an axis that stands
+// halted stays so, and its speed and positions are a base: another one counts. Values wait while a command is on its way; a word does not.
 #pragma once
 
 #include <optional>
@@ -41,9 +41,14 @@ public:
     [[nodiscard]] Step done();
 
 private:
+    void compare(const Wanted& image, const AxisPicture& axis);
     [[nodiscard]] Step next();
+    Wanted base_, newest_;  // images as they came: the first, and the one before the newest
     Wanted wanted_, sent_;
     std::uint16_t held_ = 0;  // bits that were set from the start
+    bool halt_held_ = false;  // the axis stood halted at the start, and the first word would have released it
+    bool speed_counts_ = false, stream_counts_ = false;
+    bool speed_due_ = false;  // it has begun to count: it is sent even if it is 0
     std::uint32_t on_their_way_ = 0;
     bool any_ = false;
 };

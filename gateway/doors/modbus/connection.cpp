@@ -94,7 +94,9 @@ void Connection::pump() {
     do {
         out.size = 0;
         work = session_.work(now, out);
+        const std::uint64_t answered = session_.answered_at_once();
         if (out.size > 0 && !send()) return close();
+        if (answered > 0) counters_.request_times.observe(host_.now() - now, answered);
     } while (work == Session::Work::output_full && backlog_.empty());
     if (work == Session::Work::not_modbus) {
         // Unread bytes would make the close a reset, which may overtake the answers to what was asked before the garbage.

@@ -27,6 +27,8 @@ std::string metrics_text(const Counters& c) {
         s +=
             fmt::format("axisgate_modbus_exceptions_total{{code=\"{}\"}} {}\n", code, c.exceptions[static_cast<std::size_t>(code)].value());
     }
+    s += metric_head("axisgate_modbus_request_duration_seconds", "histogram", "From a request to its answer, drives included.");
+    s += metric_lines("axisgate_modbus_request_duration_seconds", c.request_times.read());
     return s;
 }
 

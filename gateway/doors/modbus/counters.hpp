@@ -8,6 +8,7 @@
 #include <string>
 
 #include "gateway/core/counter.hpp"
+#include "gateway/core/histogram.hpp"
 #include "gateway/doors/modbus/wire.hpp"
 
 namespace axisgate::modbus {
@@ -15,6 +16,8 @@ namespace axisgate::modbus {
 struct Counters {
     Counter requests;                    ///< whole ADUs taken for an answer
     std::array<Counter, 16> exceptions;  ///< answers, by exception code (index 1..0x0B)
+
+    Histogram request_times;  ///< from the request to its answer, drives included
 
     Counter connections_open;  ///< gauge
     Counter connections_accepted;

@@ -39,6 +39,9 @@ std::string rtu_metrics_text(const Counters& pdus, const RtuCounters& c, const R
         s += fmt::format("axisgate_modbus_rtu_exceptions_total{{code=\"{}\"}} {}\n", code,
                          pdus.exceptions[static_cast<std::size_t>(code)].value());
     }
+    s += metric_head("axisgate_modbus_rtu_request_duration_seconds", "histogram",
+                     "From the silence behind a request to its answer, drives included.");
+    s += metric_lines("axisgate_modbus_rtu_request_duration_seconds", pdus.request_times.read());
     return s;
 }
 }  // namespace

@@ -29,7 +29,7 @@ void RtuSession::on_frame(const RtuFrame& frame, Instant now, bool overtaken) {
     give_up();
     const auto unit = unit_of(frame.address);
     if (!unit) return counters_.foreign.add();
-    heard_ = now;
+    heard_ = begun_ = now;
     const std::uint8_t f = frame.bytes[0];
     if (is_write(f)) counters_.writes.add();
     late_ = {};
@@ -74,6 +74,7 @@ void RtuSession::send(std::uint8_t address, std::size_t pdu_size, std::span<cons
     out_[1 + pdu_size] = static_cast<std::uint8_t>(crc & 0xFF);
     out_[2 + pdu_size] = static_cast<std::uint8_t>(crc >> 8);
     counters_.answers.add();
+    responder_.counters().request_times.observe(responder_.port().now() - begun_);
     sink_.send(std::span(out_).first(3 + pdu_size), std::ranges::equal(body.subspan(1), request));
 }
 

@@ -79,6 +79,7 @@ private:
     LateAnswer late_;
     RtuFrame asked_{};             // whose answer waits
     std::uint8_t generation_ = 0;  // of the answer that waits: results of those before it come with another slot
+    Instant begun_{};
     bool waits_ = false;
     bool commanded_ = false;
     std::optional<Instant> heard_;

@@ -22,6 +22,7 @@ void Session::put_header(std::uint8_t* adu, std::uint16_t transaction, std::uint
 
 Session::Work Session::work(Instant now, AnswerBuffer& out) {
     partial_ = false;
+    at_once_ = 0;
     for (;;) {
         if (out.room() < max_adu) return Work::output_full;
         if (count_ > 0 && slots_[head_].late.outstanding == 0) {
@@ -31,6 +32,7 @@ Session::Work Session::work(Instant now, AnswerBuffer& out) {
             if (size == 2 && (adu[mbap_size] & function::exception_bit) != 0) ++exceptions_;
             put_header(adu, slot.transaction, slot.late.unit, size);
             out.size += mbap_size + size;
+            responder_.counters().request_times.observe(now - slot.begun);
             head_ = index(1);
             --count_;
             continue;
@@ -62,6 +64,7 @@ void Session::begin(const Adu& adu, Instant now, AnswerBuffer& out) {
     const std::size_t at = index(count_);
     Slot& slot = slots_[at];
     slot.transaction = adu.transaction;
+    slot.begun = now;
     slot.late = {};
     std::uint8_t* const bytes = out.bytes.data() + out.size;
     const std::size_t size =
@@ -70,6 +73,7 @@ void Session::begin(const Adu& adu, Instant now, AnswerBuffer& out) {
         if (size == 2 && (bytes[mbap_size] & function::exception_bit) != 0) ++exceptions_;
         put_header(bytes, adu.transaction, adu.unit, size);
         out.size += mbap_size + size;
+        ++at_once_;
         return;
     }
     if (size > 0) {  // known already, but earlier answers are not: it queues up behind them

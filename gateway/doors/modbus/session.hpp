@@ -55,6 +55,8 @@ public:
     [[nodiscard]] std::size_t in_flight() const noexcept { return count_; }
     /// Whole requests that work() has taken so far.
     [[nodiscard]] std::uint64_t requests() const noexcept { return requests_; }
+    /// Requests that the last work() answered without having to wait for a drive.
+    [[nodiscard]] std::uint64_t answered_at_once() const noexcept { return at_once_; }
     [[nodiscard]] std::uint64_t writes() const noexcept { return writes_; }
     [[nodiscard]] std::uint64_t exceptions() const noexcept { return exceptions_; }
     [[nodiscard]] const std::string& who() const noexcept { return *client_.who; }
@@ -74,6 +76,7 @@ public:
 private:
     struct Slot {
         std::uint16_t transaction = 0;
+        Instant begun{};
         LateAnswer late;
     };
     [[nodiscard]] std::size_t index(std::size_t n) const noexcept { return (head_ + n) % max_in_flight; }
@@ -83,7 +86,7 @@ private:
     Responder& responder_;
     SessionWaker& waker_;
     Responder::Client client_;
-    std::uint64_t requests_ = 0, writes_ = 0, exceptions_ = 0;
+    std::uint64_t requests_ = 0, writes_ = 0, exceptions_ = 0, at_once_ = 0;
     std::size_t head_ = 0;
     std::size_t count_ = 0;
     bool partial_ = false;

@@ -68,7 +68,8 @@ Response ConnectionManager::open_one(const OpenRequest& request, Context& contex
 /// Opens nothing: it asks whether the device is there (and configures it, where there is something to configure), or names an open one.
 Response ConnectionManager::open_null(const OpenRequest& request) {
     if (const Connection* const same = find(request.triad)) {
-        if (same->request.path_bytes != request.path_bytes) return Response::refused(Extended::inconsistent_path_combination);
+        if (!same_places(same->request.path, request.path)) return Response::refused(Extended::inconsistent_path_combination);
+        if (request.path.data && !request.path.data->empty()) return Response::refused(Extended::invalid_configuration_size);
         return opened(*same);
     }
     for (const Place& p : request.path.places) {
@@ -112,13 +113,20 @@ Connection* ConnectionManager::place_for(const OpenRequest& request, const Conte
 
 Response ConnectionManager::open_explicit(const OpenRequest& request, Context& context) {
     if (request.to.type != Half::Type::point_to_point) return Response::refused(Extended::invalid_to_type);
-    if (context.session == 0) return Response::refused(Extended::invalid_connection_type);
+    if (!request.is_server()) return Response::refused(Extended::direction_not_supported);
     const auto& p = request.path;
     if (p.places.size() != 1 || p.places[0].class_id != class_id::message_router || p.places[0].instance != 1)
         return Response::refused(Extended::invalid_application_path);
     constexpr std::uint16_t least = 8;  // a sequence count and the shortest message
     if (request.ot.size < least) return Response::refused(Extended::invalid_ot_size);
     if (request.to.size < least) return Response::refused(Extended::invalid_to_size);
+    if (std::max(request.ot.size, request.to.size) > most_message) {
+        Response r = Response::refused(Extended::invalid_connection_size);
+        r.extended.push_back(most_message);
+        return r;
+    }
+    const auto messages = std::ranges::count_if(places_, [](const auto& c) { return c && !c->is_io(); });
+    if (static_cast<std::size_t>(messages) >= most_explicit) return Response::refused(Extended::object_out_of_connections);
     Connection* const c = place_for(request, context);
     if (!c) return Response::refused(Extended::out_of_connections);
     c->kind = Kind::explicit_messages;
@@ -215,7 +223,8 @@ Response ConnectionManager::forward_close(View data, const Context& context) {
         return Response::of(r.bad() ? General::not_enough_data : General::too_much_data);
     }
     std::size_t wrong_at = 0;
-    if (!read_path(path, wrong_at)) {
+    const auto places = read_path(path, wrong_at);
+    if (!places) {
         counters_.close_format.add();
         return refuse_open(triad, Response::refused(Extended::invalid_segment), words - std::min(words, wrong_at));
     }
@@ -223,6 +232,10 @@ Response ConnectionManager::forward_close(View data, const Context& context) {
     if (!c || c->peer.from.address != context.peer.from.address) {
         counters_.close_other.add();
         return refuse_open(triad, Response::refused(Extended::connection_not_found));
+    }
+    if (!same_places(*places, c->request.path) && !names_router(*places)) {
+        counters_.close_other.add();
+        return refuse_open(triad, Response::refused(Extended::close_path_mismatch));
     }
     counters_.closed.add();
     close(*c, End::closed, context.now);

@@ -1,6 +1,7 @@
 // Connection manager: the connections that originators have with this device, their data, their time-outs and their ends.
 // In: Forward_Open and its like, implicit datagrams, time. Out: answers, implicit datagrams by `Carrier`, word to `Values`.
-// Never opens more than `most_connections`: then 0x0113. Data from a wrong address, old, or of a wrong size is dropped and counted.
+// Never opens more than `most_connections`: then 0x0113 (`most_explicit` of explicit messages: 0x011A). Data from a wrong address, old, or
+// of a wrong size is dropped and counted.
 #pragma once
 
 #include <array>
@@ -51,6 +52,8 @@ struct Connection {
 class ConnectionManager final : public Object, public Connections {
 public:
     static constexpr std::size_t most_connections = 128;
+    static constexpr std::size_t most_explicit = 64;                  ///< of them: so that messages never take the last place of an owner
+    static constexpr std::uint16_t most_message = 4002;               ///< bytes of a connection of explicit messages in one direction
     static constexpr Duration first_data = std::chrono::seconds(10);  ///< until the first datagram, if the time-out is shorter
 
     struct Counters {

@@ -151,7 +151,7 @@ std::string eds_text(const Description& d, const EdsNames& names) {
         connection(s, ++number, reader, heartbeat, d, only_input, inputs[i], configuration, "Input only: " + of);
         connection(s, ++number, listener, heartbeat, d, only_listen, inputs[i], configuration, "Listen only: " + of);
     }
-    s.line("\r\n[Capacity]\r\n        MaxMsgConnections = 128;\r\n        MaxIOProducers = 128;\r\n        MaxIOConsumers = 128;");
+    s.line("\r\n[Capacity]\r\n        MaxMsgConnections = 64;\r\n        MaxIOProducers = 128;\r\n        MaxIOConsumers = 128;");
     s.line("        TSpec1 = TxRx, 32, 1000;");
     s.line("\r\n[Port]\r\n        Port1 = TCP, \"EtherNet/IP\", \"20 F5 24 01\", 2;");
     s.line("\r\n[TCP/IP Interface Class]\r\n        Revision = 4;\r\n        MaxInst = 1;\r\n        Number_Of_Static_Instances = 1;");

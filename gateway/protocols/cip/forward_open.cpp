@@ -51,7 +51,6 @@ bool read_open(View data, bool large, OpenRequest& q, Response& refusal) {
     }
     q.ot = read_half(ot_id, ot_rpi, ot_parameters, large);
     q.to = read_half(to_id, to_rpi, to_parameters, large);
-    q.path_bytes.assign(path.begin(), path.end());
     std::size_t wrong_at = 0;
     auto read = read_path(path, wrong_at);
     if (!read) {
@@ -79,6 +78,15 @@ std::optional<Extended> wrong_key(const ElectronicKey& k, const Device& d) {
     const bool minor_fits = k.minor == 0 || (k.compatible ? k.minor <= d.minor : k.minor == d.minor);
     if ((k.major != 0 && k.major != d.major) || !minor_fits) return Extended::revision_mismatch;
     return std::nullopt;
+}
+
+bool same_places(const Path& a, const Path& b) {
+    return std::ranges::equal(a.places, b.places,
+                              [](const Place& x, const Place& y) { return x.class_id == y.class_id && x.instance == y.instance; });
+}
+
+bool names_router(const Path& path) {
+    return path.places.size() == 1 && path.places[0].class_id == class_id::message_router && path.places[0].instance == 1;
 }
 
 std::optional<Extended> wrong_route(const Path& path) {
@@ -129,6 +137,8 @@ std::optional<Response> plan_io(const OpenRequest& q, const Values& values, IoPl
     using Role = AssemblyInfo::Role;
     if (!consumed || consumed->role == Role::input || consumed->role == Role::configuration)
         return Response::refused(Extended::invalid_consuming_path);
+    // An output or input that no axis is behind: the site has none.
+    if (consumed->role == Role::output && consumed->size == 0) return Response::refused(Extended::device_not_configured);
     plan.role = consumed->role;
     plan.consumed = places[0].instance;
     plan.consumed_size = consumed->size;
@@ -141,6 +151,7 @@ std::optional<Response> plan_io(const OpenRequest& q, const Values& values, IoPl
 
     const auto produced = values.assembly(places[1].instance);
     if (!produced || produced->role != Role::input) return Response::refused(Extended::invalid_producing_path);
+    if (produced->size == 0) return Response::refused(Extended::device_not_configured);
     plan.produced = places[1].instance;
     plan.produced_size = produced->size;
     return wrong_size(q.to, count + produced->size, Extended::invalid_to_size);

@@ -34,10 +34,11 @@ struct OpenRequest {
     Half ot, to;
     std::uint8_t transport = 0;
     Path path;
-    Bytes path_bytes;
 
     [[nodiscard]] std::uint8_t transport_class() const noexcept { return transport & 0x0F; }
     [[nodiscard]] Trigger trigger() const noexcept { return static_cast<Trigger>((transport >> 4) & 7); }
+    /// Of class 3: the target answers. For implicit data this bit means nothing.
+    [[nodiscard]] bool is_server() const noexcept { return (transport & 0x80) != 0; }
     [[nodiscard]] bool is_null() const noexcept { return ot.type == Half::Type::null && to.type == Half::Type::null; }
     [[nodiscard]] Duration time_out() const noexcept { return std::chrono::microseconds(std::int64_t{ot.rpi_us} << (2 + multiplier)); }
 };
@@ -50,6 +51,10 @@ struct OpenRequest {
 /// What may stand in any connection: key, multiplier, transport, types.
 [[nodiscard]] std::optional<Extended> wrong_by_itself(const OpenRequest& request, const Device& device);
 [[nodiscard]] std::optional<Extended> wrong_key(const ElectronicKey& key, const Device& device);
+/// They name the same objects; route, key and configuration data of a path say nothing about that.
+[[nodiscard]] bool same_places(const Path& a, const Path& b);
+/// Nothing but the message router: who closes so goes by the three numbers of the connection.
+[[nodiscard]] bool names_router(const Path& path);
 /// A route to somebody else.
 [[nodiscard]] std::optional<Extended> wrong_route(const Path& path);
 

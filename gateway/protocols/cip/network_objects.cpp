@@ -93,6 +93,12 @@ General EthernetLinkObject::get(std::uint32_t, std::uint32_t attribute, const Co
     return General::success;
 }
 
+General ConnectionConfigurationObject::get_of_class(std::uint32_t attribute, const Context&, Bytes& to) {
+    if (attribute != 8 && attribute != 9) return General::attribute_not_supported;
+    attribute == 8 ? put16(to, 0) : put32(to, 0);  // number of the form; signature of the list: nobody has ever edited it
+    return General::success;
+}
+
 General QosObject::get(std::uint32_t, std::uint32_t attribute, const Context&, Bytes& to) {
     static constexpr std::uint8_t values[] = {0, 59, 47, dscp_urgent, dscp_scheduled, dscp_high, dscp_low, dscp_explicit};
     if (attribute < 1 || attribute > 8) return General::attribute_not_supported;

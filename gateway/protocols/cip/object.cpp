@@ -28,7 +28,7 @@ General Object::read(std::uint32_t instance, std::uint32_t attribute, const Cont
             put16(to, static_cast<std::uint16_t>(std::min<std::uint32_t>(instances(), 0xFFFF)));
             return General::success;
         case 6:
-            put16(to, 7);
+            put16(to, last_attribute_of_class());
             return General::success;
         case 7:
             put16(to, last_attribute());

@@ -42,6 +42,7 @@ public:
     [[nodiscard]] virtual General get(std::uint32_t instance, std::uint32_t attribute, const Context& context, Bytes& to) = 0;
     /// `data` begins with the attribute; what is taken of it is skipped, so that lists can be read on.
     [[nodiscard]] virtual General set(std::uint32_t instance, std::uint32_t attribute, const Context& context, Reader& data);
+    [[nodiscard]] virtual std::uint16_t last_attribute_of_class() const { return 7; }
     /// Attributes of the class beyond 1, 2, 3, 6 and 7.
     [[nodiscard]] virtual General get_of_class(std::uint32_t attribute, const Context& context, Bytes& to);
     /// A service that is not one of those above. Instance 0: the class.

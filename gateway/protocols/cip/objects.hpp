@@ -66,6 +66,7 @@ public:
     [[nodiscard]] std::span<const std::uint16_t> all(std::uint32_t instance) const override;
     [[nodiscard]] General get(std::uint32_t instance, std::uint32_t attribute, const Context& context, Bytes& to) override;
     [[nodiscard]] General set(std::uint32_t instance, std::uint32_t attribute, const Context& context, Reader& data) override;
+    [[nodiscard]] std::uint16_t last_attribute_of_class() const override { return 10; }
     [[nodiscard]] General get_of_class(std::uint32_t attribute, const Context& context, Bytes& to) override;
     [[nodiscard]] Response other(std::uint8_t service, std::uint32_t instance, View data, Context& context) override;
     [[nodiscard]] bool is_late(std::uint32_t attribute) const noexcept override { return attribute == 1; }
@@ -116,7 +117,8 @@ public:
     [[nodiscard]] General get(std::uint32_t instance, std::uint32_t attribute, const Context& context, Bytes& to) override;
 };
 
-/// The list of connections that a device originates: an adapter has none.
+/// The list of connections that a device originates: an adapter has none. A tool that looks at the list, whether it has changed and in
+/// which form it is kept, learns that.
 class ConnectionConfigurationObject final : public Object {
 public:
     [[nodiscard]] std::uint32_t class_id() const noexcept override { return class_id::connection_configuration; }
@@ -124,7 +126,9 @@ public:
     [[nodiscard]] bool has(std::uint32_t) const override { return false; }
     [[nodiscard]] std::uint32_t last_instance() const override { return 0; }
     [[nodiscard]] std::uint16_t last_attribute() const override { return 0; }
+    [[nodiscard]] std::uint16_t last_attribute_of_class() const override { return 9; }
     [[nodiscard]] General get(std::uint32_t, std::uint32_t, const Context&, Bytes&) override { return General::attribute_not_supported; }
+    [[nodiscard]] General get_of_class(std::uint32_t attribute, const Context& context, Bytes& to) override;
 };
 
 }  // namespace axisgate::cip

@@ -39,6 +39,10 @@ std::optional<AssemblyInfo> TestValues::assembly(std::uint32_t instance) const {
         case 151:
         case 152:
             return AssemblyInfo{Role::output, 32};
+        case 103:
+            return AssemblyInfo{Role::input, 0};
+        case 153:
+            return AssemblyInfo{Role::output, 0};
         case 197:
             return AssemblyInfo{Role::listen_only, 0};
         case 198:
@@ -86,17 +90,17 @@ Bytes Open::message() const {
     put16(d, vendor);
     put32(d, originator);
     put32(d, multiplier);
-    const auto half = [&](std::uint32_t rpi, std::uint32_t type, std::uint32_t size) {
+    const auto half = [&](std::uint32_t rpi, std::uint32_t type, std::uint32_t size, bool redundant_owner) {
         put32(d, rpi);
-        const std::uint32_t upper = type << 13 | 2u << 10 | (variable ? 1u << 9 : 0);
+        const std::uint32_t upper = (redundant_owner ? 1u << 15 : 0) | type << 13 | 2u << 10 | (variable ? 1u << 9 : 0);
         if (large) {
             put32(d, upper << 16 | size);
         } else {
             put16(d, static_cast<std::uint16_t>(upper | size));
         }
     };
-    half(ot_rpi, ot_type, ot_size);
-    half(to_rpi, to_type, to_size);
+    half(ot_rpi, ot_type, ot_size, redundant);
+    half(to_rpi, to_type, to_size, false);
     put8(d, transport);
     put8(d, path_words != 0 ? path_words : static_cast<std::uint8_t>(segments.size() / 2));
     put_bytes(d, segments);

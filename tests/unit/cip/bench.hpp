@@ -25,7 +25,8 @@ inline Bytes hex(std::string_view text) {
     return out;
 }
 
-/// Inputs 101, 102 and 100 (both), outputs 151, 152 and 150 (both), configuration 199, heartbeats 198 and 197; parameters 1..4.
+/// Beside the list 103 and 153, of a size of 0. Inputs 101, 102 and 100 (both), outputs 151, 152 and 150 (both), configuration 199,
+/// heartbeats 198 and 197; parameters 1..4.
 struct TestValues final : Values {
     TestValues();
     [[nodiscard]] const Device& device() const override { return device_; }
@@ -79,6 +80,7 @@ struct Open {
     std::uint16_t serial = 1, vendor = 0x1234;
     std::uint32_t originator = 77, to_id = 0x5000;
     std::uint8_t multiplier = 0, transport = 0x01;
+    bool redundant = false;  ///< owner
     std::uint32_t ot_rpi = 10'000, to_rpi = 10'000;
     std::uint32_t ot_size = 38, to_size = 34, ot_type = 2, to_type = 2;
     bool variable = false, large = false;

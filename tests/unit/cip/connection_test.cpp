@@ -57,7 +57,19 @@ TEST(CipConnections, EveryExtendedStatus) {
         {"another slot", [](Open& o) { o.path = "01 03 " + o.path; }, {0x0312}},
         {"another port", [](Open& o) { o.path = "02 00 " + o.path; }, {0x0311}},
         {"a segment", [](Open& o) { o.path += " FF 00"; }, {0x0315}},
+        {"T->O RPI under 1 ms", [](Open& o) { o.to_rpi = 999; }, {0x0111}},
+        {"a redundant owner", [](Open& o) { o.redundant = true; }, {0x0125}},
+        {"nothing to the device", [](Open& o) { o.ot_type = 0; }, {0x0123}},
+        {"an output without an axis", [](Open& o) { o.path = "20 04 24 C7 2C 99 2C 65", o.ot_size = 6; }, {0x0110}},
+        {"an input without an axis", [](Open& o) { o.path = "20 04 24 C7 2C 97 2C 67", o.to_size = 2; }, {0x0110}},
         {"a class that is no router", [](Open& o) { o.transport = 0xA3, o.path = "20 04 24 01"; }, {0x0117}},
+        {"messages by multicast", [](Open& o) { o.transport = 0xA3, o.path = "20 02 24 01", o.to_type = 1; }, {0x0124}},
+        {"messages of a client", [](Open& o) { o.transport = 0x23, o.path = "20 02 24 01"; }, {0x011E}},
+        {"messages too short to the device", [](Open& o) { o.transport = 0xA3, o.path = "20 02 24 01", o.ot_size = 7; }, {0x0127}},
+        {"messages too short from it", [](Open& o) { o.transport = 0xA3, o.path = "20 02 24 01", o.to_size = 7; }, {0x0128}},
+        {"messages too long",
+         [](Open& o) { o.transport = 0xA3, o.path = "20 02 24 01", o.large = true, o.to_size = 4003; },
+         {0x0109, 4002}},
     };
     for (const Wrong& w : list) {
         Bench b;
@@ -135,8 +147,66 @@ TEST(CipConnections, NullForwardOpenAsksAndOpensNothing) {
     const std::uint32_t id = b.opened({});
     const Answer matching = b.open(null);
     EXPECT_EQ(Reader(matching.data).u32(), id) << "the same triad: it names the open one";
+    null.path = "34 04 FFFF 0C00 0100 00 00 20 04 24 C7 2C 97 2C 65 80 00";
+    EXPECT_EQ(b.open(null).general, General::success) << "a key and an empty configuration are no other path";
+    null.path = "20 04 24 C7 2C 97 2C 65 80 01 AABB";
+    EXPECT_EQ(b.open(null).extended, std::vector<std::uint16_t>{0x0126}) << "there is nothing to configure";
     null.path = "20 04 24 C7 2C 98 2C 65";
     EXPECT_EQ(b.open(null).extended, std::vector<std::uint16_t>{0x012F});
+    null.serial = 2, null.path = "20 04 24 C7 2C 09 2C 65";
+    EXPECT_EQ(b.open(null).extended, std::vector<std::uint16_t>{0x0117}) << "no such assembly";
+    null.path = "34 04 0100 0000 0000 00 00 20 04 24 C7 2C 97 2C 65";
+    EXPECT_EQ(b.open(null).extended, std::vector<std::uint16_t>{0x0114}) << "a ping of another device";
+    null.path = "20 04 24 C7 2C 97 2C 65 80 01 AABB";
+    EXPECT_EQ(b.open(null).extended, std::vector<std::uint16_t>{0x0126});
+    EXPECT_EQ(b.values.said, std::vector<std::string>{"opened 151"}) << "what is open does not notice any of it";
+}
+
+TEST(CipConnections, AMatchingForwardOpenIsADuplicateWhateverItsPath) {
+    Bench b;
+    ASSERT_NE(b.opened({}), 0u);
+    Open again;
+    again.path = "20 04 24 C7 2C 98 2C 66";
+    EXPECT_EQ(b.open(again).extended, std::vector<std::uint16_t>{0x0100});
+    again.transport = 0xA3, again.path = "20 02 24 01";
+    EXPECT_EQ(b.open(again).extended, std::vector<std::uint16_t>{0x0100});
+    EXPECT_EQ(b.adapter.connections().open(), 1u);
+}
+
+TEST(CipConnections, ForwardCloseNamesThePathOfTheConnection) {
+    Bench b;
+    ASSERT_NE(b.opened({}), 0u);
+    Open wrong;
+    wrong.path = "20 04 24 C7 2C 98 2C 65";
+    const Answer a = b.ask(wrong.close());
+    EXPECT_EQ(a.general, General::connection_failure);
+    EXPECT_EQ(a.extended, std::vector<std::uint16_t>{0x0316});
+    EXPECT_EQ(a.data, hex("0100 3412 4D000000 00 00"));
+    wrong.path = "";
+    EXPECT_EQ(b.ask(wrong.close()).extended, std::vector<std::uint16_t>{0x0316});
+    wrong.path = "20 04 24 C7 FF 00";
+    EXPECT_EQ(b.ask(wrong.close()).extended, std::vector<std::uint16_t>{0x0315});
+    EXPECT_EQ(b.adapter.connections().open(), 1u);
+    Open right;
+    right.path = "34 04 FFFF 0C00 0100 00 00 20 04 24 C7 24 97 24 65 80 00";
+    EXPECT_EQ(b.ask(right.close()).general, General::success) << "the same objects, otherwise written";
+    EXPECT_EQ(b.adapter.connections().open(), 0u);
+    EXPECT_EQ(b.adapter.connections().counters().close_other.value(), 2u);
+    EXPECT_EQ(b.adapter.connections().counters().close_format.value(), 1u);
+    ASSERT_NE(b.opened({}), 0u);
+    Open router;
+    router.path = "20 02 24 01";
+    EXPECT_EQ(b.ask(router.close()).general, General::success) << "by the three numbers alone, as some clients close";
+}
+
+TEST(CipConnections, MessagesNeverTakeTheLastPlaceOfAnOwner) {
+    Bench b;
+    Open o;
+    o.transport = 0xA3, o.path = "20 02 24 01", o.ot_size = o.to_size = 500;
+    for (o.serial = 10; o.serial < 10 + ConnectionManager::most_explicit; ++o.serial)
+        ASSERT_NE(b.opened(o), 0u);
+    EXPECT_EQ(b.open(o).extended, std::vector<std::uint16_t>{0x011A});
+    EXPECT_NE(b.opened({}), 0u);
 }
 
 TEST(CipConnections, DataInRunModeFallToIdleAndBack) {

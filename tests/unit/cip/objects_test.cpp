@@ -53,6 +53,19 @@ TEST(CipObjects, TheNetworkAsToolsBrowseIt) {
     EXPECT_EQ(list.data, hex("0900 0100 0200 0400 0600 0F00 4800 F300 F500 F600"));
 }
 
+TEST(CipObjects, TheListOfOriginatedConnectionsIsEmptyAndSaysSo) {
+    Bench b;
+    EXPECT_EQ(b.ask(get(0xF3, 0, 1)).data, hex("0300"));
+    EXPECT_EQ(b.ask(get(0xF3, 0, 2)).data, hex("0000"));
+    EXPECT_EQ(b.ask(get(0xF3, 0, 3)).data, hex("0000"));
+    EXPECT_EQ(b.ask(get(0xF3, 0, 6)).data, hex("0900"));
+    EXPECT_EQ(b.ask(get(0xF3, 0, 8)).data, hex("0000"));
+    EXPECT_EQ(b.ask(get(0xF3, 0, 9)).data, hex("00000000")) << "its signature";
+    EXPECT_EQ(b.ask(get(0xF3, 0, 10)).general, General::attribute_not_supported);
+    EXPECT_EQ(b.ask(get(0xF3, 1, 1)).general, General::object_does_not_exist);
+    EXPECT_EQ(b.ask(get(0x0F, 0, 6)).data, hex("0A00")) << "the class of parameters has ten";
+}
+
 TEST(CipObjects, AssembliesAreReadAndOutputsWritten) {
     Bench b;
     EXPECT_EQ(b.ask(get(4, 101, 3)).data, Bytes(32, 0x11));

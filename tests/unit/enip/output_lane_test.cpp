@@ -72,6 +72,70 @@ TEST(EnipOutputLane, ASpeedIsFollowedOneCommandAtATimeAndAStopWaitsForNone) {
     EXPECT_EQ(step.command->controlword, 0x10F);
 }
 
+TEST(EnipOutputLane, TheSpeedOfTheFirstImageMovesNothing) {
+    OutputLane lane;
+    Wanted w = wanted(0x0F, 3);
+    w.target_velocity = 100;
+    auto step = lane.take(w, enabled_axis());
+    ASSERT_TRUE(step.command);
+    EXPECT_EQ(step.command->controlword, 0x0F);
+    EXPECT_EQ(step.command->mode, std::int16_t{3});
+    EXPECT_FALSE(step.command->target_velocity);
+    for (int i = 0; i < 3; ++i)
+        EXPECT_FALSE(lane.take(w, enabled_axis()).command) << "renewed, not changed";
+    w.target_velocity = 101;
+    step = lane.take(w, enabled_axis());
+    ASSERT_TRUE(step.command);
+    EXPECT_EQ(step.command->target_velocity, 101);
+    w.target_velocity = 100;
+    step = lane.take(w, enabled_axis());
+    ASSERT_TRUE(step.command);
+    EXPECT_EQ(step.command->target_velocity, 100) << "now it counts";
+    lane.reset();
+    step = lane.take(w, enabled_axis());
+    ASSERT_TRUE(step.command);
+    EXPECT_FALSE(step.command->target_velocity) << "after idle as at the start";
+    w.target_velocity = 0;
+    step = lane.take(w, enabled_axis());
+    ASSERT_TRUE(step.command);
+    EXPECT_EQ(step.command->target_velocity, 0) << "a stop that was never sent before is one";
+}
+
+TEST(EnipOutputLane, WhoEnablesTheAxisOrEndsItsHaltMeansTheSpeedThatStandsThere) {
+    for (const std::uint16_t first : {std::uint16_t{0x07}, std::uint16_t{0x10F}}) {
+        OutputLane lane;
+        Wanted w = wanted(first, 3);
+        w.target_velocity = 100;
+        auto step = lane.take(w, enabled_axis());
+        ASSERT_TRUE(step.command);
+        EXPECT_FALSE(step.command->target_velocity) << first;
+        w.controlword = 0x0F;
+        step = lane.take(w, enabled_axis());
+        ASSERT_TRUE(step.command);
+        EXPECT_EQ(step.command->target_velocity, 100) << first;
+    }
+}
+
+TEST(EnipOutputLane, AnAxisThatStandsHaltedStaysSoUntilSomethingIsWanted) {
+    AxisPicture halted = enabled_axis();
+    halted.controlword = 0x10F;
+    OutputLane lane;
+    EXPECT_EQ(lane.take(wanted(0x0F), halted).command->controlword, 0x10F);
+    EXPECT_FALSE(lane.take(wanted(0x0F), halted).command);
+    EXPECT_EQ(lane.take(wanted(0x1F, 1, 500), halted).command->controlword, 0x1F) << "a set-point of its own";
+    lane.reset();
+    EXPECT_EQ(lane.take(wanted(0x0F), halted).command->controlword, 0x10F);
+    EXPECT_FALSE(lane.take(wanted(0x10F), halted).command) << "its own halt is none that was held";
+    EXPECT_EQ(lane.take(wanted(0x0F), halted).command->controlword, 0x0F);
+    lane.reset();
+    Wanted w = wanted(0x0F, 3);
+    EXPECT_EQ(lane.take(w, halted).command->controlword, 0x10F);
+    w.target_velocity = 7;
+    const auto step = lane.take(w, halted);
+    EXPECT_EQ(step.command->controlword, 0x0F);
+    EXPECT_EQ(step.command->target_velocity, 7);
+}
+
 TEST(EnipOutputLane, StreamedModesBecomeSetPointsOfAnEnabledAxis) {
     OutputLane lane;
     Wanted w = wanted(0x0F, 8, 1000);
@@ -80,9 +144,15 @@ TEST(EnipOutputLane, StreamedModesBecomeSetPointsOfAnEnabledAxis) {
     EXPECT_FALSE(step.command->mode) << "the set-point says it";
     EXPECT_FALSE(step.set_point) << "not enabled yet";
     step = lane.take(w, enabled_axis());
+    EXPECT_FALSE(step.set_point) << "the place of the first image is where it begins, not where it goes";
+    w.target_position = 1001;
+    EXPECT_FALSE(lane.take(w, {}).set_point) << "not enabled";
+    step = lane.take(w, enabled_axis());
     EXPECT_FALSE(step.command);
     ASSERT_TRUE(step.set_point);
-    EXPECT_EQ(step.set_point->value, 1000);
+    EXPECT_EQ(step.set_point->value, 1001);
+    w.target_position = 1000;
+    EXPECT_EQ(lane.take(w, enabled_axis()).set_point->value, 1000) << "back at the first one's: by now it counts";
     w.controlword = 0x10F;
     step = lane.take(w, enabled_axis());
     EXPECT_TRUE(step.command);

@@ -3,6 +3,7 @@
 import { Why } from '../components/gate';
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
+import { FailSafe } from '../components/fail-safe';
 import { Empty } from '../components/lines';
 import { useLoaded, waiting } from '../components/loaded';
 import { SiteEntries } from '../components/site-entries';
@@ -89,6 +90,7 @@ export function SitePage() {
             <SiteEntries room="drives" draft={draft} />
             <SiteEntries room="axes" draft={draft} />
           </div>
+          <FailSafe revision={revision} />
           <SiteFiles draft={draft} door={door} />
           <SiteHistory draft={draft} door={door} />
         </>

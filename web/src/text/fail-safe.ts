@@ -1,0 +1,64 @@
+// Fail-safe in words: causes, actions, what an axis has named, and the cells of a rehearsal. In: documents of the gateway. Out: texts. Pure.
+import type { Action, Cell, Choice, FailSafeRow, Matrix } from '../api/fail-safe';
+
+export type Cause = Matrix['causes'][number]['cause'];
+const causes: Record<Cause, string> = {
+  modbus_closed: 'Modbus connection closed',
+  modbus_silent: 'Modbus client silent',
+  set_points_silent: 'Set-points not renewed',
+  lease_ended: 'Lease ended',
+  enip_closed: 'EtherNet/IP connection closed',
+  enip_timed_out: 'EtherNet/IP connection timed out',
+  enip_idle: 'EtherNet/IP scanner idle',
+  line_lost: 'Drive not reached',
+  gateway_ends: 'Gateway is ended',
+};
+const actions: Record<Action, string> = { nothing: 'Nothing', halt: 'Halt', quick_stop: 'Quick stop', disable: 'Switch off' };
+
+export const causeText = (cause: string): string => causes[cause as Cause] ?? cause.replaceAll('_', ' ');
+export const actionText = (action: Action): string => actions[action];
+export const actionChoices = (cause: Matrix['causes'][number]) => [
+  { value: '', text: `default: ${actionText(cause.default_endless).toLowerCase()}` },
+  ...(Object.keys(actions) as Action[]).map((a) => ({ value: a as string, text: actionText(a) })),
+];
+
+/** What stands below a cause: when it is, and what its default spares. */
+export function causeHint(cause: Matrix['causes'][number]): string {
+  const when = cause.description.replace('watchdog_ms', 'the time below');
+  return cause.default_endless === cause.default_to_a_target ? when : `${when}. By default a motion to a target goes on.`;
+}
+
+/** What an axis has named, in one line. */
+export function namedWords(row: FailSafeRow): string {
+  const own = (Object.keys(causes) as Cause[]).flatMap((c) => {
+    const action = row.fail_safe[c];
+    return action ? [`${causeText(c).toLowerCase().replace('modbus', 'Modbus').replace('ethernet/ip', 'EtherNet/IP')}: ${actionText(action).toLowerCase()}`] : [];
+  });
+  if (row.fail_safe.watchdog_ms != null) own.push(`Modbus clients watched for ${row.fail_safe.watchdog_ms} ms`);
+  return own.length === 0 ? 'all as by default' : own.join('; ');
+}
+
+/** The choice with one member changed, as PUT takes it: null is the default. */
+export const changed = (row: FailSafeRow, cause: Cause, action: string): Choice => ({ ...row.fail_safe, [cause]: action === '' ? null : (action as Action) });
+
+const ms = (n: number | null): string => (n === null ? '' : n < 10 ? `${n.toFixed(1)} ms` : `${Math.round(n)} ms`);
+export interface CellRow {
+  key: string;
+  axis: string;
+  cause: string;
+  action: string;
+  acted: string;
+  slower: string;
+  stood: string;
+  way: string;
+}
+export const cellRow = (c: Cell, unit: string): CellRow => ({
+  key: `${c.axis} ${c.cause}`,
+  axis: c.axis,
+  cause: causeText(c.cause),
+  action: `${actionText(c.taken)}${c.chosen === null ? ', by default' : ''}`,
+  acted: ms(c.noticed_ms) || 'not',
+  slower: ms(c.reaction_ms) || 'not',
+  stood: ms(c.standstill_ms) || `not within ${ms(c.watched_ms)}`,
+  way: `${Math.round(c.travel * 1000) / 1000}${unit ? ` ${unit}` : ''}`,
+});

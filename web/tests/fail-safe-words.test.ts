@@ -1,0 +1,33 @@
+// Fail-safe in words: causes, what an axis has named, one change, the cells of a rehearsal. All pure.
+import { describe, expect, it } from 'vitest';
+import type { Cell, FailSafeRow } from '../src/api/fail-safe';
+import { actionChoices, causeHint, causeText, cellRow, changed, namedWords } from '../src/text/fail-safe';
+
+const row = (fail_safe: FailSafeRow['fail_safe']): FailSafeRow => ({ axis: 'feeder', fail_safe, watchdog_ms_in_force: 5000, last_cause: null });
+const cell: Cell = { axis: 'feeder', cause: 'modbus_closed', chosen: null, taken: 'halt', motion: 'velocity', speed: 10, noticed_ms: 0.12, reaction_ms: 14.6, standstill_ms: 105, watched_ms: 2000, travel: 1.23456, text: '' };
+
+describe('words', () => {
+  it('names causes, also one that this page does not know yet', () => expect([causeText('enip_timed_out'), causeText('dds_deadline')]).toEqual(['EtherNet/IP connection timed out', 'dds deadline']));
+  it('says the default with each cause', () => {
+    const of = (a: 'halt' | 'quick_stop', b: 'nothing' | 'quick_stop') => actionChoices({ cause: 'line_lost', number: 8, description: '', default_endless: a, default_to_a_target: b })[0]!.text;
+    expect(of('halt', 'nothing')).toBe('default: halt');
+    expect(of('quick_stop', 'quick_stop')).toBe('default: quick stop');
+  });
+  it('says when a cause is, without a word of the API', () => {
+    const hint = (b: 'halt' | 'nothing') => causeHint({ cause: 'modbus_silent', number: 2, description: 'it has asked nothing for longer than watchdog_ms', default_endless: 'halt', default_to_a_target: b });
+    expect(hint('halt')).toBe('it has asked nothing for longer than the time below');
+    expect(hint('nothing')).toMatch(/below\. By default a motion to a target goes on\.$/);
+  });
+  it('says what an axis has named', () => {
+    expect(namedWords(row({ modbus_closed: null }))).toBe('all as by default');
+    expect(namedWords(row({ modbus_closed: 'quick_stop', enip_idle: 'disable', watchdog_ms: 800 }))).toBe('Modbus connection closed: quick stop; EtherNet/IP scanner idle: switch off; Modbus clients watched for 800 ms');
+  });
+  it('changes one member and leaves the others', () => {
+    expect(changed(row({ modbus_closed: 'halt', line_lost: 'disable' }), 'modbus_closed', '')).toEqual({ modbus_closed: null, line_lost: 'disable' });
+    expect(changed(row({}), 'line_lost', 'halt')).toEqual({ line_lost: 'halt' });
+  });
+  it('shows a cell, and says where it has no figure', () => {
+    expect(cellRow(cell, 'mm')).toMatchObject({ action: 'Halt, by default', acted: '0.1 ms', slower: '15 ms', stood: '105 ms', way: '1.235 mm' });
+    expect(cellRow({ ...cell, chosen: 'halt', noticed_ms: null, standstill_ms: null }, '')).toMatchObject({ action: 'Halt', acted: 'not', stood: 'not within 2000 ms', way: '1.235' });
+  });
+});

@@ -50,7 +50,13 @@ struct DdsDoor::Asked {
 };
 
 DdsDoor::DdsDoor(boost::asio::io_context& context, const Needs& ports, std::function<Instant()> clock, DoorSettings settings)
-    : context_(context), ports_(ports), clock_(std::move(clock)), settings_(std::move(settings)), timer_(context), bus_([this] {
+    : context_(context),
+      ports_(ports),
+      clock_(std::move(clock)),
+      settings_(std::move(settings)),
+      timer_(context),
+      fleet_(settings_.name, settings_.instance, [this](const axisgate_AxisCommand& s) { (void)bus_.write(s); }),
+      bus_([this] {
           if (!woken_.exchange(true, std::memory_order_acq_rel)) boost::asio::post(context_, [this] { read(); });
       }) {}
 
@@ -59,8 +65,9 @@ DdsDoor::~DdsDoor() {
 }
 
 std::string DdsDoor::start() {
-    std::string fault = bus_.open(settings_.bus, {Topic::gateway_state, Topic::axis_state, Topic::event, Topic::command_result},
-                                  {Topic::gateway_state, Topic::axis_command, Topic::parameter_write, Topic::set_point});
+    std::string fault = bus_.open(
+        settings_.bus, {Topic::gateway_state, Topic::axis_state, Topic::event, Topic::axis_command, Topic::command_result},
+        {Topic::gateway_state, Topic::axis_state, Topic::axis_command, Topic::command_result, Topic::parameter_write, Topic::set_point});
     if (!fault.empty()) return fault;
     open_ = true;
     ports_.get<EventPort>().listen(this);
@@ -104,6 +111,7 @@ void DdsDoor::on_turn() {
     const Instant now = clock_();
     if (!gateway_told_.time_since_epoch().count() || now - gateway_told_ >= told_again) tell_gateway(now);
     tell_axes(now);
+    fleet_.on_turn(now);
     timer_.expires_after(std::chrono::duration_cast<std::chrono::steady_clock::duration>(turn));
     timer_.async_wait([this](const boost::system::error_code& ec) {
         if (!ec) on_turn();
@@ -124,6 +132,7 @@ void DdsDoor::tell_gateway(Instant now) {
     for (const AxisId id : site->axis_ids)
         s.axes_online += (ports_.get<AxisPort>().picture(id).flags & flag_online) != 0 ? 1u : 0u;
     if (settings_.page) put_text(s.http, settings_.page());
+    (void)fleet_.on_gateway(s, true, s.at_unix_ns, now);
     if (!bus_.write(s)) ++counters_.unsent;
 }
 
@@ -135,6 +144,7 @@ void DdsDoor::tell_axes(Instant now) {
             axisgate_AxisState gone{};
             put_text(gone.gateway, settings_.name);
             put_text(gone.axis, old.name);
+            fleet_.on_axis(gone, false, false);
             (void)bus_.dispose(gone);
         }
         axes_.assign(site->site.axes.size(), {});
@@ -148,6 +158,7 @@ void DdsDoor::tell_axes(Instant now) {
         if (t.ever && t.revision == revision && now - t.at < told_again) continue;
         axisgate_AxisState s{};
         fill(s, axis_at(ports_.get<SitePort>(), site, i));
+        fleet_.on_axis(s, true, true);
         if (!bus_.write(s)) {
             ++counters_.unsent;
             continue;  // the next turn tries again
@@ -224,6 +235,11 @@ void DdsDoor::read() {
     };
     const auto mine = [this](const auto& s) { return settings_.name == s.gateway; };
     all(static_cast<axisgate_GatewayState*>(nullptr), [this](const auto& s, const Bus::Seen& seen) { on_gateway(s, seen); });
+    all(static_cast<axisgate_AxisState*>(nullptr),
+        [this](const auto& s, const Bus::Seen& seen) { fleet_.on_axis(s, seen.valid, seen.alive); });
+    all(static_cast<axisgate_CommandResult*>(nullptr), [this](const auto& s, const Bus::Seen& seen) {
+        if (seen.valid) fleet_.on_result(s);
+    });
     all(static_cast<axisgate_AxisCommand*>(nullptr), [this, mine](const auto& s, const Bus::Seen& seen) {
         if (seen.valid && mine(s)) on_command(s);
     });
@@ -238,7 +254,10 @@ void DdsDoor::read() {
 }
 
 void DdsDoor::on_gateway(const axisgate_GatewayState& s, const Bus::Seen& seen) {
-    if (settings_.name != s.gateway || s.instance == settings_.instance) return;
+    if (s.instance == settings_.instance) return;  // nobody else tells of this one
+    if (auto told = fleet_.on_gateway(s, seen.valid && seen.alive, ports_.get<ClockPort>().now_unix_ns(), clock_()))
+        ports_.get<EventPort>().note(std::move(*told));
+    if (settings_.name != s.gateway) return;
     if (!seen.alive) {
         namesakes_.erase(s.instance);
         return;
@@ -376,6 +395,26 @@ void DdsDoor::answer(const Asked& asked, const Result& r, bool repeated) {
     put_text(s.text, r.text);
     s.repeated = repeated;
     if (!bus_.write(s)) ++counters_.unsent;  // whoever misses it sends the command again
+}
+
+void DdsDoor::command(FleetOrder order, std::function<void(const Result&)> then) {
+    Result fault;
+    const FleetGateway* g = fleet_.target(order, fault);
+    if (!g || !g->here) return fleet_.command(order, std::move(then), clock_());
+    const auto place = find_axis(ports_.get<SitePort>(), order.axis);
+    auto read = place ? read_command(order.body, place->spec().increments_per_unit, place->spec().unit) : ReadCommand{};
+    if (!read.body) {
+        fault.outcome = Outcome::refused;
+        fault.reason = place ? Reason::out_of_range : Reason::unknown_point;
+        fault.text = place ? read.faults.front().text : fmt::format("{} has no axis {}", settings_.name, order.axis);
+        return then(fault);
+    }
+    Command c;
+    c.axis = place->id();
+    c.body = std::move(*read.body);
+    c.until_done = order.until_done;
+    c.origin = std::move(order.origin);
+    (void)ports_.get<AxisPort>().submit(std::move(c), std::move(then));
 }
 
 void DdsDoor::on_set_point(const axisgate_SetPoint& s, const Bus::Seen& seen) {

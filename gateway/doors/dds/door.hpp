@@ -16,6 +16,7 @@
 
 #include "gateway/doors/dds/bus.hpp"
 #include "gateway/doors/dds/commands_seen.hpp"
+#include "gateway/doors/dds/fleet.hpp"
 #include "gateway/services/axis_place.hpp"
 #include "gateway/services/door.hpp"
 #include "gateway/services/ports.hpp"
@@ -30,7 +31,7 @@ struct DoorSettings {
     std::uint64_t instance = 0;         ///< another one at each start, never 0
 };
 
-class DdsDoor final : public ServiceDoor, public EventListener {
+class DdsDoor final : public ServiceDoor, public FleetPort, public EventListener {
 public:
     using Needs = PortSet<AxisPort, ClockPort, EventPort, ParameterPort, SitePort, StatusPort>;
     static constexpr Duration turn = std::chrono::milliseconds(20);         ///< a state is told at most once in it
@@ -48,6 +49,9 @@ public:
     [[nodiscard]] std::string address() const override;
     void stop(std::function<void()> done) override;
     void on_event(const Event& event) override;
+    [[nodiscard]] std::vector<FleetGateway> fleet() const override { return fleet_.list(); }
+    /// To an axis of this gateway it goes the way of every command here, under the origin that it has; else over the bus.
+    void command(FleetOrder order, std::function<void(const Result&)> then) override;
 
     struct Counters {
         std::uint64_t commands = 0, repeated = 0, refused = 0, set_points = 0, set_points_wrong = 0, unsent = 0;
@@ -87,6 +91,7 @@ private:
     std::atomic<bool> woken_{false};
     boost::asio::steady_timer timer_;
     CommandsSeen seen_;
+    Fleet fleet_;
     std::vector<Told> axes_;
     std::shared_ptr<const SiteState> site_;
     Instant gateway_told_{};

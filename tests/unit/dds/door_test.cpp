@@ -211,9 +211,9 @@ TEST_F(DdsDoorTest, TwoGatewaysWithOneNameAreToldApartByTheirInstances) {
     put_text(s.gateway, "hall");
     s.instance = 99;
     ASSERT_TRUE(peer.write(s));
-    ASSERT_TRUE(until([this] { return !gateway.noted.empty(); }));
-    EXPECT_EQ(gateway.noted[0].severity, Severity::warning);
-    EXPECT_NE(gateway.noted[0].text.find("called hall as well"), std::string::npos);
+    ASSERT_TRUE(until([this] { return gateway.noted.size() == 2; }));
+    EXPECT_EQ(gateway.noted[1].severity, Severity::warning);
+    EXPECT_NE(gateway.noted[1].text.find("called hall as well"), std::string::npos);
     ASSERT_TRUE(peer.write(command("n1", "feeder", "enable")));
     ASSERT_TRUE(answered(1));
     EXPECT_STREQ(results[0].outcome, "refused");
@@ -241,6 +241,114 @@ TEST_F(DdsDoorTest, SetPointsGoTheirWayAndTheirEndIsALostClient) {
     ASSERT_TRUE(until([this] { return !gateway.lost.empty(); }));
     EXPECT_EQ(gateway.lost[0].first, (AuthorityClient{Door::dds, "streamer"}));
     EXPECT_EQ(gateway.lost[0].second, LossCause::set_points_silent);
+}
+
+/// Another gateway of the domain, with a site and axes of its own, on the same thread.
+class DdsFleetTest : public DdsDoorTest {
+protected:
+    FakeGateway yard_gateway;
+    std::unique_ptr<DdsDoor> yard;
+    std::vector<Result> came;
+
+    void SetUp() override {
+        DdsDoorTest::SetUp();
+        yard_gateway.set_picture("feeder", standing(3200));
+        yard = std::make_unique<DdsDoor>(
+            context, yard_gateway.ports(), [this] { return now; }, DoorSettings{{79, "plant", "lo"}, "yard", "0.1", {}, 8});
+        ASSERT_EQ(yard->start(), "");
+        ASSERT_TRUE(until([this] { return axes_of("yard") == 2 && axes_of("hall") == 2; }));
+    }
+    void TearDown() override {
+        yard->stop([] {});
+        DdsDoorTest::TearDown();
+    }
+    std::size_t axes_of(std::string_view name) {
+        for (const auto& g : door->fleet()) {
+            if (g.name == name && g.alive) return g.axes.size();
+        }
+        return 0;
+    }
+    static FleetOrder order(const char* gateway_name, boost::json::object body) {
+        FleetOrder o;
+        o.gateway = gateway_name;
+        o.axis = "feeder";
+        o.body = std::move(body);
+        o.until_done = true;
+        o.origin = {Door::http, std::make_shared<const std::string>("anna"), std::make_shared<const std::string>("anna")};
+        return o;
+    }
+    void give(FleetOrder o) {
+        door->command(std::move(o), [this](const Result& r) { came.push_back(r); });
+    }
+};
+
+TEST_F(DdsFleetTest, ShowsEveryGatewayWithItsAxes) {
+    const auto list = door->fleet();
+    ASSERT_EQ(list.size(), 2u);
+    EXPECT_EQ(list[0].name, "hall");
+    EXPECT_TRUE(list[0].here);
+    EXPECT_FALSE(list[1].here);
+    EXPECT_EQ(list[1].instance, 8u);
+    EXPECT_EQ(list[1].axes[0].name, "feeder");
+    EXPECT_EQ(list[1].axes[0].position, 3200);
+    EXPECT_FALSE(list[1].namesake);
+    ASSERT_FALSE(gateway.noted.empty());
+    EXPECT_EQ(gateway.noted[0].text, "the gateway yard is in the domain");
+}
+
+TEST_F(DdsFleetTest, ACommandToAnotherGatewayIsCarriedOutOnceHoweverOftenItIsSent) {
+    give(order("yard", {{"command", "move_absolute"}, {"position", 2}, {"velocity", 1.5}}));
+    ASSERT_TRUE(until([this] { return yard->counters().repeated >= 2; })) << "sent again while nothing is answered";
+    ASSERT_EQ(yard_gateway.submitted.size(), 1u);
+    EXPECT_TRUE(gateway.submitted.empty());
+    EXPECT_EQ(std::get<Move>(yard_gateway.submitted[0].body).target, 6400);
+    EXPECT_EQ(std::get<Move>(yard_gateway.submitted[0].body).velocity, 4800);
+    EXPECT_EQ(AuthorityClient::of(yard_gateway.submitted[0].origin).text(), "dds hall anna");
+    EXPECT_TRUE(came.empty());
+    Result r;
+    r.outcome = Outcome::done;
+    r.text = "there";
+    yard_gateway.finish(r);
+    ASSERT_TRUE(until([this] { return !came.empty(); }));
+    EXPECT_EQ(came[0].outcome, Outcome::done);
+    EXPECT_EQ(came[0].text, "there");
+    const auto repeated_before = yard->counters().repeated;
+    const Instant later = now + std::chrono::seconds(2);
+    ASSERT_TRUE(until([&] { return now > later; }));
+    EXPECT_EQ(came.size(), 1u);
+    EXPECT_EQ(yard->counters().repeated, repeated_before) << "what is answered is not sent any more";
+    EXPECT_EQ(yard_gateway.submitted.size(), 1u);
+}
+
+TEST_F(DdsFleetTest, ACommandToThisGatewayStaysHere) {
+    give(order("hall", {{"command", "enable"}}));
+    ASSERT_EQ(gateway.submitted.size(), 1u);
+    EXPECT_EQ(gateway.submitted[0].origin.door, Door::http);
+}
+
+TEST_F(DdsFleetTest, WhatCannotBeSentIsRefusedBeforeIt) {
+    give(order("nowhere", {{"command", "enable"}}));
+    give(order("yard", {{"command", "move_absolute"}}));
+    auto other = order("yard", {{"command", "enable"}});
+    other.axis = "crane";
+    give(other);
+    ASSERT_EQ(came.size(), 3u);
+    EXPECT_EQ(came[0].reason, Reason::unknown_point);
+    EXPECT_EQ(came[1].reason, Reason::out_of_range);
+    EXPECT_EQ(came[2].reason, Reason::unknown_point);
+}
+
+TEST_F(DdsFleetTest, AGatewayThatIsGoneEndsItsCommandsWithoutAWordOfSuccess) {
+    give(order("yard", {{"command", "enable"}}));
+    ASSERT_TRUE(until([this] { return yard_gateway.submitted.size() == 1; }));
+    yard->stop([] {});
+    ASSERT_TRUE(until([this] { return !came.empty(); }));
+    EXPECT_EQ(came[0].outcome, Outcome::failed);
+    EXPECT_EQ(came[0].reason, Reason::no_answer);
+    EXPECT_EQ(axes_of("yard"), 0u);
+    EXPECT_EQ(gateway.noted.back().severity, Severity::warning);
+    give(order("yard", {{"command", "enable"}}));
+    EXPECT_EQ(came.back().reason, Reason::line_down);
 }
 }  // namespace
 }  // namespace axisgate::dds

@@ -1,0 +1,238 @@
+// Fleet: gateways by their instance; commands by their id until the gateway answers, is lost, or five minutes are over.
+// In: samples, orders, time. Out: lists, results. Never looks at a clock.
+#include "gateway/doors/dds/fleet.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "gateway/axis/authority.hpp"
+#include "gateway/services/command_reader.hpp"
+
+namespace axisgate::dds {
+namespace json = boost::json;
+namespace {
+Result no_result(Outcome outcome, Reason reason, std::string text) {
+    Result r;
+    r.outcome = outcome;
+    r.reason = reason;
+    r.text = std::move(text);
+    return r;
+}
+/// As the other gateway wrote it; a word of a newer program that this one does not know counts as a fault of the gateway.
+Outcome outcome_named(std::string_view word) {
+    for (const Outcome o : {Outcome::accepted, Outcome::done, Outcome::refused, Outcome::failed}) {
+        if (name_of(o) == word) return o;
+    }
+    return Outcome::failed;
+}
+Reason reason_named(std::string_view word) {
+    for (int i = 0; i <= static_cast<int>(Reason::internal); ++i) {
+        if (name_of(static_cast<Reason>(i)) == word) return static_cast<Reason>(i);
+    }
+    return Reason::internal;
+}
+}  // namespace
+
+std::optional<Event> Fleet::on_gateway(const axisgate_GatewayState& s, bool alive, std::int64_t now_unix_ns, Instant now) {
+    const auto it = known_.find(s.instance);
+    const bool other = s.instance != instance_;
+    Event e;
+    e.kind = "fleet";
+    e.door = "dds";
+    if (!alive) {
+        if (it == known_.end() || !it->second.gateway.alive) return std::nullopt;
+        it->second.gateway.alive = false;
+        it->second.lost_at = now;
+        std::vector<std::string> unanswered;
+        for (const auto& [id, w] : waiting_) {
+            if (w->instance == s.instance) unanswered.push_back(id);
+        }
+        for (const auto& id : unanswered)
+            end(id, no_result(Outcome::failed, Reason::no_answer,
+                              fmt::format("the gateway {} is gone; nobody knows whether the command was carried out", s.gateway)));
+        e.severity = Severity::warning;
+        e.text = fmt::format("the gateway {} is gone: it has ended, or is not to be reached", s.gateway);
+        return e;
+    }
+    const bool found = it == known_.end() || !it->second.gateway.alive;
+    if (it == known_.end() && known_.size() >= gateways_most) return std::nullopt;
+    Known& k = known_[s.instance];
+    k.lost_at = never;
+    FleetGateway& g = k.gateway;
+    g.name = s.gateway;
+    g.instance = s.instance;
+    g.here = !other;
+    g.alive = true;
+    g.version = s.version;
+    g.http = s.http;
+    g.at_unix_ns = s.at_unix_ns;
+    g.clock_ahead_ns = s.at_unix_ns - now_unix_ns;
+    g.uptime_ms = s.uptime_ms;
+    if (!found || !other) return std::nullopt;
+    e.text = fmt::format("the gateway {} is in the domain", g.name);
+    return e;
+}
+
+void Fleet::on_axis(const axisgate_AxisState& s, bool valid, bool alive) {
+    if (!valid || !alive) {
+        // Only the key is told: of every gateway of the name that is alive or not; who still has the axis tells it again.
+        for (auto& [instance, k] : known_) {
+            if (k.gateway.name == s.gateway && k.gateway.alive) k.axes.erase(s.axis);
+        }
+        return;
+    }
+    const auto it = known_.find(s.instance);
+    if (it == known_.end()) return;  // its gateway's own state comes within half a second, and this again
+    auto& axes = it->second.axes;
+    if (axes.size() >= axes_most && !axes.contains(s.axis)) return;
+    FleetAxis& a = axes[s.axis];
+    a.name = s.axis;
+    a.family = s.family;
+    a.unit = s.unit;
+    a.authority = s.authority;
+    a.holder = s.authority_holder;
+    a.number = s.number;
+    a.increments_per_unit = s.increments_per_unit > 0 ? s.increments_per_unit : 1;
+    a.online = s.online;
+    a.simulated = s.simulated;
+    a.stale = s.stale;
+    a.referenced = s.referenced;
+    a.moving = s.moving;
+    a.target_reached = s.target_reached;
+    a.fault = s.fault;
+    a.warning = s.warning;
+    a.statusword = s.statusword;
+    a.error_code = s.error_code;
+    a.fail_safe_cause = s.fail_safe_cause;
+    a.mode = s.mode;
+    a.position = s.position;
+    a.velocity = s.velocity;
+    a.at_unix_ns = s.at_unix_ns;
+}
+
+void Fleet::on_result(const axisgate_CommandResult& s) {
+    if (!std::string_view(s.source).starts_with(name_)) return;
+    const auto it = waiting_.find(s.id);
+    // Its id was this process' own; an answer of another start, or of a namesake, is not this command's.
+    if (it == waiting_.end() || it->second->instance != s.instance || std::string_view(it->second->sample.source) != s.source) return;
+    Result r = no_result(outcome_named(s.outcome), reason_named(s.reason), s.text);
+    r.code = s.code;
+    end(s.id, r);
+}
+
+void Fleet::on_turn(Instant now) {
+    std::vector<std::string> over;
+    for (auto& [id, w] : waiting_) {
+        if (now >= w->until) {
+            over.push_back(id);
+        } else if (now - w->sent >= sent_again) {
+            w->sent = now;
+            send_(w->sample);
+        }
+    }
+    for (const auto& id : over) {
+        const std::string gateway = waiting_.at(id)->gateway;
+        end(id, no_result(Outcome::failed, Reason::no_answer,
+                          fmt::format("no result from the gateway {} in time; nobody knows whether the command was carried out", gateway)));
+    }
+    std::erase_if(known_, [now](const auto& k) { return !k.second.gateway.alive && now - k.second.lost_at >= lost_kept; });
+}
+
+std::vector<FleetGateway> Fleet::list() const {
+    std::vector<FleetGateway> out;
+    for (const auto& [instance, k] : known_) {
+        FleetGateway g = k.gateway;
+        g.namesake = std::ranges::any_of(known_, [&g](const auto& other) {
+            return other.second.gateway.alive && other.second.gateway.name == g.name && other.first != g.instance;
+        });
+        for (const auto& [name, a] : k.axes)
+            g.axes.push_back(a);
+        out.push_back(std::move(g));
+    }
+    std::ranges::stable_sort(out, {}, &FleetGateway::name);
+    return out;
+}
+
+const FleetGateway* Fleet::target(const FleetOrder& o, Result& fault) const {
+    const FleetGateway* found = nullptr;
+    bool lost = false;
+    for (const auto& [instance, k] : known_) {
+        if (k.gateway.name != o.gateway || (o.instance != 0 && o.instance != instance)) continue;
+        if (!k.gateway.alive) {
+            lost = true;
+        } else if (found) {
+            fault =
+                no_result(Outcome::refused, Reason::wrong_state,
+                          fmt::format("two gateways of the domain are called {}; give one of them another name ([dds] name)", o.gateway));
+            return nullptr;
+        } else {
+            found = &k.gateway;
+        }
+    }
+    if (!found) {
+        fault = lost ? no_result(Outcome::refused, Reason::line_down, fmt::format("the gateway {} is gone", o.gateway))
+                     : no_result(Outcome::refused, Reason::unknown_point, fmt::format("there is no gateway {} in the domain", o.gateway));
+    }
+    return found;
+}
+
+void Fleet::command(const FleetOrder& o, std::function<void(const Result&)> then, Instant now) {
+    Result fault;
+    const FleetGateway* g = target(o, fault);
+    if (!g) return then(fault);
+    const auto& axes = known_.at(g->instance).axes;
+    const auto axis = axes.find(o.axis);
+    if (axis == axes.end())
+        return then(no_result(Outcome::refused, Reason::unknown_point, fmt::format("{} has no axis {}", o.gateway, o.axis)));
+    // By the same rules as there, so that all that is wrong is said before anything is sent.
+    const auto read = read_command(o.body, axis->second.increments_per_unit, axis->second.unit);
+    if (!read.body) {
+        const auto& f = read.faults.front();
+        return then(no_result(Outcome::refused, Reason::out_of_range, f.text + (f.remedy.empty() ? "" : "; " + f.remedy)));
+    }
+    if (waiting_.size() >= waiting_most)
+        return then(
+            no_result(Outcome::refused, Reason::busy, "too many commands to other gateways wait for their results; try again later"));
+    auto w = std::make_unique<Waiting>();
+    const std::string id = fmt::format("{:x}-{}", instance_, next_++);
+    axisgate_AxisCommand& s = w->sample;
+    put_text(s.gateway, o.gateway);
+    put_text(s.axis, o.axis);
+    put_text(s.source, fmt::format("{} {}", name_, AuthorityClient::of(o.origin).name));
+    put_text(s.id, id);
+    s.instance = w->instance = g->instance;
+    w->gateway = o.gateway;
+    put_text(s.command, read.name);
+    s.until_done = o.until_done;
+    const auto number = [&o](const char* name, auto& place, auto*& member) {
+        const auto* v = o.body.if_contains(name);
+        if (!v || !v->is_number()) return;
+        place = v->to_number<std::remove_reference_t<decltype(place)>>();
+        member = &place;
+    };
+    number("position", w->numbers[0], s.position);
+    number("velocity", w->numbers[1], s.velocity);
+    number("acceleration", w->numbers[2], s.acceleration);
+    number("deceleration", w->numbers[3], s.deceleration);
+    number("method", w->whole[0], s.method);
+    number("hold_ms", w->whole[1], s.hold_ms);
+    const auto flag = [&o](const char* name) {
+        const auto* v = o.body.if_contains(name);
+        return v && v->is_bool() && v->get_bool();
+    };
+    s.prepare = flag("prepare");
+    s.renew = flag("renew");
+    w->sent = now;
+    w->until = now + waits_most;
+    w->then = std::move(then);
+    const auto& kept = *waiting_.emplace(id, std::move(w)).first->second;
+    send_(kept.sample);
+}
+
+void Fleet::end(const std::string& id, const Result& result) {
+    auto node = waiting_.extract(id);
+    if (!node.empty()) node.mapped()->then(result);
+}
+
+}  // namespace axisgate::dds

@@ -1,0 +1,71 @@
+// Fleet: what the gateways of the domain tell, and commands of this one to axes of others until each has its one result.
+// In: samples, orders, time. Out: a list of gateways; events for those that come and go; command samples, sent again until they are
+// answered. Never a second command: what is sent again has the same source and id, and is meant for one start of its gateway.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gateway/core/event.hpp"
+#include "gateway/core/instant.hpp"
+#include "gateway/doors/dds/bus.hpp"
+#include "gateway/services/ports/fleet.hpp"
+
+namespace axisgate::dds {
+
+class Fleet {
+public:
+    static constexpr std::size_t gateways_most = 256, axes_most = 1024, waiting_most = 256;
+    static constexpr Duration sent_again = std::chrono::milliseconds(500);  ///< while no result has come
+    static constexpr Duration waits_most = std::chrono::minutes(5);         ///< less than a gateway remembers a command
+    static constexpr Duration lost_kept = std::chrono::minutes(10);
+
+    /// `send` puts a command on the bus. `name`, `instance`: of this gateway.
+    Fleet(std::string name, std::uint64_t instance, std::function<void(const axisgate_AxisCommand&)> send)
+        : name_(std::move(name)), instance_(instance), send_(std::move(send)) {}
+
+    /// A state, or its end. What there is to be told: a gateway has come, or is lost.
+    [[nodiscard]] std::optional<Event> on_gateway(const axisgate_GatewayState& s, bool alive, std::int64_t now_unix_ns, Instant now);
+    void on_axis(const axisgate_AxisState& s, bool valid, bool alive);
+    void on_result(const axisgate_CommandResult& s);
+    /// Sends again, gives up, forgets.
+    void on_turn(Instant now);
+
+    [[nodiscard]] std::vector<FleetGateway> list() const;
+    /// The one that is meant, or why none is (`fault`).
+    [[nodiscard]] const FleetGateway* target(const FleetOrder& order, Result& fault) const;
+    /// Gives it to another gateway; `then` is called once, perhaps from inside this call.
+    void command(const FleetOrder& order, std::function<void(const Result&)> then, Instant now);
+    [[nodiscard]] std::size_t waiting() const noexcept { return waiting_.size(); }
+
+private:
+    struct Known {
+        FleetGateway gateway;
+        std::map<std::string, FleetAxis> axes;
+        Instant lost_at = never;
+    };
+    struct Waiting {
+        axisgate_AxisCommand sample{};
+        std::array<double, 4> numbers{};  // what its optional members point to
+        std::array<std::int32_t, 2> whole{};
+        std::uint64_t instance = 0;
+        std::string gateway;
+        Instant sent{}, until{};
+        std::function<void(const Result&)> then;
+    };
+    void end(const std::string& id, const Result& result);
+
+    std::string name_;
+    std::uint64_t instance_;
+    std::function<void(const axisgate_AxisCommand&)> send_;
+    std::map<std::uint64_t, Known> known_;                     // by instance
+    std::map<std::string, std::unique_ptr<Waiting>> waiting_;  // by id
+    std::uint64_t next_ = 1;
+};
+
+}  // namespace axisgate::dds

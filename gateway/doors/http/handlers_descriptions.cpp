@@ -97,10 +97,10 @@ Handled list_descriptions(Call&, const DescriptionPort& port, const SitePort& si
 }
 
 Handled get_drive_description(Call& c, const DescriptionPort& port, const SitePort& sites, const StagePort& staging) {
-    const auto found = port.descriptions().find(c.names[0]);
-    if (!found) return nothing_named("description", c.names[0]);
     const auto format = c.target.query.get("format");
     if (format && *format != "eds" && *format != "json") return problem(400, "bad_request", "format must be eds or json");
+    const auto found = port.descriptions().find(c.names[0]);
+    if (!found) return nothing_named("description", c.names[0]);
     static constexpr std::string_view media[] = {"application/json", "text/plain"};
     const auto liked = best_accepted(c.request.headers.get("Accept"), media);
     if (!format && !liked) return problem(406, "not_acceptable", "this is application/json or text/plain");

@@ -6914,11 +6914,9 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description the snapshot */
+            /** @description the snapshot; of a DCF, the header Left-Out says how many of its values the file cannot hold */
             200: {
                 headers: {
-                    /** @description of a DCF: values of the snapshot that it cannot hold */
-                    "Left-Out"?: number;
                     [name: string]: unknown;
                 };
                 content: {

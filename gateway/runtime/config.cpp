@@ -61,6 +61,17 @@ Fault set_text(std::string& into, const std::string& s) {
     return {};
 }
 
+/// A name that is also a step of a path, and for a partition no pattern: DDS takes * and ? for wildcards.
+Fault set_dds_name(std::string& into, const std::string& s) {
+    const auto good = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' || c == '.';
+    };
+    if (s.empty() || s.size() > 63 || s == "." || s == ".." || !std::ranges::all_of(s, good))
+        return "write 1 to 63 letters, digits, - _ or .";
+    into = s;
+    return {};
+}
+
 std::string_view without_blanks(std::string_view s) {
     const auto first = s.find_first_not_of(" \t");
     return first == std::string_view::npos ? std::string_view() : s.substr(first, s.find_last_not_of(" \t") + 1 - first);
@@ -205,6 +216,9 @@ const std::vector<Key>& keys() {
          Written::as_number},
         {"dds", "enabled", [](Config& c, const std::string& s) { return set_bool(c.dds_enabled, s); }, Written::as_switch},
         {"dds", "domain", [](Config& c, const std::string& s) { return set_integer(c.dds_domain, s, 0, 232); }, Written::as_number},
+        {"dds", "partition", [](Config& c, const std::string& s) { return set_dds_name(c.dds_partition, s); }},
+        {"dds", "name", [](Config& c, const std::string& s) { return set_dds_name(c.dds_name, s); }},
+        {"dds", "interface", [](Config& c, const std::string& s) { return set_dds_name(c.dds_interface, s); }},
         {"log", "level",
          [](Config& c, const std::string& s) -> Fault {
              for (const auto* l : {"trace", "debug", "info", "warning", "error", "off"}) {
@@ -424,9 +438,6 @@ Config read_config(const ConfigSources& sources, std::vector<ConfigFault>& fault
         }
         apply(o.substr(0, dot), o.substr(dot + 1, equals - dot - 1), o.substr(equals + 1), "--set " + o.substr(0, equals));
     }
-    // Doors that the contract names and this version has not: never silently left out.
-    if (c.dds_enabled)
-        faults.push_back({places[find_key("dds", "enabled")], "dds.enabled: this version has no DDS door", "set it to false"});
     if (const RtuPort port = rtu_port(c); !port.fault.empty()) {
         faults.push_back({places[find_key("modbus_rtu", "port")], "modbus_rtu.port: " + port.fault,
                           "write the path of a serial port, such as /dev/ttyUSB0, or off"});

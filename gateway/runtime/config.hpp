@@ -41,6 +41,9 @@ struct Config {
     bool enip_io_port_named = false;             ///< as enip_bind_named
     bool dds_enabled = false;                    ///< [dds] enabled
     std::int64_t dds_domain = 0;                 ///< [dds] domain, 0..232
+    std::string dds_partition = "plant";         ///< [dds] partition: gateways of another one see nothing of this one
+    std::string dds_name;                        ///< [dds] name of this gateway in the domain, 1..63 bytes; empty: the host's name
+    std::string dds_interface = "lo";            ///< [dds] interface: network interface; lo: this machine alone
     std::string log_level = "info";              ///< [log] level: trace debug info warning error off
     std::string log_file;                        ///< [log] file; empty: standard error
     std::int64_t spin_us = 0;                    ///< [runtime] spin_us, 0..1000: how long the hot loop polls before it sleeps

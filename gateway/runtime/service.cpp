@@ -2,6 +2,7 @@
 // In: the configuration, a site. Out: the running gateway; an exit code. Never starts a door before what it shows is there.
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <boost/asio/signal_set.hpp>
@@ -14,6 +15,7 @@
 #include <map>
 
 #include "gateway/core/assets.hpp"
+#include "gateway/doors/dds/door.hpp"
 #include "gateway/doors/enip/server.hpp"
 #include "gateway/doors/http/server.hpp"
 #include "gateway/runtime/access_service.hpp"
@@ -39,6 +41,15 @@ namespace {
 /// Longest wait for lines and drives before `ready` is said all the same; what is missing is then named in it.
 constexpr auto ready_limit = std::chrono::seconds(5);
 
+/// As the machine calls itself, without its domain; "axisgate" if it does not say.
+std::string host_name() {
+    char name[64] = {};
+    if (gethostname(name, sizeof name - 1) != 0 || name[0] == 0) return "axisgate";
+    std::string s(name);
+    s.resize(std::min(s.find('.'), s.size()));
+    return s.empty() ? "axisgate" : s;
+}
+
 /// Everything that lives while the service runs; destroyed from the last to the first.
 struct Service {
     const ServeOptions& options;
@@ -55,6 +66,7 @@ struct Service {
     std::shared_ptr<AccessService> access;
     std::unique_ptr<Services> services;
     std::vector<std::unique_ptr<ServiceDoor>> doors;  // of this thread
+    dds::DdsDoor* dds = nullptr;                      // one of them, or none
     boost::asio::steady_timer services_timer{warm};
     LogListener log;
     boost::asio::signal_set signals{warm};
@@ -304,6 +316,21 @@ int Service::open_doors() {
         http->use_tls(identity);
         doors.push_back(std::move(http));
     }
+    if (options.config.dds_enabled) {
+        dds::DoorSettings ds;
+        ds.bus = {static_cast<std::uint32_t>(options.config.dds_domain), options.config.dds_partition, options.config.dds_interface};
+        ds.name = options.config.dds_name.empty() ? host_name() : options.config.dds_name;
+        ds.version = AXISGATE_VERSION;
+        ds.page = [this] {
+            const auto door = std::ranges::find_if(doors, [](const auto& d) { return d->name().starts_with("http"); });
+            return door == doors.end() || (*door)->address().empty() ? std::string()
+                                                                     : fmt::format("{}://{}/", (*door)->name(), (*door)->address());
+        };
+        ds.instance = static_cast<std::uint64_t>(unix_now_ns());  // no two starts of one name in the same nanosecond
+        auto door = std::make_unique<dds::DdsDoor>(warm, ports->all(), monotonic_now, std::move(ds));
+        dds = door.get();
+        doors.push_back(std::move(door));
+    }
     for (const auto& door : doors) {
         if (const std::string fault = door->start(); !fault.empty()) {
             complain(fault);
@@ -323,6 +350,7 @@ int Service::open_doors() {
         std::string text;
         for (const HotDoor* door : hot->doors())
             text += door->metrics();
+        if (dds) text += dds->metrics();
         return text;
     };
     return exit_good;

@@ -1,4 +1,4 @@
-// Bus: two participants of one domain on the loopback interface: states for late comers, ends, partitions, ownership, optional members.
+// Bus: two participants of one domain on the loopback interface: states for late comers, ends, partitions, optional members.
 #include "gateway/doors/dds/bus.hpp"
 
 #include <gtest/gtest.h>

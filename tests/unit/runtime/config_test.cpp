@@ -96,10 +96,10 @@ TEST(Config, EveryFaultAtOnceWithLineAndRemedy) {
     EXPECT_EQ(faults[0].place, "f.toml:1");
 }
 
-TEST(Config, WhatThisVersionHasNotAndWhatIsWrittenAsAnotherKindIsAFault) {
+TEST(Config, WhatIsNoNameAndWhatIsWrittenAsAnotherKindIsAFault) {
     ConfigSources s;
     s.file_name = "f.toml";
-    s.file_text = "[data]\ndir = 7\n[log]\nfile = 3\n[modbus_rtu]\nport = 5\n[dds]\nenabled = true\n[http]\nallowed_hosts = 4\n";
+    s.file_text = "[data]\ndir = 7\n[log]\nfile = 3\n[modbus_rtu]\nport = 5\n[dds]\npartition = \"a*\"\n[http]\nallowed_hosts = 4\n";
     s.environment = {"AXISGATE_MODBUS_RTU_PORT=udp:h:1"};
     std::vector<ConfigFault> faults;
     (void)read_config(s, faults);
@@ -111,9 +111,9 @@ TEST(Config, WhatThisVersionHasNotAndWhatIsWrittenAsAnotherKindIsAFault) {
     for (const auto* p : {"f.toml:2", "f.toml:4", "f.toml:6", "f.toml:8", "f.toml:10", "AXISGATE_MODBUS_RTU_PORT"})
         EXPECT_NE(std::find(places.begin(), places.end(), p), places.end()) << p;
     EXPECT_EQ(faults.size(), 6u);
-    s.file_text = "[dds]\nenabled = true\n";
+    s.file_text = "[dds]\nname = \"two words\"\n";
     s.environment.clear();
-    s.overrides = {"dds.enabled=false", "data.dir=7"};
+    s.overrides = {"dds.name=hall-1", "data.dir=7"};
     faults.clear();
     EXPECT_EQ(read_config(s, faults).data_dir, "7") << "on the command line all is text";
     EXPECT_TRUE(faults.empty()) << "what is overridden does not count";

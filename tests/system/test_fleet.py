@@ -1,0 +1,45 @@
+# Several gateways of one DDS domain on the loopback interface: they find each other, and what they tell of it.
+# In: the program, twice, with DDS. Out: doors, the ready line, events. Never another network than this machine's own.
+import random
+import time
+
+from harness import DEMO, Folder, Gateway, until
+
+
+def member(folder, domain, name, *more):
+    return Gateway(folder, DEMO, "--set", "dds.enabled=true", "--set", f"dds.domain={domain}", "--set", f"dds.name={name}", *more)
+
+
+def told(gateway, word):
+    return [e for e in gateway.get("/events?limit=500") if e["kind"] == "fleet" and word in e["text"]]
+
+
+def test_dds_is_off_unless_it_is_switched_on(gateway):
+    assert "dds=" not in gateway.ready, gateway.ready
+    assert not [d for d in gateway.get("/about")["doors"] if d["name"] == "dds"]
+
+
+def test_two_gateways_with_one_name_find_each_other_and_say_so(folder):
+    domain = random.randint(100, 200)
+    with Folder() as other, Folder() as far, member(folder, domain, "hall") as a, member(other, domain, "hall") as b, \
+            member(far, domain, "hall", "--set", "dds.partition=elsewhere") as c:
+        assert a.word("dds") == f"hall@plant:{domain}%lo", a.ready
+        assert [d["address"] for d in a.get("/about")["doors"] if d["name"] == "dds"] == [f"hall@plant:{domain}%lo"]
+        until(lambda: told(a, "called hall as well"), 15, "the first hears of the second")
+        until(lambda: told(b, "called hall as well"), 15, "the second hears of the first")
+        assert f"http://{b.word('http')}/" in told(a, "called hall")[0]["text"], told(a, "called hall")
+        time.sleep(1)
+        assert not told(c, "called hall"), "another partition is another plant"
+        assert len(told(a, "called hall")) == 1, "told once, and not of the other partition's"
+        assert b.stop() == 0
+        # It ended in order; another one with the name is told anew.
+        with Folder() as again, member(again, domain, "hall"):
+            until(lambda: len(told(a, "called hall")) == 2, 15, "the third")
+
+
+def test_an_interface_that_is_not_there_is_said_at_the_start(folder):
+    try:
+        with member(folder, 99, "hall", "--set", "dds.interface=nosuch9"):
+            raise SystemError("it started")
+    except AssertionError as e:
+        assert "nosuch9" in str(e) and "[dds] interface" in str(e), e

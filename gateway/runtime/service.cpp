@@ -329,6 +329,7 @@ int Service::open_doors() {
         ds.instance = static_cast<std::uint64_t>(unix_now_ns());  // no two starts of one name in the same nanosecond
         auto door = std::make_unique<dds::DdsDoor>(warm, ports->all(), monotonic_now, std::move(ds));
         dds = door.get();
+        ports->fleet.use(*door);
         doors.push_back(std::move(door));
     }
     for (const auto& door : doors) {

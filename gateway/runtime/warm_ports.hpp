@@ -11,6 +11,7 @@
 #include "gateway/runtime/warm_descriptions.hpp"
 #include "gateway/runtime/warm_documents.hpp"
 #include "gateway/runtime/warm_events.hpp"
+#include "gateway/runtime/warm_fleet.hpp"
 #include "gateway/runtime/warm_lines.hpp"
 #include "gateway/runtime/warm_modbus.hpp"
 #include "gateway/runtime/warm_parameters.hpp"
@@ -42,7 +43,7 @@ public:
     WarmPorts& operator=(const WarmPorts&) = delete;
 
     [[nodiscard]] Ports all() {
-        return {axes,   backup,     clock,     descriptions, documents, drives,    events, lines,
+        return {axes,   backup,     clock,     descriptions, documents, drives,    events, fleet, lines,
                 modbus, parameters, registers, rehearsal,    site,      snapshots, stage,  status};
     }
     /// Where the hot thread puts what is for this one.
@@ -61,6 +62,7 @@ public:
     WarmSnapshots snapshots{threads_};
     WarmRegisters registers{threads_};
     WarmRehearsal rehearsal{threads_, site.families()};
+    WarmFleet fleet;
     WarmModbus modbus{threads_, events};
     WarmBackup backup{threads_, events};
     WarmStatus status{threads_, events, site, axes, drives};

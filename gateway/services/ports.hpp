@@ -10,6 +10,7 @@
 #include "gateway/services/ports/documents.hpp"
 #include "gateway/services/ports/drives.hpp"
 #include "gateway/services/ports/events.hpp"
+#include "gateway/services/ports/fleet.hpp"
 #include "gateway/services/ports/lines.hpp"
 #include "gateway/services/ports/modbus.hpp"
 #include "gateway/services/ports/parameters.hpp"
@@ -24,7 +25,7 @@
 namespace axisgate {
 
 /// All of them: for whoever puts services and doors together.
-using Ports = PortSet<AxisPort, BackupPort, ClockPort, DescriptionPort, DocumentPort, DrivePort, EventPort, LinePort, ModbusPort,
+using Ports = PortSet<AxisPort, BackupPort, ClockPort, DescriptionPort, DocumentPort, DrivePort, EventPort, FleetPort, LinePort, ModbusPort,
                       ParameterPort, RegisterPort, RehearsalPort, SitePort, SnapshotPort, StagePort, StatusPort>;
 
 }  // namespace axisgate

@@ -43,3 +43,34 @@ def test_an_interface_that_is_not_there_is_said_at_the_start(folder):
             raise SystemError("it started")
     except AssertionError as e:
         assert "nosuch9" in str(e) and "[dds] interface" in str(e), e
+
+
+def test_one_gateway_shows_the_fleet_and_moves_an_axis_of_another(folder):
+    domain = random.randint(20, 90)
+    with Folder() as other, Folder() as third, member(folder, domain, "hall-1") as a, member(other, domain, "hall-2") as b, member(third, domain, "hall-3") as c:
+        def fleet(g):
+            return {x["gateway"]: x for x in g.get("/fleet")["gateways"]}
+        for g in (a, b, c):
+            until(lambda: all(len(x["axes"]) == 2 and all(y["online"] for y in x["axes"]) for x in fleet(g).values()) and len(fleet(g)) == 3, 20, "all see all")
+        assert [n for n, x in fleet(a).items() if x["here"]] == ["hall-1"] and fleet(a)["hall-2"]["page"] == f"http://{b.word('http')}/"
+        path = "/fleet/hall-2/axes/feeder/commands"
+        assert a.send("POST", path + "?wait=10", {"command": "enable"})["result"] == "done"
+        moved = a.send("POST", path + "?wait=20", {"command": "move_absolute", "position": 7, "velocity": 30, "acceleration": 200, "deceleration": 200})
+        assert moved["result"] == "done" and moved["axis"] == "hall-2/feeder", moved
+        assert b.axis("feeder")["position"] == 7 and a.axis("feeder")["position"] == 0 and c.axis("feeder")["position"] == 0
+        until(lambda: fleet(c)["hall-2"]["axes"][0]["position"] == 7, 5, "the third sees it")
+        authority = b.axis("feeder")
+        assert "dds" in str(b.get("/axes/feeder/authority") if "authority" not in authority else authority["authority"]), authority
+        status, refused, _ = a.request("POST", "/api/v1" + path, {"command": "move_absolute", "position": 1e300})
+        assert status == 422, (status, refused)
+        assert a.request("POST", "/api/v1/fleet/hall-9/axes/feeder/commands", {"command": "enable"})[0] == 404
+        # Here it goes the way of every command.
+        assert a.send("POST", "/fleet/hall-1/axes/slide/commands?wait=10", {"command": "enable"})["result"] == "done"
+        b.process.kill()
+        until(lambda: not fleet(a)["hall-2"]["alive"], 10, "its loss within its lease")
+        status, gone, _ = a.request("POST", "/api/v1" + path, {"command": "enable"})
+        assert status in (404, 409, 503, 504), (status, gone)
+
+
+def test_without_dds_there_is_no_fleet(gateway):
+    assert gateway.get("/fleet") == {"enabled": False, "gateways": []}

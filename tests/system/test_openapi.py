@@ -22,7 +22,7 @@ from openapi import Description, sample, strict_json
 TOP = pathlib.Path(__file__).resolve().parents[2]
 TEXT = (TOP / "schema/openapi.yaml").read_text()
 API = Description(TEXT)
-NAMES = {"family": ["uim342"], "line": ["can0"], "drive": ["feeder", "slide"], "axis": ["feeder", "slide"], "parameter": ["AC", "PP[5]", "node_id"], "mapping": ["m1"], "recipe": ["warm-up"], "run": ["1"], "snapshot": ["1"], "revision": ["1"], "user": ["anna"], "token": ["none"], "alarm": ["1"], "unit": ["2", "40"], "description": ["plain.eds"]}
+NAMES = {"family": ["uim342"], "line": ["can0"], "drive": ["feeder", "slide"], "axis": ["feeder", "slide"], "parameter": ["AC", "PP[5]", "node_id"], "mapping": ["m1"], "recipe": ["warm-up"], "run": ["1"], "snapshot": ["1"], "revision": ["1"], "user": ["anna"], "token": ["none"], "alarm": ["1"], "unit": ["2", "40"], "description": ["plain.eds"], "gateway": ["hall-1"]}
 EDS = (TOP / "adapters/cia402/tests/eds/plain.eds").read_text()
 RECIPE = {"description": "on and off", "parameters": {"pause": {"type": "number", "default": 0.05}}, "steps": [{"enable": {"axis": "slide"}}, {"wait_s": "${pause}"}, {"disable": {"axis": "slide"}}]}
 
@@ -331,7 +331,7 @@ def test_every_write_answers_as_described(gateway):
     assert answers[-1] in (404, 409, 422), answers
     seen |= {("actOnAxis", s) for s in answers}
     seen.add(("removeMappings", check(operation("removeMappings"), client.request("DELETE", "/api/v1/mappings?all=1&dry_run=1"), "what would be removed")))
-    missing = {(o.id, s) for o in API.operations if o.method != "GET" for s in o.good()} - seen - {("actOnAxis", 200), ("takeSnapshot", 202), ("restoreSnapshot", 202), ("importParameters", 202)}
+    missing = {(o.id, s) for o in API.operations if o.method != "GET" for s in o.good()} - seen - {("commandFleetAxis", 200), ("actOnAxis", 200), ("takeSnapshot", 202), ("restoreSnapshot", 202), ("importParameters", 202)}
     assert not missing, f"described but never seen: {missing}"
     assert gateway.get("/site") == site
 

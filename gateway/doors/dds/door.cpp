@@ -111,7 +111,9 @@ void DdsDoor::on_turn() {
     const Instant now = clock_();
     if (!gateway_told_.time_since_epoch().count() || now - gateway_told_ >= told_again) tell_gateway(now);
     tell_axes(now);
-    fleet_.on_turn(now);
+    for (auto& event : fleet_.on_turn(now))
+        ports_.get<EventPort>().note(std::move(event));
+    std::erase_if(namesakes_, [this](std::uint64_t instance) { return !fleet_.alive(instance); });
     timer_.expires_after(std::chrono::duration_cast<std::chrono::steady_clock::duration>(turn));
     timer_.async_wait([this](const boost::system::error_code& ec) {
         if (!ec) on_turn();

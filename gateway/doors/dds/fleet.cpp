@@ -34,6 +34,24 @@ Reason reason_named(std::string_view word) {
 }
 }  // namespace
 
+Event Fleet::lose(Known& k, Instant now) {
+    k.gateway.alive = false;
+    k.lost_at = now;
+    std::vector<std::string> unanswered;
+    for (const auto& [id, w] : waiting_) {
+        if (w->instance == k.gateway.instance) unanswered.push_back(id);
+    }
+    for (const auto& id : unanswered)
+        end(id, no_result(Outcome::failed, Reason::no_answer,
+                          fmt::format("the gateway {} is gone; nobody knows whether the command was carried out", k.gateway.name)));
+    Event e;
+    e.kind = "fleet";
+    e.door = "dds";
+    e.severity = Severity::warning;
+    e.text = fmt::format("the gateway {} is gone: it has ended, or is not to be reached", k.gateway.name);
+    return e;
+}
+
 std::optional<Event> Fleet::on_gateway(const axisgate_GatewayState& s, bool alive, std::int64_t now_unix_ns, Instant now) {
     const auto it = known_.find(s.instance);
     const bool other = s.instance != instance_;
@@ -42,23 +60,13 @@ std::optional<Event> Fleet::on_gateway(const axisgate_GatewayState& s, bool aliv
     e.door = "dds";
     if (!alive) {
         if (it == known_.end() || !it->second.gateway.alive) return std::nullopt;
-        it->second.gateway.alive = false;
-        it->second.lost_at = now;
-        std::vector<std::string> unanswered;
-        for (const auto& [id, w] : waiting_) {
-            if (w->instance == s.instance) unanswered.push_back(id);
-        }
-        for (const auto& id : unanswered)
-            end(id, no_result(Outcome::failed, Reason::no_answer,
-                              fmt::format("the gateway {} is gone; nobody knows whether the command was carried out", s.gateway)));
-        e.severity = Severity::warning;
-        e.text = fmt::format("the gateway {} is gone: it has ended, or is not to be reached", s.gateway);
-        return e;
+        return lose(it->second, now);
     }
     const bool found = it == known_.end() || !it->second.gateway.alive;
     if (it == known_.end() && known_.size() >= gateways_most) return std::nullopt;
     Known& k = known_[s.instance];
     k.lost_at = never;
+    k.heard_at = now;
     FleetGateway& g = k.gateway;
     g.name = s.gateway;
     g.instance = s.instance;
@@ -121,7 +129,12 @@ void Fleet::on_result(const axisgate_CommandResult& s) {
     end(s.id, r);
 }
 
-void Fleet::on_turn(Instant now) {
+std::vector<Event> Fleet::on_turn(Instant now) {
+    std::vector<Event> told;
+    for (auto& [instance, k] : known_) {
+        if (instance != instance_ && k.gateway.alive && now - k.heard_at > std::chrono::milliseconds(lease_ms))
+            told.push_back(lose(k, now));
+    }
     std::vector<std::string> over;
     for (auto& [id, w] : waiting_) {
         if (now >= w->until) {
@@ -137,6 +150,7 @@ void Fleet::on_turn(Instant now) {
                           fmt::format("no result from the gateway {} in time; nobody knows whether the command was carried out", gateway)));
     }
     std::erase_if(known_, [now](const auto& k) { return !k.second.gateway.alive && now - k.second.lost_at >= lost_kept; });
+    return told;
 }
 
 std::vector<FleetGateway> Fleet::list() const {

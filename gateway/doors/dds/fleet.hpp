@@ -33,8 +33,12 @@ public:
     [[nodiscard]] std::optional<Event> on_gateway(const axisgate_GatewayState& s, bool alive, std::int64_t now_unix_ns, Instant now);
     void on_axis(const axisgate_AxisState& s, bool valid, bool alive);
     void on_result(const axisgate_CommandResult& s);
-    /// Sends again, gives up, forgets.
-    void on_turn(Instant now);
+    /// Sends again, gives up, forgets; and what there is to be told: who has not been heard for the lease is lost, whatever the bus says.
+    [[nodiscard]] std::vector<Event> on_turn(Instant now);
+    [[nodiscard]] bool alive(std::uint64_t instance) const {
+        const auto it = known_.find(instance);
+        return it != known_.end() && it->second.gateway.alive;
+    }
 
     [[nodiscard]] std::vector<FleetGateway> list() const;
     /// The one that is meant, or why none is (`fault`).
@@ -47,7 +51,7 @@ private:
     struct Known {
         FleetGateway gateway;
         std::map<std::string, FleetAxis> axes;
-        Instant lost_at = never;
+        Instant lost_at = never, heard_at{};
     };
     struct Waiting {
         axisgate_AxisCommand sample{};
@@ -59,6 +63,7 @@ private:
         std::function<void(const Result&)> then;
     };
     void end(const std::string& id, const Result& result);
+    [[nodiscard]] Event lose(Known& k, Instant now);
 
     std::string name_;
     std::uint64_t instance_;

@@ -142,6 +142,8 @@ Handled remove_mapping(Call&, SitePort&, const StagePort&);
 Handled remove_mappings(Call&, SitePort&, const StagePort&);
 Handled list_mapping_units(Call&, const SitePort&);
 Handled change_mapping_unit(Call&, SitePort&, const StagePort&);
+Handled get_fleet(Call&, const FleetPort&);
+Handled command_fleet_axis(Call&, FleetPort&);
 Handled list_profiles(Call&, const SitePort&);
 Handled get_profile(Call&, const SitePort&);
 Handled put_profile(Call&, SitePort&, const StagePort&);

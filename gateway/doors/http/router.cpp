@@ -122,6 +122,11 @@ constexpr std::array routes{
     Route{"/api/v1/mappings/next-free", Method::get, take<get_next_free>}.asks("unit table words align"),
     Route{"/api/v1/mappings/units", Method::get, take<list_mapping_units>},
     Route{"/api/v1/mappings/units/{unit}", Method::put, take<change_mapping_unit>, Takes::json},
+    Route{"/api/v1/fleet", Method::get, take<get_fleet>},
+    Route{"/api/v1/fleet/{gateway}/axes/{axis}/commands", Method::post, take<command_fleet_axis>, Takes::json}
+        .asks("wait")
+        .needs(Role::viewer)
+        .moves(),  // as above
     Route{"/api/v1/profiles", Method::get, take<list_profiles>},
     Route{"/api/v1/profiles/{unit}", Method::get, take<get_profile>},
     Route{"/api/v1/profiles/{unit}", Method::put, take<put_profile>, Takes::json},

@@ -28,6 +28,7 @@ class FakeGateway final : public FakeClock,
                           public FakeStage,
                           public FakeRegisters,
                           public FakeRehearsal,
+                          public FakeFleet,
                           public FakeModbus,
                           public FakeBackup {
 public:

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "gateway/services/ports/fleet.hpp"
 #include "gateway/services/ports/rehearsal.hpp"
 
 namespace axisgate::http::test {
@@ -31,6 +32,18 @@ public:
         }
     }
     std::deque<std::pair<RehearsalCell, std::function<void(RehearsalCell)>>> cells_wanted;
+};
+
+class FakeFleet : public FleetPort {
+public:
+    std::vector<FleetGateway> gateways;
+    std::vector<FleetOrder> orders;
+    Result fleet_result;
+    std::vector<FleetGateway> fleet() const override { return gateways; }
+    void command(FleetOrder order, std::function<void(const Result&)> then) override {
+        orders.push_back(std::move(order));
+        then(fleet_result);
+    }
 };
 
 }  // namespace axisgate::http::test

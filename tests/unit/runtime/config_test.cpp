@@ -111,12 +111,14 @@ TEST(Config, WhatIsNoNameAndWhatIsWrittenAsAnotherKindIsAFault) {
     for (const auto* p : {"f.toml:2", "f.toml:4", "f.toml:6", "f.toml:8", "f.toml:10", "AXISGATE_MODBUS_RTU_PORT"})
         EXPECT_NE(std::find(places.begin(), places.end(), p), places.end()) << p;
     EXPECT_EQ(faults.size(), 6u);
-    s.file_text = "[dds]\nname = \"two words\"\n";
+    s.file_text = "[dds]\nenabled = true\n";
     s.environment.clear();
-    s.overrides = {"dds.name=hall-1", "data.dir=7"};
+    s.overrides = {"dds.enabled=false", "data.dir=7"};
     faults.clear();
-    EXPECT_EQ(read_config(s, faults).data_dir, "7") << "on the command line all is text";
-    EXPECT_TRUE(faults.empty()) << "what is overridden does not count";
+    const Config overridden = read_config(s, faults);
+    EXPECT_EQ(overridden.data_dir, "7") << "on the command line all is text";
+    EXPECT_FALSE(overridden.dds_enabled) << "what is overridden does not count";
+    EXPECT_TRUE(faults.empty());
 }
 
 TEST(Config, TheSerialPortOfModbusRtuIsAPathOrALine) {

@@ -1342,6 +1342,48 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/fleet": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The gateways of the DDS domain and their axes, this one included */
+        get: operations["getFleet"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/fleet/{gateway}/axes/{axis}/commands": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description name of a gateway of the domain */
+                gateway: string;
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+            };
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Commands an axis of any gateway of the domain
+         * @description As a command to an axis of this gateway; it goes by DDS, is carried out once and comes back with its one result. The other gateway's authority, limits and fail-safe hold.
+         */
+        post: operations["commandFleetAxis"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/profiles": {
         parameters: {
             query?: never;
@@ -3104,6 +3146,58 @@ export interface components {
             word_order?: "high_first" | "low_first" | null;
             /** @description in the order in which the language numbers them; pacontrol takes up to eight, the others one */
             axes: components["schemas"]["ProfileAxisSpec"][];
+        };
+        FleetList: {
+            /** @description this gateway is in a domain */
+            enabled: boolean;
+            gateways: components["schemas"]["FleetGateway"][];
+        };
+        FleetGateway: {
+            gateway: string;
+            /** @description another one at each start */
+            instance: string;
+            /** @description this gateway itself */
+            here: boolean;
+            /** @description false: it has ended, or was not heard within its lease */
+            alive: boolean;
+            /** @description another one that is alive has the same name */
+            namesake: boolean;
+            version: string;
+            /** @description address of its page; empty if it has none */
+            page: string;
+            /** @description its clock against that of this machine, delivery included */
+            clock_ahead_ms: number;
+            uptime_s: number;
+            axes: components["schemas"]["FleetAxis"][];
+        };
+        FleetAxis: {
+            axis: string;
+            number: number;
+            family: string;
+            unit: string;
+            online: boolean;
+            simulated: boolean;
+            stale: boolean;
+            referenced: boolean;
+            moving: boolean;
+            target_reached: boolean;
+            fault: boolean;
+            warning: boolean;
+            statusword: number;
+            mode: number;
+            error_code: number;
+            fail_safe_cause: number;
+            authority: string;
+            holder: string;
+            /** @description in the unit of the axis */
+            position: number;
+            velocity: number;
+            position_increments: number;
+            /**
+             * Format: date-time
+             * @description on its gateway's clock
+             */
+            at: string | null;
         };
         /** @description as ProfileSpec; the unit is the path's */
         ProfileEntry: {
@@ -7592,6 +7686,75 @@ export interface operations {
             };
             400: components["responses"]["BadRequest"];
             409: components["responses"]["Conflict"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getFleet: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description what they told last; none while `[dds] enabled` is false */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FleetList"];
+                };
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    commandFleetAxis: {
+        parameters: {
+            query?: {
+                /** @description seconds to wait until the command is done */
+                wait?: components["parameters"]["wait"];
+            };
+            header?: never;
+            path: {
+                /** @description name of a gateway of the domain */
+                gateway: string;
+                /** @example feeder */
+                axis: components["parameters"]["axis"];
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "command": "move_absolute",
+                 *       "position": 100,
+                 *       "velocity": 50
+                 *     }
+                 */
+                "application/json": components["schemas"]["Command"];
+            };
+        };
+        responses: {
+            /** @description acknowledged, or done */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CommandAnswer"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Refused"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            503: components["responses"]["Unavailable"];
+            504: components["responses"]["NoAnswer"];
             default: components["responses"]["Problem"];
         };
     };

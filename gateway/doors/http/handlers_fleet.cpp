@@ -1,0 +1,102 @@
+// Handlers of the fleet: the gateways of the domain with their axes, and commands to an axis of any of them.
+// In: calls. Out: what the fleet port knows; one result per command. Never asks another gateway's page or API.
+#include <algorithm>
+#include <utility>
+
+#include "gateway/core/text.hpp"
+#include "gateway/doors/http/handlers.hpp"
+
+namespace axisgate::http {
+namespace json = boost::json;
+namespace {
+
+json::object axis_document(const FleetAxis& a) {
+    const auto units = [&](std::int64_t increments) { return static_cast<double>(increments) / a.increments_per_unit; };
+    return {{"axis", a.name},
+            {"number", std::int64_t{a.number}},
+            {"family", a.family},
+            {"unit", a.unit},
+            {"online", a.online},
+            {"simulated", a.simulated},
+            {"stale", a.stale},
+            {"referenced", a.referenced},
+            {"moving", a.moving},
+            {"target_reached", a.target_reached},
+            {"fault", a.fault},
+            {"warning", a.warning},
+            {"statusword", std::int64_t{a.statusword}},
+            {"mode", std::int64_t{a.mode}},
+            {"error_code", std::int64_t{a.error_code}},
+            {"fail_safe_cause", std::int64_t{a.fail_safe_cause}},
+            {"authority", a.authority},
+            {"holder", a.holder},
+            {"position", units(a.position)},
+            {"velocity", units(a.velocity)},
+            {"position_increments", a.position},
+            {"at", a.at_unix_ns == 0 ? json::value() : json::value(format_time(a.at_unix_ns))}};
+}
+
+json::object gateway_document(const FleetGateway& g) {
+    json::array axes;
+    for (const auto& a : g.axes)
+        axes.push_back(axis_document(a));
+    return {{"gateway", g.name},
+            {"instance", std::to_string(g.instance)},
+            {"here", g.here},
+            {"alive", g.alive},
+            {"namesake", g.namesake},
+            {"version", g.version},
+            {"page", g.http},
+            {"clock_ahead_ms", g.clock_ahead_ns / 1'000'000},
+            {"uptime_s", static_cast<double>(g.uptime_ms) / 1000},
+            {"axes", std::move(axes)}};
+}
+}  // namespace
+
+Handled get_fleet(Call&, const FleetPort& fleet) {
+    json::array gateways;
+    for (const auto& g : fleet.fleet())
+        gateways.push_back(gateway_document(g));
+    return json_response(json::object{{"enabled", !gateways.empty()}, {"gateways", std::move(gateways)}});
+}
+
+Handled command_fleet_axis(Call& c, FleetPort& fleet) {
+    std::optional<Response> fault;
+    const double wait_s = query_wait(c, fault);
+    if (fault) return *fault;
+    const auto list = fleet.fleet();
+    const auto gateway = std::ranges::find_if(list, [&](const FleetGateway& g) { return g.name == c.names[0]; });
+    if (gateway == list.end()) return nothing_named("gateway", c.names[0]);
+    if (std::ranges::none_of(list, [&](const FleetGateway& g) {
+            return g.name == c.names[0] && std::ranges::any_of(g.axes, [&](const FleetAxis& a) { return a.name == c.names[1]; });
+        }))
+        return nothing_named("axis", c.names[0] + "/" + c.names[1]);
+    const auto* word = c.body.get_object().if_contains("command");
+    const std::string name(word && word->is_string() ? std::string_view(word->get_string()) : std::string_view());
+    // As for an axis of this gateway: whoever sees a machine may stop it.
+    if (name != "halt" && name != "quick_stop") {
+        if (auto refusal = refuse_below(c.identity, Role::operating)) return *refusal;
+    }
+    FleetOrder order;
+    order.gateway = c.names[0];
+    order.axis = c.names[1];
+    order.body = c.body.get_object();
+    order.until_done = wait_s > 0;
+    order.origin = c.origin();
+    const std::string axis = c.names[0] + "/" + c.names[1];
+    fleet.command(std::move(order), [respond = c.respond, axis, name](const Result& r) {
+        respond(good(r) ? answer_of(r, axis, name) : problem_of(r, axis, name));
+    });
+    if (wait_s > 0) {
+        return {std::chrono::nanoseconds(std::llround(wait_s * 1e9)),
+                json_response(command_answer(no_ticket, "accepted", fmt::format("not done after {} s", wait_s), axis, name))};
+    }
+    Result none;
+    none.outcome = Outcome::failed;
+    none.reason = Reason::no_answer;
+    none.text =
+        fmt::format("{}: no result from {} within {} s; nobody here knows whether it was done", name, c.names[0], gateway_limit.count());
+    return {gateway_limit, problem_of(none, axis, name)};
+}
+
+}  // namespace axisgate::http

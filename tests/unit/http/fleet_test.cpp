@@ -1,0 +1,59 @@
+// The fleet over HTTP: gateways with their axes, and commands to axes of others, with the same roles as commands to axes of this one.
+#include <gtest/gtest.h>
+
+#include "tests/unit/http/harness.hpp"
+
+namespace axisgate::http::test {
+namespace {
+
+class FleetOverHttp : public HttpTest {
+protected:
+    void SetUp() override {
+        FleetGateway g;
+        g.name = "hall-2";
+        g.instance = 17;
+        FleetAxis a;
+        a.name = "lift";
+        a.unit = "mm";
+        a.increments_per_unit = 100;
+        a.position = 1250;
+        a.online = true;
+        g.axes = {a};
+        gateway.gateways = {g};
+    }
+};
+
+TEST_F(FleetOverHttp, GatewaysAreToldWithTheirAxesInUnits) {
+    const auto list = call("GET", "/api/v1/fleet");
+    ASSERT_EQ(list.status, 200u) << list.text;
+    const auto& g = list.object().at("gateways").as_array().at(0).as_object();
+    EXPECT_EQ(g.at("gateway").as_string(), "hall-2");
+    EXPECT_EQ(g.at("instance").as_string(), "17");
+    EXPECT_EQ(g.at("axes").as_array().at(0).at("position").as_double(), 12.5);
+    gateway.gateways.clear();
+    EXPECT_EQ(call("GET", "/api/v1/fleet").at("enabled"), "false");
+}
+
+TEST_F(FleetOverHttp, ACommandGoesToItsGatewayAndComesBackWithItsOneResult) {
+    gateway.fleet_result.outcome = Outcome::done;
+    const auto good = call("POST", "/api/v1/fleet/hall-2/axes/lift/commands?wait=5", R"({"command":"enable"})");
+    ASSERT_EQ(good.status, 200u) << good.text;
+    EXPECT_EQ(good.at("result"), "done");
+    ASSERT_EQ(gateway.orders.size(), 1u);
+    EXPECT_EQ(gateway.orders[0].gateway, "hall-2");
+    EXPECT_EQ(gateway.orders[0].axis, "lift");
+    EXPECT_TRUE(gateway.orders[0].until_done);
+    EXPECT_EQ(gateway.orders[0].origin.door, Door::http);
+    gateway.fleet_result.outcome = Outcome::refused;
+    gateway.fleet_result.reason = Reason::wrong_state;
+    gateway.fleet_result.text = "axis lift is not enabled";
+    const auto refused = call("POST", "/api/v1/fleet/hall-2/axes/lift/commands", R"({"command":"home"})");
+    EXPECT_EQ(refused.status, 409u);
+    EXPECT_NE(refused.text.find("axis lift is not enabled"), std::string::npos) << refused.text;
+    EXPECT_EQ(call("POST", "/api/v1/fleet/hall-9/axes/lift/commands", R"({"command":"enable"})").status, 404u);
+    EXPECT_EQ(call("POST", "/api/v1/fleet/hall-2/axes/nobody/commands", R"({"command":"enable"})").status, 404u);
+    EXPECT_EQ(gateway.orders.size(), 2u);
+}
+
+}  // namespace
+}  // namespace axisgate::http::test

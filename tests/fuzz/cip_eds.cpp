@@ -7,7 +7,7 @@ using namespace axisgate;
 using namespace axisgate::cip;
 
 namespace {
-struct AnyDevice final : Description {
+struct AnyDevice final : cip::Description {
     explicit AnyDevice(FuzzedDataProvider& in) {
         device_.name = in.ConsumeRandomLengthString(40);
         static constexpr DataType types[] = {DataType::boolean, DataType::sint,  DataType::int16,       DataType::dint,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 namespace axisgate::registers {
 namespace {
@@ -105,8 +106,10 @@ Verdict PaControlMap::taken(std::span<const Written> rows, WritePlan& plan) {
     }
     for (std::size_t i = 0; i < axes(); ++i) {
         if (!touched[i]) continue;
-        axes_[i].configured = interfaces_ = true;
+        const bool first = !std::exchange(axes_[i].configured, true);
+        interfaces_ = true;
         axes_[i].control = values_[axis_rows_[i][0]];
+        if (first) before[i] = axes_[i].control;
         take_axis(i, before[i], plan);
     }
     if (code) {
@@ -121,7 +124,8 @@ Verdict PaControlMap::taken(std::span<const Written> rows, WritePlan& plan) {
 
 void PaControlMap::take_ctrl(std::uint16_t word, WritePlan& plan) {
     const auto fell = [&](std::uint16_t bit) { return (ctrl_ & bit) != 0 && (word & bit) == 0; };
-    const bool online = (ctrl_ & ctrl_online) == 0 && (word & ctrl_online) != 0;
+    // What stands in the first image may be left from before this gateway began: it starts nothing.
+    const bool online = ctrl_configured_ && (ctrl_ & ctrl_online) == 0 && (word & ctrl_online) != 0;
     if (fell(ctrl_reset)) reset_faults(plan, Asked::nothing);
     if (fell(ctrl_cancel)) {
         leave_online(plan);

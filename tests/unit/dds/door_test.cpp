@@ -220,6 +220,11 @@ TEST_F(DdsDoorTest, TwoGatewaysWithOneNameAreToldApartByTheirInstances) {
     EXPECT_TRUE(gateway.submitted.empty());
     ASSERT_TRUE(peer.write(command("n2", "feeder", "enable", 7)));
     ASSERT_TRUE(until([this] { return gateway.submitted.size() == 1; }));
+    ASSERT_TRUE(peer.write(command("n3", "feeder", "quick_stop"))) << "a stop is for both";
+    ASSERT_TRUE(until([this] { return gateway.submitted.size() == 2; }));
+    EXPECT_TRUE(std::holds_alternative<QuickStop>(gateway.submitted[1].body));
+    ASSERT_TRUE(peer.write(command("n4", "feeder", "halt", 6))) << "and for whichever start of it";
+    ASSERT_TRUE(until([this] { return gateway.submitted.size() == 3; }));
 }
 
 TEST_F(DdsDoorTest, SetPointsGoTheirWayAndTheirEndIsALostClient) {

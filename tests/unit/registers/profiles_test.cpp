@@ -305,6 +305,19 @@ TEST_F(PaControl, AnAxisInterfaceBlocksTheAxisCommands) {
     (void)order<Disable>("10 00 08 00 02 04 00 00 00 00");
 }
 
+TEST_F(PaControl, AnImageThatIsLeftFromBeforeStartsNothing) {
+    put(ProfileLanguage::pacontrol);
+    EXPECT_EQ(at("06 00 04 00 17"), "06 00 04 00 17") << "ONLINE is held";
+    EXPECT_EQ(at("04 00 02 00 01"), "04 02 00 01") << "home position";
+    EXPECT_EQ(at("06 00 04 00 07"), "06 00 04 00 07");
+    EXPECT_EQ(at("06 00 04 00 17"), "06 00 04 00 17");
+    EXPECT_EQ(at("04 00 02 00 01"), "04 02 00 1F");
+    EXPECT_EQ(at("10 00 08 00 06 0C 00 00 00 45 03 E8 01 F4 41 20 00 00"), "10 00 08 00 06") << "a traverse whose start is held";
+    EXPECT_TRUE(port.commands.empty());
+    EXPECT_EQ(at("10 00 08 00 06 0C 00 00 00 41 03 E8 01 F4 41 20 00 00"), "10 00 08 00 06");
+    (void)order<Move>("10 00 08 00 06 0C 00 00 00 45 03 E8 01 F4 41 20 00 00");
+}
+
 struct LinMot : ProfileTest {
     std::string state() { return at("04 00 00 00 01").substr(6); }
     void up() {

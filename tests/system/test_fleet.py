@@ -1,9 +1,11 @@
 # Several gateways of one DDS domain on the loopback interface: they find each other, and what they tell of it.
 # In: the program, twice, with DDS. Out: doors, the ready line, events. Never another network than this machine's own.
+import json
 import random
 import time
 
 from harness import DEMO, Folder, Gateway, until
+from test_openapi import Client, check, operation
 
 
 def member(folder, domain, name, *more):
@@ -64,6 +66,9 @@ def test_one_gateway_shows_the_fleet_and_moves_an_axis_of_another(folder):
         status, refused, _ = a.request("POST", "/api/v1" + path, {"command": "move_absolute", "position": 1e300})
         assert status == 422, (status, refused)
         assert a.request("POST", "/api/v1/fleet/hall-9/axes/feeder/commands", {"command": "enable"})[0] == 404
+        client = Client(a, 30)
+        assert check(operation("getFleet"), client.request("GET", "/api/v1/fleet"), "the fleet") == 200
+        assert check(operation("commandFleetAxis"), client.request("POST", "/api/v1" + path, json.dumps({"command": "halt"}).encode()), "a command") == 200
         # Here it goes the way of every command.
         assert a.send("POST", "/fleet/hall-1/axes/slide/commands?wait=10", {"command": "enable"})["result"] == "done"
         b.process.kill()

@@ -107,6 +107,10 @@ int main(int argc, char** argv) {
         ->check(CLI::IsMember({"candump", "hex", "trace"}));
     decode->add_option("file", decode_file, "recorded line; - or nothing: standard input")->type_name("FILE");
 
+    std::string replay_file;
+    auto* replay = app.add_subcommand("replay", "play a recording again, and tell where this program does otherwise");
+    replay->add_option("file", replay_file)->required()->type_name("FILE.axr");
+
     auto* check = app.add_subcommand("check", "find all faults of configuration and site");
     add_config(*check, check_common, true);
 
@@ -122,6 +126,17 @@ int main(int argc, char** argv) {
         app.add_subcommand("bundle", "gather what somebody needs who is to help, without secrets, in one tar; the gateway may run");
     bundle->add_option("file", bundle_file)->required()->type_name("FILE.tar");
     add_config(*bundle, bundle_common, false);
+
+    PkiOptions pki_options;
+    auto* pki = app.add_subcommand("pki", "make the certificates of a DDS domain: a folder for each member, for [dds] security");
+    pki->add_option("dir", pki_options.dir, "folder of the authority, which is made where there is none; keep it off the gateways")
+        ->required()
+        ->type_name("DIR");
+    pki->add_option("names", pki_options.names, "members, as [dds] name")->required()->type_name("NAME...");
+    pki->add_option("--role", pki_options.role, "gateway, commander (commands and sees) or viewer (sees)")
+        ->check(CLI::IsMember({"gateway", "commander", "viewer"}));
+    pki->add_option("--partition", pki_options.partition, "the plant, as [dds] partition (default plant)")->type_name("NAME");
+    pki->add_option("--days", pki_options.days, "for how long they hold (default 3650)")->check(CLI::Range(1, 36500))->type_name("N");
 
     auto* version = app.add_subcommand("version", "print the version");
     auto* help = app.add_subcommand("help", "print this text");
@@ -152,9 +167,11 @@ int main(int argc, char** argv) {
         fmt::print("{}", app.get_formatter()->make_help(&app, "axisgate", CLI::AppFormatMode::All));
         return exit_good;
     }
+    if (*pki) return command_pki(pki_options);
     if (*families) return command_families(families_format);
     if (*catalogue) return command_catalogue(catalogue_family, catalogue_what, catalogue_format);
     if (*decode) return command_decode(decode_family, decode_format, decode_file);
+    if (*replay) return command_replay(replay_file);
     if (*twin) return command_twin(twin_options);
     if (*check) {
         bool good = true;

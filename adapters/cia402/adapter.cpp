@@ -11,6 +11,7 @@ void LineAdapter::configure(const LineSetup& setup, Instant now, Out& out) {
         const auto* other = drives_.find([&](const Drive& d) { return d.node() == node_of(s.address); });
         return other ? "node " + s.address + " belongs to drive " + other->setup().name : check_address(s.address);
     };
+    drives_.fit_axes(setup, [&](Drive& d, const DriveSetup& s) { d.set_axes(s, t); });
     const auto fresh = drives_.fit(
         setup,
         [&](Drive& d) {
@@ -75,7 +76,7 @@ void LineAdapter::on_deadline(Instant now, Out& out) {
         out.send(canopen::data_frame(canopen::sync_id, {}), Priority::command);
         last_sync_ = now;
         next_sync_ = never;
-        drives_.each([&](Drive& d) { d.after_sync(now); });
+        drives_.each([&](Drive& d) { d.after_sync(); });
     }
     drive::wake(line_.turns, drives_, t);
     end(t);
@@ -91,7 +92,7 @@ Duration LineAdapter::cycle() const {
     std::int64_t ready = 0;
     bool quick = false;
     drives_.each([&](const Drive& d) {
-        ready += d.listens() ? 1 : 0;
+        ready += d.listeners();
         quick = quick || d.quick();
     });
     if (ready == 0) return Duration::zero();

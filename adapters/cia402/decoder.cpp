@@ -18,15 +18,27 @@ std::string hex_of(std::span<const std::uint8_t> bytes) {
 }
 }  // namespace
 
+/// The entry for an object, which may be a further axis' (then `axis` counts from 2): 6864h is 6064h of the second one.
+const Parameter* CanDecoder::entry(Address a, int& axis) const {
+    axis = 1;
+    if (const Parameter* p = parameter_at(catalogue_, a)) return p;
+    axis = 2;
+    if (a.index >= 0x6800 && a.index < 0x7000) return parameter_at(catalogue_, {static_cast<std::uint16_t>(a.index - 0x800), a.sub});
+    const Parameter* p = parameter_at(catalogue_, {static_cast<std::uint16_t>(a.index - 1), a.sub});
+    const auto* step = p ? p->wire.if_contains("per_axis") : nullptr;
+    return step && step->is_int64() && step->as_int64() == 1 ? p : nullptr;
+}
 std::string CanDecoder::name(Address a) const {
-    const Parameter* p = parameter_at(catalogue_, a);
-    return canopen::to_text(a) + (p                                       ? " " + p->name
+    int axis = 1;
+    const Parameter* p = entry(a, axis);
+    return canopen::to_text(a) + (p                                       ? " " + p->name + (axis == 1 ? "" : " of axis 2")
                                   : a.index >= 0x1600 && a.index < 0x1800 ? " receive PDO mapping"
                                   : a.index >= 0x1A00 && a.index < 0x1C00 ? " transmit PDO mapping"
                                                                           : "");
 }
 std::string CanDecoder::value(Address a, std::span<const std::uint8_t> bytes) const {
-    const Parameter* p = parameter_at(catalogue_, a);
+    int axis = 1;
+    const Parameter* p = entry(a, axis);
     const auto type = p ? type_of(p->type) : std::nullopt;
     if (type && *type != canopen::DataType::visible_string) {
         const auto size = canopen::bytes_of(*type);
@@ -81,9 +93,11 @@ std::string CanDecoder::pdo(const Frame& f, const canopen::Role& role) {
         return head + " " + hex_of(f.data()) + " (mapping not seen)";
     std::string text = head;
     for (std::size_t i = 0; i < mapping.size(); ++i) {
-        const Parameter* p = parameter_at(catalogue_, mapping[i].address);
-        text += fmt::format("{} {} = {}", i ? "," : "", p ? p->name : canopen::to_text(mapping[i].address),
-                            value(mapping[i].address, bytes_of(static_cast<std::int64_t>(values[i]), mapping[i].bits / 8u)));
+        int axis = 1;
+        const Parameter* p = entry(mapping[i].address, axis);
+        text +=
+            fmt::format("{} {} = {}", i ? "," : "", p ? p->name + (axis == 1 ? "" : " of axis 2") : canopen::to_text(mapping[i].address),
+                        value(mapping[i].address, bytes_of(static_cast<std::int64_t>(values[i]), mapping[i].bits / 8u)));
     }
     return text;
 }

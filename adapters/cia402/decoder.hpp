@@ -20,6 +20,7 @@ private:
         std::map<std::uint16_t, std::map<std::uint8_t, std::uint32_t>> maps;  ///< 16xxh, 1Axxh as written
         Address asked;
     };
+    [[nodiscard]] const Parameter* entry(Address address, int& axis) const;
     [[nodiscard]] std::string name(Address a) const;
     [[nodiscard]] std::string value(Address a, std::span<const std::uint8_t> bytes) const;
     [[nodiscard]] std::string sdo(const Frame& f, std::uint8_t node, bool request);

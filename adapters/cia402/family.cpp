@@ -1,5 +1,7 @@
 // Family cia402: any drive with that profile on CANopen: the table of its makers, and its scan.
 // In: a catalogue, a line, an address. Out: adapter, twin, decoder. Never decides anything about a drive.
+#include "adapters/cia402/family.hpp"
+
 #include "adapters/cia402/adapter.hpp"
 #include "adapters/cia402/decoder.hpp"
 #include "adapters/cia402/parameters.hpp"
@@ -7,7 +9,7 @@
 
 namespace axisgate {
 namespace cia402_drive {
-namespace {
+
 ScanPlan scan_nodes(const ScanWish& wish) {
     ScanPlan plan;
     for (const std::string* end : {&wish.from, &wish.to})
@@ -19,14 +21,13 @@ ScanPlan scan_nodes(const ScanWish& wish) {
     plan.at_once = 8;
     return plan;
 }
-/// The lower seven bits of what a node sends and is sent are its number. NMT and SYNC are nobody's: other CANopen families send them, too.
 std::vector<CanIdentifiers> identifiers(std::span<const std::string> addresses) {
     std::vector<CanIdentifiers> list;
     for (const std::string& a : addresses)
         if (const int n = node_of(a); n != 0) list.push_back({false, 0x7F, static_cast<std::uint32_t>(n)});
     return list;
 }
-}  // namespace
+
 }  // namespace cia402_drive
 
 const Family& family_cia402() {

@@ -1,20 +1,21 @@
-// Drive, part native: parameters of the catalogue, objects by their numbers, and the actions of the family.
+// Plans of parameters of the catalogue, objects by their numbers, and the actions of the family.
 // In: points, texts, names. Out: steps, or why not.
 #include <fmt/core.h>
 
 #include <charconv>
 
-#include "adapters/cia402/drive.hpp"
+#include "adapters/cia402/drive_node.hpp"
+#include "adapters/cia402/drive_plans.hpp"
 
 namespace axisgate::cia402_drive {
 
-std::string Drive::plan_parameter(Job& job, Reason& reason) const {
+std::string plan_parameter(const Node& node, std::size_t axis, Job& job, Reason& reason) {
     const auto* read = std::get_if<ReadParameter>(&job.command.body);
     const auto* to = std::get_if<WriteParameter>(&job.command.body);
     const Point point = read ? read->point : to->point;
     reason = Reason::unknown_point;
-    const Parameter* p = catalogue().parameter(point);
-    const auto place = p ? place_of(*p, point) : std::nullopt;
+    const Parameter* p = node.catalogue().parameter(point);
+    const auto place = p ? place_of(*p, point, static_cast<int>(axis), node.places) : std::nullopt;
     if (!place) return "no object of the drive";
     if (read) return job.steps.push_back({Step::Kind::read, *place, {}}), "";
     const auto type = type_of(p->type);
@@ -26,7 +27,7 @@ std::string Drive::plan_parameter(Job& job, Reason& reason) const {
 }
 
 /// "6064:00?", "6081:00=20000" where the catalogue has the type, "2100:01=x01FF" in bytes, as they are on the wire.
-std::string Drive::plan_native(Job& job, const Native& native, Reason& reason) const {
+std::string plan_native(const Node& node, Job& job, const Native& native, Reason& reason) {
     reason = Reason::out_of_range;
     constexpr const char* help =
         "write 6064:00? to read an object, 6081:00=20000 to write one of the catalogue, 2100:01=x01FF for bytes of any";
@@ -38,7 +39,11 @@ std::string Drive::plan_native(Job& job, const Native& native, Reason& reason) c
     };
     if (s.size() < 8 || s[4] != ':' || !hex(s.substr(0, 4), index) || !hex(s.substr(5, 2), sub)) return help;
     const Address a{static_cast<std::uint16_t>(index), static_cast<std::uint8_t>(sub)};
-    if (s[7] == '?' && s.size() == 8) return job.steps.push_back({Step::Kind::read, a, {}}), "";
+    if (s[7] == '?' && s.size() == 8) {
+        job.read(a);
+        job.steps.back().literal = true;
+        return {};
+    }
     if (s[7] != '=' || s.size() > 300) return help;
     const std::string_view text = s.substr(8);
     std::vector<std::uint8_t> bytes;
@@ -49,7 +54,7 @@ std::string Drive::plan_native(Job& job, const Native& native, Reason& reason) c
             bytes.push_back(static_cast<std::uint8_t>(b));
         }
     } else {
-        const Parameter* p = parameter_at(catalogue(), a);
+        const Parameter* p = parameter_at(node.catalogue(), a);
         const auto value = p ? parse_value(text, p->type) : std::nullopt;
         auto encoded = value ? canopen::encode(*type_of(p->type), *value) : std::nullopt;
         if (!encoded) return help;
@@ -57,24 +62,32 @@ std::string Drive::plan_native(Job& job, const Native& native, Reason& reason) c
     }
     if (bytes.empty()) return help;
     job.steps.push_back({Step::Kind::write, a, std::move(bytes)});
+    job.steps.back().literal = true;
     return {};
 }
 
-std::string Drive::plan_action(Job& job, const Action& action, Reason& reason) const {
+std::string plan_action(const Node& node, const AxisKnown& known, Job& job, const Action& action, Instant now, Reason& reason) {
     static constexpr std::pair<std::string_view, canopen::NmtCommand> commands[] = {
         {"nmt_start", canopen::NmtCommand::start},
         {"nmt_reset_node", canopen::NmtCommand::reset_node},
         {"nmt_reset_communication", canopen::NmtCommand::reset_communication}};
-    const bool is_known = catalogue().command(action.name) != nullptr;
-    if (!is_known) return "a CiA 402 drive has no " + action.name;
+    const bool is_known = node.catalogue().command(action.name) != nullptr;
+    if (!is_known) return fmt::format("a {} has no {}", node.line.dialect.noun, action.name);
     reason = Reason::out_of_range;
     if (!action.argument.empty()) return action.name + " takes no argument";
-    if (action.name == "store_parameters") return write(job, object::store, 0x65766173, 4), "";
-    if (action.name == "restore_defaults") return write(job, object::restore, 0x64616F6C, 4), "";
+    if (action.name == "store_parameters") {
+        const Duration between = node.line.dialect.between_stores;
+        reason = Reason::busy;
+        if (node.stored_at && now < *node.stored_at + between)
+            return fmt::format("its EPROM wears out: stored {} s ago, wait until {} s have passed between two",
+                               milliseconds_of(now - *node.stored_at) / 1000, milliseconds_of(between) / 1000);
+        return job.write(object::store, 0x65766173, 4), "";
+    }
+    if (action.name == "restore_defaults") return job.write(object::restore, 0x64616F6C, 4), "";
     for (const auto& [name, command] : commands) {
         if (name != action.name) continue;
         reason = Reason::wrong_state;
-        if (command != canopen::NmtCommand::start && fb_.moving) return "the axis moves: stop it first";
+        if (command != canopen::NmtCommand::start && known.fb.moving) return "the axis moves: stop it first";
         Step s;
         s.kind = Step::Kind::nmt;
         s.nmt = command;

@@ -28,14 +28,19 @@ canopen::Pdo pdo(canopen::PdoDirection direction, std::uint16_t number, std::uin
 }
 }  // namespace
 
-canopen::Pdo status_pdo(std::uint8_t node) {
-    return pdo(canopen::PdoDirection::transmit, 1, status_base + node, {{{0x6041, 0}, 16}, {{0x6064, 0}, 32}, {{0x6061, 0}, 8}});
+canopen::Pdo status_pdo(std::uint8_t node, std::size_t axis) {
+    return pdo(canopen::PdoDirection::transmit, static_cast<std::uint16_t>(1 + 2 * axis),
+               status_base + per_axis * static_cast<std::uint32_t>(axis) + node,
+               {{of_axis({0x6041, 0}, axis), 16}, {of_axis({0x6064, 0}, axis), 32}, {of_axis({0x6061, 0}, axis), 8}});
 }
-canopen::Pdo motion_pdo(std::uint8_t node) {
-    return pdo(canopen::PdoDirection::transmit, 2, motion_base + node, {{{0x606C, 0}, 32}, {{0x6062, 0}, 32}});
+canopen::Pdo motion_pdo(std::uint8_t node, std::size_t axis) {
+    return pdo(canopen::PdoDirection::transmit, static_cast<std::uint16_t>(2 + 2 * axis),
+               motion_base + per_axis * static_cast<std::uint32_t>(axis) + node,
+               {{of_axis({0x606C, 0}, axis), 32}, {of_axis({0x6062, 0}, axis), 32}});
 }
-canopen::Pdo target_pdo(std::uint8_t node, std::uint16_t number) {
-    const canopen::MappedEntry targets[] = {{{0x607A, 0}, 32}, {{0x60FF, 0}, 32}, {{0x6071, 0}, 16}};
+canopen::Pdo target_pdo(std::uint8_t node, std::uint16_t number, bool interpolated) {
+    const canopen::MappedEntry targets[] = {
+        {interpolated ? object::interpolated_position : object::target_position, 32}, {{0x60FF, 0}, 32}, {{0x6071, 0}, 16}};
     return pdo(canopen::PdoDirection::receive, number, 0x100u + 0x100u * number + node, {targets[number - 1u]});
 }
 
@@ -49,12 +54,30 @@ std::int64_t signed_of(std::span<const std::uint8_t> bytes) noexcept {
     return canopen::as_signed(canopen::low_first(bytes), static_cast<std::uint8_t>(8 * bytes.size()));
 }
 
-std::optional<Address> place_of(const Parameter& p, Point point) {
+std::optional<Address> place_of(const Parameter& p, Point point, int axis, const Places& places) {
     const auto* index = p.wire.if_contains("index");
     const auto* sub = p.wire.if_contains("sub");
     if (!index || !sub) return std::nullopt;
     const auto number = sub->as_int64() + (p.count ? point.element - p.first : 0);
-    return Address{static_cast<std::uint16_t>(index->as_int64()), static_cast<std::uint8_t>(number)};
+    auto at = index->as_int64();
+    if (const auto moved = places.find(static_cast<std::uint16_t>(at)); moved != places.end()) at = moved->second;
+    if (const auto* step = p.wire.if_contains("per_axis"); step && step->is_int64()) at += step->as_int64() * axis;
+    return Address{static_cast<std::uint16_t>(at), static_cast<std::uint8_t>(number)};
+}
+Places moved_places(const std::map<std::string, std::string>& options) {
+    constexpr std::string_view prefix = "object_";
+    const auto number = [](std::string_view text, int base) {
+        std::uint16_t n = 0;
+        const auto [p, ec] = std::from_chars(text.data(), text.data() + text.size(), n, base);
+        return ec == std::errc{} && p == text.data() + text.size() ? n : std::uint16_t{0};
+    };
+    Places out;
+    for (const auto& [name, value] : options) {
+        if (!name.starts_with(prefix)) continue;
+        const auto from = number(std::string_view(name).substr(prefix.size()), 16), to = number(value, 10);
+        if (from != 0 && to != 0) out[from] = to;
+    }
+    return out;
 }
 std::optional<canopen::DataType> type_of(ValueType type) noexcept {
     using canopen::DataType;

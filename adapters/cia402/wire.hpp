@@ -3,8 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
 #include <optional>
-
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,23 +25,34 @@ inline constexpr Address device_type{0x1000, 0}, error_register{0x1001, 0}, hear
     revision{0x1018, 3}, store{0x1010, 1}, restore{0x1011, 1}, error_code{0x603F, 0}, controlword{0x6040, 0}, statusword{0x6041, 0},
     quick_stop_option{0x605A, 0}, mode{0x6060, 0}, position{0x6064, 0}, velocity{0x606C, 0}, target_torque{0x6071, 0},
     target_position{0x607A, 0}, home_offset{0x607C, 0}, profile_velocity{0x6081, 0}, profile_acceleration{0x6083, 0},
-    profile_deceleration{0x6084, 0}, homing_method{0x6098, 0}, cycle{0x60C2, 1}, cycle_index{0x60C2, 2}, target_velocity{0x60FF, 0},
-    modes{0x6502, 0};
+    profile_deceleration{0x6084, 0}, homing_method{0x6098, 0}, interpolated_position{0x60C1, 1}, cycle{0x60C2, 1}, cycle_index{0x60C2, 2},
+    target_velocity{0x60FF, 0}, modes{0x6502, 0};
 }  // namespace object
 
-/// TPDO 1: status word, position, mode shown. TPDO 2: velocity, demand. Both at each SYNC.
+/// TPDO 1: status word, position, mode shown. TPDO 2: velocity, demand. Both at each SYNC. A second axis has TPDO 3 and 4.
 /// RPDO 1, 2, 3: target position, velocity, torque; taken over at the SYNC. Control words go by SDO: each is acknowledged.
-[[nodiscard]] canopen::Pdo status_pdo(std::uint8_t node);
-[[nodiscard]] canopen::Pdo motion_pdo(std::uint8_t node);
-[[nodiscard]] canopen::Pdo target_pdo(std::uint8_t node, std::uint16_t number);
-inline constexpr std::uint32_t status_base = 0x180, motion_base = 0x280;
+[[nodiscard]] canopen::Pdo status_pdo(std::uint8_t node, std::size_t axis = 0);
+[[nodiscard]] canopen::Pdo motion_pdo(std::uint8_t node, std::size_t axis = 0);
+/// `interpolated`: position by 60C1h, for mode 7.
+[[nodiscard]] canopen::Pdo target_pdo(std::uint8_t node, std::uint16_t number, bool interpolated = false);
+inline constexpr std::uint32_t status_base = 0x180, motion_base = 0x280, per_axis = 0x200;
+inline constexpr int most_axes = 2;  ///< four transmit PDOs in the connection set, two for each
 
 /// Bytes of an object from a whole number, low byte first.
 [[nodiscard]] std::vector<std::uint8_t> bytes_of(std::int64_t value, std::size_t size);
 [[nodiscard]] std::int64_t signed_of(std::span<const std::uint8_t> bytes) noexcept;
 
-/// Where a point of the catalogue stands in the dictionary; nothing: it does not.
-[[nodiscard]] std::optional<Address> place_of(const Parameter& parameter, Point point);
+/// Indexes of a catalogue's rows, and what a site says that they are on its drive.
+using Places = std::map<std::uint16_t, std::uint16_t>;
+
+/// Where a point of the catalogue stands in the dictionary; nothing: it does not. `axis`: from 0, for rows that have an index per axis.
+[[nodiscard]] std::optional<Address> place_of(const Parameter& parameter, Point point, int axis = 0, const Places& places = {});
+/// "object_2300" = "9216" of a drive's options: rows at 2300h stand at 2400h (9216) on this drive.
+[[nodiscard]] Places moved_places(const std::map<std::string, std::string>& options);
+/// Objects of the profile stand 800h higher for each further axis (CiA 402, several devices in one node).
+[[nodiscard]] constexpr Address of_axis(Address a, std::size_t axis) noexcept {
+    return a.index >= 0x6000 && a.index < 0xA000 ? Address{static_cast<std::uint16_t>(a.index + 0x800 * axis), a.sub} : a;
+}
 [[nodiscard]] std::optional<canopen::DataType> type_of(ValueType type) noexcept;
 /// The entry of the catalogue for an object; nullptr: none.
 [[nodiscard]] const Parameter* parameter_at(const Catalogue& catalogue, Address address);

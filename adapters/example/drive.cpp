@@ -13,7 +13,7 @@ using Kind = Telegram::Kind;
 using Phase = Presence::Phase;
 
 void Line::take(const LineSetup& setup) {
-    timing = drive::timing_of(setup.manners, drive::Timing{.reply_timeout = std::chrono::milliseconds(60)});
+    timing = drive::timing_of(setup.timing, drive::Timing{.reply_timeout = std::chrono::milliseconds(60)});
     on_wire = wire_time(2 * longest * setup.bits_per_byte, setup.bit_rate);
     turns.set({.pause = timing.pause});
 }

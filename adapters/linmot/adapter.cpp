@@ -24,7 +24,7 @@ std::uint8_t id_of(const DriveSetup& s) { return static_cast<std::uint8_t>(std::
 LineAdapter::LineAdapter(const Catalogue& of_family) : bus_(of_family) {}
 
 void LineAdapter::take_manners(const LineSetup& setup, Turn& t) {
-    bus_.timing = drive::timing_of(setup.manners, defaults);
+    bus_.timing = drive::timing_of(setup.timing, defaults);
     bus_.bit_rate = setup.bit_rate;
     bus_.bits_per_byte = setup.bits_per_byte;
     bus_.drives = setup.drives.size();

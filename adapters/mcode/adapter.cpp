@@ -26,7 +26,7 @@ Duration LineAdapter::wire(std::size_t bytes) const noexcept {
 // --- setup -----------------------------------------------------------------------------------------------------------------------
 
 void LineAdapter::take_timing(const LineSetup& setup, Turn& t) {
-    bus_.timing = drive::timing_of(setup.manners, default_timing);
+    bus_.timing = drive::timing_of(setup.timing, default_timing);
     drive::OptionReader options(setup.options);
     bus_.ethernet = options.flag("ethernet", false);
     bus_.em = static_cast<int>(options.whole("em", 0, 3, 1));

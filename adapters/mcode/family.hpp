@@ -1,5 +1,5 @@
 // Family mcode: what this folder gives to the rest of the gateway.
-// In: nothing. Out: the makers of its adapter, twin and decoder, and its manners.
+// In: nothing. Out: the makers of its adapter, twin and decoder, and its timing.
 // Never holds data about parameters: that is schema/families/mcode.json.
 #pragma once
 

@@ -28,7 +28,7 @@ std::string check_address(std::string_view address) {
 LineAdapter::LineAdapter(const Catalogue& of_family, LineKind) : catalogue_(of_family), elements_(of_family) {}
 
 void LineAdapter::read_form(const LineSetup& setup, Turn& t) {
-    line_.timing = drive::timing_of(setup.manners, timing_defaults);
+    line_.timing = drive::timing_of(setup.timing, timing_defaults);
     line_.bit_rate = setup.bit_rate;
     line_.bits_per_byte = setup.bits_per_byte;
     drive::OptionReader read(setup.options);

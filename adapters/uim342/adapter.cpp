@@ -30,8 +30,8 @@ LineAdapter::LineAdapter(const Catalogue& of_family, LineKind on) : Bus(of_famil
 void LineAdapter::take_timing(const LineSetup& setup) {
     const bool can = kind == LineKind::can;
     using std::chrono::milliseconds;
-    timing = drive::timing_of(setup.manners, can ? drive::Timing{.reply_timeout = milliseconds(50), .poll_period = milliseconds(20)}
-                                                 : drive::Timing{.reply_timeout = milliseconds(200), .poll_period = milliseconds(50)});
+    timing = drive::timing_of(setup.timing, can ? drive::Timing{.reply_timeout = milliseconds(50), .poll_period = milliseconds(20)}
+                                                : drive::Timing{.reply_timeout = milliseconds(200), .poll_period = milliseconds(50)});
     bit_rate = setup.bit_rate;
 
     // On a slow line fewer exchanges fit into the time that each may take: no more are begun than half of it holds.

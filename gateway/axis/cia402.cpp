@@ -385,14 +385,14 @@ Cia402Axis::Decision Cia402Axis::may_follow() const {
     return {};
 }
 
-void Cia402Axis::follow(const SetPoint& p) {
+void Cia402Axis::follow(const SetPoint& p, std::int16_t mode) {
     State& s = s_;
     if (!s.following) {
         forget_motion(s);
         s.following = true;
         s.mode_before = s.mode;
     }
-    s.mode = mode_of(p.mode);
+    s.mode = mode;
     if (p.mode == SetPoint::Mode::position) s.target_position = static_cast<std::int32_t>(p.value);
     s.target_velocity = p.mode == SetPoint::Mode::velocity ? static_cast<std::int32_t>(p.value) : 0;
 }

@@ -40,14 +40,20 @@ inline constexpr std::uint16_t sw_ready = 1u << 0, sw_switched_on = 1u << 1, sw_
                                sw_warning = 1u << 7, sw_simulated = 1u << 8, sw_remote = 1u << 9, sw_target_reached = 1u << 10,
                                sw_internal_limit = 1u << 11, sw_mode_12 = 1u << 12 /* set-point acknowledged, speed 0, homing attained */,
                                sw_mode_13 = 1u << 13 /* mode 6: homing error */, sw_stale = 1u << 14, sw_referenced = 1u << 15;
-inline constexpr std::int16_t mode_none = 0, mode_profile_position = 1, mode_profile_velocity = 3, mode_homing = 6,
-                              mode_cyclic_position = 8, mode_cyclic_velocity = 9, mode_cyclic_torque = 10;
+inline constexpr std::int16_t mode_none = 0, mode_profile_position = 1, mode_profile_velocity = 3, mode_homing = 6, mode_profile_torque = 4,
+                              mode_interpolated_position = 7, mode_cyclic_position = 8, mode_cyclic_velocity = 9, mode_cyclic_torque = 10;
 /// The mode of operation in which an axis follows streamed set-points of this kind.
 [[nodiscard]] constexpr std::int16_t mode_of(SetPoint::Mode m) noexcept {
     return m == SetPoint::Mode::position ? mode_cyclic_position : m == SetPoint::Mode::velocity ? mode_cyclic_velocity : mode_cyclic_torque;
 }
+/// The one that serves where a drive has not that one: interpolated position for cyclic position, profile torque for cyclic torque.
+[[nodiscard]] constexpr std::int16_t older_mode_of(SetPoint::Mode m) noexcept {
+    return m == SetPoint::Mode::position ? mode_interpolated_position : m == SetPoint::Mode::torque ? mode_profile_torque : mode_none;
+}
 /// Modes that follow streamed set-points: entered by the first one, left with the last.
-[[nodiscard]] constexpr bool is_streamed(std::int16_t mode) noexcept { return mode >= mode_cyclic_position && mode <= mode_cyclic_torque; }
+[[nodiscard]] constexpr bool is_streamed(std::int16_t mode) noexcept {
+    return mode == mode_profile_torque || (mode >= mode_interpolated_position && mode <= mode_cyclic_torque);
+}
 /// "profile position"; "of the maker" for negative ones.
 [[nodiscard]] std::string_view text_of_mode(std::int16_t mode) noexcept;
 }  // namespace cia402
@@ -74,7 +80,9 @@ public:
     /// Whether the axis may follow streamed set-points now: `refused` and why not, or not.
     [[nodiscard]] Decision may_follow() const;
     /// It follows this one: the mode is the set-point's until the stream ends. A motion under way is forgotten with the first.
-    void follow(const SetPoint& set_point);
+    /// `mode`: in which the drive follows it.
+    void follow(const SetPoint& set_point, std::int16_t mode);
+    void follow(const SetPoint& set_point) { follow(set_point, cia402::mode_of(set_point.mode)); }
     /// The stream is over; the mode is again the one before it.
     void end_following();
     /// The drive took an order, or did not.

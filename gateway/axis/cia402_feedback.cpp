@@ -267,6 +267,8 @@ void Cia402Axis::fill(AxisPicture& p) const noexcept {
             if (f.homing_attained && !s.homing_refused) sw |= sw_mode_12;
             if (f.homing_error || s.homing_refused) sw |= sw_mode_13;
             break;
+        case mode_profile_torque:
+        case mode_interpolated_position:
         case mode_cyclic_position:
         case mode_cyclic_velocity:
         case mode_cyclic_torque:

@@ -1,4 +1,4 @@
-// Setup: what one adapter is told about its line: the drives on it, their axes, and the line's manners.
+// Setup: what one adapter is told about its line: the drives on it, their axes, and the line's timing.
 // In: made by the engine from the site. Out: read by adapters and twins.
 // Never names a transport: an adapter knows frames or bytes and the bit rate, not whether a twin or a cable is behind them.
 #pragma once
@@ -35,7 +35,7 @@ struct DriveSetup {
 };
 
 /// How one talks on the line. A Duration of zero means: the family's own default.
-struct LineManners {
+struct LineTiming {
     Duration reply_timeout{};  ///< wait for one answer
     Duration poll_period{};    ///< time between two polls of the same axis
     Duration pause{};          ///< silence kept between an answer and the next request
@@ -52,7 +52,7 @@ struct LineSetup {
     LineKind kind = LineKind::bytes;
     std::uint32_t bit_rate = 0;       ///< bit/s; 0: not known (TCP)
     std::uint8_t bits_per_byte = 10;  ///< start, data, parity and stop bits of a byte on a serial line
-    LineManners manners;
+    LineTiming timing;
     std::map<std::string, std::string> options;  ///< the line's "options" of the site
     std::vector<DriveSetup> drives;
 };

@@ -1,5 +1,5 @@
 // Timing: the site's numbers laid over a family's defaults.
-// In: LineManners, in which zero (retries: -1) means "not said". Out: a Timing within its ranges.
+// In: LineTiming, in which zero (retries: -1) means "not said". Out: a Timing within its ranges.
 // Never tells of a number that it had to bend: the site document has been checked for that.
 #include "gateway/drive/timing.hpp"
 
@@ -7,7 +7,7 @@
 
 namespace axisgate::drive {
 
-Timing timing_of(const LineManners& site, const Timing& defaults) noexcept {
+Timing timing_of(const LineTiming& site, const Timing& defaults) noexcept {
     const auto or_else = [](Duration said, Duration otherwise) { return said > Duration::zero() ? said : otherwise; };
     Timing t;
     t.reply_timeout = or_else(site.reply_timeout, defaults.reply_timeout);

@@ -22,7 +22,7 @@ struct Timing {
 };
 
 /// What the site says, where it says something, within the ranges above; else `defaults`.
-[[nodiscard]] Timing timing_of(const LineManners& site, const Timing& defaults) noexcept;
+[[nodiscard]] Timing timing_of(const LineTiming& site, const Timing& defaults) noexcept;
 
 /// How many exchanges of `exchange` time each fit into `time`: `least`..`most`, and `most` where the exchange takes no time that is known.
 [[nodiscard]] std::size_t fitting(Duration time, Duration exchange, std::size_t least, std::size_t most) noexcept;

@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "gateway/engine/engine_parts.hpp"
+#include "gateway/engine/flight_record.hpp"
 
 namespace axisgate {
 
@@ -48,6 +49,7 @@ Engine::Speaker& Engine::speaker_of(const Side& side, const Drive& d) { return *
 void Engine::Side::on_frame(const Frame& frame) {
     engine.now_ = std::max(engine.now_, frame.at);
     unit.log->record(frame, false, twin);
+    if (engine.tap_) engine.tap_->frame(unit.id, frame, false, twin);
     bool heard = false;
     for (std::size_t i = 0; i < speakers.size(); ++i) {
         Speaker& s = *speakers[i];
@@ -63,6 +65,7 @@ void Engine::Side::on_frame(const Frame& frame) {
 
 void Engine::Side::on_sent(const Frame& frame) {
     unit.log->record(frame, true, twin);
+    if (engine.tap_) engine.tap_->frame(unit.id, frame, true, twin);
     if (followed.handed_on && followed.frame.same(frame)) {
         engine.write_to_frame_.observe(frame.at - followed.since);
         followed.ticket = no_ticket;
@@ -70,7 +73,10 @@ void Engine::Side::on_sent(const Frame& frame) {
     }
 }
 
-void Engine::Side::on_line_state(bool now_up, const std::string& text) { engine.line_state(*this, now_up, text, engine.now_); }
+void Engine::Side::on_line_state(bool now_up, const std::string& text) {
+    if (engine.tap_ && !twin) engine.tap_->line_state(unit.id, now_up, text, engine.now_);
+    engine.line_state(*this, now_up, text, engine.now_);
+}
 
 /// Hands on what one call to an adapter gave back. Feedback goes before results: a client that hears "accepted" finds the image ready.
 void Engine::drain(Speaker& by, Out& out, Instant now) {
@@ -81,7 +87,9 @@ void Engine::drain(Speaker& by, Out& out, Instant now) {
     }
     for (auto& tx : out.frames) {
         tx.frame.sender = by.number;
+        if (tap_) tap_->handed(side.unit.id, tx.frame, side.twin, now);
         const bool taken = side.line->send(tx.frame, tx.priority, now);  // a full queue is counted there
+        if (tap_ && !taken && !side.twin) tap_->send_refused(side.unit.id, now);
         if (auto& f = side.followed; taken && f.ticket != no_ticket && !f.handed_on && tx.priority != Priority::poll) {
             f.handed_on = true;
             f.frame = tx.frame;
@@ -97,7 +105,7 @@ void Engine::drain(Speaker& by, Out& out, Instant now) {
         if (!a || a->drive->serving != mine) continue;
         s.source = a->source;
         a->said[s.point] = s.value;
-        host_.on_sample(s);
+        tell_sample(s, now);
     }
     for (const auto& n : out.notices) {
         if (is_probe(n.drive)) continue;  // the report of the scan says what there is to say
@@ -214,6 +222,7 @@ void Engine::publish(Axis& a, Instant now) {
     put(p.statusword, cia402::sw_stale, stale);
     if (p.flags & flag_moving) last_stir_ = now;
     image_.publish(a.id);
+    if (tap_) tap_->picture(a.id, p, now);
 }
 
 // --- down -----------------------------------------------------------------------------------------------------------
@@ -287,6 +296,7 @@ void Engine::give_order(Axis& a, Client* client, CommandBody body, Origin origin
         side->followed.since = now;
     }
     Speaker& by = speaker_of(*side, *a.drive);
+    const FlightCause cause(tap_, client ? client->ticket : no_ticket);
     ask(by, now, [&](Out& out) { by.adapter->on_command(order, now, out); });
 }
 
@@ -334,7 +344,7 @@ void Engine::order_result(const Result& given, Instant now) {
         s.at = now;
         s.source = a->source;
         a->said[s.point] = s.value;
-        host_.on_sample(s);
+        tell_sample(s, now);
         save_twin_memory(*a->drive);  // a twin's EEPROM goes to disk along with the value that it took
         host_.on_store(std::move(order));
         return;
@@ -427,6 +437,7 @@ void Engine::remember_prepared(Axis& a, const CommandBody& body) {
 }
 
 void Engine::on_stored(Ticket order, const std::string& fault, Instant now) {
+    if (tap_) tap_->stored(order, fault, now);
     now_ = std::max(now_, now);
     const auto it = orders_.find(order);
     if (it == orders_.end()) return;
@@ -472,7 +483,7 @@ void Engine::finish(std::uint64_t number, Result r, Instant) {
     r.axis = it->second->axis;
     if (Axis* a = axis(r.axis)) std::erase(a->clients, number);
     clients_.erase(it);
-    if (r.ticket != no_ticket) host_.on_result(r);
+    if (r.ticket != no_ticket) answer(r);
 }
 
 }  // namespace axisgate

@@ -61,6 +61,8 @@ struct SiteMemory {
     std::map<std::string, std::map<std::string, Value>> stored;
 };
 
+class FlightTap;
+
 class Engine {
 public:
     Engine(Families families, EngineHost& host, Image& image, std::size_t trace_frames = 4096);
@@ -68,6 +70,8 @@ public:
     Engine(const Engine&) = delete;
     Engine& operator=(const Engine&) = delete;
 
+    /// Is told from now on what the engine is given and what it tells (flight_record.hpp); null: nobody is. It outlives the engine.
+    void set_tap(FlightTap* tap) noexcept { tap_ = tap; }
     /// Puts a checked site in force, at once. Lines, drives and axes that are the same go on undisturbed.
     std::shared_ptr<const SiteState> apply_site(Site site, SiteMemory memory, std::uint64_t revision, Instant now);
     using Applied = std::function<void(std::shared_ptr<const SiteState>)>;
@@ -138,6 +142,8 @@ private:
     // from a command to its orders (engine_command.cpp)
     struct Plan;
     [[nodiscard]] std::optional<Refusal> turned_away(const Axis& axis, const Command& command, Instant now) const;
+    [[nodiscard]] std::string use_hand(DriveId drive, const std::vector<std::pair<std::string, Value>>& items, const Origin& origin,
+                                       Instant now);
     void answer_hand(const Axis& axis, const Command& command, const Hand& hand, Instant now);
     [[nodiscard]] std::optional<Refusal> plan_for(Axis& axis, Command& command, Plan& plan, Instant now);
     [[nodiscard]] std::optional<Refusal> plan_parameter(const Axis& axis, CommandBody& body, Plan& plan) const;
@@ -157,7 +163,11 @@ private:
     void feedback(Side& side, AxisId axis, const AxisFeedback& value, Instant now);
     void track(Axis& axis, Instant now);
     void publish(Axis& axis, Instant now);
-    void event(Event e, Instant now) { host_.on_event(std::move(e), now); }
+    void event(Event e, Instant now);
+    void answer(const Result& result);
+    void tell_sample(const Sample& sample, Instant now);
+    void tap_site(const Site& site, const SiteMemory& memory, std::uint64_t revision, bool at_once, Instant now);
+    std::shared_ptr<const SiteState> put_in_force(Site site, SiteMemory memory, std::uint64_t revision, Instant now);
     [[nodiscard]] Side* side_of(const Drive& drive) const;
     [[nodiscard]] static Speaker& speaker_of(const Side& side, const Drive& drive);
     // authority (engine_authority.cpp)
@@ -234,6 +244,7 @@ private:
 
     Families families_;
     EngineHost& host_;
+    FlightTap* tap_ = nullptr;
     Image& image_;
     std::shared_ptr<const SiteState> site_;
     std::vector<std::unique_ptr<LineUnit>> lines_;                        // by LineId; null: removed

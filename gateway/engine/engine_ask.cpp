@@ -7,6 +7,7 @@
 
 #include "gateway/engine/engine.hpp"
 #include "gateway/engine/engine_parts.hpp"
+#include "gateway/engine/flight_record.hpp"
 
 namespace axisgate {
 
@@ -67,6 +68,11 @@ Twin* Engine::twin(DriveId id) {
 }
 
 std::string Engine::set_hand(DriveId id, const std::vector<std::pair<std::string, Value>>& items, const Origin& origin, Instant now) {
+    if (tap_) tap_->hand(id, items, origin, now);
+    return use_hand(id, items, origin, now);
+}
+
+std::string Engine::use_hand(DriveId id, const std::vector<std::pair<std::string, Value>>& items, const Origin& origin, Instant now) {
     Twin* t = twin(id);
     if (!t) return "the drive is not simulated: a hand reaches only a twin";
     const Drive& d = *drive(id);

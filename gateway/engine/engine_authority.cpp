@@ -75,7 +75,7 @@ void Engine::hold(Axis& a, const Command& c, const HoldAxis& wish, Instant now) 
     r.ticket = c.ticket;
     r.axis = c.axis;
     r.text = v.text;
-    host_.on_result(r);
+    answer(r);
 }
 
 void Engine::authority_changed(Axis& a, const AxisAuthority::Verdict& v, const Origin* by, Instant now) {

@@ -7,6 +7,7 @@
 
 #include "gateway/engine/engine.hpp"
 #include "gateway/engine/engine_parts.hpp"
+#include "gateway/engine/flight_record.hpp"
 
 namespace axisgate {
 
@@ -28,10 +29,11 @@ void Engine::refuse(const Command& c, Reason reason, std::string text) {
     r.outcome = Outcome::refused;
     r.reason = reason;
     r.text = std::move(text);
-    host_.on_result(r);
+    answer(r);
 }
 
 void Engine::on_command(Command c, Instant now) {
+    if (tap_) tap_->command(c, now);
     now_ = last_stir_ = std::max(now_, now);
     Axis* a = axis(c.axis);
     if (!a || closing_) return refuse(c, Reason::line_down, a ? "the gateway is stopping" : "there is no such axis");
@@ -67,12 +69,12 @@ std::optional<Refusal> Engine::turned_away(const Axis& a, const Command& c, Inst
 }
 
 void Engine::answer_hand(const Axis& a, const Command& c, const Hand& hand, Instant now) {
-    const std::string wrong = set_hand(a.drive->id, {{hand.name, hand.value}}, c.origin, now);
+    const std::string wrong = use_hand(a.drive->id, {{hand.name, hand.value}}, c.origin, now);
     if (!wrong.empty()) return refuse(c, Reason::out_of_range, wrong);
     Result r;
     r.ticket = c.ticket;
     r.axis = c.axis;
-    host_.on_result(r);
+    answer(r);
 }
 
 /// Nothing, with the plan; or why not.

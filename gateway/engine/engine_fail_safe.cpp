@@ -7,6 +7,7 @@
 
 #include "gateway/engine/engine.hpp"
 #include "gateway/engine/engine_parts.hpp"
+#include "gateway/engine/flight_record.hpp"
 
 namespace axisgate {
 namespace {
@@ -38,6 +39,7 @@ std::string why_lost(LossCause cause, Duration limit) {
 }  // namespace
 
 void Engine::on_client_lost(const AuthorityClient& who, LossCause cause, Instant now) {
+    if (tap_) tap_->client_lost(who, cause, now);
     now_ = std::max(now_, now);
     for (const auto& a : axes_) {
         // A feed that is closed was one of perhaps several connections of its client: what it commanded otherwise goes on.
@@ -95,6 +97,7 @@ void Engine::check_watchdog(Axis& a, Instant now) {
     const Duration limit = a.spec.fail_safe.watchdog(watchdog_);
     if (who.door != Door::modbus || limit <= Duration::zero() || !a.profile.commanded()) return;
     const auto heard = host_.heard(who);
+    if (tap_) tap_->heard(heard, now);
     if (heard && now - *heard > limit) fail_safe(a, LossCause::modbus_silent, now);
 }
 

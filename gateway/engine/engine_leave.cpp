@@ -7,6 +7,7 @@
 
 #include "gateway/engine/engine.hpp"
 #include "gateway/engine/engine_parts.hpp"
+#include "gateway/engine/flight_record.hpp"
 #include "gateway/site/site_stage.hpp"
 
 namespace axisgate {
@@ -36,6 +37,8 @@ bool Engine::under_way(const Axis& a) const {
 }
 
 void Engine::change_site(Site site, SiteMemory memory, std::uint64_t revision, Instant now, Applied then) {
+    if (tap_) tap_site(site, memory, revision, false, now);
+    const FlightWithin within(tap_);
     now_ = std::max(now_, now);
     if (change_) put_change_in_force(now);  // one at a time: the older one has had its time
     change_ = std::make_unique<Change>();
@@ -95,7 +98,7 @@ void Engine::put_change_in_force(Instant now) {
             "its drive off if it moves";
         event(std::move(e), now);
     }
-    auto state = apply_site(std::move(change->site), std::move(change->memory), change->revision, now);
+    auto state = put_in_force(std::move(change->site), std::move(change->memory), change->revision, now);
     if (change->then) change->then(std::move(state));
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "gateway/engine/engine_parts.hpp"
+#include "gateway/engine/flight_record.hpp"
 
 namespace axisgate {
 namespace {
@@ -18,6 +19,7 @@ constexpr Duration address_limit = std::chrono::seconds(2);
 bool Engine::is_probe(DriveId id) noexcept { return id != no_drive && index_of(id) >= first_probe; }
 
 std::string Engine::start_scan(LineId id, ScanWish wish, Instant now) {
+    if (tap_) tap_->scan(id, wish, now);
     LineUnit* unit = index_of(id) < lines_.size() ? lines_[index_of(id)].get() : nullptr;
     if (!unit) return "there is no such line";
     if (unit->scan && unit->scan->report.state == ScanReport::State::running)
@@ -98,6 +100,7 @@ std::string Engine::not_to_be_searched(const LineUnit& unit, const FamilyEntry& 
 }
 
 void Engine::cancel_scan(LineId id, Instant now) {
+    if (tap_) tap_->scan_cancel(id, now);
     LineUnit* unit = index_of(id) < lines_.size() ? lines_[index_of(id)].get() : nullptr;
     if (unit) end_scan(*unit, ScanReport::State::cancelled, "cancelled", now);
 }

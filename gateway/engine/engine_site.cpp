@@ -8,13 +8,14 @@
 #include "gateway/core/line_uri.hpp"
 #include "gateway/engine/engine.hpp"
 #include "gateway/engine/engine_parts.hpp"
+#include "gateway/engine/flight_record.hpp"
 #include "gateway/site/options.hpp"
 #include "gateway/site/site_stage.hpp"
 
 namespace axisgate {
 namespace {
 Duration stale_limit(const LineSpec& spec, LineKind kind) {
-    if (spec.manners.stale_after > Duration::zero()) return spec.manners.stale_after;
+    if (spec.timing.stale_after > Duration::zero()) return spec.timing.stale_after;
     return kind == LineKind::can ? std::chrono::seconds(1) : std::chrono::seconds(3);
 }
 /// Of embedded drives on a line that names neither a rate nor a family: CiA 301's highest.
@@ -29,7 +30,7 @@ LineSetup Engine::setup_for(const LineUnit& unit) const {
     s.id = unit.id;
     s.name = unit.spec.name;
     s.kind = unit.kind;
-    s.manners = unit.spec.manners;
+    s.timing = unit.spec.timing;
     s.options = unit.spec.options;
     s.bit_rate = unit.spec.bitrate;
     const Family* family = unit.family.family;
@@ -153,6 +154,29 @@ void Engine::new_source(Axis& a) {
 }
 
 std::shared_ptr<const SiteState> Engine::apply_site(Site site, SiteMemory memory, std::uint64_t revision, Instant now) {
+    if (tap_) tap_site(site, memory, revision, true, now);
+    const FlightWithin within(tap_);
+    return put_in_force(std::move(site), std::move(memory), revision, now);
+}
+
+/// All that a replay needs to begin with nothing else.
+void Engine::tap_site(const Site& site, const SiteMemory& memory, std::uint64_t revision, bool at_once, Instant now) {
+    auto input = std::make_shared<SiteInput>();
+    input->site = site;
+    input->memory = memory;
+    input->revision = revision;
+    input->at_once = at_once;
+    input->lease = lease_;
+    input->watchdog = watchdog_;
+    for (const auto& d : site.drives) {
+        const auto text = d.description.empty() || !families_.descriptions ? nullptr : families_.descriptions->find(d.description);
+        if (text && std::ranges::find(input->descriptions, text->name, &DescriptionText::name) == input->descriptions.end())
+            input->descriptions.push_back(*text);
+    }
+    tap_->site(std::move(input), now);
+}
+
+std::shared_ptr<const SiteState> Engine::put_in_force(Site site, SiteMemory memory, std::uint64_t revision, Instant now) {
     now_ = last_stir_ = std::max(now_, now);
     for (const auto& unit : lines_) {
         if (unit) end_scan(*unit, ScanReport::State::cancelled, "the site has changed: scan again", now);

@@ -9,13 +9,23 @@
 
 #include "gateway/engine/engine.hpp"
 #include "gateway/engine/engine_parts.hpp"
+#include "gateway/engine/flight_record.hpp"
 
 namespace axisgate {
+namespace {
+/// In which the drive follows set-points of this kind: the cyclic mode, the older one that comes near it, or none.
+std::int16_t stream_mode(const Catalogue& catalogue, SetPoint::Mode kind) {
+    for (const std::int16_t m : {cia402::mode_of(kind), cia402::older_mode_of(kind)})
+        if (m != cia402::mode_none && catalogue.offers_mode(m)) return m;
+    return cia402::mode_none;
+}
+}  // namespace
 namespace {
 constexpr Duration refusal_told_again = std::chrono::seconds(1);
 }  // namespace
 
 std::optional<Refusal> Engine::on_set_point(const SetPoint& p, Instant now) {
+    if (tap_) tap_->set_point(p, now);
     now_ = last_stir_ = std::max(now_, now);
     Axis* a = axis(p.axis);
     if (!a || closing_) return Refusal{Reason::line_down, a ? "the gateway is stopping" : "there is no such axis"};
@@ -48,7 +58,7 @@ std::optional<Refusal> Engine::on_set_point(const SetPoint& p, Instant now) {
     s.refusal = Reason::none;
     s.untold = false;
     ++s.taken;
-    a->profile.follow(p);
+    a->profile.follow(p, stream_mode(*a->drive->catalogue, p.mode));
     if (p.mode == SetPoint::Mode::velocity) {  // watched at the limits of position like any velocity move
         a->run.velocity = p.value;
         a->run.acceleration = p.acceleration.value_or(0);
@@ -67,7 +77,6 @@ std::optional<Refusal> Engine::on_set_point(const SetPoint& p, Instant now) {
 /// Why this one is not handed on; nothing: it is.
 std::optional<Refusal> Engine::against(const Axis& a, const SetPoint& p, const AuthorityClient& who, Instant now) const {
     const Axis::Stream& s = a.stream;
-    const std::int16_t mode = cia402::mode_of(p.mode);
     if (p.good_for < SetPoint::good_for_min || p.good_for > SetPoint::good_for_max)
         return Refusal{Reason::out_of_range, fmt::format("a set-point is good for {} to {} ms", milliseconds_of(SetPoint::good_for_min),
                                                          milliseconds_of(SetPoint::good_for_max))};
@@ -83,10 +92,10 @@ std::optional<Refusal> Engine::against(const Axis& a, const SetPoint& p, const A
     if (!s.on && s.ended_by == who && now - s.ended_heard <= pause)
         return Refusal{s.ended_for, fmt::format("the stream is over ({}); send nothing for {} ms before a new one", s.ended_why,
                                                 milliseconds_of(pause))};
-    if (!a.drive->catalogue->offers_mode(mode)) {
+    if (stream_mode(*a.drive->catalogue, p.mode) == cia402::mode_none) {
         return Refusal{Reason::not_supported,
                        fmt::format("the drive does not follow streamed set-points of {} (mode {}); it has the modes {}", name_of(p.mode),
-                                   mode, fmt::join(a.drive->catalogue->modes(), ", "))};
+                                   cia402::mode_of(p.mode), fmt::join(a.drive->catalogue->modes(), ", "))};
     }
     if (p.mode != SetPoint::Mode::torque) {
         if (auto no = beyond_limits(a, p.as_move())) return no;

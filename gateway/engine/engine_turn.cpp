@@ -1,4 +1,4 @@
-// Engine, time: whose deadline is next, who is due, and what is looked at every now and then.
+// Engine, time, and what it tells: whose deadline is next, who is due, and what is looked at every now and then.
 // In: the time. Out: turns of adapters and twins, stale axes, drives that are given up, memories of twins to keep.
 // Never looks at a side that nothing has touched and that is not due.
 #include <fmt/core.h>
@@ -7,8 +7,26 @@
 
 #include "gateway/engine/engine.hpp"
 #include "gateway/engine/engine_parts.hpp"
+#include "gateway/engine/flight_record.hpp"
 
 namespace axisgate {
+
+// --- what is told ---------------------------------------------------------------------------------------------------
+
+void Engine::event(Event e, Instant now) {
+    if (tap_) tap_->event(e, now);
+    host_.on_event(std::move(e), now);
+}
+
+void Engine::answer(const Result& result) {
+    if (tap_) tap_->result(result, now_);
+    host_.on_result(result);
+}
+
+void Engine::tell_sample(const Sample& sample, Instant now) {
+    if (tap_) tap_->sample(sample, now);
+    host_.on_sample(sample);
+}
 
 // --- time -----------------------------------------------------------------------------------------------------------
 
@@ -24,6 +42,8 @@ Instant Engine::deadline() const {
 }
 
 void Engine::on_deadline(Instant now) {
+    if (tap_) tap_->turn(now);
+    const FlightWithin within(tap_);
     now_ = std::max(now_, now);
     // Bounded: a side that is due again at once gets its next turn with the next call.
     for (std::size_t i = 0; i < sides_.size(); ++i) {

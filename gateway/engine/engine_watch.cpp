@@ -10,6 +10,7 @@
 
 #include "gateway/engine/engine.hpp"
 #include "gateway/engine/engine_parts.hpp"
+#include "gateway/engine/flight_record.hpp"
 
 namespace axisgate {
 namespace {
@@ -200,7 +201,7 @@ bool Engine::hold_on(Axis& a, const Command& c, Instant now) {
     r.ticket = c.ticket;
     r.axis = c.axis;
     r.outcome = Outcome::accepted;
-    host_.on_result(r);
+    answer(r);
     return true;
 }
 
@@ -265,6 +266,7 @@ void Engine::check_run(Axis& a, Instant now) {
 }
 
 void Engine::shut_down(Instant now) {
+    if (tap_) tap_->shut_down(now);
     now_ = std::max(now_, now);
     if (closing_) return;
     for (auto& a : axes_) {

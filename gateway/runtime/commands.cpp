@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <boost/json/serialize.hpp>
 #include <cstdio>
+#include <ctime>
 
 #include "gateway/core/assets.hpp"
 #include "gateway/runtime/bundle.hpp"
@@ -192,8 +193,9 @@ int command_check(const ConfigSources& sources, const std::string& site_file, bo
         complain(f);
     std::size_t count = (all_read ? 0u : 1u) + static_cast<std::size_t>(std::ranges::count(faults, false, &ConfigFault::warning));
     if (!site_file.empty()) {
-        const auto families = families_or_complain();
+        auto families = families_or_complain();
         if (!families) return exit_failed;
+        families->descriptions = std::make_shared<DescriptionShelf>();
         const auto read = read_site_file(site_file, *families);
         for (const auto& f : read.faults)
             complain(f);
@@ -223,6 +225,15 @@ int command_bundle(const ConfigSources& sources, const Config& config, const std
     }
     fmt::print("{}\n", file);
     return exit_good;
+}
+
+int command_pki(const PkiOptions& options) {
+    const PkiMade made = make_pki(options, std::time(nullptr));
+    for (const auto& folder : made.folders)
+        fmt::print("{}\n", folder);
+    if (made.fault.empty()) return exit_good;
+    complain(made.fault);
+    return exit_failed;
 }
 
 int command_restore(const Config& config, const std::string& file) {

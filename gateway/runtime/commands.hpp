@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gateway/runtime/config.hpp"
+#include "gateway/runtime/pki.hpp"
 
 namespace axisgate {
 
@@ -21,12 +22,16 @@ struct ServeOptions {
 [[nodiscard]] int command_families(const std::string& format);
 [[nodiscard]] int command_catalogue(const std::string& family, const std::string& what, const std::string& format);
 [[nodiscard]] int command_decode(const std::string& family, const std::string& format, const std::string& file);
+/// Plays a recording (.axr) again and prints where this program does otherwise.
+[[nodiscard]] int command_replay(const std::string& file);
 /// Reads configuration and site as `serve` would; prints every fault with file, line and remedy. `all_read` false: a file of the sources
 /// could not be read, which has been said already.
 [[nodiscard]] int command_check(const ConfigSources& sources, const std::string& site_file, bool all_read = true);
 [[nodiscard]] int command_backup(const Config& config, const std::string& file);
 /// Writes a support bundle; `sources` are those that `config` was read from.
 [[nodiscard]] int command_bundle(const ConfigSources& sources, const Config& config, const std::string& file);
+/// Makes the certificates of a DDS domain; prints the folders that were made.
+[[nodiscard]] int command_pki(const PkiOptions& options);
 [[nodiscard]] int command_restore(const Config& config, const std::string& file);
 
 struct TwinOptions {

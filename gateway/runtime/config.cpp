@@ -219,6 +219,7 @@ const std::vector<Key>& keys() {
         {"dds", "partition", [](Config& c, const std::string& s) { return set_dds_name(c.dds_partition, s); }},
         {"dds", "name", [](Config& c, const std::string& s) { return set_dds_name(c.dds_name, s); }},
         {"dds", "interface", [](Config& c, const std::string& s) { return set_dds_name(c.dds_interface, s); }},
+        {"dds", "security", [](Config& c, const std::string& s) { return set_text(c.dds_security, s == "off" ? "" : s); }},
         {"log", "level",
          [](Config& c, const std::string& s) -> Fault {
              for (const auto* l : {"trace", "debug", "info", "warning", "error", "off"}) {
@@ -233,6 +234,17 @@ const std::vector<Key>& keys() {
          Written::as_number},
         {"limits", "trace_frames", [](Config& c, const std::string& s) { return set_integer(c.trace_frames, s, 64, 1'000'000); },
          Written::as_number},
+        {"recorder", "trend_minutes", [](Config& c, const std::string& s) { return set_integer(c.recorder_trend_minutes, s, 1, 1440); },
+         Written::as_number},
+        {"recorder", "trend_mb", [](Config& c, const std::string& s) { return set_integer(c.recorder_trend_mb, s, 1, 4096); },
+         Written::as_number},
+        {"recorder", "stretch_mb", [](Config& c, const std::string& s) { return set_integer(c.recorder_stretch_mb, s, 1, 1024); },
+         Written::as_number},
+        {"recorder", "inputs_mb", [](Config& c, const std::string& s) { return set_integer(c.recorder_inputs_mb, s, 0, 1024); },
+         Written::as_number},
+        {"recorder", "disk_mb", [](Config& c, const std::string& s) { return set_integer(c.recorder_disk_mb, s, 1, 1'000'000); },
+         Written::as_number},
+        {"recorder", "freeze_on", [](Config& c, const std::string& s) { return set_text(c.recorder_freeze_on, s); }},
     };
     return list;
 }

@@ -44,17 +44,24 @@ struct Config {
     std::string dds_partition = "plant";         ///< [dds] partition: gateways of another one see nothing of this one
     std::string dds_name;                        ///< [dds] name of this gateway in the domain, 1..63 bytes; empty: the host's name
     std::string dds_interface = "lo";            ///< [dds] interface: network interface; lo: this machine alone
-    std::string log_level = "info";              ///< [log] level: trace debug info warning error off
-    std::string log_file;                        ///< [log] file; empty: standard error
-    std::int64_t spin_us = 0;                    ///< [runtime] spin_us, 0..1000: how long the hot loop polls before it sleeps
-    std::int64_t hot_cpu = -1;                   ///< [runtime] hot_cpu: processor for the hot loop; -1: any
-    std::int64_t max_http_connections = 512;     ///< [limits] http_connections
+    std::string dds_security;        ///< [dds] security: folder made by `axisgate pki`; empty: off, everybody in the domain is believed
+    std::string log_level = "info";  ///< [log] level: trace debug info warning error off
+    std::string log_file;            ///< [log] file; empty: standard error
+    std::int64_t spin_us = 0;        ///< [runtime] spin_us, 0..1000: how long the hot loop polls before it sleeps
+    std::int64_t hot_cpu = -1;       ///< [runtime] hot_cpu: processor for the hot loop; -1: any
+    std::int64_t max_http_connections = 512;  ///< [limits] http_connections
     /// [users] local_role: of requests from this machine without a sign-in; none: sign in always, as behind a proxy.
     std::string users_local_role = "engineer";
     std::int64_t users_session_idle_min = 60;  ///< [users] session_idle_min, 1..1440
     std::int64_t users_session_max_h = 12;     ///< [users] session_max_h, 1..720
     bool users_new_code = false;               ///< [users] new_code: print another code for the first sign-in, while there is no user
     std::int64_t trace_frames = 4096;          ///< [limits] trace_frames per line
+    std::int64_t recorder_trend_minutes = 10;  ///< [recorder] trend_minutes, 1..1440
+    std::int64_t recorder_trend_mb = 48;       ///< [recorder] trend_mb, 1..4096: memory of the trends of all axes
+    std::int64_t recorder_stretch_mb = 32;     ///< [recorder] stretch_mb, 1..1024: memory of the stretch that can be frozen
+    std::int64_t recorder_inputs_mb = 32;      ///< [recorder] inputs_mb, 0..1024: of the inputs since the start, for replay
+    std::int64_t recorder_disk_mb = 512;       ///< [recorder] disk_mb, 1..1000000: of all recordings
+    std::string recorder_freeze_on = "fault";  ///< [recorder] freeze_on: kinds of alarms, with commas; empty: none
     /// [modbus_rtu] port: path of a serial port, or the URI of a byte line (serial:, tcp:, tcp-listen:, pty:); empty: no Modbus RTU door
     std::string modbus_rtu_port;
     std::int64_t modbus_rtu_baud = 19200;   ///< [modbus_rtu] baud, 50..12000000 bit/s, where the URI does not say

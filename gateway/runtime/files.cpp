@@ -58,4 +58,25 @@ std::string write_file(const std::string& path, std::string_view text) {
     return {};
 }
 
+std::string write_secret(const std::string& path, std::string_view text) {
+    const std::string beside = path + ".new";
+    (void)::unlink(beside.c_str());
+    const int fd = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
+    if (fd < 0) return std::strerror(errno);
+    int error = 0;
+    while (!text.empty() && error == 0) {
+        const auto n = ::write(fd, text.data(), text.size());
+        if (n >= 0) {
+            text.remove_prefix(static_cast<std::size_t>(n));
+        } else if (errno != EINTR) {
+            error = errno;
+        }
+    }
+    if (error == 0 && ::fsync(fd) != 0) error = errno;
+    (void)::close(fd);
+    if (error == 0 && std::rename(beside.c_str(), path.c_str()) != 0) error = errno;
+    if (error != 0) (void)::unlink(beside.c_str());
+    return error == 0 ? std::string() : std::strerror(error);
+}
+
 }  // namespace axisgate

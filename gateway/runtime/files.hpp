@@ -12,5 +12,7 @@ namespace axisgate {
 [[nodiscard]] std::optional<std::string> read_file(const std::string& path, std::string& fault, std::size_t limit = 64u << 20);
 /// Empty: written. Else why not.
 [[nodiscard]] std::string write_file(const std::string& path, std::string_view text);
+/// The same for keys and the like: from its first moment it is readable by this user alone.
+[[nodiscard]] std::string write_secret(const std::string& path, std::string_view text);
 
 }  // namespace axisgate

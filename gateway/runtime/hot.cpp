@@ -121,6 +121,10 @@ void Hot::announce() {
     if (out_.results) out_.results->announce();
     if (out_.samples) out_.samples->announce();
     if (out_.cold) out_.cold->announce();
+    if (out_.changed && image_.changes() != changes_told_ && change_wanted_.exchange(false, std::memory_order_acq_rel)) {
+        changes_told_ = image_.changes();
+        out_.changed();
+    }
 }
 
 void Hot::end_turn() {

@@ -50,14 +50,15 @@ public:
         Mailbox<Result>* results = nullptr;  ///< to the warm thread: results of its own commands
         Mailbox<Sample>* samples = nullptr;  ///< to the warm thread
         Mailbox<ColdJob>* cold = nullptr;
+        std::function<void()> changed{};  ///< hot thread: an axis' picture has changed since it was wanted to know (want_change)
     };
 
     Hot(Families families, HotSettings settings);
     ~Hot() override;
 
     void connect(Outlets outlets) {
-        out_ = outlets;
         events_.connect(outlets.cold);
+        out_ = std::move(outlets);
     }
     [[nodiscard]] boost::asio::io_context& context() noexcept { return io_; }
     [[nodiscard]] Mailbox<Command>& commands() noexcept { return commands_; }
@@ -66,6 +67,8 @@ public:
     [[nodiscard]] Mailbox<Stored>& stored() noexcept { return stored_; }
     /// Any thread: cells of the image; axis pictures by AxisCell.
     [[nodiscard]] const Image& image_for_readers() const noexcept { return image_; }
+    /// Any thread: Outlets::changed is called once, after the next change of an axis' picture.
+    void want_change() noexcept { change_wanted_.store(true, std::memory_order_release); }
     [[nodiscard]] std::shared_ptr<const Reports> reports() const { return reports_.load(std::memory_order_acquire); }
     [[nodiscard]] Engine& engine() noexcept { return engine_; }  ///< before start(), or on the hot thread
 
@@ -143,6 +146,8 @@ private:
     bool finished_ = false;
     bool settled_ = false;
     int turns_unannounced_ = 0;
+    std::atomic<bool> change_wanted_{false};
+    std::uint64_t changes_told_ = 0;
     std::thread thread_;
 };
 

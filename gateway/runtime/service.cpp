@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <boost/asio/post.hpp>
 #include <boost/asio/signal_set.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/json/parse.hpp>
@@ -152,7 +153,14 @@ int Service::open_store() {
     ports->rehearsal.set_times(std::chrono::milliseconds(options.config.modbus_watchdog_ms),
                                std::chrono::seconds(options.config.authority_lease_s));
     ports->events.listen(&log);
-    hot->connect(ports->outlets());
+    ports->recorder.begin(recorder_settings(options.config));
+    auto outlets = ports->outlets();
+    outlets.changed = [this] {
+        boost::asio::post(warm, [this] {
+            if (dds) dds->on_change();
+        });
+    };
+    hot->connect(std::move(outlets));
     return exit_good;
 }
 
@@ -162,6 +170,12 @@ int Service::load_site(Site& site, std::uint64_t& revision) {
         for (const auto& f : read.faults)
             complain(f);
         if (!read.site) return exit_usage;
+        for (const auto& d : read.descriptions) {
+            if (const auto saved = store->save_description({d.name, d.text, d.who, d.at_unix_ns}); !saved) {
+                complain(saved.error().text);
+                return exit_failed;
+            }
+        }
         site = std::move(*read.site);
         boost::system::error_code ec;
         boost::json::value before;
@@ -318,7 +332,10 @@ int Service::open_doors() {
     }
     if (options.config.dds_enabled) {
         dds::DoorSettings ds;
-        ds.bus = {static_cast<std::uint32_t>(options.config.dds_domain), options.config.dds_partition, options.config.dds_interface};
+        ds.bus.domain = static_cast<std::uint32_t>(options.config.dds_domain);
+        ds.bus.partition = options.config.dds_partition;
+        ds.bus.interface_name = options.config.dds_interface;
+        ds.bus.security = options.config.dds_security;
         ds.name = options.config.dds_name.empty() ? host_name() : options.config.dds_name;
         ds.version = AXISGATE_VERSION;
         ds.page = [this] {
@@ -327,6 +344,7 @@ int Service::open_doors() {
                                                                      : fmt::format("{}://{}/", (*door)->name(), (*door)->address());
         };
         ds.instance = static_cast<std::uint64_t>(unix_now_ns());  // no two starts of one name in the same nanosecond
+        ds.want_change = [this] { hot->want_change(); };
         auto door = std::make_unique<dds::DdsDoor>(warm, ports->all(), monotonic_now, std::move(ds));
         dds = door.get();
         ports->fleet.use(*door);

@@ -4,10 +4,52 @@
 
 #include <fmt/core.h>
 
+#include <filesystem>
+
 #include "gateway/core/json_read.hpp"
+#include "gateway/runtime/clock.hpp"
 #include "gateway/runtime/files.hpp"
+#include "gateway/services/descriptions/description.hpp"
 
 namespace axisgate {
+
+namespace {
+
+/// Names in /drives/N/description; what is no name is told when the site is read.
+std::vector<std::string> named_descriptions(const boost::json::value& document) {
+    std::vector<std::string> names;
+    const auto* object = document.if_object();
+    const auto* drives = object ? object->if_contains("drives") : nullptr;
+    if (drives == nullptr || !drives->is_array()) return names;
+    for (const auto& d : drives->as_array()) {
+        const auto* name = d.is_object() ? d.as_object().if_contains("description") : nullptr;
+        if (name && name->is_string() && descriptions::check_name(name->as_string()).empty()) names.emplace_back(name->as_string());
+    }
+    return names;
+}
+
+void take_descriptions_beside(const std::string& path, const boost::json::value& document, DescriptionShelf& shelf, SiteFile& out) {
+    for (const std::string& name : named_descriptions(document)) {
+        const auto file = (std::filesystem::path(path).parent_path() / name).string();
+        std::error_code none;
+        if (shelf.find(name) || !std::filesystem::exists(file, none)) continue;
+        std::string fault;
+        const auto text = read_file(file, fault, descriptions::most_bytes);
+        if (!text) {
+            out.faults.push_back(fault);
+            continue;
+        }
+        const auto read = descriptions::read(*text);
+        for (const auto& f : read.faults)
+            out.faults.push_back(fmt::format("{}:{}: {}", file, f.line, f.text));
+        if (!read.faults.empty()) continue;
+        Description d{{name, *text}, "--site " + path, unix_now_ns()};
+        d.facts = descriptions::facts(d, read);
+        out.descriptions.push_back(d);
+        shelf.put(std::move(d));
+    }
+}
+}  // namespace
 
 SiteFile read_site_file(const std::string& path, const Families& families) {
     SiteFile out;
@@ -26,6 +68,8 @@ SiteFile read_site_file(const std::string& path, const Families& families) {
                                                         path, unread.line, unread.text));
         return out;
     }
+    if (families.descriptions) take_descriptions_beside(path, *document, *families.descriptions, out);
+    if (!out.faults.empty()) return out;
     std::vector<SiteFault> wrong;
     out.site = parse_site(*document, families, wrong);
     for (const auto& f : wrong) {

@@ -2,15 +2,11 @@
 // start makes one. In: the configuration, the time. Out: an identity or faults. Never reads more than 1 MiB of a file.
 #include "gateway/runtime/tls_files.hpp"
 
-#include <fcntl.h>
 #include <fmt/core.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <string>
 
 #include "gateway/doors/http/server.hpp"
@@ -35,28 +31,6 @@ std::optional<http::TlsPem> read_pair(const std::string& certificate, const std:
     read("http.tls_key", key, pem.key);
     if (!faults.empty()) return std::nullopt;
     return pem;
-}
-
-/// Written beside and moved into place, with rights for this user alone from its first moment.
-std::string write_secret(const std::string& path, std::string_view text) {
-    const std::string beside = path + ".new";
-    (void)::unlink(beside.c_str());
-    const int fd = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
-    if (fd < 0) return std::strerror(errno);
-    int error = 0;
-    while (!text.empty() && error == 0) {
-        const auto n = ::write(fd, text.data(), text.size());
-        if (n >= 0) {
-            text.remove_prefix(static_cast<std::size_t>(n));
-        } else if (errno != EINTR) {
-            error = errno;
-        }
-    }
-    if (error == 0 && ::fsync(fd) != 0) error = errno;
-    (void)::close(fd);
-    if (error == 0 && std::rename(beside.c_str(), path.c_str()) != 0) error = errno;
-    if (error != 0) (void)::unlink(beside.c_str());
-    return error == 0 ? std::string() : std::strerror(error);
 }
 
 std::vector<std::string> names_of_this_host(const Config& config) {

@@ -15,6 +15,7 @@
 #include "gateway/runtime/warm_lines.hpp"
 #include "gateway/runtime/warm_modbus.hpp"
 #include "gateway/runtime/warm_parameters.hpp"
+#include "gateway/runtime/warm_recorder.hpp"
 #include "gateway/runtime/warm_registers.hpp"
 #include "gateway/runtime/warm_rehearsal.hpp"
 #include "gateway/runtime/warm_site.hpp"
@@ -43,8 +44,8 @@ public:
     WarmPorts& operator=(const WarmPorts&) = delete;
 
     [[nodiscard]] Ports all() {
-        return {axes,   backup,     clock,     descriptions, documents, drives,    events, fleet, lines,
-                modbus, parameters, registers, rehearsal,    site,      snapshots, stage,  status};
+        return {axes,   backup,     clock,    descriptions, documents, drives, events,    fleet, lines,
+                modbus, parameters, recorder, registers,    rehearsal, site,   snapshots, stage, status};
     }
     /// Where the hot thread puts what is for this one.
     [[nodiscard]] Hot::Outlets outlets() { return {&axes.results(), &parameters.samples(), &threads_.cold.from_hot()}; }
@@ -60,6 +61,7 @@ public:
     WarmDescriptions descriptions{threads_, site.families().descriptions};
     WarmDocuments documents{threads_};
     WarmSnapshots snapshots{threads_};
+    WarmRecorder recorder{threads_, events, site};
     WarmRegisters registers{threads_};
     WarmRehearsal rehearsal{threads_, site.families()};
     WarmFleet fleet;

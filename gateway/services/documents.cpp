@@ -40,6 +40,10 @@ std::string_view mode_name(std::int16_t mode) noexcept {
             return "profile_velocity";
         case cia402::mode_homing:
             return "homing";
+        case cia402::mode_profile_torque:
+            return "profile_torque";
+        case cia402::mode_interpolated_position:
+            return "interpolated_position";
         case cia402::mode_cyclic_position:
             return "cyclic_position";
         case cia402::mode_cyclic_velocity:

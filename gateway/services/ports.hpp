@@ -15,6 +15,7 @@
 #include "gateway/services/ports/modbus.hpp"
 #include "gateway/services/ports/parameters.hpp"
 #include "gateway/services/ports/port_set.hpp"
+#include "gateway/services/ports/recorder.hpp"
 #include "gateway/services/ports/registers.hpp"
 #include "gateway/services/ports/rehearsal.hpp"
 #include "gateway/services/ports/site.hpp"
@@ -26,6 +27,6 @@ namespace axisgate {
 
 /// All of them: for whoever puts services and doors together.
 using Ports = PortSet<AxisPort, BackupPort, ClockPort, DescriptionPort, DocumentPort, DrivePort, EventPort, FleetPort, LinePort, ModbusPort,
-                      ParameterPort, RegisterPort, RehearsalPort, SitePort, SnapshotPort, StagePort, StatusPort>;
+                      ParameterPort, RecorderPort, RegisterPort, RehearsalPort, SitePort, SnapshotPort, StagePort, StatusPort>;
 
 }  // namespace axisgate

@@ -10,7 +10,8 @@ Services::Services(const Ports& ports, std::function<Instant()> clock, std::shar
     : access(std::move(access_port)),
       recipes(std::make_shared<RecipeService>(ports, clock)),
       alarms(std::make_shared<AlarmService>(ports, clock)),
-      rehearsals(std::make_shared<Rehearsals>(ports)) {
+      rehearsals(std::make_shared<Rehearsals>(ports)),
+      boot_check(std::make_shared<BootCheck>(ports, jobs)) {
     recipes->rearm = [this] {
         if (rearm) rearm();
     };
@@ -27,12 +28,14 @@ Services::Services(const Ports& ports, std::function<Instant()> clock, std::shar
     };
     alarms->begin();
     recipes->begin();
+    boot_check->begin();
 }
 
 Services::~Services() {
     recipes->rearm = nullptr;
     recipes->publish = nullptr;
     alarms->detach();
+    boot_check->detach();
 }
 
 Instant Services::deadline() const { return std::min(recipes->deadline(), alarms->deadline()); }

@@ -16,6 +16,7 @@
 #include "gateway/services/change_queue.hpp"
 #include "gateway/services/fail_safe/rehearsals.hpp"
 #include "gateway/services/parameters/axis_jobs.hpp"
+#include "gateway/services/parameters/boot_check.hpp"
 #include "gateway/services/ports.hpp"
 #include "gateway/services/recipes/recipe_service.hpp"
 #include "gateway/services/site/stage_owner.hpp"
@@ -47,6 +48,7 @@ public:
     const std::shared_ptr<AlarmService> alarms;
     const std::shared_ptr<Rehearsals> rehearsals;                         ///< of loss of command, on models
     const std::shared_ptr<AxisJobs> jobs = std::make_shared<AxisJobs>();  ///< many parameters of one axis, one after the other
+    const std::shared_ptr<BootCheck> boot_check;                          ///< of stored parameters, when a drive answers
     const std::shared_ptr<ChangeQueue> site_changes = std::make_shared<ChangeQueue>();
     const std::shared_ptr<StageOwner> stages = std::make_shared<StageOwner>();  ///< whose the staged site is
     const std::shared_ptr<WritesUnderWay> writes =

@@ -43,8 +43,8 @@ void put_optional(json::object& o, std::string_view key, const std::optional<dou
     if (d) put_number(o, key, *d);
 }
 
-json::object manners_json(const LineManners& m) {
-    const LineManners fresh;
+json::object timing_json(const LineTiming& m) {
+    const LineTiming fresh;
     json::object o;
     if (m.reply_timeout != fresh.reply_timeout) o["reply_timeout_ms"] = milliseconds_of(m.reply_timeout);
     if (m.poll_period != fresh.poll_period) o["poll_period_ms"] = milliseconds_of(m.poll_period);
@@ -133,7 +133,7 @@ json::object to_json(const LineSpec& l) {
     if (!l.family.empty()) o["family"] = l.family;
     if (l.bitrate) o["bitrate"] = l.bitrate;
     put_options(o, "options", l.options);
-    if (auto m = manners_json(l.manners); !m.empty()) o["manners"] = std::move(m);
+    if (auto m = timing_json(l.timing); !m.empty()) o["timing"] = std::move(m);
     return o;
 }
 
@@ -158,6 +158,7 @@ json::object to_json(const AxisSpec& a) {
     put_optional(o, "velocity_max", a.velocity_max);
     put_optional(o, "acceleration_max", a.acceleration_max);
     if (a.authority_mode != AuthorityMode::free) o["authority_mode"] = name_of(a.authority_mode);
+    if (a.stored_parameters != StoredParameters::ignore) o["stored_parameters"] = name_of(a.stored_parameters);
     json::object fail_safe;
     for (const LossCause cause : loss_causes) {
         if (const auto& action = a.fail_safe.of(cause)) fail_safe[name_of(cause)] = name_of(*action);

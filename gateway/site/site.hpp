@@ -21,6 +21,7 @@
 #include "gateway/site/descriptions.hpp"
 #include "gateway/site/fail_safe.hpp"
 #include "gateway/site/profile.hpp"
+#include "gateway/site/stored_parameters.hpp"
 
 namespace axisgate {
 
@@ -37,7 +38,7 @@ struct LineSpec {
     std::string family;         ///< of its drives that name none; empty on a CAN line whose drives all name theirs
     std::uint32_t bitrate = 0;  ///< bit/s; 0: from the URI or the family's default
     std::map<std::string, std::string> options;
-    LineManners manners;  ///< "manners": {"reply_timeout_ms": ..., "poll_period_ms": ..., ...}
+    LineTiming timing;  ///< "timing": {"reply_timeout_ms": ..., "poll_period_ms": ..., ...}
     bool operator==(const LineSpec&) const;
 };
 
@@ -64,7 +65,8 @@ struct AxisSpec {
     std::optional<double> velocity_max;  ///< unit/s, > 0
     std::optional<double> acceleration_max;
     AuthorityMode authority_mode = AuthorityMode::free;  ///< "lease": a command takes the axis for a while, and others are refused
-    FailSafe fail_safe;                                  ///< what happens when the client that commands it is lost
+    StoredParameters stored_parameters = StoredParameters::ignore;  ///< what was written is compared when the drive answers, or written
+    FailSafe fail_safe;                                             ///< what happens when the client that commands it is lost
     bool operator==(const AxisSpec&) const = default;
 };
 

@@ -42,8 +42,8 @@ std::string read_family(DocumentFields& f, std::string_view example) {
     return name;
 }
 
-LineManners read_manners(const json::value* v, const std::string& pointer, std::vector<SiteFault>& faults) {
-    LineManners m;
+LineTiming read_timing(const json::value* v, const std::string& pointer, std::vector<SiteFault>& faults) {
+    LineTiming m;
     if (!v) return m;
     DocumentFields f(*v, pointer, faults);
     using std::chrono::milliseconds;
@@ -60,6 +60,20 @@ LineManners read_manners(const json::value* v, const std::string& pointer, std::
     }
     f.unknown_keys();
     return m;
+}
+
+/// "manners" is the word of sites before "timing" was: it is read and never written; a member that both have is that of "manners", which
+/// only a client of then gives.
+LineTiming read_line_timing(DocumentFields& line, const std::string& pointer, std::vector<SiteFault>& faults) {
+    const json::value* now = line.get("timing");
+    const json::value* before = line.get("manners");
+    if (!before) return read_timing(now, pointer + "/timing", faults);
+    if (!now || !now->is_object() || !before->is_object()) return read_timing(before, pointer + "/manners", faults);
+    json::object both = now->get_object();
+    for (const auto& [key, value] : before->get_object())
+        both.insert_or_assign(key, value);
+    const json::value merged(std::move(both));
+    return read_timing(&merged, pointer + "/manners", faults);
 }
 
 FailSafe read_fail_safe(const json::value* v, const std::string& pointer, std::vector<SiteFault>& faults) {
@@ -332,7 +346,7 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
         l.family = read_family(f, families.entries.empty() ? "uim342" : families.entries.front().family->name);
         l.bitrate = static_cast<std::uint32_t>(f.integer("bitrate", 0, 100'000'000).value_or(0));
         l.options = f.options("options");
-        l.manners = read_manners(f.get("manners"), pointer + "/manners", faults);
+        l.timing = read_line_timing(f, pointer, faults);
         return l;
     });
     read_list(o, "drives", site.drives, faults, [&](DocumentFields& f, const std::string&) {
@@ -407,6 +421,13 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
             } else if (!mode->is_string() || mode->get_string() != "free") {
                 f.fault("authority_mode", fmt::format("axis {}: this is not an authority mode", a.name), "use free or lease");
             }
+        }
+        if (const auto* word = f.get("stored_parameters")) {
+            const auto rule = word->is_string() ? stored_parameters_named(std::string_view(word->get_string())) : std::nullopt;
+            if (!rule)
+                f.fault("stored_parameters", fmt::format("axis {}: this is no rule for stored parameters", a.name),
+                        "use ignore, compare or write");
+            a.stored_parameters = rule.value_or(StoredParameters::ignore);
         }
         a.fail_safe = read_fail_safe(f.get("fail_safe"), pointer + "/fail_safe", faults);
         if (a.position_min && a.position_max && *a.position_min >= *a.position_max) {

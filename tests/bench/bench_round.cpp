@@ -53,7 +53,7 @@ Site make_site(const FamilyEntry& e, std::string_view uri, std::size_t axes, std
                              {"uri", uri},
                              {"family", e.family->name},
                              {"bitrate", 1'000'000},
-                             {"manners", {{"poll_period_ms", poll_period_ms}}}});
+                             {"timing", {{"poll_period_ms", poll_period_ms}}}});
         }
         const std::string name = "a" + std::to_string(i + 1);
         drives.push_back({{"name", name}, {"line", line}, {"address", addresses[i % addresses.size()]}, {"presence", presence}});

@@ -166,8 +166,19 @@ std::int64_t Drive::pump(const std::bitset<128>& expected) {
     }
     return seen;
 }
+void Drive::put(std::int32_t position) {
+    put_ = position;
+    told_ = 0;
+    Out out;
+    if (const auto fault = twin_->set_hand("position", std::int64_t{position}, at_ns(clock_ns()), out); !fault.empty()) give_up(fault);
+    send(out);
+}
 void Drive::send(const Out& out) {
+    std::array<std::uint8_t, sizeof put_> words{};
+    std::memcpy(words.data(), &put_, sizeof put_);  // as the drive's language has it: the low byte first
     for (const auto& tx : out.frames) {
+        const auto bytes = tx.frame.data();
+        if (told_ == 0 && std::search(bytes.begin(), bytes.end(), words.begin(), words.end()) != bytes.end()) told_ = clock_ns();
         if (fd_ >= 0) (void)!::send(fd_, tx.frame.storage.data(), tx.frame.size, MSG_NOSIGNAL);
     }
 }

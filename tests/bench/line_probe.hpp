@@ -50,6 +50,9 @@ public:
     /// Does what there is to do. Returns the instant at which a frame was there whose function is not in `expected`, else 0.
     std::int64_t pump(const std::bitset<128>& expected);
     std::bitset<128> functions;  ///< of the frames that came
+    /// Moves the shaft by hand; the next frame that tells of it is noted.
+    void put(std::int32_t position);
+    [[nodiscard]] std::int64_t told() const noexcept { return told_; }  ///< when that frame left; 0: not yet
 
 private:
     void send(const Out& out);
@@ -57,6 +60,8 @@ private:
     std::uint16_t port_ = 0;
     std::unique_ptr<Twin> twin_;
     uim342::UiFramer framer_;
+    std::int32_t put_ = 0;
+    std::int64_t told_ = 1;
 };
 
 /// The gateway as a process of its own.

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # bench: runs every benchmark of a release build, in about a quarter of an hour, of which `tail` takes half. For an idle machine; not a part of the ordinary tests.
-#   tests/bench/run.sh BUILD_DIR [NAME...]      NAME: round, write, tail, mcode, linmot, program, modbus, modbus_program, modbus_rtu, enip, http, stream, page, scope
+#   tests/bench/run.sh BUILD_DIR [NAME...]      NAME: round, write, tail, mcode, linmot, cia402, cia402_program, program, modbus, modbus_program, modbus_rtu, enip, dds, http, stream, page, scope
 # In: BUILD_DIR/bench_* and BUILD_DIR/axisgate; node and Chromium for what a browser shows. Out: per figure the ratio, the limit it is measured against, and both figures; at the end
 # "N passed, N failed", where what is beyond its limit has failed.
 set -euo pipefail
@@ -42,10 +42,13 @@ bench write 60 "$(find_program bench_write)" "$(find_program axisgate)"
 bench tail 900 "$(find_program bench_tail)" "$(find_program axisgate)"
 bench mcode 20 "$(find_program bench_mcode)"
 bench linmot 60 "$(find_program bench_linmot)"
+bench cia402 60 "$(find_program bench_cia402)"
+bench cia402_program 120 /usr/bin/python3 "$here/bench_cia402_program.py" "$(find_program axisgate)"
 bench program 60 /usr/bin/python3 "$here/bench_program.py" "$(find_program axisgate)"
 bench modbus_program 120 /usr/bin/python3 "$here/bench_modbus_program.py" "$(find_program axisgate)" "$(find_program bench_modbus)"
 bench modbus_rtu 60 /usr/bin/python3 "$here/bench_modbus_rtu.py" "$(find_program axisgate)"
 bench enip 120 /usr/bin/python3 "$here/bench_enip_program.py" "$(find_program axisgate)" "$(find_program bench_enip)"
+bench dds 150 "$(find_program bench_dds)" "$(find_program axisgate)"
 bench modbus 100 "$(find_program bench_modbus)" --seconds 1.5
 bench http 60 /usr/bin/python3 "$here/bench_http_program.py" "$(find_program axisgate)" "$(find_program bench_http)"
 bench stream 60 /usr/bin/python3 "$here/bench_stream_program.py" "$(find_program axisgate)" "$(find_program bench_stream)"

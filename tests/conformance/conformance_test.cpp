@@ -340,7 +340,7 @@ TEST_P(EveryFamily, ASilentDriveCostsOnlyItself) {
 TEST_P(EveryFamily, AFullLineServesEverybody) {
     // Polls are asked for far more often than the line can carry them: each drive still gets its share, and commands go before polls.
     Site wanted = w.twins(e, 30);
-    wanted.lines.at(0).manners.poll_period = 1ms;
+    wanted.lines.at(0).timing.poll_period = 1ms;
     site = w.apply(std::move(wanted));
     const auto all = [&](std::uint16_t flag, bool on) {
         return std::ranges::all_of(site->axis_ids, [&](AxisId a) { return ((w.picture(a).flags & flag) != 0) == on; });
@@ -365,7 +365,7 @@ TEST_P(EveryFamily, AFullLineServesEverybody) {
 TEST_P(EveryFamily, ALineThatIsCutAtAnyMomentComesToRestAndBack) {
     // Full, lossy and late, so that it is cut with every kind of work half done. A line that is down has nothing to turn for.
     Site wanted = w.make_site(e, e.cable(), 16, "device");
-    wanted.lines.at(0).manners.poll_period = 5ms;
+    wanted.lines.at(0).timing.poll_period = 5ms;
     site = w.apply(std::move(wanted));
     const auto list = addresses(e, 16);
     for (std::size_t i = 0; i < site->drive_ids.size(); ++i)
@@ -595,6 +595,14 @@ TEST_P(EveryFamily, AdapterTakesTheSameSetupAgainWithoutDisturbance) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, EveryFamily, testing::ValuesIn(law_subjects()), name_of_subject);
+
+TEST(Catalogues, EveryErrorHasACauseAndSomethingToDo) {
+    for (const auto& f : families().entries)
+        for (const ErrorCode& e : f.catalogue->errors()) {
+            EXPECT_FALSE(e.cause.empty()) << f.family->name << " " << e.code << " " << e.name;
+            EXPECT_FALSE(e.remedy.empty()) << f.family->name << " " << e.code << " " << e.name;
+        }
+}
 
 TEST(Conformance, ThereAreFamiliesAndTheirNumbersDiffer) {
     ASSERT_FALSE(families().entries.empty());

@@ -45,7 +45,7 @@ constexpr Change changes[] = {
     {"line removed", [](Site& s, const FamilyEntry&) { s = {}; }},
     {"axis renamed", [](Site& s, const FamilyEntry&) { s.axes[0].name = "other"; }},
     {"drive's options", [](Site& s, const FamilyEntry&) { s.drives[0].options.emplace("of_no_meaning", "1"); }},
-    {"line's manners", [](Site& s, const FamilyEntry&) { s.lines[0].manners.retries = 3; }},
+    {"line's timing", [](Site& s, const FamilyEntry&) { s.lines[0].timing.retries = 3; }},
     {"presence to twin", [](Site& s, const FamilyEntry&) { s.drives[0].presence = PresenceRule::twin; }},
     {"presence to auto", [](Site& s, const FamilyEntry&) { s.drives[0].presence = PresenceRule::automatic; }},
 };

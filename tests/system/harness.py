@@ -17,6 +17,7 @@ import tempfile
 import time
 
 PROGRAM = None
+EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "deploy/examples"
 DEMO = {
     "lines": [{"name": "can0", "uri": "twin", "family": "uim342", "bitrate": 1000000}],
     "drives": [{"name": "feeder", "line": "can0", "address": 5, "presence": "auto"}, {"name": "slide", "line": "can0", "address": 6, "presence": "twin"}],
@@ -110,6 +111,9 @@ class Gateway(Process):
         arguments = ["serve", "--data", str(folder / "data"), "--set", "http.bind=127.0.0.1:0", "--set", "modbus.bind=127.0.0.1:0", "--set", "enip.bind=127.0.0.1:0"]
         if site is not None:
             (folder / "site.json").write_text(json.dumps(site))
+            for name in {d["description"] for d in site.get("drives", ()) if "description" in d}:
+                if (EXAMPLES / name).exists():
+                    shutil.copy(EXAMPLES / name, folder)
             arguments += ["--site", str(folder / "site.json")]
         super().__init__(*arguments, *more)
         self.http = self.word("http").rsplit(":", 1)

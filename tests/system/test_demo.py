@@ -9,6 +9,7 @@ import time
 import urllib.parse
 
 from harness import Gateway, Process, until
+from test_openapi import WebSocket
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 
@@ -42,6 +43,47 @@ def test_every_demo_axis_is_homed_moved_jogged_and_stopped(folder):
             assert g.axis(axis)["error"]["code"] == 0 or not g.axis(axis)["error"], g.axis(axis)["error"]
         events = g.get("/events?severity=alarm")
         assert events == [], f"nothing that a newcomer does is an alarm: {events}"
+
+
+def test_the_feeders_bus_carries_a_controller_in_gear_and_a_drive_by_its_makers_file(folder):
+    """What a newcomer finds on one CAN line: commissioned by HTTP, read over Modbus, one of them led by a stream of set-points."""
+    with Gateway(folder, demo()) as g, g.modbus() as m:
+        places = {a["name"]: 64 * (a["number"] - 1) for a in demo()["axes"]}
+
+        def done(axis, body):
+            answer = g.command(axis, body)
+            assert answer["result"] == "done", f"{axis}: {answer}"
+
+        assert g.get("/descriptions/example-servo.eds")["name"] == "example-servo.eds", "it lay beside the site"
+        assert g.get("/drives/spindle")["description"] == "example-servo.eds"
+        for axis in ("feeder", "spindle", "macs.master", "macs.slave"):
+            done(axis, {"command": "enable"})
+        # Electronic gear: the slave turns three ways for two of the master's.
+        for name, value in (("SYNCFACTM", 2), ("SYNCFACTS", 3)):
+            g.send("PUT", f"/axes/macs.slave/parameters/{name}", {"value": value})
+        g.send("PATCH", "/drives/macs/hand", {"gear": "position"})
+        done("macs.master", {"command": "move_absolute", "position": 10, "velocity": 20})
+        until(lambda: abs(g.axis("macs.slave")["position"] - 15) < 0.05, 5, "the slave is where its gear has it")
+        # What a PLC reads of all four: increments, in registers 2 and 3 of each block.
+        until(lambda: m.read32(places["macs.slave"] + 2) == 7500, 5, "the slave's increments")
+        assert m.read32(places["macs.master"] + 2) == 5000
+        # Cyclic synchronous position: a stream leads the drive that its maker's file describes, while its neighbours go on.
+        done("feeder", {"command": "move_absolute", "position": 5, "velocity": 20})
+        assert 8 in g.axis("spindle")["modes"], g.axis("spindle")["modes"]
+        stream = WebSocket(g, "/api/v1/stream")
+        try:
+            for step in range(100):
+                stream.send({"set_point": {"axis": "spindle", "mode": "position", "value": 0.1 * step}})
+                time.sleep(0.01)
+            until(lambda: g.axis("spindle")["position"] > 5, 5, "the stream leads it")
+            assert g.axis("spindle")["mode_number"] == 8
+        finally:
+            stream.close()
+        until(lambda: not g.axis("spindle")["moving"], 5, "who leads it is gone: it stands")
+        assert m.read32(places["spindle"] + 2) > 5000
+        assert m.read32(places["feeder"] + 2) == 16000
+        line = g.get("/lines/can0")
+        assert 0 < line["status"]["load"] < 0.8, line["status"]  # the bus tells its load
 
 
 def framed_1900():

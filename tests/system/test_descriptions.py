@@ -3,9 +3,10 @@
 In: the real program. Out: judgements on documents, registers, files. Never sleeps longer than it waits.
 """
 import configparser
+import json
 import pathlib
 
-from harness import Gateway, until
+from harness import Gateway, run, until
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 EDS = TOP / "adapters/cia402/tests/eds"
@@ -110,6 +111,28 @@ def test_files_that_are_wrong_are_refused_with_their_line(folder):
         assert len(many) < 1 << 20 and "sections" in str(post(gateway, "a.eds", many.encode(), 422))
         assert gateway.request("POST", "/api/v1/descriptions?name=a.eds", b";" * (2 << 20), {"Content-Type": "text/plain"})[0] == 413
         assert gateway.get("/descriptions") == []
+
+
+def test_a_description_may_lie_beside_the_site_file(folder):
+    site = {**EMPTY, "drives": [{"name": "lift", "line": "can0", "address": 12, "presence": "twin", "description": "own.eds"}],
+            "axes": [{"name": "lift", "drive": "lift", "channel": 1, "number": 1}]}
+    (folder / "site.json").write_text(json.dumps(site))
+    check = ("check", "--site", str(folder / "site.json"))
+    code, _, said = run(*check)
+    assert code != 0 and "own.eds" in said and "site.json:1:" in said, said
+    good = (EDS / "plain.eds").read_text()
+    (folder / "own.eds").write_text(good.replace("DataType=0x0006", "DataType=0x0FFF", 1))
+    code, _, said = run(*check)
+    assert code != 0 and "own.eds:" in said and "0x0FFF" in said, said
+    (folder / "own.eds").write_text(good)
+    assert run(*check, check=0)[1].strip() == "no faults found"
+    with Gateway(folder, site) as gateway:
+        assert gateway.get("/descriptions/own.eds")["name"] == "own.eds"
+        until(lambda: gateway.axis("lift")["online"], 10, "the drive")
+        assert gateway.stop() == 0
+    (folder / "own.eds").unlink()
+    with Gateway(folder, None) as gateway:
+        assert gateway.get("/drives/lift")["description"] == "own.eds", "it was kept"
 
 
 def test_another_drive_than_the_described_one_is_told(folder):

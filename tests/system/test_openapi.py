@@ -22,7 +22,7 @@ from openapi import Description, sample, strict_json
 TOP = pathlib.Path(__file__).resolve().parents[2]
 TEXT = (TOP / "schema/openapi.yaml").read_text()
 API = Description(TEXT)
-NAMES = {"family": ["uim342"], "line": ["can0"], "drive": ["feeder", "slide"], "axis": ["feeder", "slide"], "parameter": ["AC", "PP[5]", "node_id"], "mapping": ["m1"], "recipe": ["warm-up"], "run": ["1"], "snapshot": ["1"], "revision": ["1"], "user": ["anna"], "token": ["none"], "alarm": ["1"], "unit": ["2", "40"], "description": ["plain.eds"], "gateway": ["hall-1"]}
+NAMES = {"family": ["uim342"], "line": ["can0"], "drive": ["feeder", "slide"], "axis": ["feeder", "slide"], "parameter": ["AC", "PP[5]", "node_id"], "mapping": ["m1"], "recipe": ["warm-up"], "run": ["1"], "snapshot": ["1"], "revision": ["1"], "user": ["anna"], "token": ["none"], "alarm": ["1"], "unit": ["2", "40"], "description": ["plain.eds"], "gateway": ["hall-1"], "recording": ["crash"]}
 EDS = (TOP / "adapters/cia402/tests/eds/plain.eds").read_text()
 RECIPE = {"description": "on and off", "parameters": {"pause": {"type": "number", "default": 0.05}}, "steps": [{"enable": {"axis": "slide"}}, {"wait_s": "${pause}"}, {"disable": {"axis": "slide"}}]}
 
@@ -168,6 +168,7 @@ def read_everything(gateway, client, state):
 def test_every_get_answers_as_described_in_every_state_of_an_axis(gateway):
     client = Client(gateway, 30).sign_in(gateway)
     gateway.send("POST", "/descriptions", {"name": "plain.eds", "text": EDS}, 201)
+    gateway.send("POST", "/recorder/recordings", {"name": "crash", "why": "test"}, 201)
     gateway.send("PUT", "/recipes/warm-up", RECIPE, 201)
     gateway.send("POST", "/recipes/warm-up/run", {}, 202)
     gateway.send("PUT", "/profiles/40", {"language": "lexium", "axes": [{"axis": "feeder"}]})
@@ -249,7 +250,7 @@ def test_every_write_answers_as_described(gateway):
         ("addLine", {}, line, 201), ("addLine", {}, line, 409), ("addLine", {}, {"name": "x"}, 422), ("addDrive", {}, drive, 201), ("addDrive", {}, drive, 409),
         ("addDrive", {}, {**drive, "name": "other", "address": 4}, 422), ("addAxis", {}, axis, 201), ("addAxis", {}, axis, 409), ("addAxis", {}, {**axis, "name": "other"}, 422),
         ("replaceLine", {"line": "spare"}, line, 200), ("changeLine", {"line": "spare"}, {"bitrate": 250000}, 200), 
-        ("changeLine", {"line": "spare"}, {"manners": {"reply_timeout_ms": 9, "poll_period_ms": 9, "pause_ms": 1, "stale_after_ms": 900, "retries": 1, "silent_limit": 4,
+        ("changeLine", {"line": "spare"}, {"timing": {"reply_timeout_ms": 9, "poll_period_ms": 9, "pause_ms": 1, "stale_after_ms": 900, "retries": 1, "silent_limit": 4,
                                                        "retry_pause_min_ms": 100, "retry_pause_max_ms": 900}, "options": {"crc": "12"}}, 200), ("changeLine", {"line": "nobody"}, {"bitrate": 1}, 404),
         ("replaceDrive", {"drive": "spare"}, drive, 200), ("changeDrive", {"drive": "spare"}, {"options": {"model": "342S"}}, 200), ("replaceAxis", {"axis": "spare"}, axis, 200),
         ("changeAxis", {"axis": "spare"}, {"unit": "mm"}, 200), ("changeAxis", {"axis": "spare"}, {"unit": 5}, 422),
@@ -295,7 +296,9 @@ def test_every_write_answers_as_described(gateway):
         ("firstSignIn", {}, {"code": gateway.code, "user": "x", "password": "a-long-sentence-1"}, 409), ("signIn", {}, {"user": "anna", "password": "wrong"}, 401),
         ("changePassword", {"user": "anna"}, {"old": "wrong", "new": "a-long-sentence-2"}, 403),
         ("addDescription", {}, {"name": "plain.eds", "text": EDS}, 201), ("addDescription", {}, {"name": "plain.eds", "text": EDS}, 200), ("addDescription", {}, {"name": "plain.eds", "text": EDS + "\n"}, 409),
-        ("addDescription", {}, {"name": "b.eds", "text": "x"}, 422), ("addDescription", {}, EDS, 415), ("removeDescription", {"description": "plain.eds"}, None, 204), ("removeDescription", {"description": "plain.eds"}, None, 404)]
+        ("addDescription", {}, {"name": "b.eds", "text": "x"}, 422), ("addDescription", {}, EDS, 415), ("removeDescription", {"description": "plain.eds"}, None, 204), ("removeDescription", {"description": "plain.eds"}, None, 404),
+        ("makeRecording", {}, {"name": "crash", "why": "test"}, 201), ("makeRecording", {}, {"name": "crash"}, 409), ("makeRecording", {}, {"name": "../x"}, 422), ("renameRecording", {"recording": "crash"}, {"name": "other"}, 200),
+        ("renameRecording", {"recording": "crash"}, {"name": "other"}, 404), ("removeRecording", {"recording": "other"}, None, 204), ("removeRecording", {"recording": "other"}, None, 404)]
     actions = [c["id"] for c in gateway.get("/families/uim342/commands")]
     seen = alarm_answers(gateway, client)
     for name, names, body, wanted in steps:

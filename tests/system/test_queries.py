@@ -11,9 +11,9 @@ from test_refusals import NAMES
 BODIES = {"commandAxis": {"command": "halt"}, "actOnAxis": {"name": "nothing"}, "startMoves": {"axes": ["feeder"]}, "replaceSite": DEMO, "putRecipe": RECIPE,
           "importParameters": "parameter,value\nAC,20000\n", "addMappings": "unit,address,axis,point\n3,0,feeder,position\n", "replaceMappings": "unit,address,axis,point\n3,0,feeder,position\n"}
 # Texts with a grammar of their own.
-TEXTS = {"since": ["yesterday", "-1", "2020-13-45T00:00:00Z", ""], "with": ["moon", "", "snapshot", "Default"]}
+TEXTS = {"points": ["speed", "position,x"], "since": ["yesterday", "-1", "2020-13-45T00:00:00Z", ""], "with": ["moon", "", "snapshot", "Default"]}
 # Texts that may be anything: what is not there is found nowhere, and that is no fault of the request.
-FREE = {("listEvents", "axis"), ("listEvents", "kind"), ("listMappings", "axis"), ("removeMappings", "axis"), ("removeMappings", "ids"), ("listParameters", "group"), ("listParameters", "array"), ("addDescription", "name")}
+FREE = {("listEvents", "axis"), ("listEvents", "kind"), ("listMappings", "axis"), ("removeMappings", "axis"), ("removeMappings", "ids"), ("listParameters", "group"), ("listParameters", "array"), ("addDescription", "name"), ("getTrends", "axes")}
 
 
 def wrong_values(o, p):

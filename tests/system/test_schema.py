@@ -22,7 +22,7 @@ VALIDATOR = jsonschema.Draft202012Validator(SCHEMA)
 FULL = {
     "lines": [
         {"name": "can0", "uri": "twin", "family": "uim342", "bitrate": 500000, "options": {"crc": "12", "window": 8, "x": True},
-         "manners": {"reply_timeout_ms": 20, "poll_period_ms": 10, "pause_ms": 0, "stale_after_ms": 500, "retries": 2, "silent_limit": 3,
+         "timing": {"reply_timeout_ms": 20, "poll_period_ms": 10, "pause_ms": 0, "stale_after_ms": 500, "retries": 2, "silent_limit": 3,
                      "retry_pause_min_ms": 100, "retry_pause_max_ms": 2000}},
         {"name": "tcp0", "uri": "tcp:192.0.2.10:8888", "family": "uim342"},
         {"name": "ser.0", "uri": "serial:/dev/ttyS1?baud=57600&format=8N1&rs485=auto&rts_after_ms=2", "family": "uim342"}],
@@ -84,10 +84,10 @@ def broken():
             (("lines", 2, "uri"), "pty:/tmp/x?baud=fast"), (("lines", 2, "uri"), 5), (("lines", 0, "family"), ""), (("lines", 0, "family"), 1),
             (("drives", 0, "family"), ""), (("drives", 0, "family"), 1),
             (("lines", 0, "bitrate"), -1), (("lines", 0, "bitrate"), 1.5), (("lines", 0, "bitrate"), "1000000"), (("lines", 0, "bitrate"), 100000001),
-            (("lines", 0, "options"), []), (("lines", 0, "options", "x"), None), (("lines", 0, "options", "x"), {}), (("lines", 0, "manners"), []),
-            (("lines", 0, "manners", "patience_ms"), 1), (("lines", 0, "manners", "reply_timeout_ms"), 60001), (("lines", 0, "manners", "retries"), -2),
-            (("lines", 0, "manners", "retries"), 21), (("lines", 0, "manners", "silent_limit"), 0), (("lines", 0, "manners", "retry_pause_min_ms"), 0),
-            (("lines", 0, "manners", "stale_after_ms"), "1"),
+            (("lines", 0, "options"), []), (("lines", 0, "options", "x"), None), (("lines", 0, "options", "x"), {}), (("lines", 0, "timing"), []),
+            (("lines", 0, "timing", "patience_ms"), 1), (("lines", 0, "timing", "reply_timeout_ms"), 60001), (("lines", 0, "timing", "retries"), -2),
+            (("lines", 0, "timing", "retries"), 21), (("lines", 0, "timing", "silent_limit"), 0), (("lines", 0, "timing", "retry_pause_min_ms"), 0),
+            (("lines", 0, "timing", "stale_after_ms"), "1"),
             (("drives", 0, "adress"), 5), (("drives", 0, "address"), 5.5), (("drives", 0, "address"), True), (("drives", 0, "address"), [5]), (("drives", 0, "address"), ""),
             (("drives", 0, "presence"), "real"), (("drives", 0, "presence"), 1), (("drives", 0, "line"), ""), (("drives", 0, "line"), 0), (("drives", 0, "options"), "x"),
             (("axes", 0, "number"), 0), (("axes", 0, "number"), 1025), (("axes", 0, "number"), "1"), (("axes", 0, "number"), None), (("axes", 0, "channel"), 0),
@@ -125,12 +125,12 @@ def test_the_schema_is_one_and_its_examples_fit():
 
 def test_the_description_of_the_api_names_the_same_members():
     api = openapi.Description((TOP / "schema/openapi.yaml").read_text())
-    for mine, theirs in (("line", "LineSpec"), ("drive", "DriveSpec"), ("axis", "AxisSpec"), ("manners", "Manners")):
+    for mine, theirs in (("line", "LineSpec"), ("drive", "DriveSpec"), ("axis", "AxisSpec"), ("timing", "LineTiming")):
         names, _ = api.members({"$ref": f"#/components/schemas/{theirs}"})
         assert set(SCHEMA["$defs"][mine]["properties"]) == names, f"{mine}: the site's schema and openapi.yaml differ: {sorted(set(SCHEMA['$defs'][mine]['properties']) ^ names)}"
         own = SCHEMA["$defs"][mine]["properties"]
-        for name in names if mine == "manners" else ():
-            other = api.document["components"]["schemas"]["Manners"]["properties"][name]
+        for name in names if mine == "timing" else ():
+            other = api.document["components"]["schemas"]["LineTiming"]["properties"][name]
             assert (own[name]["minimum"], own[name]["maximum"]) == (other["minimum"], other["maximum"]), name
 
 
@@ -218,7 +218,7 @@ def test_schema_and_gateway_agree_on_changed_documents(gateway):
             if how < 0.2:
                 del node[key]
             elif how < 0.3 and isinstance(node, dict):
-                node[dice.choice(("name", "unit", "address", "number", "uri", "options", "manners", "zzz"))] = dice.choice(odd)
+                node[dice.choice(("name", "unit", "address", "number", "uri", "options", "manners", "timing", "zzz"))] = dice.choice(odd)
             else:
                 node[key] = dice.choice(odd)
         s, answer, _ = gateway.request("PUT", "/api/v1/site?dry_run=1", d)

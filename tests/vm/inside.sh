@@ -71,4 +71,34 @@ check "interface back: the line is up again" until_true 40 is lines/can0 .status
 kill $gateway
 check "the gateway ends when asked" until_true 20 eval '! kill -0 $gateway 2>/dev/null'
 kill $twin $witness 2>/dev/null
+
+# --- CANopen on a bus of its own: an independent client against the simulated drive, the gateway against an independent server
+here=$(dirname "$0")
+ip link add dev vcan1 type vcan && ip link set vcan1 up
+"$program" twin cia402 --line can:vcan1 --address 9 >servo.log 2>&1 &
+servo=$!
+check "the simulated CiA 402 drive is ready on the bus" until_true 60 grep -q '^ready ' servo.log
+timeout 120 /usr/bin/python3 "$here/canopen_client.py" vcan1 9 2>client.err || { echo "FAIL: python-can: the client came to its end"; while read -r line; do echo "info: $line"; done <client.err; }
+kill $servo; wait $servo 2>/dev/null
+/usr/bin/python3 "$here/canopen_server.py" vcan1 20 >server.log 2>server.err &
+server=$!
+check "a drive of another make is on the bus" until_true 60 grep -q '^ready' server.log
+cat >site2.json <<'SITE'
+{"lines": [{"name": "can1", "uri": "can:vcan1", "family": "cia402", "bitrate": 1000000}],
+ "drives": [{"name": "other", "line": "can1", "address": 20, "presence": "device"}], "axes": [{"name": "other", "drive": "other", "number": 1}], "mappings": []}
+SITE
+"$program" serve --data /dev/shm/data2 --site site2.json >gateway2.log 2>gateway2.err &
+gateway=$!
+check "the gateway is ready on the second bus" until_true 90 grep -q '^ready ' gateway2.log
+check "it finds the drive and sets it up" until_true 30 is axes/other .online true
+check "its PDOs are heard: position" until_true 20 is axes/other .position_increments -4711
+check "its state is switch on disabled" is axes/other .state switch_on_disabled
+check "its name is read by segments" is 'axes/other/parameters/1008h' .value 'a drive of another make, by its long name'
+check "a parameter is written" eval '[ "$(curl -s -m 10 -X PUT -H "Content-Type: application/json" -d "{\"value\":4000}" $api/axes/other/parameters/6081h | jq -r .value)" = 4000 ]'
+check "and is there" is 'axes/other/parameters/6081h' .value 4000
+kill $server; wait $server 2>/dev/null
+check "without the drive: offline" until_true 30 is axes/other .online false
+kill $gateway
+check "the second gateway ends when asked" until_true 20 eval '! kill -0 $gateway 2>/dev/null'
+while read -r line; do echo "info: $line"; done < <(tail -n 5 gateway2.err)
 while read -r line; do echo "info: $line"; done < <(tail -n 5 gateway.err)

@@ -192,7 +192,7 @@ private:
                     a.unit = a.unit == "u" ? "mm" : "u";
                 break;
             case 1:  // its drives are not where they were on the way: the line is built anew
-                document_.lines[0].manners.retries = document_.lines[0].manners.retries == 2 ? -1 : 2;
+                document_.lines[0].timing.retries = document_.lines[0].timing.retries == 2 ? -1 : 2;
                 first = 0;
                 behind = static_cast<std::size_t>(std::ranges::count(machines_, std::size_t{0}, &Machine::line));
                 break;

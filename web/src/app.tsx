@@ -4,6 +4,7 @@ import { Head, Spoken, Strip } from './components/frame';
 import { route } from './router';
 import { AxisPage, headingOf } from './pages/axis';
 import { EventsPage } from './pages/events';
+import { FleetPage } from './pages/fleet';
 import { GatewayPage } from './pages/gateway';
 import { LinePage, LinesPage } from './pages/lines';
 import { MappingsPage } from './pages/mappings';
@@ -23,6 +24,7 @@ const titles = {
   site: 'Site',
   events: 'Events',
   gateway: 'Gateway',
+  fleet: 'Fleet',
   users: 'Users',
   'sign-in': 'Sign in',
   unknown: 'No such page',
@@ -80,6 +82,7 @@ function Page() {
     case 'recipe': return <RecipePage key={r.name} name={r.name} />;
     case 'events': return <EventsPage />;
     case 'gateway': return <GatewayPage />;
+    case 'fleet': return <FleetPage />;
     case 'mappings': return <MappingsPage />;
     case 'parameters': return <ParametersPage key={r.name} name={r.name} />;
     case 'site': return <SitePage />;

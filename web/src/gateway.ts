@@ -23,6 +23,8 @@ export class Gateway {
   readonly client: Client;
   readonly store: Store;
   readonly commander: Commander;
+  /** Commands to axes of the fleet, by "gateway/axis": this gateway hands them on. */
+  readonly fleet: Commander;
   readonly session: Session;
   readonly stream: Stream;
   readonly tab: Tab;
@@ -33,12 +35,24 @@ export class Gateway {
     this.tab = new Tab(persisted('client'), parts.client ? null : tabChannel());
     this.client = parts.client ?? new Client('/api/v1', undefined, () => this.tab.name.peek());
     this.store = parts.store ?? new Store({ schedule: beforeNextPicture });
+    const blocked = () => (this.store.connected.peek() ? this.session.mayNot('operator') : 'The page is not connected to the gateway.');
     this.commander = new Commander(
       this.client,
-      () => (this.store.connected.peek() ? this.session.mayNot('operator') : 'The page is not connected to the gateway.'),
+      blocked,
       (axis) => this.store.axis(axis)?.peek().data.online === false,
       (axis) => this.store.axis(axis)?.peek().data,
       () => this.store.gatewayNow_ms(),
+    );
+    this.fleet = new Commander(
+      {
+        command: (at, command, urgent) => {
+          const cut = at.indexOf('/');
+          return this.client.fleetCommand(at.slice(0, cut), at.slice(cut + 1), command, urgent);
+        },
+        dropWaitingCommands: (why) => this.client.dropWaitingCommands(why),
+        axes: () => Promise.resolve([]),
+      },
+      blocked,
     );
     this.session = new Session(this.client, () => {
       // Another identity: the old stream belongs to the one before.

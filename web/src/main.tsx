@@ -21,6 +21,7 @@ import './styles/site.css';
 import './styles/recipes.css';
 import './styles/alarms.css';
 import './styles/users.css';
+import './styles/fleet.css';
 
 applyTheme();
 startClock();

@@ -11,6 +11,7 @@ export type Route =
   | { page: 'recipe'; name: string }
   | { page: 'events' }
   | { page: 'gateway' }
+  | { page: 'fleet' }
   | { page: 'mappings' }
   | { page: 'parameters'; name: string }
   | { page: 'site' }
@@ -24,7 +25,7 @@ export type AxisTab = (typeof axisTabs)[number];
 const tabOf = (s: string | undefined): AxisTab | undefined => axisTabs.find((t) => t === s && t !== 'move');
 
 /** Pages without a name. */
-const plain = ['lines', 'mappings', 'recipes', 'site', 'events', 'gateway', 'users', 'sign-in'] as const;
+const plain = ['lines', 'mappings', 'recipes', 'site', 'events', 'gateway', 'fleet', 'users', 'sign-in'] as const;
 const isPlain = (s: string): s is (typeof plain)[number] => (plain as readonly string[]).includes(s);
 
 export function routeOf(path: string): Route {

@@ -24,7 +24,7 @@ const underscored = (root: HTMLElement): string[] => {
 const ready: [string, string, RegExp][] = [
   ['/', '[data-axis=feeder]', /feeder/], ['/axes/feeder', '.machine', /Control word/], ['/axes/feeder/drive', '[data-part=actions]', /Find/], ['/axes/feeder/simulation', '.hand', /Stall/], ['/axes/feeder/events', 'main', /Events of this axis/], ['/axes/feeder/parameters', '[data-part=snapshots], main', /No snapshot is kept/],
   ['/lines', 'main', /feeder/], ['/lines/can0', 'main', /can0/], ['/mappings', '#mapping-form', /gantry-x/], ['/site', 'main', /feeder/], ['/recipes', 'main', /Recipes/],
-  ['/events', 'main', /Events/], ['/gateway', 'main', /Modbus/], ['/users', 'main', /Users/],
+  ['/events', 'main', /Events/], ['/gateway', 'main', /Modbus/], ['/fleet', 'main', /in no domain/], ['/users', 'main', /Users/],
 ];
 for (const [path, where, words] of ready) {
   it(`${path}: no word of the API`, async () => {

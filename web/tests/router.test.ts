@@ -8,6 +8,7 @@ it.each([
   ['/lines', { page: 'lines' }],
   ['/events/', { page: 'events' }],
   ['/gateway', { page: 'gateway' }],
+  ['/fleet', { page: 'fleet' }],
   ['/mappings', { page: 'mappings' }],
   ['/site', { page: 'site' }],
   ['/axes/feeder/parameters', { page: 'parameters', name: 'feeder' }],

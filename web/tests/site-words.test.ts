@@ -22,7 +22,7 @@ describe('an entry', () => {
     }
   });
   it('leaves out what is empty, and takes numbers and options for what they are', () => {
-    expect(check('lines', { name: 'a', uri: 'twin', family: 'uim342', 'options.check': 'on', 'options.t': '', 'manners.retries': '-1' }).entry).toEqual({ name: 'a', uri: 'twin', family: 'uim342', options: { check: 'on' }, manners: { retries: -1 } });
+    expect(check('lines', { name: 'a', uri: 'twin', family: 'uim342', 'options.check': 'on', 'options.t': '', 'timing.retries': '-1' }).entry).toEqual({ name: 'a', uri: 'twin', family: 'uim342', options: { check: 'on' }, timing: { retries: -1 } });
     expect(check('drives', { name: 'a', line: 'rs', address: 'B' }).entry).toEqual({ name: 'a', line: 'rs', address: 'B', presence: 'auto' });
     expect(check('lines', { bitrate: '' }, entry('lines', 'can0')).entry).toEqual({ name: 'can0', uri: 'twin', family: 'uim342' });
   });
@@ -30,7 +30,7 @@ describe('an entry', () => {
     ['lines', { name: 'a b', uri: 'twin', family: 'x' }, 'name', 'letters'],
     ['lines', { name: 'can0', uri: 'twin', family: 'x' }, 'name', 'already a line can0'],
     ['lines', { name: 'a', uri: '', family: 'x' }, 'uri', 'needed'],
-    ['lines', { name: 'a', uri: 'twin', family: 'x', 'manners.retries': '21' }, 'manners.retries', 'From -1 to 20'],
+    ['lines', { name: 'a', uri: 'twin', family: 'x', 'timing.retries': '21' }, 'timing.retries', 'From -1 to 20'],
     ['drives', { name: 'a', line: 'nowhere' }, 'line', 'no line nowhere'],
     ['drives', { name: 'a', line: 'can0', address: '5' }, 'address', 'feeder'],
     ['axes', { name: 'a', drive: 'feeder', number: '1', channel: '2' }, 'number', 'feeder'],
@@ -92,7 +92,7 @@ describe('a site', () => {
   });
   it('finds the place of a fault', () => {
     expect(placeOf('/axes/1/number', site)).toEqual({ room: 'axes', name: 'lift', key: 'number' });
-    expect(placeOf('/lines/0/manners/retries', site)?.key).toBe('manners.retries');
+    expect(placeOf('/lines/0/timing/retries', site)?.key).toBe('timing.retries');
     expect(placeOf('/axes/9/number', site)).toBeNull();
     expect(placeOf('', site)).toBeNull();
   });

@@ -1,10 +1,17 @@
 // The adapter against a hostile or failing line: PDOs of a wrong length, EMCY storms, reboots, silence, two nodes of one number, refusals.
 // In: a node's twin, frames of the test's own. Out: what is counted, told and shown; every command ends once. Never sleeps.
+#include <fmt/core.h>
+
 #include "adapters/cia402/tests/line_bench.hpp"
 
 namespace axisgate::cia402_drive::test {
 namespace {
 
+Native native(std::string_view text) {
+    Native n;
+    n.send.assign(text.begin(), text.end());
+    return n;
+}
 Frame data(std::uint32_t id, std::vector<std::uint8_t> bytes) { return canopen::data_frame(id, bytes); }
 
 TEST(Cia402Adapter, FindsSetsUpAndTellsANode) {
@@ -84,10 +91,53 @@ TEST(Cia402Adapter, TwoNodesOfOneNumberAnswerTwiceAndEachCommandEndsOnce) {
     b.run(3s);
     EXPECT_GT(b.adapter.counters().unexpected, 0u) << "the second answer to each question";
     (void)b.ask(Enable{});
-    (void)b.ask(LineBench::to(1000));
+    for (int i = 0; i < 10; ++i)
+        (void)b.ask(LineBench::to(1000 * i));
     b.run(1s);
+    EXPECT_EQ(b.told("two_nodes"), 1) << "said once, and not with every question";
     for (const auto& [ticket, list] : b.results)
         EXPECT_EQ(list.size(), 1u);
+}
+
+TEST(Cia402Adapter, HeartbeatsInTheGapsOfOthersAreASecondNode) {
+    LineBench b;
+    b.run(3s);
+    EXPECT_EQ(b.told("two_nodes"), 0);
+    for (int i = 0; i < 10; ++i) {  // another one's, at its own phase; its answers would be one with those of the first on a real bus
+        b.run(500ms);
+        b.inject(data(0x705, {0x05}));
+    }
+    EXPECT_EQ(b.told("two_nodes"), 1);
+    EXPECT_TRUE(b.link.online);
+}
+
+TEST(Cia402Adapter, AHeartbeatThatComesEarlyNowAndThenIsNoSecondNode) {
+    DoubleBeat watch;
+    Instant now = at_ns(0);
+    watch.begin(500ms);
+    for (int i = 0; i < 1000; ++i) {  // each third one is held up on its way, and the next comes soon after it
+        now += i % 3 == 0 ? 800ms : i % 3 == 1 ? 200ms : 500ms;
+        EXPECT_FALSE(watch.beat(now)) << i;
+    }
+    int told = 0;
+    for (int i = 0; i < 20; ++i)
+        told += watch.beat(now += i % 2 ? 450ms : 50ms) ? 1 : 0;
+    EXPECT_EQ(told, 1);
+    watch.begin(Duration::zero());
+    for (int i = 0; i < 20; ++i)
+        EXPECT_FALSE(watch.beat(now += 1ms)) << "it took no period from us";
+}
+
+TEST(Cia402Adapter, OneNodeIsNeverTakenForTwo) {
+    LineBench b;
+    b.run(2s);
+    ASSERT_TRUE(b.enable());
+    for (int i = 0; i < 30; ++i) {
+        b.inject(canopen::sdo_frame(0x585, 0x60, {0x6040, 0}));  // now and then a late answer
+        (void)b.ask(LineBench::to(i));
+        b.run(50ms);
+    }
+    EXPECT_EQ(b.told("two_nodes"), 0);
 }
 
 TEST(Cia402Adapter, ReachedIsNotSaidByTheStatusOfTheMotionBefore) {
@@ -130,6 +180,71 @@ TEST(Cia402Adapter, FramesOfOthersAreNobodys) {
     EXPECT_EQ(b.feedback.size(), before);
     b.run(1s);
     EXPECT_TRUE(b.link.online);
+}
+
+TEST(Cia402Adapter, TheFirstEmergencyIsTheCauseAndWhatWasLeftOutIsCounted) {
+    LineBench b;
+    b.run(2s);
+    ASSERT_TRUE(b.enable());
+    ASSERT_EQ(b.bus->set_hand(DriveId{0}, "inject_error", Value{std::int64_t{0x2310}}, b.now), "");
+    b.inject(data(0x085, {0x10, 0x23, 0x03, 0, 0, 0, 0, 0}));
+    b.inject(data(0x085, {0x10, 0x43, 0x09, 0, 0, 0, 0, 0}));  // the heat that follows from the current
+    b.run(200ms);
+    ASSERT_TRUE(b.axis.fault);
+    EXPECT_EQ(b.axis.error_code, 0x2310);
+    const auto warnings =
+        std::ranges::count_if(b.notices, [](const Notice& n) { return n.kind == "emergency" && n.severity == Severity::warning; });
+    EXPECT_GE(warnings, 2);
+    for (int i = 0; i < 100; ++i)
+        b.inject(data(0x085, {0x10, 0x23, 0x03, 0, 0, 0, 0, static_cast<std::uint8_t>(i)}));
+    b.run(2s);
+    b.inject(data(0x085, {0x10, 0x23, 0x03, 0, 0, 0, 0, 0}));
+    const auto text = b.notices.back().text;
+    EXPECT_NE(text.find("before it were left out"), std::string::npos) << text;
+}
+
+/// A drive whose 6502h has these modes, as its maker's file says.
+std::unique_ptr<Twin> drive_with_modes(std::uint32_t modes) {
+    std::ifstream in(AXISGATE_SOURCE_DIR "/adapters/cia402/tests/eds/plain.eds");
+    std::stringstream text;
+    text << in.rdbuf();
+    std::string eds = text.str();
+    const auto at = eds.find("0x000000A5");
+    if (at == std::string::npos) ADD_FAILURE() << "the file's 6502h";
+    eds.replace(at, 10, fmt::format("0x{:08X}", modes));
+    std::vector<canopen::FileFault> faults, notes;
+    const auto read = canopen::read_eds(eds, faults, notes);
+    if (!read) ADD_FAILURE() << "the file";
+    TwinSetup t;
+    t.address = "5";
+    t.kind = LineKind::can;
+    return twin::make_twin(t, &*read);
+}
+
+TEST(Cia402Adapter, ADriveWithoutTheCyclicModeIsLedByTheOlderOne) {
+    for (const auto& [modes, shown] : {std::pair{0xA5u, 8}, {0x65u, 7}}) {  // 1, 3, 6 and 8; 1, 3, 6 and 7
+        LineBench b(page(), {}, 1);
+        b.bus->add(DriveId{0}, drive_with_modes(modes), {}, b.now);
+        b.open();
+        b.run(2s);
+        ASSERT_TRUE(b.enable()) << shown;
+        SetPoint p;
+        p.axis = AxisId{0};
+        p.velocity = 20'000;
+        for (int i = 0; i < 100; ++i) {
+            p.value = 100 * i;
+            b.follow(p);
+            b.run(10ms);
+        }
+        EXPECT_GT(b.axis.position, 8000) << "mode " << shown;
+        EXPECT_EQ(b.ask(native("6061:00?")).text, std::to_string(shown));
+        ASSERT_TRUE(good(b.ask(Halt{})));
+        b.run(500ms);
+        EXPECT_EQ(b.axis.velocity, 0);
+        ASSERT_TRUE(good(b.ask(LineBench::to(0)))) << "and back to positioning";
+        b.run(3s);
+        EXPECT_EQ(b.axis.position, 0) << "mode " << shown;
+    }
 }
 
 }  // namespace

@@ -33,21 +33,32 @@ inline const Catalogue& page() {
     return c;
 }
 
-class LineBench final : private LineEvents {
+class LineBench : private LineEvents {
 public:
     Instant now = at_ns(1'000'000'000);
     std::unique_ptr<TwinBus> bus;
     LineSetup setup;
-    LineAdapter adapter{page()};
+    LineAdapter adapter;
     std::map<Ticket, std::vector<Result>> results;
-    AxisFeedback axis;
+    AxisFeedback axis;  ///< the newest of any
+    std::map<AxisId, AxisFeedback> of_axis;
     std::vector<AxisFeedback> feedback;
     std::vector<Notice> notices;
     std::vector<Out::StreamEnd> stream_ends;
     DriveLink link;
 
     /// One node; `twins` of the same number stand on the bus.
-    explicit LineBench(int twins = 1) {
+    explicit LineBench(int twins = 1) : LineBench(page(), {}, 1) {
+        TwinSetup t;
+        t.address = "5";
+        t.kind = LineKind::can;
+        for (int i = 0; i < twins; ++i)
+            bus->add(DriveId{static_cast<std::uint16_t>(i)}, twin::make_twin(t), {}, now);
+        open();
+    }
+    /// A family that stands on this one: its node 5 with so many axes; its twin is put on the bus before `open`.
+    LineBench(const Catalogue& catalogue, const Dialect& dialect, int axes, std::map<std::string, std::string> options = {})
+        : adapter(catalogue, dialect) {
         TwinBusOptions o;
         o.kind = LineKind::can;
         o.bit_rate = 1'000'000;
@@ -60,13 +71,12 @@ public:
         d.id = DriveId{0};
         d.name = "servo";
         d.address = "5";
-        d.axes = {{AxisId{0}, 1}};
+        for (int k = 0; k < axes; ++k)
+            d.axes.push_back({AxisId{static_cast<std::uint16_t>(k)}, k + 1});
+        d.options = std::move(options);
         setup.drives.push_back(d);
-        TwinSetup t;
-        t.address = "5";
-        t.kind = LineKind::can;
-        for (int i = 0; i < twins; ++i)
-            bus->add(DriveId{static_cast<std::uint16_t>(i)}, twin::make_twin(t), {}, now);
+    }
+    void open() {
         Out out;
         adapter.configure(setup, now, out);
         take(out);
@@ -94,10 +104,15 @@ public:
         adapter.on_frame(f, now, out);
         take(out);
     }
-    Result ask(CommandBody body, Duration limit = 10s) {
+    void follow(const SetPoint& p) {
+        Out out;
+        adapter.on_set_point(p, now, out);
+        take(out);
+    }
+    Result ask(CommandBody body, Duration limit = 10s, int number = 0) {
         Command c;
         c.ticket = ++tickets_;
-        c.axis = AxisId{0};
+        c.axis = AxisId{static_cast<std::uint16_t>(number)};
         c.body = std::move(body);
         const Ticket t = c.ticket;
         Out out;
@@ -123,7 +138,7 @@ private:
         for (const auto& f : out.frames)
             (void)bus->send(f.frame, f.priority, now);
         for (const auto& f : out.feedback)
-            feedback.push_back(axis = f.value);
+            feedback.push_back(of_axis[f.axis] = axis = f.value);
         for (const auto& r : out.results)
             results[r.ticket].push_back(r);
         for (const auto& l : out.links)

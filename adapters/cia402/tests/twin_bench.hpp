@@ -6,10 +6,14 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
 #include <map>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "adapters/cia402/twin/twin.hpp"
+#include "gateway/protocols/canopen/message.hpp"
 #include "gateway/protocols/canopen/nmt.hpp"
 #include "gateway/protocols/canopen/pdo.hpp"
 #include "gateway/protocols/canopen/sdo.hpp"
@@ -30,6 +34,8 @@ struct Bench {
         twin = make_twin(setup, eds);
         twin->power_on(memory, now, out);
     }
+    /// Another family's twin at node 5 with the same manners on the wire.
+    explicit Bench(std::unique_ptr<Twin> other) : twin(std::move(other)) { twin->power_on({}, now, out); }
     void pass(Duration d) {
         now += d;
         twin->on_deadline(now, out);
@@ -61,6 +67,33 @@ struct Bench {
         for (const unsigned cw : {6u, 7u, 0xFu})
             word(cw);
         ASSERT_EQ(status() & 0x6Fu, 0x27u);
+    }
+    /// "605#4000100000000000".
+    static Frame frame_of(const std::string& text) {
+        std::vector<std::uint8_t> bytes;
+        for (std::size_t i = 4; i + 1 < text.size(); i += 2)
+            bytes.push_back(static_cast<std::uint8_t>(std::stoul(text.substr(i, 2), nullptr, 16)));
+        return canopen::data_frame(static_cast<std::uint32_t>(std::stoul(text.substr(0, 3), nullptr, 16)), bytes);
+    }
+    /// Sends what a family's vectors say and compares what comes; how many answers there were.
+    std::size_t answers_of_vectors(const std::string& family) {
+        std::ifstream f(AXISGATE_SOURCE_DIR "/adapters/" + family + "/vectors.txt");
+        std::string line, name;
+        std::size_t answers = 0, at = 0;
+        while (std::getline(f, line)) {
+            if (line.starts_with("case ")) name = line;
+            if (line.starts_with("> ")) {
+                out.clear();
+                at = 0;
+                send(frame_of(line.substr(2)));
+            }
+            if (!line.starts_with("< ")) continue;
+            EXPECT_LT(at, out.frames.size()) << name;
+            if (at >= out.frames.size()) return answers;
+            EXPECT_EQ(to_text(out.frames[at++].frame), to_text(frame_of(line.substr(2)))) << name;
+            ++answers;
+        }
+        return answers;
     }
     [[nodiscard]] std::size_t count(std::uint32_t id) const {
         return static_cast<std::size_t>(

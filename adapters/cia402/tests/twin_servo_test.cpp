@@ -1,41 +1,15 @@
 // The simulated CiA 402 drive as its wire shows it: golden frames, power states, modes, homing, faults, PDOs, memory, descriptions.
-#include <fstream>
 #include <sstream>
 
 #include "adapters/cia402/tests/twin_bench.hpp"
+#include "adapters/cia402/twin/homing.hpp"
 
 namespace axisgate::cia402_drive::twin::test {
 namespace {
 using namespace std::chrono_literals;
 using canopen::Abort;
 
-/// "605#4000100000000000".
-Frame frame_of(const std::string& text) {
-    std::vector<std::uint8_t> bytes;
-    for (std::size_t i = 4; i + 1 < text.size(); i += 2)
-        bytes.push_back(static_cast<std::uint8_t>(std::stoul(text.substr(i, 2), nullptr, 16)));
-    return canopen::data_frame(static_cast<std::uint32_t>(std::stoul(text.substr(0, 3), nullptr, 16)), bytes);
-}
-
-TEST(Cia402Twin, AnswersAsTheVectorsSay) {
-    Bench b;
-    std::ifstream f(AXISGATE_SOURCE_DIR "/adapters/cia402/vectors.txt");
-    std::string line, name;
-    std::size_t answers = 0, at = 0;
-    while (std::getline(f, line)) {
-        if (line.starts_with("case ")) name = line;
-        if (line.starts_with("> ")) {
-            b.out.clear();
-            at = 0;
-            b.send(frame_of(line.substr(2)));
-        }
-        if (!line.starts_with("< ")) continue;
-        ASSERT_LT(at, b.out.frames.size()) << name;
-        EXPECT_EQ(to_text(b.out.frames[at++].frame), to_text(frame_of(line.substr(2)))) << name;
-        ++answers;
-    }
-    EXPECT_GE(answers, 12u);
-}
+TEST(Cia402Twin, AnswersAsTheVectorsSay) { EXPECT_GE(Bench().answers_of_vectors("cia402"), 12u); }
 
 TEST(Cia402Twin, StatesFollowTheControlWord) {
     Bench b;
@@ -136,6 +110,47 @@ TEST(Cia402Twin, HomingFindsItsPlaceOrSaysThatThereIsNone) {
         EXPECT_EQ(b.read(0x6064), 250) << "the zero is called 607Ch";
         EXPECT_NEAR(b.twin->mechanics(1, b.now).position, place, 1);
     }
+}
+
+/// CiA 402-2: where each method finds its zero. Limit switches at -20'000 and 20'000, an index each 4096, the home switch with its edge at
+/// 0 or as a cam from -1024 to 1024.
+TEST(Cia402Twin, EachHomingMethodHasItsOwnPlace) {
+    const std::map<int, double> places{{1, -16'384},  {2, 16'384},  {3, -4096}, {4, 4096},  {5, 4096},  {6, -4096},  {7, -4096},
+                                       {8, 0},        {9, 0},       {10, 4096}, {11, 4096}, {12, 0},    {13, 0},     {14, -4096},
+                                       {17, -20'000}, {18, 20'000}, {19, 0},    {20, 0},    {21, 0},    {22, 0},     {23, -1024},
+                                       {24, -1024},   {25, 1024},   {26, 1024}, {27, 1024}, {28, 1024}, {29, -1024}, {30, -1024},
+                                       {33, -4096},   {34, 4096},   {35, 0},    {37, 0}};
+    Bench list;
+    ASSERT_EQ(static_cast<std::size_t>(list.read(0x60E3)), places.size());
+    std::uint8_t sub = 0;
+    for (const auto& [method, place] : places) {
+        SCOPED_TRACE(method);
+        EXPECT_EQ(list.read(0x60E3, ++sub), method);
+        Bench b({{"travel", "20000"}});
+        b.enable(6);
+        ASSERT_EQ(b.write(0x6098, 0, method, 1), Abort::none);
+        b.word(0x1F);
+        b.pass(60s);
+        EXPECT_EQ(b.status() & 0x3400u, 0x1400u) << "attained";
+        EXPECT_NEAR(b.twin->mechanics(1, b.now).position, place, 0.01);
+        EXPECT_EQ(b.read(0x6064), 0);
+        if (method >= 33) continue;
+        Bench without;
+        without.enable(6);
+        ASSERT_EQ(without.write(0x6098, 0, method, 1), Abort::none);
+        without.word(0x1F);
+        EXPECT_NE(without.status() & 0x2000u, 0u) << "no switch: homing error";
+    }
+    for (const int unknown : {0, 15, 16, 31, 32, 36, -1})
+        EXPECT_EQ(list.write(0x6098, 0, unknown, 1), Abort::value) << unknown;
+}
+
+TEST(Cia402Twin, ACamThatLiesBehindIsFoundByWayOfTheLimitSwitch) {
+    const HomingWay on_the_way = homing_way(9, -5000, 20'000), behind = homing_way(9, 5000, 20'000);
+    EXPECT_EQ(on_the_way.search, (std::vector<double>{1024}));
+    EXPECT_EQ(behind.search, (std::vector<double>{20'000, 1024}));
+    EXPECT_EQ(homing_way(13, -5000, 20'000).search, (std::vector<double>{-20'000, -1024}));
+    EXPECT_EQ(behind.zero, on_the_way.zero);
 }
 
 TEST(Cia402Twin, CyclicModesFollowTheirTargetsAtTheSync) {
@@ -240,6 +255,164 @@ TEST(Cia402Twin, ATouchProbeKeepsThePlaceOfTheEdge) {
     EXPECT_EQ(b.read(0x60BA), here);
     EXPECT_EQ(b.read(0x60B9), 3);
     EXPECT_EQ(b.read(0x60FD), 0x10000);
+}
+
+TEST(Cia402Twin, TwoTouchProbesKeepBothEdgesEachByItsByte) {
+    Bench b;
+    ASSERT_EQ(b.write(0x60B8, 0, 0x3131, 2), Abort::none) << "both probes, both edges, the first time";
+    EXPECT_EQ(b.read(0x60B9), 0x0101);
+    b.enable(3);
+    ASSERT_EQ(b.write(0x60FF, 0, 1000, 4), Abort::none);
+    const auto at_level = [&](std::int64_t inputs) {
+        b.pass(1s);
+        const auto here = b.read(0x6064);
+        EXPECT_EQ(b.twin->set_hand("inputs", Value{inputs}, b.now, b.out), "");
+        return here;
+    };
+    const auto first_up = at_level(1), second_up = at_level(3), second_down = at_level(1), first_down = at_level(0);
+    EXPECT_EQ(b.read(0x60BA), first_up);
+    EXPECT_EQ(b.read(0x60BB), first_down);
+    EXPECT_EQ(b.read(0x60BC), second_up);
+    EXPECT_EQ(b.read(0x60BD), second_down);
+    EXPECT_EQ(b.read(0x60B9), 0x0707);
+    (void)at_level(3);
+    EXPECT_EQ(b.read(0x60BA), first_up) << "once";
+    ASSERT_EQ(b.write(0x60B8, 0, 0x3133, 2), Abort::none) << "probe 1 again and again; probe 2 as it was";
+    EXPECT_EQ(b.read(0x60B9), 0x0701);
+    (void)at_level(0);
+    const auto again = at_level(1);
+    (void)at_level(0);
+    const auto last = at_level(1);
+    EXPECT_GT(last, again);
+    EXPECT_EQ(b.read(0x60BA), last);
+    EXPECT_EQ(b.read(0x60BC), second_up);
+}
+
+TEST(Cia402Twin, UserUnitsAreWhatTheFactorsSay) {
+    Bench b;
+    // 4096 increments to a revolution of the motor, gear 2:1, 10 units to a turn of the load: 819.2 increments to a unit; speeds in units
+    // per minute.
+    const struct {
+        std::uint16_t index;
+        std::int64_t over, under;
+    } factors[] = {{0x608F, 4096, 1}, {0x6091, 2, 1}, {0x6092, 10, 1}, {0x6096, 1, 60}};
+    for (const auto& f : factors) {
+        ASSERT_EQ(b.write(f.index, 1, f.over, 4), Abort::none);
+        ASSERT_EQ(b.write(f.index, 2, f.under, 4), Abort::none);
+    }
+    ASSERT_EQ(b.write(0x6081, 0, 6000, 4), Abort::none) << "100 units/s";
+    ASSERT_EQ(b.write(0x6083, 0, 1000, 4), Abort::none);
+    ASSERT_EQ(b.write(0x6084, 0, 1000, 4), Abort::none);
+    b.enable(1);
+    EXPECT_EQ(b.write(0x6092, 1, 20, 4), Abort::device_state) << "not while it is led by them";
+    ASSERT_EQ(b.write(0x607A, 0, 500, 4), Abort::none);
+    b.word(0x1F);
+    b.pass(2s);
+    EXPECT_EQ(b.read(0x606C), 6000);
+    EXPECT_NEAR(b.twin->mechanics(1, b.now).velocity, 81'920, 1);
+    b.pass(8s);
+    EXPECT_EQ(b.read(0x6064), 500);
+    EXPECT_EQ(b.read(0x6063), 409'600);
+    EXPECT_NE(b.status() & 0x400u, 0u);
+}
+
+TEST(Cia402Twin, EachOptionCodeHasItsRampAndItsState) {
+    struct Case {
+        const char* what;
+        std::uint16_t index;
+        int option;
+        unsigned word;       // what stops it
+        std::int64_t after;  // its speed after 50 ms, from 10'000
+        unsigned state;      // where it ends
+    };
+    // 6084h 20'000/s2, 6085h 100'000/s2, 60C6h 160'000/s2: half a second, a tenth, a sixteenth.
+    constexpr Case cases[] = {
+        {"disabled: coasts", 0x605A, 0, 0x0B, 0, 0x40},      {"slow down", 0x605A, 1, 0x0B, 9000, 0x40},
+        {"quick stop ramp", 0x605A, 2, 0x0B, 5000, 0x40},    {"by current", 0x605A, 3, 0x0B, 2000, 0x40},
+        {"slow down, stays", 0x605A, 5, 0x0B, 9000, 0x07},   {"quick stop, stays", 0x605A, 6, 0x0B, 5000, 0x07},
+        {"current, stays", 0x605A, 7, 0x0B, 2000, 0x07},     {"shutdown coasts", 0x605B, 0, 0x06, 0, 0x21},
+        {"shutdown by ramp", 0x605B, 1, 0x06, 9000, 0x21},   {"disable by ramp", 0x605C, 1, 0x07, 9000, 0x23},
+        {"halt by ramp", 0x605D, 1, 0x10F, 9000, 0x27},      {"halt as a quick stop", 0x605D, 2, 0x10F, 5000, 0x27},
+        {"halt by current", 0x605D, 3, 0x10F, 2000, 0x27},   {"fault by ramp", 0x605E, 1, 0, 9000, 0x08},
+        {"fault as a quick stop", 0x605E, 2, 0, 5000, 0x08},
+    };
+    for (const Case& c : cases) {
+        SCOPED_TRACE(c.what);
+        Bench b;
+        for (const auto& [index, rate] : {std::pair{0x6084, 20'000}, {0x6085, 100'000}, {0x60C6, 160'000}})
+            ASSERT_EQ(b.write(static_cast<std::uint16_t>(index), 0, rate, 4), Abort::none);
+        ASSERT_EQ(b.write(c.index, 0, c.option, 2), Abort::none);
+        b.enable(3);
+        ASSERT_EQ(b.write(0x60FF, 0, 10'000, 4), Abort::none);
+        b.pass(5s);
+        ASSERT_EQ(b.read(0x606C), 10'000);
+        if (c.word == 0) {
+            ASSERT_EQ(b.twin->set_hand("inject_error", Value{std::int64_t{0x4210}}, b.now, b.out), "");
+            EXPECT_EQ(b.status() & 0x4Fu, 0x0Fu) << "fault reaction active";
+        } else {
+            b.word(c.word);
+        }
+        b.pass(50ms);
+        if (c.after > 0) {
+            EXPECT_NEAR(static_cast<double>(b.read(0x606C)), static_cast<double>(c.after), 2);
+        } else {
+            EXPECT_EQ(b.status() & 0x6Fu, c.state) << "at once";
+        }
+        b.pass(2s);
+        EXPECT_EQ(b.read(0x606C), 0);
+        EXPECT_EQ(b.status() & (c.state == 0x08 ? 0x4Fu : 0x6Fu), c.state);
+    }
+}
+
+TEST(Cia402Twin, ATargetIsReachedAfterItsTimeInTheWindow) {
+    Bench b;
+    ASSERT_EQ(b.write(0x6068, 0, 300, 2), Abort::none);
+    b.enable(1);
+    ASSERT_EQ(b.write(0x6081, 0, 10'000, 4), Abort::none);
+    ASSERT_EQ(b.write(0x607A, 0, 10'000, 4), Abort::none);
+    b.word(0x1F);
+    b.pass(1250ms);  // 10'000 at 10'000/s, 200 ms for each ramp: 1.2 s
+    EXPECT_EQ(b.read(0x6064), 10'000);
+    EXPECT_EQ(b.status() & 0x400u, 0u) << "it is there, and not for 300 ms yet";
+    b.pass(200ms);
+    EXPECT_EQ(b.status() & 0x400u, 0u);
+    b.pass(100ms);
+    EXPECT_NE(b.status() & 0x400u, 0u);
+}
+
+TEST(Cia402Twin, TheOlderModesOfTorqueAndInterpolationAreThere) {
+    Bench b;
+    b.enable(4);
+    ASSERT_EQ(b.write(0x6071, 0, 100, 2), Abort::none);
+    b.pass(1s);
+    EXPECT_NEAR(static_cast<double>(b.read(0x606C)), 5000, 1);
+    EXPECT_EQ(b.read(0x6077), 100);
+    Bench i;
+    ASSERT_EQ(i.write(0x60C2, 1, 10, 1), Abort::none);
+    i.send(canopen::nmt_frame(canopen::NmtCommand::start, 5));
+    i.enable(7);
+    for (int k = 1; k <= 20; ++k) {
+        ASSERT_EQ(i.write(0x60C1, 1, 50 * k, 4), Abort::none);
+        if (k == 11) i.word(0x1F);  // bit 4: interpolation is on
+        i.send(canopen::data_frame(0x80, {}));
+        i.pass(10ms);
+        if (k == 10) EXPECT_EQ(i.read(0x6064), 0) << "not before bit 4";
+    }
+    EXPECT_EQ(i.read(0x6064), 1000);
+}
+
+TEST(Cia402Twin, OutputsAreWhatTheMaskLetsThrough) {
+    Bench b({{"travel", "5000"}});
+    EXPECT_EQ(b.read(0x60FD), 4) << "it stands on the home switch";
+    ASSERT_EQ(b.write(0x60FE, 1, 0x50000, 4), Abort::none);
+    const auto outputs = [&] {
+        for (const auto& item : b.twin->hand())
+            if (item.name == "outputs") return as_integer(item.value).value_or(-1);
+        return std::int64_t{-1};
+    };
+    EXPECT_EQ(outputs(), 0);
+    ASSERT_EQ(b.write(0x60FE, 2, 0x10000, 4), Abort::none);
+    EXPECT_EQ(outputs(), 0x10000);
 }
 
 TEST(Cia402Twin, IsBuiltFromADescriptionAndSaysWhatItDoesNotModel) {

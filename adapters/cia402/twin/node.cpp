@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "adapters/cia402/twin/objects.hpp"
-
 namespace axisgate::cia402_drive::twin {
 using canopen::Abort;
 using canopen::Address;
@@ -24,13 +22,19 @@ std::string key_of(Address a) {
 }
 }  // namespace
 
-Node::Node(std::uint8_t node, canopen::Dictionary dictionary, double travel)
-    : node_(node), factory_(std::move(dictionary)), d_(factory_), servo_(d_, travel), server_(node, d_) {
+Node::Node(std::uint8_t node, canopen::Dictionary dictionary)
+    : node_(node), factory_(std::move(dictionary)), d_(factory_), server_(node, d_) {
     d_.on_write([this](Address a, std::span<const std::uint8_t> bytes) { return on_write(a, bytes); });
-    d_.on_read([this](Address) {
-        servo_.refresh(now_);
+    d_.on_read([this](Address a) {
+        if (a.index >= 0x2000) show(now_);
         return Abort::none;
     });
+}
+
+void Node::show(Instant now) {
+    if (shown_ == now) return;
+    device_->refresh(now);
+    shown_ = now;
 }
 
 void Node::send(Frame f, Instant at, Out& out) const {
@@ -41,18 +45,20 @@ void Node::send(Frame f, Instant at, Out& out) const {
 
 void Node::load() {
     for (const auto& [address, entry] : factory_.entries()) {
-        if (!is_stored(address, entry)) {
+        if (!device_->keeps(address, entry)) {
             (void)d_.set_bytes(address, entry.bytes);
             continue;
         }
         const auto kept = stored_.find(key_of(address));
         if (kept == stored_.end() || !d_.set(address, kept->second)) (void)d_.set_bytes(address, entry.bytes);
     }
+    device_->load(stored_);
 }
 void Node::save() {
     NonVolatile now;
     for (const auto& [address, entry] : factory_.entries())
-        if (is_stored(address, entry) && d_.find(address)->bytes != entry.bytes) now[key_of(address)] = d_.value(address);
+        if (device_->keeps(address, entry) && d_.find(address)->bytes != entry.bytes) now[key_of(address)] = d_.value(address);
+    device_->save(now);
     if (now != stored_) ++revision_;
     stored_ = std::move(now);
 }
@@ -61,11 +67,12 @@ void Node::power_on(const NonVolatile& memory, Instant now, Out& out) {
     now_ = now;
     if (memory != stored_) stored_ = memory;
     powered_ = true;
+    shown_.reset();
     reset(true, now, out);
 }
 void Node::power_off(Instant now) {
-    servo_.power_off(now);
-    (void)servo_.take_told();
+    device_->power_off(now);
+    (void)device_->take_told();
     powered_ = false;
     state_ = NmtState::boot_up;
     heartbeat_.set_period({}, now);
@@ -82,9 +89,9 @@ void Node::reset(bool all, Instant now, Out& out) {
         stored_.clear();
     }
     if (all) {
-        if (servo_.mechanics(now).powered) servo_.power_off(now);
+        if (device_->powered()) device_->power_off(now);
         load();
-        servo_.power_on(now);
+        device_->power_on(now);
     } else {
         for (const auto& [address, entry] : factory_.entries()) {
             if (address.index >= 0x2000) break;
@@ -107,18 +114,20 @@ void Node::boot(Instant now, Out& out) {
 
 void Node::read_pdos(Instant now) {
     for (std::uint16_t n = 1; n <= pdos; ++n)
-        for (const auto direction : {PdoDirection::receive, PdoDirection::transmit}) {
-            Pdo& p = (direction == PdoDirection::receive ? receive_ : transmit_)[n - 1u];
-            Abort fault = Abort::none;
-            const auto read = canopen::pdo_of(d_, direction, n, fault);
-            const bool valid = read && read->settings.valid;
-            if (valid && p.valid && p.pdo == *read) continue;
-            p = {};
-            p.valid = valid;
-            if (read) p.pdo = *read;
-            if (valid && direction == PdoDirection::transmit && p.pdo.settings.event_ms > 0)
-                p.event = now + std::chrono::milliseconds(p.pdo.settings.event_ms);
-        }
+        for (const auto direction : {PdoDirection::receive, PdoDirection::transmit})
+            read_pdo(direction, n, now);
+}
+void Node::read_pdo(PdoDirection direction, std::uint16_t n, Instant now) {
+    Pdo& p = (direction == PdoDirection::receive ? receive_ : transmit_)[n - 1u];
+    Abort fault = Abort::none;
+    const auto read = canopen::pdo_of(d_, direction, n, fault);
+    const bool valid = read && read->settings.valid;
+    if (valid && p.valid && p.pdo == *read) return;
+    p = {};
+    p.valid = valid;
+    if (read) p.pdo = *read;
+    if (valid && direction == PdoDirection::transmit && p.pdo.settings.event_ms > 0)
+        p.event = now + std::chrono::milliseconds(p.pdo.settings.event_ms);
 }
 
 Abort Node::on_write(Address a, std::span<const std::uint8_t> bytes) {
@@ -140,20 +149,24 @@ Abort Node::on_write(Address a, std::span<const std::uint8_t> bytes) {
     }
     const canopen::Entry* e = d_.find(a);
     const bool is_signed = e && canopen::is_signed(e->type);
-    const Abort refused =
-        servo_.may_write(a, is_signed ? canopen::as_signed(static_cast<std::uint64_t>(v), static_cast<std::uint8_t>(8 * bytes.size())) : v);
+    const Abort refused = device_->may_write(
+        a, is_signed ? canopen::as_signed(static_cast<std::uint64_t>(v), static_cast<std::uint8_t>(8 * bytes.size())) : v);
     if (refused == Abort::none) writes_.push_back(a);
     return refused;
 }
 
 void Node::take_writes(Instant now, Out& out) {
+    if (!writes_.empty()) shown_.reset();
     for (const Address a : std::exchange(writes_, {})) {
-        servo_.written(a, now);
+        device_->written(a, now);
         if (a.index == 0x1017) heartbeat_.set_period(std::chrono::milliseconds(d_.integer(a).value_or(0)), now);
         if (a.index == 0x100C || a.index == 0x100D)
             guard_.set(std::chrono::milliseconds(d_.integer({0x100C, 0}).value_or(0)),
                        static_cast<std::uint8_t>(d_.integer({0x100D, 0}).value_or(0)));
-        if (a.index >= 0x1400 && a.index < 0x1C00) read_pdos(now);
+        // 1400h and 1600h: what it receives, 1800h and 1A00h: what it sends; a number of its own in the low byte.
+        if (a.index >= 0x1400 && a.index < 0x1C00 && (a.index & 0xFFu) < pdos)
+            read_pdo(a.index < 0x1800 ? PdoDirection::receive : PdoDirection::transmit, static_cast<std::uint16_t>((a.index & 0xFFu) + 1),
+                     now);
         if (a.index == 0x1003) {
             for (std::uint8_t i = 1; i <= 4; ++i)
                 (void)d_.set({0x1003, i}, Value{std::int64_t{0}});
@@ -179,7 +192,8 @@ void Node::nmt(NmtCommand command, Instant now, Out& out) {
             return events(now, out);
         case NmtCommand::stop:
             state_ = NmtState::stopped;
-            servo_.connection_lost(now);
+            shown_.reset();
+            device_->connection_lost(now);
             return events(now, out);
         case NmtCommand::pre_operational:
             state_ = NmtState::pre_operational;
@@ -256,11 +270,12 @@ void Node::on_sync(Instant now, Out& out) {
         }
     }
     take_writes(now, out);
-    servo_.on_sync(now);
+    device_->on_sync(now);
+    shown_.reset();
 }
 
 std::vector<std::uint8_t> Node::packed(const Pdo& p, Instant at) {
-    servo_.refresh(at);
+    show(at);
     std::vector<std::uint64_t> values;
     for (const auto& m : p.pdo.mapping) {
         const canopen::Entry* e = d_.find(m.address);
@@ -275,7 +290,7 @@ void Node::transmit(Pdo& p, Instant at, Out& out) {
 }
 
 void Node::events(Instant at, Out& out) {
-    for (const auto& told : servo_.take_told())
+    for (const auto& told : device_->take_told())
         if (state_ != NmtState::stopped) send(canopen::emergency_frame(node_, told.emergency), told.at, out);
     if (state_ != NmtState::operational) return;
     for (Pdo& p : transmit_) {
@@ -289,7 +304,7 @@ void Node::events(Instant at, Out& out) {
 
 Instant Node::deadline() const {
     if (!powered_) return never;
-    Instant next = std::min({servo_.next_event(now_), heartbeat_.deadline(), server_.deadline(), guard_.deadline()});
+    Instant next = std::min({device_->next_event(now_), heartbeat_.deadline(), server_.deadline(), guard_.deadline()});
     if (state_ == NmtState::operational)
         for (const Pdo& p : transmit_)
             next = std::min(next, p.event);
@@ -300,9 +315,15 @@ void Node::advance(Instant now, Out& out) {
     for (int i = 0; i < most_events && deadline() <= now; ++i) {
         const Instant at = std::max(deadline(), now_);
         now_ = at;
-        servo_.on_event(at);
+        if (device_->next_event(now_) <= at) {
+            shown_.reset();
+            device_->on_event(at);
+        }
         if (const auto beat = heartbeat_.on_deadline(at, node_, state_)) send(*beat, at, out);
-        if (guard_.on_deadline(at)) servo_.connection_lost(at);
+        if (guard_.on_deadline(at)) {
+            shown_.reset();
+            device_->connection_lost(at);
+        }
         std::vector<Frame> answers;
         server_.on_deadline(at, answers);
         for (const Frame& f : answers)

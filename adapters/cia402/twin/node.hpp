@@ -1,11 +1,12 @@
-// Node: the CANopen side of the simulated drive: SDO server, NMT, error control, PDOs as they are mapped, SYNC, EMCY, memory.
+// Node: the CANopen side of the simulated device: SDO server, NMT, error control, PDOs as they are mapped, SYNC, EMCY, memory.
 // In: frames, time. Out: frames with the instant of their cause. Never answers while it is silent or without power.
 #pragma once
 
 #include <array>
 #include <map>
+#include <optional>
 
-#include "adapters/cia402/twin/servo.hpp"
+#include "adapters/cia402/twin/device.hpp"
 #include "gateway/protocols/canopen/nmt.hpp"
 #include "gateway/protocols/canopen/pdo.hpp"
 #include "gateway/protocols/canopen/sdo_server.hpp"
@@ -15,7 +16,11 @@ namespace axisgate::cia402_drive::twin {
 class Node {
 public:
     static constexpr std::uint16_t pdos = 4;  ///< of each direction
-    Node(std::uint8_t node, canopen::Dictionary dictionary, double travel);
+    Node(std::uint8_t node, canopen::Dictionary dictionary);
+    Node(const Node&) = delete;
+    Node& operator=(const Node&) = delete;
+    /// What stands behind it: before anything else is asked. Made over `dictionary()`.
+    void attach(Device& device) noexcept { device_ = &device; }
 
     void power_on(const NonVolatile& memory, Instant now, Out& out);
     void power_off(Instant now);
@@ -26,13 +31,14 @@ public:
 
     [[nodiscard]] NonVolatile stored() const { return stored_; }
     [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
-    Servo& servo() noexcept { return servo_; }
-    [[nodiscard]] const Servo& servo() const noexcept { return servo_; }
-    [[nodiscard]] const canopen::Dictionary& dictionary() const noexcept { return d_; }
+    [[nodiscard]] canopen::Dictionary& dictionary() noexcept { return d_; }
     void set_silent(bool silent) noexcept { silent_ = silent; }
     [[nodiscard]] bool silent() const noexcept { return silent_; }
     [[nodiscard]] bool powered() const noexcept { return powered_; }
-    void after_hand(Instant now, Out& out) { events(now, out); }
+    void after_hand(Instant now, Out& out) {
+        shown_.reset();
+        events(now, out);
+    }
 
 private:
     struct Pdo {
@@ -50,6 +56,8 @@ private:
     [[nodiscard]] canopen::Abort on_write(canopen::Address address, std::span<const std::uint8_t> bytes);
     void take_writes(Instant now, Out& out);
     void read_pdos(Instant now);
+    void read_pdo(canopen::PdoDirection direction, std::uint16_t number, Instant now);
+    void show(Instant now);  ///< what is measured stands in the dictionary
     void nmt(canopen::NmtCommand command, Instant now, Out& out);
     void receive(Pdo& p, std::span<const std::uint8_t> bytes, Instant now, Out& out);
     void transmit(Pdo& p, Instant at, Out& out);
@@ -59,7 +67,7 @@ private:
 
     std::uint8_t node_;
     canopen::Dictionary factory_, d_;
-    Servo servo_;
+    Device* device_ = nullptr;
     canopen::SdoServer server_;
     canopen::NmtState state_ = canopen::NmtState::boot_up;
     canopen::HeartbeatProducer heartbeat_;
@@ -67,6 +75,7 @@ private:
     std::array<Pdo, pdos> receive_, transmit_;
     std::vector<canopen::Address> writes_;
     Instant now_{};
+    std::optional<Instant> shown_{};  ///< of what stands in the dictionary; nothing: something has happened since
     NonVolatile stored_;
     std::uint64_t revision_ = 0;
     bool powered_ = false, silent_ = false, restore_ = false;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "adapters/cia402/twin/homing.hpp"
+
 namespace axisgate::cia402_drive::twin {
 namespace {
 using canopen::DataType;
@@ -58,8 +60,8 @@ constexpr Row rows[] = {
     {0x605A, 0, i16, rw, no, 2, "Quick stop option code", 0, 7},
     {0x605B, 0, i16, rw, no, 0, "Shutdown option code", 0, 1},
     {0x605C, 0, i16, rw, no, 1, "Disable operation option code", 0, 1},
-    {0x605D, 0, i16, rw, no, 1, "Halt option code", 1, 2},
-    {0x605E, 0, i16, rw, no, 2, "Fault reaction option code", 0, 2},
+    {0x605D, 0, i16, rw, no, 1, "Halt option code", 1, 4},
+    {0x605E, 0, i16, rw, no, 2, "Fault reaction option code", 0, 4},
     {0x6060, 0, i8, rw, both, 1, "Modes of operation"},
     {0x6061, 0, i8, ro, tx, 1, "Modes of operation display"},
     {0x6062, 0, i32, ro, tx, 0, "Position demand value"},
@@ -105,6 +107,9 @@ constexpr Row rows[] = {
     {0x6092, 0, u8, con, no, 2, "Feed constant"},
     {0x6092, 1, u32, rw, no, 1, "Feed", 1},
     {0x6092, 2, u32, rw, no, 1, "Shaft revolutions", 1},
+    {0x6096, 0, u8, con, no, 2, "Velocity factor"},
+    {0x6096, 1, u32, rw, no, 1, "Numerator", 1},
+    {0x6096, 2, u32, rw, no, 1, "Divisor", 1},
     {0x6098, 0, i8, rw, no, 37, "Homing method"},
     {0x6099, 0, u8, con, no, 2, "Homing speeds"},
     {0x6099, 1, u32, rw, no, 20'000, "Speed during search for switch", 1},
@@ -114,6 +119,8 @@ constexpr Row rows[] = {
     {0x60B9, 0, u16, ro, tx, 0, "Touch probe status"},
     {0x60BA, 0, i32, ro, tx, 0, "Touch probe 1 positive edge"},
     {0x60BB, 0, i32, ro, tx, 0, "Touch probe 1 negative edge"},
+    {0x60BC, 0, i32, ro, tx, 0, "Touch probe 2 positive edge"},
+    {0x60BD, 0, i32, ro, tx, 0, "Touch probe 2 negative edge"},
     {0x60C1, 0, u8, con, no, 1, "Interpolation data record"},
     {0x60C1, 1, i32, rw, both, 0, "Interpolation set-point"},
     {0x60C2, 0, u8, con, no, 2, "Interpolation time period"},
@@ -121,15 +128,6 @@ constexpr Row rows[] = {
     {0x60C2, 2, i8, rw, no, -3, "Interpolation time index", -6, 0},
     {0x60C5, 0, u32, rw, no, 1'000'000, "Max acceleration", 1},
     {0x60C6, 0, u32, rw, no, 1'000'000, "Max deceleration", 1},
-    {0x60E3, 0, u8, con, no, 8, "Supported homing methods"},
-    {0x60E3, 1, i8, ro, no, 17, "Homing method"},
-    {0x60E3, 2, i8, ro, no, 18, "Homing method"},
-    {0x60E3, 3, i8, ro, no, 19, "Homing method"},
-    {0x60E3, 4, i8, ro, no, 21, "Homing method"},
-    {0x60E3, 5, i8, ro, no, 33, "Homing method"},
-    {0x60E3, 6, i8, ro, no, 34, "Homing method"},
-    {0x60E3, 7, i8, ro, no, 35, "Homing method"},
-    {0x60E3, 8, i8, ro, no, 37, "Homing method"},
     {0x60F4, 0, i32, ro, tx, 0, "Following error actual value"},
     {0x60FD, 0, u32, ro, tx, 0, "Digital inputs"},
     {0x60FE, 0, u8, con, no, 2, "Digital outputs"},
@@ -162,6 +160,10 @@ canopen::Dictionary factory_dictionary(std::uint8_t node) {
     add(0x1008, 0, str, con, 0, "Manufacturer device name");
     d.add({0x1008, 0},
           {str, con, no, "Manufacturer device name", {'g', 'e', 'n', 'e', 'r', 'i', 'c', ' ', 's', 'e', 'r', 'v', 'o'}, {}, {}});
+    const auto methods = homing_methods();
+    add(0x60E3, 0, u8, con, static_cast<std::int64_t>(methods.size()), "Supported homing methods");
+    for (std::uint8_t i = 0; i < methods.size(); ++i)
+        add(0x60E3, static_cast<std::uint8_t>(i + 1), i8, ro, methods[i], "Homing method");
     add(0x1014, 0, u32, rw, 0x80 + node, "COB-ID EMCY");
     add(0x1200, 0, u8, con, 2, "SDO server parameter");
     add(0x1200, 1, u32, ro, 0x600 + node, "COB-ID client to server");

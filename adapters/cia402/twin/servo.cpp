@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapters/cia402/twin/homing.hpp"
+#include "adapters/cia402/twin/objects.hpp"
+
 namespace axisgate::cia402_drive::twin {
 namespace {
 constexpr double coasting = 100'000;  ///< increments/s^2, of a shaft without power
@@ -36,6 +39,9 @@ void Servo::power_on(Instant now) {
     homing_ = Homing::none;
     behind_since_.reset();
     probe_status_ = 0;
+    probe_function_ = 0;
+    read_units();
+    arm_probes();
     put(0x603F, 0);
     put(0x1001, 0);
     if (cause_ != 0) fail(cause_, now);
@@ -48,12 +54,29 @@ void Servo::power_off(Instant now) {
     buffered_.reset();
 }
 
-Ramps Servo::ramps() const {
-    const double most = std::min(rate(0x607F), rate(0x6080));
-    return {std::min(static_cast<double>(get(0x6081)), most), std::min(rate(0x6083), rate(0x60C5)), std::min(rate(0x6084), rate(0x60C6))};
+/// User units: increments of the motor for one unit of position, and increments/s for one of velocity. What a dictionary has not is 1.
+void Servo::read_units() {
+    per_unit_ = ratio(0x608F) * ratio(0x6091) / ratio(0x6092);
+    per_speed_ = per_unit_ * ratio(0x6096);
+}
+double Servo::ratio(std::uint16_t index) const {
+    const auto over = static_cast<double>(get(index, 1)), under = static_cast<double>(get(index, 2));
+    return over > 0 && under > 0 ? over / under : 1;
 }
 
+Ramps Servo::ramps() const {
+    return {std::min(per_speed_ * static_cast<double>(get(0x6081)), fastest()), per_unit_ * std::min(rate(0x6083), rate(0x60C5)),
+            per_unit_ * std::min(rate(0x6084), rate(0x60C6))};
+}
+/// By the option codes 605Ah, 605Dh and 605Eh: 1 and 5 the slow-down ramp, 2 and 6 that of the quick stop, beyond those what current and
+/// voltage give: the most that the drive can.
+double Servo::braking(std::int64_t option) const {
+    return per_unit_ * rate(option == 1 || option == 5 ? 0x6084 : option == 2 || option == 6 ? 0x6085 : 0x60C6);
+}
+
+bool Servo::keeps(canopen::Address address, const canopen::Entry& entry) const { return is_stored(address, entry); }
 canopen::Abort Servo::may_write(canopen::Address a, std::int64_t v) const {
+    a.index = static_cast<std::uint16_t>(a.index - shift_);
     if (a.index == 0x6060) {
         const auto modes = static_cast<std::uint32_t>(get(0x6502));
         return v == 0 || (v >= 1 && v <= 10 && (modes >> (v - 1) & 1u)) ? canopen::Abort::none : canopen::Abort::value;
@@ -63,12 +86,15 @@ canopen::Abort Servo::may_write(canopen::Address a, std::int64_t v) const {
             if (get(0x60E3, i) == v) return canopen::Abort::none;
         return canopen::Abort::value;
     }
+    // Another measure of all places and speeds while it is led by them would be a jump.
+    const bool unit = a.index == 0x608F || a.index == 0x6091 || a.index == 0x6092 || a.index == 0x6096;
+    if (unit && powered()) return canopen::Abort::device_state;
     if (a.index == 0x60C2 && m_.moves(checked_) && powered()) return canopen::Abort::device_state;
     return canopen::Abort::none;
 }
 
 void Servo::written(canopen::Address a, Instant now) {
-    switch (a.index) {
+    switch (a.index - shift_) {
         case 0x6040:
             return control(now);
         case 0x6060:
@@ -77,8 +103,12 @@ void Servo::written(canopen::Address a, Instant now) {
         case 0x6071:
             return act(now);
         case 0x60B8:
-            probe_status_ = static_cast<std::uint16_t>(get(0x60B8) & 1);
-            return;
+            return arm_probes();
+        case 0x608F:
+        case 0x6091:
+        case 0x6092:
+        case 0x6096:
+            return read_units();
         default:
             return;
     }
@@ -103,7 +133,7 @@ void Servo::control(Instant now) {
     if (mode_ == 6 && (rising & 0x10u)) begin_homing(now);
     if (mode_ == 6 && (before & 0x10u) && !(cw & 0x10u) && (homing_ == Homing::to_switch || homing_ == Homing::to_zero)) {
         homing_ = Homing::none;  // the start bit taken back interrupts it
-        m_.stop(rate(0x609A), now);
+        m_.stop(per_unit_ * rate(0x609A), now);
     }
     if (((cw ^ before) & 0x100u) || ((cw & 0x100u) == 0 && halted_)) halt((cw & 0x100u) != 0, now);
 }
@@ -118,8 +148,7 @@ void Servo::command(unsigned cw, Instant now) {
         if (state_ != State::enabled) return;
         enter(State::quick_stop, now);
         const auto option = get(0x605A);
-        const double down = option == 1 || option == 5 ? rate(0x6084) : rate(0x6085);
-        return stop_then(option >= 5 ? State::quick_stop : State::switch_on_disabled, down, option == 0, now);
+        return stop_then(option >= 5 ? State::quick_stop : State::switch_on_disabled, braking(option), option == 0, now);
     }
     const unsigned bits = cw & 0xFu;
     if (bits == 0xF && state_ == State::quick_stop && get(0x605A) >= 5 && !m_.moves(now)) return enter(State::enabled, now);
@@ -128,11 +157,11 @@ void Servo::command(unsigned cw, Instant now) {
     if (bits == 0xF && state_ == State::enabled) return after_stop_.reset();
     if (bits == 7) {
         if (state_ == State::ready) enter(State::switched_on, now);
-        if (state_ == State::enabled) stop_then(State::switched_on, rate(0x6084), get(0x605C) == 0, now);
+        if (state_ == State::enabled) stop_then(State::switched_on, braking(1), get(0x605C) == 0, now);
     }
     if ((cw & 7u) == 6) {
         if (state_ == State::switch_on_disabled || state_ == State::switched_on) enter(State::ready, now);
-        if (state_ == State::enabled) stop_then(State::ready, rate(0x6084), get(0x605B) == 0, now);
+        if (state_ == State::enabled) stop_then(State::ready, braking(1), get(0x605B) == 0, now);
     }
 }
 
@@ -181,22 +210,21 @@ void Servo::set_mode(Instant now) {
     homing_ = Homing::none;
     if (state_ != State::enabled || after_stop_) return;
     // What moved by another mode is ended by the new one.
-    if (mode_ != 3 && mode_ != 9 && mode_ != 4 && mode_ != 10 && m_.moves(now)) m_.stop(rate(0x6084), now);
+    if (mode_ != 3 && mode_ != 9 && mode_ != 4 && mode_ != 10 && m_.moves(now)) m_.stop(braking(1), now);
     act(now);
 }
 
 void Servo::act(Instant now) {
     if (state_ != State::enabled || after_stop_ || halted_) return;
     limited_ = false;
-    const double low = static_cast<double>(get(0x607D, 1)), high = static_cast<double>(get(0x607D, 2));
     if (mode_ == 3 || mode_ == 9) {
-        const double most = std::min(rate(0x607F), rate(0x6080));
-        const double v = std::clamp(static_cast<double>(get(0x60FF)), -most, most);
+        const double low = place_of(0x607D, 1), high = place_of(0x607D, 2), most = fastest();
+        const double v = std::clamp(per_speed_ * static_cast<double>(get(0x60FF)), -most, most);
         Ramps r = ramps();
         if (mode_ == 9) r.up = r.down = 1e7;
         r.velocity = std::fabs(v);
         if (low < high && v != 0) {  // towards a limit of position it is a way to that limit
-            const double end = (v > 0 ? high : low) + zero_;
+            const double end = v > 0 ? high : low;
             if ((end - m_.demand(now).position) * v <= 0) return limited_ = true, m_.stop(r.down, now);
             return m_.move(end, r, now);
         }
@@ -204,24 +232,25 @@ void Servo::act(Instant now) {
     }
     if (mode_ == 4 || mode_ == 10) {
         const auto most = std::min<std::int64_t>(get(0x6072), 5000);
-        m_.push(static_cast<double>(std::clamp<std::int64_t>(get(0x6071), -most, most)) * 50, std::min(rate(0x6080), 100'000.0), now);
+        m_.push(static_cast<double>(std::clamp<std::int64_t>(get(0x6071), -most, most)) * 50,
+                std::min(per_speed_ * rate(0x6080), 100'000.0), now);
     }
 }
 
 void Servo::sync(Instant now) {
     if ((mode_ != 8 && mode_ != 7) || state_ != State::enabled || after_stop_ || halted_) return;
     if (mode_ == 7 && (cw_ & 0x10u) == 0) return;
-    const double low = static_cast<double>(get(0x607D, 1)), high = static_cast<double>(get(0x607D, 2));
-    double to = static_cast<double>(mode_ == 8 ? get(0x607A) : get(0x60C1, 1));
+    const double low = place_of(0x607D, 1), high = place_of(0x607D, 2);
+    double to = mode_ == 8 ? place_of(0x607A) : place_of(0x60C1, 1);
     limited_ = low < high && (to < low || to > high);
     if (low < high) to = std::clamp(to, low, high);
-    m_.step_to(to + zero_, static_cast<double>(get(0x60C2, 1)) * std::pow(10.0, static_cast<double>(get(0x60C2, 2))), now);
+    m_.step_to(to, static_cast<double>(get(0x60C2, 1)) * std::pow(10.0, static_cast<double>(get(0x60C2, 2))), now);
 }
 
 void Servo::set_point(bool relative, bool at_once, Instant now) {
-    const double base = relative ? buffered_.value_or(target_.value_or(m_.demand(now).position)) : zero_;
-    double to = base + static_cast<double>(get(0x607A));
-    const double low = static_cast<double>(get(0x607D, 1)) + zero_, high = static_cast<double>(get(0x607D, 2)) + zero_;
+    double to = place_of(0x607A);
+    if (relative) to += buffered_.value_or(target_.value_or(m_.demand(now).position)) - zero_;
+    const double low = place_of(0x607D, 1), high = place_of(0x607D, 2);
     limited_ = low < high && (to < low || to > high);
     if (low < high) to = std::clamp(to, low, high);
     acknowledged_ = true;
@@ -241,7 +270,7 @@ void Servo::go(Instant now) {
 void Servo::halt(bool on, Instant now) {
     halted_ = on;
     if (on) {
-        if (m_.moves(now)) m_.stop(get(0x605D) == 2 ? rate(0x6085) : rate(0x6084), now);
+        if (m_.moves(now)) m_.stop(braking(get(0x605D)), now);
         if (homing_ == Homing::to_switch || homing_ == Homing::to_zero) homing_ = Homing::none;
         return;
     }
@@ -255,23 +284,29 @@ void Servo::limit(Instant now) {
     if (homing_ != Homing::to_switch && ((limit_positive && v > 0) || (limit_negative && v < 0))) {
         limited_ = true;
         target_.reset();
-        m_.stop(rate(0x6085), now);
+        m_.stop(braking(2), now);
     }
 }
 void Servo::inputs_changed(Instant now) {
-    probe((inputs & 0x10000u) != 0, now);
+    for (unsigned k = 0; k < 2; ++k)
+        probe(k, (inputs >> (16 + k) & 1u) != 0, now);
     limit(now);
 }
-void Servo::probe(bool high, Instant now) {
-    const auto function = static_cast<unsigned>(get(0x60B8));
-    const bool was = probe_status_ & 0x8000u;
-    if ((function & 1u) && high != was && !((probe_status_ & (high ? 2u : 4u)) && !(function & 2u))) {
-        if (function & (high ? 0x10u : 0x20u)) {
-            put(high ? 0x60BA : 0x60BB, std::llround(in_units(m_.shaft(now).position)));
-            probe_status_ = static_cast<std::uint16_t>(probe_status_ | (high ? 2u : 4u));
-        }
-    }
-    probe_status_ = static_cast<std::uint16_t>(high ? probe_status_ | 0x8000u : probe_status_ & 0x7FFFu);
+/// Each probe has a byte of 60B8h and of 60B9h: enabled, and whether each edge counts (again and again: bit 1).
+void Servo::probe(unsigned k, bool high, Instant now) {
+    if (std::exchange(probe_level_[k], high) == high) return;
+    const unsigned function = static_cast<unsigned>(get(0x60B8)) >> 8 * k, stored = (high ? 2u : 4u) << 8 * k;
+    if ((function & 1u) == 0 || (function & (high ? 0x10u : 0x20u)) == 0) return;
+    if ((probe_status_ & stored) && (function & 2u) == 0) return;
+    put(static_cast<std::uint16_t>(0x60BA + 2 * k + (high ? 0 : 1)), std::llround(in_units(m_.shaft(now).position)));
+    probe_status_ = static_cast<std::uint16_t>(probe_status_ | stored);
+}
+/// The probe whose byte was changed waits for its edges anew; 60B8h written as it was begins nothing.
+void Servo::arm_probes() {
+    const auto function = static_cast<unsigned>(get(0x60B8)), before = std::exchange(probe_function_, function);
+    for (unsigned k = 0; k < 2; ++k)
+        if (((function ^ before) >> 8 * k & 0xFFu) != 0)
+            probe_status_ = static_cast<std::uint16_t>((probe_status_ & ~(0xFFu << 8 * k)) | (function & 1u << 8 * k));
 }
 
 void Servo::hold(bool held, Instant now) {
@@ -298,7 +333,7 @@ void Servo::fail(std::uint16_t code, Instant now) {
     if (!powered() || !m_.moves(now)) return enter(State::fault, now);
     const auto option = get(0x605E);
     enter(State::fault_reaction, now);
-    stop_then(State::fault, option == 1 ? rate(0x6084) : rate(0x6085), option == 0, now);
+    stop_then(State::fault, braking(option), option == 0, now);
 }
 
 void Servo::connection_lost(Instant now) {
@@ -310,9 +345,9 @@ void Servo::connection_lost(Instant now) {
 
 Instant Servo::next_event(Instant now) const {
     Instant next = never;
+    if (after_stop_ || homing_ == Homing::to_switch || homing_ == Homing::to_zero) next = std::max(m_.end(), now);
     // A halted positioning waits for its halt to be taken back, and for nothing of its own.
-    const bool positions = target_ && !reached_ && !m_.held() && !halted_;
-    if (after_stop_ || homing_ == Homing::to_switch || homing_ == Homing::to_zero || positions) next = std::max(m_.end(), now);
+    if (target_ && !reached_ && !halted_ && settles()) next = std::max(m_.end() + (buffered_ ? Duration{} : window_time()), now);
     if (powered() && m_.held() && (m_.moves(checked_) || behind_since_)) next = std::min(next, checked_ + std::chrono::milliseconds(1));
     return next;
 }
@@ -322,7 +357,7 @@ void Servo::on_event(Instant at) {
         checked_ = at;
         const double behind = std::fabs(m_.demand(at).position - m_.shaft(at).position);
         const auto window = get(0x6065);
-        if (window == 0xFFFFFFFF || behind <= static_cast<double>(window)) {
+        if (window == 0xFFFFFFFF || behind <= per_unit_ * static_cast<double>(window)) {
             behind_since_.reset();
         } else if (!behind_since_) {
             behind_since_ = at;
@@ -334,61 +369,63 @@ void Servo::on_event(Instant at) {
     }
     if (at < m_.end()) return;
     if (after_stop_) return enter(*after_stop_, at);
-    if (homing_ == Homing::to_switch) {
-        homing_ = Homing::to_zero;
-        const double slow = static_cast<double>(get(0x6099, 2));
-        return m_.move(homing_zero_, {std::max(slow, 1.0), rate(0x609A), rate(0x609A)}, at);
-    }
-    if (homing_ == Homing::to_zero) return homed(at);
+    if (homing_ == Homing::to_switch) return next_search(at);
+    if (homing_ == Homing::to_zero) return homed();
     if (halted_) return;
-    if (target_ && !reached_ && !m_.held() && m_.demand(at).position == *target_) {
+    if (target_ && !reached_ && settles() && m_.demand(at).position == *target_) {
         if (buffered_) {
             target_ = std::exchange(buffered_, std::nullopt);
             acknowledged_ = (cw_ & 0x10u) != 0;
             return go(at);
         }
-        reached_ = true;
+        reached_ = at >= m_.end() + window_time();
     } else if (target_ && !reached_ && !m_.held()) {
         target_.reset();  // stopped before it: halted, or the speed is 0
     }
 }
 
-/// Limit switches stand at the ends of the way, the home switch in its middle, an index each 4096 increments.
 void Servo::begin_homing(Instant now) {
-    const auto method = get(0x6098);
-    const double here = m_.demand(now).position, index = 4096;
-    std::optional<double> at_switch;
+    HomingWay way = homing_way(static_cast<int>(get(0x6098)), m_.demand(now).position, travel_);
     reached_ = false;
     homing_ = Homing::error;
-    if (method == 35 || method == 37) return homing_zero_ = here, homed(now);
-    if (method == 33) homing_zero_ = std::floor((here - 1) / index) * index;
-    if (method == 34) homing_zero_ = std::ceil((here + 1) / index) * index;
-    if (method == 17 || method == 18) {
-        if (travel_ <= 0) return;
-        at_switch = homing_zero_ = method == 17 ? -travel_ : travel_;
-    }
-    if (method == 19 || method == 21) {
-        if (travel_ <= 0) return;
-        at_switch = homing_zero_ = 0;
-    }
+    if (!way.possible) return;
+    homing_zero_ = way.zero;
+    if (!way.moves) return homed();
     if (m_.held()) return;
-    const double fast = static_cast<double>(get(0x6099, 1)), slow = static_cast<double>(get(0x6099, 2));
-    homing_ = at_switch ? Homing::to_switch : Homing::to_zero;
-    m_.move(at_switch.value_or(homing_zero_), {at_switch ? fast : slow, rate(0x609A), rate(0x609A)}, now);
+    search_ = std::move(way.search);
+    homing_ = Homing::to_switch;
+    next_search(now);
 }
-void Servo::homed(Instant now) {
+/// To the next switch; after the last one, slowly, to the zero.
+void Servo::next_search(Instant now) {
+    const double a = per_unit_ * rate(0x609A);
+    if (search_.empty()) {
+        homing_ = Homing::to_zero;
+        return m_.move(homing_zero_, {speed(0x6099, 2), a, a}, now);
+    }
+    m_.move(search_.front(), {speed(0x6099, 1), a, a}, now);
+    search_.erase(search_.begin());
+}
+void Servo::homed() {
     homing_ = Homing::attained;
     reached_ = true;
-    zero_ = homing_zero_ - static_cast<double>(get(0x607C));
-    (void)now;
+    zero_ = homing_zero_ - per_unit_ * static_cast<double>(get(0x607C));
+}
+
+/// At the end of its way the shaft stands within the position window (6067h; FFFFFFFFh: there is none).
+bool Servo::settles() const {
+    const auto window = get(0x6067);
+    if (!m_.held() || window == 0xFFFFFFFF) return true;
+    return std::fabs(m_.shaft(m_.end()).position - m_.demand(m_.end()).position) <= per_unit_ * static_cast<double>(window);
 }
 
 std::uint16_t Servo::statusword(Instant now) const {
     static constexpr unsigned states[] = {0x40, 0x21, 0x23, 0x27, 0x07, 0x0F, 0x08};
     unsigned sw = states[static_cast<std::size_t>(state_)] | 0x210u;
     const bool stands = !m_.moves(now);
-    bool ten = reached_ && !m_.held();
-    if (mode_ == 3) ten = std::fabs(m_.shaft(now).velocity - static_cast<double>(get(0x60FF))) <= static_cast<double>(get(0x606D));
+    bool ten = reached_ && (!m_.held() || settles());
+    if (mode_ == 3)
+        ten = std::fabs(m_.shaft(now).velocity / per_speed_ - static_cast<double>(get(0x60FF))) <= static_cast<double>(get(0x606D));
     if (halted_ || state_ == State::quick_stop) ten = stands;
     if (ten && powered()) sw |= 0x400u;
     if (limited_) sw |= 0x800u;
@@ -406,13 +443,16 @@ void Servo::refresh(Instant now) {
     put(0x6062, std::llround(in_units(demand.position)));
     put(0x6063, std::llround(shaft.position));
     put(0x6064, std::llround(in_units(shaft.position)));
-    put(0x606B, std::llround(demand.velocity));
-    put(0x606C, std::llround(shaft.velocity));
+    put(0x606B, std::llround(demand.velocity / per_speed_));
+    put(0x606C, std::llround(shaft.velocity / per_speed_));
     put(0x6077, (mode_ == 4 || mode_ == 10) && powered() ? get(0x6071) : 0);
-    put(0x60F4, std::llround(demand.position - shaft.position));
-    put(0x60B9, probe_status_ & 0x7FFF);
-    put(0x60FD, static_cast<std::int64_t>((limit_negative ? 1u : 0u) | (limit_positive ? 2u : 0u) | (home_switch ? 4u : 0u) |
-                                          (inputs & 0xFFFF0000u)));
+    put(0x60F4, std::llround((demand.position - shaft.position) / per_unit_));
+    put(0x60B9, probe_status_);
+    // A switch is pressed by the hand, or by the shaft where the travel has switches.
+    const bool low = limit_negative || (travel_ > 0 && shaft.position < -travel_),
+               high = limit_positive || (travel_ > 0 && shaft.position > travel_);
+    const bool home = home_switch || (travel_ > 0 && std::fabs(shaft.position) < cam);
+    put(0x60FD, static_cast<std::int64_t>((low ? 1u : 0u) | (high ? 2u : 0u) | (home ? 4u : 0u) | (inputs & 0xFFFF0000u)));
 }
 TwinMechanics Servo::mechanics(Instant now) const {
     const Motion s = m_.shaft(now);

@@ -7,6 +7,7 @@
 
 #include "adapters/cia402/twin/node.hpp"
 #include "adapters/cia402/twin/objects.hpp"
+#include "adapters/cia402/twin/servo.hpp"
 
 namespace axisgate::cia402_drive::twin {
 namespace {
@@ -28,7 +29,10 @@ canopen::Dictionary described(std::uint8_t node, const canopen::Eds* eds, std::i
 class CanServo final : public Twin {
 public:
     CanServo(const TwinSetup& setup, const canopen::Eds* eds)
-        : node_(number(setup), described(number(setup), eds, unmodelled_), std::atof(option(setup.options, "travel", "0").c_str())) {}
+        : node_(number(setup), described(number(setup), eds, unmodelled_)),
+          servo_(node_.dictionary(), std::atof(option(setup.options, "travel", "0").c_str())) {
+        node_.attach(servo_);
+    }
 
     void on_frame(const Frame& f, Instant now, Out& out) override { node_.on_frame(f, now, out); }
     void on_deadline(Instant now, Out& out) override {
@@ -40,12 +44,13 @@ public:
     [[nodiscard]] std::uint64_t non_volatile_revision() const override { return node_.revision(); }
 
     [[nodiscard]] std::vector<HandItem> hand() const override {
-        const Servo& s = node_.servo();
+        const Servo& s = servo_;
         return {
             {"power", Value{node_.powered()}, true, "supply of the drive"},
             {"silent", Value{node_.silent()}, true, "it hears and does not answer"},
             {"stall", Value{stalled_}, true, "the shaft is held"},
             {"inputs", Value{static_cast<std::int64_t>(s.inputs >> 16)}, true, "digital inputs, bit mask; they are bits 16 to 31 of 60FDh"},
+            {"outputs", Value{static_cast<std::int64_t>(s.outputs())}, false, "60FEh:01 as the mask of 60FEh:02 lets it through"},
             {"limit_positive", Value{s.limit_positive}, true, "the upper limit switch"},
             {"limit_negative", Value{s.limit_negative}, true, "the lower limit switch"},
             {"home_switch", Value{s.home_switch}, true, "the home switch"},
@@ -57,7 +62,7 @@ public:
         const auto n = as_integer(value);
         if (!n) return name + ": write true, false or a whole number";
         if (node_.powered()) node_.advance(now, out);
-        Servo& s = node_.servo();
+        Servo& s = servo_;
         const bool on = *n != 0, flag = *n == 0 || *n == 1;
         if (name == "inject_error") {
             const auto& codes = Servo::error_codes();
@@ -89,7 +94,7 @@ public:
         if (node_.powered()) node_.after_hand(now, out);
         return {};
     }
-    [[nodiscard]] TwinMechanics mechanics(int, Instant now) const override { return node_.servo().mechanics(now); }
+    [[nodiscard]] TwinMechanics mechanics(int, Instant now) const override { return servo_.mechanics(now); }
 
 private:
     static std::uint8_t number(const TwinSetup& setup) {
@@ -97,6 +102,7 @@ private:
     }
     std::int64_t unmodelled_ = 0;  ///< counted while the node is made
     Node node_;
+    Servo servo_;
     bool stalled_ = false;
 };
 

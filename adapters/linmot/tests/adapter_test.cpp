@@ -403,7 +403,7 @@ TEST(LinmotAdapter, AStreamIsNotBegunWhereItsPeriodCannotBeHeld) {
 
 TEST(LinmotAdapter, PollsFillTheWire) {
     // 115200 baud: a default request and its response are 23 bytes, 2.0 ms.
-    LineManners quick;
+    LineTiming quick;
     quick.poll_period = 1ms;
     LineBench b(4, 115200, {}, quick);
     b.run(2s);
@@ -415,7 +415,7 @@ TEST(LinmotAdapter, PollsFillTheWire) {
 }
 
 TEST(LinmotAdapter, ReadingAllParametersTakesTheTimeOfTheWire) {
-    LineManners calm;
+    LineTiming calm;
     calm.poll_period = 1s;
     LineBench b(1, 115200, {}, calm);
     b.run(1s);

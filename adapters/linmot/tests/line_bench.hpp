@@ -32,14 +32,14 @@ public:
     std::uint64_t answers = 0;
 
     explicit LineBench(std::size_t drives = 1, std::uint32_t bit_rate = 115200, std::map<std::string, std::string> options = {},
-                       LineManners manners = {}, std::map<std::string, std::string> line_options = {}) {
+                       LineTiming timing = {}, std::map<std::string, std::string> line_options = {}) {
         TwinBusOptions o;
         o.bit_rate = bit_rate;
         bus = std::make_unique<TwinBus>(o);
         setup.id = LineId{0};
         setup.name = "line";
         setup.bit_rate = bit_rate;
-        setup.manners = manners;
+        setup.timing = timing;
         setup.options = std::move(line_options);
         for (std::size_t i = 0; i < drives; ++i) {
             DriveSetup d;

@@ -92,7 +92,7 @@ TEST(McodeProgramMode, AStopIsSaidBehindPgAndDone) {
         for (int at = 0; at < 12; ++at) {
             const auto what = fmt::format("ck {} at {}", ck, at);
             Typist b("a", 19200, {{"ck", std::to_string(ck)}});
-            b.setup.manners.poll_period = 400ms;
+            b.setup.timing.poll_period = 400ms;
             b.adapter.configure(b.setup, b.now, b.out);
             b.run(6s);
             ASSERT_EQ(b.wait(Enable{}).outcome, Outcome::done);

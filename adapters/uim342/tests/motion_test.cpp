@@ -709,7 +709,7 @@ TEST(Uim342Notify, InputEventsOfOneByte) {
 
 TEST(Uim342Notify, FinishedCarriesItsPositionInD4) {
     Started s;
-    s.b.setup.manners.poll_period = 5s;
+    s.b.setup.timing.poll_period = 5s;
     s.b.configure();
     const Ticket t = s.b.command(absolute(-1000, 100), true);
     s.b.run(30ms);

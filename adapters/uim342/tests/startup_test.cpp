@@ -212,7 +212,7 @@ TEST(Uim342Poll, PeriodIsASetting) {
     Bench b;
     FakeNode& f = b.add(5);
     f.stop = false;
-    b.setup.manners.poll_period = 100ms;
+    b.setup.timing.poll_period = 100ms;
     b.start();
     b.mark();
     b.run(10s);
@@ -288,8 +288,8 @@ TEST(Uim342Silence, AbsentFromTheBeginning) {
 TEST(Uim342Silence, PausesGrowUpToTheirLimit) {
     Bench b;
     b.add(5, {}, false);
-    b.setup.manners.retry_pause_min = 200ms;
-    b.setup.manners.retry_pause_max = 1s;
+    b.setup.timing.retry_pause_min = 200ms;
+    b.setup.timing.retry_pause_max = 1s;
     b.configure();
     b.line(true);
     b.run(10s);
@@ -589,7 +589,7 @@ TEST(Uim342Bytes, GarbageAndSplitRunsCostNothing) {
 
 TEST(Uim342Bytes, PauseKeepsTheLineQuietAfterAnAnswer) {
     Bench b(LineKind::bytes);
-    b.setup.manners.pause = 5ms;
+    b.setup.timing.pause = 5ms;
     b.add(5);
     b.add(6);
     b.start(3s);

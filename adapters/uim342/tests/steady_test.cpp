@@ -27,7 +27,7 @@ TEST(Uim342Steady, TheSteadyStateAllocatesNothing) {
     LineAdapter adapter(catalogue(), LineKind::can);
     LineSetup setup;
     setup.kind = LineKind::can;
-    setup.manners.poll_period = 10ms;
+    setup.timing.poll_period = 10ms;
     for (std::uint16_t n = 0; n < 120; ++n) {
         DriveSetup d;
         d.id = DriveId{n};

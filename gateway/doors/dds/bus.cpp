@@ -3,9 +3,14 @@
 #include "gateway/doors/dds/bus.hpp"
 
 #include <dds/dds.h>
+#include <dlfcn.h>
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
 #include <memory>
 
 namespace axisgate::dds {
@@ -61,7 +66,7 @@ Qos qos_of(Topic t) {
             dds_qset_reliability(q.get(), DDS_RELIABILITY_RELIABLE, patience);
             dds_qset_history(q.get(), DDS_HISTORY_KEEP_ALL, 0);
             dds_qset_lifespan(q.get(), DDS_SECS(2));
-            bounds(1024, 1024, 64);
+            bounds(1024, 4096, 64);
             break;
         case Topic::command_result:
             dds_qset_reliability(q.get(), DDS_RELIABILITY_RELIABLE, patience);
@@ -105,13 +110,71 @@ std::string configuration(const BusSettings& s) {
         here ? "<Peers><Peer Address=\"127.0.0.1\"/></Peers>" : "");
 }
 
+/// DDS Security's plug-ins lie beside the library, or in a folder of its package's name.
+std::string plug_in(const char* name) {
+    Dl_info info{};
+    if (::dladdr(reinterpret_cast<const void*>(&dds_create_participant), &info) == 0 || !info.dli_fname) return {};
+    std::error_code ec;
+    const auto folder = std::filesystem::canonical(info.dli_fname, ec).parent_path();
+    for (const auto& place : {folder, folder / "libddsc0debian"}) {
+        const auto file = place / (std::string("lib") + name + ".so");
+        if (std::filesystem::exists(file, ec)) return file.string();
+    }
+    return {};
+}
+
+/// What the participant's certificates are, as properties of it; or what is missing.
+std::string secure(dds_qos_t* q, const std::string& folder) {
+    struct {
+        const char *property, *file;
+    } const files[] = {{"dds.sec.auth.identity_ca", "identity-ca.pem"}, {"dds.sec.auth.identity_certificate", "cert.pem"},
+                       {"dds.sec.auth.private_key", "key.pem"},         {"dds.sec.access.permissions_ca", "permissions-ca.pem"},
+                       {"dds.sec.access.governance", "governance.p7s"}, {"dds.sec.access.permissions", "permissions.p7s"}};
+    for (const auto& f : files) {
+        const std::string path = folder + "/" + f.file;
+        if (::access(path.c_str(), R_OK) != 0)
+            return fmt::format("DDS: {}: {}; [dds] security names a folder that `axisgate pki` made, and this user must be able to read it",
+                               path, std::strerror(errno));
+        dds_qset_prop(q, f.property, ("file:" + path).c_str());
+    }
+    struct {
+        const char *prefix, *library, *init, *finalize;
+    } const parts[] = {{"dds.sec.auth.library", "dds_security_auth", "init_authentication", "finalize_authentication"},
+                       {"dds.sec.crypto.library", "dds_security_crypto", "init_crypto", "finalize_crypto"},
+                       {"dds.sec.access.library", "dds_security_ac", "init_access_control", "finalize_access_control"}};
+    for (const auto& p : parts) {
+        const std::string path = plug_in(p.library), prefix = p.prefix;
+        if (path.empty())
+            return fmt::format(
+                "DDS: there is no plug-in {}: this Cyclone DDS cannot do DDS Security; install its plug-ins, or take [dds] "
+                "security away",
+                p.library);
+        dds_qset_prop(q, (prefix + ".path").c_str(), path.c_str());
+        dds_qset_prop(q, (prefix + ".init").c_str(), p.init);
+        dds_qset_prop(q, (prefix + ".finalize").c_str(), p.finalize);
+    }
+    return {};
+}
+
 void on_data_available(dds_entity_t, void* bus) { static_cast<const Bus*>(bus)->on_data(); }
+
+/// Of what is told to everybody, what is for this gateway. The others' would fill the reader's places: one for each axis of the plant.
+template <class T>
+bool is_for(const void* sample, void* gateway) {
+    return *static_cast<const std::string*>(gateway) == static_cast<const T*>(sample)->gateway;
+}
+dds_topic_filter_arg_fn filter_of(Topic t) {
+    if (t == Topic::axis_command) return &is_for<axisgate_AxisCommand>;
+    if (t == Topic::parameter_write) return &is_for<axisgate_ParameterWrite>;
+    return t == Topic::set_point ? &is_for<axisgate_SetPoint> : nullptr;
+}
 
 std::string failed(const char* what, dds_return_t code) { return fmt::format("DDS: {}: {}", what, dds_strretcode(code)); }
 }  // namespace
 
 std::string Bus::open(const BusSettings& s, std::initializer_list<Topic> writes, std::initializer_list<Topic> reads) {
     close();
+    gateway_ = s.gateway;
     domain_ = dds_create_domain(s.domain, configuration(s).c_str());
     if (domain_ == DDS_RETCODE_PRECONDITION_NOT_MET) domain_ = 0;  // this process is in it already
     if (domain_ < 0) {
@@ -120,10 +183,19 @@ std::string Bus::open(const BusSettings& s, std::initializer_list<Topic> writes,
         return failed(fmt::format("domain {} on the interface {} cannot be joined", s.domain, s.interface_name).c_str(), code) +
                "; check [dds] interface (`ip link` lists them)";
     }
-    participant_ = dds_create_participant(s.domain, nullptr, nullptr);
+    const Qos who(dds_create_qos());
+    if (std::string fault = s.security.empty() ? std::string() : secure(who.get(), s.security); !fault.empty()) {
+        close();
+        return fault;
+    }
+    participant_ = dds_create_participant(s.domain, who.get(), nullptr);
     if (participant_ < 0) {
         const auto code = participant_;
         close();
+        if (!s.security.empty())
+            return failed(fmt::format("domain {} cannot be joined with the certificates in {}", s.domain, s.security).c_str(), code) +
+                   "; perhaps they have expired (look at this machine's clock), or are of several authorities; `axisgate pki` makes new "
+                   "ones";
         return failed(fmt::format("domain {} on the interface {} cannot be joined", s.domain, s.interface_name).c_str(), code) +
                "; check [dds] interface (`ip link` lists them), and whether too many programs of this machine are in the domain";
     }
@@ -159,10 +231,17 @@ std::string Bus::add(Topic t, const BusSettings& s, bool writes, bool reads) {
         if (writers_[i] < 0) return failed(shape_of(t).name, writers_[i]);
     }
     if (reads) {
+        // A filter holds for all of a topic's entity, and would keep commands to others from being written.
+        dds_entity_t heard = topic;
+        if (filter_of(t) && !gateway_.empty()) {
+            heard = dds_create_topic(participant_, shape_of(t).type, shape_of(t).name, q.get(), nullptr);
+            const auto set = heard < 0 ? heard : dds_set_topic_filter_and_arg(heard, filter_of(t), &gateway_);
+            if (set < 0) return failed(shape_of(t).name, set);
+        }
         dds_qset_ignorelocal(q.get(), DDS_IGNORELOCAL_PARTICIPANT);
         dds_listener_t* listener = dds_create_listener(this);
         dds_lset_data_available(listener, &on_data_available);
-        readers_[i] = dds_create_reader(subscriber_, topic, q.get(), listener);
+        readers_[i] = dds_create_reader(subscriber_, heard, q.get(), listener);
         dds_delete_listener(listener);
         if (readers_[i] < 0) return failed(shape_of(t).name, readers_[i]);
     }
@@ -181,6 +260,18 @@ bool Bus::write_raw(Topic t, const void* sample, bool ended) {
     const dds_entity_t writer = writers_[static_cast<std::size_t>(t)];
     if (writer <= 0) return false;
     return (ended ? dds_dispose(writer, sample) : dds_write(writer, sample)) == DDS_RETCODE_OK;
+}
+
+std::uint64_t Bus::turned_away() const {
+    std::uint64_t n = 0;
+    for (const Entity reader : readers_) {
+        dds_sample_rejected_status_t rejected{};
+        dds_sample_lost_status_t lost{};
+        if (reader <= 0) continue;
+        if (dds_get_sample_rejected_status(reader, &rejected) == DDS_RETCODE_OK) n += rejected.total_count;
+        if (dds_get_sample_lost_status(reader, &lost) == DDS_RETCODE_OK) n += lost.total_count;
+    }
+    return n;
 }
 
 std::size_t Bus::take_raw(Topic t, std::size_t most, const std::function<void(const void*, const Seen&)>& each) {

@@ -20,6 +20,8 @@ struct BusSettings {
     std::uint32_t domain = 0;           ///< 0..232
     std::string partition = "plant";    ///< who does not name the same sees nothing of it
     std::string interface_name = "lo";  ///< network interface; "lo": this machine alone, without multicast
+    std::string security{};             ///< folder with certificates and signed permissions; empty: everybody in the domain is believed
+    std::string gateway{};              ///< whose commands, parameter writes and set-points are taken in; empty: everybody's
 };
 
 enum class Topic : std::uint8_t { gateway_state, axis_state, event, axis_command, command_result, parameter_write, set_point };
@@ -80,6 +82,8 @@ public:
     std::size_t take(std::size_t most, Each each) {
         return take_raw(topic_of<T>, most, [&each](const void* sample, const Seen& seen) { each(*static_cast<const T*>(sample), seen); });
     }
+    /// Samples that came and had no room, or were lost on their way, since it was opened: all readers together.
+    [[nodiscard]] std::uint64_t turned_away() const;
     /// Called by the library, through its listener.
     void on_data() const { wake_(); }
 
@@ -92,6 +96,7 @@ private:
     using Entity = std::int32_t;  // dds_entity_t: greater than 0, or an error
     Entity domain_ = 0, participant_ = 0, publisher_ = 0, subscriber_ = 0;
     std::array<Entity, topic_count> writers_{}, readers_{};
+    std::string gateway_;  // outlives the readers that ask for it
 };
 
 /// A text into one of the IDL's bounded ones; what does not fit is cut off, never inside a UTF-8 character.

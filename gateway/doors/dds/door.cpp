@@ -56,6 +56,7 @@ DdsDoor::DdsDoor(boost::asio::io_context& context, const Needs& ports, std::func
       clock_(std::move(clock)),
       settings_(std::move(settings)),
       timer_(context),
+      look_timer_(context),
       fleet_(settings_.name, settings_.instance, [this](const axisgate_AxisCommand& s) { (void)bus_.write(s); }),
       bus_([this] {
           if (!woken_.exchange(true, std::memory_order_acq_rel)) boost::asio::post(context_, [this] { read(); });
@@ -66,6 +67,7 @@ DdsDoor::~DdsDoor() {
 }
 
 std::string DdsDoor::start() {
+    settings_.bus.gateway = settings_.name;
     std::string fault = bus_.open(
         settings_.bus, {Topic::gateway_state, Topic::axis_state, Topic::event, Topic::axis_command, Topic::command_result},
         {Topic::gateway_state, Topic::axis_state, Topic::axis_command, Topic::command_result, Topic::parameter_write, Topic::set_point});
@@ -73,6 +75,7 @@ std::string DdsDoor::start() {
     open_ = true;
     ports_.get<EventPort>().listen(this);
     on_turn();
+    if (settings_.want_change) settings_.want_change();
     return {};
 }
 
@@ -85,6 +88,7 @@ void DdsDoor::stop(std::function<void()> done) {
     if (open_) {
         open_ = false;
         timer_.cancel();
+        look_timer_.cancel();
         ports_.get<EventPort>().unlisten(this);
         bus_.close();  // its states are disposed with their writers
     }
@@ -102,6 +106,8 @@ std::string DdsDoor::metrics() const {
     put("set_points_total", "Streamed set-points that came.", counters_.set_points);
     put("set_points_wrong_total", "Those of them that could not be read or had no axis.", counters_.set_points_wrong);
     put("unsent_total", "States, events and results that could not be sent at once.", counters_.unsent);
+    put("turned_away_total", "Samples that came and had no room, or were lost on their way.", bus_.turned_away());
+    put("left_out_total", "States of gateways and axes beyond as many as are kept.", fleet_.left_out());
     return s;
 }
 
@@ -118,6 +124,16 @@ void DdsDoor::on_turn() {
     timer_.expires_after(std::chrono::duration_cast<std::chrono::steady_clock::duration>(turn));
     timer_.async_wait([this](const boost::system::error_code& ec) {
         if (!ec) on_turn();
+    });
+}
+
+void DdsDoor::on_change() {
+    if (!open_) return;
+    tell_axes(clock_());
+    // Not after each frame of a busy line: what changes meanwhile is found then, or by the turn.
+    look_timer_.expires_after(std::chrono::duration_cast<std::chrono::steady_clock::duration>(look_again));
+    look_timer_.async_wait([this](const boost::system::error_code& ec) {
+        if (!ec && open_) settings_.want_change();
     });
 }
 
@@ -158,7 +174,7 @@ void DdsDoor::tell_axes(Instant now) {
     for (std::size_t i = 0; i < axes_.size() && i < site->axis_ids.size(); ++i) {
         Told& t = axes_[i];
         const auto revision = ports_.get<AxisPort>().picture_revision(site->axis_ids[i]);
-        if (t.ever && t.revision == revision && now - t.at < told_again) continue;
+        if (t.ever && now - t.at < (t.revision == revision ? told_again : turn)) continue;
         axisgate_AxisState s{};
         fill(s, axis_at(ports_.get<SitePort>(), site, i));
         fleet_.on_axis(s, true, true);

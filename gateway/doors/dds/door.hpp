@@ -25,16 +25,18 @@ namespace axisgate::dds {
 
 struct DoorSettings {
     BusSettings bus;
-    std::string name;                   ///< of this gateway, 1..63 bytes
-    std::string version;                ///< of the program
-    std::function<std::string()> page;  ///< where its page is; empty: it has none
-    std::uint64_t instance = 0;         ///< another one at each start, never 0
+    std::string name;                     ///< of this gateway, 1..63 bytes
+    std::string version;                  ///< of the program
+    std::function<std::string()> page;    ///< where its page is; empty: it has none
+    std::uint64_t instance = 0;           ///< another one at each start, never 0
+    std::function<void()> want_change{};  ///< on_change() is to be called once, soon after the next change of a picture; empty: nobody does
 };
 
 class DdsDoor final : public ServiceDoor, public FleetPort, public EventListener {
 public:
     using Needs = PortSet<AxisPort, ClockPort, EventPort, ParameterPort, SitePort, StatusPort>;
     static constexpr Duration turn = std::chrono::milliseconds(20);         ///< a state is told at most once in it
+    static constexpr Duration look_again = std::chrono::milliseconds(2);    ///< after a change that was told at once
     static constexpr Duration told_again = std::chrono::milliseconds(500);  ///< a state that does not change
     static constexpr std::size_t set_point_clients_most = 1024;             ///< axes that are streamed to, as far as this door knows
 
@@ -49,7 +51,9 @@ public:
     [[nodiscard]] std::string address() const override;
     void stop(std::function<void()> done) override;
     void on_event(const Event& event) override;
-    [[nodiscard]] std::vector<FleetGateway> fleet() const override { return fleet_.list(); }
+    [[nodiscard]] std::vector<FleetGateway> fleet() const override { return fleet_.list(ports_.get<ClockPort>().now_unix_ns(), clock_()); }
+    /// On the service thread: a picture has changed. Told at once, and not only in the next turn; then again two milliseconds later.
+    void on_change();
     /// To an axis of this gateway it goes the way of every command here, under the origin that it has; else over the bus.
     void command(FleetOrder order, std::function<void(const Result&)> then) override;
 
@@ -89,7 +93,7 @@ private:
     std::function<Instant()> clock_;
     DoorSettings settings_;
     std::atomic<bool> woken_{false};
-    boost::asio::steady_timer timer_;
+    boost::asio::steady_timer timer_, look_timer_;
     CommandsSeen seen_;
     Fleet fleet_;
     std::vector<Told> axes_;

@@ -63,7 +63,10 @@ std::optional<Event> Fleet::on_gateway(const axisgate_GatewayState& s, bool aliv
         return lose(it->second, now);
     }
     const bool found = it == known_.end() || !it->second.gateway.alive;
-    if (it == known_.end() && known_.size() >= gateways_most) return std::nullopt;
+    if (it == known_.end() && known_.size() >= gateways_most) {
+        ++left_out_;
+        return std::nullopt;
+    }
     Known& k = known_[s.instance];
     k.lost_at = never;
     k.heard_at = now;
@@ -93,7 +96,10 @@ void Fleet::on_axis(const axisgate_AxisState& s, bool valid, bool alive) {
     const auto it = known_.find(s.instance);
     if (it == known_.end()) return;  // its gateway's own state comes within half a second, and this again
     auto& axes = it->second.axes;
-    if (axes.size() >= axes_most && !axes.contains(s.axis)) return;
+    if (axes.size() >= axes_most && !axes.contains(s.axis)) {
+        ++left_out_;
+        return;
+    }
     FleetAxis& a = axes[s.axis];
     a.name = s.axis;
     a.family = s.family;
@@ -153,15 +159,19 @@ std::vector<Event> Fleet::on_turn(Instant now) {
     return told;
 }
 
-std::vector<FleetGateway> Fleet::list() const {
+std::vector<FleetGateway> Fleet::list(std::int64_t now_unix_ns, Instant now) const {
     std::vector<FleetGateway> out;
     for (const auto& [instance, k] : known_) {
         FleetGateway g = k.gateway;
         g.namesake = std::ranges::any_of(known_, [&g](const auto& other) {
             return other.second.gateway.alive && other.second.gateway.name == g.name && other.first != g.instance;
         });
-        for (const auto& [name, a] : k.axes)
+        g.silent_ms = std::max<std::int64_t>(0, (now - k.heard_at) / std::chrono::milliseconds(1));
+        for (const auto& [name, a] : k.axes) {
             g.axes.push_back(a);
+            if (a.at_unix_ns != 0)
+                g.axes.back().age_ms = std::max<std::int64_t>(0, (now_unix_ns + g.clock_ahead_ns - a.at_unix_ns) / 1'000'000);
+        }
         out.push_back(std::move(g));
     }
     std::ranges::stable_sort(out, {}, &FleetGateway::name);

@@ -40,12 +40,15 @@ public:
         return it != known_.end() && it->second.gateway.alive;
     }
 
-    [[nodiscard]] std::vector<FleetGateway> list() const;
+    /// Now, on both of this machine's clocks: for what is told of ages.
+    [[nodiscard]] std::vector<FleetGateway> list(std::int64_t now_unix_ns, Instant now) const;
     /// The one that is meant, or why none is (`fault`).
     [[nodiscard]] const FleetGateway* target(const FleetOrder& order, Result& fault) const;
     /// Gives it to another gateway; `then` is called once, perhaps from inside this call.
     void command(const FleetOrder& order, std::function<void(const Result&)> then, Instant now);
     [[nodiscard]] std::size_t waiting() const noexcept { return waiting_.size(); }
+    /// States of gateways and axes that came when as many as are kept were known.
+    [[nodiscard]] std::uint64_t left_out() const noexcept { return left_out_; }
 
 private:
     struct Known {
@@ -70,7 +73,7 @@ private:
     std::function<void(const axisgate_AxisCommand&)> send_;
     std::map<std::uint64_t, Known> known_;                     // by instance
     std::map<std::string, std::unique_ptr<Waiting>> waiting_;  // by id
-    std::uint64_t next_ = 1;
+    std::uint64_t next_ = 1, left_out_ = 0;
 };
 
 }  // namespace axisgate::dds

@@ -6,7 +6,7 @@
 
 namespace axisgate::enip {
 
-std::string metrics_text(const cip::Adapter& adapter, const AxisValues::Counters& v) {
+std::string metrics_text(const cip::Adapter& adapter, const AxisValues::Counters& v, const Counter& accepts_postponed) {
     std::string s;
     const auto put = [&](std::string_view name, std::string_view help, const Counter& value) {
         s += fmt::format("# HELP axisgate_enip_{0} {1}\n# TYPE axisgate_enip_{0} counter\naxisgate_enip_{0} {2}\n", name, help,
@@ -20,6 +20,8 @@ std::string metrics_text(const cip::Adapter& adapter, const AxisValues::Counters
     put("sessions_refused_total", "TCP connections refused at the limit.", a.sessions_refused);
     put("sessions_evicted_total", "TCP connections closed to make room.", a.sessions_evicted);
     put("sessions_silent_total", "TCP connections closed for their silence.", a.sessions_silent);
+    put("accepts_postponed_total", "Times that a TCP connection had to wait because the process had no descriptor left.",
+        accepts_postponed);
     put("connection_opens_total", "Forward_Open requests.", c.opened);
     put("connection_opens_refused_total", "Forward_Open requests refused for what they ask.", c.open_other);
     put("connection_opens_without_place_total", "Forward_Open requests refused at the limit.", c.open_resource);

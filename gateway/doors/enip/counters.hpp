@@ -1,5 +1,5 @@
 // Counters: the EtherNet/IP door's counters in the text format of Prometheus.
-// In: the adapter's and the values' counters. Out: text. Any thread: what is read here are Counters alone.
+// In: the adapter's, the values' and the server's counters. Out: text. Any thread: what is read here are Counters alone.
 #pragma once
 
 #include <string>
@@ -9,6 +9,7 @@
 
 namespace axisgate::enip {
 
-[[nodiscard]] std::string metrics_text(const cip::Adapter& adapter, const AxisValues::Counters& values);
+/// `accepts_postponed`: how often a TCP connection had to wait for a descriptor.
+[[nodiscard]] std::string metrics_text(const cip::Adapter& adapter, const AxisValues::Counters& values, const Counter& accepts_postponed);
 
 }  // namespace axisgate::enip

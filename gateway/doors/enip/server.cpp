@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
+#include <poll.h>
 #include <sys/socket.h>
 
 #include <algorithm>
@@ -90,7 +91,7 @@ public:
         arm();
     }
     void on_site(const SiteState& site) override;
-    [[nodiscard]] std::string metrics() const override { return metrics_text(adapter_, values_.counters()); }
+    [[nodiscard]] std::string metrics() const override { return metrics_text(adapter_, values_.counters(), accepts_postponed_); }
 
     // --- cip::Output
     void implicit(cip::Endpoint to, cip::View bytes, std::uint8_t dscp) override {
@@ -122,7 +123,8 @@ private:
     }
     std::string bind_udp(UdpSocket& socket, std::uint16_t& port);
     void accept();
-    void admit();
+    /// False: no descriptor is left, and somebody waits in the listen queue.
+    [[nodiscard]] bool admit();
     void listen(UdpSocket& socket, void (Impl::*take)(cip::View, cip::Endpoint, bool));
     void take_explicit(cip::View bytes, cip::Endpoint from, bool broadcast) { adapter_.on_datagram(bytes, from, broadcast, port_.now()); }
     void take_implicit(cip::View bytes, cip::Endpoint from, bool) { adapter_.on_implicit(bytes, from, port_.now()); }
@@ -144,6 +146,8 @@ private:
     std::uint32_t bound_ = 0;
     std::uint8_t dscp_ = 0;
     bool open_ = false;
+    bool paused_ = false;  // out of descriptors: tried again at the next sweep
+    Counter accepts_postponed_;
     std::array<std::uint8_t, 65536> buffer_;
 };
 
@@ -225,23 +229,31 @@ void Server::Impl::accept() {
     acceptor_.async_wait(Acceptor::wait_read, [weak = weak_from_this()](boost::system::error_code ec) {
         const auto self = weak.lock();
         if (!self || ec || !self->open_) return;
-        self->admit();
+        // The socket stays readable while somebody waits: to ask again at once would only burn the processor of the hot thread.
+        self->paused_ = !self->admit();
         self->arm();
-        self->accept();
+        if (!self->paused_) self->accept();
     });
 }
 
-void Server::Impl::admit() {
+bool Server::Impl::admit() {
     sockaddr_in peer{};
     socklen_t length = sizeof peer;
     const int fd = ::accept4(acceptor_.native_handle(), reinterpret_cast<sockaddr*>(&peer), &length, SOCK_NONBLOCK | SOCK_CLOEXEC);
-    if (fd < 0) return;
+    if (fd < 0) {
+        if (errno != EMFILE && errno != ENFILE && errno != ENOBUFS && errno != ENOMEM) return true;
+        // Told even if nobody waits.
+        pollfd queue{acceptor_.native_handle(), POLLIN, 0};
+        if (::poll(&queue, 1, 0) <= 0) return true;
+        accepts_postponed_.add();
+        return false;
+    }
     const int on = 1;
     (void)::setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
     (void)::setsockopt(fd, SOL_SOCKET, SO_KEEPALIVE, &on, sizeof on);
     TcpSession::Socket socket(io_.get_executor(), tcp::v4(), fd);
     const cip::SessionKey key = ++newest_;
-    if (!adapter_.on_connected(key, endpoint_of(peer), port_.now())) return;
+    if (!adapter_.on_connected(key, endpoint_of(peer), port_.now())) return true;
     auto session = std::make_shared<TcpSession>(
         std::move(socket), most_unsent,
         [weak = weak_from_this(), key](cip::View bytes) {
@@ -258,6 +270,7 @@ void Server::Impl::admit() {
         });
     sessions_.emplace(key, session);
     session->begin();
+    return true;
 }
 
 void Server::Impl::listen(UdpSocket& socket, void (Impl::*take)(cip::View, cip::Endpoint, bool)) {
@@ -312,6 +325,7 @@ void Server::Impl::on_timer() {
     if (next_sweep_ <= now) {
         values_.sweep(now);
         next_sweep_ = now + sweep_period;
+        if (std::exchange(paused_, false)) accept();
     }
     arm();
 }

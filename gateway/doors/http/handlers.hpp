@@ -200,6 +200,13 @@ Handled list_descriptions(Call&, const DescriptionPort&, const SitePort&, const 
 Handled get_drive_description(Call&, const DescriptionPort&, const SitePort&, const StagePort&);
 Handled add_description(Call&, const ClockPort&, DescriptionPort&, EventPort&, const SitePort&, const StagePort&);
 Handled remove_description(Call&, DescriptionPort&, EventPort&, const SitePort&, const StagePort&);
+// --- handlers_recorder.cpp --------------------------------------------------------------------------------------------
+Handled get_trends(Call&, const ClockPort&, RecorderPort&, const SitePort&);
+Handled list_recordings(Call&, const ClockPort&, RecorderPort&);
+Handled make_recording(Call&, EventPort&, RecorderPort&);
+Handled get_recording(Call&, RecorderPort&);
+Handled rename_recording(Call&, RecorderPort&);
+Handled remove_recording(Call&, RecorderPort&);
 // --- handlers_recipes.cpp ---------------------------------------------------------------------------------------------
 Handled list_recipes(Call&, const DocumentPort&);
 Handled get_recipe(Call&, const DocumentPort&);

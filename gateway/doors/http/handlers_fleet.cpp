@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "gateway/axis/cia402.hpp"
 #include "gateway/core/text.hpp"
 #include "gateway/doors/http/handlers.hpp"
 
@@ -24,6 +25,7 @@ json::object axis_document(const FleetAxis& a) {
             {"target_reached", a.target_reached},
             {"fault", a.fault},
             {"warning", a.warning},
+            {"state", name_of(power_state_of(a.statusword))},
             {"statusword", std::int64_t{a.statusword}},
             {"mode", std::int64_t{a.mode}},
             {"error_code", std::int64_t{a.error_code}},
@@ -33,7 +35,9 @@ json::object axis_document(const FleetAxis& a) {
             {"position", units(a.position)},
             {"velocity", units(a.velocity)},
             {"position_increments", a.position},
-            {"at", a.at_unix_ns == 0 ? json::value() : json::value(format_time(a.at_unix_ns))}};
+            {"increments_per_unit", a.increments_per_unit},
+            {"at", a.at_unix_ns == 0 ? json::value() : json::value(format_time(a.at_unix_ns))},
+            {"age_ms", a.age_ms < 0 ? json::value() : json::value(a.age_ms)}};
 }
 
 json::object gateway_document(const FleetGateway& g) {
@@ -49,6 +53,7 @@ json::object gateway_document(const FleetGateway& g) {
             {"page", g.http},
             {"clock_ahead_ms", g.clock_ahead_ns / 1'000'000},
             {"uptime_s", static_cast<double>(g.uptime_ms) / 1000},
+            {"silent_ms", g.silent_ms},
             {"axes", std::move(axes)}};
 }
 }  // namespace

@@ -107,6 +107,13 @@ constexpr std::array routes{
     Route{"/api/v1/backup", Method::put, take<put_backup>, Takes::bytes}.needs(Role::administrator),
     Route{"/api/v1/backup/pending", Method::get, take<get_waiting_backup>}.needs(Role::administrator),
     Route{"/api/v1/backup/pending", Method::remove, take<cancel_waiting_backup>, Takes::nothing, Gives::nothing}.needs(Role::administrator),
+    Route{"/api/v1/recorder/trends", Method::get, take<get_trends>, Takes::nothing, Gives::own}.asks("axes points from to columns"),
+    Route{"/api/v1/recorder/recordings", Method::get, take<list_recordings>},
+    Route{"/api/v1/recorder/recordings", Method::post, take<make_recording>, Takes::json}.needs(Role::operating),
+    Route{"/api/v1/recorder/recordings/{recording}", Method::get, take<get_recording>, Takes::nothing, Gives::own},
+    Route{"/api/v1/recorder/recordings/{recording}", Method::patch, take<rename_recording>, Takes::patch}.needs(Role::operating),
+    Route{"/api/v1/recorder/recordings/{recording}", Method::remove, take<remove_recording>, Takes::nothing, Gives::nothing}.needs(
+        Role::operating),
     Route{"/api/v1/eds", Method::get, take<get_eds>, Takes::nothing, Gives::own},
     Route{"/api/v1/descriptions", Method::get, take<list_descriptions>},
     Route{"/api/v1/descriptions", Method::post, take<add_description>, Takes::eds}.asks("name"),

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "gateway/core/frame.hpp"
 #include "gateway/core/instant.hpp"
@@ -50,6 +51,8 @@ public:
         return false;
     }
     [[nodiscard]] std::uint64_t kept_back() const noexcept { return kept_back_; }
+    /// Since the last time it was asked.
+    [[nodiscard]] std::uint64_t take_kept_back() noexcept { return kept_back_ - std::exchange(taken_, kept_back_); }
 
 private:
     int burst_;
@@ -57,7 +60,7 @@ private:
     int seen_ = 0;
     std::uint16_t last_told_ = 0;
     Instant end_{};
-    std::uint64_t kept_back_ = 0;
+    std::uint64_t kept_back_ = 0, taken_ = 0;
 };
 
 }  // namespace axisgate::canopen

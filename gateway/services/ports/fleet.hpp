@@ -24,6 +24,7 @@ struct FleetAxis {
     std::int16_t mode = 0;
     std::int64_t position = 0, velocity = 0;
     std::int64_t at_unix_ns = 0;  ///< on its gateway's clock; 0: its drive was never seen
+    std::int64_t age_ms = -1;     ///< since then, the clocks' difference taken out, delivery included; -1: its drive was never seen
 };
 
 struct FleetGateway {
@@ -36,6 +37,7 @@ struct FleetGateway {
     std::int64_t at_unix_ns = 0;      ///< on its own clock
     std::int64_t clock_ahead_ns = 0;  ///< its clock against this machine's when its state came, delivery included
     std::uint64_t uptime_ms = 0;
+    std::int64_t silent_ms = 0;   ///< since its last word came here
     std::vector<FleetAxis> axes;  ///< by name
 };
 

@@ -25,6 +25,7 @@ protected:
     std::vector<axisgate_CommandResult> results;
     bool found = false;          ///< the probe of SetUp was answered: its later answers do not count
     std::uint64_t repeated = 0;  ///< counted before the test
+    int wanted = 0;              ///< how often the door wanted to hear of the next change
 
     void SetUp() override {
         gateway.set_picture("feeder", standing(6400));
@@ -56,7 +57,8 @@ protected:
     std::unique_ptr<DdsDoor> make(const char* name, std::uint64_t instance) {
         return std::make_unique<DdsDoor>(
             context, gateway.ports(), [this] { return now; },
-            DoorSettings{{79, "plant", "lo"}, name, "0.1", [] { return std::string("http://127.0.0.1:8080/"); }, instance});
+            DoorSettings{
+                {79, "plant", "lo"}, name, "0.1", [] { return std::string("http://127.0.0.1:8080/"); }, instance, [this] { ++wanted; }});
     }
     /// Runs the door until something holds; false after 10 s.
     bool until(const std::function<bool()>& holds) {
@@ -299,6 +301,75 @@ TEST_F(DdsFleetTest, ShowsEveryGatewayWithItsAxes) {
     EXPECT_FALSE(list[1].namesake);
     ASSERT_FALSE(gateway.noted.empty());
     EXPECT_EQ(gateway.noted[0].text, "the gateway yard is in the domain");
+}
+
+TEST_F(DdsFleetTest, TellsHowOldItsWordsAreWhateverTheOtherClockSays) {
+    constexpr std::int64_t hour_ns = 3'600'000'000'000;
+    axisgate_GatewayState g{};
+    put_text(g.gateway, "far");
+    g.instance = 9;
+    g.at_unix_ns = gateway.now_unix_ns() + 3 * hour_ns;
+    axisgate_AxisState a{};
+    put_text(a.gateway, "far");
+    put_text(a.axis, "lift");
+    a.instance = 9;
+    a.at_unix_ns = g.at_unix_ns - 700'000'000;
+    const auto far = [this] {
+        for (const auto& x : door->fleet()) {
+            if (x.name == "far") return x;
+        }
+        return FleetGateway{};
+    };
+    const auto told = [&] { return (void)peer.write(g), far().instance == 9; };
+    ASSERT_TRUE(until(told));
+    Bus writer([] {});
+    ASSERT_EQ(writer.open({79, "plant", "lo"}, {Topic::axis_state}, {}), "");
+    ASSERT_TRUE(until([&] { return (void)writer.write(a), told() && !far().axes.empty(); }));
+    EXPECT_EQ(far().clock_ahead_ns, 3 * hour_ns);
+    EXPECT_EQ(far().axes[0].age_ms, 700);
+    EXPECT_LE(far().silent_ms, 40);
+    const Instant later = now + std::chrono::milliseconds(500);
+    ASSERT_TRUE(until([&] { return now >= later; }));
+    EXPECT_GE(far().silent_ms, 400);
+    EXPECT_LE(far().silent_ms, 600);
+}
+
+TEST_F(DdsDoorTest, AStrangersFloodIsBoundedAndCountedAndOthersAreServed) {
+    axisgate_GatewayState g{};
+    axisgate_AxisCommand c = command("", "nobody", "enable");
+    put_text(c.gateway, "elsewhere");
+    for (std::uint64_t n = 1; n <= 3000; ++n) {
+        put_text(g.gateway, "stranger " + std::to_string(n));
+        g.instance = 1000 + n;
+        (void)peer.write(g);
+        put_text(c.axis, "nobody " + std::to_string(n));
+        (void)peer.write(c);
+        if (n % 100 == 0) (void)context.poll(), context.restart();
+    }
+    ASSERT_TRUE(until([this] { return door->fleet().size() == Fleet::gateways_most; }));
+    ASSERT_TRUE(peer.write(command("after", "feeder", "enable")));
+    ASSERT_TRUE(until([this] { return gateway.submitted.size() == 1; }));
+    EXPECT_EQ(door->fleet().size(), Fleet::gateways_most);
+    EXPECT_EQ(door->metrics().find("axisgate_dds_left_out_total 0\n"), std::string::npos) << door->metrics();
+}
+
+TEST_F(DdsDoorTest, AChangeIsToldAtOnceAndNotInTheNextTurnOnly) {
+    ASSERT_TRUE(until([this] { return wanted > 0; })) << "the door asks to hear of it";
+    std::int64_t seen = 0;
+    const auto look = [&] {
+        (void)peer.take<axisgate_AxisState>(64, [&](const auto& s, const auto&) {
+            if (std::string_view(s.axis) == "feeder") seen = s.position;
+        });
+    };
+    gateway.set_picture("feeder", standing(12800));
+    now += DdsDoor::turn;
+    const auto before = wanted;
+    door->on_change();
+    const auto limit = steady_clock::now() + std::chrono::seconds(5);
+    while (seen != 12800 && steady_clock::now() < limit)
+        look();
+    EXPECT_EQ(seen, 12800) << "no turn of the door has run";
+    ASSERT_TRUE(until([&] { return wanted > before; })) << "and asks again";
 }
 
 TEST_F(DdsFleetTest, ACommandToAnotherGatewayIsCarriedOutOnceHoweverOftenItIsSent) {

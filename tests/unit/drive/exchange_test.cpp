@@ -85,12 +85,12 @@ TEST(DriveTiming, TheSiteGoesBeforeTheFamilyAndStaysInItsRanges) {
     own.reply_timeout = 120ms;
     own.pause = 3ms;
     own.retries = 4;
-    Timing t = timing_of(LineManners{}, own);
+    Timing t = timing_of(LineTiming{}, own);
     EXPECT_EQ(t.reply_timeout, 120ms);
     EXPECT_EQ(t.pause, 3ms);
     EXPECT_EQ(t.retries, 4);
     EXPECT_EQ(t.silent_limit, 3);
-    LineManners site;
+    LineTiming site;
     site.reply_timeout = 30ms;
     site.poll_period = -1ms;
     site.retries = 1000;

@@ -2,7 +2,10 @@
 #include "gateway/doors/enip/server.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/ip/udp.hpp>
 #include <boost/asio/write.hpp>
@@ -30,11 +33,10 @@ struct Sockets {
         udp.bind({asio::ip::address_v4::loopback(), 0});
         udp.non_blocking(true);
     }
-    void put_site() {
-        for (HotDoor* door : port.doors) {
-            if (door && door->name() == "enip") door->on_site(site);
-        }
+    HotDoor& door() {
+        return **std::ranges::find_if(port.doors, [](const HotDoor* d) { return d && d->name() == "enip"; });
     }
+    void put_site() { door().on_site(site); }
     void turn() {
         for (int i = 0; i < 50; ++i)
             (void)io.poll_one();
@@ -145,6 +147,42 @@ TEST(EnipServer, AConnectionFromItsOpeningToItsEnd) {
     for (int i = 0; i < 1000 && s.server.adapter().sessions() > 0; ++i)
         s.turn();
     EXPECT_EQ(s.server.adapter().sessions(), 0u);
+}
+
+TEST(EnipServer, OutOfDescriptorsItWaitsInsteadOfSpinning) {
+    Sockets s;
+    s.port.time = at_ns(1'000'000'000);  // in the past of the host's clock, so that its timer rings whenever it is asked
+    cip::Header h;
+    h.command = 0x65;
+    const Bytes registration = cip::packet(h, Bytes{1, 0, 0, 0});
+    h.session = cip::read_header(s.answer(registration)).session;
+    asio::ip::tcp::socket second(s.own, asio::ip::tcp::v4());
+    rlimit before{};
+    ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+    const int spare = ::dup(0);  // every number below this one is in use
+    ::close(spare);
+    rlimit tight = before;
+    tight.rlim_cur = static_cast<rlim_t>(spare);
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &tight), 0);
+    second.connect({asio::ip::address_v4::loopback(), s.number});
+    for (int i = 0; i < 20; ++i)
+        s.turn();
+    const auto postponed = [&](int times) {
+        const std::string line = "\naxisgate_enip_accepts_postponed_total " + std::to_string(times) + "\n";
+        return s.door().metrics().find(line) != std::string::npos;
+    };
+    EXPECT_TRUE(postponed(1)) << "once, not with every turn";
+    h.command = 0x63;
+    EXPECT_FALSE(s.answer(cip::packet(h, {})).empty()) << "who is connected is served meanwhile";
+    s.port.time += std::chrono::seconds(1);
+    s.turn();
+    EXPECT_TRUE(postponed(2)) << "tried again with the next sweep";
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
+    s.port.time += std::chrono::seconds(1);
+    s.turn();
+    EXPECT_EQ(s.server.adapter().sessions(), 2u);
+    s.tcp = std::move(second);
+    EXPECT_EQ(s.answer(registration).size(), 28u) << "it waited in the queue and is served now";
 }
 
 TEST(EnipServer, WhatCannotBeListenedOnIsSaid) {

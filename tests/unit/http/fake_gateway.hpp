@@ -29,6 +29,7 @@ class FakeGateway final : public FakeClock,
                           public FakeRegisters,
                           public FakeRehearsal,
                           public FakeFleet,
+                          public FakeRecorder,
                           public FakeModbus,
                           public FakeBackup {
 public:

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "gateway/services/ports/fleet.hpp"
+#include "gateway/services/ports/recorder.hpp"
 #include "gateway/services/ports/rehearsal.hpp"
 
 namespace axisgate::http::test {
@@ -43,6 +44,36 @@ public:
     void command(FleetOrder order, std::function<void(const Result&)> then) override {
         orders.push_back(std::move(order));
         then(fleet_result);
+    }
+};
+
+/// Trends that a test fills, and recordings without a disk.
+class FakeRecorder : public RecorderPort {
+public:
+    Trends trends{1u << 20, std::chrono::hours(1)};
+    std::vector<RecordingInfo> recorded;
+    RecordingFault next_fault;  ///< of the next wish
+    TrendStretch trend(AxisId axis, Instant from, Instant to, std::size_t columns) override { return trends.read(axis, from, to, columns); }
+    RecorderState recorder_state() override { return {}; }
+    std::vector<RecordingInfo> recordings() const override { return recorded; }
+    void freeze(std::string name, std::string why, std::string who, std::function<void(RecordingFault, RecordingInfo)> then) override {
+        if (next_fault.kind != RecordingFault::Kind::none) return then(std::exchange(next_fault, {}), {});
+        RecordingInfo info;
+        info.name = std::move(name);
+        info.why = std::move(why);
+        info.who = std::move(who);
+        recorded.push_back(info);
+        then({}, info);
+    }
+    void load_recording(const std::string&, std::function<void(std::optional<std::string>)> then) override { then("the file"); }
+    void rename_recording(const std::string& name, const std::string& to, std::function<void(RecordingFault)> then) override {
+        for (auto& r : recorded)
+            if (r.name == name) return r.name = to, then({});
+        then({RecordingFault::Kind::no_such, ""});
+    }
+    void remove_recording(const std::string& name, std::function<void(RecordingFault)> then) override {
+        const bool gone = std::erase_if(recorded, [&](const auto& r) { return r.name == name; }) > 0;
+        then(gone ? RecordingFault{} : RecordingFault{RecordingFault::Kind::no_such, ""});
     }
 };
 

@@ -18,6 +18,10 @@ protected:
         a.increments_per_unit = 100;
         a.position = 1250;
         a.online = true;
+        a.statusword = 0x0637;
+        a.at_unix_ns = 1'000'000'000;
+        a.age_ms = 300;
+        g.silent_ms = 450;
         g.axes = {a};
         gateway.gateways = {g};
     }
@@ -30,6 +34,13 @@ TEST_F(FleetOverHttp, GatewaysAreToldWithTheirAxesInUnits) {
     EXPECT_EQ(g.at("gateway").as_string(), "hall-2");
     EXPECT_EQ(g.at("instance").as_string(), "17");
     EXPECT_EQ(g.at("axes").as_array().at(0).at("position").as_double(), 12.5);
+    EXPECT_EQ(g.at("silent_ms").as_int64(), 450);
+    EXPECT_EQ(g.at("axes").as_array().at(0).at("state").as_string(), "operation_enabled");
+    EXPECT_EQ(g.at("axes").as_array().at(0).at("increments_per_unit").as_double(), 100);
+    EXPECT_EQ(g.at("axes").as_array().at(0).at("age_ms").as_int64(), 300);
+    gateway.gateways[0].axes[0].age_ms = -1;
+    const auto never = call("GET", "/api/v1/fleet");
+    EXPECT_TRUE(never.object().at("gateways").as_array().at(0).at("axes").as_array().at(0).at("age_ms").is_null());
     gateway.gateways.clear();
     EXPECT_EQ(call("GET", "/api/v1/fleet").at("enabled"), "false");
 }

@@ -75,6 +75,8 @@ export class MockDoor {
     const { world } = this;
     const [kind = '', name, what, id] = parts;
     const body = () => readJson(text);
+    // The mock is in no domain with others.
+    if (kind === 'fleet') return { enabled: false, gateways: [] };
     if (kind === 'about') {
       return { name: 'axisgate', version: '0.1.0-mock', api: '/api/v1', uptime_s: (Date.now() - world.started) / 1000, now: world.now(), site_revision: world.revision, families: ['mcode', 'pacontrol', 'uim342'], doors: [{ name: 'http', address: this.address() }], lines: world.site.lines.length, drives: world.drives.size, axes: world.axes.size };
     }

@@ -7,7 +7,7 @@ import type { Family } from '../text/options';
 import { asProblem, Problem, problemOf } from './problem';
 import type {
   Action,
-  About, Alarm, AlarmList, Axis, AxisParameter, Command, CommandAnswer, Drive, GatewayEvent, HandItem, Line, ModbusDoor, NativeReply,
+  About, Alarm, AlarmList, Axis, AxisParameter, Command, CommandAnswer, Drive, FleetGateway, GatewayEvent, HandItem, Line, ModbusDoor, NativeReply,
   RecipeCheck, RecipeEntry, RecipeReport, RecipeReportHead, ScanReport, Value,
 } from './types';
 
@@ -67,6 +67,11 @@ export class Client {
   axes = (urgent = false) => this.call<Axis[]>('/axes', { urgent });
   drives = () => this.call<Drive[]>('/drives');
   lines = () => this.call<Line[]>('/lines');
+
+  fleet = () => this.call<{ enabled: boolean; gateways: FleetGateway[] }>('/fleet');
+  /** Answered when it is done, or has not been within five seconds; a stop when it is accepted. */
+  fleetCommand = (gateway: string, axis: string, command: Command, urgent = false) =>
+    this.call<CommandAnswer>(`/fleet/${part(gateway)}/axes/${part(axis)}/commands${urgent ? '' : '?wait=5'}`, { method: 'POST', body: command, urgent });
 
   modbus = () => this.call<ModbusDoor>('/modbus');
   setModbus = (read_only: boolean) => this.call<ModbusDoor>('/modbus', { method: 'PATCH', body: { read_only } });

@@ -1342,6 +1342,71 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/recorder/trends": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * What axes did lately, as their drives told it
+         * @description The gateway keeps position, demand, velocity and state of every axis each time its drive tells them, for `[recorder] trend_minutes` and
+         *     within `trend_mb`. Between two rows the older one holds; the first row is what held at `from`. A longer stretch than `columns` rows is
+         *     thinned: each column then has the smallest and the greatest value, so that no peak is lost.
+         */
+        get: operations["getTrends"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/recorder/recordings": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** What is being recorded, and the recordings that were made of it */
+        get: operations["listRecordings"];
+        put?: never;
+        /**
+         * Freezes what is recorded into a file
+         * @description Commands and who gave them, their results, frames of all lines, states, samples and events under one clock, up to now. Alarms of the
+         *     kinds in `[recorder] freeze_on` do it by themselves, two seconds later, once a minute at most.
+         */
+        post: operations["makeRecording"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/recorder/recordings/{recording}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                recording: components["parameters"]["recording"];
+            };
+            cookie?: never;
+        };
+        /** The file of a recording, or what is known of it */
+        get: operations["getRecording"];
+        put?: never;
+        post?: never;
+        /** Deletes a recording */
+        delete: operations["removeRecording"];
+        options?: never;
+        head?: never;
+        /** Gives a recording another name */
+        patch: operations["renameRecording"];
+        trace?: never;
+    };
     "/api/v1/fleet": {
         parameters: {
             query?: never;
@@ -2318,7 +2383,7 @@ export interface components {
             remedy: string | null;
         };
         /** @description how one talks on the line; what is left out is the family's default */
-        Manners: {
+        LineTiming: {
             reply_timeout_ms?: number;
             poll_period_ms?: number;
             pause_ms?: number;
@@ -2337,7 +2402,12 @@ export interface components {
             /** @description bit/s; left out or 0 - from the URI or the family's default */
             bitrate?: number;
             options?: components["schemas"]["FamilyOptions"];
-            manners?: components["schemas"]["Manners"];
+            timing?: components["schemas"]["LineTiming"];
+            /**
+             * @deprecated
+             * @description the word for timing in earlier versions
+             */
+            manners?: components["schemas"]["LineTiming"];
         };
         /** @description 1 to 64 letters, digits, - _ and . */
         Name: string;
@@ -2513,6 +2583,11 @@ export interface components {
              * @enum {string}
              */
             authority_mode?: "free" | "lease";
+            /**
+             * @description when the drive answers, what was written through the gateway is compared with what it has: a difference is an event (compare), and is written unless the axis moves (write). Left out: ignore
+             * @enum {string}
+             */
+            stored_parameters?: "ignore" | "compare" | "write";
         };
         /** @description what happens to the axis when the client that commands it is lost. What is left out: a velocity move is halted, a motion to a target goes on to it. What is given holds for every motion, and `disable` for an enabled axis at rest as well */
         FailSafe: {
@@ -2659,7 +2734,7 @@ export interface components {
             /** @description as last accepted */
             readonly controlword: number;
             /** @enum {string} */
-            readonly mode: "none" | "profile_position" | "profile_velocity" | "homing" | "cyclic_position" | "cyclic_velocity" | "cyclic_torque" | "other";
+            readonly mode: "none" | "profile_position" | "profile_velocity" | "profile_torque" | "homing" | "interpolated_position" | "cyclic_position" | "cyclic_velocity" | "cyclic_torque" | "other";
             /** @description modes of operation display */
             readonly mode_number: number;
             /** @description the CiA 402 modes of operation that the drive offers; 8, 9 and 10 by streamed set-points alone */
@@ -3152,6 +3227,91 @@ export interface components {
             enabled: boolean;
             gateways: components["schemas"]["FleetGateway"][];
         };
+        /** @example crash-1 */
+        RecordingName: string;
+        RecordingChange: {
+            name: components["schemas"]["RecordingName"];
+        };
+        Recording: {
+            name: components["schemas"]["RecordingName"];
+            /** @description when it was made */
+            at: string | null;
+            /** @description the stretch that it shows */
+            from: string | null;
+            to: string | null;
+            bytes: number;
+            why: string | null;
+            who: string | null;
+            /** @description of the program that made it */
+            version: string | null;
+            /** @description made by an alarm; the oldest of them make room for new ones */
+            automatic: boolean;
+            /** @description by `axisgate replay` */
+            replayable: boolean;
+            /** @description why not */
+            not_replayable: string | null;
+            /** @description the file is cut off, altered or of another version, and not trusted */
+            fault: string | null;
+        };
+        RecordingList: {
+            /** @description where the stretch begins that a recording made now would show */
+            from: string | null;
+            /** @description memory of that stretch */
+            bytes: number;
+            most_bytes: number;
+            /** @description records that were lost on their way since the start */
+            lost: number;
+            /** @description a recording made now could be replayed */
+            replayable: boolean;
+            /** @description why not */
+            not_replayable: string | null;
+            trend_bytes: number;
+            trend_most_bytes: number;
+            trend_minutes: number;
+            /** @description of all recordings */
+            disk_bytes: number;
+            disk_most_bytes: number;
+            /** @description why the last recording could not be written */
+            disk_fault: string | null;
+            recordings: components["schemas"]["Recording"][];
+        };
+        Trends: {
+            /** @description ms since 1970 */
+            from: number;
+            /** @description ms since 1970 */
+            to: number;
+            axes: components["schemas"]["Trend"][];
+        };
+        Trend: {
+            axis: string;
+            /** @description of position, demand and following error; velocity is in it per second */
+            unit: string;
+            /** @description how often its drive has told its position lately */
+            rate_hz: number;
+            /** @description true: each point has `low` and `high`; false: `values` */
+            thinned: boolean;
+            /** @description ms since 1970; of what is kept */
+            oldest: number | null;
+            /** @description ms since 1970; when it was known last, changed or not */
+            newest: number | null;
+            /** @description ms since 1970, one for each value */
+            at: number[];
+            points: {
+                position?: components["schemas"]["TrendPoint"];
+                velocity?: components["schemas"]["TrendPoint"];
+                demand?: components["schemas"]["TrendPoint"];
+                following_error?: components["schemas"]["TrendPoint"];
+                state?: {
+                    values: string[];
+                };
+            };
+        };
+        /** @description null where nobody knows it */
+        TrendPoint: {
+            values?: (number | null)[];
+            low?: (number | null)[];
+            high?: (number | null)[];
+        };
         FleetGateway: {
             gateway: string;
             /** @description another one at each start */
@@ -3168,6 +3328,8 @@ export interface components {
             /** @description its clock against that of this machine, delivery included */
             clock_ahead_ms: number;
             uptime_s: number;
+            /** @description since its last word came here; it speaks twice a second */
+            silent_ms: number;
             axes: components["schemas"]["FleetAxis"][];
         };
         FleetAxis: {
@@ -3183,6 +3345,11 @@ export interface components {
             target_reached: boolean;
             fault: boolean;
             warning: boolean;
+            /**
+             * @description CiA 402 state, from the status word
+             * @enum {string}
+             */
+            state: "not_ready_to_switch_on" | "switch_on_disabled" | "ready_to_switch_on" | "switched_on" | "operation_enabled" | "quick_stop_active" | "fault_reaction_active" | "fault";
             statusword: number;
             mode: number;
             error_code: number;
@@ -3193,11 +3360,14 @@ export interface components {
             position: number;
             velocity: number;
             position_increments: number;
+            increments_per_unit: number;
             /**
              * Format: date-time
              * @description on its gateway's clock
              */
             at: string | null;
+            /** @description since `at`, the difference of the clocks taken out, delivery included */
+            age_ms: number | null;
         };
         /** @description as ProfileSpec; the unit is the path's */
         ProfileEntry: {
@@ -3997,6 +4167,7 @@ export interface components {
         };
     };
     parameters: {
+        recording: components["schemas"]["RecordingName"];
         description: components["schemas"]["DescriptionName"];
         snapshot: number;
         revision: number;
@@ -7686,6 +7857,183 @@ export interface operations {
             };
             400: components["responses"]["BadRequest"];
             409: components["responses"]["Conflict"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getTrends: {
+        parameters: {
+            query?: {
+                /** @description names with commas, at most 64; left out - all, the first 64 */
+                axes?: string;
+                /** @description some of position, velocity, demand, following_error, state, with commas; left out - all */
+                points?: string;
+                /** @description ms since 1970; left out - a minute before `to` */
+                from?: number;
+                /** @description ms since 1970; left out - now */
+                to?: number;
+                columns?: number;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description as JSON or CSV, by Accept */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Trends"];
+                    "text/csv": string;
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            404: components["responses"]["NotFound"];
+            406: components["responses"]["NotAcceptable"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    listRecordings: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description newest first */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RecordingList"];
+                };
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    makeRecording: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": {
+                    name: components["schemas"]["RecordingName"];
+                    why?: string;
+                };
+            };
+        };
+        responses: {
+            /** @description written */
+            201: {
+                headers: {
+                    /** @description where it is */
+                    Location?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Recording"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            409: components["responses"]["Conflict"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            503: components["responses"]["Unavailable"];
+            507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getRecording: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                recording: components["parameters"]["recording"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the file (.axr), or what it is, by Accept */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/vnd.axisgate.axr": string;
+                    "application/json": components["schemas"]["Recording"];
+                };
+            };
+            404: components["responses"]["NotFound"];
+            406: components["responses"]["NotAcceptable"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    removeRecording: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                recording: components["parameters"]["recording"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description deleted */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    renameRecording: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                recording: components["parameters"]["recording"];
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RecordingChange"];
+                "application/merge-patch+json": components["schemas"]["RecordingChange"];
+            };
+        };
+        responses: {
+            /** @description renamed; it is not deleted by itself any more */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Recording"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            507: components["responses"]["NotStored"];
             default: components["responses"]["Problem"];
         };
     };

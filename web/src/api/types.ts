@@ -48,5 +48,7 @@ export type User = Schemas['User'];
 export type Token = Schemas['Token'];
 export type MadeToken = Schemas['MadeToken'];
 export type Authority = Schemas['Authority'];
+export type FleetGateway = Schemas['FleetGateway'];
+export type FleetAxis = Schemas['FleetAxis'];
 export type ModbusDoor = Schemas['ModbusDoor'];
 export type ProblemDocument = Partial<Schemas['Problem']> & { ticket?: number | null; result?: string; command?: string };

@@ -4,6 +4,7 @@ import { signal, useSignal, type Signal } from '@preact/signals';
 import { useId, useMemo } from 'preact/hooks';
 import type { Axis, Command } from '../api/types';
 import { useGateway } from '../gateway';
+import type { Commander } from '../state/commander';
 import { persisted } from '../state/persisted';
 import { setPositionWords, unitOf } from '../text/axis';
 import { parseQuantity } from '../text/number';
@@ -75,8 +76,9 @@ export function useControls(axis: Axis) {
 
 export const resultId = (axis: string): string => `result-${axis}`;
 
-export function ResultLine({ axis, id }: { axis: string; id: string }) {
-  const note = useGateway().commander.note(axis).value;
+/** `by`: who was told; without it, this gateway's own axes are meant. */
+export function ResultLine({ axis, id, by }: { axis: string; id: string; by?: Commander }) {
+  const note = (by ?? useGateway().commander).note(axis).value;
   return (
     <p class={`result result-${note.tone}`} id={id} role="status" title={note.text}>
       {(note.tone === 'refused' || note.tone === 'partly') && <Icon name="triangle" size={14} />}

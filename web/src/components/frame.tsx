@@ -23,6 +23,8 @@ const places: { path: string; text: string; icon: IconName; pages: Route['page']
   { path: '/events', text: 'Events', icon: 'list', pages: ['events'] },
   { path: '/gateway', text: 'Gateway', icon: 'box', pages: ['gateway'] },
 ];
+/** Where the gateway is in a domain with others. */
+const fleet: (typeof places)[number] = { path: '/fleet', text: 'Fleet', icon: 'site', pages: ['fleet'] };
 
 /** How many alarms nobody has acknowledged; nothing when there are none. */
 function AlarmBadge() {
@@ -38,9 +40,10 @@ function AlarmBadge() {
 
 export function Navigation() {
   const page = route.value.page;
+  const inFleet = useGateway().store.about.value?.doors.some((d) => d.name === 'dds') ?? false;
   return (
-    <nav class="nav" aria-label="Pages">
-      {places.map((p) => (
+    <nav class={`nav${inFleet ? ' with-fleet' : ''}`} aria-label="Pages">
+      {(inFleet ? [...places, fleet] : places).map((p) => (
         <a key={p.path} href={p.path} aria-current={p.pages.includes(page) ? 'page' : undefined}>
           <Icon name={p.icon} />
           <span>{p.text}</span>

@@ -179,7 +179,7 @@ function EntryForm({ room, draft, own, open, gateway }: FormProps) {
       {room !== 'axes' && <OptionFields room={room} family={family} specs={options} texts={texts} onText={set} fault={(key) => gateway.find((g) => g.key === key)?.text} />}
       {more.length > 0 && (
         <details open={(moreOpen.current ||= more.some((f) => fault(f) !== undefined)) || undefined}>
-          <summary>{room === 'lines' ? 'Manners: times and retries' : 'More'}</summary>
+          <summary>{room === 'lines' ? 'Timing: times and retries' : 'More'}</summary>
           <div class="form-grid">{more.map(field)}</div>
         </details>
       )}

@@ -4,11 +4,12 @@
 // says so and names the machine's own emergency stop. It is a command over the network, not a safety function.
 import { useLayoutEffect } from 'preact/hooks';
 import { useGateway } from '../gateway';
+import type { Commander } from '../state/commander';
 import { emptyTyped, typing, watchTyping } from '../state/typing';
 import { Icon } from './icon';
 
 /** Filled where there is something to stop, outlined where nothing moves: always there, loud only when it matters. */
-export function StopButton({ axis, large = false, urgent = true }: { axis: string; large?: boolean; urgent?: boolean }) {
+export function StopButton({ axis, large = false, urgent = true, by }: { axis: string; large?: boolean; urgent?: boolean; by?: Commander }) {
   const { commander, session } = useGateway();
   const barred = session.stopBarred.value;
   return (
@@ -18,7 +19,7 @@ export function StopButton({ axis, large = false, urgent = true }: { axis: strin
       class={`stop${large ? ' stop-large' : ''}${urgent ? '' : ' stop-calm'}`}
       aria-label={`Stop ${axis}`}
       title={barred || `Quick stop of ${axis}. Not a safety function: keep the emergency stop of the machine at hand.`}
-      onClick={() => void commander.stop(axis)}
+      onClick={() => void (by ?? commander).stop(axis)}
     >
       <Icon name="octagon" size={large ? 18 : 14} />
       STOP

@@ -27,7 +27,7 @@ const states: Record<AxisStateName, Word> = {
 
 export const stateName = (s: AxisStateName): string => states[s].long.split(':')[0] as string;
 
-export function stateWord(axis: Axis, trust: Trust): Word {
+export function stateWord(axis: Pick<Axis, 'state'>, trust: Trust): Word {
   if (trust === 'disconnected') {
     const w = states[axis.state];
     return { ...w, tone: 'muted', text: `Was ${w.text.toLowerCase()}`, long: `Not live. Last known state: ${w.long}` };
@@ -36,7 +36,7 @@ export function stateWord(axis: Axis, trust: Trust): Word {
   return states[axis.state];
 }
 
-export function motionWord(axis: Axis, trust: Trust): Word {
+export function motionWord(axis: Pick<Axis, 'moving' | 'velocity' | 'mode' | 'target_reached'>, trust: Trust): Word {
   if (trust === 'disconnected') return { text: 'Not live', icon: 'unplugged', tone: 'muted', long: 'Whether it moves now is not known' };
   if (trust === 'offline') return { text: 'Not known', icon: 'circle-dashed', tone: 'muted', long: 'Whether it moves is not known' };
   if (trust === 'stale') return { text: 'Stale', icon: 'clock', tone: 'warning', long: 'The last data is too old to be trusted' };
@@ -50,7 +50,7 @@ export function motionWord(axis: Axis, trust: Trust): Word {
 }
 
 /** Which of the two answers: said in capitals on every tile. */
-export function markOf(axis: Axis): { text: string; kind: 'real' | 'simulated' | 'none'; long: string } {
+export function markOf(axis: Pick<Axis, 'presence'>): { text: string; kind: 'real' | 'simulated' | 'none'; long: string } {
   if (axis.presence === 'twin') return { text: 'SIMULATED', kind: 'simulated', long: 'The embedded model of the drive answers; nothing real moves' };
   if (axis.presence === 'device') return { text: 'REAL', kind: 'real', long: 'The real drive answers; something real moves' };
   return { text: 'NO DRIVE', kind: 'none', long: 'Neither a drive nor its model answers' };
@@ -67,7 +67,7 @@ export function demandWords(source: Axis['demand_source']): string {
 
 export const unitOf = (axis: Pick<Axis, 'unit'>): string => axis.unit || 'inc';
 
-export const positionText = (axis: Axis): string => formatNumber(axis.position, decimalsOf(axis.increments_per_unit));
+export const positionText = (axis: Pick<Axis, 'position' | 'increments_per_unit'>): string => formatNumber(axis.position, decimalsOf(axis.increments_per_unit));
 export const velocityText = (axis: Axis): string => formatNumber(axis.velocity, decimalsOf(axis.increments_per_unit));
 export const targetText = (axis: Axis): string => formatNumber(axis.target_position, decimalsOf(axis.increments_per_unit));
 

@@ -33,7 +33,7 @@ const words: Record<string, string> = {
 /** Words of which only the underscores go; a unit at the end is told as one. */
 const spaced = new Set(
   (
-    'profile_position profile_velocity cyclic_position cyclic_velocity cyclic_torque holding_registers input_registers discrete_inputs high_first low_first ' +
+    'profile_position profile_velocity profile_torque interpolated_position cyclic_position cyclic_velocity cyclic_torque holding_registers input_registers discrete_inputs high_first low_first ' +
     'position_min position_max velocity_max acceleration_max deceleration_max following_error_max silent_limit increments_per_unit fail_safe modbus_units default_bit_rate ' +
     'retry_pause_min_ms retry_pause_max_ms retry_pause_ms reply_timeout_ms poll_period_ms stale_after_ms pause_ms hold_ms watchdog_ms timeout_s ' +
     'target_reached internal_limit position_demand following_error target_position target_velocity position_increments velocity_increments error_code mode_number ' +

@@ -17,7 +17,7 @@ export type Room = (typeof rooms)[number];
 export const oneOf: Record<Room | 'mappings' | 'modbus_units', string> = { lines: 'line', drives: 'drive', axes: 'axis', mappings: 'mapping', modbus_units: 'Modbus unit' };
 
 export interface FieldSpec {
-  /** Where it stands in the entry; "manners.retries" in an object of it. */
+  /** Where it stands in the entry; "timing.retries" in an object of it. */
   key: string;
   label: string;
   kind: 'name' | 'text' | 'integer' | 'number' | 'choice' | 'line' | 'drive' | 'family' | 'address';
@@ -32,7 +32,7 @@ export interface FieldSpec {
   more?: boolean;
 }
 
-const manner = (key: string, label: string, min: number, max: number): FieldSpec => ({ key: `manners.${key}`, label, kind: 'integer', min, max, more: true, placeholder: "the family's" });
+const timing = (key: string, label: string, min: number, max: number): FieldSpec => ({ key: `timing.${key}`, label, kind: 'integer', min, max, more: true, placeholder: "the family's" });
 export const uriKinds = ['twin', 'can:can0', 'serial:/dev/ttyUSB0?baud=9600&rs485=1', 'tcp:192.0.2.10:8888', 'tcp-listen:127.0.0.1:4001', 'udp:192.0.2.10:503', 'pty:/run/axisgate/drive'];
 
 const presences = [
@@ -55,14 +55,14 @@ export const fieldsOf: Record<Room, readonly FieldSpec[]> = {
     { key: 'family', label: 'Family', kind: 'family', hint: 'of its drives; may be empty on a CAN line whose drives each name theirs' },
     { key: 'uri', label: 'URI', kind: 'text', required: true, placeholder: 'twin, can:can0, serial:/dev/ttyUSB0?baud=9600, tcp:HOST:PORT', hint: 'where the line is; “twin”: embedded drives alone' },
     { key: 'bitrate', label: 'Bit rate', kind: 'integer', min: 0, max: 100000000, hint: 'bit/s; empty: from the URI, or the family’s' },
-    manner('reply_timeout_ms', 'Reply time-out, ms', 0, 60000),
-    manner('poll_period_ms', 'Poll period, ms', 0, 60000),
-    manner('pause_ms', 'Pause, ms', 0, 10000),
-    manner('stale_after_ms', 'Stale after, ms', 0, 600000),
-    manner('retries', 'Retries', -1, 20),
-    manner('silent_limit', 'Silent limit', 1, 1000),
-    manner('retry_pause_min_ms', 'First retry pause, ms', 1, 600000),
-    manner('retry_pause_max_ms', 'Longest retry pause, ms', 1, 600000),
+    timing('reply_timeout_ms', 'Reply time-out, ms', 0, 60000),
+    timing('poll_period_ms', 'Poll period, ms', 0, 60000),
+    timing('pause_ms', 'Pause, ms', 0, 10000),
+    timing('stale_after_ms', 'Stale after, ms', 0, 600000),
+    timing('retries', 'Retries', -1, 20),
+    timing('silent_limit', 'Silent limit', 1, 1000),
+    timing('retry_pause_min_ms', 'First retry pause, ms', 1, 600000),
+    timing('retry_pause_max_ms', 'Longest retry pause, ms', 1, 600000),
   ],
   drives: [
     { key: 'name', label: 'Name', kind: 'name', required: true },
@@ -92,6 +92,14 @@ export const fieldsOf: Record<Room, readonly FieldSpec[]> = {
     { key: 'fail_safe.line_lost', label: 'When it could not be reached', kind: 'choice', more: true, choices: failSafeActions },
     { key: 'fail_safe.gateway_ends', label: 'When the gateway ends', kind: 'choice', more: true, choices: failSafeActions },
     { key: 'fail_safe.watchdog_ms', label: 'Silent after, ms', kind: 'integer', min: 0, max: 600000, more: true, placeholder: "the gateway's", hint: '0: silence is not watched' },
+    {
+      key: 'stored_parameters',
+      label: 'Stored parameters',
+      kind: 'choice',
+      more: true,
+      hint: 'when the drive answers: compared with what was written through the gateway, or written where they differ',
+      choices: [{ value: '', text: 'not looked at' }, { value: 'compare', text: 'compared' }, { value: 'write', text: 'compared and written' }],
+    },
     { key: 'authority_mode', label: 'Authority', kind: 'choice', more: true, choices: [{ value: '', text: 'as the gateway has it' }, { value: 'free', text: 'free' }, { value: 'lease', text: 'lease' }] },
   ],
 };

@@ -1,0 +1,34 @@
+// Family aposs: MACS controllers of zub, as nodes on CANopen: the adapter of CiA 402 drives in another dialect, a twin of its own.
+// In: a catalogue, a line, an address. Out: adapter, twin, decoder. Never decides anything about a controller.
+#include "adapters/aposs/family.hpp"
+
+#include "adapters/aposs/twin/twin.hpp"
+#include "adapters/cia402/adapter.hpp"
+#include "adapters/cia402/decoder.hpp"
+#include "adapters/cia402/family.hpp"
+
+namespace axisgate {
+const Family& family_aposs() {
+    static const Family family{
+        "aposs",
+        [](const Catalogue& c, LineKind) -> std::unique_ptr<Adapter> {
+            return std::make_unique<cia402_drive::LineAdapter>(c, aposs::dialect);
+        },
+        [](const Catalogue& c, const TwinSetup& setup) -> std::unique_ptr<Twin> { return aposs::make_twin(c, setup); },
+        [](const Catalogue& c, LineKind) -> std::unique_ptr<Decoder> { return std::make_unique<cia402_drive::CanDecoder>(c); },
+        cia402_drive::check_address,
+        "1",
+        0,
+        "",
+        true,
+        false,
+        1'000'000,
+        cia402_drive::scan_nodes,
+        nullptr,
+        cia402_drive::identifiers,
+        false,
+    };
+    return family;
+}
+
+}  // namespace axisgate

@@ -1,0 +1,149 @@
+// Twin of a MACS controller: setup, memory and hand.
+// In: what a tester sets. Out: the node and the controller told. Never sets what the wire alone may set.
+#include "adapters/aposs/twin/twin.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "adapters/aposs/twin/macs.hpp"
+#include "adapters/cia402/twin/node.hpp"
+
+namespace axisgate::aposs {
+namespace {
+
+class MacsTwin final : public Twin {
+public:
+    MacsTwin(const Catalogue& catalogue, const TwinSetup& setup)
+        : objects_(catalogue, number(setup)), node_(number(setup), objects_.factory()), macs_(objects_, node_.dictionary()) {
+        node_.attach(macs_);
+    }
+
+    void on_frame(const Frame& f, Instant now, Out& out) override { node_.on_frame(f, now, out); }
+    void on_deadline(Instant now, Out& out) override {
+        if (node_.powered()) node_.advance(now, out);
+    }
+    [[nodiscard]] Instant deadline() const override { return node_.deadline(); }
+    void power_on(const NonVolatile& memory, Instant now, Out& out) override { node_.power_on(memory, now, out); }
+    [[nodiscard]] NonVolatile non_volatile() const override { return node_.stored(); }
+    [[nodiscard]] std::uint64_t non_volatile_revision() const override { return node_.revision(); }
+    [[nodiscard]] bool fit_axes(int wanted, Instant) override { return wanted <= axes; }
+
+    [[nodiscard]] std::vector<HandItem> hand() const override {
+        static constexpr const char* gears[] = {"none", "velocity", "position"};
+        std::vector<HandItem> items{
+            {"power", Value{node_.powered()}, true, "supply of the controller"},
+            {"silent", Value{node_.silent()}, true, "it hears and does not answer"},
+            {"inputs", Value{static_cast<std::int64_t>(macs_.axis(1).inputs >> 16)}, true,
+             "digital inputs, bit mask; they are bits 16 to 31 of 60FDh"},
+            {"program", Value{macs_.program_runs()}, true,
+             "a program runs; when it begins user values are in force again, when it ends program values die"},
+            {"gear", Value{std::string(gears[static_cast<std::size_t>(macs_.gear())])}, true,
+             "the second axis follows the first: none, velocity (SYNCV) or position (SYNCP), as a program of the user would start it"},
+            {"reset_parameters", Value{false}, true, "Controller > Reset: all parameters as the firmware has them"},
+            {"eprom_writes", Value{macs_.eprom_writes()}, false, "how often SAVEPROM has written; an EPROM lasts for about 10000"}};
+        for (int n = 1; n <= axes; ++n) {
+            const Servo& s = macs_.axis(n);
+            const std::string p = n == 1 ? "" : "axis" + std::to_string(n) + ".";
+            items.push_back({p + "stall", Value{stalled_[static_cast<std::size_t>(n - 1)]}, true, "the shaft is held"});
+            items.push_back({p + "limit_positive", Value{s.limit_positive}, true, "the positive limit switch"});
+            items.push_back({p + "limit_negative", Value{s.limit_negative}, true, "the negative limit switch"});
+            items.push_back({p + "home_switch", Value{s.home_switch}, true, "the reference switch"});
+            items.push_back({p + "inject_error", Value{std::int64_t{0}}, true,
+                             "an error number of the manual (6, 88, 89, 98, 99); 0: its cause is gone"});
+        }
+        return items;
+    }
+
+    [[nodiscard]] std::string set_hand(const std::string& name, const Value& value, Instant now, Out& out) override {
+        if (node_.powered()) node_.advance(now, out);
+        std::string fault = set(name, value, now, out);
+        if (node_.powered()) node_.after_hand(now, out);
+        return fault;
+    }
+    [[nodiscard]] TwinMechanics mechanics(int channel, Instant now) const override {
+        return macs_.axis(std::clamp(channel, 1, axes)).mechanics(now);
+    }
+
+private:
+    static std::uint8_t number(const TwinSetup& setup) {
+        return static_cast<std::uint8_t>(std::clamp(std::atoi(setup.address.c_str()), 1, 127));
+    }
+
+    std::string set(const std::string& name, const Value& value, Instant now, Out& out) {
+        if (name == "gear") {
+            const std::string text = to_text(value);
+            const auto gear = text == "velocity"   ? std::optional(Macs::Gear::velocity)
+                              : text == "position" ? std::optional(Macs::Gear::position)
+                              : text == "none"     ? std::optional(Macs::Gear::none)
+                                                   : std::nullopt;
+            if (!gear) return "gear: write none, velocity or position";
+            return node_.powered() ? macs_.set_gear(*gear, now) : "gear: the controller is off";
+        }
+        const auto n = as_integer(value);
+        if (!n) return name + ": write true, false or a whole number";
+        if (name == "inputs") {
+            if (*n < 0 || *n > 0xFFFF) return "inputs: write a bit mask, 0 to 65535";
+            for (int k = 1; k <= axes; ++k) {
+                macs_.axis(k).inputs = static_cast<std::uint32_t>(*n) << 16;
+                macs_.axis(k).inputs_changed(now);
+            }
+            return {};
+        }
+        if (const auto dot = name.find('.'); dot != std::string::npos) {
+            const int k = name.starts_with("axis") ? std::atoi(name.c_str() + 4) : 0;
+            if (k < 1 || k > axes) return "there is no '" + name + "' here; axes are axis1 to axis" + std::to_string(axes);
+            return set_axis(k, name.substr(dot + 1), *n, now);
+        }
+        const bool on = *n != 0;
+        if (name != "power" && name != "silent" && name != "program" && name != "reset_parameters") return set_axis(1, name, *n, now);
+        if (*n < 0 || *n > 1) return name + ": write true or false";
+        if (name == "power") {
+            if (!on && node_.powered()) node_.power_off(now);
+            if (on && !node_.powered()) node_.power_on(node_.stored(), now, out);
+        } else if (name == "silent") {
+            node_.set_silent(on);
+        } else if (name == "program") {
+            if (on && !macs_.program_runs()) macs_.start_program();
+            if (!on && macs_.program_runs()) macs_.end_program();
+        } else if (on) {
+            macs_.reset_parameters();
+        }
+        return {};
+    }
+
+    std::string set_axis(int k, const std::string& name, std::int64_t n, Instant now) {
+        Servo& s = macs_.axis(k);
+        const bool on = n != 0;
+        if (name == "inject_error") {
+            static constexpr std::int64_t numbers[] = {0, 6, 88, 89, 98, 99};
+            if (std::ranges::find(numbers, n) == std::end(numbers)) return "inject_error: write 6, 88, 89, 98 or 99, or 0";
+            if (!node_.powered()) return "inject_error: the controller is off";
+            const auto code = static_cast<std::uint16_t>(n == 0 ? 0 : Macs::error_base + n);
+            s.set_cause(code);
+            if (on) s.fail(code, now);
+            return {};
+        }
+        if (n < 0 || n > 1) return name + ": write true or false";
+        if (name == "stall") {
+            stalled_[static_cast<std::size_t>(k - 1)] = on;
+            s.hold(on, now);
+        } else if (name == "limit_positive" || name == "limit_negative" || name == "home_switch") {
+            (name == "limit_positive" ? s.limit_positive : name == "limit_negative" ? s.limit_negative : s.home_switch) = on;
+            s.inputs_changed(now);
+        } else {
+            return name + " is nothing that a hand can do here";
+        }
+        return {};
+    }
+
+    Objects objects_;
+    cia402_drive::twin::Node node_;
+    Macs macs_;
+    std::array<bool, axes> stalled_{};
+};
+
+}  // namespace
+
+std::unique_ptr<Twin> make_twin(const Catalogue& catalogue, const TwinSetup& setup) { return std::make_unique<MacsTwin>(catalogue, setup); }
+
+}  // namespace axisgate::aposs

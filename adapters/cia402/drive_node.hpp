@@ -1,0 +1,79 @@
+// Node: what the axes of one CANopen node share: their line, the setup, presence, open tickets, notices.
+// In and out: members. Never knows which transfer is on its way: that is the drive's.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "adapters/cia402/wire.hpp"
+#include "gateway/core/adapter.hpp"
+#include "gateway/core/catalogue.hpp"
+#include "gateway/core/setup.hpp"
+#include "gateway/core/wire_time.hpp"
+#include "gateway/drive/notices.hpp"
+#include "gateway/drive/presence.hpp"
+#include "gateway/drive/tickets.hpp"
+#include "gateway/drive/turn.hpp"
+#include "gateway/drive/turns.hpp"
+
+namespace axisgate::cia402_drive {
+using drive::Presence;
+using drive::Turn;
+
+/// What a family that stands on this one has otherwise.
+struct Dialect {
+    std::string_view noun = "CiA 402 drive";
+    int channels = 1;
+    /// A node without the profile's objects is served, too: its parameters alone.
+    bool profile_optional = false;
+    /// What only its nodes have, and a search knows them by; device_type: the profile's number in it.
+    Address mark = object::device_type;
+    /// EMCY codes FF00h to FFFFh carry a number of the catalogue's in their low byte.
+    bool errors_in_low_byte = false;
+    /// A node's memory wears out: between two stores of its parameters there is at least this time. Zero: no such guard.
+    Duration between_stores{};
+    /// Options of the drive "object_2300" and so on may say where a row of the catalogue stands on this drive.
+    bool places_move = false;
+};
+
+/// What the drives of one line share.
+struct Line {
+    Line(const Catalogue& of_family, const Dialect& of_dialect) : catalogue(of_family), dialect(of_dialect) {}
+    void take(const LineSetup& setup);
+    const Catalogue& catalogue;
+    Dialect dialect;
+    drive::Timing timing;
+    drive::Turns turns;
+    AdapterCounters counters;
+    std::uint32_t bit_rate = 0;
+    Duration cycle = std::chrono::milliseconds(20);  ///< between two SYNCs now
+};
+
+struct Node {
+    Node(Line& of_line, const DriveSetup& of_drive, std::uint8_t own_number)
+        : line(of_line), setup(of_drive), number(own_number), presence(of_drive.id, of_line.timing), notices(of_drive.id) {}
+    [[nodiscard]] const Catalogue& catalogue() const noexcept { return setup.catalogue ? *setup.catalogue : line.catalogue; }
+    [[nodiscard]] Address mark() const {
+        const auto moved = places.find(line.dialect.mark.index);
+        return {moved == places.end() ? line.dialect.mark.index : moved->second, line.dialect.mark.sub};
+    }
+    /// The number that a catalogue has for an error code.
+    [[nodiscard]] std::uint16_t number_of(std::uint16_t code) const noexcept {
+        return line.dialect.errors_in_low_byte && code >= 0xFF00 ? static_cast<std::uint16_t>(code & 0xFFu) : code;
+    }
+
+    Line& line;
+    DriveSetup setup;
+    std::uint8_t number;
+    bool keep_quick_stop = true;
+    Places places;
+    Presence presence;
+    drive::Tickets tickets;
+    drive::Notices notices;
+    /// Its parameters went into its EPROM: counted and told where it wears out.
+    [[nodiscard]] std::string stored(Turn& t);
+    std::optional<Instant> stored_at{};  ///< nothing: not since it was set up
+    std::uint32_t stores = 0;
+};
+
+}  // namespace axisgate::cia402_drive

@@ -1,0 +1,50 @@
+// Plans: each command as a short list of transfers, from what is known of its axis.
+// In: a command, what is known. Out: steps, or why it is refused. A control word that moves is the last of its list.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "adapters/cia402/drive_steps.hpp"
+#include "gateway/core/sample.hpp"
+
+namespace axisgate::cia402_drive {
+struct Node;
+
+enum class Order : std::uint8_t { none, position, velocity, homing };
+
+/// What is known of an axis.
+struct AxisKnown {
+    AxisFeedback fb;
+    std::uint16_t cw = 0;  ///< as the drive has it
+    int mode = 0;
+    std::uint32_t modes = 0;
+    bool profile = true;  ///< it has a status word
+    std::int64_t homing_method = 0;
+    std::array<std::int64_t, 3> rates{10'000, 50'000, 50'000};  ///< 6081h, 6083h, 6084h
+    Order order = Order::none;
+
+    [[nodiscard]] bool offers(int m) const noexcept { return m >= 1 && m <= 32 && (modes >> (m - 1) & 1u); }
+    /// The mode that follows set-points of this kind: 8, 9, 10, or the older 7 and 4 of a drive that has not those.
+    [[nodiscard]] int stream_mode(SetPoint::Mode kind) const noexcept {
+        const int cyclic = 8 + static_cast<int>(kind);
+        const int older = kind == SetPoint::Mode::position ? 7 : kind == SetPoint::Mode::torque ? 4 : 0;
+        return !offers(cyclic) && offers(older) ? older : cyclic;
+    }
+    [[nodiscard]] unsigned state() const noexcept { return fb.statusword.value_or(0) & 0x6Fu; }
+    [[nodiscard]] bool on() const noexcept { return state() == 0x27; }
+};
+
+/// Empty, or why the command is refused. `axis`: its place on the node.
+[[nodiscard]] std::string plan(const Node& node, const AxisKnown& known, std::size_t axis, Job& job, Instant now, Reason& reason);
+/// A stop is planned when its turn has come: what is on then counts.
+void plan_stop(const AxisKnown& known, Job& job);
+/// The drive's own place is its first target, and only then the mode is another.
+void plan_stream(const AxisKnown& known, SetPoint::Mode mode, Duration cycle, Job& job);
+// native.cpp
+[[nodiscard]] std::string plan_native(const Node& node, Job& job, const Native& native, Reason& reason);
+[[nodiscard]] std::string plan_action(const Node& node, const AxisKnown& known, Job& job, const Action& action, Instant now,
+                                      Reason& reason);
+[[nodiscard]] std::string plan_parameter(const Node& node, std::size_t axis, Job& job, Reason& reason);
+
+}  // namespace axisgate::cia402_drive

@@ -1,0 +1,62 @@
+// Steps: a command taken apart into transfers with one node, and what one of them is for.
+// In and out: values. Addresses are those of the first axis: the node that sends them shifts objects of the profile to their axis.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "adapters/cia402/wire.hpp"
+#include "gateway/core/command.hpp"
+#include "gateway/core/instant.hpp"
+#include "gateway/protocols/canopen/nmt.hpp"
+
+namespace axisgate::cia402_drive {
+
+struct Step {
+    enum class Kind : std::uint8_t { read, write, until, nmt } kind = Kind::read;
+    Address address;
+    std::vector<std::uint8_t> bytes;              ///< what is written
+    std::uint32_t mask = 0, want = 0;             ///< until: the value under the mask is this one
+    bool optional = false;                        ///< a refusal is no reason to stop
+    bool from_here = false;                       ///< write: the bytes are a distance from the position that the step before read
+    bool literal = false;                         ///< the address is that of the node, whose axis it may be
+    Duration patience = std::chrono::seconds(2);  ///< until
+    canopen::NmtCommand nmt = canopen::NmtCommand::start;
+};
+
+/// A command on its way.
+struct Job {
+    Command command;
+    std::vector<Step> steps;
+    std::size_t at = 0;
+    Instant wait_until{};  ///< the next look
+    Instant give_up = never;
+    bool stream = false;
+    std::int64_t here = 0;  ///< what was read last
+    std::vector<std::uint8_t> data;
+
+    void write(Address a, std::int64_t v, std::size_t size, bool optional = false) {
+        steps.push_back({Step::Kind::write, a, bytes_of(v, size), 0, 0, optional});
+    }
+    void read(Address a) { steps.push_back({Step::Kind::read, a, {}}); }
+    void word(std::uint16_t controlword) { write(object::controlword, controlword, 2); }
+    void until(std::uint32_t mask, std::uint32_t want) { steps.push_back({Step::Kind::until, object::statusword, {}, mask, want}); }
+    /// Until it stands still, for as long as `patience`; a drive that does not tell its velocity is not waited for.
+    void until_standstill(Duration patience = std::chrono::seconds(2)) {
+        steps.push_back({Step::Kind::until, object::velocity, {}, 0xFFFFFFFFu, 0, true, false, false, patience});
+    }
+};
+
+/// One transfer, and who wants its answer.
+struct Ask {
+    enum class Why : std::uint8_t { probe, start, check, error, flush, step, stop } why = Why::probe;
+    Step step;
+    Ticket ticket = no_ticket;
+    int left = 0;          ///< repeats
+    std::size_t axis = 0;  ///< place of the one that asks, among the axes of the node
+};
+
+}  // namespace axisgate::cia402_drive

@@ -1,0 +1,18 @@
+// Family cia402, what families that stand on it have in common with it: node numbers to be searched, identifiers on the line.
+// In: what a scan wants, addresses. Out: plans. Never decides anything about a drive.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gateway/core/can_identifiers.hpp"
+#include "gateway/core/scan.hpp"
+
+namespace axisgate::cia402_drive {
+
+[[nodiscard]] ScanPlan scan_nodes(const ScanWish& wish);
+/// The lower seven bits of what a node sends and is sent are its number. NMT and SYNC are nobody's: other CANopen families send them, too.
+[[nodiscard]] std::vector<CanIdentifiers> identifiers(std::span<const std::string> addresses);
+
+}  // namespace axisgate::cia402_drive

@@ -1,0 +1,46 @@
+// Homing: the methods.
+// In: method, place, travel. Out: ways. Never goes beyond a limit switch.
+#include "adapters/cia402/twin/homing.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace axisgate::cia402_drive::twin {
+namespace {
+constexpr std::array methods{1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14, 17, 18,
+                             19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 33, 34, 35, 37};
+double index_below(double place) { return std::floor((place - 1) / index_way) * index_way; }
+double index_above(double place) { return std::ceil((place + 1) / index_way) * index_way; }
+}  // namespace
+
+std::span<const int> homing_methods() noexcept { return methods; }
+
+HomingWay homing_way(int method, double here, double travel) {
+    if (method == 35 || method == 37) return {true, {}, here, false};
+    if (method == 33) return {true, {}, index_below(here), true};
+    if (method == 34) return {true, {}, index_above(here), true};
+    const bool to_edge = method >= 17 && method <= 30;  // as method - 16, and the zero is the edge itself
+    const int m = to_edge ? method - 16 : method;
+    if (m < 1 || m > 14 || travel <= 0) return {};
+
+    if (m <= 2) {  // a limit switch, and the first index on the way back from it
+        const double edge = m == 1 ? -travel : travel;
+        return {true, {edge}, to_edge ? edge : m == 1 ? index_above(edge) : index_below(edge), true};
+    }
+    // 3, 4: a home switch that is active from its edge to the positive end; 5, 6: to the negative end. The index of 3 and 6 is left of it.
+    if (m <= 6) return {true, {0}, to_edge ? 0 : m == 3 || m == 6 ? index_below(0) : index_above(0), true};
+
+    // 7 to 10 begin to the right and turn at the positive limit, 11 to 14 are their image: outside the near edge, inside it, inside the
+    // far edge, outside of that.
+    const double side = m <= 10 ? 1 : -1;
+    const int kind = (m - 7) % 4;
+    const double edge = side * (kind < 2 ? -cam : cam);
+    HomingWay way{true, {}, edge, true};
+    if (side * here > cam) way.search.push_back(side * travel);
+    way.search.push_back(edge);
+    const bool lower = (kind == 0 || kind == 2) == (side > 0);
+    if (!to_edge) way.zero = lower ? index_below(edge) : index_above(edge);
+    return way;
+}
+
+}  // namespace axisgate::cia402_drive::twin

@@ -1,0 +1,27 @@
+// Homing of the simulated servo: the way that each method of 6098h takes over its switches and index pulses (CiA 402-2).
+// In: a method, the place of the shaft, the travel. Out: the places it goes to, one after the other. Never moves anything.
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace axisgate::cia402_drive::twin {
+
+/// An index pulse stands at each multiple of this, in increments of the motor.
+inline constexpr double index_way = 4096;
+/// The home switch of methods 7 to 14 and 23 to 30 is a cam from -cam to +cam; that of 3 to 6 and 19 to 22 has its one edge at 0.
+inline constexpr double cam = 1024;
+
+struct HomingWay {
+    bool possible = false;       ///< false: it looks for a switch that is not there
+    std::vector<double> search;  ///< at the speed of 6099h:01, to switches
+    double zero = 0;             ///< at the speed of 6099h:02
+    bool moves = true;           ///< false: the zero is where it stands
+};
+
+/// All that 60E3h offers, ascending.
+[[nodiscard]] std::span<const int> homing_methods() noexcept;
+/// `travel`: the limit switches stand at -travel and +travel; 0: there are neither limit switches nor a home switch.
+[[nodiscard]] HomingWay homing_way(int method, double here, double travel);
+
+}  // namespace axisgate::cia402_drive::twin

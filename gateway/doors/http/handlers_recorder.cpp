@@ -1,0 +1,301 @@
+// Handlers of the recorder: trends of axes as JSON or CSV; recordings: made, listed, handed out, renamed, deleted.
+// In: calls. Out: what was told by drives, in units of the axes; files. Never waits for the disk.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/json/array.hpp>
+#include <cmath>
+#include <utility>
+
+#include "gateway/axis/cia402.hpp"
+#include "gateway/core/text.hpp"
+#include "gateway/doors/http/handlers.hpp"
+#include "gateway/services/recorder/axr.hpp"
+
+namespace axisgate::http {
+namespace json = boost::json;
+namespace {
+constexpr std::int64_t most_columns = 5000;
+constexpr std::size_t most_trend_axes = 64;
+constexpr std::string_view trend_points[] = {"position", "velocity", "demand", "following_error", "state"};
+
+std::vector<std::string> comma_list(std::string_view text) {
+    std::vector<std::string> out;
+    while (!text.empty()) {
+        const auto end = std::min(text.find(','), text.size());
+        if (end > 0) out.emplace_back(text.substr(0, end));
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return out;
+}
+
+struct TrendAxis {
+    std::string name, unit;
+    double scale = 1;
+    TrendStretch stretch;
+};
+
+/// Smallest (or greatest) value of a point in a column, in units; nothing: it is not known.
+std::optional<double> value_of(const TrendAxis& a, const TrendColumn& c, std::string_view point, bool high) {
+    const TrendRow& r = high ? c.high : c.low;
+    if (point == "position") return static_cast<double>(r.position) / a.scale;
+    if (point == "velocity") return static_cast<double>(r.velocity) / a.scale;
+    if (!c.low.demand_known) return std::nullopt;
+    if (point == "demand") return static_cast<double>(r.demand) / a.scale;
+    return static_cast<double>(high ? c.greatest_error : c.least_error) / a.scale;
+}
+double ms_of(std::int64_t unix_ns) { return static_cast<double>(unix_ns / 1000) / 1000; }
+
+json::value number_or_null(const std::optional<double>& v) { return v && std::isfinite(*v) ? json::value(*v) : json::value(nullptr); }
+
+json::object trend_document(const TrendAxis& a, const std::vector<std::string>& points, const ClockPort& clock) {
+    json::array at;
+    for (const auto& c : a.stretch.columns)
+        at.emplace_back(ms_of(clock.to_unix_ns(c.low.at)));
+    json::object shown;
+    for (const auto& point : points) {
+        if (point == "state") {
+            json::array values;
+            for (const auto& c : a.stretch.columns)
+                values.emplace_back(name_of(power_state_of(c.high.statusword)));
+            shown[point] = json::object{{"values", std::move(values)}};
+            continue;
+        }
+        json::array low, high;
+        for (const auto& c : a.stretch.columns) {
+            low.push_back(number_or_null(value_of(a, c, point, false)));
+            high.push_back(number_or_null(value_of(a, c, point, true)));
+        }
+        if (a.stretch.thinned)
+            shown[point] = json::object{{"low", std::move(low)}, {"high", std::move(high)}};
+        else
+            shown[point] = json::object{{"values", std::move(low)}};
+    }
+    return {{"axis", a.name},
+            {"unit", a.unit},
+            {"rate_hz", std::round(a.stretch.rate_hz * 10) / 10},
+            {"thinned", a.stretch.thinned},
+            {"oldest", a.stretch.oldest ? json::value(ms_of(clock.to_unix_ns(*a.stretch.oldest))) : json::value(nullptr)},
+            {"newest", a.stretch.newest ? json::value(ms_of(clock.to_unix_ns(*a.stretch.newest))) : json::value(nullptr)},
+            {"at", std::move(at)},
+            {"points", std::move(shown)}};
+}
+
+std::string trend_csv(const std::vector<TrendAxis>& axes, const std::vector<std::string>& points, const ClockPort& clock) {
+    std::string out = "time,axis,unit";
+    for (const auto& p : points)
+        out += p == "state" ? ",state" : fmt::format(",{0}_low,{0}_high", p);
+    out += "\r\n";
+    for (const auto& a : axes) {
+        for (const auto& c : a.stretch.columns) {
+            out += fmt::format("{},{},{}", format_time(clock.to_unix_ns(c.low.at)), csv_cell(a.name), csv_cell(a.unit));
+            for (const auto& p : points) {
+                if (p == "state") {
+                    out += fmt::format(",{}", name_of(power_state_of(c.high.statusword)));
+                    continue;
+                }
+                for (const bool high : {false, true}) {
+                    const auto v = value_of(a, c, p, high);
+                    out += v ? fmt::format(",{}", *v) : ",";
+                }
+            }
+            out += "\r\n";
+        }
+    }
+    return out;
+}
+
+json::object recording_document(const RecordingInfo& i) {
+    const auto time_or_null = [](std::int64_t ns) { return ns == 0 ? json::value(nullptr) : json::value(format_time(ns)); };
+    return {{"name", i.name},
+            {"at", time_or_null(i.at_unix_ns)},
+            {"from", time_or_null(i.from_unix_ns)},
+            {"to", time_or_null(i.to_unix_ns)},
+            {"bytes", i.bytes},
+            {"why", text_or_null(i.why)},
+            {"who", text_or_null(i.who)},
+            {"version", text_or_null(i.version)},
+            {"automatic", i.automatic},
+            {"replayable", i.fault.empty() && i.not_replayable.empty()},
+            {"not_replayable", text_or_null(i.not_replayable)},
+            {"fault", text_or_null(i.fault)}};
+}
+
+const RecordingInfo* recording_in(const std::vector<RecordingInfo>& list, std::string_view name) {
+    const auto it = std::ranges::find(list, name, &RecordingInfo::name);
+    return it == list.end() ? nullptr : &*it;
+}
+
+Response refusal_of(const RecordingFault& fault, std::string_view name) {
+    using Kind = RecordingFault::Kind;
+    switch (fault.kind) {
+        case Kind::no_such:
+            return nothing_named("recording", name);
+        case Kind::exists:
+            return problem(409, "conflict", fault.text);
+        case Kind::busy:
+            return problem(503, "busy", fault.text);
+        default:
+            return problem(507, "not_stored", fault.text);
+    }
+}
+
+/// The members of a body that may be there, each a text.
+std::vector<Fault> texts_of(const json::object& body, std::initializer_list<std::pair<std::string_view, std::string*>> into) {
+    std::vector<Fault> faults;
+    for (const auto& [key, value] : body) {
+        const auto it = std::ranges::find(into, std::string_view(key), [](const auto& p) { return p.first; });
+        if (it == into.end())
+            faults.push_back({"/" + std::string(key), fmt::format("{} is not known here", std::string_view(key)), "leave it out"});
+        else if (!value.is_string() || value.get_string().size() > 500)
+            faults.push_back({"/" + std::string(key), fmt::format("{} must be a text of at most 500 bytes", std::string_view(key)),
+                              "write it in quotes"});
+        else
+            *it->second = std::string(value.get_string());
+    }
+    return faults;
+}
+}  // namespace
+
+Handled get_trends(Call& c, const ClockPort& clock, RecorderPort& recorder, const SitePort& sites) {
+    const auto site = sites.site();
+    std::vector<std::string> names = comma_list(c.target.query.get("axes").value_or(""));
+    if (names.empty()) {
+        for (const auto& a : site->site.axes)
+            if (names.size() < most_trend_axes) names.push_back(a.name);
+    }
+    if (names.size() > most_trend_axes) return bad_query("axes", fmt::format("at most {} axes", most_trend_axes));
+    std::vector<std::string> points = comma_list(c.target.query.get("points").value_or(""));
+    if (points.empty()) points.assign(std::begin(trend_points), std::end(trend_points));
+    for (const auto& p : points) {
+        if (std::ranges::find(trend_points, p) == std::end(trend_points))
+            return bad_query("points", "some of position, velocity, demand, following_error, state");
+    }
+    std::optional<Response> fault;
+    constexpr std::int64_t ms_limit = INT64_MAX / 1'000'000;
+    const std::int64_t now_ms = clock.now_unix_ns() / 1'000'000;
+    const std::int64_t to = query_whole(c, "to", 0, ms_limit, now_ms, fault);
+    const std::int64_t from = query_whole(c, "from", 0, ms_limit, std::max<std::int64_t>(0, to - 60'000), fault);
+    const std::int64_t columns = query_whole(c, "columns", 1, most_columns, 1000, fault);
+    if (fault) return *fault;
+    static constexpr std::string_view media[] = {"application/json", "text/csv"};
+    const auto liked = best_accepted(c.request.headers.get("Accept"), media);
+    if (!liked) return problem(406, "not_acceptable", "this is application/json or text/csv");
+    const std::int64_t offset = clock.to_unix_ns(at_ns(0));
+    std::vector<TrendAxis> axes;
+    for (const auto& name : names) {
+        const auto i = index_of_name(site->site.axes, name);
+        if (!i || *i >= site->axis_ids.size()) return nothing_named("axis", name);
+        const AxisSpec& spec = site->site.axes[*i];
+        axes.push_back({name, spec.unit, spec.increments_per_unit,
+                        recorder.trend(site->axis_ids[*i], at_ns(from * 1'000'000 - offset), at_ns(to * 1'000'000 - offset),
+                                       static_cast<std::size_t>(columns))});
+    }
+    if (*liked == 1) {
+        Response r;
+        r.headers.set("Content-Type", "text/csv; charset=utf-8");
+        r.headers.set("Content-Disposition", "attachment; filename=\"trends.csv\"");
+        r.headers.set("Vary", "Accept");
+        r.body = trend_csv(axes, points, clock);
+        return r;
+    }
+    json::array list;
+    for (const auto& a : axes)
+        list.push_back(trend_document(a, points, clock));
+    Response r = json_response(json::object{{"from", from}, {"to", to}, {"axes", std::move(list)}});
+    r.headers.set("Vary", "Accept");
+    return r;
+}
+
+Handled list_recordings(Call&, const ClockPort& clock, RecorderPort& recorder) {
+    const auto s = recorder.recorder_state();
+    json::array list;
+    for (const auto& i : recorder.recordings())
+        list.push_back(recording_document(i));
+    return json_response(json::object{{"from", s.from ? json::value(format_time(clock.to_unix_ns(*s.from))) : json::value(nullptr)},
+                                      {"bytes", s.bytes},
+                                      {"most_bytes", s.bound},
+                                      {"lost", s.lost},
+                                      {"replayable", s.not_replayable.empty()},
+                                      {"not_replayable", text_or_null(s.not_replayable)},
+                                      {"trend_bytes", s.trend_bytes},
+                                      {"trend_most_bytes", s.trend_bound},
+                                      {"trend_minutes", s.trend_minutes},
+                                      {"disk_bytes", s.disk_bytes},
+                                      {"disk_most_bytes", s.disk_bound},
+                                      {"disk_fault", text_or_null(s.disk_fault)},
+                                      {"recordings", std::move(list)}});
+}
+
+Handled make_recording(Call& c, EventPort& events, RecorderPort& recorder) {
+    std::string name, why;
+    auto faults = texts_of(c.body.get_object(), {{"name", &name}, {"why", &why}});
+    if (const auto wrong = check_recording_name(name); faults.empty() && !wrong.empty())
+        faults.push_back({"/name", wrong, "name the recording"});
+    if (!faults.empty()) return invalid(std::move(faults));
+    recorder.freeze(name, why, c.who(),
+                    [name, who = c.who(), &events, respond = c.respond](const RecordingFault& fault, const RecordingInfo& info) {
+                        if (fault.kind != RecordingFault::Kind::none) return respond(refusal_of(fault, name));
+                        Event e;
+                        e.kind = "recording";
+                        e.text = fmt::format("recording {} was made, {} bytes", name, info.bytes);
+                        e.who = who;
+                        e.door = std::string(axisgate::name_of(Door::http));
+                        events.note(std::move(e));
+                        Response r = json_response(recording_document(info), 201);
+                        r.headers.set("Location", "/api/v1/recorder/recordings/" + percent_encode(name));
+                        respond(std::move(r));
+                    });
+    return {gateway_limit, problem(504, "no_answer", "the disk has not answered")};
+}
+
+Handled get_recording(Call& c, RecorderPort& recorder) {
+    const auto list = recorder.recordings();
+    const auto* info = recording_in(list, c.names[0]);
+    if (!info) return nothing_named("recording", c.names[0]);
+    static constexpr std::string_view media[] = {"application/vnd.axisgate.axr", "application/json"};
+    const auto liked = best_accepted(c.request.headers.get("Accept"), media);
+    if (!liked) return problem(406, "not_acceptable", "this is application/vnd.axisgate.axr or application/json");
+    if (*liked == 1) {
+        Response r = json_response(recording_document(*info));
+        r.headers.set("Vary", "Accept");
+        return r;
+    }
+    recorder.load_recording(c.names[0], [name = c.names[0], respond = c.respond](std::optional<std::string> bytes) {
+        if (!bytes) return respond(nothing_named("recording", name));
+        Response r;
+        r.headers.set("Content-Type", "application/vnd.axisgate.axr");
+        r.headers.set("Content-Disposition", fmt::format("attachment; filename=\"{}.axr\"", name));
+        r.headers.set("Vary", "Accept");
+        r.body = std::move(*bytes);
+        respond(std::move(r));
+    });
+    return {gateway_limit, problem(504, "no_answer", "the disk has not answered")};
+}
+
+Handled rename_recording(Call& c, RecorderPort& recorder) {
+    std::string to;
+    auto faults = texts_of(c.body.get_object(), {{"name", &to}});
+    if (const auto wrong = check_recording_name(to); faults.empty() && !wrong.empty())
+        faults.push_back({"/name", wrong, "choose another name"});
+    if (!faults.empty()) return invalid(std::move(faults));
+    recorder.rename_recording(c.names[0], to, [name = c.names[0], to, &recorder, respond = c.respond](const RecordingFault& fault) {
+        if (fault.kind != RecordingFault::Kind::none) return respond(refusal_of(fault, name));
+        const auto list = recorder.recordings();
+        const auto* info = recording_in(list, to);
+        respond(info ? json_response(recording_document(*info)) : nothing_named("recording", to));
+    });
+    return {gateway_limit, problem(504, "no_answer", "the disk has not answered")};
+}
+
+Handled remove_recording(Call& c, RecorderPort& recorder) {
+    recorder.remove_recording(c.names[0], [name = c.names[0], respond = c.respond](const RecordingFault& fault) {
+        if (fault.kind != RecordingFault::Kind::none) return respond(refusal_of(fault, name));
+        Response r;
+        r.status = 204;
+        respond(std::move(r));
+    });
+    return {gateway_limit, problem(504, "no_answer", "the disk has not answered")};
+}
+
+}  // namespace axisgate::http

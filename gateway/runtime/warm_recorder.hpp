@@ -1,0 +1,93 @@
+// Warm recorder: keeps trends and the last stretch of records, and freezes it into files on a thread of its own.
+// In: records of the hot thread, alarms. Out: the recorder port. A full disk is told and stops nothing but the recording.
+// Never makes the hot thread wait: what it cannot take in time is counted as lost.
+#pragma once
+
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/thread_pool.hpp>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gateway/engine/flight_record.hpp"
+#include "gateway/runtime/config.hpp"
+#include "gateway/runtime/record_ring.hpp"
+#include "gateway/runtime/warm_threads.hpp"
+#include "gateway/services/ports/events.hpp"
+#include "gateway/services/ports/recorder.hpp"
+#include "gateway/services/ports/site.hpp"
+
+namespace axisgate {
+
+/// What the recorder may use, and when it freezes by itself ([recorder] of the configuration).
+struct RecorderSettings {
+    std::string directory;  ///< of the recordings
+    Duration trend_length = std::chrono::minutes(10);
+    std::size_t trend_bytes = 48u << 20, stretch_bytes = 32u << 20, inputs_bytes = 32u << 20;
+    std::uint64_t disk_bytes = 512u << 20;
+    std::vector<std::string> freeze_on;  ///< kinds of events of severity alarm
+};
+
+[[nodiscard]] RecorderSettings recorder_settings(const Config& config);
+
+class WarmRecorder final : public RecorderPort, EventListener {
+public:
+    static constexpr std::size_t ring_bytes = 4u << 20;
+    static constexpr std::size_t most_recordings = 100;
+    static constexpr Duration after_alarm = std::chrono::seconds(2);      ///< how much is recorded behind it
+    static constexpr Duration between_alarms = std::chrono::seconds(60);  ///< that freeze
+
+    WarmRecorder(const WarmThreads& threads, EventPort& events, const SitePort& sites)
+        : threads_(threads), events_(events), sites_(sites) {}
+    ~WarmRecorder() override;
+    WarmRecorder(const WarmRecorder&) = delete;
+    WarmRecorder& operator=(const WarmRecorder&) = delete;
+
+    /// Before the first site; the hot thread's engine is listened to from now on.
+    void begin(RecorderSettings settings);
+
+    [[nodiscard]] TrendStretch trend(AxisId axis, Instant from, Instant to, std::size_t columns) override;
+    [[nodiscard]] RecorderState recorder_state() override;
+    [[nodiscard]] std::vector<RecordingInfo> recordings() const override;
+    void freeze(std::string name, std::string why, std::string who, std::function<void(RecordingFault, RecordingInfo)> then) override;
+    void load_recording(const std::string& name, std::function<void(std::optional<std::string>)> then) override;
+    void rename_recording(const std::string& name, const std::string& to, std::function<void(RecordingFault)> then) override;
+    void remove_recording(const std::string& name, std::function<void(RecordingFault)> then) override;
+
+private:
+    /// The hot thread's end.
+    struct Tap final : FlightTap {
+        RecordRing ring{ring_bytes};
+        ~Tap() override;
+        void take(const FlightRecord& r) override { (void)ring.push(r); }
+        void take_site(std::shared_ptr<const SiteInput> input, Instant now) override;
+    };
+    void on_event(const Event& event) override;
+    void empty();
+    void wait();
+    void keep(const FlightRecord& r);
+    void freeze_this(std::string name, std::string why, std::string who, bool automatic,
+                     std::function<void(RecordingFault, RecordingInfo)> then);
+    void make_room_for_automatic();
+    [[nodiscard]] std::string path_of(const std::string& name) const { return settings_.directory + "/" + name + ".axr"; }
+    [[nodiscard]] std::string not_replayable() const;
+    [[nodiscard]] std::uint64_t disk_bytes() const;
+
+    const WarmThreads& threads_;
+    EventPort& events_;
+    const SitePort& sites_;
+    RecorderSettings settings_;
+    Tap tap_;
+    std::unique_ptr<Trends> trends_;
+    std::unique_ptr<FlightLog> stretch_, inputs_;
+    std::map<std::string, RecordingInfo> kept_;
+    std::string disk_fault_;
+    bool writing_ = false;
+    bool found_ = false;  ///< records came with the last look
+    Instant frozen_at_{};
+    std::unique_ptr<boost::asio::steady_timer> timer_, alarm_timer_;
+    boost::asio::thread_pool disk_{1};
+};
+
+}  // namespace axisgate

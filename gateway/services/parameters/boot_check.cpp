@@ -1,0 +1,111 @@
+// Boot check: one job of reading for each axis of a drive that answers, and one of writing where something differs.
+// In: events. Out: events. Never has two jobs on one axis: where another runs, the comparison is left out and told.
+#include "gateway/services/parameters/boot_check.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "gateway/core/catalogue.hpp"
+#include "gateway/services/axis_place.hpp"
+
+namespace axisgate {
+namespace {
+/// 5 and 5.0 are one value, true and 1 are one.
+bool same(const Value& a, const Value& b) {
+    const auto x = as_number(a), y = as_number(b);
+    return x && y ? *x == *y : to_text(a) == to_text(b);
+}
+Origin itself() { return {Door::internal, std::make_shared<const std::string>("stored parameters")}; }
+}  // namespace
+
+BootCheck::BootCheck(const Needs& ports, std::shared_ptr<AxisJobs> jobs)
+    : axes_(ports.get<AxisPort>()),
+      events_(ports.get<EventPort>()),
+      parameters_(ports.get<ParameterPort>()),
+      sites_(ports.get<SitePort>()),
+      jobs_(std::move(jobs)) {}
+
+void BootCheck::begin() {
+    listening_ = true;
+    events_.listen(this);
+}
+void BootCheck::detach() {
+    if (std::exchange(listening_, false)) events_.unlisten(this);
+}
+
+void BootCheck::on_event(const Event& e) {
+    if (e.kind != "drive" || e.severity != Severity::info || e.drive.empty()) return;
+    const auto site = sites_.site();
+    if (!site) return;
+    for (const AxisSpec& a : site->site.axes)
+        if (a.drive == e.drive && a.stored_parameters != StoredParameters::ignore) check(a.name);
+}
+
+void BootCheck::check(const std::string& axis) {
+    const auto place = find_axis(sites_, axis);
+    if (!place || !place->catalogue) return;
+    std::vector<JobPoint> stored;
+    for (const StoredParameter& s : parameters_.stored(axis)) {
+        const auto point = place->catalogue->find(s.parameter);
+        const Parameter* p = point ? place->catalogue->parameter(*point) : nullptr;
+        if (!p || !p->readable() || !p->writable() || p->live || p->addressing || !known(s.value)) continue;
+        stored.push_back({s.parameter, *point, s.value});
+    }
+    if (stored.empty()) return;
+    auto points = stored;
+    for (JobPoint& p : points)
+        p.value = {};
+    const bool started = AxisJobs::start(jobs_, axes_, axis, place->id(), std::move(points), false, itself(),
+                                         [self = weak_from_this(), axis, stored = std::move(stored)](const JobEnd& end) {
+                                             if (const auto me = self.lock(); me && me->listening_) me->compared(axis, stored, end);
+                                         });
+    if (!started) tell(Severity::warning, axis, "stored parameters were not compared: another job on its parameters runs");
+}
+
+void BootCheck::compared(const std::string& axis, const std::vector<JobPoint>& stored, const JobEnd& end) {
+    if (!end.broken_off.empty()) return tell(Severity::warning, axis, "stored parameters were not compared: " + end.broken_off);
+    std::vector<JobPoint> other;
+    std::string names;
+    for (const JobPoint& s : stored) {
+        const auto has = std::ranges::find(end.values, s.id, &SnapshotValue::parameter);
+        if (has == end.values.end() || same(has->value, s.value)) continue;
+        if (other.size() < most_named)
+            names += fmt::format("{}{} is {}, stored is {}", names.empty() ? "" : "; ", s.id, to_text(has->value), to_text(s.value));
+        other.push_back(s);
+    }
+    if (other.empty()) return;
+    if (other.size() > most_named) names += fmt::format("; and {} more", other.size() - most_named);
+    const auto place = find_axis(sites_, axis);
+    const bool write = place && place->spec().stored_parameters == StoredParameters::write;
+    tell(Severity::warning, axis,
+         fmt::format("{} of {} stored parameters are others in the drive: {}{}", other.size(), stored.size(), names,
+                     write ? ". The stored ones are written" : ""));
+    if (!write) return;
+    if (const auto why = why_not_written(axes_.picture(place->id())); !why.empty())
+        return tell(Severity::warning, axis, "stored parameters were not written: " + why);
+    const auto count = other.size();
+    const bool started = AxisJobs::start(jobs_, axes_, axis, place->id(), std::move(other), true, itself(),
+                                         [self = weak_from_this(), axis, count](const JobEnd& done) {
+                                             const auto me = self.lock();
+                                             if (!me || !me->listening_) return;
+                                             std::string refused = done.broken_off;
+                                             for (const JobFailure& f : done.failed)
+                                                 refused += fmt::format("{}{}: {}", refused.empty() ? "" : "; ", f.parameter, f.reason);
+                                             me->tell(refused.empty() ? Severity::info : Severity::warning, axis,
+                                                      fmt::format("{} of {} stored parameters were written{}{}", done.values.size(), count,
+                                                                  refused.empty() ? "" : ": ", refused));
+                                         });
+    if (!started) tell(Severity::warning, axis, "stored parameters were not written: another job on its parameters runs");
+}
+
+void BootCheck::tell(Severity severity, const std::string& axis, std::string text) {
+    Event e;
+    e.severity = severity;
+    e.kind = "parameters";
+    e.axis = axis;
+    e.text = std::move(text);
+    events_.note(std::move(e));
+}
+
+}  // namespace axisgate

@@ -1,0 +1,55 @@
+// Recorder port: trends of axes, and recordings: what crossed the gateway lately, frozen into files.
+// In: wishes. Out: trends at once; what is on the disk, by callbacks on the service thread. Bounded: trends and the stretch that can be
+// frozen by bytes of memory, recordings by bytes of disk; what is full is said, and stops nothing else.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gateway/services/recorder/trends.hpp"
+
+namespace axisgate {
+
+struct RecordingInfo {
+    std::string name, why, who, version;
+    std::int64_t at_unix_ns = 0;
+    std::int64_t from_unix_ns = 0, to_unix_ns = 0;  ///< the stretch that it shows
+    std::uint64_t bytes = 0;
+    bool automatic = false;
+    std::string not_replayable;  ///< why not; empty: it can be replayed
+    std::string fault;           ///< the file is not to be trusted, and why; then all but name and bytes are empty
+};
+
+struct RecorderState {
+    std::uint64_t lost = 0;              ///< records that found the hot thread's ring full, since the start
+    std::uint64_t bytes = 0, bound = 0;  ///< of memory, of the stretch that can be frozen
+    std::optional<Instant> from;         ///< where it begins
+    std::string not_replayable;          ///< as RecordingInfo
+    std::uint64_t trend_bytes = 0, trend_bound = 0;
+    double trend_minutes = 0;
+    std::uint64_t disk_bytes = 0, disk_bound = 0;
+    std::string disk_fault;  ///< why the last recording could not be written; empty: it could
+};
+
+struct RecordingFault {
+    enum class Kind : std::uint8_t { none, no_such, exists, no_room, busy } kind = Kind::none;
+    std::string text;
+};
+
+class RecorderPort {
+public:
+    virtual ~RecorderPort() = default;
+    [[nodiscard]] virtual TrendStretch trend(AxisId axis, Instant from, Instant to, std::size_t columns) = 0;
+    [[nodiscard]] virtual RecorderState recorder_state() = 0;
+    [[nodiscard]] virtual std::vector<RecordingInfo> recordings() const = 0;  ///< newest first
+    /// The stretch up to now becomes a file.
+    virtual void freeze(std::string name, std::string why, std::string who, std::function<void(RecordingFault, RecordingInfo)> then) = 0;
+    virtual void load_recording(const std::string& name, std::function<void(std::optional<std::string>)> then) = 0;
+    virtual void rename_recording(const std::string& name, const std::string& to, std::function<void(RecordingFault)> then) = 0;
+    virtual void remove_recording(const std::string& name, std::function<void(RecordingFault)> then) = 0;
+};
+
+}  // namespace axisgate

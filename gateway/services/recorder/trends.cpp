@@ -1,0 +1,199 @@
+// Trends: rows lie in blocks of a few kilobytes, each row as its difference from the one before: 4 to 12 bytes while an axis moves.
+// In: pictures. Out: stretches. Never holds an empty block but the newest.
+#include "gateway/services/recorder/trends.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace axisgate {
+namespace {
+// What of a row differs from the one before it.
+constexpr std::uint8_t position_bit = 1, demand_bit = 2, velocity_bit = 4, known_bit = 8, statusword_bit = 16, flags_bit = 32;
+
+void put(std::string& out, std::int64_t difference) {
+    auto v = static_cast<std::uint64_t>(difference) << 1 ^ static_cast<std::uint64_t>(difference >> 63);
+    for (; v >= 0x80; v >>= 7)
+        out.push_back(static_cast<char>(v | 0x80));
+    out.push_back(static_cast<char>(v));
+}
+std::int64_t take(const char*& p) {
+    std::uint64_t v = 0;
+    unsigned shift = 0;
+    std::uint8_t byte = 0;
+    do {
+        byte = static_cast<std::uint8_t>(*p++);
+        v |= static_cast<std::uint64_t>(byte & 0x7Fu) << shift;
+        shift += 7;
+    } while (byte & 0x80u);
+    return static_cast<std::int64_t>(v >> 1) ^ -static_cast<std::int64_t>(v & 1);
+}
+std::int64_t minus(std::int64_t a, std::int64_t b) {
+    return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) - static_cast<std::uint64_t>(b));
+}
+std::int64_t plus(std::int64_t a, std::int64_t b) {
+    return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
+}
+
+TrendColumn column_of(const TrendRow& r) { return {r, r, r.following_error(), r.following_error()}; }
+void widen(TrendColumn& c, const TrendRow& r) {
+    for (auto member : {&TrendRow::position, &TrendRow::demand, &TrendRow::velocity}) {
+        c.low.*member = std::min(c.low.*member, r.*member);
+        c.high.*member = std::max(c.high.*member, r.*member);
+    }
+    c.least_error = std::min(c.least_error, r.following_error());
+    c.greatest_error = std::max(c.greatest_error, r.following_error());
+    for (TrendRow* end : {&c.low, &c.high}) {
+        end->demand_known = end->demand_known && r.demand_known;
+        end->statusword = r.statusword;
+        end->flags = r.flags;
+    }
+}
+}  // namespace
+
+template <class F>
+void Trends::for_each(const Block& block, F&& f) {
+    TrendRow r = block.head;
+    f(r);
+    const char* p = block.rows.data();
+    const char* const end = p + block.rows.size();
+    while (p < end) {
+        const auto mask = static_cast<std::uint8_t>(*p++);
+        r.at = at_ns(plus(ns_of(r.at), take(p)));
+        if (mask & position_bit) r.position = plus(r.position, take(p));
+        if (mask & demand_bit) r.demand = plus(r.demand, take(p));
+        if (mask & velocity_bit) r.velocity = plus(r.velocity, take(p));
+        if (mask & known_bit) r.demand_known = !r.demand_known;
+        if (mask & statusword_bit) r.statusword = static_cast<std::uint16_t>(take(p));
+        if (mask & flags_bit) r.flags = static_cast<std::uint16_t>(take(p));
+        f(r);
+    }
+}
+
+void Trends::append(Axis& a, const TrendRow& row) {
+    if (a.blocks.empty() || a.blocks.back().rows.size() + 64 > block_bytes) {
+        Block b;
+        b.head = b.tail = row;
+        b.rows.reserve(block_bytes);
+        bytes_ += b.size();
+        a.blocks.push_back(std::move(b));
+        return;
+    }
+    Block& b = a.blocks.back();
+    const TrendRow was = std::exchange(b.tail, row);
+    const auto mask = static_cast<std::uint8_t>(
+        (row.position != was.position ? position_bit : 0) | (row.demand != was.demand ? demand_bit : 0) |
+        (row.velocity != was.velocity ? velocity_bit : 0) | (row.demand_known != was.demand_known ? known_bit : 0) |
+        (row.statusword != was.statusword ? statusword_bit : 0) | (row.flags != was.flags ? flags_bit : 0));
+    b.rows.push_back(static_cast<char>(mask));
+    put(b.rows, ns_of(row.at) - ns_of(was.at));
+    if (mask & position_bit) put(b.rows, minus(row.position, was.position));
+    if (mask & demand_bit) put(b.rows, minus(row.demand, was.demand));
+    if (mask & velocity_bit) put(b.rows, minus(row.velocity, was.velocity));
+    if (mask & statusword_bit) put(b.rows, row.statusword);
+    if (mask & flags_bit) put(b.rows, row.flags);
+}
+
+void Trends::add(AxisId id, const PictureRecord& p, Instant at) {
+    if (!p.current && !axes_.contains(id)) return;  // nothing has been said yet
+    Axis& a = axes_[id];
+    if (p.current && at - p.age != a.told) {
+        a.told = at - p.age;
+        ++a.counted;
+    }
+    if (a.counted_from == Instant{}) a.counted_from = at;
+    if (const Duration span = at - a.counted_from; span >= std::chrono::seconds(1)) {
+        a.rate_hz = static_cast<double>(a.counted) / std::chrono::duration<double>(span).count();
+        a.counted = 0;
+        a.counted_from = at;
+    }
+    a.newest = std::max(a.newest, at);
+    TrendRow row;
+    row.at = a.blocks.empty() ? at : std::max(at, a.blocks.back().tail.at);
+    row.position = p.position;
+    row.demand_known = p.demand_source == DemandSource::drive || p.demand_source == DemandSource::computed;
+    row.demand = row.demand_known ? p.demand : p.position;
+    row.velocity = p.velocity;
+    row.statusword = p.statusword;
+    row.flags = p.flags;
+    if (!a.blocks.empty() && a.blocks.back().tail.same_values(row)) return;
+    append(a, row);
+    shorten(a, at);
+    if (bytes_ > bound_) make_room();
+}
+
+/// A block goes when the next one begins before what is kept: the row that holds at the beginning stays known.
+void Trends::shorten(Axis& a, Instant now) {
+    while (a.blocks.size() > 1 && now - a.blocks[1].head.at > keep_) {
+        bytes_ -= a.blocks.front().size();
+        a.blocks.pop_front();
+    }
+}
+
+void Trends::make_room() {
+    while (bytes_ > bound_) {
+        Axis* oldest = nullptr;
+        for (auto& [id, a] : axes_) {
+            if (a.blocks.size() > 1 && (!oldest || a.blocks.front().head.at < oldest->blocks.front().head.at)) oldest = &a;
+        }
+        if (!oldest) return;  // a block each: so many axes need so much
+        bytes_ -= oldest->blocks.front().size();
+        oldest->blocks.pop_front();
+    }
+}
+
+TrendStretch Trends::read(AxisId id, Instant from, Instant to, std::size_t columns) const {
+    TrendStretch out;
+    const auto it = axes_.find(id);
+    if (it == axes_.end() || it->second.blocks.empty()) return out;
+    const Axis& a = it->second;
+    out.rate_hz = a.rate_hz;
+    out.oldest = a.blocks.front().head.at;
+    out.newest = a.newest;
+    if (to < from) return out;
+    std::vector<TrendRow> rows;
+    std::optional<TrendRow> holds;
+    for (std::size_t i = 0; i < a.blocks.size(); ++i) {
+        if (i + 1 < a.blocks.size() && a.blocks[i + 1].head.at <= from) continue;  // all of it is older
+        if (a.blocks[i].head.at > to) break;
+        for_each(a.blocks[i], [&](const TrendRow& r) {
+            if (r.at <= from)
+                holds = r;
+            else if (r.at <= to)
+                rows.push_back(r);
+        });
+    }
+    if (holds) {
+        holds->at = from;
+        rows.insert(rows.begin(), *holds);
+    }
+    if (columns == 0 || rows.size() <= columns) {
+        for (const auto& r : rows)
+            out.columns.push_back(column_of(r));
+        return out;
+    }
+    out.thinned = true;
+    const auto span = std::max<std::int64_t>(1, (to - from).count());
+    const auto place = [&](Instant at) {
+        const double share = static_cast<double>((at - from).count()) / static_cast<double>(span);
+        return std::min(columns - 1, static_cast<std::size_t>(share * static_cast<double>(columns)));
+    };
+    std::size_t last = columns;  // none yet
+    TrendRow before = rows.front();
+    for (const auto& r : rows) {
+        const std::size_t n = place(r.at);
+        if (n != last) {
+            // What held when the column began is a part of it.
+            TrendRow first = last == columns ? r : before;
+            first.at = last == columns ? r.at
+                                       : from + Duration(static_cast<std::int64_t>(static_cast<double>(span) * static_cast<double>(n) /
+                                                                                   static_cast<double>(columns)));
+            out.columns.push_back(column_of(first));
+            last = n;
+        }
+        widen(out.columns.back(), r);
+        before = r;
+    }
+    return out;
+}
+
+}  // namespace axisgate

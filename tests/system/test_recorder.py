@@ -1,0 +1,79 @@
+"""The recorder from outside: trends while an axis moves, a recording that `axisgate replay` plays without a difference, files that are not to be trusted, a full disk.
+
+In: the real program with simulated drives. Out: judgements.
+"""
+import harness
+from harness import until
+
+
+def replay(path):
+    code, told, wrong = harness.run("replay", str(path))
+    return code, told + wrong
+
+
+def move_a_little(gateway):
+    gateway.command("slide", {"command": "enable"})
+    gateway.command("slide", {"command": "move_relative", "position": 5, "velocity": 20, "acceleration": 200, "deceleration": 200})
+    gateway.command("slide", {"command": "disable"})
+
+
+def test_trends_show_what_moved(gateway):
+    move_a_little(gateway)
+    axis = until(lambda: next((a for a in gateway.get("/recorder/trends?axes=slide&points=position,velocity,state&columns=5000")["axes"] if len(a["at"]) > 5 and a["rate_hz"] > 0), None), 10, "rows, and their rate")
+    position = axis["points"]["position"]
+    low, high = position.get("values") or position["low"], position.get("values") or position["high"]
+    assert max(v for v in high if v is not None) - min(v for v in low if v is not None) > 4
+    assert "operation_enabled" in axis["points"]["state"]["values"]
+    status, text, _ = gateway.request("GET", "/api/v1/recorder/trends?axes=slide", None, {"Accept": "text/csv"})
+    assert status == 200 and text.startswith(b"time,axis,unit,position_low"), text[:200]
+
+
+def test_a_recording_is_played_again_without_a_difference(gateway, folder):
+    move_a_little(gateway)
+    gateway.send("PATCH", "/drives/feeder/hand", {"silent": True})
+    until(lambda: not gateway.axis("feeder")["online"], 10, "silence")
+    gateway.send("PATCH", "/drives/feeder/hand", {"silent": False})
+    until(lambda: gateway.axis("feeder")["online"], 10, "its return")
+    made = gateway.send("POST", "/recorder/recordings", {"name": "crash", "why": "test"}, 201)
+    assert made["replayable"] and made["bytes"] > 1000, made
+    file = folder / "data" / "recordings" / "crash.axr"
+    code, told = replay(file)
+    assert code == 0 and " 0 differences" in told, told
+    whole = file.read_bytes()
+    wrong = file.with_name("wrong.axr")
+    for name, data in (("cut off", whole[:-100]), ("altered", whole[:5000] + bytes([whole[5000] ^ 1]) + whole[5001:]), ("version 2", whole[:8] + b"\x02" + whole[9:]), ("no recording", b"nothing")):
+        wrong.write_bytes(data)
+        code, told = replay(wrong)
+        assert code != 0 and name in told, (name, told)
+
+
+def test_an_alarm_freezes_by_itself(gateway):
+    gateway.command("feeder", {"command": "enable"})
+    gateway.command("feeder", {"command": "move_velocity", "velocity": 1, "acceleration": 20}, wait=0)
+    gateway.send("PATCH", "/drives/feeder/hand", {"stall": True})
+    made = until(lambda: gateway.get("/recorder/recordings")["recordings"], 15, "a recording")[0]
+    assert made["automatic"] and made["name"].startswith("alarm-") and made["why"].startswith("fault feeder"), made
+
+
+def test_a_full_disk_stops_recording_and_nothing_else(folder):
+    with harness.Gateway(folder) as g:
+        recordings = folder / "data" / "recordings"
+        recordings.write_text("a file stands where the folder should be")
+        status, said, _ = g.request("POST", "/api/v1/recorder/recordings", {"name": "crash"})
+        assert status == 507 and said["reason"] == "not_stored", (status, said)
+        assert g.get("/recorder/recordings")["disk_fault"]
+        move_a_little(g)
+        recordings.unlink()
+        g.send("POST", "/recorder/recordings", {"name": "crash"}, 201)
+        assert g.get("/recorder/recordings")["disk_fault"] is None
+
+
+def test_recordings_outlive_the_gateway_and_say_when_they_cannot_be_replayed(folder):
+    with harness.Gateway(folder, harness.DEMO, "--set", "recorder.inputs_mb=0") as g:
+        until(lambda: g.get("/recorder/recordings")["not_replayable"], 10, "the end of the inputs' memory")
+        made = g.send("POST", "/recorder/recordings", {"name": "late"}, 201)
+        assert not made["replayable"] and "inputs_mb" in made["not_replayable"], made
+    with harness.Gateway(folder, None) as g:
+        assert [r["name"] for r in g.get("/recorder/recordings")["recordings"]] == ["late"]
+        code, told = replay(folder / "data" / "recordings" / "late.axr")
+        assert code != 0 and "not replayed" in told, told

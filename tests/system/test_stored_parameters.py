@@ -1,0 +1,42 @@
+"""Parameters that were written through the gateway, and a drive that comes back with others: told, or written, as the site says.
+
+In: the real program, a drive that forgets over a power cycle. Out: events, values. Never sleeps longer than it waits.
+"""
+from harness import Gateway, until
+
+SITE = {
+    "lines": [{"name": "can0", "uri": "twin", "family": "cia402", "bitrate": 1000000}],
+    "drives": [{"name": n, "line": "can0", "address": a, "presence": "twin"} for n, a in (("told", 5), ("mended", 6), ("left", 7))],
+    "axes": [{"name": "told", "drive": "told", "channel": 1, "number": 1, "stored_parameters": "compare"},
+             {"name": "mended", "drive": "mended", "channel": 1, "number": 2, "stored_parameters": "write"}, {"name": "left", "drive": "left", "channel": 1, "number": 3}],
+}
+
+
+def test_a_drive_that_has_forgotten_is_told_and_mended_as_the_site_says(folder):
+    with Gateway(folder, SITE) as g:
+        def value(axis, parameter):
+            return g.get(f"/axes/{axis}/parameters/{parameter}")["value"]
+
+        def told(axis):
+            return [e["text"] for e in g.get(f"/events?axis={axis}") if e["kind"] == "parameters"]
+
+        for axis in ("told", "mended", "left"):
+            until(lambda: g.axis(axis)["online"], 10, axis)
+            for parameter, v in (("6081h", 12345), ("6083h", 50000), ("6085h", 77777)):  # 6083h is what the drive has anyway
+                g.send("PUT", f"/axes/{axis}/parameters/{parameter}", {"value": v})
+        assert told("told") == [] and told("mended") == []
+        for axis in ("told", "mended", "left"):
+            g.send("PUT", f"/drives/{axis}/hand", {"power": False})
+            until(lambda: not g.axis(axis)["online"], 10, axis)
+            g.send("PUT", f"/drives/{axis}/hand", {"power": True})
+            until(lambda: g.axis(axis)["online"], 10, axis)
+        text = until(lambda: told("told"), 10, "the difference is told")[0]
+        assert text.startswith("2 of 3 stored parameters are others in the drive: ") and "6081h is 10000, stored is 12345" in text and "written" not in text, text
+        until(lambda: any(t.startswith("2 of 2 stored parameters were written") for t in told("mended")), 10, "what was written is told")
+        assert [value("mended", p) for p in ("6081h", "6083h", "6085h")] == [12345, 50000, 77777]
+        assert [value("told", p) for p in ("6081h", "6085h")] == [10000, 200000], "told alone"
+        assert told("left") == [] and value("left", "6081h") == 10000, "who is not asked to look does not look"
+        # A site with another word is refused with the words that there are.
+        status, refused, _ = g.request("PATCH", "/api/v1/axes/left", {"stored_parameters": "always"}, {"Content-Type": "application/merge-patch+json"})
+        assert status == 422 and "ignore, compare or write" in str(refused), refused
+        g.send("PATCH", "/axes/left", {"stored_parameters": "compare"})

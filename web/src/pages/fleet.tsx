@@ -1,0 +1,179 @@
+// Fleet: every gateway of the domain and its axes, as they tell them, and commands to each. In: GET /fleet, once a second while the page is seen.
+// Out: a card for each gateway; commands by DDS, each with its one result. Never commands by itself; old words are greyed and say how old they are.
+import { useSignal } from '@preact/signals';
+import { useEffect, useMemo } from 'preact/hooks';
+import { asProblem } from '../api/problem';
+import type { Command, FleetAxis, FleetGateway } from '../api/types';
+import { ResultLine, resultId } from '../components/axis-controls';
+import { Field } from '../components/field';
+import { useBarred, Why } from '../components/gate';
+import { Icon } from '../components/icon';
+import { Empty } from '../components/lines';
+import { awayWords, waiting } from '../components/loaded';
+import { Mark, Pill } from '../components/pill';
+import { Section } from '../components/section';
+import { StopButton } from '../components/stop';
+import { useGateway } from '../gateway';
+import { capital } from '../state/commander';
+import { persisted } from '../state/persisted';
+import { markOf, motionWord, positionText, stateWord, unitOf } from '../text/axis';
+import { aboutAxis, asAxis, clockWords, gatewayWord, heardWords, trustOf } from '../text/fleet';
+import { parseQuantity } from '../text/number';
+import { duration } from '../text/time';
+
+const period_ms = 1_000;
+/** More axes than this stay folded until their gateway is opened. */
+const unfolded = 40;
+
+export function FleetPage() {
+  const { client, store } = useGateway();
+  const connection = store.connection.value;
+  const live = connection.phase === 'live';
+  const fleet = useSignal<Awaited<ReturnType<typeof client.fleet>> | null>(null);
+  const fault = useSignal('');
+  useEffect(() => {
+    if (!live) return;
+    let here = true;
+    let timer: ReturnType<typeof setTimeout> | undefined;
+    const ask = async () => {
+      try {
+        if (!document.hidden) fleet.value = await client.fleet();
+        fault.value = '';
+      } catch (error) {
+        fault.value = capital(asProblem(error).words);
+      }
+      if (here) timer = setTimeout(() => void ask(), period_ms);
+    };
+    void ask();
+    return () => {
+      here = false;
+      clearTimeout(timer);
+    };
+  }, [live, connection.epoch]);
+  const known = fleet.value;
+  const fresh = live && fault.value === '';
+  const many = (known?.gateways.reduce((n, g) => n + g.axes.length, 0) ?? 0) > unfolded;
+  return (
+    <main class="page fleet">
+      <h1 tabIndex={-1}>Fleet</h1>
+      {fault.value && <p class="card form" role="status" data-field="fleet-fault">{fault.value}</p>}
+      {!known && !fault.value && <Empty text={awayWords(connection) || waiting} />}
+      {known && !known.enabled && <Empty text="This gateway is in no domain with others. The configuration switches it on: [dds] enabled = true." />}
+      {known?.enabled && (
+        <>
+          <p class="where">A stop here goes to its one axis. The STOP in the head and the Escape key stop the axes of this gateway alone.</p>
+          <Why need="operator" what="Every command but a stop" />
+          {known.gateways.map((g) => (
+            <GatewayCard key={g.instance} gateway={g} connected={fresh} many={many} />
+          ))}
+        </>
+      )}
+    </main>
+  );
+}
+
+function GatewayCard({ gateway: g, connected, many }: { gateway: FleetGateway; connected: boolean; many: boolean }) {
+  const open = useSignal(!many);
+  const clock = clockWords(g.clock_ahead_ms);
+  return (
+    <Section title={g.gateway} class="fleet-gateway" beside={<Pill label="Gateway" word={gatewayWord(g, connected)} id="gateway-state" />}>
+      <div class="card" data-gateway={g.gateway} data-instance={g.instance} data-alive={g.alive}>
+        <p class="where fleet-about">
+          <span data-field="heard">{heardWords(g)}</span> · version <span class="mono">{g.version}</span> · {g.alive ? 'running for' : 'had run for'} {duration(g.uptime_s * 1000)}
+          {clock && ` · ${clock}`}
+          {g.page && !g.here && (
+            <>
+              {' · '}
+              <a href={g.page} target="_blank" rel="noopener">
+                its page
+              </a>
+            </>
+          )}
+        </p>
+        {g.namesake && (
+          <p class="notice tone-warning fleet-namesake" data-field="namesake">
+            <Icon name="triangle" size={14} />
+            <span>Another gateway of the domain is called {g.gateway} as well: commands to either are refused, stops are not. Give one of them another name: [dds] name.</span>
+          </p>
+        )}
+        {g.axes.length === 0 ? (
+          <p class="where fleet-about">No axis has been told.</p>
+        ) : open.value ? (
+          <ul class="fleet-axes" aria-label={`Axes of ${g.gateway}`}>
+            {g.axes.map((a) => (
+              <AxisLine key={a.axis} gateway={g} axis={a} connected={connected} />
+            ))}
+          </ul>
+        ) : (
+          <p class="fleet-about">
+            <button type="button" class="button" onClick={() => (open.value = true)}>
+              Show the {g.axes.length} axes of {g.gateway}
+            </button>
+          </p>
+        )}
+      </div>
+    </Section>
+  );
+}
+
+function AxisLine({ gateway: g, axis: a, connected }: { gateway: FleetGateway; axis: FleetAxis; connected: boolean }) {
+  const { fleet } = useGateway();
+  const open = useSignal(false);
+  const at = `${g.gateway}/${a.axis}`;
+  const trust = trustOf(g, a, connected);
+  const shown = asAxis(a);
+  // Two gateways of one name have axes of the same names.
+  const result = `${resultId(at)}-${g.instance}`;
+  return (
+    <li class="fleet-axis" data-axis={at} data-condition={a.fault && trust === 'live' ? 'fault' : trust} data-presence={shown.presence}>
+      <h3>{a.axis}</h3>
+      <Mark mark={markOf(shown)} />
+      <p class={`row-position${trust === 'live' ? '' : ' is-old'}`} data-field="position" data-value={shown.position ?? ''} data-live={trust === 'live'}>
+        <span class="visually-hidden">{trust === 'live' ? 'Position' : 'Last known position, not live'}: </span>
+        <span class="figure">{positionText(shown)}</span> <span class="unit">{unitOf(shown)}</span>
+      </p>
+      <p class="pills">
+        <Pill label="State" word={stateWord(shown, trust)} id="state" />
+        <Pill label="Motion" word={motionWord(shown, trust)} id="motion" />
+      </p>
+      <p class="where" data-field="about">{aboutAxis(g, a)}</p>
+      <button type="button" class="button fleet-command" aria-expanded={open.value} aria-label={`Command ${at}`} onClick={() => (open.value = !open.value)}>
+        Command
+      </button>
+      <StopButton axis={at} urgent={a.moving && trust === 'live'} by={fleet} />
+      {open.value && <Controls at={at} unit={unitOf(shown)} result={result} />}
+      <ResultLine axis={at} id={result} by={fleet} />
+    </li>
+  );
+}
+
+/** What an operator needs to bring an axis somewhere; all else is on its own gateway's page. */
+function Controls({ at, unit, result }: { at: string; unit: string; result: string }) {
+  const { fleet } = useGateway();
+  const no = useBarred('operator');
+  const typed = useMemo(() => ({ target: persisted(`fleet.${at}.target`), speed: persisted(`fleet.${at}.speed`) }), [at]);
+  const wrong = useSignal<'target' | 'speed' | ''>('');
+  const send = (command: Command, words: string) => void fleet.send(at, command, words);
+  const move = () => {
+    const target = parseQuantity(typed.target.value);
+    const speed = typed.speed.value.trim() === '' ? null : parseQuantity(typed.speed.value);
+    wrong.value = !target.good ? 'target' : speed && !(speed.good && speed.value > 0) ? 'speed' : '';
+    if (!target.good) return fleet.tell(at, 'refused', `Target: ${target.why}`);
+    if (speed && !speed.good) return fleet.tell(at, 'refused', `Speed: ${speed.why}`);
+    if (speed?.good && speed.value <= 0) return fleet.tell(at, 'refused', 'Speed: It must be greater than 0.');
+    send({ command: 'move_absolute', position: target.value, ...(speed?.good ? { velocity: speed.value } : {}) }, `Move to ${target.value} ${unit}`);
+  };
+  return (
+    <div class="fleet-controls">
+      <span class="group">
+        <button type="button" class="button" aria-label={`Enable ${at}`} {...no} onClick={() => send({ command: 'enable' }, 'Enable')}>Enable</button>
+        <button type="button" class="button" aria-label={`Disable ${at}`} title="Takes the power off at once; the shaft is free" {...no} onClick={() => send({ command: 'disable' }, 'Disable')}>Disable</button>
+      </span>
+      <button type="button" class="button" aria-label={`Reset fault of ${at}`} {...no} onClick={() => send({ command: 'reset_fault' }, 'Reset fault')}>Reset</button>
+      <button type="button" class="button" aria-label={`Halt ${at}`} title="Stop on the profile ramp, stay enabled" onClick={() => send({ command: 'halt' }, 'Halt')}>Halt</button>
+      <Field label="Target" longLabel={`Target of ${at}`} unit={unit} text={typed.target} wrong={wrong.value === 'target'} describedBy={result} onEnter={move} />
+      <Field label="Speed" longLabel={`Speed of ${at}`} unit={`${unit}/s`} text={typed.speed} wrong={wrong.value === 'speed'} describedBy={result} placeholder="as is" onEnter={move} />
+      <button type="button" class="button tinted" aria-label={`Move to target of ${at}`} {...no} onClick={move}>Move to</button>
+    </div>
+  );
+}

@@ -7,6 +7,7 @@ import { route, type Route } from '../router';
 import { axesFilter } from '../state/axes-filter';
 import { tick } from '../state/clock';
 import { dark, nextTheme } from '../state/theme';
+import { helpOfPage } from '../text/help';
 import { duration } from '../text/time';
 import { Icon, type IconName } from './icon';
 import { lastKnownWords } from './axis-tile';
@@ -76,6 +77,15 @@ function ThemeButton() {
   );
 }
 
+/** To the chapter about this page, in a tab of its own: what is typed or commanded here goes on. */
+function HelpLink() {
+  return (
+    <a class="button quiet help-link" href={helpOfPage(route.value.page)} target="axisgate-help" data-field="help">
+      Help
+    </a>
+  );
+}
+
 export function Head() {
   return (
     <header class="head">
@@ -89,6 +99,7 @@ export function Head() {
       <Navigation />
       <Connection />
       <Who />
+      <HelpLink />
       <ThemeButton />
       <StopAll />
     </header>

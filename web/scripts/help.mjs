@@ -114,6 +114,9 @@ function page(/** @type {Chapter} */ c) {
   const next = chapters[at + 1];
   const list = inside.length < 3 || c === contents ? '' : `<nav class="inside" aria-label="In this chapter"><ul>${inside.map((h) => `<li><a href="#${h.id}">${escape(h.text)}</a></li>`).join('')}</ul></nav>\n`;
   const [head = '', ...rest] = body.split('</h1>');
+  // Lines use two names that the first page sets.
+  const uses = c.tokens.some((t) => t.type === 'fence' && t.info === 'sh' && /\$api|\$json/.test(t.content)) && !c.tokens.some((t) => t.type === 'fence' && /^api=/m.test(t.content));
+  const note = uses ? '<p class="note">Lines with <code>$api</code> and <code>$json</code> need the two names that <a href="/help/">the first page</a> sets.</p>\n' : '';
   return `<!doctype html>
 <html lang="en">
 <head>
@@ -134,7 +137,7 @@ ${navigation(c)}
 </details></nav>
 <main id="content">
 ${head}</h1>
-${list}${rest.join('</h1>')}
+${list}${note}${rest.join('</h1>')}
 <nav class="turn" aria-label="Previous and next chapter">${before ? `<a rel="prev" href="${link(before)}">← ${escape(before.title)}</a>` : '<span></span>'}${next ? `<a rel="next" href="${link(next)}">${escape(next.title)} →</a>` : ''}</nav>
 </main>
 </div>

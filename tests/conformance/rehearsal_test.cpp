@@ -66,6 +66,25 @@ TEST_P(Rehearsals, EachCellHasItsFigures) {
     }
 }
 
+TEST_P(Rehearsals, WhenTheGatewayIsGoneADriveWithAWatchdogStopsByItselfAndAnyOtherGoesOn) {
+    const auto& says = e.catalogue->document().at("drive_watchdog").as_object();
+    EXPECT_GT(says.at("description").as_string().size(), 20u);
+    const RehearsalCell cell = play(LossCause::none, std::nullopt);
+    ASSERT_EQ(cell.fault, "");
+    EXPECT_GT(cell.speed, 0);
+    EXPECT_FALSE(cell.noticed_ms) << "there is nobody who could";
+    EXPECT_EQ(cell.taken, FailSafeAction::nothing);
+    if (!says.at("available").as_bool()) {
+        EXPECT_FALSE(cell.reaction_ms);
+        EXPECT_FALSE(cell.standstill_ms);
+        EXPECT_GE(cell.watched_ms, 15000);
+        return;
+    }
+    ASSERT_TRUE(cell.reaction_ms && cell.standstill_ms);
+    EXPECT_GE(*cell.reaction_ms, 900) << "as delivered: 1000 ms after the last heartbeat";
+    EXPECT_LE(*cell.standstill_ms, 2500);
+}
+
 TEST_P(Rehearsals, TheSameSiteGivesTheSameFigures) {
     const RehearsalCell a = play(LossCause::modbus_closed, FailSafeAction::halt), b = play(LossCause::modbus_closed, FailSafeAction::halt);
     EXPECT_EQ(a.standstill_ms, b.standstill_ms);

@@ -111,8 +111,11 @@ void Node::boot(Instant now, Out& out) {
     guard_.set(std::chrono::milliseconds(d_.integer({0x100C, 0}).value_or(0)),
                static_cast<std::uint8_t>(d_.integer({0x100D, 0}).value_or(0)));
     watch_as_written();
+    read_sync();
     read_pdos(now);
 }
+
+void Node::read_sync() { sync_id_ = static_cast<std::uint32_t>(d_.integer({0x1005, 0}).value_or(0x80)) & 0x7FFu; }
 
 /// 1016h:01: the node in bits 16 to 22, its time in ms below; the watch begins with its first heartbeat (CiA 301).
 void Node::watch_as_written() {
@@ -145,6 +148,8 @@ void Node::read_pdo(PdoDirection direction, std::uint16_t n, Instant now) {
     p = {};
     p.valid = valid;
     if (read) p.pdo = *read;
+    for (const auto& m : p.pdo.mapping)
+        p.entries.push_back(d_.find(m.address));
     if (valid && direction == PdoDirection::transmit && p.pdo.settings.event_ms > 0)
         p.event = now + std::chrono::milliseconds(p.pdo.settings.event_ms);
 }
@@ -180,6 +185,7 @@ void Node::take_writes(Instant now, Out& out) {
         device_->written(a, now);
         if (a.index == 0x1016) watch_as_written();
         if (a.index == 0x1017) heartbeat_.set_period(std::chrono::milliseconds(d_.integer(a).value_or(0)), now);
+        if (a.index == 0x1005) read_sync();
         if (a.index == 0x100C || a.index == 0x100D)
             guard_.set(std::chrono::milliseconds(d_.integer({0x100C, 0}).value_or(0)),
                        static_cast<std::uint8_t>(d_.integer({0x100D, 0}).value_or(0)));
@@ -234,8 +240,7 @@ void Node::on_frame(const Frame& f, Instant now, Out& out) {
     (void)watch_.on_frame(f, now);
     if (const auto answer = guard_.on_frame(f, now, node_, state_)) return send(*answer, now, out);
     if (state_ == NmtState::stopped) return;
-    const auto sync = static_cast<std::uint32_t>(d_.integer({0x1005, 0}).value_or(0x80)) & 0x7FFu;
-    if (canopen::is_data(f, sync)) return on_sync(now, out);
+    if (canopen::is_data(f, sync_id_)) return on_sync(now, out);
     std::vector<Frame> answers;
     if (server_.on_frame(f, now, answers)) {
         for (const Frame& a : answers)
@@ -298,10 +303,8 @@ void Node::on_sync(Instant now, Out& out) {
 std::vector<std::uint8_t> Node::packed(const Pdo& p, Instant at) {
     show(at);
     std::vector<std::uint64_t> values;
-    for (const auto& m : p.pdo.mapping) {
-        const canopen::Entry* e = d_.find(m.address);
+    for (const canopen::Entry* e : p.entries)
         values.push_back(e ? canopen::low_first(e->bytes) : 0);
-    }
     return canopen::pack(p.pdo.mapping, values).value_or(std::vector<std::uint8_t>{});
 }
 void Node::transmit(Pdo& p, Instant at, Out& out) {

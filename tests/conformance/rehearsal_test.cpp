@@ -15,7 +15,7 @@ protected:
     Site site_with(LossCause cause, std::optional<FailSafeAction> action) {
         Site s = world->twins(e, 2);
         for (AxisSpec& a : s.axes) {
-            a.fail_safe.of(cause) = action;
+            if (cause != LossCause::none) a.fail_safe.of(cause) = action;
             a.fail_safe.watchdog_ms = 300;
         }
         return s;

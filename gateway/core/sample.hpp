@@ -9,6 +9,7 @@
 #include <string>
 
 #include "gateway/core/command.hpp"
+#include "gateway/core/drive_watchdog.hpp"
 #include "gateway/core/ids.hpp"
 #include "gateway/core/instant.hpp"
 #include "gateway/core/value.hpp"
@@ -75,6 +76,7 @@ struct DriveLink {
     std::uint32_t silent_exchanges = 0;  ///< in a row
     Duration retry_pause{};              ///< present pause between attempts while it is silent
     std::string text;                    ///< why, for people
+    DriveWatchdog watchdog{};
 };
 
 enum class Severity : std::uint8_t { info, warning, alarm };

@@ -31,8 +31,8 @@ ROOMS = {
     "services": ("core", "site", "axis", "registers", "engine", "protocols/canopen"),
     "lines": ("core", "wire"),
     "store": ("core", "site"),
-    "doors/modbus": ("core", "site", "axis", "registers", "engine"),
-    "doors/enip": ("core", "site", "axis", "registers", "engine", "protocols/cip"),
+    "doors/modbus": ("core", "site", "axis", "registers", "engine", "lines/poller.hpp"),
+    "doors/enip": ("core", "site", "axis", "registers", "engine", "protocols/cip", "lines/poller.hpp"),
     "doors/dds": ("core", "site", "axis", "services"),
     "doors/http": ("core", "site", "axis", "registers", "services", "engine", "wire"),
 }

@@ -121,6 +121,8 @@ void DdsDoor::on_turn() {
     for (auto& event : fleet_.on_turn(now))
         ports_.get<EventPort>().note(std::move(event));
     std::erase_if(namesakes_, [this](std::uint64_t instance) { return !fleet_.alive(instance); });
+    for (const auto& writer : std::exchange(gone_before_, {}))
+        on_gone(writer);
     timer_.expires_after(std::chrono::duration_cast<std::chrono::steady_clock::duration>(turn));
     timer_.async_wait([this](const boost::system::error_code& ec) {
         if (!ec) on_turn();
@@ -169,6 +171,7 @@ void DdsDoor::tell_axes(Instant now) {
         axes_.assign(site->site.axes.size(), {});
         for (std::size_t i = 0; i < axes_.size(); ++i)
             axes_[i].name = site->site.axes[i].name;
+        commanders_.keep([&site](const std::string& axis) { return index_of_name(site->site.axes, axis).has_value(); });
         site_ = site;
     }
     for (std::size_t i = 0; i < axes_.size() && i < site->axis_ids.size(); ++i) {
@@ -260,14 +263,15 @@ void DdsDoor::read() {
         if (seen.valid) fleet_.on_result(s);
     });
     all(static_cast<axisgate_AxisCommand*>(nullptr), [this, mine](const auto& s, const Bus::Seen& seen) {
-        if (seen.valid && mine(s)) on_command(s);
+        if (seen.valid && mine(s)) on_command(s, seen);
     });
     all(static_cast<axisgate_ParameterWrite*>(nullptr), [this, mine](const auto& s, const Bus::Seen& seen) {
-        if (seen.valid && mine(s)) on_parameter_write(s);
+        if (seen.valid && mine(s)) on_parameter_write(s, seen);
     });
     all(static_cast<axisgate_SetPoint*>(nullptr), [this, mine](const auto& s, const Bus::Seen& seen) {
         if (mine(s)) on_set_point(s, seen);
     });
+    look_for_gone();
     // What is left has its turn after everything else that waits.
     if (more && !woken_.exchange(true, std::memory_order_acq_rel)) boost::asio::post(context_, [this] { read(); });
 }
@@ -343,7 +347,7 @@ bool DdsDoor::to_be_done(const Asked& a) {
     return true;
 }
 
-void DdsDoor::on_command(const axisgate_AxisCommand& s) {
+void DdsDoor::on_command(const axisgate_AxisCommand& s, const Bus::Seen& seen) {
     const std::string_view name(s.command);
     const Asked a{s.axis, s.source, s.id, s.instance, name == "halt" || name == "quick_stop"};
     ++counters_.commands;
@@ -356,10 +360,11 @@ void DdsDoor::on_command(const axisgate_AxisCommand& s) {
         const auto& f = read.faults.front();
         return refuse(a, Reason::out_of_range, f.text + (f.remedy.empty() ? "" : "; " + f.remedy));
     }
+    note_commander(a, {Topic::axis_command, seen.writer});
     carry_out(a, *place, std::move(*read.body), s.until_done);
 }
 
-void DdsDoor::on_parameter_write(const axisgate_ParameterWrite& s) {
+void DdsDoor::on_parameter_write(const axisgate_ParameterWrite& s, const Bus::Seen& seen) {
     const Asked a{s.axis, s.source, s.id, s.instance, false};
     ++counters_.commands;
     if (!to_be_done(a)) return;
@@ -377,7 +382,23 @@ void DdsDoor::on_parameter_write(const axisgate_ParameterWrite& s) {
     auto checked = check_write_now(*place->catalogue, *point, *value,
                                    [&parameters, id = place->id()](Point p) { return parameters.live(id, p).value; });
     if (!checked.fault.empty()) return refuse(a, Reason::out_of_range, checked.fault);
+    note_commander(a, {Topic::parameter_write, seen.writer});
     carry_out(a, *place, WriteParameter{*point, std::move(checked.value)}, false);
+}
+
+void DdsDoor::note_commander(const Asked& asked, const Bus::Writer& writer) {
+    if (commanders_.note(asked.axis, asked.source, writer) && !bus_.is_there(writer) && gone_before_.size() < Bus::gone_most)
+        gone_before_.push_back(writer);
+}
+
+void DdsDoor::look_for_gone() {
+    for (const auto& writer : bus_.take_gone([this] { return commanders_.writers(); }))
+        on_gone(writer);
+}
+
+void DdsDoor::on_gone(const Bus::Writer& writer) {
+    for (const auto& source : commanders_.gone(writer))
+        ports_.get<AxisPort>().client_lost(AuthorityClient::of(origin_of(source)), LossCause::dds_deadline);
 }
 
 void DdsDoor::carry_out(const Asked& asked, const AxisPlace& place, CommandBody body, bool until_done) {

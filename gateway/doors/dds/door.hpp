@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "gateway/doors/dds/bus.hpp"
+#include "gateway/doors/dds/commanders.hpp"
 #include "gateway/doors/dds/commands_seen.hpp"
 #include "gateway/doors/dds/fleet.hpp"
 #include "gateway/services/axis_place.hpp"
@@ -79,8 +80,12 @@ private:
     void fill(axisgate_AxisState& s, const AxisPlace& place) const;
     void read();
     void on_gateway(const axisgate_GatewayState& s, const Bus::Seen& seen);
-    void on_command(const axisgate_AxisCommand& s);
-    void on_parameter_write(const axisgate_ParameterWrite& s);
+    void on_command(const axisgate_AxisCommand& s, const Bus::Seen& seen);
+    void on_parameter_write(const axisgate_ParameterWrite& s, const Bus::Seen& seen);
+    /// Who commands the axis now, and the writer that it does so with.
+    void note_commander(const Asked& asked, const Bus::Writer& writer);
+    void look_for_gone();
+    void on_gone(const Bus::Writer& writer);
     void on_set_point(const axisgate_SetPoint& s, const Bus::Seen& seen);
     [[nodiscard]] bool to_be_done(const Asked& asked);
     void carry_out(const Asked& asked, const AxisPlace& place, CommandBody body, bool until_done);
@@ -99,8 +104,10 @@ private:
     std::vector<Told> axes_;
     std::shared_ptr<const SiteState> site_;
     Instant gateway_told_{};
-    std::set<std::uint64_t> namesakes_;              // instances of other gateways with this one's name
+    std::set<std::uint64_t> namesakes_;  // instances of other gateways with this one's name
+    Commanders commanders_;
     std::map<std::string, std::string> set_points_;  // who streams, by axis
+    std::vector<Bus::Writer> gone_before_;           // that wrote and were gone before that was read: their command is let through first
     Counters counters_;
     bool open_ = false;
     Bus bus_;  // last: its threads end first

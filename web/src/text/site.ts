@@ -91,6 +91,7 @@ export const fieldsOf: Record<Room, readonly FieldSpec[]> = {
     { key: 'fail_safe.enip_idle', label: 'When its EtherNet/IP scanner is idle', kind: 'choice', more: true, choices: failSafeActions },
     { key: 'fail_safe.line_lost', label: 'When it could not be reached', kind: 'choice', more: true, choices: failSafeActions },
     { key: 'fail_safe.gateway_ends', label: 'When the gateway ends', kind: 'choice', more: true, choices: failSafeActions },
+    { key: 'fail_safe.dds_deadline', label: 'When its DDS client misses a deadline or is gone', kind: 'choice', more: true, choices: failSafeActions },
     { key: 'fail_safe.watchdog_ms', label: 'Silent after, ms', kind: 'integer', min: 0, max: 600000, more: true, placeholder: "the gateway's", hint: '0: silence is not watched' },
     {
       key: 'stored_parameters',

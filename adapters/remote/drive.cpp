@@ -55,7 +55,7 @@ void Drive::submit(const Command& c, Turn& t) {
 
 std::uint64_t Drive::send(const mirror::Order& order, Priority priority, Turn& t, std::uint64_t number) {
     if (number == 0) number = line_.next++;
-    std::string text = text_of({Telegram::Kind::request, number, setup_.address, body_of(order)});
+    std::string text = mirror::text_of({Telegram::Kind::request, number, setup_.address, body_of(order)});
     // Whatever a stop may come into the middle of has ended with that: it is a line of its own.
     if (priority == Priority::urgent) text.insert(0, "\n");
     for_each_run({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, [&](const Frame& f) { t.out.send(f, priority); });
@@ -75,7 +75,8 @@ void Drive::go(Turn& t) {
         if (s.left == 0 || t.now < s.again) return;
         --s.left;
         s.again = t.now + line_.timing.reply_timeout;
-        s.number = newest_ = send(s.order, Priority::urgent, t, s.number);
+        s.number = send(s.order, Priority::urgent, t, s.number);
+        newest_ = std::max(newest_, s.number);
     });
     if (!presence_.online()) {
         if (!presence_.probe_due(t.now) || poll_.active()) return;

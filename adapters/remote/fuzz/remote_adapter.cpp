@@ -45,7 +45,7 @@ Frame plausible(FuzzedDataProvider& in, LineKind, const std::vector<std::string>
     } else {
         t.body = "the gateway is gone";
     }
-    const std::string text = text_of(t);
+    const std::string text = mirror::text_of(t);
     return Frame::run({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 }  // namespace

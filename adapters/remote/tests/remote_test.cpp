@@ -54,8 +54,8 @@ TEST(RemoteWire, GoldenTelegramsAreReadAndWrittenAgain) {
 }
 
 TEST(RemoteWire, AStopInTheMiddleOfARequestIsALineOfItsOwn) {
-    const std::string request = text_of({Telegram::Kind::request, 1, "hall-2/feeder", "move_absolute p=5"});
-    const std::string stop = "\n" + text_of({Telegram::Kind::request, 2, "hall-2/feeder", "halt"});
+    const std::string request = mirror::text_of({Telegram::Kind::request, 1, "hall-2/feeder", "move_absolute p=5"});
+    const std::string stop = "\n" + mirror::text_of({Telegram::Kind::request, 2, "hall-2/feeder", "halt"});
     std::vector<std::uint64_t> heard;
     mirror::Framer framer;
     framer.push(request.substr(0, 20) + stop + request.substr(20), [&](std::string_view line) {
@@ -67,7 +67,7 @@ TEST(RemoteWire, AStopInTheMiddleOfARequestIsALineOfItsOwn) {
 TEST(RemoteWire, WhatNeverEndsIsDropped) {
     mirror::Framer framer;
     int lines = 0;
-    framer.push(std::string(5000, 'x') + "\n" + text_of({Telegram::Kind::request, 2, "hall-2/feeder", "halt"}),
+    framer.push(std::string(5000, 'x') + "\n" + mirror::text_of({Telegram::Kind::request, 2, "hall-2/feeder", "halt"}),
                 [&](std::string_view) { ++lines; });
     EXPECT_EQ(lines, 1);
 }
@@ -80,7 +80,7 @@ TEST(RemoteWire, AnAddressIsAGatewayAndAnAxis) {
 
 TEST(RemoteWire, TheDecoderSaysWhatItIs) {
     LineDecoder d;
-    EXPECT_THAT(d.on_frame(frame(text_of({Telegram::Kind::request, 7, "hall-2/feeder", "halt"})), true),
+    EXPECT_THAT(d.on_frame(frame(mirror::text_of({Telegram::Kind::request, 7, "hall-2/feeder", "halt"})), true),
                 ElementsAre("hall-2/feeder is asked: halt (number 7)"));
     EXPECT_THAT(d.on_frame(frame("nonsense\n"), true), ElementsAre("unknown: 8 bytes that are no telegram"));
 }
@@ -123,7 +123,7 @@ struct Bench : testing::Test {
         out.clear();
     }
     void say(Telegram::Kind kind, std::uint64_t number, std::string body) {
-        const std::string text = text_of({kind, number, "hall-2/feeder", std::move(body)});
+        const std::string text = mirror::text_of({kind, number, "hall-2/feeder", std::move(body)});
         for_each_run({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()},
                      [&](const Frame& f) { adapter.on_frame(f, now, out); });
         take();
@@ -154,7 +154,7 @@ struct Bench : testing::Test {
     Ticket ask(CommandBody body) {
         static std::uint64_t next = 0;
         Command c;
-        c.ticket = make_ticket(0, ++next);
+        c.ticket = Ticket{++next};
         c.axis = AxisId{10};
         c.body = std::move(body);
         adapter.on_command(c, now, out);

@@ -226,7 +226,7 @@ void DdsDoor::fill(axisgate_AxisState& s, const AxisPlace& place) {
     put_text(s.set_point_refusal, axisgate::name_of(p.set_point_refusal));
     s.position_demand = p.position_demand;
     put_text(s.demand_source, axisgate::name_of(p.demand_source));
-    s.sequence = ++sequence_;
+    s.count = ++sequence_;
 }
 
 void DdsDoor::on_event(const Event& e) {
@@ -444,7 +444,7 @@ void DdsDoor::answer(const Asked& asked, const Result& r, bool repeated) {
     s.code = r.code;
     put_text(s.text, r.text);
     s.repeated = repeated;
-    s.sequence = sequence_;
+    s.count = sequence_;
     if (!bus_.write(s)) ++counters_.unsent;  // whoever misses it sends the command again
 }
 

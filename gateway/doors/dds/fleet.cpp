@@ -127,7 +127,7 @@ void Fleet::on_axis(const axisgate_AxisState& s, bool valid, bool alive) {
     a.at_unix_ns = s.at_unix_ns;
     a.position_demand = s.position_demand;
     a.demand_source = s.demand_source;
-    a.sequence = s.sequence;
+    a.sequence = s.count;
 }
 
 void Fleet::on_result(const axisgate_CommandResult& s) {
@@ -139,7 +139,7 @@ void Fleet::on_result(const axisgate_CommandResult& s) {
     r.code = s.code;
     if (const auto known = known_.find(s.instance); known != known_.end()) {
         const auto axis = known->second.axes.find(s.axis);
-        if (axis != known->second.axes.end()) axis->second.answered = std::max(axis->second.answered, s.sequence);
+        if (axis != known->second.axes.end()) axis->second.answered = std::max(axis->second.answered, s.count);
     }
     end(s.id, r);
 }

@@ -52,7 +52,8 @@ void Mirror::request(const Telegram& t, std::int64_t now_unix_ns, Instant now) {
     if (order->verb == "state") {
         const auto it = watched_.find(t.address);
         if (it == watched_.end() && watched_.size() >= watched_most)
-            return send_(text_of({Telegram::Kind::gone, t.number, t.address, fmt::format("{} axes are mirrored already", watched_most)}));
+            return send_(
+                mirror::text_of({Telegram::Kind::gone, t.number, t.address, fmt::format("{} axes are mirrored already", watched_most)}));
         Watched& w = it == watched_.end() ? watched_[t.address] : it->second;
         w.asked = now;
         return tell(t.address, w, t.number, now_unix_ns);
@@ -80,7 +81,7 @@ void Mirror::request(const Telegram& t, std::int64_t now_unix_ns, Instant now) {
 }
 
 void Mirror::answer(const Telegram& request, const mirror::Answer& a) {
-    send_(text_of({Telegram::Kind::answer, request.number, request.address, mirror::body_of(a)}));
+    send_(mirror::text_of({Telegram::Kind::answer, request.number, request.address, mirror::body_of(a)}));
 }
 
 void Mirror::tell(const std::string& address, Watched& w, std::uint64_t number, std::int64_t now_unix_ns) {
@@ -88,7 +89,7 @@ void Mirror::tell(const std::string& address, Watched& w, std::uint64_t number, 
     if (number == 0) number = std::exchange(w.waits, 0);
     if (!found.axis) {
         w.told = false;
-        return send_(text_of({Telegram::Kind::gone, number, address, found.why}));
+        return send_(mirror::text_of({Telegram::Kind::gone, number, address, found.why}));
     }
     const FleetAxis& a = *found.axis;
     if (Fleet::outdated(a)) {
@@ -112,7 +113,7 @@ void Mirror::tell(const std::string& address, Watched& w, std::uint64_t number, 
     s.error_code = a.error_code;
     s.age_ms = std::max<std::int64_t>(0, Fleet::age_ms(*found.gateway, a, now_unix_ns));
     w.told = true;
-    send_(text_of({Telegram::Kind::state, number, address, mirror::body_of(s)}));
+    send_(mirror::text_of({Telegram::Kind::state, number, address, mirror::body_of(s)}));
 }
 
 void Mirror::on_axis(std::string_view gateway, std::string_view axis, std::int64_t now_unix_ns) {

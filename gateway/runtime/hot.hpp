@@ -40,6 +40,7 @@ struct HotSettings {
     int cpu = -1;
     std::size_t trace_frames = 4096;
     Instant (*clock)() noexcept = monotonic_now;  ///< never goes backwards; a test has its own
+    PairEnd fleet{};                              ///< takes the other ends of mirror lines; empty: there is no fleet
     PtyPlaces ptys{};                             ///< where lines of the site may link pseudo-terminals
 };
 

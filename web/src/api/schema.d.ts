@@ -2395,7 +2395,7 @@ export interface components {
         };
         LineFields: {
             name?: components["schemas"]["Name"];
-            /** @description can:can0, serial:/dev/ttyUSB0?baud=9600&format=7N1&rs485=1, tcp:HOST:PORT, tcp-listen:HOST:PORT, udp:HOST:PORT, udp-listen:HOST:PORT, pty:PATH, pty:PATH?baud=9600&format=7N1, twin */
+            /** @description can:can0, serial:/dev/ttyUSB0?baud=9600&format=7N1&rs485=1, tcp:HOST:PORT, tcp-listen:HOST:PORT, udp:HOST:PORT, udp-listen:HOST:PORT, pty:PATH, pty:PATH?baud=9600&format=7N1, dds (axes of other gateways), twin */
             uri?: string;
             /** @description of the drives that name none; may be left out on a CAN line */
             family?: string;

@@ -10,6 +10,7 @@
 #include "adapters/cia402/drive_double.hpp"
 #include "adapters/cia402/parameters.hpp"
 #include "gateway/drive/exchange.hpp"
+#include "gateway/drive/polls.hpp"
 #include "gateway/protocols/canopen/emergency.hpp"
 #include "gateway/protocols/canopen/nmt.hpp"
 #include "gateway/protocols/canopen/sdo_client.hpp"
@@ -29,6 +30,7 @@ public:
     void line_down(std::string_view why, Turn& t);
     void submit(const Command& command, Turn& t);
     void follow(const SetPoint& set_point);
+    void look(const DriveSetup& setup) noexcept { (void)pace_.take(setup); }
     void on_frame(const Frame& frame, Turn& t);
     void before_sync(Duration cycle, Turn& t);  ///< the next targets go out
     void after_sync() noexcept;
@@ -44,6 +46,8 @@ public:
     [[nodiscard]] std::size_t slot() const noexcept { return slot_; }
     [[nodiscard]] int listeners() const noexcept;
     [[nodiscard]] bool quick() const noexcept;
+    [[nodiscard]] bool streams() const noexcept;
+    [[nodiscard]] const drive::Pace& pace() const noexcept { return pace_; }
 
 private:
     [[nodiscard]] Axis* of(AxisId id) noexcept;
@@ -74,6 +78,7 @@ private:
     std::size_t slot_;
     std::vector<std::unique_ptr<Axis>> axes_;
     std::size_t turn_ = 0;  ///< whose turn it is among them
+    drive::Pace pace_;
     Duration heartbeat_period_ = std::chrono::milliseconds(500);
     drive::LateMarks<Address, 8> late_;
     canopen::SdoClient sdo_;

@@ -77,3 +77,53 @@ def test_recordings_outlive_the_gateway_and_say_when_they_cannot_be_replayed(fol
         assert [r["name"] for r in g.get("/recorder/recordings")["recordings"]] == ["late"]
         code, told = replay(folder / "data" / "recordings" / "late.axr")
         assert code != 0 and "not replayed" in told, told
+
+
+def wait_for_capture(gateway, name, state="done"):
+    return until(lambda: next((c for c in gateway.get("/recorder/captures")["captures"] if c["name"] == name and c["state"] == state and (state != "done" or c["bytes"] > 0)), None), 20, f"{name} {state}")
+
+
+def test_a_capture_triggers_by_a_level_at_a_kilohertz_and_is_kept(gateway, folder):
+    gateway.command("slide", {"command": "enable"})
+    before = gateway.axis("slide")["position"]
+    wish = {"name": "before-tuning", "axes": ["slide"], "before_ms": 100, "after_ms": 400, "trigger": {"kind": "level", "level": before + 1}}
+    made = gateway.send("POST", "/recorder/captures", wish, 201)
+    assert made["state"] == "armed", made
+    status, said, _ = gateway.request("POST", "/api/v1/recorder/captures", dict(wish, name="second"))
+    assert status == 503 and "before-tuning" in said["detail"], (status, said)
+    gateway.command("slide", {"command": "move_relative", "position": 5, "velocity": 20, "acceleration": 200, "deceleration": 200})
+    info = wait_for_capture(gateway, "before-tuning")
+    assert info["axes"][0]["rate_hz"] > 300, info
+    whole = gateway.get("/recorder/captures/before-tuning")
+    column = whole["columns"][0]
+    assert min(column["seconds"]) < -0.05 and max(column["seconds"]) > 0.35, (min(column["seconds"]), max(column["seconds"]))
+    behind = [p for s, p in zip(column["seconds"], column["position"]) if s >= 0]
+    ahead = [p for s, p in zip(column["seconds"], column["position"]) if s < 0]
+    assert max(ahead) < before + 1 <= behind[1] and max(behind) > before + 3, (before, max(ahead), behind[:2])
+    status, text, _ = gateway.request("GET", "/api/v1/recorder/captures/before-tuning", None, {"Accept": "text/csv"})
+    assert status == 200 and text.count(b"\r\n") == len(column["seconds"]) + 1, text[:200]
+    assert gateway.send("PATCH", "/recorder/captures/before-tuning", {"name": "kept"})["name"] == "kept"
+    file = folder / "data" / "captures" / "kept.axc"
+    whole = file.read_bytes()
+    file.write_bytes(whole[:-40])
+    status, said, _ = gateway.request("GET", "/api/v1/recorder/captures/kept")
+    assert status == 409 and "cut off" in said["detail"], said
+    file.write_bytes(whole)
+
+
+def test_captures_by_command_and_state_are_given_up_and_cancelled(folder):
+    with harness.Gateway(folder, harness.DEMO) as g:
+        g.command("slide", {"command": "enable"})
+        g.send("POST", "/recorder/captures", {"name": "start", "axes": ["slide"], "after_ms": 200, "trigger": {"kind": "command"}}, 201)
+        g.command("slide", {"command": "move_relative", "position": 2, "velocity": 20, "acceleration": 200, "deceleration": 200})
+        assert wait_for_capture(g, "start")["trigger"] == {"kind": "command", "axis": "slide"}
+        g.send("POST", "/recorder/captures", {"name": "never", "axes": ["slide"], "wait_ms": 300, "trigger": {"kind": "state", "state": "fault"}}, 201)
+        assert "did not come within" in wait_for_capture(g, "never", "cancelled")["why"]
+        g.send("POST", "/recorder/captures", {"name": "long", "axes": ["slide"], "trigger": {"kind": "state", "state": "fault"}}, 201)
+        g.send("DELETE", "/recorder/captures/long", None, 204)
+        g.send("POST", "/recorder/captures", {"name": "never", "axes": ["slide"], "after_ms": 100}, 201)  # a name that was given up is free
+        wait_for_capture(g, "never")
+    with harness.Gateway(folder, None) as g:
+        assert sorted(c["name"] for c in g.get("/recorder/captures")["captures"]) == ["never", "start"]
+        g.send("DELETE", "/recorder/captures/start", None, 204)
+        assert [c["name"] for c in g.get("/recorder/captures")["captures"]] == ["never"]

@@ -207,6 +207,12 @@ Handled make_recording(Call&, EventPort&, RecorderPort&);
 Handled get_recording(Call&, RecorderPort&);
 Handled rename_recording(Call&, RecorderPort&);
 Handled remove_recording(Call&, RecorderPort&);
+// --- handlers_captures.cpp --------------------------------------------------------------------------------------------
+Handled list_captures(Call&, CapturePort&);
+Handled arm_capture(Call&, CapturePort&, EventPort&, const SitePort&);
+Handled get_capture(Call&, CapturePort&);
+Handled rename_capture(Call&, CapturePort&);
+Handled remove_capture(Call&, CapturePort&);
 // --- handlers_recipes.cpp ---------------------------------------------------------------------------------------------
 Handled list_recipes(Call&, const DocumentPort&);
 Handled get_recipe(Call&, const DocumentPort&);

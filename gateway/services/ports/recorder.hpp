@@ -35,7 +35,7 @@ struct RecorderState {
 };
 
 struct RecordingFault {
-    enum class Kind : std::uint8_t { none, no_such, exists, no_room, busy } kind = Kind::none;
+    enum class Kind : std::uint8_t { none, no_such, exists, no_room, busy, damaged } kind = Kind::none;
     std::string text;
 };
 

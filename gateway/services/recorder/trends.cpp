@@ -50,6 +50,18 @@ void widen(TrendColumn& c, const TrendRow& r) {
 }
 }  // namespace
 
+TrendRow trend_row(const PictureRecord& p, Instant at) noexcept {
+    TrendRow row;
+    row.at = at;
+    row.position = p.position;
+    row.demand_known = p.demand_source == DemandSource::drive || p.demand_source == DemandSource::computed;
+    row.demand = row.demand_known ? p.demand : p.position;
+    row.velocity = p.velocity;
+    row.statusword = p.statusword;
+    row.flags = p.flags;
+    return row;
+}
+
 template <class F>
 void Trends::for_each(const Block& block, F&& f) {
     TrendRow r = block.head;
@@ -107,14 +119,7 @@ void Trends::add(AxisId id, const PictureRecord& p, Instant at) {
         a.counted_from = at;
     }
     a.newest = std::max(a.newest, at);
-    TrendRow row;
-    row.at = a.blocks.empty() ? at : std::max(at, a.blocks.back().tail.at);
-    row.position = p.position;
-    row.demand_known = p.demand_source == DemandSource::drive || p.demand_source == DemandSource::computed;
-    row.demand = row.demand_known ? p.demand : p.position;
-    row.velocity = p.velocity;
-    row.statusword = p.statusword;
-    row.flags = p.flags;
+    const TrendRow row = trend_row(p, a.blocks.empty() ? at : std::max(at, a.blocks.back().tail.at));
     if (!a.blocks.empty() && a.blocks.back().tail.same_values(row)) return;
     append(a, row);
     shorten(a, at);

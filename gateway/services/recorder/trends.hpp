@@ -30,6 +30,8 @@ struct TrendRow {
     }
 };
 
+[[nodiscard]] TrendRow trend_row(const PictureRecord& picture, Instant at) noexcept;
+
 /// A column of a thinned stretch: from `low.at` on. Each member of `low` and `high` is the smallest and greatest of its own; state and
 /// flags are the newest ones.
 struct TrendColumn {

@@ -90,9 +90,16 @@ public:
         });
     }
     void load(const std::string& name, std::function<void(std::optional<std::string>)> then) {
+        read<std::string>(name, [](std::string&& bytes) { return std::move(bytes); }, std::move(then));
+    }
+    /// What `make` makes of its bytes, on the disk's thread; nothing: there is none.
+    template <class T, class Make>
+    void read(const std::string& name, Make make, std::function<void(std::optional<T>)> then) {
         if (!kept_.contains(name)) return then(std::nullopt);
-        boost::asio::post(disk_, [this, path = path_of(name), then = std::move(then)]() mutable {
-            threads_.answer([then = std::move(then), bytes = read_whole(path)]() mutable { then(std::move(bytes)); });
+        boost::asio::post(disk_, [this, path = path_of(name), make = std::move(make), then = std::move(then)]() mutable {
+            std::optional<T> made;
+            if (auto bytes = read_whole(path)) made.emplace(make(std::move(*bytes)));
+            threads_.answer([then = std::move(then), made = std::move(made)]() mutable { then(std::move(made)); });
         });
     }
     /// `change`: what else becomes of one that somebody has named.

@@ -14,7 +14,6 @@
 namespace axisgate {
 namespace {
 namespace json = boost::json;
-using Kind = RecordingFault::Kind;
 
 std::string packed(const CaptureInfo& info, const json::array& columns) {
     AxrWriter w;
@@ -25,7 +24,7 @@ std::string packed(const CaptureInfo& info, const json::array& columns) {
     return w.finish();
 }
 
-CaptureInfo look_at(const std::string& path, std::string name) {
+CaptureInfo known_of(const std::string& path, std::string name) {
     CaptureInfo i;
     i.name = std::move(name);
     std::error_code ec;
@@ -47,7 +46,7 @@ CaptureInfo look_at(const std::string& path, std::string name) {
 }
 
 /// What makes an axis move, or may.
-bool moves(const CommandBody& body) {
+bool may_move(const CommandBody& body) {
     return std::holds_alternative<Move>(body) || std::holds_alternative<Home>(body) || std::holds_alternative<StartTogether>(body) ||
            std::holds_alternative<ProcessData>(body) || std::holds_alternative<Action>(body);
 }
@@ -60,7 +59,7 @@ WarmCaptures::~WarmCaptures() {
 
 void WarmCaptures::begin(const RecorderSettings& settings) {
     bound_ = settings.captures_bytes;
-    shelf_.open(settings.captures, look_at);
+    shelf_.open(settings.captures, known_of);
     recorder_.listen(this);
 }
 
@@ -96,13 +95,13 @@ void WarmCaptures::arm(CaptureOrder order, std::function<void(RecordingFault, Ca
         if (r->capture.over()) continue;
         ++busy;
         if (r->order.line == order.line)
-            return then({Kind::busy, fmt::format("the capture {} runs on line {}: wait for its end, or delete it", r->order.name, order.line)},
+            return then({RecordingFault::Kind::busy, fmt::format("the capture {} runs on line {}: wait for its end, or delete it", r->order.name, order.line)},
                         {});
     }
     if (busy >= most_running)
-        return then({Kind::busy, fmt::format("{} captures run already: wait for the end of one, or delete it", busy)}, {});
+        return then({RecordingFault::Kind::busy, fmt::format("{} captures run already: wait for the end of one, or delete it", busy)}, {});
     if (shelf_.full(bound_))
-        return then({Kind::no_room, fmt::format("{} captures take {} kB of {} kB: delete some", shelf_.kept().size(), shelf_.bytes() >> 10,
+        return then({RecordingFault::Kind::no_room, fmt::format("{} captures take {} kB of {} kB: delete some", shelf_.kept().size(), shelf_.bytes() >> 10,
                                                 bound_ >> 10)},
                     {});
     const Instant now = monotonic_now();
@@ -116,12 +115,12 @@ void WarmCaptures::arm(CaptureOrder order, std::function<void(RecordingFault, Ca
         threads_.answer([this, r, then, fault = std::move(fault)] {
             if (fault.empty()) return then({}, info_of(*r));
             std::erase(running_, r);
-            then({Kind::busy, fault}, {});
+            then({RecordingFault::Kind::busy, fault}, {});
         });
     };
     if (threads_.on_hot(std::move(job))) return;
     std::erase(running_, r);
-    then({Kind::busy, too_much_asked}, {});
+    then({RecordingFault::Kind::busy, too_much_asked}, {});
 }
 
 /// What was given up is shown for a while, and no longer than there is room.
@@ -136,7 +135,7 @@ void WarmCaptures::on_picture(AxisId axis, const PictureRecord& picture, Instant
 }
 
 void WarmCaptures::on_command(const Command& command, Instant at) {
-    if (!moves(command.body)) return;
+    if (!may_move(command.body)) return;
     for (const auto& r : running_)
         r->capture.on_command(command.axis, at);
 }
@@ -162,15 +161,15 @@ void WarmCaptures::keep(const std::shared_ptr<Running>& r) {
     shelf_.write(
         info, [info, r] { return packed(info, capture_columns(r->order, r->capture)); },
         [this, r](const RecordingFault& fault, const CaptureInfo& kept) {
-            if (fault.kind != Kind::none) {
+            if (fault.kind != RecordingFault::Kind::none) {
                 r->capture.lose(fault.text);
             } else {
                 std::erase(running_, r);
             }
             Event e;
             e.kind = "capture";
-            e.severity = fault.kind == Kind::none ? Severity::info : Severity::warning;
-            e.text = fault.kind == Kind::none ? fmt::format("capture {} is done, {} rows", kept.name, r->capture.rows())
+            e.severity = fault.kind == RecordingFault::Kind::none ? Severity::info : Severity::warning;
+            e.text = fault.kind == RecordingFault::Kind::none ? fmt::format("capture {} is done, {} rows", kept.name, r->capture.rows())
                                               : fmt::format("capture {}: {}", kept.name, fault.text);
             e.who = r->order.who;
             events_.note(std::move(e));
@@ -180,21 +179,21 @@ void WarmCaptures::keep(const std::shared_ptr<Running>& r) {
 void WarmCaptures::load_capture(const std::string& name, std::function<void(RecordingFault, json::array)> then) {
     if (const auto r = running(name)) return then({}, capture_columns(r->order, r->capture));
     const auto kept = shelf_.kept().find(name);
-    if (kept == shelf_.kept().end()) return then({Kind::no_such, ""}, {});
+    if (kept == shelf_.kept().end()) return then({RecordingFault::Kind::no_such, ""}, {});
     shelf_.load(name, [then = std::move(then)](const std::optional<std::string>& bytes) {
-        if (!bytes) return then({Kind::no_such, ""}, {});
+        if (!bytes) return then({RecordingFault::Kind::no_such, ""}, {});
         const Axr axr = read_axr(*bytes);
-        if (!axr.fault.empty()) return then({Kind::damaged, axr.fault}, {});
+        if (!axr.fault.empty()) return then({RecordingFault::Kind::damaged, axr.fault}, {});
         const auto text = axr.section(axr_capture);
         boost::system::error_code ec;
         auto columns = json::parse({text.data(), text.size()}, ec);
-        if (ec || !columns.is_array()) return then({Kind::damaged, "its columns cannot be read"}, {});
+        if (ec || !columns.is_array()) return then({RecordingFault::Kind::damaged, "its columns cannot be read"}, {});
         then({}, std::move(columns.get_array()));
     });
 }
 
 void WarmCaptures::rename_capture(const std::string& name, const std::string& to, std::function<void(RecordingFault)> then) {
-    if (running(name)) return then({Kind::busy, "it is not over: rename it when it is done"});
+    if (running(name)) return then({RecordingFault::Kind::busy, "it is not over: rename it when it is done"});
     if (running(to)) return then(shelf_.exists(to));
     shelf_.rename(name, to, [&](CaptureInfo& i) { i.summary["name"] = to; }, std::move(then));
 }
@@ -202,7 +201,7 @@ void WarmCaptures::rename_capture(const std::string& name, const std::string& to
 void WarmCaptures::remove_capture(const std::string& name, std::function<void(RecordingFault)> then) {
     const auto r = running(name);
     if (!r) return shelf_.remove(name, std::move(then));
-    if (r->written && r->capture.state() == Capture::State::done) return then({Kind::busy, "it is being written: try again"});
+    if (r->written && r->capture.state() == Capture::State::done) return then({RecordingFault::Kind::busy, "it is being written: try again"});
     r->capture.cancel("cancelled");
     if (!r->ended) end(*r);
     std::erase(running_, r);

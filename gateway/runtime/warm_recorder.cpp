@@ -332,4 +332,21 @@ void WarmRecorder::on_event(const Event& e) {
     });
 }
 
+void WarmRecorder::play_back(const std::string& name, PlaybackWish wish, std::function<void(RecordingFault, json::object)> then) {
+    Families families = sites_.families();
+    families.descriptions = std::make_shared<DescriptionShelf>();  // what the recording has shelved is for this alone
+    shelf_.read<std::pair<std::string, json::object>>(
+        name,
+        [families = std::move(families), wish](const std::string& bytes) {
+            std::pair<std::string, json::object> out;
+            out.second = axisgate::play_back(bytes, families, wish, out.first);
+            return out;
+        },
+        [then = std::move(then)](std::optional<std::pair<std::string, json::object>> done) {
+            if (!done) return then({RecordingFault::Kind::no_such, ""}, {});
+            if (!done->first.empty()) return then({RecordingFault::Kind::damaged, done->first}, {});
+            then({}, std::move(done->second));
+        });
+}
+
 }  // namespace axisgate

@@ -63,6 +63,7 @@ public:
     void load_recording(const std::string& name, std::function<void(std::optional<std::string>)> then) override {
         shelf_.load(name, std::move(then));
     }
+    void play_back(const std::string& name, PlaybackWish wish, std::function<void(RecordingFault, boost::json::object)> then) override;
     void rename_recording(const std::string& name, const std::string& to, std::function<void(RecordingFault)> then) override {
         shelf_.rename(name, to, [](RecordingInfo& i) { i.automatic = false; }, std::move(then));  // who names it wants to keep it
     }

@@ -2,6 +2,8 @@
 
 In: the real program with simulated drives. Out: judgements.
 """
+import datetime
+
 import harness
 from harness import until
 
@@ -36,6 +38,18 @@ def test_a_recording_is_played_again_without_a_difference(gateway, folder):
     until(lambda: gateway.axis("feeder")["online"], 10, "its return")
     made = gateway.send("POST", "/recorder/recordings", {"name": "crash", "why": "test"}, 201)
     assert made["replayable"] and made["bytes"] > 1000, made
+    end = gateway.get("/recorder/recordings/crash/playback?columns=500")
+    slide = next(a for a in end["axes"] if a["name"] == "slide")
+    assert abs(slide["position"] - gateway.axis("slide")["position"]) < 0.01 and slide["state"] == "switch_on_disabled", slide
+    assert end["frames"] and any(f["decoded"] for f in end["frames"]) and any("disable" in h["text"] for h in end["happened"]), end["frames"][-1]
+    high = max(v for a in end["curves"] if a["axis"] == "slide" for v in (a["points"]["position"].get("high") or a["points"]["position"]["values"]))
+    begin = int(datetime.datetime.fromisoformat(end["from"]).timestamp() * 1000) + 1000
+    early = gateway.get(f"/recorder/recordings/crash/playback?at={begin}&frames=0")
+    before = next(a for a in early["axes"] if a["name"] == "slide")["position"]
+    assert high - before > 4 and early["frames"] == [], (high, before)
+    words = next(r for r in end["registers"] if r["axis"] == "slide")["words"]
+    shown = (words[2] << 16 | words[3]) - (1 << 32 if words[2] & 0x8000 else 0)
+    assert abs(shown / slide["increments_per_unit"] - slide["position"]) < 0.01, (words, slide)
     file = folder / "data" / "recordings" / "crash.axr"
     code, told = replay(file)
     assert code == 0 and " 0 differences" in told, told

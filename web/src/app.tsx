@@ -8,6 +8,7 @@ import { FleetPage } from './pages/fleet';
 import { GatewayPage } from './pages/gateway';
 import { LinePage, LinesPage } from './pages/lines';
 import { MappingsPage } from './pages/mappings';
+import { RecorderPage } from './pages/recorder';
 import { RecipePage, RecipesPage } from './pages/recipes';
 import { Overview } from './pages/overview';
 import { ParametersPage } from './pages/parameters';
@@ -23,6 +24,7 @@ const titles = {
   recipes: 'Recipes',
   site: 'Site',
   events: 'Events',
+  recorder: 'Recorder',
   gateway: 'Gateway',
   fleet: 'Fleet',
   users: 'Users',
@@ -80,6 +82,7 @@ function Page() {
     case 'line': return <LinePage key={r.name} name={r.name} />;
     case 'recipes': return <RecipesPage />;
     case 'recipe': return <RecipePage key={r.name} name={r.name} />;
+    case 'recorder': return <RecorderPage tab={r.tab} axis={r.axis} at_ms={r.at_ms} />;
     case 'events': return <EventsPage />;
     case 'gateway': return <GatewayPage />;
     case 'fleet': return <FleetPage />;

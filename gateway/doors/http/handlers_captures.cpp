@@ -29,22 +29,6 @@ json::object capture_document(const CaptureInfo& i) {
     return o;
 }
 
-Response refusal_of(const RecordingFault& fault, std::string_view name) {
-    using Kind = RecordingFault::Kind;
-    switch (fault.kind) {
-        case Kind::no_such:
-            return nothing_named("capture", name);
-        case Kind::exists:
-            return problem(409, "conflict", fault.text);
-        case Kind::busy:
-            return problem(503, "busy", fault.text);
-        case Kind::damaged:
-            return problem(409, "conflict", fault.text);
-        default:
-            return problem(507, "not_stored", fault.text);
-    }
-}
-
 const CaptureInfo* capture_in(const std::vector<CaptureInfo>& list, std::string_view name) {
     const auto it = std::ranges::find(list, name, &CaptureInfo::name);
     return it == list.end() ? nullptr : &*it;
@@ -176,7 +160,7 @@ Handled arm_capture(Call& c, CapturePort& captures, EventPort& events, const Sit
     e.who = c.who();
     e.door = std::string(axisgate::name_of(Door::http));
     captures.arm(std::move(order), [name, e, &events, respond = c.respond](const RecordingFault& fault, const CaptureInfo& info) {
-        if (fault.kind != RecordingFault::Kind::none) return respond(refusal_of(fault, name));
+        if (fault.kind != RecordingFault::Kind::none) return respond(kept_refusal("capture", fault, name));
         events.note(e);
         Response r = json_response(capture_document(info), 201);
         r.headers.set("Location", "/api/v1/recorder/captures/" + percent_encode(name));
@@ -194,7 +178,7 @@ Handled get_capture(Call& c, CapturePort& captures) {
     if (!liked) return problem(406, "not_acceptable", "this is application/json or text/csv");
     captures.load_capture(c.names[0], [name = c.names[0], csv = *liked == 1, document = capture_document(*info), respond = c.respond](
                                           const RecordingFault& fault, json::array columns) mutable {
-        if (fault.kind != RecordingFault::Kind::none) return respond(refusal_of(fault, name));
+        if (fault.kind != RecordingFault::Kind::none) return respond(kept_refusal("capture", fault, name));
         Response r;
         if (csv) {
             r.headers.set("Content-Type", "text/csv; charset=utf-8");
@@ -218,7 +202,7 @@ Handled rename_capture(Call& c, CapturePort& captures) {
     f.unknown_keys();
     if (!wrong.empty()) return refused(std::move(wrong));
     captures.rename_capture(c.names[0], to, [name = c.names[0], to, &captures, respond = c.respond](const RecordingFault& fault) {
-        if (fault.kind != RecordingFault::Kind::none) return respond(refusal_of(fault, name));
+        if (fault.kind != RecordingFault::Kind::none) return respond(kept_refusal("capture", fault, name));
         const auto list = captures.captures();
         const auto* info = capture_in(list, to);
         respond(info ? json_response(capture_document(*info)) : nothing_named("capture", to));
@@ -228,7 +212,7 @@ Handled rename_capture(Call& c, CapturePort& captures) {
 
 Handled remove_capture(Call& c, CapturePort& captures) {
     captures.remove_capture(c.names[0], [name = c.names[0], respond = c.respond](const RecordingFault& fault) {
-        if (fault.kind != RecordingFault::Kind::none) return respond(refusal_of(fault, name));
+        if (fault.kind != RecordingFault::Kind::none) return respond(kept_refusal("capture", fault, name));
         Response r;
         r.status = 204;
         respond(std::move(r));

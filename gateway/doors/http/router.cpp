@@ -117,6 +117,7 @@ constexpr std::array routes{
     Route{"/api/v1/recorder/recordings", Method::get, take<list_recordings>},
     Route{"/api/v1/recorder/recordings", Method::post, take<make_recording>, Takes::json}.needs(Role::operating),
     Route{"/api/v1/recorder/recordings/{recording}", Method::get, take<get_recording>, Takes::nothing, Gives::own},
+    Route{"/api/v1/recorder/recordings/{recording}/playback", Method::get, take<play_back_recording>}.asks("at frames columns"),
     Route{"/api/v1/recorder/recordings/{recording}", Method::patch, take<rename_recording>, Takes::patch}.needs(Role::operating),
     Route{"/api/v1/recorder/recordings/{recording}", Method::remove, take<remove_recording>, Takes::nothing, Gives::nothing}.needs(
         Role::operating),

@@ -67,6 +67,11 @@ public:
         then({}, info);
     }
     void load_recording(const std::string&, std::function<void(std::optional<std::string>)> then) override { then("the file"); }
+    void play_back(const std::string& name, PlaybackWish wish, std::function<void(RecordingFault, boost::json::object)> then) override {
+        played = wish;
+        then(next_fault.kind == RecordingFault::Kind::none ? RecordingFault{} : std::exchange(next_fault, {}), {{"name", name}});
+    }
+    PlaybackWish played;
     void rename_recording(const std::string& name, const std::string& to, std::function<void(RecordingFault)> then) override {
         for (auto& r : recorded)
             if (r.name == name) return r.name = to, then({});

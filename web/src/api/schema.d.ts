@@ -1450,6 +1450,29 @@ export interface paths {
         patch: operations["renameRecording"];
         trace?: never;
     };
+    "/api/v1/recorder/recordings/{recording}/playback": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                recording: components["parameters"]["recording"];
+            };
+            cookie?: never;
+        };
+        /**
+         * What a recording shows of one instant
+         * @description Axes as they were, their registers as unit 1 had them (the high word first), the last frames with their reading, and what had happened
+         *     lately. With `columns` also the curves of the whole stretch.
+         */
+        get: operations["playBackRecording"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/fleet": {
         parameters: {
             query?: never;
@@ -3387,6 +3410,32 @@ export interface components {
             not_replayable: string | null;
             /** @description the file is cut off, altered or of another version, and not trusted */
             fault: string | null;
+        };
+        Playback: {
+            /** @description the stretch that it shows */
+            from: string;
+            to: string;
+            at: string;
+            axes: {
+                [key: string]: unknown;
+            }[];
+            registers: {
+                axis: string;
+                /** @description of the first word in units 0 and 1 */
+                address: number;
+                words: number[];
+            }[];
+            frames: {
+                [key: string]: unknown;
+            }[];
+            /** @description commands, results, events; oldest first */
+            happened: {
+                at: string;
+                kind: string;
+                axis: string | null;
+                text: string;
+            }[];
+            curves: components["schemas"]["Trend"][];
         };
         RecordingList: {
             /** @description where the stretch begins that a recording made now would show */
@@ -8312,6 +8361,37 @@ export interface operations {
             415: components["responses"]["UnsupportedMediaType"];
             422: components["responses"]["Unprocessable"];
             507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    playBackRecording: {
+        parameters: {
+            query?: {
+                /** @description ms since 1970; left out - the end */
+                at?: number;
+                frames?: number;
+                columns?: number;
+            };
+            header?: never;
+            path: {
+                recording: components["parameters"]["recording"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the instant */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Playback"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
             default: components["responses"]["Problem"];
         };
     };

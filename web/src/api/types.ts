@@ -57,6 +57,7 @@ export type CaptureWithRows = Schemas['CaptureWithRows'];
 export type CaptureList = Schemas['CaptureList'];
 export type Recording = Schemas['Recording'];
 export type RecordingList = Schemas['RecordingList'];
+export type Playback = Schemas['Playback'];
 export type Trends = Schemas['Trends'];
 export type ModbusDoor = Schemas['ModbusDoor'];
 export type ProblemDocument = Partial<Schemas['Problem']> & { ticket?: number | null; result?: string; command?: string };

@@ -28,6 +28,8 @@ export function joined(parts: readonly Part[]): Drawn {
   return { at, columns };
 }
 
+/** Words of a drive that are further apart than this: nothing changed in between. */
+const rest_s = 0.4;
 type TrendAxis = Trends['axes'][number];
 type Values = { values?: (number | null)[]; low?: (number | null)[]; high?: (number | null)[] };
 
@@ -38,6 +40,12 @@ export function trendPart(a: TrendAxis, chosen: readonly TracePoint[], to_s: num
   const seconds = a.at.map((ms) => ms / 1000);
   const newest = Math.min(to_s, (a.newest ?? 0) / 1000);
   seconds.forEach((t, i) => {
+    // After a rest the old value held until just before: a line over the rest would show a slow drift that never was.
+    const before = at.at(-1);
+    if (!a.thinned && before !== undefined && t - before > rest_s) {
+      at.push(t - rest_s / 4);
+      columns.forEach((c) => c.push(c.at(-1) ?? null));
+    }
     at.push(t);
     if (a.thinned) at.push(t + 1e-6);
     chosen.forEach((p, k) => {

@@ -61,6 +61,10 @@ export const bytesWords = (n: number): string => (n < 10_000 ? `${n} bytes` : n 
 /** "20.0 Hz", or why there is none. */
 export const rateWords = (rate_hz: number): string => (rate_hz > 0 ? `told ${rate_hz < 10 ? rate_hz.toFixed(1) : Math.round(rate_hz)} times a second` : 'not told now');
 
+/** Registers 0 to 11 of an axis as they were, in hexadecimal. */
+export const registerWords = (r: { address: number; words: readonly number[] } | undefined): string =>
+  r ? `${r.address}: ${r.words.slice(0, 12).map((w) => w.toString(16).toUpperCase().padStart(4, '0')).join(' ')}` : '–';
+
 /** The next free name of a kind: "capture-3". */
 export function freeName(stem: string, taken: readonly string[]): string {
   for (let n = 1; ; n += 1) if (!taken.includes(`${stem}-${n}`)) return `${stem}-${n}`;
